@@ -26,8 +26,7 @@ fn add_files(folder: &str, rows: &mut String) -> io::Result<()> {
         if Path::new(&path).is_dir() {
             add_files(&path, rows)?;
         } else if !path.ends_with(".rs") {
-            let text =
-                format!("include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/\", {path:?}))");
+            let text = format!("include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/\", {path:?}))");
             writeln!(rows, "({path:?}, {text}),").map_err(io::Error::other)?;
         }
     }

@@ -3,11 +3,11 @@
 //! The crate lists and returns files; the crates that read them know their meaning.
 
 /// Every file with its path, such as `schema/faces/house.json`, sorted by path in each folder.
-const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
+const SCHEMA_FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
 /// Returns the files below a folder such as `corpus` or `schema/words`, each with its path from there and its text.
 pub fn files_below(folder: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().filter_map(move |(path, text)| {
+    SCHEMA_FILES.iter().filter_map(move |(path, text)| {
         let rest = path.strip_prefix(folder)?.strip_prefix('/')?;
         Some((rest, *text))
     })
@@ -33,8 +33,8 @@ pub const fn starter_text(name: &str) -> &'static str {
 
 const fn text_below(folder: &str, name: &str) -> &'static str {
     let mut index = 0;
-    while index < FILES.len() {
-        let (path, text) = FILES[index];
+    while index < SCHEMA_FILES.len() {
+        let (path, text) = SCHEMA_FILES[index];
         if is_joined(path.as_bytes(), folder.as_bytes(), name.as_bytes()) {
             return text;
         }

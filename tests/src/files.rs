@@ -55,13 +55,8 @@ fn joint(text: &mut String, at: usize, depth: usize) {
     };
     let _ = writeln!(text, "{pad}{word} {name}\n{pad}{{");
     let _ = writeln!(text, "{pad}  OFFSET {x:.2} {y:.2} {z:.2}");
-    let _ = writeln!(
-        text,
-        "{pad}  CHANNELS {position}Zrotation Xrotation Yrotation"
-    );
-    let children: Vec<usize> = (0..JOINTS.len())
-        .filter(|&child| JOINTS[child].1 == Some(at))
-        .collect();
+    let _ = writeln!(text, "{pad}  CHANNELS {position}Zrotation Xrotation Yrotation");
+    let children: Vec<usize> = (0..JOINTS.len()).filter(|&child| JOINTS[child].1 == Some(at)).collect();
     for &child in &children {
         joint(text, child, depth + 1);
     }
@@ -92,10 +87,7 @@ pub fn eaf(participant: &str, tiers: &[Tier<'_>]) -> String {
             count += 1;
             for time in [start, end] {
                 slot += 1;
-                let _ = writeln!(
-                    slots,
-                    "<TIME_SLOT TIME_SLOT_ID=\"ts{slot}\" TIME_VALUE=\"{time}\"/>"
-                );
+                let _ = writeln!(slots, "<TIME_SLOT TIME_SLOT_ID=\"ts{slot}\" TIME_VALUE=\"{time}\"/>");
             }
             let _ = writeln!(
                 body,
@@ -128,11 +120,7 @@ pub fn two_signs() -> String {
             ("Gloss", None, &glosses),
             ("Handshape RH", Some("Gloss"), &handshapes),
             ("Handshape LH", Some("Gloss"), &[(100, 700, "5")]),
-            (
-                "Location",
-                Some("Gloss"),
-                &[(100, 700, "chest"), (900, 1500, "chin")],
-            ),
+            ("Location", Some("Gloss"), &[(100, 700, "chest"), (900, 1500, "chin")]),
             ("Brows", None, &[(800, 1600, "raised")]),
             ("Translation", None, &[(0, 1800, "a bowl for the cat")]),
         ],

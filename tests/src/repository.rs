@@ -91,9 +91,7 @@ fn walk(root: &Path, folder: &Path, files: &mut Vec<TextFile>) {
 /// Returns the names of the schema's steps in their order.
 #[must_use]
 pub fn schema_steps() -> Vec<String> {
-    let files = fs::read_dir(root().join("schema/sql"))
-        .into_iter()
-        .flatten();
+    let files = fs::read_dir(root().join("schema/sql")).into_iter().flatten();
     let mut names: Vec<String> = files
         .flatten()
         .map(|entry| entry.file_name().to_string_lossy().into_owned())

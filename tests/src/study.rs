@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use chereme_corpus::study::StudyRequest;
-use chereme_corpus::{Corpus, Progress, unheard};
+use chereme_corpus::{Corpus, ProgressReceiver, ignore_progress_step};
 
 /// The answers, without the hash of the plan.
 const ANSWERS: &str = r#"{
@@ -23,21 +23,18 @@ const ANSWERS: &str = r#"{
 /// # Errors
 /// Fails if the corpus has no BOL, or the folder cannot be written.
 pub fn small_study(corpus: &mut Corpus, desk: &Path) -> Result<(), Box<dyn Error>> {
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let condition = |name: &str, recipe: &str| (name.to_owned(), recipe.to_owned());
     let request = StudyRequest {
         name: "bowls".to_owned(),
         items: vec!["BOL".to_owned()],
-        conditions: vec![
-            condition("captured", "{}"),
-            condition("backwards", "{} | reverse"),
-        ],
+        conditions: vec![condition("captured", "{}"), condition("backwards", "{} | reverse")],
         questions: vec!["realism".to_owned(), "gloss=items CHAT".to_owned()],
         scale: 5,
         ..StudyRequest::default()
     };
-    let planned = corpus.plan_study(&request.plan()?, progress)?;
+    let planned = corpus.plan_study(&request.make_study_plan()?, progress)?;
     let file = desk.join("heron.json");
     std::fs::write(&file, ANSWERS.replace("HASH", &planned.plan_sha256))?;
     corpus.import_answers("bowls", &[file], progress)?;

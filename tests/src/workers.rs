@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step};
 
 use crate::files;
 
@@ -31,13 +31,7 @@ impl Worker {
     ///
     /// # Errors
     /// Where the program cannot be started.
-    pub fn start(
-        program: &str,
-        corpus: &Path,
-        task: &str,
-        author: &str,
-        count: usize,
-    ) -> io::Result<Self> {
+    pub fn start(program: &str, corpus: &Path, task: &str, author: &str, count: usize) -> io::Result<Self> {
         let folder = corpus.parent().unwrap_or(corpus);
         let mut child = Command::new(program)
             .arg(corpus)
@@ -94,11 +88,7 @@ impl Worker {
             .filter_map(|line| line.strip_prefix("done ")?.parse().ok())
             .collect();
         let ended = status.success();
-        Ok(Said {
-            done,
-            ended,
-            errors,
-        })
+        Ok(Said { done, ended, errors })
     }
 }
 
@@ -114,11 +104,11 @@ pub fn small_corpus(folder: &Path, name: &str) -> Result<PathBuf, Box<dyn std::e
     std::fs::write(inbox.join("words.tsv"), files::lexicon())?;
     std::fs::write(inbox.join("notated.sigml"), files::sigml())?;
     let path = folder.join(name);
-    let mut corpus = Corpus::create(&path, "maker")?;
-    let report = corpus.import(
+    let mut corpus = Corpus::create_corpus(&path, "maker")?;
+    let report = corpus.import_paths(
         std::slice::from_ref(&inbox),
         &ImportOptions::default(),
-        &mut Progress::new(&mut unheard),
+        &mut ProgressReceiver::new(&mut ignore_progress_step),
     )?;
     if report.has_refusals() {
         return Err(format!("{:?}", report.files).into());

@@ -17,9 +17,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
     ("chereme-figure", &["motion"]),
     (
         "chereme-corpus",
-        &[
-            "data", "motion", "sign", "formats", "analysis", "compose", "figure",
-        ],
+        &["data", "motion", "sign", "formats", "analysis", "compose", "figure"],
     ),
     ("chereme-studio", &["motion", "sign", "figure", "corpus"]),
     ("chereme-cli", &["motion", "sign", "figure", "corpus"]),
@@ -34,26 +32,14 @@ const ARROWS: [(&str, &[&str]); 11] = [
 /// Crates from outside that would bring in what a crate must never know: crate, and why.
 const NEVER: [(&str, &[&str], &str); 11] = [
     ("rusqlite", &["chereme-corpus"], "SQL lives in the corpus"),
-    (
-        "tantivy",
-        &["chereme-corpus"],
-        "the search index lives in the corpus",
-    ),
+    ("tantivy", &["chereme-corpus"], "the search index lives in the corpus"),
     (
         "rusty_h264",
         &["chereme-corpus"],
         "films are decoded and coded behind the door of the corpus",
     ),
-    (
-        "clap",
-        &["chereme-cli"],
-        "only the terminal skin reads arguments",
-    ),
-    (
-        "indicatif",
-        &["chereme-cli"],
-        "only the terminal skin shows progress",
-    ),
+    ("clap", &["chereme-cli"], "only the terminal skin reads arguments"),
+    ("indicatif", &["chereme-cli"], "only the terminal skin shows progress"),
     (
         "anyhow",
         &["chereme-cli", "chereme-studio"],
@@ -66,16 +52,8 @@ const NEVER: [(&str, &[&str], &str); 11] = [
         "the oracle of the tests and the peer of the benchmark only",
     ),
     ("bindgen", &[], "building needs no libclang"),
-    (
-        "eframe",
-        &["chereme-studio"],
-        "only the window skin knows a window",
-    ),
-    (
-        "wgpu",
-        &["chereme-studio"],
-        "only the window skin knows a GPU",
-    ),
+    ("eframe", &["chereme-studio"], "only the window skin knows a window"),
+    ("wgpu", &["chereme-studio"], "only the window skin knows a GPU"),
 ];
 
 /// Licences under which a crate may come in.
@@ -172,14 +150,8 @@ fn no_crate_embeds_a_file_outside_its_folder() {
         for (line, text) in file.code() {
             let includes = ["include_str!(\"", "include_bytes!(\"", "include!(\""];
             let mut paths = includes.iter().flat_map(|name| text.split(name).skip(1));
-            if paths.any(|path| {
-                path.split('"')
-                    .next()
-                    .unwrap_or_default()
-                    .matches("../")
-                    .count()
-                    > depth
-            }) || text.contains("CARGO_MANIFEST_DIR")
+            if paths.any(|path| path.split('"').next().unwrap_or_default().matches("../").count() > depth)
+                || text.contains("CARGO_MANIFEST_DIR")
             {
                 faults.push(format!("{}, line {line}: {}", file.path, text.trim()));
             }
@@ -231,10 +203,7 @@ fn tests_reach_no_higher_than_their_crate() {
 #[test]
 fn every_dependency_has_an_accepted_licence() {
     let all = metadata(&[]).or_else(|_| {
-        let output = Command::new("rustc")
-            .arg("-vV")
-            .output()
-            .map_err(|e| e.to_string())?;
+        let output = Command::new("rustc").arg("-vV").output().map_err(|e| e.to_string())?;
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         let host = said.lines().find_map(|line| line.strip_prefix("host: "));
         metadata(&["--filter-platform", host.unwrap_or_default()])
@@ -331,10 +300,7 @@ fn the_database_module_depends_on_nothing_above_it() {
     let mut faults = Vec::new();
     for file in &files {
         for part in code(&file.text).split("crate::").skip(1) {
-            let module: String = part
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || *c == '_')
-                .collect();
+            let module: String = part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
             let own = module.chars().next().is_some_and(char::is_lowercase);
             if own && !BELOW_THE_DATABASE.contains(&module.as_str()) {
                 faults.push(format!("{} uses crate::{module}", file.path));

@@ -1,19 +1,16 @@
 //! A generated session of cued speech, taken in by the commands: restored, recognised, measured, cut into a dictionary.
 
-#![allow(
-    dead_code,
-    reason = "the program `cued` uses the rest of the shared module"
-)]
+#![allow(dead_code, reason = "the program `cued` uses the rest of the shared module")]
 
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::Path;
 
-use chereme_analysis::cue::generate::{RATE, Settings, said};
-use chereme_analysis::cue::labels;
+use chereme_analysis::cue::cue_labels;
+use chereme_analysis::cue::generate::{CueGeneratorSettings, GENERATED_FRAME_RATE, generate_text_take};
 use chereme_corpus::{
-    Corpus, CueCosts, CueOptions, CuedOptions, ImportOptions, Name, Progress, RestoreOptions,
-    SearchOptions, Track, unheard,
+    Corpus, CueCosts, CueOptions, CuedOptions, ImportOptions, ProgressReceiver, RestoreOptions, RowName, SearchOptions,
+    TrackContent, ignore_progress_step,
 };
 use chereme_motion::glam::DVec3;
 
@@ -30,48 +27,37 @@ fn plan() -> session::Plan {
         sentences: SENTENCES,
         words: WORDS,
         times: 1,
-        settings: Settings {
+        settings: CueGeneratorSettings {
             seed: 4,
-            ..Settings::default()
+            ..CueGeneratorSettings::default()
         },
     }
 }
 
 fn corpus_of(folder: &Path) -> Result<Corpus> {
     session::write(folder, &plan())?;
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A")?;
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A")?;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    let report = corpus.import(
-        &[folder.join("c3d")],
-        &options,
-        &mut Progress::new(&mut hear),
-    )?;
+    let report = corpus.import_paths(&[folder.join("c3d")], &options, &mut ProgressReceiver::new(&mut hear))?;
     assert!(!report.has_refusals(), "{:?}", report.files);
     Ok(corpus)
 }
 
-fn sentence(number: u64) -> Name {
-    Name::Text(format!("sentence-{number:03}"))
+fn sentence(number: u64) -> RowName {
+    RowName::Text(format!("sentence-{number:03}"))
 }
 
 /// Returns each marker's places in a track, in millimetres, as frames have them.
-fn places(
-    corpus: &Corpus,
-    recording: &Name,
-    track: &str,
-) -> Result<BTreeMap<String, Vec<Option<DVec3>>>> {
-    let rows = corpus.tracks(recording)?;
-    let row = rows
-        .iter()
-        .find(|row| row.name == track)
-        .ok_or(format!("no {track}"))?;
-    let Track::Markers(markers) = corpus.track(row.id, None)? else {
+fn places(corpus: &Corpus, recording: &RowName, track: &str) -> Result<BTreeMap<String, Vec<Option<DVec3>>>> {
+    let rows = corpus.recording_tracks(recording)?;
+    let row = rows.iter().find(|row| row.name == track).ok_or(format!("no {track}"))?;
+    let TrackContent::Markers(markers) = corpus.read_track_content(row.id, None)? else {
         return Err("no markers".into());
     };
-    let place = |at: DVec3| markers.space().shown(at) * 1000.0;
-    let points = markers.points().iter().map(|point| {
-        let own = (0..markers.frames()).map(|frame| point.at(frame).map(place));
+    let place = |at: DVec3| markers.marker_space().displayed_position(at) * 1000.0;
+    let points = markers.marker_points().iter().map(|point| {
+        let own = (0..markers.marker_frame_count()).map(|frame| point.marker_position(frame).map(place));
         (point.name.clone(), own.collect())
     });
     Ok(points.collect())
@@ -82,11 +68,11 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     let folder = tempfile::tempdir()?;
     let mut corpus = corpus_of(folder.path())?;
     let options = CuedOptions::default();
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let known = corpus.cued_markers(&sentence(3), &options)?;
     assert_eq!((known.hand.found, known.face.found), (50, 63));
     assert!(known.hand.seen < 0.97 && known.restored == 0, "{known:?}");
-    let before = corpus.tracks(&sentence(3))?;
+    let before = corpus.recording_tracks(&sentence(3))?;
     let captured = before[0].name.clone();
     let seen = places(&corpus, &sentence(3), &captured)?;
 
@@ -97,8 +83,8 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
         "{hidden}"
     );
     let how = RestoreOptions::default();
-    let sentences: Vec<Name> = (0..SENTENCES).map(sentence).collect();
-    let done = corpus.restore_markers(&sentences, &how, &mut Progress::new(&mut hear))?;
+    let sentences: Vec<RowName> = (0..SENTENCES).map(sentence).collect();
+    let done = corpus.restore_markers(&sentences, &how, &mut ProgressReceiver::new(&mut hear))?;
     let own = done
         .iter()
         .find(|it| it.recording == "sentence-003")
@@ -108,16 +94,12 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     assert!(own.hand_mm.is_some_and(|mm| mm < 3.0), "{:?}", own.hand_mm);
     assert!(own.face_mm.is_some_and(|mm| mm < 1.2), "{:?}", own.face_mm);
     assert_eq!(own.restored, own.hidden);
-    assert_eq!(
-        places(&corpus, &sentence(3), &captured)?,
-        seen,
-        "captured numbers stay"
-    );
+    assert_eq!(places(&corpus, &sentence(3), &captured)?, seen, "captured numbers stay");
     let restored = places(&corpus, &sentence(3), "restored")?;
     let text = session::text(4, 3, WORDS);
-    let truth = said(&plan().settings, 3, &text).ok_or("no take")?;
+    let truth = generate_text_take(&plan().settings, 3, &text).ok_or("no take")?;
     let (mut sum, mut count) = (0.0, 0.0);
-    for (n, label) in labels::hand().iter().enumerate() {
+    for (n, label) in cue_labels::hand_marker_names().iter().enumerate() {
         for (frame, truth) in truth.true_hand.iter().enumerate() {
             let place = restored.get(label).and_then(|own| own[frame]);
             assert!(
@@ -130,11 +112,7 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
             }
         }
     }
-    assert!(
-        count > 100.0 && sum / count < 5.0,
-        "{:.2} mm of {count}",
-        sum / count
-    );
+    assert!(count > 100.0 && sum / count < 5.0, "{:.2} mm of {count}", sum / count);
 
     let read = corpus.recognise_cues(&[], &[], &options)?;
     assert!(!read.same && read.left_out.is_empty());
@@ -151,14 +129,11 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
         .iter()
         .find(|it| it.recording == "sentence-003")
         .ok_or("no sentence")?;
-    assert_eq!(
-        own.tiers[0], "Hand M1 M2 (found)",
-        "the truth in the file stays"
-    );
+    assert_eq!(own.tiers[0], "Hand M1 M2 (found)", "the truth in the file stays");
     let mut off = Vec::new();
     for (number, found) in (0..SENTENCES).zip(&found) {
         let text = session::text(4, number, WORDS);
-        let truth = said(&plan().settings, number, &text).ok_or("no take")?;
+        let truth = generate_text_take(&plan().settings, number, &text).ok_or("no take")?;
         for (found, truth) in found.keys.iter().zip(&truth.keys) {
             off.extend(
                 found
@@ -170,12 +145,12 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     off.sort_by(f64::total_cmp);
     let middle = off[off.len() / 2];
     assert!(
-        off.len() > 40 && middle < 1.5 / RATE,
+        off.len() > 40 && middle < 1.5 / GENERATED_FRAME_RATE,
         "{middle} s of {}",
         off.len()
     );
     corpus.find_cue_targets(&[], true, &options)?;
-    corpus.undo()?;
+    corpus.undo_operation()?;
 
     let phases = corpus.cue_phases(&[], &options)?;
     assert!(
@@ -186,7 +161,7 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     );
     assert_eq!(phases.findings, Vec::<String>::new());
     // Ends of fingers alone do not show how they bend.
-    let bending = labels::hand()
+    let bending = cue_labels::hand_marker_names()
         .into_iter()
         .filter(|label| label.starts_with(['I', 'M', 'R', 'L']) && !label.ends_with(['1', '8']));
     let plain = CuedOptions {
@@ -205,10 +180,10 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
         "{:?}",
         found[0].findings
     );
-    phases.draw(&folder.path().join("phases.svg"), false)?;
+    phases.draw_cue_phases(&folder.path().join("phases.svg"), false)?;
 
     let script = "le chat dort\n\nla vache mange du pain";
-    let mut progress = Progress::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut hear);
     let book = corpus.cue_dictionary(&[], Some(script), &options, &mut progress)?;
     assert!(
         book.kinds > 60 && book.missed_mm < 1.0,
@@ -222,13 +197,7 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
 
     // A sentence from which the dictionary was cut is reproduced from it.
     let (how, costs) = (CueOptions::default(), CueCosts::default());
-    let again = corpus.cue_from_dictionary(
-        &text,
-        (&how, &options),
-        (costs, &[]),
-        Some("AGAIN"),
-        &mut progress,
-    )?;
+    let again = corpus.cue_from_dictionary(&text, (&how, &options), (costs, &[]), Some("AGAIN"), &mut progress)?;
     assert!(
         again.shapes_read.is_some_and(|share| share > 0.8),
         "{:?}",
@@ -239,14 +208,11 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
         "{:?}",
         again.misread
     );
-    assert!(
-        again.exact > again.backed_off + again.synthetic,
-        "{again:?}"
-    );
+    assert!(again.exact > again.backed_off + again.synthetic, "{again:?}");
     assert_eq!(again.recording.as_deref(), Some("AGAIN"));
-    let keys = corpus.search("cue=* origin=made", &SearchOptions::default())?;
+    let keys = corpus.search_tokens("cue=* origin=made", &SearchOptions::default())?;
     assert_eq!(keys.total as u64, again.keys);
-    let report = corpus.check(false, &mut Progress::new(&mut hear))?;
+    let report = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut hear))?;
     assert!(report.faults.is_empty(), "{:?}", report.faults);
 
     let slips = corpus.cue_slips(&sentence(3), None, false, &options)?;
@@ -266,15 +232,15 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
 #[test]
 fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
     let folder = tempfile::tempdir()?;
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A")?;
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A")?;
     let options = CuedOptions::default();
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     let restored = corpus.restore_markers(&[], &RestoreOptions::default(), &mut progress);
     assert!(restored.is_err_and(|error| {
         error
-            .remedy()
-            .is_some_and(|it| it.text().contains("--labels"))
+            .error_remedy()
+            .is_some_and(|it| it.remedy_text().contains("--labels"))
     }));
     assert!(corpus.recognise_cues(&[], &[], &options).is_err());
     assert!(corpus.find_cue_targets(&[], true, &options).is_err());
@@ -289,13 +255,7 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
     );
     // Without captured takes, movement that the program generates replaces the dictionary, with a finding.
     let (how, costs) = (CueOptions::default(), CueCosts::default());
-    let done = corpus.cue_from_dictionary(
-        "le chat",
-        (&how, &options),
-        (costs, &[]),
-        None,
-        &mut progress,
-    )?;
+    let done = corpus.cue_from_dictionary("le chat", (&how, &options), (costs, &[]), None, &mut progress)?;
     assert!(done.without_dictionary && done.keys == 2, "{done:?}");
     let long = corpus.cue_from_dictionary(
         &"le chat ".repeat(20_000),
@@ -312,13 +272,7 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
     };
     assert!(
         corpus
-            .cue_from_dictionary(
-                "le chat",
-                (&how, &options),
-                (costs, &[]),
-                None,
-                &mut progress
-            )
+            .cue_from_dictionary("le chat", (&how, &options), (costs, &[]), None, &mut progress)
             .is_err()
     );
     Ok(())
@@ -328,7 +282,7 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
 fn odd_markers_and_tiers_give_findings_or_errors() -> Result<()> {
     let folder = tempfile::tempdir()?;
     let trc = |markers: usize, cell: &str| {
-        let names: Vec<String> = labels::hand().into_iter().take(markers).collect();
+        let names: Vec<String> = cue_labels::hand_marker_names().into_iter().take(markers).collect();
         let mut text = format!(
             "PathFileType\t4\t(X/Y/Z)\tx.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n120\t120\t40\t{markers}\tmm\t120\t1\t40\nFrame#\tTime"
         );
@@ -367,16 +321,12 @@ fn odd_markers_and_tiers_give_findings_or_errors() -> Result<()> {
         std::fs::create_dir_all(&own)?;
         std::fs::write(own.join("take.trc"), trc(markers, cell))?;
         std::fs::write(own.join("take.TextGrid"), grid(phones))?;
-        let mut corpus = Corpus::create(&own.join("c.chereme"), "A")?;
-        let mut hear = unheard;
-        let mut progress = Progress::new(&mut hear);
-        let _ = corpus.import(
-            std::slice::from_ref(&own),
-            &ImportOptions::default(),
-            &mut progress,
-        )?;
+        let mut corpus = Corpus::create_corpus(&own.join("c.chereme"), "A")?;
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
+        let _ = corpus.import_paths(std::slice::from_ref(&own), &ImportOptions::default(), &mut progress)?;
         let options = CuedOptions::default();
-        let none: &[Name] = &[];
+        let none: &[RowName] = &[];
         assert!(
             corpus
                 .restore_markers(none, &RestoreOptions::default(), &mut progress)
@@ -386,9 +336,7 @@ fn odd_markers_and_tiers_give_findings_or_errors() -> Result<()> {
         assert!(corpus.recognise_cues(none, none, &options).is_err(), "{n}");
         assert!(corpus.cue_phases(none, &options).is_err(), "{n}");
         assert!(
-            corpus
-                .cue_dictionary(none, None, &options, &mut progress)
-                .is_err(),
+            corpus.cue_dictionary(none, None, &options, &mut progress).is_err(),
             "{n}"
         );
     }

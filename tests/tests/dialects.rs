@@ -1,14 +1,11 @@
 //! The same handshapes, palms and places are read from a capture however its skeleton is written.
 
-#![allow(
-    dead_code,
-    reason = "the program `dialects` uses the rest of the shared modules"
-)]
+#![allow(dead_code, reason = "the program `dialects` uses the rest of the shared modules")]
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
 
 #[path = "../examples/dialects/dialect.rs"]
 mod dialect;
@@ -31,10 +28,10 @@ const BONE_LIMIT: f64 = 5.0;
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 fn corpus_of(folder: &Path, name: &str, file: &Path) -> Result<Corpus> {
-    let mut corpus = Corpus::create(&folder.join(format!("{name}.chereme")), name)?;
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&folder.join(format!("{name}.chereme")), name)?;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    let report = corpus.import(&[file.to_owned()], &options, &mut Progress::new(&mut hear))?;
+    let report = corpus.import_paths(&[file.to_owned()], &options, &mut ProgressReceiver::new(&mut hear))?;
     if report.has_refusals() {
         return Err(format!("{name} is refused: {:?}", report.files).into());
     }
@@ -57,17 +54,10 @@ fn joined_pieces_stand_still_whatever_the_dialect_of_either() -> Result<()> {
     // The example program joins more recordings.
     let captures = starters(own.path(), &["chat", "escargot"])?;
     for (dialect, worst) in joins::worst_joins(&captures, &dialect::all(), own.path())? {
-        let JoinMeasure {
-            hips,
-            floor,
-            refused,
-        } = worst;
+        let JoinMeasure { hips, floor, refused } = worst;
         assert_eq!(refused, 0, "{dialect}");
         assert!(hips < HIPS_LIMIT, "{dialect}: hips {hips} m off their line");
-        assert!(
-            floor < FLOOR_LIMIT,
-            "{dialect}: feet {floor} m off the floor"
-        );
+        assert!(floor < FLOOR_LIMIT, "{dialect}: feet {floor} m off the floor");
     }
     Ok(())
 }
@@ -78,10 +68,7 @@ fn feet_and_thumbs_point_alike_on_the_bodies_of_all_dialects() -> Result<()> {
     let capture = &starters(own.path(), &["escargot"])?[0];
     for (from, onto, angle, part) in joins::turned_bones(capture, own.path())? {
         let angle = angle.to_degrees();
-        assert!(
-            angle < BONE_LIMIT,
-            "{part} of {from} on {onto} is turned by {angle}°"
-        );
+        assert!(angle < BONE_LIMIT, "{part} of {from} on {onto} is turned by {angle}°");
     }
     Ok(())
 }
@@ -111,11 +98,7 @@ fn handshape_palm_and_place_are_read_alike_from_every_dialect() -> Result<()> {
         let found = read::readings(&moving, &moving.moving.clip, &frames, true)?;
         let score = read::compare(&truth, &found);
         // Up to an eighth of the readings may differ for signers who never close or straighten a hand; none for others.
-        let most = if dialect.lax > 0.0 {
-            score.all() / 8
-        } else {
-            0
-        };
+        let most = if dialect.lax > 0.0 { score.all() / 8 } else { 0 };
         assert!(
             score.wrong() <= most,
             "{} of {}: {}",

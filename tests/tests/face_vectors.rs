@@ -6,9 +6,11 @@
 
 use std::path::Path;
 
-use chereme_analysis::phases::{NoPath, Options, Phased, PhasedError, score};
-use chereme_motion::{Instant, Span};
-use chereme_sign::milestones::{EDGE, Function, Milestones, milestones};
+use chereme_analysis::phases::{NoPath, PhasedError, PhasedPerformance, PhasedScoreOptions, score_phased_candidate};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::milestones::{
+    ExpressionFunction, ExpressionMilestones, UTTERANCE_EDGE_MICROS, find_expression_milestones,
+};
 use serde_json::Value;
 
 fn vectors(name: &str) -> Option<Vec<Value>> {
@@ -24,25 +26,23 @@ fn vectors(name: &str) -> Option<Vec<Value>> {
 
 fn numbers(value: &Value) -> Vec<f64> {
     let all = value.as_array().expect("a list");
-    all.iter()
-        .map(|it| it.as_f64().expect("a number"))
-        .collect()
+    all.iter().map(|it| it.as_f64().expect("a number")).collect()
 }
 
 #[test]
 fn milestones_equal_those_of_the_test_vectors() {
     for case in vectors("milestones").into_iter().flatten() {
-        let millis = |value: &Value| Instant::from_millis(value.as_i64().expect("milliseconds"));
-        let span = |it: &Value| Span::between(millis(&it["begin_ms"]), millis(&it["end_ms"]));
+        let millis = |value: &Value| RecordingInstant::from_millis(value.as_i64().expect("milliseconds"));
+        let span = |it: &Value| TimeSpan::span_between(millis(&it["begin_ms"]), millis(&it["end_ms"]));
         let glosses = case["glosses"].as_array().expect("glosses");
-        let signs: Vec<Span> = glosses.iter().map(span).collect();
+        let signs: Vec<TimeSpan> = glosses.iter().map(span).collect();
         let at = |name: &str| case[name].as_u64().expect("a place") as usize;
-        let function = Function::of(case["kind"].as_str().expect("a kind"));
-        let found = milestones(&signs, at("first")..at("last") + 1, &function, EDGE);
+        let function = ExpressionFunction::from_function_name(case["kind"].as_str().expect("a kind"));
+        let found = find_expression_milestones(&signs, at("first")..at("last") + 1, &function, UTTERANCE_EDGE_MICROS);
         let it = found.expect("milestones");
         let want = case["milestones_ms"].as_array().expect("five").clone();
         let own = [Some(it.m1), Some(it.m2), it.m3, Some(it.m4), Some(it.m5)];
-        let own: Vec<Value> = own.map(|at| at.map(Instant::millis).into()).to_vec();
+        let own: Vec<Value> = own.map(|at| at.map(RecordingInstant::instant_millis).into()).to_vec();
         assert_eq!(own, want, "{}", case["name"]);
     }
 }
@@ -51,11 +51,11 @@ fn milestones_equal_those_of_the_test_vectors() {
 fn warps_equal_those_of_the_test_vectors() {
     for case in vectors("phase_warp").into_iter().flatten() {
         let marks = |name: &str| {
-            let all: Vec<Instant> = numbers(&case[name])
+            let all: Vec<RecordingInstant> = numbers(&case[name])
                 .into_iter()
-                .map(|millis| Instant::from_millis(millis as i64))
+                .map(|millis| RecordingInstant::from_millis(millis as i64))
                 .collect();
-            Milestones::of_times(all.try_into().expect("five"))
+            ExpressionMilestones::of_times(all.try_into().expect("five"))
         };
         let (own, target) = (marks("source_milestones_ms"), marks("target_milestones_ms"));
         let times = numbers(&case["target_times_ms"]);
@@ -80,24 +80,17 @@ fn scores_equal_those_of_the_test_vectors() {
             let rows: Vec<Vec<f64>> = rows.iter().map(row).collect();
             let column = |at: usize| rows.iter().map(|row| row[at]).collect();
             let columns: Vec<Vec<f64>> = (0..rows[0].len()).map(column).collect();
-            let marks: Vec<usize> = numbers(&case[marks])
-                .into_iter()
-                .map(|it| it as usize)
-                .collect();
-            Phased::new(&columns, marks.try_into().expect("five"), seconds).expect("phases")
+            let marks: Vec<usize> = numbers(&case[marks]).into_iter().map(|it| it as usize).collect();
+            PhasedPerformance::new(&columns, marks.try_into().expect("five"), seconds).expect("phases")
         };
         let seconds = |name: &str| case[name].as_f64().expect("milliseconds") / 1000.0;
         let gold = phased("gold", "gold_milestones_frames", 1.0);
-        let other = phased(
-            "candidate",
-            "candidate_milestones_frames",
-            seconds("c_dur_ms"),
-        );
-        let refuse = Options {
+        let other = phased("candidate", "candidate_milestones_frames", seconds("c_dur_ms"));
+        let refuse = PhasedScoreOptions {
             no_path: NoPath::Refuse,
-            ..Options::default()
+            ..PhasedScoreOptions::default()
         };
-        let found = score(&gold, &other, seconds("anim_dur_ms"), &refuse);
+        let found = score_phased_candidate(&gold, &other, seconds("anim_dur_ms"), &refuse);
         let phases = case["phases"].as_array().expect("phases");
         if phases.iter().any(|it| it["no_path"] == true) {
             assert!(matches!(found, Err(PhasedError::Phase { .. })), "{name}");
@@ -105,10 +98,7 @@ fn scores_equal_those_of_the_test_vectors() {
         }
         let found = found.expect("scored");
         for (own, want) in found.phases.iter().zip(phases) {
-            for (own, want) in [
-                (own.distance, &want["distance"]),
-                (own.normalized, &want["normalised"]),
-            ] {
+            for (own, want) in [(own.distance, &want["distance"]), (own.normalized, &want["normalised"])] {
                 let want = want.as_f64().expect("a number");
                 assert!(
                     (own.expect("a number") - want).abs() <= 1e-9 * want,

@@ -8,10 +8,12 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::{env, fs};
 
-use chereme_analysis::transcribe::{Options, transcribe};
-use chereme_corpus::{Corpus, ImportOptions, Progress, Recombination, unheard, unpack_starter};
+use chereme_analysis::transcribe::{TranscribeOptions, transcribe_clip};
+use chereme_corpus::{
+    Corpus, ImportOptions, ProgressReceiver, RecombinationResult, ignore_progress_step, unpack_starter,
+};
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Finger, Part, Side};
+use chereme_motion::{BodyPart, BodySide, HandFinger};
 use chereme_tests::repository;
 
 /// The moments, as shares of the movement.
@@ -29,13 +31,13 @@ struct Posture {
 }
 
 /// The joints, with the names of their columns.
-fn parts() -> [(&'static str, Part); 5] {
+fn parts() -> [(&'static str, BodyPart); 5] {
     [
-        ("head", Part::Head),
-        ("right hand", Part::Hand(Side::Right)),
-        ("left hand", Part::Hand(Side::Left)),
-        ("right index", Part::Finger(Side::Right, Finger::Index, 2)),
-        ("left index", Part::Finger(Side::Left, Finger::Index, 2)),
+        ("head", BodyPart::Head),
+        ("right hand", BodyPart::Hand(BodySide::Right)),
+        ("left hand", BodyPart::Hand(BodySide::Left)),
+        ("right index", BodyPart::Finger(BodySide::Right, HandFinger::Index, 2)),
+        ("left index", BodyPart::Finger(BodySide::Left, HandFinger::Index, 2)),
     ]
 }
 
@@ -45,26 +47,24 @@ fn folder() -> PathBuf {
 
 fn starter(folder: &std::path::Path) -> Corpus {
     let paths = unpack_starter(&folder.join("starter")).expect("the starter corpus");
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "T").expect("a corpus");
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "T").expect("a corpus");
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     corpus
-        .import(&paths, &ImportOptions::default(), &mut progress)
+        .import_paths(&paths, &ImportOptions::default(), &mut progress)
         .expect("imported");
     corpus
 }
 
 /// Returns the postures of a generated sign at each moment.
-fn postures(made: &Recombination) -> Vec<Vec<Posture>> {
-    let joints = parts().map(|(name, part)| made.anatomy.joint(part).expect(name));
-    let last = made.clip.frames() - 1;
+fn postures(made: &RecombinationResult) -> Vec<Vec<Posture>> {
+    let joints = parts().map(|(name, part)| made.anatomy.part_joint(part).expect(name));
+    let last = made.clip.clip_frame_count() - 1;
     let at = |moment: f64| {
-        let model = made
-            .clip
-            .model_pose((last as f64 * moment).round() as usize);
+        let model = made.clip.model_pose((last as f64 * moment).round() as usize);
         let posture = |joint: usize| Posture {
-            at: model.position(joint) * 1000.0,
-            turned: model.rotation(joint),
+            at: model.model_joint_position(joint) * 1000.0,
+            turned: model.model_joint_rotation(joint),
         };
         joints.iter().map(|&joint| posture(joint)).collect()
     };
@@ -99,11 +99,8 @@ fn read(cell: &str) -> Posture {
 
 /// Returns the recipes of a list, one on each line; a line with `#` is a remark.
 fn recipes(list: &str) -> Vec<String> {
-    let lines =
-        fs::read_to_string(folder().join(format!("{list}.txt"))).expect("the list of recipes");
-    let kept = lines
-        .lines()
-        .filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let lines = fs::read_to_string(folder().join(format!("{list}.txt"))).expect("the list of recipes");
+    let kept = lines.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
     kept.map(str::to_owned).collect()
 }
 
@@ -115,7 +112,7 @@ fn compare(list: &str) {
     let mut corpus = starter(scratch.path());
     let mut now = Vec::new();
     for recipe in &recipes {
-        let made = corpus.preview(recipe);
+        let made = corpus.preview_recipe(recipe);
         let made = made.unwrap_or_else(|error| panic!("{recipe}: {error}"));
         now.push(postures(&made));
     }
@@ -132,19 +129,11 @@ fn compare(list: &str) {
     }
     let table = fs::read_to_string(&path).expect("the table");
     let known: Vec<&str> = table.lines().skip(1).collect();
-    assert_eq!(
-        known.len(),
-        lines.len(),
-        "{list}: recipes were added or removed"
-    );
+    assert_eq!(known.len(), lines.len(), "{list}: recipes were added or removed");
     let mut faults = Vec::new();
     for (was, is) in known.iter().zip(&lines) {
         let [before, after] = [was, &is.as_str()].map(|it| it.split('\t').collect::<Vec<&str>>());
-        assert_eq!(
-            before[..2],
-            after[..2],
-            "{list}: the recipes stand in another order"
-        );
+        assert_eq!(before[..2], after[..2], "{list}: the recipes stand in another order");
         for (at, (name, _)) in parts().iter().enumerate() {
             let (was, is) = (read(before[at + 2]), read(after[at + 2]));
             let moved = was.at.distance(is.at);
@@ -152,9 +141,7 @@ fn compare(list: &str) {
             let turned = turned.min(360.0 - turned);
             if moved > NEAR || (name.contains("hand") && turned > TURNED) {
                 let place = format!("{} at {}", after[0], after[1]);
-                faults.push(format!(
-                    "{place}, {name}: {moved:.1} mm, {turned:.1} degrees"
-                ));
+                faults.push(format!("{place}, {name}: {moved:.1} mm, {turned:.1} degrees"));
             }
         }
     }
@@ -177,14 +164,14 @@ fn transcriptions(recipes: &[String]) -> Vec<String> {
     let mut corpus = starter(scratch.path());
     let mut lines = Vec::new();
     for recipe in recipes {
-        let made = corpus.preview(recipe);
+        let made = corpus.preview_recipe(recipe);
         let made = made.unwrap_or_else(|error| panic!("{recipe}: {error}"));
-        let read = transcribe(&made.clip, &made.anatomy, &Options::made());
+        let read = transcribe_clip(&made.clip, &made.anatomy, &TranscribeOptions::synthesised_options());
         let read = read.unwrap_or_else(|error| panic!("{recipe}: {error}"));
         for feature in &read.features {
             let hand = feature.hand.map_or("", |hand| match hand {
-                Side::Right => "right",
-                Side::Left => "left",
+                BodySide::Right => "right",
+                BodySide::Left => "left",
             });
             let action = feature.action.map(|n| n.to_string()).unwrap_or_default();
             let (kind, value) = (feature.kind, &feature.value);
@@ -205,9 +192,7 @@ fn movement_is_transcribed_as_it_was() {
     }
     let known = fs::read_to_string(table).expect("the table");
     let known: Vec<&str> = known.lines().skip(1).collect();
-    let gone = known
-        .iter()
-        .filter(|line| !now.iter().any(|it| it == *line));
+    let gone = known.iter().filter(|line| !now.iter().any(|it| it == *line));
     let new = now.iter().filter(|line| !known.contains(&line.as_str()));
     let changes: Vec<String> = gone
         .map(|line| format!("- {line}"))

@@ -58,11 +58,7 @@ fn kill_at(task: &str, seed: u64, kills: usize) {
         }
         sleep(Duration::from_micros(numbers.below(longest)));
         let said = worker.kill().expect("killed");
-        assert!(
-            !said.ended && said.errors.is_empty(),
-            "{author}: {}",
-            said.errors
-        );
+        assert!(!said.ended && said.errors.is_empty(), "{author}: {}", said.errors);
         total += said.done.len();
         longest = match said.done.len() {
             0 => longest + longest / 8,
@@ -70,17 +66,10 @@ fn kill_at(task: &str, seed: u64, kills: usize) {
             _ => longest - longest / 8,
         };
         reported.insert(author, said.done);
-        let every = if kill % 5 == 4 {
-            Check::Everything
-        } else {
-            Check::Rows
-        };
+        let every = if kill % 5 == 4 { Check::Everything } else { Check::Rows };
         common::expect_whole(&path, &reported, every);
     }
-    assert!(
-        total > 0,
-        "every kill came before the first operation was done"
-    );
+    assert!(total > 0, "every kill came before the first operation was done");
 }
 
 /// Returns how many microseconds one operation takes, by doing a few on a copy.
@@ -94,9 +83,7 @@ fn operation_time(template: &Path, task: &str) -> u64 {
     let said = worker.hear().expect("heard");
     assert!(said.ended, "{task}: {}", said.errors);
     let one = start.elapsed() / FEW;
-    u64::try_from(one.as_micros())
-        .expect("short")
-        .clamp(1_000, 150_000)
+    u64::try_from(one.as_micros()).expect("short").clamp(1_000, 150_000)
 }
 
 #[test]
@@ -137,10 +124,9 @@ fn killed_while_a_corpus_is_made() {
                 assert!(step == last, "{step} was reported and is lost");
                 continue;
             }
-            let corpus = Corpus::open(&path, "checker");
-            let corpus =
-                corpus.unwrap_or_else(|error| panic!("kill {kill}, corpus {step}: {error}"));
-            assert_eq!(corpus.log(9).expect("log").len(), 0);
+            let corpus = Corpus::open_corpus(&path, "checker");
+            let corpus = corpus.unwrap_or_else(|error| panic!("kill {kill}, corpus {step}: {error}"));
+            assert_eq!(corpus.operation_log(9).expect("log").len(), 0);
         }
     }
 }

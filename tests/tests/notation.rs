@@ -8,8 +8,8 @@ mod checks;
 
 use std::path::{Path, PathBuf};
 
-use chereme_compose::notation::{Settings, animate};
-use chereme_corpus::words::{Language, message};
+use chereme_compose::notation::{AnimatorSettings, animate_signs};
+use chereme_corpus::words::{InterfaceLanguage, localized_message};
 use chereme_tests::repository;
 
 /// The fastest that a wrist may go in metres a second, and joints of an arm in radians a second.
@@ -26,15 +26,11 @@ fn holds_on(body: &Path, folder: &Path, first: usize) {
     let signs = bodies::signs(folder).expect("a folder of notation");
     assert!(signs.len() > 1600, "{} signs", signs.len());
     for (name, notated) in signs.iter().skip(first).step_by(EVERY) {
-        let made = animate(&[notated], &stage, &Settings::default());
+        let made = animate_signs(&[notated], &stage, &AnimatorSettings::default());
         let made = made.unwrap_or_else(|error| panic!("{name}: {error}"));
         let worst = checks::worst(&made);
         assert_eq!(worst.nan, 0, "{name}");
-        assert!(
-            worst.bone < 1e-9,
-            "{name}: a bone changes by {} m",
-            worst.bone
-        );
+        assert!(worst.bone < 1e-9, "{name}: a bone changes by {} m", worst.bone);
         assert!(
             worst.wrist < 1.05,
             "{name}: a wrist bends to {:.2} of its range",
@@ -52,11 +48,7 @@ fn holds_on(body: &Path, folder: &Path, first: usize) {
             worst.elbow_depth,
             worst.deepest
         );
-        assert!(
-            worst.speed < FASTEST,
-            "{name}: a hand goes at {:.1} m/s",
-            worst.speed
-        );
+        assert!(worst.speed < FASTEST, "{name}: a hand goes at {:.1} m/s", worst.speed);
         assert!(
             worst.turning < TURNING,
             "{name}: a joint turns at {:.0} rad/s",
@@ -85,10 +77,7 @@ fn warnings_of_the_animator_exist_in_french() {
     for entry in std::fs::read_dir(folder).expect("goldens") {
         let entry = entry.expect("an entry");
         let name = entry.file_name().to_string_lossy().into_owned();
-        if !["notated", "varied"]
-            .iter()
-            .any(|made| name.starts_with(made))
-        {
+        if !["notated", "varied"].iter().any(|made| name.starts_with(made)) {
             continue;
         }
         let text = std::fs::read_to_string(entry.path()).expect("text");
@@ -96,7 +85,7 @@ fn warnings_of_the_animator_exist_in_french() {
         for (_, list) in lists {
             let warnings: Vec<String> = serde_json::from_str(list).expect("a list of texts");
             for warning in warnings {
-                let french = message(&warning, Language::French);
+                let french = localized_message(&warning, InterfaceLanguage::French);
                 assert!(french.is_some_and(|it| it != warning), "{warning}");
                 reported += 1;
             }

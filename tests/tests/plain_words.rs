@@ -88,20 +88,14 @@ fn riddles_are_recognised_and_plain_sentences_are_not() {
         "The index of the corpus is made anew.",
         "The places, of which there are two, move.",
     ] {
-        assert!(
-            sentences(text).iter().any(|it| riddle(it).is_some()),
-            "{text}"
-        );
+        assert!(sentences(text).iter().any(|it| riddle(it).is_some()), "{text}");
     }
     for text in [
         "Returns the place of the hand.",
         "Tells users what to do.",
         "The word `anew` is code.",
     ] {
-        assert!(
-            sentences(text).iter().all(|it| riddle(it).is_none()),
-            "{text}"
-        );
+        assert!(sentences(text).iter().all(|it| riddle(it).is_none()), "{text}");
     }
     assert_eq!(
         comments("let a = 1; // aside\n/// One\n/// two.\nfn f() {}"),
@@ -114,9 +108,7 @@ fn comments(text: &str) -> Vec<String> {
     let (mut blocks, mut block, mut code) = (Vec::new(), String::new(), false);
     for line in text.lines().chain([""]) {
         let line = line.trim_start();
-        let words = ["///", "//!", "//"]
-            .iter()
-            .find_map(|mark| line.strip_prefix(mark));
+        let words = ["///", "//!", "//"].iter().find_map(|mark| line.strip_prefix(mark));
         match words.map(str::trim) {
             Some(words) if words.starts_with("```") => code = !code,
             Some(_) if code => {}
@@ -181,10 +173,7 @@ fn riddle(sentence: &str) -> Option<&'static str> {
         .filter(|word| !word.is_empty())
         .collect();
     let plain = format!(" {} ", words.join(" "));
-    if plain.starts_with(" what ")
-        && !plain.starts_with(" what happens ")
-        && !plain.contains(" what to do ")
-    {
+    if plain.starts_with(" what ") && !plain.starts_with(" what happens ") && !plain.contains(" what to do ") {
         return Some("a sentence whose subject is 'What ...': use the noun");
     }
     RIDDLES

@@ -6,10 +6,7 @@ mod proposals;
 #[test]
 fn proposals_find_the_inserted_values_and_little_else() {
     let all = proposals::counted(30);
-    let found: Vec<String> = all
-        .keys()
-        .map(|(part, value)| format!("{part}.{value}"))
-        .collect();
+    let found: Vec<String> = all.keys().map(|(part, value)| format!("{part}.{value}")).collect();
     assert_eq!(
         found,
         [

@@ -5,25 +5,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Address, Corpus, ExportOptions, ExportWhat, ImportOptions, Name, Progress, Track, unheard,
+    Corpus, CorpusAddress, ExportOptions, ExportWhat, ImportOptions, ProgressReceiver, RowName, TrackContent,
+    ignore_progress_step,
 };
-use chereme_formats::eaf::Transcript;
-use chereme_formats::tracks::{Content, Tracks};
-use chereme_formats::{
-    Scene, c3d, curves, eaf, fbx, gltf, keypoints, pose, subtitles, textgrid, trc,
-};
+use chereme_formats::eaf::AnnotationTranscript;
+use chereme_formats::tracks::{CapturedTrackContent, CapturedTracks};
+use chereme_formats::{BodyScene, c3d, curves, eaf, fbx, gltf, keypoints, pose, subtitles, textgrid, trc};
 use chereme_motion::{
-    Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
-    glam::DVec3,
+    Clip, FrameNumberColumn, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, MotionMarker, RecordingInstant, Skeleton,
+    SkeletonJoint, SpaceConvention, glam::DVec3,
 };
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// The content of a file after it was read.
 enum Meaning {
-    Tracks(Tracks),
-    Scene(Box<Scene>),
-    Transcript(Transcript),
+    Tracks(CapturedTracks),
+    Scene(Box<BodyScene>),
+    Transcript(AnnotationTranscript),
 }
 
 /// Reads a file by its extension. Returns `None` for other extensions and for files that the reader refuses.
@@ -31,37 +30,35 @@ fn read(path: &Path) -> Option<Meaning> {
     let bytes = fs::read(path).ok()?;
     let ending = path.extension()?.to_string_lossy().to_lowercase();
     let folder = path.parent()?.to_owned();
-    let tracks = |it: Tracks| Some(Meaning::Tracks(it));
+    let tracks = |it: CapturedTracks| Some(Meaning::Tracks(it));
     match ending.as_str() {
-        "c3d" => tracks(c3d::read(&bytes).ok()?.0),
-        "trc" => tracks(trc::read(&bytes).ok()?.0),
-        "pose" => tracks(pose::read(&bytes).ok()?.0),
-        "csv" | "fap" | "pbtxt" => tracks(curves::read(&bytes).ok()?.0),
+        "c3d" => tracks(c3d::read_c3d(&bytes).ok()?.0),
+        "trc" => tracks(trc::read_trc_file(&bytes).ok()?.0),
+        "pose" => tracks(pose::read_pose_file(&bytes).ok()?.0),
+        "csv" | "fap" | "pbtxt" => tracks(curves::read_curves(&bytes).ok()?.0),
         "json" if keypoints::is_keypoints(&bytes) => {
-            let mut reader = keypoints::Reader::default();
-            reader.push(None, &bytes).ok()?;
-            tracks(reader.finish(None).ok()?.0)
+            let mut reader = keypoints::KeypointReader::default();
+            reader.push_keypoint_document(None, &bytes).ok()?;
+            tracks(reader.finish_keypoint_tracks(None).ok()?.0)
         }
-        "json" => tracks(curves::read(&bytes).ok()?.0),
+        "json" => tracks(curves::read_curves(&bytes).ok()?.0),
         "glb" | "gltf" | "vrm" => {
             let beside = |name: &str| fs::read(folder.join(name)).ok();
-            Some(Meaning::Scene(Box::new(
-                gltf::read(&bytes, &beside).ok()?.0,
-            )))
+            Some(Meaning::Scene(Box::new(gltf::read_gltf(&bytes, &beside).ok()?.0)))
         }
-        "fbx" => Some(Meaning::Scene(Box::new(fbx::read(&bytes).ok()?.0))),
-        "textgrid" => Some(Meaning::Transcript(textgrid::read(&bytes).ok()?.0)),
-        "eaf" => Some(Meaning::Transcript(eaf::read(&bytes).ok()?.0)),
-        "srt" | "vtt" => Some(Meaning::Transcript(subtitles::read(&bytes).ok()?.0)),
+        "fbx" => Some(Meaning::Scene(Box::new(fbx::read_fbx(&bytes).ok()?.0))),
+        "textgrid" => Some(Meaning::Transcript(textgrid::read_textgrid_file(&bytes).ok()?.0)),
+        "eaf" => Some(Meaning::Transcript(eaf::read_eaf(&bytes).ok()?.0)),
+        "srt" | "vtt" => Some(Meaning::Transcript(subtitles::read_subtitles(&bytes).ok()?.0)),
         _ => None,
     }
 }
 
 fn corpus_of(folder: &Path, file: &Path) -> Result<Corpus> {
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A")?;
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A")?;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    let report = corpus.import(&[file.to_owned()], &options, &mut Progress::new(&mut hear))?;
+    let report = corpus.import_paths(&[file.to_owned()], &options, &mut ProgressReceiver::new(&mut hear))?;
     match report.has_refusals() {
         true => Err(format!("{}: {:?}", file.display(), report.files).into()),
         false => Ok(corpus),
@@ -70,16 +67,18 @@ fn corpus_of(folder: &Path, file: &Path) -> Result<Corpus> {
 
 /// Compares a clip with the stored one; quaternions of opposite sign count as the same rotation.
 fn same_clip(is: &Clip, want: &Clip) -> bool {
-    let joints = is.skeleton().joints().iter().zip(want.skeleton().joints());
-    let names = joints
-        .clone()
-        .all(|(a, b)| a.name == b.name && a.parent == b.parent);
-    let frames = 0..want.frames();
+    let joints = is
+        .clip_skeleton()
+        .skeleton_joints()
+        .iter()
+        .zip(want.clip_skeleton().skeleton_joints());
+    let names = joints.clone().all(|(a, b)| a.name == b.name && a.parent == b.parent);
+    let frames = 0..want.clip_frame_count();
     names
-        && is.frames() == want.frames()
-        && is.rate() == want.rate()
+        && is.clip_frame_count() == want.clip_frame_count()
+        && is.clip_frame_rate() == want.clip_frame_rate()
         && frames.into_iter().all(|frame| {
-            let (a, b) = (is.pose(frame), want.pose(frame));
+            let (a, b) = (is.clip_pose_at(frame), want.clip_pose_at(frame));
             a.rotations == b.rotations && a.translations == b.translations
         })
 }
@@ -91,30 +90,30 @@ fn check(path: &Path) -> Result<bool> {
     };
     let own = tempfile::tempdir()?;
     let corpus = corpus_of(own.path(), path)?;
-    let rows = corpus.tracks(&Name::Number(1))?;
-    let stored = |name: &str| -> Result<Track> {
+    let rows = corpus.recording_tracks(&RowName::Number(1))?;
+    let stored = |name: &str| -> Result<TrackContent> {
         let row = rows.iter().find(|row| row.name == name);
         let row = row.ok_or_else(|| format!("{}: no track {name}", path.display()))?;
-        Ok(corpus.track(row.id, None)?)
+        Ok(corpus.read_track_content(row.id, None)?)
     };
     match meaning {
         Meaning::Tracks(tracks) => {
             for track in tracks.tracks {
                 let same = match (stored(&track.name)?, &track.content) {
-                    (Track::Markers(is), Content::Markers(want)) => is == *want,
-                    (Track::Curves(is), Content::Curves(want)) => is == *want,
+                    (TrackContent::Markers(is), CapturedTrackContent::Markers(want)) => is == *want,
+                    (TrackContent::Curves(is), CapturedTrackContent::Curves(want)) => is == *want,
                     _ => false,
                 };
                 assert!(same, "{}: {}", path.display(), track.name);
             }
         }
         Meaning::Scene(scene) => {
-            let Track::Skeleton(body) = stored("body")? else {
+            let TrackContent::Skeleton(body) = stored("body")? else {
                 return Err(format!("{}: no body", path.display()).into());
             };
             assert!(same_clip(&body.clip, &scene.clip), "{}", path.display());
             if let Some(morphs) = scene.morphs {
-                let Track::Curves(face) = stored("face")? else {
+                let TrackContent::Curves(face) = stored("face")? else {
                     return Err(format!("{}: no face", path.display()).into());
                 };
                 assert!(face == morphs, "{}", path.display());
@@ -122,18 +121,14 @@ fn check(path: &Path) -> Result<bool> {
         }
         Meaning::Transcript(want) => {
             // Subtitles have one tier of no known role, which only annotation files hold.
-            let is_grid = path
-                .extension()
-                .is_some_and(|it| it.eq_ignore_ascii_case("textgrid"));
-            let to = own
-                .path()
-                .join(if is_grid { "out.TextGrid" } else { "out.eaf" });
-            let mut hear = unheard;
-            corpus.export(
-                &ExportWhat::Address(Address::Recording(Name::Number(1))),
+            let is_grid = path.extension().is_some_and(|it| it.eq_ignore_ascii_case("textgrid"));
+            let to = own.path().join(if is_grid { "out.TextGrid" } else { "out.eaf" });
+            let mut hear = ignore_progress_step;
+            corpus.export_corpus(
+                &ExportWhat::Address(CorpusAddress::Recording(RowName::Number(1))),
                 &to,
                 &ExportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )?;
             let Some(Meaning::Transcript(is)) = read(&to) else {
                 return Err(format!("{} is not read again", to.display()).into());
@@ -145,14 +140,14 @@ fn check(path: &Path) -> Result<bool> {
 }
 
 /// Returns tier, times and value of every annotation that is not empty.
-fn said(transcript: &Transcript) -> Vec<(String, i64, i64, String)> {
+fn said(transcript: &AnnotationTranscript) -> Vec<(String, i64, i64, String)> {
     let mut all: Vec<_> = transcript
         .tiers
         .iter()
         .flat_map(|tier| tier.annotations.iter().map(move |it| (tier, it)))
         .filter(|(_, it)| !it.value.trim().is_empty())
         .map(|(tier, it)| {
-            let at = [it.span.start(), it.span.end()].map(Instant::millis);
+            let at = [it.span.span_start_instant(), it.span.span_end_instant()].map(RecordingInstant::instant_millis);
             (tier.name.clone(), at[0], at[1], it.value.clone())
         })
         .collect();
@@ -160,14 +155,14 @@ fn said(transcript: &Transcript) -> Vec<(String, i64, i64, String)> {
     all
 }
 
-fn markers() -> Result<Markers> {
+fn markers() -> Result<MarkerTrack> {
     let column =
-        |phase: f32| Column::singles((0..40_u8).map(|at| f32::from(at).sin() + phase).collect());
-    let point = |name| Marker::new(name, vec![column(1.0), column(2.0), column(3.0)]);
-    let rate = Rate::new(100, 1)?;
-    let space = Space::World(Convention::MODEL);
-    Ok(Markers::new(
-        Times::Even(rate),
+        |phase: f32| FrameNumberColumn::from_single_floats((0..40_u8).map(|at| f32::from(at).sin() + phase).collect());
+    let point = |name| MotionMarker::new(name, vec![column(1.0), column(2.0), column(3.0)]);
+    let rate = FrameRate::new(100, 1)?;
+    let space = MarkerSpace::World(SpaceConvention::MODEL_CONVENTION);
+    Ok(MarkerTrack::new(
+        FrameTimes::Even(rate),
         space,
         vec![point("LSHO"), point("RSHO"), point("C7")],
     )?)
@@ -176,16 +171,17 @@ fn markers() -> Result<Markers> {
 /// Returns small files of every format, written into a folder.
 fn samples(folder: &Path) -> Result<Vec<PathBuf>> {
     let skeleton = Skeleton::new(vec![
-        Joint::new("hips", None, DVec3::Y),
-        Joint::new("chest", Some(0), DVec3::Y * 0.3),
-        Joint::new("head", Some(1), DVec3::Y * 0.3),
+        SkeletonJoint::new("hips", None, DVec3::Y),
+        SkeletonJoint::new("chest", Some(0), DVec3::Y * 0.3),
+        SkeletonJoint::new("head", Some(1), DVec3::Y * 0.3),
     ])?;
-    let still = Clip::still(skeleton.into(), Rate::new(25, 1)?, 9);
-    let people = "{\"people\":[{\"pose_keypoints_2d\":[10.5,20,0.9,0,0,0]},{\"pose_keypoints_2d\":[300.25,20,0.5,1,2,0.125]}]}";
+    let still = Clip::from_rest_pose(skeleton.into(), FrameRate::new(25, 1)?, 9);
+    let people =
+        "{\"people\":[{\"pose_keypoints_2d\":[10.5,20,0.9,0,0,0]},{\"pose_keypoints_2d\":[300.25,20,0.5,1,2,0.125]}]}";
     let files: Vec<(&str, Vec<u8>)> = vec![
-        ("a.glb", gltf::write(&still, &gltf::About::default())?),
-        ("b.c3d", c3d::write(&markers()?, Instant::ZERO)?),
-        ("c.trc", trc::write("c.trc", &markers()?, Instant::ZERO)?.into_bytes()),
+        ("a.glb", gltf::write_glb(&still, &gltf::GlbDescription::default())?),
+        ("b.c3d", c3d::write_c3d(&markers()?, RecordingInstant::RECORDING_START)?),
+        ("c.trc", trc::write_trc_file("c.trc", &markers()?, RecordingInstant::RECORDING_START)?.into_bytes()),
         (
             "d.csv",
             b"Timecode,BlendShapeCount,JawOpen,HeadYaw\n11:00:00:00.0,61,0.1000000001,0.2\n11:00:00:01.0,61,0.25,-0.3\n".to_vec(),
@@ -230,10 +226,7 @@ fn other_peoples_captures_are_read_back_as_their_files_have_them() -> Result<()>
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
         return Ok(());
     };
-    let mut folders = vec![
-        PathBuf::from(&data).join("motion"),
-        PathBuf::from(&data).join("face"),
-    ];
+    let mut folders = vec![PathBuf::from(&data).join("motion"), PathBuf::from(&data).join("face")];
     folders.push(PathBuf::from(&data).join("annotation/textgrid"));
     let mut count = 0;
     while let Some(folder) = folders.pop() {

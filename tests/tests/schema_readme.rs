@@ -37,8 +37,8 @@ fn queries(readme: &str) -> Vec<(String, String)> {
 fn corpus() -> (tempfile::TempDir, Connection) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path(), "small.chereme").expect("a corpus");
-    let mut corpus = Corpus::open(&path, "maker").expect("opened");
-    corpus.recombine("BOL | reverse", "LOB").expect("made");
+    let mut corpus = Corpus::open_corpus(&path, "maker").expect("opened");
+    corpus.recombine_recipe("BOL | reverse", "LOB").expect("made");
     small_study(&mut corpus, folder.path()).expect("a study");
     drop(corpus);
     let connection = Connection::open(path).expect("opened");
@@ -57,11 +57,7 @@ fn every_query_of_the_readme_works() {
         assert!(statement.readonly(), "{title} changes the corpus");
         let mut rows = statement.query([]).expect(title);
         let mut count = 0;
-        while rows
-            .next()
-            .unwrap_or_else(|error| panic!("{title}\n{error}"))
-            .is_some()
-        {
+        while rows.next().unwrap_or_else(|error| panic!("{title}\n{error}")).is_some() {
             count += 1;
         }
         let none = title.starts_with(FINDS_NOTHING);
@@ -89,37 +85,28 @@ fn the_readme_lists_the_roles_of_tiers() {
 fn an_exported_folder_holds_the_dictionary_and_its_queries_run() {
     let (folder, connection) = corpus();
     drop(connection);
-    let corpus = Corpus::open(&folder.path().join("small.chereme"), "reader").expect("opened");
+    let corpus = Corpus::open_corpus(&folder.path().join("small.chereme"), "reader").expect("opened");
     let to = folder.path().join("shared");
-    let mut hear = chereme_corpus::unheard;
+    let mut hear = chereme_corpus::ignore_progress_step;
     corpus
-        .export(
+        .export_corpus(
             &chereme_corpus::ExportWhat::All,
             &to,
             &chereme_corpus::ExportOptions::default(),
-            &mut chereme_corpus::Progress::new(&mut hear),
+            &mut chereme_corpus::ProgressReceiver::new(&mut hear),
         )
         .expect("exported");
     let page = fs::read_to_string(to.join("DICTIONARY.md")).expect("the dictionary");
     assert_eq!(queries(&page), queries(&readme()));
     let file = fs::read_to_string(to.join("queries.sql")).expect("the queries");
     let connection = Connection::open(to.join("corpus.chereme")).expect("opened");
-    let all: Vec<&str> = file
-        .split(";\n")
-        .filter(|it| it.contains("SELECT"))
-        .collect();
+    let all: Vec<&str> = file.split(";\n").filter(|it| it.contains("SELECT")).collect();
     assert_eq!(all.len(), queries(&page).len());
     for sql in all {
-        let mut statement = connection
-            .prepare(sql)
-            .unwrap_or_else(|error| panic!("{sql}\n{error}"));
+        let mut statement = connection.prepare(sql).unwrap_or_else(|error| panic!("{sql}\n{error}"));
         assert!(statement.readonly(), "{sql}");
         let mut rows = statement.query([]).expect(sql);
-        while rows
-            .next()
-            .unwrap_or_else(|error| panic!("{sql}\n{error}"))
-            .is_some()
-        {}
+        while rows.next().unwrap_or_else(|error| panic!("{sql}\n{error}")).is_some() {}
     }
     let sums = fs::read_to_string(to.join("SHA256SUMS")).expect("checksums");
     assert!(sums.contains("DICTIONARY.md") && sums.contains("queries.sql"));
@@ -150,17 +137,11 @@ fn every_table_and_column_is_described() {
             .take_while(|line| !line.starts_with('#'))
             .filter_map(|line| line.strip_prefix("| ")?.split('|').next())
             .collect();
-        if !section
-            .iter()
-            .any(|cell| cell.contains(&format!("`{column}`")))
-        {
+        if !section.iter().any(|cell| cell.contains(&format!("`{column}`"))) {
             missing.push(format!("{table}.{column}"));
         }
     }
-    assert!(
-        missing.is_empty(),
-        "schema/README.md says nothing of {missing:?}"
-    );
+    assert!(missing.is_empty(), "schema/README.md says nothing of {missing:?}");
 }
 
 #[test]
@@ -174,16 +155,11 @@ fn every_value_that_a_column_may_hold_is_described() {
         .query_map([], |row| row.get(0))
         .and_then(Iterator::collect)
         .expect("the schema");
-    let words = tables
-        .iter()
-        .flat_map(|sql| sql.split('\'').skip(1).step_by(2));
+    let words = tables.iter().flat_map(|sql| sql.split('\'').skip(1).step_by(2));
     let missing: Vec<&str> = words
         .filter(|word| !word.is_empty() && !readme.contains(&format!("`{word}`")))
         .collect();
-    assert!(
-        missing.is_empty(),
-        "schema/README.md does not name {missing:?}"
-    );
+    assert!(missing.is_empty(), "schema/README.md does not name {missing:?}");
 }
 
 #[test]
@@ -191,18 +167,12 @@ fn the_minimal_pairs_of_the_readme_hold_handshapes_of_two_values() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("pairs.chereme");
     let table = folder.path().join("t.csv");
-    fs::write(
-        &table,
-        "gloss,handshape,location\nA,V + O,chin\nB,V,chin\nC,V,chest\n",
-    )
-    .expect("written");
-    let mut corpus = Corpus::create(&path, "maker").expect("made");
-    let mut hear = chereme_corpus::unheard;
-    let progress = &mut chereme_corpus::Progress::new(&mut hear);
+    fs::write(&table, "gloss,handshape,location\nA,V + O,chin\nB,V,chin\nC,V,chest\n").expect("written");
+    let mut corpus = Corpus::create_corpus(&path, "maker").expect("made");
+    let mut hear = chereme_corpus::ignore_progress_step;
+    let progress = &mut chereme_corpus::ProgressReceiver::new(&mut hear);
     let options = chereme_corpus::ImportOptions::default();
-    corpus
-        .import(&[table], &options, progress)
-        .expect("imported");
+    corpus.import_paths(&[table], &options, progress).expect("imported");
     drop(corpus);
     let connection = Connection::open(path).expect("opened");
     let queries = queries(&readme());
@@ -211,11 +181,7 @@ fn the_minimal_pairs_of_the_readme_hold_handshapes_of_two_values() {
     let mut statement = connection.prepare(sql).expect("a query");
     let rows = statement
         .query_map([], |row| {
-            Ok(format!(
-                "{} {}",
-                row.get::<_, String>(0)?,
-                row.get::<_, String>(2)?
-            ))
+            Ok(format!("{} {}", row.get::<_, String>(0)?, row.get::<_, String>(2)?))
         })
         .expect("asked");
     let found: Vec<String> = rows.map(|row| row.expect("a row")).collect();

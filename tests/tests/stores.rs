@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::words::Language;
-use chereme_corpus::words::history::operation_sentence;
+use chereme_corpus::words::InterfaceLanguage;
+use chereme_corpus::words::history_words::operation_sentence;
 use chereme_corpus::{
-    Audience, Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Name, Progress,
-    SearchOptions, unheard,
+    ConsentAudience, Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, ProgressReceiver, RowName, SearchOptions,
+    ignore_progress_step,
 };
 use chereme_tests::{files, repository};
 use rusqlite::Connection;
@@ -46,88 +46,78 @@ fn corpora_of_earlier_versions_open_without_loss() {
         let packed = fs::read(&store).expect("read");
         let bytes = zstd::decode_all(packed.as_slice()).expect("unpacked");
         fs::write(&path, bytes).expect("written");
-        let mut corpus = Corpus::open(&path, "reader").expect("opened");
+        let mut corpus = Corpus::open_corpus(&path, "reader").expect("opened");
         let check = corpus
-            .check(false, &mut Progress::new(&mut unheard))
+            .check_corpus(false, &mut ProgressReceiver::new(&mut ignore_progress_step))
             .expect("checked");
-        assert_eq!(check.findings().next(), None, "version {version}");
+        assert_eq!(check.all_findings().next(), None, "version {version}");
         for (query, total) in [
             ("gloss=BOL", 1),
             ("right.configuration=S placement=chin", 2),
             ("origin=made", 1),
             ("\"slug\"", 1),
         ] {
-            let answer = corpus
-                .search(query, &SearchOptions::default())
-                .expect(query);
+            let answer = corpus.search_tokens(query, &SearchOptions::default()).expect(query);
             assert_eq!(answer.total, total, "version {version}: {query}");
         }
         let bowl = "recording:\"bowl and cat\"".parse().expect("an address");
-        let moving = corpus.movement(&bowl).expect("movement");
-        assert_eq!(moving.clip.frames(), 200, "version {version}");
+        let moving = corpus.movement_at_address(&bowl).expect("movement");
+        assert_eq!(moving.clip.clip_frame_count(), 200, "version {version}");
         lists(&corpus, version);
         exports(&corpus, folder.path(), version);
         if version >= 2 {
-            let thanks = corpus.notation(&"MERCI".parse().expect("an address"));
+            let thanks = corpus.notation_at(&"MERCI".parse().expect("an address"));
             let thanks = thanks.expect("a notation").document;
             assert_eq!(thanks.sign.parts[0].actions.len(), 1, "version {version}");
         }
         let kept = usize::from(version >= 3);
         if kept > 0 {
-            let found = corpus.search("@chin", &SearchOptions::default());
+            let found = corpus.search_tokens("@chin", &SearchOptions::default());
             assert_eq!(found.expect("a kept search").total, 2, "version {version}");
         }
         let tracks = usize::from(version >= 7);
         if tracks > 0 {
             let all = corpus
-                .tracks(&Name::Text("bowl and cat".to_owned()))
+                .recording_tracks(&RowName::Text("bowl and cat".to_owned()))
                 .expect("tracks");
-            let kinds: Vec<&str> = all.iter().map(|track| track.kind.name()).collect();
-            assert_eq!(
-                kinds,
-                ["skeleton", "markers", "curves"],
-                "version {version}"
-            );
+            let kinds: Vec<&str> = all.iter().map(|track| track.kind.track_kind_name()).collect();
+            assert_eq!(kinds, ["skeleton", "markers", "curves"], "version {version}");
         }
         let studies = if version >= 10 { 2 } else { 0 };
         if studies > 0 {
-            let study = corpus.study("bowls").expect("a study");
-            let right: Vec<Option<bool>> = study.participants[0]
-                .answers
-                .iter()
-                .map(|it| it.right)
-                .collect();
+            let study = corpus.study_with_answers("bowls").expect("a study");
+            let right: Vec<Option<bool>> = study.participants[0].answers.iter().map(|it| it.right).collect();
             assert_eq!(study.plan.trials.len(), 2, "version {version}");
             assert_eq!(right, [None, Some(true)], "version {version}");
         }
         let consents = usize::from(version >= 11);
         if consents > 0 {
-            let stored = corpus.consents().expect("consents");
+            let stored = corpus.list_consents().expect("consents");
             let own = stored.iter().find(|it| it.of == "recording");
             let movement = own.and_then(|it| it.consent.movement);
-            assert_eq!(movement, Some(Audience::Research), "version {version}");
+            assert_eq!(movement, Some(ConsentAudience::Research), "version {version}");
         }
         let more = kept + tracks + studies + consents;
-        let operations = corpus.log(usize::MAX).expect("log").len();
+        let operations = corpus.operation_log(usize::MAX).expect("log").len();
         assert_eq!(operations, 6 + more, "version {version}");
         histories(&corpus, version);
-        corpus.redo().expect("what was undone is done again");
-        corpus.undo().expect("and taken back");
-        corpus.undo().expect("the made sign is taken back");
+        corpus.redo_operation().expect("what was undone is done again");
+        corpus.undo_operation().expect("and taken back");
+        corpus.undo_operation().expect("the made sign is taken back");
         for _ in 0..more {
             corpus
-                .undo()
+                .undo_operation()
                 .expect("kept search, tracks, study and consent are taken back");
         }
-        corpus.undo().expect("the import is taken back");
-        assert!(corpus.undo().is_err(), "version {version}");
+        corpus.undo_operation().expect("the import is taken back");
+        assert!(corpus.undo_operation().is_err(), "version {version}");
     }
 }
 
 /// Operations are described in all languages, also those that were stored with a summary alone.
 fn histories(corpus: &Corpus, version: usize) {
-    for row in corpus.log(usize::MAX).expect("log") {
-        let french = operation_sentence(&row.effect, Language::French);
+    for row in corpus.operation_log(usize::MAX).expect("log") {
+        let french = operation_sentence(&row.effect, InterfaceLanguage::French);
         let start = match row.name.as_str() {
             "import" => "Importé : ",
             "recombine" if row.summary.starts_with("LOB") => "LOB composé : BOL | reverse",
@@ -152,16 +142,16 @@ fn curves_stored_with_movement_become_tracks_with_their_history() {
     let packed = fs::read(repository::root().join("tests/stores/0004-curves.chereme.zst"));
     let bytes = zstd::decode_all(packed.expect("read").as_slice()).expect("unpacked");
     fs::write(&path, bytes).expect("written");
-    let mut corpus = Corpus::open(&path, "reader").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "reader").expect("opened");
     let sound = |corpus: &mut Corpus| {
-        let check = corpus.check(false, &mut Progress::new(&mut unheard));
+        let check = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut ignore_progress_step));
         let check = check.expect("checked");
         assert!(check.ok, "{:?}", check.faults);
     };
     sound(&mut corpus);
     let tracks = |corpus: &Corpus| {
         let filter = ListFilter::default();
-        let listing = corpus.list(ListKind::Tracks, &filter).expect("listed");
+        let listing = corpus.list_rows(ListKind::Tracks, &filter).expect("listed");
         let text = |row: &serde_json::Map<String, serde_json::Value>| {
             format!("{} {} {}", row["kind"], row["name"], row["frames"])
         };
@@ -175,20 +165,20 @@ fn curves_stored_with_movement_become_tracks_with_their_history() {
     assert_eq!(curves[0].name, "brows.RB");
     let most = curves[0].values.iter().copied().fold(0.0, f64::max);
     assert!(curves[0].values.len() > 512 && most > 0.9);
-    corpus.redo().expect("made again without curves");
+    corpus.redo_operation().expect("made again without curves");
     assert_eq!(tracks(&corpus).len(), 1);
     sound(&mut corpus);
-    corpus.undo().expect("taken back");
+    corpus.undo_operation().expect("taken back");
     assert_eq!(
         (tracks(&corpus), corpus.curves_of(&sign).expect("curves")),
         (both, curves)
     );
-    corpus.undo().expect("the sign is taken back");
+    corpus.undo_operation().expect("the sign is taken back");
     assert_eq!(tracks(&corpus), Vec::<String>::new());
     sound(&mut corpus);
-    corpus.redo().expect("and made again");
+    corpus.redo_operation().expect("and made again");
     assert_eq!(tracks(&corpus).len(), 2);
-    assert!(corpus.undo().is_ok() && corpus.undo().is_err());
+    assert!(corpus.undo_operation().is_ok() && corpus.undo_operation().is_err());
 }
 
 /// Up to version 11, a value of a table had no phase beside a final one. The corpus is of that version; its rows and its
@@ -213,7 +203,7 @@ fn values_of_tables_become_initial_beside_final_ones_with_their_history() {
     let sql = "UPDATE token_value SET phase = NULL WHERE phase = 'initial'";
     assert_eq!(old.execute(sql, []).ok(), Some(1));
     drop(old);
-    let mut corpus = Corpus::open(&path, "reader").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "reader").expect("opened");
     let totals = |corpus: &mut Corpus| {
         [
             "placement=neutral > head",
@@ -221,20 +211,20 @@ fn values_of_tables_become_initial_beside_final_ones_with_their_history() {
             "initial.placement=neutral",
         ]
         .map(|query| {
-            let answer = corpus.search(query, &SearchOptions::default());
+            let answer = corpus.search_tokens(query, &SearchOptions::default());
             answer.expect(query).total
         })
     };
     // JOUR goes from neutral space to the head; OUI begins and ends in neutral space.
     assert_eq!(totals(&mut corpus), [1, 1, 2]);
-    let check = corpus.check(false, &mut Progress::new(&mut unheard));
-    assert_eq!(check.expect("checked").findings().next(), None);
+    let check = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut ignore_progress_step));
+    assert_eq!(check.expect("checked").all_findings().next(), None);
     let mut undone = 0;
-    while corpus.undo().is_ok() {
+    while corpus.undo_operation().is_ok() {
         undone += 1;
     }
     for _ in 0..undone {
-        corpus.redo().expect("done again");
+        corpus.redo_operation().expect("done again");
     }
     assert_eq!(totals(&mut corpus), [1, 1, 2]);
 }
@@ -269,22 +259,19 @@ fn an_upgrade_keeps_every_tier_and_undo_and_redo_of_earlier_work_restore_them() 
         fs::write(&path, bytes).expect("written");
         let before = tiers_and_annotations(&path);
         assert!(before.0.len() > 20 && before.1 == 0, "version {version}");
-        drop(Corpus::open(&path, "reader").expect("opened"));
+        drop(Corpus::open_corpus(&path, "reader").expect("opened"));
         assert!(tiers_and_annotations(&path) == before, "version {version}");
-        let mut corpus = Corpus::open(&path, "reader").expect("opened");
+        let mut corpus = Corpus::open_corpus(&path, "reader").expect("opened");
         let mut undone = 0;
-        while corpus.undo().is_ok() {
+        while corpus.undo_operation().is_ok() {
             undone += 1;
         }
         drop(corpus);
         let (rows, broken) = tiers_and_annotations(&path);
-        assert!(
-            rows.is_empty() && broken == 0,
-            "version {version}: {rows:?}"
-        );
-        let mut corpus = Corpus::open(&path, "reader").expect("opened");
+        assert!(rows.is_empty() && broken == 0, "version {version}: {rows:?}");
+        let mut corpus = Corpus::open_corpus(&path, "reader").expect("opened");
         for _ in 0..undone {
-            corpus.redo().expect("done again");
+            corpus.redo_operation().expect("done again");
         }
         drop(corpus);
         assert!(tiers_and_annotations(&path) == before, "version {version}");
@@ -302,7 +289,7 @@ fn lists(corpus: &Corpus, version: usize) {
         (ListKind::Annotations, 14),
         (ListKind::Signers, 1),
     ] {
-        let listing = corpus.list(kind, &ListFilter::default()).expect("listed");
+        let listing = corpus.list_rows(kind, &ListFilter::default()).expect("listed");
         assert_eq!(listing.total, total, "version {version}: {kind:?}");
     }
 }
@@ -310,29 +297,20 @@ fn lists(corpus: &Corpus, version: usize) {
 /// The folder of everything, and the movement number by number as it was.
 fn exports(corpus: &Corpus, folder: &Path, version: usize) {
     let options = ExportOptions::default();
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let all = folder.join("all");
     let report = corpus
-        .export(&ExportWhat::All, &all, &options, progress)
+        .export_corpus(&ExportWhat::All, &all, &options, progress)
         .expect("exported");
-    assert!(
-        report.files.iter().all(|file| file.bytes > 0),
-        "version {version}"
-    );
+    assert!(report.files.iter().all(|file| file.bytes > 0), "version {version}");
     let moved = fs::read_to_string(all.join("recordings/bowl and cat.bvh")).expect("movement");
     let numbers = |text: &str| -> Vec<f64> {
-        let rows = text
-            .lines()
-            .skip_while(|line| !line.starts_with("Frame Time"));
+        let rows = text.lines().skip_while(|line| !line.starts_with("Frame Time"));
         rows.skip(1)
             .flat_map(str::split_whitespace)
             .filter_map(|it| it.parse().ok())
             .collect()
     };
-    assert_eq!(
-        numbers(&moved),
-        numbers(&files::bvh(200, 1)),
-        "version {version}"
-    );
+    assert_eq!(numbers(&moved), numbers(&files::bvh(200, 1)), "version {version}");
 }

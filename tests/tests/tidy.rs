@@ -21,10 +21,7 @@ fn expect_none(what: &str, faults: &[String]) {
 }
 
 /// Lists the lines for which `wrong` returns true, as `path:line: text`.
-fn lines_that<'a>(
-    files: impl IntoIterator<Item = &'a TextFile>,
-    wrong: impl Fn(&str) -> bool,
-) -> Vec<String> {
+fn lines_that<'a>(files: impl IntoIterator<Item = &'a TextFile>, wrong: impl Fn(&str) -> bool) -> Vec<String> {
     let mut faults = Vec::new();
     for file in files {
         for (at, line) in file.text.lines().enumerate() {
@@ -62,8 +59,7 @@ fn no_file_is_too_long() {
 fn guides_are_short() {
     let mut files = repository::text_files();
     files.retain(|file| {
-        file.path == "README.md"
-            || (file.path.starts_with("crates/") && file.path.ends_with("/README.md"))
+        file.path == "README.md" || (file.path.starts_with("crates/") && file.path.ends_with("/README.md"))
     });
     assert!(files.len() > 9, "{} guides", files.len());
     let lengths = files.iter().map(|file| (file, file.text.lines().count()));
@@ -107,22 +103,14 @@ fn names_a_ticket(line: &str) -> bool {
 fn every_crate_inherits_the_lints_of_the_workspace() {
     let root = repository::root();
     let mut manifests = vec![root.join("tests/Cargo.toml")];
-    for entry in fs::read_dir(root.join("crates"))
-        .into_iter()
-        .flatten()
-        .flatten()
-    {
+    for entry in fs::read_dir(root.join("crates")).into_iter().flatten().flatten() {
         manifests.push(entry.path().join("Cargo.toml"));
     }
     assert!(manifests.len() > 7, "the crates are found");
     for path in manifests {
         let text = fs::read_to_string(&path).expect("a manifest");
         let inherits = text.contains("[lints]\nworkspace = true");
-        assert!(
-            inherits,
-            "{} lacks [lints] workspace = true",
-            path.display()
-        );
+        assert!(inherits, "{} lacks [lints] workspace = true", path.display());
         for key in ["version", "edition", "rust-version", "license"] {
             let inherits = text.contains(&format!("{key}.workspace = true"));
             assert!(inherits, "{} lacks {key}.workspace = true", path.display());
@@ -154,9 +142,7 @@ fn sql_stands_only_in_the_database_module() {
     ];
     let files = rust();
     let outside = files.iter().filter(|file| {
-        !file.is_test()
-            && !file.path.starts_with("tests/")
-            && !file.path.starts_with("crates/chereme-corpus/src/db/")
+        !file.is_test() && !file.path.starts_with("tests/") && !file.path.starts_with("crates/chereme-corpus/src/db/")
     });
     let mut faults = Vec::new();
     for file in outside {
@@ -186,10 +172,9 @@ fn models_and_drawing_use_no_clock_files_or_network() {
     let pure = ["motion", "sign", "formats", "analysis", "compose", "figure"];
     let mut faults = Vec::new();
     for file in rust() {
-        let library = pure.iter().any(|name| {
-            file.path
-                .starts_with(&format!("crates/chereme-{name}/src/"))
-        });
+        let library = pure
+            .iter()
+            .any(|name| file.path.starts_with(&format!("crates/chereme-{name}/src/")));
         if library && !file.is_test() {
             for (at, line) in file.code() {
                 if words.iter().any(|word| line.contains(word)) {

@@ -14,9 +14,8 @@ const WORKER: &str = env!("CARGO_BIN_EXE_chereme-worker");
 fn two_write_and_two_read_the_same_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
-    let start = |task: &str, author: &str, count: usize| {
-        Worker::start(WORKER, &path, task, author, count).expect("started")
-    };
+    let start =
+        |task: &str, author: &str, count: usize| Worker::start(WORKER, &path, task, author, count).expect("started");
     let workers = [
         ("anna", start("import", "anna", 8)),
         ("ben", start("annotate", "ben", 8)),
@@ -32,15 +31,15 @@ fn two_write_and_two_read_the_same_file() {
     assert_eq!(reported["anna"].len(), 8);
     assert_eq!(reported["ben"].len(), 8);
     common::expect_whole(&path, &reported, common::Check::Everything);
-    let mut corpus = Corpus::open(&path, "checker").expect("opened");
-    let log = corpus.log(usize::MAX).expect("log");
+    let mut corpus = Corpus::open_corpus(&path, "checker").expect("opened");
+    let log = corpus.operation_log(usize::MAX).expect("log");
     assert_eq!(log.len(), 17, "one of the maker, eight of each writer");
     for _ in 0..17 {
         corpus
-            .undo()
+            .undo_operation()
             .expect("everything can be taken back, whoever did it");
     }
-    assert!(corpus.undo().is_err());
+    assert!(corpus.undo_operation().is_err());
     drop(corpus);
     common::expect_whole(&path, &reported, common::Check::Rows);
 }
@@ -49,14 +48,14 @@ fn two_write_and_two_read_the_same_file() {
 fn a_second_session_sees_the_changes_of_the_first() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
-    let mut first = Corpus::open(&path, "first").expect("opened");
-    let mut second = Corpus::open(&path, "second").expect("opened");
-    first.undo().expect("undone");
-    assert_eq!(second.log(9).expect("log").len(), 2);
-    second.redo().expect("done again by the other");
-    assert_eq!(first.log(9).expect("log").len(), 3);
-    assert!(first.redo().is_err(), "it is done already");
-    first.undo().expect("undone");
+    let mut first = Corpus::open_corpus(&path, "first").expect("opened");
+    let mut second = Corpus::open_corpus(&path, "second").expect("opened");
+    first.undo_operation().expect("undone");
+    assert_eq!(second.operation_log(9).expect("log").len(), 2);
+    second.redo_operation().expect("done again by the other");
+    assert_eq!(first.operation_log(9).expect("log").len(), 3);
+    assert!(first.redo_operation().is_err(), "it is done already");
+    first.undo_operation().expect("undone");
 }
 
 static WAITS: AtomicUsize = AtomicUsize::new(0);
@@ -70,13 +69,13 @@ fn readers_never_wait_for_a_writer_and_waiting_writers_report_it() {
     let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
     let other = rusqlite::Connection::open(&path).expect("opened");
     other.execute_batch("BEGIN IMMEDIATE").expect("locked");
-    let reader = Corpus::open(&path, "reader").expect("opened");
-    assert!(!reader.log(9).expect("read").is_empty());
+    let reader = Corpus::open_corpus(&path, "reader").expect("opened");
+    assert!(!reader.operation_log(9).expect("read").is_empty());
     drop(reader);
     assert_eq!(WAITS.load(Ordering::SeqCst), 0);
     let writer = std::thread::spawn({
         let path = path.clone();
-        move || Corpus::open(&path, "writer").and_then(|mut corpus| corpus.undo())
+        move || Corpus::open_corpus(&path, "writer").and_then(|mut corpus| corpus.undo_operation())
     });
     while WAITS.load(Ordering::SeqCst) == 0 && !writer.is_finished() {
         std::thread::yield_now();
@@ -95,19 +94,12 @@ fn two_processes_that_create_one_corpus_share_it() {
         let (first, second) = (start(), start());
         let (first, second) = (first.hear().expect("heard"), second.hear().expect("heard"));
         for said in [&first, &second] {
-            assert!(
-                said.ended || said.errors.contains("there already"),
-                "{}",
-                said.errors
-            );
+            assert!(said.ended || said.errors.contains("there already"), "{}", said.errors);
         }
         assert!(first.ended || second.ended, "round {round}");
         for step in 0..3 {
             let path = folder.path().join(format!("made-{step}.chereme"));
-            assert!(
-                Corpus::open(&path, "checker").is_ok(),
-                "round {round}, {step}"
-            );
+            assert!(Corpus::open_corpus(&path, "checker").is_ok(), "round {round}, {step}");
         }
         let left = std::fs::read_dir(folder.path()).expect("a folder");
         let left: Vec<_> = left.flatten().map(|entry| entry.file_name()).collect();

@@ -6,7 +6,8 @@
 //! stores the whole table).
 
 use chereme_analysis::dtw::{
-    Local, Options, Series, StepPattern, Window, align, distance, nearest,
+    AlignmentWindow, ChannelSeries, DtwOptions, LocalDistance, StepPattern, align_series, dtw_distance,
+    find_nearest_candidates,
 };
 use divan::{Bencher, counter::ItemsCount};
 
@@ -39,9 +40,7 @@ fn sines(channels: usize, numbers: &mut Numbers) -> Sines {
             numbers.next() * std::f64::consts::TAU,
         )
     };
-    (0..channels)
-        .map(|_| std::array::from_fn(|_| one()))
-        .collect()
+    (0..channels).map(|_| std::array::from_fn(|_| one())).collect()
 }
 
 fn played(sines: &Sines, frames: usize, time: impl Fn(f64) -> f64) -> Vec<Vec<f64>> {
@@ -68,18 +67,18 @@ fn rows(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn series(columns: &[Vec<f64>]) -> Series {
-    Series::from_columns(columns).expect("finite columns of one length")
+fn series(columns: &[Vec<f64>]) -> ChannelSeries {
+    ChannelSeries::from_columns(columns).expect("finite columns of one length")
 }
 
-const SQUARED: Options = Options {
+const SQUARED: DtwOptions = DtwOptions {
     pattern: StepPattern::Symmetric1,
-    window: Window::None,
-    local: Local::SquaredEuclidean,
+    window: AlignmentWindow::None,
+    local: LocalDistance::SquaredEuclidean,
     open_begin: false,
     open_end: false,
-    policy: chereme_analysis::dtw::Policy::Refuse,
-    limits: chereme_analysis::dtw::Limits {
+    policy: chereme_analysis::dtw::DtwPathPolicy::Refuse,
+    limits: chereme_analysis::dtw::DtwLimits {
         kept: 1 << 28,
         cells: 1 << 36,
     },
@@ -98,16 +97,16 @@ const PAIRS: &[(usize, usize)] = &[
 mod pair {
     use super::*;
 
-    fn run(bencher: Bencher<'_, '_>, (channels, frames): (usize, usize), options: Options) {
+    fn run(bencher: Bencher<'_, '_>, (channels, frames): (usize, usize), options: DtwOptions) {
         let (a, b) = (movement(frames, channels, 1), movement(frames, channels, 2));
         let (a, b) = (series(&a), series(&b));
         let cells = match options.window {
-            Window::SakoeChiba(w) => frames * (2 * w + 1) - w * (w + 1),
+            AlignmentWindow::SakoeChiba(w) => frames * (2 * w + 1) - w * (w + 1),
             _ => frames * frames,
         };
         bencher
             .counter(ItemsCount::new(cells))
-            .bench(|| distance(&a, &b, &options));
+            .bench(|| dtw_distance(&a, &b, &options));
     }
 
     #[divan::bench(args = PAIRS)]
@@ -120,8 +119,8 @@ mod pair {
         run(
             bencher,
             size,
-            Options {
-                window: Window::SakoeChiba(100),
+            DtwOptions {
+                window: AlignmentWindow::SakoeChiba(100),
                 ..SQUARED
             },
         );
@@ -129,7 +128,7 @@ mod pair {
 
     #[divan::bench(args = [(8, 1000), (30, 1000)])]
     fn ours_symmetric2_euclidean(bencher: Bencher<'_, '_>, size: (usize, usize)) {
-        run(bencher, size, Options::default());
+        run(bencher, size, DtwOptions::default());
     }
 
     #[divan::bench(args = [(8, 1000), (30, 1000)])]
@@ -137,7 +136,7 @@ mod pair {
         run(
             bencher,
             size,
-            Options {
+            DtwOptions {
                 pattern: StepPattern::Asymmetric,
                 ..SQUARED
             },
@@ -162,26 +161,18 @@ mod path {
 
     #[divan::bench(args = SIZES)]
     fn ours(bencher: Bencher<'_, '_>, (channels, frames): &(usize, usize)) {
-        let (a, b) = (
-            movement(*frames, *channels, 1),
-            movement(*frames, *channels, 2),
-        );
+        let (a, b) = (movement(*frames, *channels, 1), movement(*frames, *channels, 2));
         let (a, b) = (series(&a), series(&b));
         bencher
             .counter(ItemsCount::new(frames * frames))
-            .bench(|| align(&a, &b, &SQUARED));
+            .bench(|| align_series(&a, &b, &SQUARED));
     }
 
     #[divan::bench(args = SIZES)]
     fn dtw_rs(bencher: Bencher<'_, '_>, (channels, frames): &(usize, usize)) {
-        let (a, b) = (
-            movement(*frames, *channels, 1),
-            movement(*frames, *channels, 2),
-        );
+        let (a, b) = (movement(*frames, *channels, 1), movement(*frames, *channels, 2));
         let (a, b) = (rows(&a), rows(&b));
-        let squared = |a: &Vec<f64>, b: &Vec<f64>| -> f64 {
-            a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
-        };
+        let squared = |a: &Vec<f64>, b: &Vec<f64>| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum() };
         bencher.counter(ItemsCount::new(frames * frames)).bench(|| {
             let found = dtw_rs::dtw_with_distance(&a, &b, squared);
             (found.distance(), found.path().len())
@@ -213,24 +204,21 @@ mod nearest_of_10000 {
                 .for_each(|v| *v += (numbers.next() - 0.5) * noise);
             warped
         };
-        (
-            played(&base, FRAMES, |t| t),
-            (0..10_000).map(candidate).collect(),
-        )
+        (played(&base, FRAMES, |t| t), (0..10_000).map(candidate).collect())
     }
 
     #[divan::bench(args = [(1, true), (1, false), (8, true), (8, false)], sample_count = 20, sample_size = 1)]
     fn ours(bencher: Bencher<'_, '_>, (channels, copies): (usize, bool)) {
         let (query, candidates) = corpus(channels, copies);
         let query = series(&query);
-        let candidates: Vec<Series> = candidates.iter().map(|c| series(c)).collect();
-        let options = Options {
-            window: Window::SakoeChiba(WINDOW),
+        let candidates: Vec<ChannelSeries> = candidates.iter().map(|c| series(c)).collect();
+        let options = DtwOptions {
+            window: AlignmentWindow::SakoeChiba(WINDOW),
             ..SQUARED
         };
         bencher
             .counter(ItemsCount::new(1usize))
-            .bench(|| nearest(&query, &candidates, 1, &options));
+            .bench(|| find_nearest_candidates(&query, &candidates, 1, &options));
     }
 
     #[divan::bench(args = [true, false], sample_count = 20, sample_size = 1)]

@@ -40,7 +40,7 @@ mod golden;
 #[cfg(test)]
 mod tests;
 
-pub use kinematics::{Kinematics, kinematics};
-pub use measure::measure;
-pub use score::{Score, ScoreError, ScoreOptions, score};
-pub use transcribe::{Transcription, transcribe};
+pub use kinematics::{ClipKinematicCurves, compute_kinematic_curves};
+pub use measure::measure_hand_movement;
+pub use score::{ClipSimilarityScore, ScoreError, ScoreOptions, score_clips};
+pub use transcribe::{TokenTranscription, transcribe_clip};

@@ -3,21 +3,23 @@
 
 use std::ops::Range;
 
-use chereme_motion::{Anatomy, Clip, Side};
+use chereme_motion::{BodyAnatomy, BodySide, Clip};
 use glam::{DQuat, DVec3};
 
-use crate::strokes::{Mover, between_minima, place_in, smoothed, speeds, strokes};
-use crate::transcribe::path::{self, PathForm};
+use crate::strokes::{
+    MovingPart, between_minima, central_difference_speeds, find_transition_strokes, gaussian_smoothed_speeds, place_in,
+};
+use crate::transcribe::transcribe_path::{self, PathForm};
 
 /// The least peak of speed of a stroke, in metres per second: small strokes are slow.
-const LEAST: f64 = 0.05;
+const MIN_STROKE_PEAK_SPEED: f64 = 0.05;
 /// A stroke shorter than this share of the longest stroke next to it is not counted: the hand comes to
 /// rest.
-const AMONG: f64 = 1.0 / 3.0;
+const MIN_NEIGHBOUR_STROKE_SHARE: f64 = 1.0 / 3.0;
 /// A speed below this share of the peak is a hold.
-const STILL: f64 = 0.1;
+const HOLD_SPEED_SHARE: f64 = 0.1;
 /// At least this share of a stroke must be inside the given stretch.
-const INSIDE: f64 = 2.0 / 3.0;
+const MIN_INSIDE_SHARE: f64 = 2.0 / 3.0;
 
 /// The kind of movement to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +38,7 @@ pub enum MeasuredKind {
 
 /// The measurements of one movement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Measured {
+pub struct MeasuredStroke {
     /// Its duration in seconds; of a [`MeasuredKind::Round`] that of one turn.
     pub seconds: f64,
     /// Distance from start to end, in metres; zero for circles.
@@ -60,129 +62,130 @@ pub struct Measured {
 /// are those of the wrist in the space of the trunk. `None` if the skeleton has no such hand, or the
 /// movement is not of that kind.
 #[must_use]
-pub fn measure(
+pub fn measure_hand_movement(
     clip: &Clip,
-    anatomy: &Anatomy,
-    side: Side,
+    anatomy: &BodyAnatomy,
+    side: BodySide,
     within: Range<usize>,
     kind: MeasuredKind,
-) -> Option<Measured> {
-    let within = within.start..within.end.min(clip.frames());
-    let arm = anatomy.arm(side)?;
-    let base = clip.skeleton().parent(arm.clavicle.unwrap_or(arm.upper));
+) -> Option<MeasuredStroke> {
+    let within = within.start..within.end.min(clip.clip_frame_count());
+    let arm = anatomy.arm_chain(side)?;
+    let base = clip.clip_skeleton().joint_parent(arm.clavicle.unwrap_or(arm.upper));
     let wrist = |frame: usize| place_in(clip, arm.hand, DVec3::ZERO, base, frame);
     if within.len() < 3 {
         return None;
     }
     let within = match kind {
-        MeasuredKind::Round | MeasuredKind::Wave => moving(clip, wrist, within),
+        MeasuredKind::Round | MeasuredKind::Wave => trim_movement_holds(clip, wrist, within),
         _ => within,
     };
     let path = || -> Vec<DVec3> { within.clone().map(wrist).collect() };
-    let whole = within.len() as f64 * clip.rate().frame_time();
+    let duration = within.len() as f64 * clip.clip_frame_rate().frame_time();
     match kind {
-        MeasuredKind::Stroke => stroke(clip, wrist, &within),
+        MeasuredKind::Stroke => measure_wrist_stroke(clip, wrist, &within),
         MeasuredKind::Shape => {
-            let found = strokes(clip, anatomy, side, Mover::Fingers);
-            let mut inside = found.iter().filter(|frames| is_inside(frames, &within));
+            let finger_strokes = find_transition_strokes(clip, anatomy, side, MovingPart::Fingers);
+            let mut inside = finger_strokes.iter().filter(|frames| is_stroke_inside(frames, &within));
             let first = inside.next()?;
-            Some(Measured {
-                seconds: (first.len() - 1) as f64 * clip.rate().frame_time(),
+            Some(MeasuredStroke {
+                seconds: (first.len() - 1) as f64 * clip.clip_frame_rate().frame_time(),
                 strokes: 1 + inside.count(),
-                ..Measured::default()
+                ..MeasuredStroke::default()
             })
         }
-        MeasuredKind::Round => match path::fit(&path(), path::exact()).path {
-            PathForm::Circle {
-                turns,
-                long,
-                narrow,
-                ..
-            } => Some(Measured {
-                seconds: whole / turns,
-                radius: long.length() * (1.0 + narrow) / 2.0,
-                strokes: 1,
-                ..Measured::default()
-            }),
-            _ => None,
-        },
-        MeasuredKind::Wave => match path::fit(&path(), path::exact()).path {
-            PathForm::Wave { chord, width, .. } => Some(Measured {
-                seconds: whole,
-                length: chord.length(),
-                depth: width,
-                strokes: 1,
-                ..Measured::default()
-            }),
-            _ => None,
-        },
+        MeasuredKind::Round => {
+            match transcribe_path::fit_path_form(&path(), transcribe_path::synthesised_path_error()).path {
+                PathForm::Circle {
+                    turns, long, narrow, ..
+                } => Some(MeasuredStroke {
+                    seconds: duration / turns,
+                    radius: long.length() * (1.0 + narrow) / 2.0,
+                    strokes: 1,
+                    ..MeasuredStroke::default()
+                }),
+                _ => None,
+            }
+        }
+        MeasuredKind::Wave => {
+            match transcribe_path::fit_path_form(&path(), transcribe_path::synthesised_path_error()).path {
+                PathForm::Wave { chord, width, .. } => Some(MeasuredStroke {
+                    seconds: duration,
+                    length: chord.length(),
+                    depth: width,
+                    strokes: 1,
+                    ..MeasuredStroke::default()
+                }),
+                _ => None,
+            }
+        }
         MeasuredKind::Transition => {
             let (first, last) = (within.start, within.end - 1);
             let turned = |frame| turned_in(clip, arm.hand, base, frame);
-            Some(Measured {
-                seconds: whole,
+            Some(MeasuredStroke {
+                seconds: duration,
                 length: wrist(first).distance(wrist(last)),
                 turn: turned(first).angle_between(turned(last)),
                 strokes: 1,
-                ..Measured::default()
+                ..MeasuredStroke::default()
             })
         }
     }
 }
 
-fn stroke(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: &Range<usize>) -> Option<Measured> {
-    let all: Vec<DVec3> = (0..clip.frames()).map(wrist).collect();
-    let raw = speeds(all.len(), clip, |a, b| all[a].distance(all[b]));
-    let mut found = between_minima(&smoothed(&raw, clip), LEAST);
-    found.retain(|frames| frames.len() > 2 && is_inside(frames, within));
+fn measure_wrist_stroke(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: &Range<usize>) -> Option<MeasuredStroke> {
+    let all: Vec<DVec3> = (0..clip.clip_frame_count()).map(wrist).collect();
+    let raw = central_difference_speeds(all.len(), clip, |a, b| all[a].distance(all[b]));
+    let mut stroke_frames = between_minima(&gaussian_smoothed_speeds(&raw, clip), MIN_STROKE_PEAK_SPEED);
+    stroke_frames.retain(|frames| frames.len() > 2 && is_stroke_inside(frames, within));
     let long = |frames: &Range<usize>| all[frames.start].distance(all[frames.end - 1]);
-    let longest = found.iter().map(long).fold(0.0, f64::max);
-    found.retain(|frames| long(frames) >= AMONG * longest);
-    let first = found.first()?;
+    let longest = stroke_frames.iter().map(long).fold(0.0, f64::max);
+    stroke_frames.retain(|frames| long(frames) >= MIN_NEIGHBOUR_STROKE_SHARE * longest);
+    let first = stroke_frames.first()?;
     let points = &all[first.clone()];
     let chord = points[points.len() - 1] - points[0];
     let length = chord.length();
     if length <= 0.0 {
         return None;
     }
-    let even = path::evenly(points, 49);
+    let even = transcribe_path::evenly_spaced_points(points, 49);
     let bow = (even[24] - points[0] - chord / 2.0).reject_from_normalized(chord / length);
-    Some(Measured {
-        seconds: (first.len() - 1) as f64 * clip.rate().frame_time(),
+    Some(MeasuredStroke {
+        seconds: (first.len() - 1) as f64 * clip.clip_frame_rate().frame_time(),
         length,
         depth: bow.length() / length,
-        strokes: found.len(),
-        ..Measured::default()
+        strokes: stroke_frames.len(),
+        ..MeasuredStroke::default()
     })
 }
 
 /// Returns a stretch without the holds at its beginning and its end.
-fn moving(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: Range<usize>) -> Range<usize> {
-    let all: Vec<DVec3> = (0..clip.frames()).map(wrist).collect();
-    let raw = speeds(all.len(), clip, |a, b| all[a].distance(all[b]));
-    let speeds = smoothed(&raw, clip);
+fn trim_movement_holds(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: Range<usize>) -> Range<usize> {
+    let all: Vec<DVec3> = (0..clip.clip_frame_count()).map(wrist).collect();
+    let raw = central_difference_speeds(all.len(), clip, |a, b| all[a].distance(all[b]));
+    let speeds = gaussian_smoothed_speeds(&raw, clip);
     let peak = speeds[within.clone()].iter().copied().fold(0.0, f64::max);
-    let moves = |frame: &usize| speeds[*frame] >= STILL * peak;
+    let moves = |frame: &usize| speeds[*frame] >= HOLD_SPEED_SHARE * peak;
     match (within.clone().find(moves), within.clone().rfind(moves)) {
         (Some(first), Some(last)) => first..last + 1,
         _ => within,
     }
 }
 
-fn is_inside(frames: &Range<usize>, within: &Range<usize>) -> bool {
+fn is_stroke_inside(frames: &Range<usize>, within: &Range<usize>) -> bool {
     let shared = frames
         .end
         .min(within.end)
         .saturating_sub(frames.start.max(within.start));
-    shared as f64 >= INSIDE * frames.len() as f64
+    shared as f64 >= MIN_INSIDE_SHARE * frames.len() as f64
 }
 
 /// Returns the rotation of a joint in the space of `base`, a joint above it, or of the model.
 fn turned_in(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DQuat {
-    let above = clip.skeleton().ancestors(joint);
+    let above = clip.clip_skeleton().joint_ancestors(joint);
     above
         .take_while(|&joint| Some(joint) != base)
         .fold(DQuat::IDENTITY, |turned, joint| {
-            clip.channel(joint).rotations[frame] * turned
+            clip.joint_channel(joint).rotations[frame] * turned
         })
 }

@@ -16,15 +16,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use chereme_sign::milestones::Phase;
+use chereme_sign::milestones::ExpressionPhase;
 use serde::{Deserialize, Serialize};
 
-use crate::dtw::{self, CostMethod, DtwError, Policy, Series, StepPattern, Window};
+use crate::dtw::{self, AlignmentWindow, ChannelSeries, CostMethod, DtwError, DtwPathPolicy, StepPattern};
 
 /// A performance cut into its phases.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Phased {
-    phases: [Option<Series>; 4],
+pub struct PhasedPerformance {
+    phases: [Option<ChannelSeries>; 4],
     frames: [usize; 4],
     seconds: f64,
 }
@@ -44,10 +44,10 @@ pub enum PhasedError {
     #[error("{0} is no length in seconds")]
     Length(f64),
     /// A phase cannot be aligned.
-    #[error("{}: {cause}", phase.name())]
+    #[error("{}: {cause}", phase.expression_phase_name())]
     Phase {
         /// The phase.
-        phase: Phase,
+        phase: ExpressionPhase,
         /// The reason.
         cause: DtwError,
     },
@@ -56,18 +56,14 @@ pub enum PhasedError {
     Nothing,
 }
 
-impl Phased {
+impl PhasedPerformance {
     /// Returns a performance: channels scaled so that 1 means the same difference in all of them, milestones M1 to M5
     /// in frames, and its length in seconds. A frame on a milestone belongs to the phase that begins there.
     ///
     /// # Errors
     /// [`PhasedError::Milestones`], [`PhasedError::Length`], and [`PhasedError::Phase`] if a channel contains an
     /// invalid number.
-    pub fn new(
-        channels: &[Vec<f64>],
-        milestones: [usize; 5],
-        seconds: f64,
-    ) -> Result<Self, PhasedError> {
+    pub fn new(channels: &[Vec<f64>], milestones: [usize; 5], seconds: f64) -> Result<Self, PhasedError> {
         let frames = channels.first().map_or(0, Vec::len);
         let ordered = milestones.windows(2).all(|pair| pair[0] <= pair[1]);
         if !ordered || milestones[4] > frames {
@@ -77,16 +73,16 @@ impl Phased {
             return Err(PhasedError::Length(seconds));
         }
         let mut phases = [None, None, None, None];
-        for (n, phase) in Phase::ALL.into_iter().enumerate() {
-            let own = milestones[n]..milestones[n + 1];
-            if own.is_empty() {
+        for (n, phase) in ExpressionPhase::ALL_EXPRESSION_PHASES.into_iter().enumerate() {
+            let phase_frames = milestones[n]..milestones[n + 1];
+            if phase_frames.is_empty() {
                 continue;
             }
             let columns: Vec<&[f64]> = channels
                 .iter()
-                .map(|column| column.get(own.clone()).unwrap_or_default())
+                .map(|column| column.get(phase_frames.clone()).unwrap_or_default())
                 .collect();
-            let series = Series::from_columns(&columns);
+            let series = ChannelSeries::from_columns(&columns);
             phases[n] = Some(series.map_err(|cause| PhasedError::Phase { phase, cause })?);
         }
         Ok(Self {
@@ -98,7 +94,7 @@ impl Phased {
 
     /// Returns its length in seconds.
     #[must_use]
-    pub fn seconds(&self) -> f64 {
+    pub fn phased_seconds(&self) -> f64 {
         self.seconds
     }
 }
@@ -118,7 +114,7 @@ pub enum NoPath {
 /// Options of a score.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Options {
+pub struct PhasedScoreOptions {
     /// Half the window's width in frames.
     pub window: usize,
     /// The treatment of a phase without a path.
@@ -127,7 +123,7 @@ pub struct Options {
     pub weights: [f64; 4],
 }
 
-impl Default for Options {
+impl Default for PhasedScoreOptions {
     /// A window of 10 frames, a third of a second at 30 frames per second; all phases have equal weight.
     fn default() -> Self {
         Self {
@@ -159,7 +155,7 @@ pub struct PhasedScore {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseScore {
     /// The phase.
-    pub phase: Phase,
+    pub phase: ExpressionPhase,
     /// Frames of the query and of the candidate.
     pub frames: [usize; 2],
     /// The cost of the best alignment; `None` if the phase is empty in one of them.
@@ -178,33 +174,33 @@ pub struct PhaseScore {
 /// # Errors
 /// [`PhasedError::Phase`] if channels differ or, by [`NoPath::Refuse`], if no path exists; [`PhasedError::Nothing`];
 /// [`PhasedError::Length`].
-pub fn score(
-    query: &Phased,
-    candidate: &Phased,
+pub fn score_phased_candidate(
+    query: &PhasedPerformance,
+    candidate: &PhasedPerformance,
     seconds: f64,
-    options: &Options,
+    options: &PhasedScoreOptions,
 ) -> Result<PhasedScore, PhasedError> {
-    scored(query, candidate, seconds, options, false)
+    compute_phased_score(query, candidate, seconds, options, false)
 }
 
-/// Returns the same as [`score`], with the differences of each channel.
+/// Returns the same as [`score_phased_candidate`], with the differences of each channel.
 ///
 /// # Errors
-/// As [`score`].
-pub fn explained(
-    query: &Phased,
-    candidate: &Phased,
+/// As [`score_phased_candidate`].
+pub fn explain_phased_score(
+    query: &PhasedPerformance,
+    candidate: &PhasedPerformance,
     seconds: f64,
-    options: &Options,
+    options: &PhasedScoreOptions,
 ) -> Result<PhasedScore, PhasedError> {
-    scored(query, candidate, seconds, options, true)
+    compute_phased_score(query, candidate, seconds, options, true)
 }
 
-fn scored(
-    query: &Phased,
-    candidate: &Phased,
+fn compute_phased_score(
+    query: &PhasedPerformance,
+    candidate: &PhasedPerformance,
     seconds: f64,
-    options: &Options,
+    options: &PhasedScoreOptions,
     explain: bool,
 ) -> Result<PhasedScore, PhasedError> {
     if !(seconds.is_finite() && seconds > 0.0) {
@@ -212,8 +208,8 @@ fn scored(
     }
     let mut phases = Vec::with_capacity(4);
     let (mut sum, mut partial, mut compared) = (0.0, false, 0);
-    for (n, phase) in Phase::ALL.into_iter().enumerate() {
-        let mut own = PhaseScore {
+    for (n, phase) in ExpressionPhase::ALL_EXPRESSION_PHASES.into_iter().enumerate() {
+        let mut phase_score = PhaseScore {
             phase,
             frames: [query.frames[n], candidate.frames[n]],
             distance: None,
@@ -223,20 +219,20 @@ fn scored(
         };
         match (&query.phases[n], &candidate.phases[n]) {
             (Some(a), Some(b)) => {
-                let aligned = align(a, b, options, explain);
-                let aligned = aligned.map_err(|cause| PhasedError::Phase { phase, cause })?;
-                let normalized = aligned.distance / a.frames() as f64;
+                let alignment_result = align_phase_series(a, b, options, explain);
+                let aligned = alignment_result.map_err(|cause| PhasedError::Phase { phase, cause })?;
+                let normalized = aligned.distance / a.series_frame_count() as f64;
                 sum += options.weights[n] * normalized;
                 compared += 1;
-                own.distance = Some(aligned.distance);
-                own.normalized = Some(normalized);
-                own.made = Some(aligned.made);
-                own.channels = aligned.channels;
+                phase_score.distance = Some(aligned.distance);
+                phase_score.normalized = Some(normalized);
+                phase_score.made = Some(aligned.made);
+                phase_score.channels = aligned.channels;
             }
-            (None, None) => own.normalized = Some(0.0),
+            (None, None) => phase_score.normalized = Some(0.0),
             _ => partial = true,
         }
-        phases.push(own);
+        phases.push(phase_score);
     }
     if compared == 0 {
         return Err(PhasedError::Nothing);
@@ -252,41 +248,41 @@ fn scored(
     })
 }
 
-struct Aligned {
+struct AlignedPhase {
     distance: f64,
     made: CostMethod,
     channels: Vec<f64>,
 }
 
-fn align(
-    query: &Series,
-    candidate: &Series,
-    options: &Options,
+fn align_phase_series(
+    query: &ChannelSeries,
+    candidate: &ChannelSeries,
+    options: &PhasedScoreOptions,
     explain: bool,
-) -> Result<Aligned, DtwError> {
-    let mut dtw = dtw::Options {
+) -> Result<AlignedPhase, DtwError> {
+    let mut dtw = dtw::DtwOptions {
         pattern: StepPattern::Asymmetric,
-        window: Window::SakoeChiba(options.window),
-        ..dtw::Options::default()
+        window: AlignmentWindow::SakoeChiba(options.window),
+        ..dtw::DtwOptions::default()
     };
     let policies = match options.no_path {
-        NoPath::Refuse => &[Policy::Refuse][..],
-        NoPath::Adapt => &[Policy::SlantedBand, Policy::Resample],
+        NoPath::Refuse => &[DtwPathPolicy::Refuse][..],
+        NoPath::Adapt => &[DtwPathPolicy::SlantedBand, DtwPathPolicy::Resample],
     };
     let mut last = None;
     for policy in policies {
         dtw.policy = *policy;
-        let found = match explain {
-            true => dtw::align(query, candidate, &dtw).map(|it| (it.cost, it.path)),
-            false => dtw::distance(query, candidate, &dtw).map(|cost| (cost, Vec::new())),
+        let outcome = match explain {
+            true => dtw::align_series(query, candidate, &dtw).map(|alignment| (alignment.cost, alignment.path)),
+            false => dtw::dtw_distance(query, candidate, &dtw).map(|cost| (cost, Vec::new())),
         };
-        match found {
+        match outcome {
             Ok((cost, path)) => {
-                return Ok(Aligned {
+                return Ok(AlignedPhase {
                     distance: cost.distance,
                     made: cost.made,
                     channels: match explain {
-                        true => differences(query, candidate, &path),
+                        true => channel_differences(query, candidate, &path),
                         false => Vec::new(),
                     },
                 });
@@ -298,13 +294,13 @@ fn align(
     Err(last.unwrap_or(DtwError::Empty))
 }
 
-fn differences(query: &Series, candidate: &Series, path: &[(usize, usize)]) -> Vec<f64> {
+fn channel_differences(query: &ChannelSeries, candidate: &ChannelSeries, path: &[(usize, usize)]) -> Vec<f64> {
     let mean = |channel: usize| {
-        let (a, b) = (query.column(channel), candidate.column(channel));
+        let (a, b) = (query.channel_values(channel), candidate.channel_values(channel));
         let sum: f64 = path.iter().map(|&(i, j)| (a[i] - b[j]).abs()).sum();
         sum / path.len().max(1) as f64
     };
-    (0..query.channels()).map(mean).collect()
+    (0..query.series_channel_count()).map(mean).collect()
 }
 
 #[cfg(test)]
@@ -322,13 +318,14 @@ mod tests {
     #[test]
     fn a_performance_scores_zero_with_itself_and_similar_ones_score_lower() {
         let marks = [0, 10, 40, 55, 70];
-        let own = Phased::new(&wave(70, 1.0), marks, 70.0 / 30.0).expect("phases");
-        let near = Phased::new(&wave(70, 1.05), marks, 70.0 / 30.0).expect("phases");
-        let far = Phased::new(&wave(70, 1.9), marks, 70.0 / 30.0).expect("phases");
-        let of = |other| score(&own, other, 70.0 / 30.0, &Options::default()).expect("scored");
+        let own = PhasedPerformance::new(&wave(70, 1.0), marks, 70.0 / 30.0).expect("phases");
+        let near = PhasedPerformance::new(&wave(70, 1.05), marks, 70.0 / 30.0).expect("phases");
+        let far = PhasedPerformance::new(&wave(70, 1.9), marks, 70.0 / 30.0).expect("phases");
+        let of =
+            |other| score_phased_candidate(&own, other, 70.0 / 30.0, &PhasedScoreOptions::default()).expect("scored");
         assert_eq!(of(&own).score, 0.0);
         assert!(of(&near).score < of(&far).score, "{:?}", of(&near));
-        let it = explained(&own, &far, 70.0 / 30.0, &Options::default()).expect("scored");
+        let it = explain_phased_score(&own, &far, 70.0 / 30.0, &PhasedScoreOptions::default()).expect("scored");
         assert!((it.score - of(&far).score).abs() < 1e-9);
         assert!(it.phases.iter().all(|phase| phase.channels.len() == 3));
         assert!(it.phases[1].channels.iter().all(|mean| *mean > 0.0));
@@ -345,13 +342,13 @@ mod tests {
             let column = |channel| (0..frames).map(|frame| value(channel, frame)).collect();
             (0..2).map(column).collect()
         };
-        let gold = Phased::new(&wave(24, 0.31, 0.0), [0, 5, 14, 19, 24], 0.8).expect("phases");
-        let other = Phased::new(&wave(27, 0.27, 0.2), [0, 6, 16, 20, 27], 0.9).expect("phases");
-        let refuse = Options {
+        let gold = PhasedPerformance::new(&wave(24, 0.31, 0.0), [0, 5, 14, 19, 24], 0.8).expect("phases");
+        let other = PhasedPerformance::new(&wave(27, 0.27, 0.2), [0, 6, 16, 20, 27], 0.9).expect("phases");
+        let refuse = PhasedScoreOptions {
             no_path: NoPath::Refuse,
-            ..Options::default()
+            ..PhasedScoreOptions::default()
         };
-        let found = score(&gold, &other, 0.8, &refuse).expect("scored");
+        let found = score_phased_candidate(&gold, &other, 0.8, &refuse).expect("scored");
         let want = [
             0.7110492185227757,
             0.9229278133337973,
@@ -362,49 +359,42 @@ mod tests {
             let distance = phase.distance.expect("a distance");
             assert!((distance - want).abs() < 1e-9, "{distance} {want}");
         }
-        assert!(
-            (found.score - 0.466790317489394).abs() < 1e-9,
-            "{}",
-            found.score
-        );
+        assert!((found.score - 0.466790317489394).abs() < 1e-9, "{}", found.score);
     }
 
     #[test]
     fn phases_empty_in_both_cost_nothing_and_in_one_make_the_score_partial() {
-        let whole = Phased::new(&wave(30, 1.0), [0, 5, 15, 20, 30], 1.0).expect("phases");
-        let one = Phased::new(&wave(30, 1.0), [0, 5, 5, 20, 30], 1.0).expect("phases");
-        let both = score(&one, &one, 1.0, &Options::default()).expect("scored");
-        assert_eq!(
-            (both.partial, both.phases[1].normalized),
-            (false, Some(0.0))
-        );
-        let half = score(&whole, &one, 1.0, &Options::default()).expect("scored");
+        let whole = PhasedPerformance::new(&wave(30, 1.0), [0, 5, 15, 20, 30], 1.0).expect("phases");
+        let one = PhasedPerformance::new(&wave(30, 1.0), [0, 5, 5, 20, 30], 1.0).expect("phases");
+        let both = score_phased_candidate(&one, &one, 1.0, &PhasedScoreOptions::default()).expect("scored");
+        assert_eq!((both.partial, both.phases[1].normalized), (false, Some(0.0)));
+        let half = score_phased_candidate(&whole, &one, 1.0, &PhasedScoreOptions::default()).expect("scored");
         assert_eq!((half.partial, half.phases[1].normalized), (true, None));
-        let onset = Phased::new(&wave(30, 1.0), [0, 30, 30, 30, 30], 1.0).expect("phases");
-        let offset = Phased::new(&wave(30, 1.0), [0, 0, 0, 0, 30], 1.0).expect("phases");
+        let onset = PhasedPerformance::new(&wave(30, 1.0), [0, 30, 30, 30, 30], 1.0).expect("phases");
+        let offset = PhasedPerformance::new(&wave(30, 1.0), [0, 0, 0, 0, 30], 1.0).expect("phases");
         assert_eq!(
-            score(&onset, &offset, 1.0, &Options::default()),
+            score_phased_candidate(&onset, &offset, 1.0, &PhasedScoreOptions::default()),
             Err(PhasedError::Nothing)
         );
     }
 
     #[test]
     fn a_phase_without_a_path_is_refused_by_name_or_scored_by_another_method() {
-        let long = Phased::new(&wave(70, 1.0), [0, 10, 50, 60, 70], 1.0).expect("phases");
-        let short = Phased::new(&wave(50, 1.0), [0, 10, 30, 40, 50], 1.0).expect("phases");
-        let refuse = Options {
+        let long = PhasedPerformance::new(&wave(70, 1.0), [0, 10, 50, 60, 70], 1.0).expect("phases");
+        let short = PhasedPerformance::new(&wave(50, 1.0), [0, 10, 30, 40, 50], 1.0).expect("phases");
+        let refuse = PhasedScoreOptions {
             no_path: NoPath::Refuse,
-            ..Options::default()
+            ..PhasedScoreOptions::default()
         };
-        let error = score(&long, &short, 1.0, &refuse).expect_err("no path");
+        let error = score_phased_candidate(&long, &short, 1.0, &refuse).expect_err("no path");
         assert!(error.to_string().starts_with("first: "), "{error}");
-        let made = score(&long, &short, 1.0, &Options::default()).expect("scored");
+        let made = score_phased_candidate(&long, &short, 1.0, &PhasedScoreOptions::default()).expect("scored");
         assert!(
             matches!(made.phases[1].made, Some(CostMethod::SlantedBand(_))),
             "{made:?}"
         );
-        let steep = Phased::new(&wave(130, 1.0), [0, 10, 110, 120, 130], 1.0).expect("phases");
-        let made = score(&short, &steep, 1.0, &Options::default()).expect("scored");
+        let steep = PhasedPerformance::new(&wave(130, 1.0), [0, 10, 110, 120, 130], 1.0).expect("phases");
+        let made = score_phased_candidate(&short, &steep, 1.0, &PhasedScoreOptions::default()).expect("scored");
         assert_eq!(made.phases[1].made, Some(CostMethod::Resampled));
     }
 
@@ -412,16 +402,16 @@ mod tests {
     fn invalid_milestones_durations_and_columns_are_refused() {
         let columns = wave(10, 1.0);
         for marks in [[0, 1, 2, 3, 11], [0, 3, 2, 4, 5]] {
-            let error = Phased::new(&columns, marks, 1.0).expect_err("no phases");
+            let error = PhasedPerformance::new(&columns, marks, 1.0).expect_err("no phases");
             assert!(matches!(error, PhasedError::Milestones { .. }));
         }
         for seconds in [0.0, -1.0, f64::NAN] {
-            assert!(Phased::new(&columns, [0, 1, 2, 3, 4], seconds).is_err());
+            assert!(PhasedPerformance::new(&columns, [0, 1, 2, 3, 4], seconds).is_err());
         }
         let gap = vec![vec![f64::NAN; 10]];
-        assert!(Phased::new(&gap, [0, 1, 2, 3, 4], 1.0).is_err());
-        let other = Phased::new(&columns[..2], [0, 1, 2, 3, 4], 1.0).expect("phases");
-        let own = Phased::new(&columns, [0, 1, 2, 3, 4], 1.0).expect("phases");
-        assert!(score(&own, &other, 1.0, &Options::default()).is_err());
+        assert!(PhasedPerformance::new(&gap, [0, 1, 2, 3, 4], 1.0).is_err());
+        let other = PhasedPerformance::new(&columns[..2], [0, 1, 2, 3, 4], 1.0).expect("phases");
+        let own = PhasedPerformance::new(&columns, [0, 1, 2, 3, 4], 1.0).expect("phases");
+        assert!(score_phased_candidate(&own, &other, 1.0, &PhasedScoreOptions::default()).is_err());
     }
 }

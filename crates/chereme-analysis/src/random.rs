@@ -4,9 +4,9 @@ use glam::DVec3;
 
 /// Random numbers that are the same on every machine (SplitMix64).
 #[derive(Debug, Clone)]
-pub struct Random(u64);
+pub struct RandomNumbers(u64);
 
-impl Random {
+impl RandomNumbers {
     /// Returns the generator for a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -14,7 +14,7 @@ impl Random {
     }
 
     /// Returns 64 random bits.
-    pub(crate) fn bits(&mut self) -> u64 {
+    pub(crate) fn random_bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -23,23 +23,23 @@ impl Random {
     }
 
     /// Returns a random number from 0 to 1.
-    pub fn share(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    pub fn random_share(&mut self) -> f64 {
+        (self.random_bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Returns a random number with a standard normal distribution.
-    pub fn normal(&mut self) -> f64 {
-        let (a, b) = (self.share().max(1e-300), self.share());
+    pub fn random_normal(&mut self) -> f64 {
+        let (a, b) = (self.random_share().max(1e-300), self.random_share());
         (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
     }
 
     /// Returns a random whole number below `end`, which must not be 0.
-    pub fn below(&mut self, end: usize) -> usize {
-        ((self.share() * end as f64) as usize).min(end.saturating_sub(1))
+    pub fn random_below(&mut self, end: usize) -> usize {
+        ((self.random_share() * end as f64) as usize).min(end.saturating_sub(1))
     }
 
     /// Returns a vector of three normal numbers with this standard deviation.
-    pub(crate) fn vector(&mut self, sd: f64) -> DVec3 {
-        DVec3::new(self.normal(), self.normal(), self.normal()) * sd
+    pub(crate) fn random_normal_vector(&mut self, sd: f64) -> DVec3 {
+        DVec3::new(self.random_normal(), self.random_normal(), self.random_normal()) * sd
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Each frame of a clip becomes a point of up to 66 channels, per hand:
 //!
-//! | component | channels | counts as 1 ([`Scales`]) |
+//! | component | channels | counts as 1 ([`ComponentScales`]) |
 //! |---|---|---|
 //! | placement | the wrist left, up and forward of the shoulders' middle, in shoulder widths | 0.2: a hand's breadth |
 //! | movement | the wrist's velocity along the same axes, in shoulder widths per second | 2: about 0.7 m/s |
@@ -18,11 +18,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use chereme_motion::anatomy::BodyFrame;
-use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Part, Rate, Side};
-use chereme_sign::Component;
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, FrameRate, HandAngles, ModelPose};
+use chereme_sign::SignComponent;
 use serde::{Deserialize, Serialize};
 
-use crate::dtw::{self, Alignment, CostMethod, DtwError, Series};
+use crate::dtw::{self, ChannelSeries, CostMethod, DtwAlignment, DtwError};
 
 /// Half the time over which a velocity is measured, in seconds: longer than the jitter of
 /// captured markers, shorter than a stroke.
@@ -31,7 +31,7 @@ const VELOCITY_SECONDS: f64 = 0.025;
 /// The amount of each component that counts as 1, over all its channels of one hand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Scales {
+pub struct ComponentScales {
     /// Distance of the wrists in shoulder widths.
     pub placement: f64,
     /// Difference of the wrists' velocities in shoulder widths per second.
@@ -42,7 +42,7 @@ pub struct Scales {
     pub configuration: f64,
 }
 
-impl Default for Scales {
+impl Default for ComponentScales {
     fn default() -> Self {
         Self {
             placement: 0.2,
@@ -53,13 +53,13 @@ impl Default for Scales {
     }
 }
 
-impl Scales {
-    fn of(&self, component: Component) -> f64 {
+impl ComponentScales {
+    fn component_scale(&self, component: SignComponent) -> f64 {
         match component {
-            Component::Placement => self.placement,
-            Component::Movement => self.movement,
-            Component::Orientation => self.orientation,
-            Component::Configuration | Component::NonManual => self.configuration,
+            SignComponent::Placement => self.placement,
+            SignComponent::Movement => self.movement,
+            SignComponent::Orientation => self.orientation,
+            SignComponent::Configuration | SignComponent::NonManual => self.configuration,
         }
     }
 }
@@ -70,33 +70,33 @@ impl Scales {
 pub struct ScoreOptions {
     /// Options of the alignment: by default symmetric2 without a window, for which a path always exists.
     /// The first clip is the query.
-    pub dtw: dtw::Options,
+    pub dtw: dtw::DtwOptions,
     /// The amounts that count as 1.
-    pub scales: Scales,
+    pub scales: ComponentScales,
 }
 
 /// The similarity of two clips.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Score {
-    /// The cost of the best alignment, in units of [`Scales`] summed over time.
+pub struct ClipSimilarityScore {
+    /// The cost of the best alignment, in units of [`ComponentScales`] summed over time.
     pub distance: f64,
     /// The distance divided by the path's weight; `None` if the step pattern has no norm.
     pub normalized: Option<f64>,
     /// For each component, its own distance over the same alignment (both hands together), in its own unit and
     /// divided like `normalized`, which none of them exceeds; without a norm, the mean over the alignment.
-    pub components: BTreeMap<Component, f64>,
+    pub components: BTreeMap<SignComponent, f64>,
     /// The largest model-space distance, in metres, of a joint or a bone's tip to its counterpart: frame
     /// by frame if the clips have the same number of frames, else of aligned frames. `None` if the
     /// skeletons have no joint in common.
     pub max_joint_error_m: Option<f64>,
     /// The place of that error.
-    pub worst: Option<Worst>,
+    pub worst: Option<WorstJoint>,
     /// Corresponding frames of the first and of the second clip.
     pub alignment: Vec<(usize, usize)>,
     /// Whether the policy for missing paths was needed.
     pub made: CostMethod,
     /// The components that were not compared, because one or both of the clips do not show them.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<UncomparedComponent>,
     /// Joints of the first clip without a counterpart in the second, by name.
     pub only_in_first: Vec<String>,
     /// Joints of the second clip without a counterpart in the first, by name.
@@ -105,7 +105,7 @@ pub struct Score {
 
 /// The joint that is farthest from its counterpart, with the frames.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Worst {
+pub struct WorstJoint {
     /// Its name in the first clip.
     pub joint: String,
     /// The frame of the first and of the second clip.
@@ -114,11 +114,11 @@ pub struct Worst {
 
 /// A component of one hand that was not compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct UncomparedComponent {
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The hand.
-    pub side: Side,
+    pub side: BodySide,
     /// Whether the first and the second clip show it.
     pub shown: (bool, bool),
     /// Whether the first and the second clip have joints for it, but nobody captured them.
@@ -128,13 +128,13 @@ pub struct LeftOut {
 
 /// A clip to be scored, with the parts of its body.
 #[derive(Debug, Clone, Copy)]
-pub struct Performed<'a> {
+pub struct PerformedClip<'a> {
     /// The movement.
     pub clip: &'a Clip,
     /// The parts of the body.
-    pub anatomy: &'a Anatomy,
+    pub anatomy: &'a BodyAnatomy,
     /// The hands whose fingers nobody captured; their handshapes are not compared.
-    pub uncaptured: &'a [Side],
+    pub uncaptured: &'a [BodySide],
 }
 
 /// The reason why two clips cannot be scored.
@@ -167,9 +167,12 @@ pub enum ScoreError {
 ///
 /// # Errors
 /// The same as [`score_as`]'s.
-pub fn score(a: &Clip, b: &Clip, options: &ScoreOptions) -> Result<Score, ScoreError> {
-    let (first, second) = (Anatomy::detect(a.skeleton()), Anatomy::detect(b.skeleton()));
-    let performed = |clip, anatomy| Performed {
+pub fn score_clips(a: &Clip, b: &Clip, options: &ScoreOptions) -> Result<ClipSimilarityScore, ScoreError> {
+    let (first, second) = (
+        BodyAnatomy::detect_anatomy(a.clip_skeleton()),
+        BodyAnatomy::detect_anatomy(b.clip_skeleton()),
+    );
+    let performed = |clip, anatomy| PerformedClip {
         clip,
         anatomy,
         uncaptured: &[],
@@ -181,23 +184,23 @@ pub fn score(a: &Clip, b: &Clip, options: &ScoreOptions) -> Result<Score, ScoreE
 ///
 /// # Errors
 /// [`ScoreError`] if a clip has no frames, the skeletons have no captured component in common, a scale is not positive,
-/// or [`dtw::align`] refuses (no path under the requested pattern and window, too many cells).
+/// or [`dtw::align_series`] refuses (no path under the requested pattern and window, too many cells).
 pub fn score_as(
-    a: Performed<'_>,
-    b: Performed<'_>,
+    a: PerformedClip<'_>,
+    b: PerformedClip<'_>,
     options: &ScoreOptions,
-) -> Result<Score, ScoreError> {
+) -> Result<ClipSimilarityScore, ScoreError> {
     for (performed, which) in [(a, "first"), (b, "second")] {
-        if performed.clip.frames() == 0 {
+        if performed.clip.clip_frame_count() == 0 {
             return Err(ScoreError::Empty { which });
         }
     }
     let uncaptured = (a.uncaptured, b.uncaptured);
     let (a, b) = ((a.clip, a.anatomy), (b.clip, b.anatomy));
-    let (mut first, mut second) = (features(a), features(b));
+    let (mut first, mut second) = (extract_component_features(a), extract_component_features(b));
     let left_out = keep_common(&mut first, &mut second, uncaptured);
     if first.is_empty() {
-        let captured = |it: &LeftOut| it.uncaptured == (false, false);
+        let captured = |part: &UncomparedComponent| part.uncaptured == (false, false);
         return Err(if left_out.iter().all(captured) {
             ScoreError::NothingInCommon
         } else {
@@ -206,36 +209,36 @@ pub fn score_as(
     }
     let scales: Vec<f64> = first
         .iter()
-        .flat_map(|(key, columns)| vec![options.scales.of(key.0); columns.len()])
+        .flat_map(|(key, columns)| vec![options.scales.component_scale(key.0); columns.len()])
         .collect();
-    let series = |features: &Features| {
+    let series = |features: &ComponentFeatures| {
         let columns: Vec<&Vec<f64>> = features.values().flatten().collect();
-        Series::from_columns(&columns)?.scaled(&scales)
+        ChannelSeries::from_columns(&columns)?.scale_channels(&scales)
     };
     let (query, reference) = (series(&first)?, series(&second)?);
-    let aligned = dtw::align(&query, &reference, &options.dtw)?;
+    let aligned = dtw::align_series(&query, &reference, &options.dtw)?;
     let pairs = pairs_of(a, b);
-    let fingers = |anatomy: &Anatomy, sides: &[Side]| -> Vec<usize> {
-        let all = sides.iter().flat_map(|&side| anatomy.fingers(side));
+    let fingers = |anatomy: &BodyAnatomy, sides: &[BodySide]| -> Vec<usize> {
+        let all = sides.iter().flat_map(|&side| anatomy.finger_joints(side));
         all.collect()
     };
     let still = [fingers(a.1, uncaptured.0), fingers(b.1, uncaptured.1)];
     let mut seen = pairs.clone();
     seen.retain(|(left, right)| !still[0].contains(left) && !still[1].contains(right));
     let largest = largest_error(a, b, &seen, &aligned.path);
-    let name = |clip: &Clip, joint: usize| clip.skeleton().joint(joint).name.clone();
+    let name = |clip: &Clip, joint: usize| clip.clip_skeleton().joint_at(joint).name.clone();
     let unpaired = |clip: &Clip, used: &dyn Fn(usize) -> bool| {
-        (0..clip.skeleton().len())
+        (0..clip.clip_skeleton().len())
             .filter(|&j| !used(j))
             .map(|j| name(clip, j))
             .collect()
     };
-    Ok(Score {
+    Ok(ClipSimilarityScore {
         distance: aligned.cost.distance,
         normalized: aligned.cost.normalized,
         components: component_parts(&first, &query, &reference, &aligned),
         max_joint_error_m: largest.map(|(error, ..)| error),
-        worst: largest.map(|(_, joint, frames)| Worst {
+        worst: largest.map(|(_, joint, frames)| WorstJoint {
             joint: name(a.0, joint),
             frames,
         }),
@@ -248,73 +251,68 @@ pub fn score_as(
 }
 
 /// The channels of each component and hand, one value per frame.
-type Features = BTreeMap<(Component, Side), Vec<Vec<f64>>>;
+type ComponentFeatures = BTreeMap<(SignComponent, BodySide), Vec<Vec<f64>>>;
 
-const MANUAL: [Component; 4] = [
-    Component::Configuration,
-    Component::Placement,
-    Component::Movement,
-    Component::Orientation,
+const MANUAL_COMPONENTS: [SignComponent; 4] = [
+    SignComponent::Configuration,
+    SignComponent::Placement,
+    SignComponent::Movement,
+    SignComponent::Orientation,
 ];
 
-fn features((clip, anatomy): (&Clip, &Anatomy)) -> Features {
-    let mut features = Features::new();
+fn extract_component_features((clip, anatomy): (&Clip, &BodyAnatomy)) -> ComponentFeatures {
+    let mut features = ComponentFeatures::new();
     let mut model = clip.model_pose(0);
-    let mut rows: BTreeMap<(Component, Side), Vec<Option<Vec<f64>>>> = BTreeMap::new();
-    for frame in 0..clip.frames() {
-        let pose = clip.pose(frame);
-        model.set(clip.skeleton(), &pose);
+    let mut rows: BTreeMap<(SignComponent, BodySide), Vec<Option<Vec<f64>>>> = BTreeMap::new();
+    for frame in 0..clip.clip_frame_count() {
+        let pose = clip.clip_pose_at(frame);
+        model.set_local_pose(clip.clip_skeleton(), &pose);
         let body = anatomy.body_frame(&model);
-        for side in Side::BOTH {
-            let angles = anatomy.hand_angles(clip.skeleton(), side, &pose);
+        for side in BodySide::BOTH_SIDES {
+            let angles = anatomy.hand_angles(clip.clip_skeleton(), side, &pose);
             let mut put = |component, row| rows.entry((component, side)).or_default().push(row);
             put(
-                Component::Configuration,
+                SignComponent::Configuration,
                 angles.map(|hand: HandAngles| hand.to_array().to_vec()),
             );
             put(
-                Component::Placement,
-                placement(anatomy, &model, body.as_ref(), side),
+                SignComponent::Placement,
+                measure_hand_placement(anatomy, &model, body.as_ref(), side),
             );
             put(
-                Component::Orientation,
+                SignComponent::Orientation,
                 orientation(anatomy, &model, body.as_ref(), side),
             );
         }
     }
     for (key, rows) in rows {
-        if let Some(columns) = filled(rows) {
+        if let Some(columns) = fill_missing_rows(rows) {
             features.insert(key, columns);
         }
     }
-    for side in Side::BOTH {
-        if let Some(places) = features.get(&(Component::Placement, side)) {
+    for side in BodySide::BOTH_SIDES {
+        if let Some(places) = features.get(&(SignComponent::Placement, side)) {
             let velocities = places
                 .iter()
-                .map(|column| velocity(column, clip.rate()))
+                .map(|column| velocity(column, clip.clip_frame_rate()))
                 .collect();
-            features.insert((Component::Movement, side), velocities);
+            features.insert((SignComponent::Movement, side), velocities);
         }
     }
     features
 }
 
-fn placement(
-    anatomy: &Anatomy,
+fn measure_hand_placement(
+    anatomy: &BodyAnatomy,
     model: &ModelPose,
     body: Option<&BodyFrame>,
-    side: Side,
+    side: BodySide,
 ) -> Option<Vec<f64>> {
-    let wrist = model.position(anatomy.joint(Part::Hand(side))?);
+    let wrist = model.model_joint_position(anatomy.part_joint(BodyPart::Hand(side))?);
     Some(body?.to_body(wrist).to_array().to_vec())
 }
 
-fn orientation(
-    anatomy: &Anatomy,
-    model: &ModelPose,
-    body: Option<&BodyFrame>,
-    side: Side,
-) -> Option<Vec<f64>> {
+fn orientation(anatomy: &BodyAnatomy, model: &ModelPose, body: Option<&BodyFrame>, side: BodySide) -> Option<Vec<f64>> {
     let palm = body?.direction_to_body(anatomy.palm_normal(side, model)?);
     let along = body?.direction_to_body(anatomy.hand_direction(side, model)?);
     Some([palm.to_array(), along.to_array()].concat())
@@ -322,7 +320,7 @@ fn orientation(
 
 /// Converts rows to columns; a missing frame takes the last value before it, else the first one after it.
 /// `None` if all frames are missing.
-fn filled(rows: Vec<Option<Vec<f64>>>) -> Option<Vec<Vec<f64>>> {
+fn fill_missing_rows(rows: Vec<Option<Vec<f64>>>) -> Option<Vec<Vec<f64>>> {
     let mut last = rows.iter().find_map(Clone::clone)?;
     let mut columns = vec![Vec::with_capacity(rows.len()); last.len()];
     for row in rows {
@@ -335,12 +333,11 @@ fn filled(rows: Vec<Option<Vec<f64>>>) -> Option<Vec<Vec<f64>>> {
 }
 
 /// Returns the rate of change per second, over neighbours on both sides where both exist.
-fn velocity(column: &[f64], rate: Rate) -> Vec<f64> {
+fn velocity(column: &[f64], rate: FrameRate) -> Vec<f64> {
     let reach = (rate.per_second() * VELOCITY_SECONDS).round().max(1.0) as usize;
     (0..column.len())
         .map(|frame| {
-            let Range { start, end } =
-                frame.saturating_sub(reach)..(frame + reach).min(column.len() - 1);
+            let Range { start, end } = frame.saturating_sub(reach)..(frame + reach).min(column.len() - 1);
             let seconds = (end - start) as f64 * rate.frame_time();
             if end > start {
                 (column[end] - column[start]) / seconds
@@ -353,28 +350,25 @@ fn velocity(column: &[f64], rate: Rate) -> Vec<f64> {
 
 /// Drops the handshapes of uncaptured hands and the components that only one of the clips shows, and returns them.
 fn keep_common(
-    first: &mut Features,
-    second: &mut Features,
-    uncaptured: (&[Side], &[Side]),
-) -> Vec<LeftOut> {
+    first: &mut ComponentFeatures,
+    second: &mut ComponentFeatures,
+    uncaptured: (&[BodySide], &[BodySide]),
+) -> Vec<UncomparedComponent> {
     let mut left_out = Vec::new();
-    let drop = |features: &mut Features, sides: &[Side], (component, side): (Component, Side)| {
-        component == Component::Configuration
+    let drop = |features: &mut ComponentFeatures, sides: &[BodySide], (component, side): (SignComponent, BodySide)| {
+        component == SignComponent::Configuration
             && sides.contains(&side)
             && features.remove(&(component, side)).is_some()
     };
-    for component in MANUAL {
-        for side in Side::BOTH {
+    for component in MANUAL_COMPONENTS {
+        for side in BodySide::BOTH_SIDES {
             let key = (component, side);
-            let uncaptured = (
-                drop(first, uncaptured.0, key),
-                drop(second, uncaptured.1, key),
-            );
+            let uncaptured = (drop(first, uncaptured.0, key), drop(second, uncaptured.1, key));
             let shown = (first.contains_key(&key), second.contains_key(&key));
             if shown != (true, true) {
                 first.remove(&key);
                 second.remove(&key);
-                left_out.push(LeftOut {
+                left_out.push(UncomparedComponent {
                     component,
                     side,
                     shown,
@@ -387,18 +381,15 @@ fn keep_common(
 }
 
 fn component_parts(
-    features: &Features,
-    query: &Series,
-    reference: &Series,
-    aligned: &Alignment,
-) -> BTreeMap<Component, f64> {
-    let mut channels: BTreeMap<Component, Vec<usize>> = BTreeMap::new();
+    features: &ComponentFeatures,
+    query: &ChannelSeries,
+    reference: &ChannelSeries,
+    aligned: &DtwAlignment,
+) -> BTreeMap<SignComponent, f64> {
+    let mut channels: BTreeMap<SignComponent, Vec<usize>> = BTreeMap::new();
     let mut next = 0;
     for (key, columns) in features {
-        channels
-            .entry(key.0)
-            .or_default()
-            .extend(next..next + columns.len());
+        channels.entry(key.0).or_default().extend(next..next + columns.len());
         next += columns.len();
     }
     let path = &aligned.path;
@@ -409,7 +400,7 @@ fn component_parts(
     };
     let sum = |channels: &[usize]| -> f64 {
         let apart = |(i, j): (usize, usize)| {
-            let difference = |c: &usize| query.column(*c)[i] - reference.column(*c)[j];
+            let difference = |c: &usize| query.channel_values(*c)[i] - reference.channel_values(*c)[j];
             let squares = channels.iter().map(|c| difference(c).powi(2));
             squares.sum::<f64>().sqrt()
         };
@@ -417,10 +408,10 @@ fn component_parts(
         pairs.map(|(n, pair)| weight(n) * apart(*pair)).sum()
     };
     let all: Vec<usize> = (0..next).collect();
-    let whole = sum(&all);
+    let total_cost = sum(&all);
     let weights: f64 = (0..path.len()).map(weight).sum();
     let per_unit = match aligned.cost.normalized {
-        Some(normalized) if whole > 0.0 => normalized / whole,
+        Some(normalized) if total_cost > 0.0 => normalized / total_cost,
         _ => 1.0 / weights.max(1.0),
     };
     channels
@@ -431,8 +422,11 @@ fn component_parts(
 
 /// Returns the corresponding joints of both clips: all of them if the skeletons have the same joints, else
 /// those of the same part of the body, else of the same name.
-fn pairs_of(a: (&Clip, &Anatomy), b: (&Clip, &Anatomy)) -> Vec<(usize, usize)> {
-    let (first, second) = (a.0.skeleton().joints(), b.0.skeleton().joints());
+fn pairs_of(a: (&Clip, &BodyAnatomy), b: (&Clip, &BodyAnatomy)) -> Vec<(usize, usize)> {
+    let (first, second) = (
+        a.0.clip_skeleton().skeleton_joints(),
+        b.0.clip_skeleton().skeleton_joints(),
+    );
     let same = first.len() == second.len()
         && first
             .iter()
@@ -448,45 +442,49 @@ fn pairs_of(a: (&Clip, &Anatomy), b: (&Clip, &Anatomy)) -> Vec<(usize, usize)> {
         .map(|(j, joint)| (joint.name.as_str(), j))
         .collect();
     let counterpart = |j: usize| match a.1.part_of(j) {
-        Some(part) => b.1.joint(part),
+        Some(part) => b.1.part_joint(part),
         None => {
             let other = names.get(first[j].name.as_str()).copied();
             other.filter(|&other| b.1.part_of(other).is_none())
         }
     };
-    (0..first.len())
-        .filter_map(|j| Some((j, counterpart(j)?)))
-        .collect()
+    (0..first.len()).filter_map(|j| Some((j, counterpart(j)?))).collect()
 }
 
 /// Returns the largest distance of paired joints or tips, with the first clip's joint and frames. Tips of fingers that
 /// point elsewhere than their fingers are turned first; a pair with a tip without a length is left out.
 fn largest_error(
-    (a, of_a): (&Clip, &Anatomy),
-    (b, of_b): (&Clip, &Anatomy),
+    (a, of_a): (&Clip, &BodyAnatomy),
+    (b, of_b): (&Clip, &BodyAnatomy),
     pairs: &[(usize, usize)],
     path: &[(usize, usize)],
 ) -> Option<(f64, usize, (usize, usize))> {
     let frame_by_frame: Vec<(usize, usize)>;
-    let path = if a.frames() == b.frames() {
-        frame_by_frame = (0..a.frames()).map(|i| (i, i)).collect();
+    let path = if a.clip_frame_count() == b.clip_frame_count() {
+        frame_by_frame = (0..a.clip_frame_count()).map(|i| (i, i)).collect();
         &frame_by_frame
     } else {
         path
     };
     let ended = pairs.iter().map(|&(left, right)| {
-        let tips = (of_a.tip(a.skeleton(), left), of_b.tip(b.skeleton(), right));
+        let tips = (
+            of_a.joint_tip(a.clip_skeleton(), left),
+            of_b.joint_tip(b.clip_skeleton(), right),
+        );
         ((left, right), tips)
     });
     let ended: Vec<_> = ended.collect();
-    let (mut first, mut second) = (Walker::new(a), Walker::new(b));
+    let (mut first, mut second) = (PostureWalker::new(a), PostureWalker::new(b));
     let mut largest: Option<(f64, usize, (usize, usize))> = None;
     for &(i, j) in path {
-        let (x, y) = (first.at(i), second.at(j));
+        let (x, y) = (first.pose_at_frame(i), second.pose_at_frame(j));
         for &((left, right), tips) in &ended {
-            let mut error = x.position(left).distance(y.position(right));
+            let mut error = x.model_joint_position(left).distance(y.model_joint_position(right));
             if let (Some(tip), Some(other)) = tips {
-                error = error.max(x.point(left, tip).distance(y.point(right, other)));
+                error = error.max(
+                    x.joint_point_to_model(left, tip)
+                        .distance(y.joint_point_to_model(right, other)),
+                );
             }
             if largest.is_none_or(|(most, ..)| error > most) {
                 largest = Some((error, left, (i, j)));
@@ -497,13 +495,13 @@ fn largest_error(
 }
 
 /// The posture of a clip in model space, cached by frame.
-struct Walker<'a> {
+struct PostureWalker<'a> {
     clip: &'a Clip,
     frame: usize,
     model: ModelPose,
 }
 
-impl<'a> Walker<'a> {
+impl<'a> PostureWalker<'a> {
     fn new(clip: &'a Clip) -> Self {
         Self {
             clip,
@@ -512,9 +510,10 @@ impl<'a> Walker<'a> {
         }
     }
 
-    fn at(&mut self, frame: usize) -> &ModelPose {
+    fn pose_at_frame(&mut self, frame: usize) -> &ModelPose {
         if self.frame != frame {
-            self.model.set(self.clip.skeleton(), &self.clip.pose(frame));
+            self.model
+                .set_local_pose(self.clip.clip_skeleton(), &self.clip.clip_pose_at(frame));
             self.frame = frame;
         }
         &self.model

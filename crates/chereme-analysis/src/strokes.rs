@@ -2,26 +2,26 @@
 
 use std::ops::Range;
 
-use chereme_motion::{Anatomy, Clip, Side};
+use chereme_motion::{BodyAnatomy, BodySide, Clip};
 use glam::{DQuat, DVec3};
 
 /// Standard deviation (s) of the Gaussian that smooths speeds before minima are searched.
-const SMOOTH: f64 = 0.03;
+const SPEED_SMOOTHING_SECONDS: f64 = 0.03;
 /// Shortest duration of a transition: in seconds, and in frames.
-const LEAST: (f64, usize) = (0.1, 6);
+const MIN_TRANSITION_DURATION: (f64, usize) = (0.1, 6);
 /// A minimum counts if the speed falls below this share of the peaks on both sides.
-const DIP: f64 = 0.8;
+const SPEED_DIP_SHARE: f64 = 0.8;
 /// A speed below this share of the peak is rest: its first minimum ends the transition.
-const REST: f64 = 0.1;
+const REST_SPEED_SHARE: f64 = 0.1;
 /// Least peak of speed (m/s) and least distance (m) of a stroke of the wrist.
-const STROKE: (f64, f64) = (0.15, 0.05);
+const MIN_WRIST_STROKE: (f64, f64) = (0.15, 0.05);
 /// Least peak of speed (rad/s, root of the mean square over the joints) and least rotation (rad, root of the sum of squares:
 /// 20 degrees) of a change of handshape.
-const SHAPE: (f64, f64) = (0.5, 0.349);
+const MIN_SHAPE_CHANGE: (f64, f64) = (0.5, 0.349);
 
 /// The body part that moves in a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mover {
+pub enum MovingPart {
     /// The wrist, which goes from place to place. Found by its speed in the space of the trunk.
     Wrist,
     /// The fingers, which go from shape to shape. Found by the root of the mean square of their joints'
@@ -29,14 +29,14 @@ pub enum Mover {
     Fingers,
 }
 
-impl Mover {
+impl MovingPart {
     /// Returns the joints that move in the transition, in the skeleton's order; empty if the skeleton
     /// lacks them.
     #[must_use]
-    pub fn joints(self, anatomy: &Anatomy, side: Side) -> Vec<usize> {
+    pub fn moving_joints(self, anatomy: &BodyAnatomy, side: BodySide) -> Vec<usize> {
         match self {
             Self::Wrist => anatomy.arm_joints(side),
-            Self::Fingers => anatomy.fingers(side),
+            Self::Fingers => anatomy.finger_joints(side),
         }
     }
 }
@@ -48,72 +48,73 @@ impl Mover {
 /// more; the wrist ends 5 cm or more from where it started, or the fingers are turned by 20 degrees or
 /// more altogether. Speeds are smoothed over 30 ms first. Empty if the skeleton has no such arm or hand.
 #[must_use]
-pub fn strokes(clip: &Clip, anatomy: &Anatomy, side: Side, mover: Mover) -> Vec<Range<usize>> {
-    let joints = mover.joints(anatomy, side);
-    let Some(arm) = anatomy.arm(side).filter(|_| !joints.is_empty()) else {
+pub fn find_transition_strokes(
+    clip: &Clip,
+    anatomy: &BodyAnatomy,
+    side: BodySide,
+    mover: MovingPart,
+) -> Vec<Range<usize>> {
+    let joints = mover.moving_joints(anatomy, side);
+    let Some(arm) = anatomy.arm_chain(side).filter(|_| !joints.is_empty()) else {
         return Vec::new();
     };
-    let base = clip.skeleton().parent(arm.clavicle.unwrap_or(arm.upper));
+    let base = clip.clip_skeleton().joint_parent(arm.clavicle.unwrap_or(arm.upper));
     let path = match mover {
-        Mover::Wrist => (0..clip.frames())
+        MovingPart::Wrist => (0..clip.clip_frame_count())
             .map(|frame| place_in(clip, arm.hand, DVec3::ZERO, base, frame))
             .collect(),
-        Mover::Fingers => Vec::new(),
+        MovingPart::Fingers => Vec::new(),
     };
     let ((least, _), speeds) = match mover {
-        Mover::Wrist => {
-            let speeds = speeds(path.len(), clip, |a, b| path[a].distance(path[b]));
-            (STROKE, speeds)
+        MovingPart::Wrist => {
+            let speeds = central_difference_speeds(path.len(), clip, |a, b| path[a].distance(path[b]));
+            (MIN_WRIST_STROKE, speeds)
         }
-        Mover::Fingers => {
+        MovingPart::Fingers => {
             let count = (joints.len() as f64).sqrt();
-            let turned = |a, b| turned(clip, &joints, a, b) / count;
-            (SHAPE, speeds(clip.frames(), clip, turned))
+            let turned = |a, b| joint_rotation_between(clip, &joints, a, b) / count;
+            (
+                MIN_SHAPE_CHANGE,
+                central_difference_speeds(clip.clip_frame_count(), clip, turned),
+            )
         }
     };
     let far = |frames: &Range<usize>| {
         let (first, last) = (frames.start, frames.end - 1);
         match mover {
-            Mover::Wrist => path[first].distance(path[last]) > STROKE.1,
-            Mover::Fingers => turned(clip, &joints, first, last) > SHAPE.1,
+            MovingPart::Wrist => path[first].distance(path[last]) > MIN_WRIST_STROKE.1,
+            MovingPart::Fingers => joint_rotation_between(clip, &joints, first, last) > MIN_SHAPE_CHANGE.1,
         }
     };
     let long = |frames: &Range<usize>| {
-        frames.len() as f64 * clip.rate().frame_time() >= LEAST.0 && frames.len() >= LEAST.1
+        frames.len() as f64 * clip.clip_frame_rate().frame_time() >= MIN_TRANSITION_DURATION.0
+            && frames.len() >= MIN_TRANSITION_DURATION.1
     };
-    let mut found = between_minima(&smoothed(&speeds, clip), least);
-    found.retain(|frames| long(frames) && far(frames));
-    found
+    let mut stroke_frames = between_minima(&gaussian_smoothed_speeds(&speeds, clip), least);
+    stroke_frames.retain(|frames| long(frames) && far(frames));
+    stroke_frames
 }
 
 /// Converts a point from the space of `joint` to that of `base`, a joint above it, or of the model.
 #[must_use]
-pub fn place_in(
-    clip: &Clip,
-    joint: usize,
-    point: DVec3,
-    base: Option<usize>,
-    frame: usize,
-) -> DVec3 {
-    let above = clip.skeleton().ancestors(joint);
-    above
-        .take_while(|&joint| Some(joint) != base)
-        .fold(point, |at, joint| {
-            clip.translation(joint, frame) + clip.channel(joint).rotations[frame] * at
-        })
+pub fn place_in(clip: &Clip, joint: usize, point: DVec3, base: Option<usize>, frame: usize) -> DVec3 {
+    let above = clip.clip_skeleton().joint_ancestors(joint);
+    above.take_while(|&joint| Some(joint) != base).fold(point, |at, joint| {
+        clip.joint_translation(joint, frame) + clip.joint_channel(joint).rotations[frame] * at
+    })
 }
 
 /// Returns the rotation of joints from one frame to another: the root of the sum of squares.
-fn turned(clip: &Clip, joints: &[usize], from: usize, to: usize) -> f64 {
+fn joint_rotation_between(clip: &Clip, joints: &[usize], from: usize, to: usize) -> f64 {
     let squares = joints.iter().map(|&joint| {
-        let column: &[DQuat] = &clip.channel(joint).rotations;
+        let column: &[DQuat] = &clip.joint_channel(joint).rotations;
         column[from].angle_between(column[to]).powi(2)
     });
     squares.sum::<f64>().sqrt()
 }
 
 /// Returns speeds by central differences, given the distance between two frames.
-pub(crate) fn speeds(
+pub(crate) fn central_difference_speeds(
     frames: usize,
     clip: &Clip,
     distance: impl Fn(usize, usize) -> f64,
@@ -123,17 +124,17 @@ pub(crate) fn speeds(
         .map(|n| {
             let (before, after) = (n.saturating_sub(1), (n + 1).min(last));
             let steps = (after - before).max(1) as f64;
-            distance(before, after) * clip.rate().per_second() / steps
+            distance(before, after) * clip.clip_frame_rate().per_second() / steps
         })
         .collect()
 }
 
 /// Returns speeds smoothed by a Gaussian, so that noise adds no minima.
-pub(crate) fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
-    let frame = clip.rate().frame_time();
-    let reach = ((3.0 * SMOOTH / frame).ceil() as usize).min(speeds.len());
+pub(crate) fn gaussian_smoothed_speeds(speeds: &[f64], clip: &Clip) -> Vec<f64> {
+    let frame = clip.clip_frame_rate().frame_time();
+    let reach = ((3.0 * SPEED_SMOOTHING_SECONDS / frame).ceil() as usize).min(speeds.len());
     let bell: Vec<f64> = (0..=reach)
-        .map(|away| (-0.5 * (away as f64 * frame / SMOOTH).powi(2)).exp())
+        .map(|away| (-0.5 * (away as f64 * frame / SPEED_SMOOTHING_SECONDS).powi(2)).exp())
         .collect();
     (0..speeds.len())
         .map(|n| {
@@ -153,25 +154,21 @@ pub(crate) fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
 pub(crate) fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
     let peak = |n: usize| {
         let (before, after) = (n.checked_sub(1).map(|m| speeds[m]), speeds.get(n + 1));
-        speeds[n] >= least
-            && before.is_none_or(|s| s < speeds[n])
-            && after.is_none_or(|s| *s <= speeds[n])
+        speeds[n] >= least && before.is_none_or(|s| s < speeds[n]) && after.is_none_or(|s| *s <= speeds[n])
     };
-    let mut found: Vec<Range<usize>> = Vec::new();
+    let mut frame_ranges: Vec<Range<usize>> = Vec::new();
     for top in (0..speeds.len()).filter(|&n| peak(n)) {
         let start = minimum(speeds, top, (0..top).rev());
         let end = minimum(speeds, top, top + 1..speeds.len());
         let (Some(start), Some(end)) = (start, end) else {
             continue;
         };
-        let highest = speeds[start..=end]
-            .iter()
-            .all(|&speed| speed <= speeds[top]);
-        if highest && found.last().is_none_or(|last| last.start != start) {
-            found.push(start..end + 1);
+        let highest = speeds[start..=end].iter().all(|&speed| speed <= speeds[top]);
+        if highest && frame_ranges.last().is_none_or(|last| last.start != start) {
+            frame_ranges.push(start..end + 1);
         }
     }
-    found
+    frame_ranges
 }
 
 /// Searches from a peak for the minimum that ends its transition; `None` if the speed first rises above
@@ -181,28 +178,28 @@ fn minimum(speeds: &[f64], top: usize, frames: impl Iterator<Item = usize>) -> O
     for n in frames {
         if speeds[n] < speeds[lowest] {
             lowest = n;
-        } else if speeds[lowest] < REST * speeds[top] || speeds[n] * DIP > speeds[lowest] {
+        } else if speeds[lowest] < REST_SPEED_SHARE * speeds[top] || speeds[n] * SPEED_DIP_SHARE > speeds[lowest] {
             break;
         }
         if speeds[n] > speeds[top] {
             return None;
         }
     }
-    (speeds[lowest] < DIP * speeds[top]).then_some(lowest)
+    (speeds[lowest] < SPEED_DIP_SHARE * speeds[top]).then_some(lowest)
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use chereme_motion::{Channel, Joint, Rate, Skeleton};
+    use chereme_motion::{FrameRate, JointChannel, Skeleton, SkeletonJoint};
     use std::sync::Arc;
 
     /// An arm whose forearm bends by `angle` at each frame.
-    pub(crate) fn bending(angle: impl Fn(f64) -> f64) -> (Clip, Anatomy) {
-        let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
+    pub(crate) fn bending(angle: impl Fn(f64) -> f64) -> (Clip, BodyAnatomy) {
+        let mut joints = vec![SkeletonJoint::new("Hips", None, DVec3::Y)];
         let chain = ["Spine", "Neck", "Head"];
         for (n, name) in chain.into_iter().enumerate() {
-            joints.push(Joint::new(name, Some(n), DVec3::Y * 0.2));
+            joints.push(SkeletonJoint::new(name, Some(n), DVec3::Y * 0.2));
         }
         for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
             let first = joints.len();
@@ -210,13 +207,13 @@ pub(crate) mod tests {
             for (n, (name, long)) in names.into_iter().zip([0.05, 0.12, 0.3, 0.25]).enumerate() {
                 let parent = if n == 0 { 1 } else { first + n - 1 };
                 let offset = DVec3::new(long * x, if n == 0 { 0.15 } else { 0.0 }, 0.0);
-                joints.push(Joint::new(format!("{side}{name}"), Some(parent), offset));
+                joints.push(SkeletonJoint::new(format!("{side}{name}"), Some(parent), offset));
             }
         }
         let skeleton = Arc::new(Skeleton::new(joints).expect("a tree"));
-        let anatomy = Anatomy::detect(&skeleton);
-        let elbow = anatomy.arm(Side::Right).expect("an arm").forearm;
-        let channels = (0..skeleton.len()).map(|joint| Channel {
+        let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
+        let elbow = anatomy.arm_chain(BodySide::Right).expect("an arm").forearm;
+        let channels = (0..skeleton.len()).map(|joint| JointChannel {
             rotations: (0..360)
                 .map(|f| match joint == elbow {
                     true => DQuat::from_rotation_y(angle(f64::from(f) / 120.0)),
@@ -225,7 +222,7 @@ pub(crate) mod tests {
                 .collect(),
             translations: None,
         });
-        let rate = Rate::new(120, 1).expect("a rate");
+        let rate = FrameRate::new(120, 1).expect("a rate");
         let clip = Clip::new(Arc::clone(&skeleton), rate, channels.collect()).expect("a clip");
         (clip, anatomy)
     }
@@ -235,30 +232,33 @@ pub(crate) mod tests {
         // There in the second half second, back in the fourth.
         let step = |s: f64| s.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * s.clamp(0.0, 1.0));
         let (clip, anatomy) = bending(|t| step(2.0 * t - 1.0) - step(2.0 * t - 3.0));
-        let found = strokes(&clip, &anatomy, Side::Right, Mover::Wrist);
-        assert_eq!(found.len(), 2, "{found:?}");
-        for (frames, start) in found.iter().zip([60, 180]) {
+        let found_strokes = find_transition_strokes(&clip, &anatomy, BodySide::Right, MovingPart::Wrist);
+        assert_eq!(found_strokes.len(), 2, "{found_strokes:?}");
+        for (frames, start) in found_strokes.iter().zip([60, 180]) {
             assert!(frames.start.abs_diff(start) < 20, "{frames:?}");
             assert!(frames.end.abs_diff(start + 60) < 20, "{frames:?}");
         }
-        assert!(strokes(&clip, &anatomy, Side::Left, Mover::Wrist).is_empty());
-        assert!(strokes(&clip, &anatomy, Side::Right, Mover::Fingers).is_empty());
+        assert!(find_transition_strokes(&clip, &anatomy, BodySide::Left, MovingPart::Wrist).is_empty());
+        assert!(find_transition_strokes(&clip, &anatomy, BodySide::Right, MovingPart::Fingers).is_empty());
     }
 
     #[test]
     fn a_tiny_tremble_is_no_stroke() {
         let (clip, anatomy) = bending(|t| 0.05 * (t * 6.0).sin());
-        assert!(strokes(&clip, &anatomy, Side::Right, Mover::Wrist).is_empty());
+        assert!(find_transition_strokes(&clip, &anatomy, BodySide::Right, MovingPart::Wrist).is_empty());
     }
 
     #[test]
     fn a_point_is_converted_to_the_space_of_its_base_joint() {
         let (clip, anatomy) = bending(|_| std::f64::consts::FRAC_PI_2);
-        let arm = anatomy.arm(Side::Right).expect("an arm");
-        let at = place_in(&clip, arm.hand, DVec3::ZERO, Some(arm.upper), 3);
-        assert!(at.abs_diff_eq(DVec3::new(-0.3, 0.0, 0.25), 1e-12), "{at}");
-        let place = clip.model_pose(3).position(arm.hand);
-        let at = place_in(&clip, arm.hand, DVec3::ZERO, None, 3);
-        assert!(at.abs_diff_eq(place, 1e-12));
+        let arm = anatomy.arm_chain(BodySide::Right).expect("an arm");
+        let local_place = place_in(&clip, arm.hand, DVec3::ZERO, Some(arm.upper), 3);
+        assert!(
+            local_place.abs_diff_eq(DVec3::new(-0.3, 0.0, 0.25), 1e-12),
+            "{local_place}"
+        );
+        let place = clip.model_pose(3).model_joint_position(arm.hand);
+        let model_place = place_in(&clip, arm.hand, DVec3::ZERO, None, 3);
+        assert!(model_place.abs_diff_eq(place, 1e-12));
     }
 }

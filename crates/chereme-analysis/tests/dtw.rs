@@ -2,20 +2,20 @@
 //! field's reference implementation.
 
 use chereme_analysis::dtw::{
-    Alignment, CostMethod, DtwError, Limits, Local, Obstacle, Options, Policy, Series, StepPattern,
-    Window, align, distance, nearest,
+    AlignmentWindow, ChannelSeries, CostMethod, DtwAlignment, DtwError, DtwLimits, DtwOptions, DtwPathPolicy,
+    LocalDistance, PathObstacle, StepPattern, align_series, dtw_distance, find_nearest_candidates,
 };
 use proptest::prelude::*;
 
-fn series(values: &[f64]) -> Series {
-    Series::from_columns(&[values]).expect("a series")
+fn series(values: &[f64]) -> ChannelSeries {
+    ChannelSeries::from_columns(&[values]).expect("a series")
 }
 
-fn with(pattern: StepPattern, window: Window) -> Options {
-    Options {
+fn with(pattern: StepPattern, window: AlignmentWindow) -> DtwOptions {
+    DtwOptions {
         pattern,
         window,
-        ..Options::default()
+        ..DtwOptions::default()
     }
 }
 
@@ -29,11 +29,7 @@ const PATTERNS: [(&str, StepPattern); 6] = [
 ];
 
 fn pattern(name: &str) -> StepPattern {
-    PATTERNS
-        .iter()
-        .find(|(n, _)| *n == name)
-        .expect("a known pattern")
-        .1
+    PATTERNS.iter().find(|(n, _)| *n == name).expect("a known pattern").1
 }
 
 /// Query, reference, pattern, distance (NaN: no path), normalised distance (NaN: none).
@@ -46,13 +42,7 @@ const BY_HAND: &[Case] = &[
     // One apart at every frame: three pairs; diagonal steps count twice in symmetric2 (1 + 2 + 2).
     (&[0.0, 1.0, 2.0], &[1.0, 2.0, 3.0], "symmetric1", 2.0, NAN),
     (&[4.0, 4.0, 4.0], &[5.0, 5.0, 5.0], "symmetric1", 3.0, NAN),
-    (
-        &[4.0, 4.0, 4.0],
-        &[5.0, 5.0, 5.0],
-        "symmetric2",
-        5.0,
-        5.0 / 6.0,
-    ),
+    (&[4.0, 4.0, 4.0], &[5.0, 5.0, 5.0], "symmetric2", 5.0, 5.0 / 6.0),
     (&[4.0, 4.0, 4.0], &[5.0, 5.0, 5.0], "asymmetric", 3.0, 1.0),
     // A spike in the reference: it is skipped, or aligned with its nearer neighbour (7 - 4 = 3).
     (&[1.0, 4.0], &[1.0, 7.0, 4.0], "asymmetric", 0.0, 0.0),
@@ -66,13 +56,7 @@ const BY_HAND: &[Case] = &[
     // Three frames on two: one production each. P1: the middle pair counts twice (symmetric) or a
     // whole frame (asymmetric), and the middle frame meets the last of the reference (distance 4).
     (&[0.0, 6.0, 2.0], &[0.0, 2.0], "symmetricP1", 8.0, 8.0 / 5.0),
-    (
-        &[0.0, 6.0, 2.0],
-        &[0.0, 2.0],
-        "asymmetricP1",
-        4.0,
-        4.0 / 3.0,
-    ),
+    (&[0.0, 6.0, 2.0], &[0.0, 2.0], "asymmetricP1", 4.0, 4.0 / 3.0),
     (&[0.0, 6.0, 2.0], &[0.0, 2.0], "typeIIIc", 4.0, 4.0 / 3.0),
     (&[0.0, 2.0], &[0.0, 6.0, 2.0], "asymmetricP1", 2.0, 1.0),
     (&[0.0, 2.0], &[0.0, 6.0, 2.0], "typeIIIc", 0.0, 0.0),
@@ -84,15 +68,12 @@ const BY_HAND: &[Case] = &[
 #[test]
 fn cases_worked_out_by_hand() {
     for (query, reference, name, cost, normalized) in BY_HAND {
-        let options = with(pattern(name), Window::None);
+        let options = with(pattern(name), AlignmentWindow::None);
         let (query, reference) = (series(query), series(reference));
-        let found = align(&query, &reference, &options);
-        let short = distance(&query, &reference, &options);
+        let found = align_series(&query, &reference, &options);
+        let short = dtw_distance(&query, &reference, &options);
         if cost.is_nan() {
-            assert!(
-                matches!(found, Err(DtwError::NoPath { .. })),
-                "{name}: {found:?}"
-            );
+            assert!(matches!(found, Err(DtwError::NoPath { .. })), "{name}: {found:?}");
             assert_eq!(found.map(|f| f.cost), short);
             continue;
         }
@@ -119,19 +100,11 @@ fn every_path(d: &dyn Fn(usize, usize) -> f64, name: &str, i: usize, j: usize) -
         }
     };
     let l = |a: usize, b: usize| {
-        if a > i || b > j {
-            f64::INFINITY
-        } else {
-            d(i - a, j - b)
-        }
+        if a > i || b > j { f64::INFINITY } else { d(i - a, j - b) }
     };
     let costs = match name {
         "symmetric1" => vec![g(1, 1) + l(0, 0), g(0, 1) + l(0, 0), g(1, 0) + l(0, 0)],
-        "symmetric2" => vec![
-            g(1, 1) + 2.0 * l(0, 0),
-            g(0, 1) + l(0, 0),
-            g(1, 0) + l(0, 0),
-        ],
+        "symmetric2" => vec![g(1, 1) + 2.0 * l(0, 0), g(0, 1) + l(0, 0), g(1, 0) + l(0, 0)],
         "asymmetric" => vec![g(1, 0) + l(0, 0), g(1, 1) + l(0, 0), g(1, 2) + l(0, 0)],
         "symmetricP1" => vec![
             g(1, 2) + 2.0 * l(0, 1) + l(0, 0),
@@ -159,14 +132,10 @@ fn rows(frames: std::ops::Range<usize>, channels: usize) -> impl Strategy<Value 
 }
 
 fn euclid(a: &[f64], b: &[f64]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b).powi(2))
-        .sum::<f64>()
-        .sqrt()
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-fn well_formed(found: &Alignment, n: usize, m: usize) -> bool {
+fn well_formed(found: &DtwAlignment, n: usize, m: usize) -> bool {
     let ends = found.path.first() == Some(&(0, 0)) && found.path.last() == Some(&(n - 1, m - 1));
     let steps = found.path.windows(2).all(|p| {
         let (i, j) = (p[1].0.wrapping_sub(p[0].0), p[1].1.wrapping_sub(p[0].1));
@@ -182,10 +151,10 @@ proptest! {
     fn the_path_found_is_the_cheapest_of_all_paths(a in rows(1..7, 2), b in rows(1..7, 2)) {
         let (n, m) = (a.len(), b.len());
         let d = |i: usize, j: usize| euclid(&a[i], &b[j]);
-        let (query, reference) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
+        let (query, reference) = (ChannelSeries::from_rows(&a).unwrap(), ChannelSeries::from_rows(&b).unwrap());
         for (name, pattern) in PATTERNS {
             let best = every_path(&d, name, n - 1, m - 1);
-            match align(&query, &reference, &with(pattern, Window::None)) {
+            match align_series(&query, &reference, &with(pattern, AlignmentWindow::None)) {
                 Ok(found) => {
                     prop_assert!((found.cost.distance - best).abs() < 1e-9, "{}", name);
                     prop_assert!(well_formed(&found, n, m), "{}: {:?}", name, found.path);
@@ -199,13 +168,13 @@ proptest! {
     fn the_distance_alone_is_the_same(
         a in rows(1..50, 3), b in rows(1..50, 3), w in 0usize..30, squared: bool
     ) {
-        let (query, reference) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
-        let local = if squared { Local::SquaredEuclidean } else { Local::Euclidean };
+        let (query, reference) = (ChannelSeries::from_rows(&a).unwrap(), ChannelSeries::from_rows(&b).unwrap());
+        let local = if squared { LocalDistance::SquaredEuclidean } else { LocalDistance::Euclidean };
         for (name, pattern) in PATTERNS {
-            for window in [Window::None, Window::SakoeChiba(w), Window::SlantedBand(w)] {
-                let options = Options { local, ..with(pattern, window) };
-                let short = distance(&query, &reference, &options);
-                let long = align(&query, &reference, &options).map(|found| found.cost);
+            for window in [AlignmentWindow::None, AlignmentWindow::SakoeChiba(w), AlignmentWindow::SlantedBand(w)] {
+                let options = DtwOptions { local, ..with(pattern, window) };
+                let short = dtw_distance(&query, &reference, &options);
+                let long = align_series(&query, &reference, &options).map(|found| found.cost);
                 prop_assert_eq!(short, long, "{} {:?}", name, window);
             }
         }
@@ -213,24 +182,24 @@ proptest! {
 
     #[test]
     fn symmetric_patterns_give_the_same_distance_in_either_order(a in rows(1..20, 2), b in rows(1..20, 2)) {
-        let (a, b) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
+        let (a, b) = (ChannelSeries::from_rows(&a).unwrap(), ChannelSeries::from_rows(&b).unwrap());
         for pattern in [StepPattern::Symmetric1, StepPattern::Symmetric2, StepPattern::SymmetricP1] {
-            let options = with(pattern, Window::SakoeChiba(6));
-            let cost = |a, b| distance(a, b, &options).map(|cost| cost.distance).ok();
+            let options = with(pattern, AlignmentWindow::SakoeChiba(6));
+            let cost = |a, b| dtw_distance(a, b, &options).map(|cost| cost.distance).ok();
             prop_assert_eq!(cost(&a, &b), cost(&b, &a));
         }
     }
 
     #[test]
     fn scaling_a_channel_is_scaling_its_values(a in rows(2..9, 2), b in rows(2..9, 2)) {
-        let (a, b) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
-        let scaled = |s: &Series, by: f64| s.scaled(&[by, 1.0 / 64.0]).unwrap();
-        let options = Options::default();
-        let whole = distance(&a.scaled(&[0.5, 0.5]).unwrap(), &b.scaled(&[0.5, 0.5]).unwrap(), &options);
-        prop_assert_eq!(whole.unwrap().distance, distance(&a, &b, &options).unwrap().distance * 2.0);
-        let loud = distance(&scaled(&a, 1.0), &scaled(&b, 1.0), &options).unwrap();
-        let only = |s: &Series| series(s.column(1)).scaled(&[1.0 / 64.0]).unwrap();
-        prop_assert!(loud.distance >= distance(&only(&a), &only(&b), &options).unwrap().distance - 1e-9);
+        let (a, b) = (ChannelSeries::from_rows(&a).unwrap(), ChannelSeries::from_rows(&b).unwrap());
+        let scaled = |s: &ChannelSeries, by: f64| s.scale_channels(&[by, 1.0 / 64.0]).unwrap();
+        let options = DtwOptions::default();
+        let whole = dtw_distance(&a.scale_channels(&[0.5, 0.5]).unwrap(), &b.scale_channels(&[0.5, 0.5]).unwrap(), &options);
+        prop_assert_eq!(whole.unwrap().distance, dtw_distance(&a, &b, &options).unwrap().distance * 2.0);
+        let loud = dtw_distance(&scaled(&a, 1.0), &scaled(&b, 1.0), &options).unwrap();
+        let only = |s: &ChannelSeries| series(s.channel_values(1)).scale_channels(&[1.0 / 64.0]).unwrap();
+        prop_assert!(loud.distance >= dtw_distance(&only(&a), &only(&b), &options).unwrap().distance - 1e-9);
     }
 
     #[test]
@@ -239,24 +208,24 @@ proptest! {
         candidates in proptest::collection::vec(rows(1..20, 2), 0..30),
         k in 0usize..6, w in 0usize..12, kind in 0usize..6, window in 0usize..3, squared: bool
     ) {
-        let query = Series::from_rows(&query).unwrap();
+        let query = ChannelSeries::from_rows(&query).unwrap();
         let mut candidates: Vec<_> =
-            candidates.iter().map(|rows| Series::from_rows(rows).unwrap()).collect();
+            candidates.iter().map(|rows| ChannelSeries::from_rows(rows).unwrap()).collect();
         candidates.extend(candidates.first().cloned());
-        let options = Options {
-            local: if squared { Local::SquaredEuclidean } else { Local::Euclidean },
+        let options = DtwOptions {
+            local: if squared { LocalDistance::SquaredEuclidean } else { LocalDistance::Euclidean },
             ..with(
                 PATTERNS[kind].1,
-                [Window::None, Window::SakoeChiba(w), Window::SlantedBand(w)][window],
+                [AlignmentWindow::None, AlignmentWindow::SakoeChiba(w), AlignmentWindow::SlantedBand(w)][window],
             )
         };
         let mut all: Vec<(f64, usize)> = candidates.iter().enumerate()
-            .filter_map(|(i, c)| Some((distance(&query, c, &options).ok()?.distance, i)))
+            .filter_map(|(i, c)| Some((dtw_distance(&query, c, &options).ok()?.distance, i)))
             .collect();
         let without_path = candidates.len() - all.len();
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         all.truncate(k);
-        let found = nearest(&query, &candidates, k, &options).unwrap();
+        let found = find_nearest_candidates(&query, &candidates, k, &options).unwrap();
         let neighbours: Vec<_> = found.neighbours.iter().map(|n| (n.distance, n.index)).collect();
         prop_assert_eq!(neighbours, all);
         prop_assert_eq!(found.without_path, without_path);
@@ -264,16 +233,16 @@ proptest! {
 
     #[test]
     fn an_open_end_gives_the_best_of_all_end_frames(a in rows(1..8, 1), b in rows(1..12, 1)) {
-        let (query, reference) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
+        let (query, reference) = (ChannelSeries::from_rows(&a).unwrap(), ChannelSeries::from_rows(&b).unwrap());
         for (_, pattern) in &PATTERNS[1..] {
-            let open = Options { open_end: true, ..with(*pattern, Window::None) };
+            let open = DtwOptions { open_end: true, ..with(*pattern, AlignmentWindow::None) };
             let best = (1..=b.len())
                 .filter_map(|end| {
-                    let part = Series::from_rows(&b[..end]).unwrap();
-                    distance(&query, &part, &with(*pattern, Window::None)).ok()?.normalized
+                    let part = ChannelSeries::from_rows(&b[..end]).unwrap();
+                    dtw_distance(&query, &part, &with(*pattern, AlignmentWindow::None)).ok()?.normalized
                 })
                 .fold(f64::INFINITY, f64::min);
-            match align(&query, &reference, &open) {
+            match align_series(&query, &reference, &open) {
                 Ok(found) => prop_assert!((found.cost.normalized.unwrap() - best).abs() < 1e-12),
                 Err(_) => prop_assert!(best.is_infinite()),
             }
@@ -285,10 +254,10 @@ proptest! {
         b in rows(8..30, 2), from in 1usize..8, take in 1usize..10
     ) {
         let piece = &b[from.min(b.len() - 1)..(from + take).min(b.len())];
-        let (query, reference) = (Series::from_rows(piece).unwrap(), Series::from_rows(&b).unwrap());
+        let (query, reference) = (ChannelSeries::from_rows(piece).unwrap(), ChannelSeries::from_rows(&b).unwrap());
         for pattern in [StepPattern::Asymmetric, StepPattern::AsymmetricP1, StepPattern::TypeIiiC] {
-            let options = Options { open_begin: true, open_end: true, ..with(pattern, Window::None) };
-            let found = align(&query, &reference, &options).unwrap();
+            let options = DtwOptions { open_begin: true, open_end: true, ..with(pattern, AlignmentWindow::None) };
+            let found = align_series(&query, &reference, &options).unwrap();
             prop_assert_eq!(found.cost.distance, 0.0);
             for (i, j) in found.path {
                 prop_assert_eq!(&piece[i], &b[j]);
@@ -301,68 +270,53 @@ proptest! {
 fn equal_steps_are_taken_in_the_order_of_the_pattern() {
     let flat = |n: usize| series(&vec![1.0; n]);
     let path = |pattern, n, m| {
-        align(&flat(n), &flat(m), &with(pattern, Window::None))
+        align_series(&flat(n), &flat(m), &with(pattern, AlignmentWindow::None))
             .unwrap()
             .path
     };
-    assert_eq!(
-        path(StepPattern::Symmetric2, 2, 4),
-        [(0, 0), (0, 1), (0, 2), (1, 3)]
-    );
-    assert_eq!(
-        path(StepPattern::Symmetric1, 4, 2),
-        [(0, 0), (1, 0), (2, 0), (3, 1)]
-    );
-    assert_eq!(
-        path(StepPattern::Asymmetric, 3, 2),
-        [(0, 0), (1, 1), (2, 1)]
-    );
+    assert_eq!(path(StepPattern::Symmetric2, 2, 4), [(0, 0), (0, 1), (0, 2), (1, 3)]);
+    assert_eq!(path(StepPattern::Symmetric1, 4, 2), [(0, 0), (1, 0), (2, 0), (3, 1)]);
+    assert_eq!(path(StepPattern::Asymmetric, 3, 2), [(0, 0), (1, 1), (2, 1)]);
 }
 
 #[test]
 fn a_pair_without_a_path_is_refused_with_a_remedy_or_adapted_by_policy() {
-    let ramp = |n: usize| {
-        series(
-            &(0..n)
-                .map(|i| i as f64 / (n - 1) as f64)
-                .collect::<Vec<_>>(),
-        )
-    };
+    let ramp = |n: usize| series(&(0..n).map(|i| i as f64 / (n - 1) as f64).collect::<Vec<_>>());
     let (short, long) = (ramp(30), ramp(45));
-    let options = with(StepPattern::Asymmetric, Window::SakoeChiba(10));
-    let error = align(&short, &long, &options).expect_err("fifteen frames apart");
+    let options = with(StepPattern::Asymmetric, AlignmentWindow::SakoeChiba(10));
+    let error = align_series(&short, &long, &options).expect_err("fifteen frames apart");
     let DtwError::NoPath { reason, remedy, .. } = &error else {
         panic!("{error}")
     };
-    assert_eq!(*reason, Obstacle::Window(Window::SakoeChiba(10)));
+    assert_eq!(*reason, PathObstacle::Window(AlignmentWindow::SakoeChiba(10)));
     assert!(remedy.contains("at least 15 frames"), "{error}");
 
-    let policy = |policy| align(&short, &long, &Options { policy, ..options }).expect("a path");
-    let slanted = policy(Policy::SlantedBand);
+    let policy = |policy| align_series(&short, &long, &DtwOptions { policy, ..options }).expect("a path");
+    let slanted = policy(DtwPathPolicy::SlantedBand);
     assert_eq!(slanted.cost.made, CostMethod::SlantedBand(10));
-    let resampled = policy(Policy::Resample);
+    let resampled = policy(DtwPathPolicy::Resample);
     assert_eq!(resampled.cost.made, CostMethod::Resampled);
     assert!(resampled.cost.distance < 1e-12 && resampled.path.last() == Some(&(29, 44)));
 
-    let options = Options {
-        policy: Policy::SlantedBand,
-        ..with(StepPattern::Asymmetric, Window::None)
+    let options = DtwOptions {
+        policy: DtwPathPolicy::SlantedBand,
+        ..with(StepPattern::Asymmetric, AlignmentWindow::None)
     };
-    let error = distance(&ramp(5), &ramp(20), &options).expect_err("four times as long");
-    let slope = Obstacle::Slope(StepPattern::Asymmetric);
+    let error = dtw_distance(&ramp(5), &ramp(20), &options).expect_err("four times as long");
+    let slope = PathObstacle::Slope(StepPattern::Asymmetric);
     assert!(matches!(error, DtwError::NoPath { reason, .. } if reason == slope));
-    let resampled = Options {
-        policy: Policy::Resample,
+    let resampled = DtwOptions {
+        policy: DtwPathPolicy::Resample,
         ..options
     };
-    assert!(distance(&ramp(5), &ramp(20), &resampled).is_ok_and(|cost| cost.distance < 1e-12));
+    assert!(dtw_distance(&ramp(5), &ramp(20), &resampled).is_ok_and(|cost| cost.distance < 1e-12));
 }
 
 #[test]
 fn meaningless_input_is_refused_by_frame_and_channel() {
     let rows = [[0.0, 1.0], [f64::NAN, 1.0]];
     assert!(matches!(
-        Series::from_rows(&rows),
+        ChannelSeries::from_rows(&rows),
         Err(DtwError::Value {
             frame: 1,
             channel: 0,
@@ -370,7 +324,7 @@ fn meaningless_input_is_refused_by_frame_and_channel() {
         })
     ));
     for value in [f64::INFINITY, f64::NEG_INFINITY, 1e200] {
-        let found = Series::from_columns(&[[0.0, 0.0], [0.0, value]]);
+        let found = ChannelSeries::from_columns(&[[0.0, 0.0], [0.0, value]]);
         assert!(matches!(
             found,
             Err(DtwError::Value {
@@ -380,10 +334,10 @@ fn meaningless_input_is_refused_by_frame_and_channel() {
             })
         ));
     }
-    assert_eq!(Series::from_rows::<[f64; 0]>(&[]), Err(DtwError::Empty));
-    assert_eq!(Series::from_rows::<[f64; 0]>(&[[]]), Err(DtwError::Empty));
-    assert_eq!(Series::from_columns::<Vec<f64>>(&[]), Err(DtwError::Empty));
-    let ragged = Series::from_rows(&[vec![0.0, 0.0], vec![0.0]]);
+    assert_eq!(ChannelSeries::from_rows::<[f64; 0]>(&[]), Err(DtwError::Empty));
+    assert_eq!(ChannelSeries::from_rows::<[f64; 0]>(&[[]]), Err(DtwError::Empty));
+    assert_eq!(ChannelSeries::from_columns::<Vec<f64>>(&[]), Err(DtwError::Empty));
+    let ragged = ChannelSeries::from_rows(&[vec![0.0, 0.0], vec![0.0]]);
     assert_eq!(
         ragged,
         Err(DtwError::Ragged {
@@ -392,7 +346,7 @@ fn meaningless_input_is_refused_by_frame_and_channel() {
             expected: 2
         })
     );
-    let ragged = Series::from_columns(&[vec![0.0, 0.0], vec![0.0]]);
+    let ragged = ChannelSeries::from_columns(&[vec![0.0, 0.0], vec![0.0]]);
     assert_eq!(
         ragged,
         Err(DtwError::Ragged {
@@ -401,33 +355,24 @@ fn meaningless_input_is_refused_by_frame_and_channel() {
             expected: 2
         })
     );
-    let two = Series::from_rows(&[[0.0, 0.0]]).unwrap();
+    let two = ChannelSeries::from_rows(&[[0.0, 0.0]]).unwrap();
     let one = series(&[0.0]);
-    let channels = DtwError::Channels {
-        query: 2,
-        reference: 1,
-    };
-    assert_eq!(align(&two, &one, &Options::default()), Err(channels));
+    let channels = DtwError::Channels { query: 2, reference: 1 };
+    assert_eq!(align_series(&two, &one, &DtwOptions::default()), Err(channels));
     assert_eq!(
-        one.scaled(&[0.0]),
-        Err(DtwError::Scale {
-            channel: 0,
-            scale: 0.0
-        })
+        one.scale_channels(&[0.0]),
+        Err(DtwError::Scale { channel: 0, scale: 0.0 })
     );
     assert_eq!(
-        one.scaled(&[1.0, 1.0]),
-        Err(DtwError::Scales {
-            found: 2,
-            channels: 1
-        })
+        one.scale_channels(&[1.0, 1.0]),
+        Err(DtwError::Scales { found: 2, channels: 1 })
     );
-    let open = Options {
+    let open = DtwOptions {
         open_begin: true,
-        ..Options::default()
+        ..DtwOptions::default()
     };
     assert!(matches!(
-        align(&one, &one, &open),
+        align_series(&one, &one, &open),
         Err(DtwError::OpenEnd { end: "begin", .. })
     ));
 }
@@ -435,29 +380,24 @@ fn meaningless_input_is_refused_by_frame_and_channel() {
 #[test]
 fn input_that_would_fill_memory_is_refused_with_a_band_that_fits() {
     let hour = series(&vec![0.5; 432_000]);
-    let error = align(&hour, &hour, &Options::default()).expect_err("1.9e11 cells");
+    let error = align_series(&hour, &hour, &DtwOptions::default()).expect_err("1.9e11 cells");
     assert!(
-        error
-            .to_string()
-            .contains("slanted band of at most 310 frames"),
+        error.to_string().contains("slanted band of at most 310 frames"),
         "{error}"
     );
     assert!(matches!(
-        distance(&hour, &hour, &Options::default()),
+        dtw_distance(&hour, &hour, &DtwOptions::default()),
         Err(DtwError::TooLarge { .. })
     ));
-    let small = Limits {
-        kept: 10,
-        cells: 1000,
-    };
-    let options = Options {
+    let small = DtwLimits { kept: 10, cells: 1000 };
+    let options = DtwOptions {
         limits: small,
-        ..Options::default()
+        ..DtwOptions::default()
     };
     let five = series(&[1.0, 2.0, 3.0, 4.0, 5.0]);
-    let error = align(&five, &five, &options).expect_err("25 cells");
+    let error = align_series(&five, &five, &options).expect_err("25 cells");
     assert!(error.to_string().contains("without its path"), "{error}");
-    assert!(distance(&five, &five, &options).is_ok());
+    assert!(dtw_distance(&five, &five, &options).is_ok());
 }
 
 /// Reads `dtw_vectors.json`, which dtw-python computed, from the folder beside the one that `CHEREME_SHARED_DATA`
@@ -474,24 +414,17 @@ fn every_shared_vector_is_reproduced() {
     let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let (mut paths, mut refusals) = (0, 0);
     for case in json["cases"].as_array().expect("cases") {
-        let rows = |name: &str| -> Vec<Vec<f64>> {
-            serde_json::from_value(case[name].clone()).expect("rows of numbers")
-        };
-        let query = Series::from_rows(&rows("query")).expect("a series");
-        let reference = Series::from_rows(&rows("reference")).expect("a series");
+        let rows =
+            |name: &str| -> Vec<Vec<f64>> { serde_json::from_value(case[name].clone()).expect("rows of numbers") };
+        let query = ChannelSeries::from_rows(&rows("query")).expect("a series");
+        let reference = ChannelSeries::from_rows(&rows("reference")).expect("a series");
         for (spec, expected) in case["results"].as_object().expect("results") {
             let at = format!("{} {spec}", case["label"]);
-            let found = align(&query, &reference, &options_of(spec));
-            let alone = distance(&query, &reference, &options_of(spec));
+            let found = align_series(&query, &reference, &options_of(spec));
+            let alone = dtw_distance(&query, &reference, &options_of(spec));
             if expected.get("error").is_some() {
-                assert!(
-                    matches!(found, Err(DtwError::NoPath { .. })),
-                    "{at}: {found:?}"
-                );
-                assert!(
-                    matches!(alone, Err(DtwError::NoPath { .. })),
-                    "{at}: {alone:?}"
-                );
+                assert!(matches!(found, Err(DtwError::NoPath { .. })), "{at}: {found:?}");
+                assert!(matches!(alone, Err(DtwError::NoPath { .. })), "{at}: {alone:?}");
                 refusals += 1;
                 continue;
             }
@@ -504,33 +437,25 @@ fn every_shared_vector_is_reproduced() {
     assert_eq!((paths, refusals), (239, 51));
 }
 
-fn options_of(spec: &str) -> Options {
+fn options_of(spec: &str) -> DtwOptions {
     let (name, window) = spec.split_once('_').expect("pattern_window");
     let width = |prefix: &str| window.strip_prefix(prefix).and_then(|w| w.parse().ok());
     let window = match (width("sakoe"), width("slanted")) {
-        (Some(w), _) => Window::SakoeChiba(w),
-        (_, Some(w)) => Window::SlantedBand(w),
-        _ => Window::None,
+        (Some(w), _) => AlignmentWindow::SakoeChiba(w),
+        (_, Some(w)) => AlignmentWindow::SlantedBand(w),
+        _ => AlignmentWindow::None,
     };
     with(pattern(name), window)
 }
 
-fn agrees(found: &Alignment, expected: &serde_json::Value, at: &str) {
+fn agrees(found: &DtwAlignment, expected: &serde_json::Value, at: &str) {
     let distance = expected["distance"].as_f64().expect("a number");
-    assert!(
-        (found.cost.distance - distance).abs() < 1e-9,
-        "{at}: {found:?}"
-    );
-    match (
-        found.cost.normalized,
-        expected["normalizedDistance"].as_f64(),
-    ) {
+    assert!((found.cost.distance - distance).abs() < 1e-9, "{at}: {found:?}");
+    match (found.cost.normalized, expected["normalizedDistance"].as_f64()) {
         (Some(a), Some(b)) => assert!((a - b).abs() < 1e-9, "{at}: {a} {b}"),
         (a, b) => assert_eq!(a, b, "{at}"),
     }
-    let index = |name: &str| -> Vec<usize> {
-        serde_json::from_value(expected[name].clone()).expect("indices")
-    };
+    let index = |name: &str| -> Vec<usize> { serde_json::from_value(expected[name].clone()).expect("indices") };
     let path: Vec<_> = index("index1").into_iter().zip(index("index2")).collect();
     assert_eq!(found.path, path, "{at}");
 }

@@ -5,9 +5,9 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::words::{Language, fill, trouble};
-use chereme_corpus::{Corpus, Error};
-use chereme_motion::Side;
+use chereme_corpus::words::{InterfaceLanguage, fill_text_braces, trouble_words};
+use chereme_corpus::{Corpus, CorpusError};
+use chereme_motion::BodySide;
 use clap::builder::PossibleValuesParser;
 use clap::{CommandFactory, Parser, ValueEnum};
 
@@ -20,13 +20,8 @@ use crate::streams;
 /// One file, NAME.chereme, holds recordings, the annotations of their tiers, and the new signs made
 /// from them. Start with `chereme demo`, or import a folder of your own.
 #[derive(Debug, Parser)]
-#[command(
-    name = "chereme",
-    version,
-    propagate_version = true,
-    arg_required_else_help = true
-)]
-pub(crate) struct Cli {
+#[command(name = "chereme", version, propagate_version = true, arg_required_else_help = true)]
+pub(crate) struct CommandLine {
     /// Print one JSON document on standard output instead of tables
     #[arg(long, global = true)]
     pub(crate) json: bool,
@@ -46,20 +41,20 @@ pub(crate) struct Cli {
     pub(crate) command: Command,
 }
 
-impl Cli {
+impl CommandLine {
     /// Returns the author for the history: the option's, otherwise the environment's, otherwise the machine's user.
-    pub(crate) fn author(&self) -> String {
-        chereme_corpus::author(self.author.as_deref(), variable)
+    pub(crate) fn history_author(&self) -> String {
+        chereme_corpus::determine_author(self.author.as_deref(), read_environment_variable)
     }
 
     /// Opens the corpus.
-    pub(crate) fn open(&self, path: &Path) -> Result<Corpus> {
-        let corpus = Corpus::open(path, &self.author())?;
-        if let Some(upgrade) = corpus.upgrade() {
+    pub(crate) fn open_cli_corpus(&self, path: &Path) -> Result<Corpus> {
+        let corpus = Corpus::open_corpus(path, &self.history_author())?;
+        if let Some(upgrade) = corpus.schema_upgrade() {
             let (path, kept) = (path.display(), upgrade.kept.display());
-            let said = trouble::UPGRADED.of(language(self.language.as_deref()));
-            write_to_stderr(&fill(
-                said,
+            let upgrade_message = trouble_words::UPGRADED.text_in_language(choose_language(self.language.as_deref()));
+            write_to_stderr(&fill_text_braces(
+                upgrade_message,
                 &[
                     ("path", &path),
                     ("from", &upgrade.from),
@@ -80,79 +75,76 @@ pub(crate) enum SideWord {
 }
 
 impl SideWord {
-    pub(crate) fn side(self) -> Side {
+    pub(crate) fn to_body_side(self) -> BodySide {
         match self {
-            Self::Right => Side::Right,
-            Self::Left => Side::Left,
+            Self::Right => BodySide::Right,
+            Self::Left => BodySide::Left,
         }
     }
 }
 
 /// Returns the codes of the languages that have a folder of words.
 pub(crate) fn language_codes() -> impl Iterator<Item = &'static str> {
-    let listed = Language::all_listed().into_iter();
-    listed.map(|(language, _)| language.code())
+    let listed = InterfaceLanguage::all_listed().into_iter();
+    listed.map(|(language, _)| language.language_code())
 }
 
 /// Removes `--language` with a language's code from any position in the words of the command line, and returns the code.
 /// After a command with an option of this name, the option belongs to it, as other values do.
 pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
-    let code = |word: &OsString| Some(word.to_str().and_then(Language::from_code)?.code());
-    let whole = Cli::command();
-    let mut command = &whole;
+    let code = |word: &OsString| Some(word.to_str().and_then(InterfaceLanguage::from_code)?.language_code());
+    let root_command = CommandLine::command();
+    let mut command = &root_command;
     let mut asked = None;
-    let mut at = 1;
-    while at < words.len() {
-        let named = words[at].to_str();
-        command = named
-            .and_then(|word| command.find_subcommand(word))
-            .unwrap_or(command);
+    let mut word_index = 1;
+    while word_index < words.len() {
+        let named = words[word_index].to_str();
+        command = named.and_then(|word| command.find_subcommand(word)).unwrap_or(command);
         let mut options = command.get_arguments().map(clap::Arg::get_long);
-        let is_own =
-            command.get_name() != whole.get_name() && options.any(|long| long == Some("language"));
-        let joined = words[at]
+        let is_own = command.get_name() != root_command.get_name() && options.any(|long| long == Some("language"));
+        let joined = words[word_index]
             .to_str()
             .and_then(|word| word.strip_prefix("--language="));
-        let taken = match (joined, words[at] == "--language") {
+        let taken = match (joined, words[word_index] == "--language") {
             _ if is_own => None,
             (Some(value), _) => code(&value.into()).map(|code| (code, 1)),
-            (None, true) => words.get(at + 1).and_then(code).map(|code| (code, 2)),
+            (None, true) => words.get(word_index + 1).and_then(code).map(|code| (code, 2)),
             _ => None,
         };
         match taken {
             Some((code, length)) => {
-                words.drain(at..at + length);
+                words.drain(word_index..word_index + length);
                 asked = Some(code);
             }
-            None => at += 1,
+            None => word_index += 1,
         }
     }
     asked.map(str::to_owned)
 }
 
 /// Returns the language of a code; without one the language of the locale.
-pub(crate) fn language(asked: Option<&str>) -> Language {
-    let known = asked.and_then(Language::from_code);
-    known.unwrap_or_else(|| Language::of_environment(variable))
+pub(crate) fn choose_language(asked: Option<&str>) -> InterfaceLanguage {
+    let known_language = asked.and_then(InterfaceLanguage::from_code);
+    known_language.unwrap_or_else(|| InterfaceLanguage::of_environment(read_environment_variable))
 }
 
 /// Returns a variable of the environment.
-pub(crate) fn variable(name: &str) -> Option<String> {
+pub(crate) fn read_environment_variable(name: &str) -> Option<String> {
     std::env::var(name).ok()
 }
 
 /// Reads a small text file that the user named; `-` is standard input.
-pub(crate) fn read_text(path: &PathBuf) -> Result<String> {
+pub(crate) fn read_named_text(path: &PathBuf) -> Result<String> {
     if streams::is_standard(path) {
-        return streams::read_text();
+        return streams::read_stdin_text();
     }
-    Ok(std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?)
+    Ok(std::fs::read_to_string(path).map_err(|error| CorpusError::from_file_failure(path, error))?)
 }
 
 /// Returns the error for a text file of the user whose content cannot be used.
-pub(crate) fn wrong_text(path: &Path, error: impl Display, remedy: &str) -> Error {
+pub(crate) fn wrong_text(path: &Path, error: impl Display, remedy: &str) -> CorpusError {
     let place = path.display().to_string();
-    Error::wrong(format!("{place}: {error}"))
-        .at(place)
-        .advise(remedy)
+    CorpusError::from_wrong_message(format!("{place}: {error}"))
+        .with_error_place(place)
+        .with_advice(remedy)
 }

@@ -18,20 +18,18 @@ use std::process::ExitCode;
 use chereme_corpus::words::coverage::use_word_folder;
 use clap::{CommandFactory, FromArgMatches};
 
-use args::Cli;
-use output::Output;
+use args::CommandLine;
+use output::CommandOutput;
 
 /// Returns the subcommands of the named command, if it has some and the words contain none of them.
-fn actions(words: &[OsString]) -> Vec<String> {
-    let whole = Cli::command();
+fn missing_subcommands(words: &[OsString]) -> Vec<String> {
+    let root_command = CommandLine::command();
     let named = words.iter().skip(1).filter_map(|word| word.to_str());
-    let command = named.clone().find_map(|word| whole.find_subcommand(word));
-    let actions = command.into_iter().flat_map(clap::Command::get_subcommands);
-    let actions: Vec<String> = actions.map(|it| it.get_name().to_owned()).collect();
-    let known = named
-        .clone()
-        .any(|word| actions.iter().any(|it| it == word));
-    if known { Vec::new() } else { actions }
+    let command = named.clone().find_map(|word| root_command.find_subcommand(word));
+    let subcommands = command.into_iter().flat_map(clap::Command::get_subcommands);
+    let actions: Vec<String> = subcommands.map(|subcommand| subcommand.get_name().to_owned()).collect();
+    let is_known = named.clone().any(|word| actions.iter().any(|action| action == word));
+    if is_known { Vec::new() } else { actions }
 }
 
 fn main() -> ExitCode {
@@ -40,26 +38,25 @@ fn main() -> ExitCode {
     if let Some(folder) = std::env::var_os("CHEREME_WORDS").filter(|folder| !folder.is_empty())
         && let Err(error) = use_word_folder(folder.as_ref())
     {
-        return Output::new(json, None, args::language(None)).fail(&error.into());
+        return CommandOutput::new(json, None, args::choose_language(None)).report_command_failure(&error.into());
     }
     let asked = args::take_language(&mut words);
-    let language = args::language(asked.as_deref());
-    let parsed = words::spoken(Cli::command(), language)
+    let language = args::choose_language(asked.as_deref());
+    let parsed = words::translate_command_help(CommandLine::command(), language)
         .try_get_matches_from(&words)
-        .and_then(|matches| Cli::from_arg_matches(&matches));
+        .and_then(|matches| CommandLine::from_arg_matches(&matches));
     let cli = match parsed {
-        Ok(cli) => Cli {
-            language: asked,
-            ..cli
-        },
-        Err(error) => return output::usage(&error, json, language, &actions(&words)),
+        Ok(cli) => CommandLine { language: asked, ..cli },
+        Err(error) => {
+            return output::report_usage_error(&error, json, language, &missing_subcommands(&words));
+        }
     };
-    let mut output = Output::new(cli.json, cli.width, language);
+    let mut output = CommandOutput::new(cli.json, cli.width, language);
     chereme_corpus::hide_handled_panics();
-    chereme_corpus::on_waiting(output::waiting);
-    let done = commands::run(&cli, &mut output).and_then(|code| output.finish().map(|()| code));
+    chereme_corpus::on_waiting(output::print_waiting_note);
+    let done = commands::run(&cli, &mut output).and_then(|code| output.finish_output().map(|()| code));
     match done {
         Ok(code) => code,
-        Err(error) => output.fail(&error),
+        Err(error) => output.report_command_failure(&error),
     }
 }

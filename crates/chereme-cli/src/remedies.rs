@@ -4,10 +4,10 @@ use chereme_tests::repository;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-use crate::args::Cli;
+use crate::args::CommandLine;
 
 /// Splits a command into words as a shell does; placeholders of format strings become a word.
-fn words(line: &str) -> Vec<String> {
+fn split_command_words(line: &str) -> Vec<String> {
     let mut plain = String::new();
     let mut open = false;
     for c in line.chars() {
@@ -44,31 +44,27 @@ fn words(line: &str) -> Vec<String> {
 /// Returns the commands between backquotes in source code, without comments.
 fn of_source(text: &str) -> Vec<String> {
     let joined = text.replace("\\\n", " ");
-    let code = joined
-        .lines()
-        .filter(|line| !line.trim_start().starts_with("//!"));
-    let mut found = Vec::new();
+    let code = joined.lines().filter(|line| !line.trim_start().starts_with("//!"));
+    let mut named_commands = Vec::new();
     for line in code {
         let inside = line.split('`').skip(1).step_by(2);
         let commands = inside.filter(|part| {
             let word = part.strip_prefix("chereme ");
-            word.is_some_and(|it| it.starts_with(|c: char| c.is_ascii_lowercase()))
+            word.is_some_and(|first_word| first_word.starts_with(|c: char| c.is_ascii_lowercase()))
         });
-        found.extend(commands.map(|it| it.replace("\\\"", "\"")));
+        named_commands.extend(commands.map(|command| command.replace("\\\"", "\"")));
         if let Some(example) = line.strip_prefix("  chereme ") {
-            let example = example.split("   (").next().unwrap_or_default();
-            let example = example.trim_end_matches("\")]").trim_end_matches("\";");
-            found.push(format!("chereme {example}"));
+            let example_text = example.split("   (").next().unwrap_or_default();
+            let example = example_text.trim_end_matches("\")]").trim_end_matches("\";");
+            named_commands.push(format!("chereme {example}"));
         }
     }
-    found
+    named_commands
 }
 
 /// Returns the commands in the shell blocks of a guide.
 fn of_guide(text: &str) -> Vec<String> {
-    let lines = text
-        .lines()
-        .filter_map(|line| line.strip_prefix("chereme "));
+    let lines = text.lines().filter_map(|line| line.strip_prefix("chereme "));
     lines
         .filter(|line| !line.is_empty())
         .map(|line| format!("chereme {}", line.split(" #").next().unwrap_or_default()))
@@ -83,8 +79,8 @@ fn is_of_a_placeholder(error: &clap::Error) -> bool {
     }
 }
 
-fn fault(command: &str) -> Option<String> {
-    let mut words = words(command);
+fn find_remedy_fault(command: &str) -> Option<String> {
+    let mut words = split_command_words(command);
     // The shell handles redirections.
     if let Some(end) = words
         .iter()
@@ -93,7 +89,7 @@ fn fault(command: &str) -> Option<String> {
         words.truncate(end);
     }
     let only_named = words.len() <= 3;
-    let error = Cli::command().try_get_matches_from(&words).err()?;
+    let error = CommandLine::command().try_get_matches_from(&words).err()?;
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => None,
         ErrorKind::ValueValidation if is_of_a_placeholder(&error) => None,
@@ -110,21 +106,21 @@ fn fault(command: &str) -> Option<String> {
 }
 
 /// Returns the string literals of source code without its tests, each with the code directly before it.
-pub(crate) fn literals(text: &str) -> Vec<(String, String)> {
+pub(crate) fn source_string_literals(text: &str) -> Vec<(String, String)> {
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
     let lines = text.lines().map(str::trim_start);
-    let code: Vec<&str> = lines.filter(|line| !line.starts_with("//")).collect();
-    let code = code.join(" ").replace("'\"'", "' '").replace("\\\\", "  ");
+    let code_lines: Vec<&str> = lines.filter(|line| !line.starts_with("//")).collect();
+    let code = code_lines.join(" ").replace("'\"'", "' '").replace("\\\\", "  ");
     let code = code.replace("\\\"", "'");
-    let mut found = Vec::new();
+    let mut pairs = Vec::new();
     let mut before = String::new();
     for (index, part) in code.split('"').enumerate() {
         match index % 2 {
             0 => part.clone_into(&mut before),
-            _ => found.push((before.clone(), part.replace("\\ ", ""))),
+            _ => pairs.push((before.clone(), part.replace("\\ ", ""))),
         }
     }
-    found
+    pairs
 }
 
 /// Returns whether a text names a command of the program, or an option of one.
@@ -132,7 +128,7 @@ fn names_the_command_line(text: &str) -> bool {
     let option = |word: &str| {
         let word = word.trim_start_matches(['(', '`']);
         word.strip_prefix("--")
-            .is_some_and(|it| it.starts_with(|c: char| c.is_ascii_lowercase()))
+            .is_some_and(|first_word| first_word.starts_with(|c: char| c.is_ascii_lowercase()))
     };
     // A literal that is nothing but an option is an argument for another program.
     text.contains("`chereme ") || text.contains(' ') && text.split_whitespace().any(option)
@@ -148,17 +144,14 @@ fn remedies_of_the_command_line_are_typed_as_such() {
         if !library || skins.iter().any(|skin| file.path.starts_with(skin)) {
             continue;
         }
-        for (before, text) in literals(&file.text) {
-            let opened = before.trim_end().trim_end_matches("format!(").trim_end();
-            let opened = opened.trim_end_matches("Cow::Borrowed(").trim_end();
-            let choice = opened
-                .trim_end_matches(',')
-                .rsplit("Remedy::choice(")
-                .next();
-            let of_choice = choice.is_some_and(|it| it.trim().starts_with("Choice::"));
+        for (before, text) in source_string_literals(&file.text) {
+            let trimmed_before = before.trim_end().trim_end_matches("format!(").trim_end();
+            let opened = trimmed_before.trim_end_matches("Cow::Borrowed(").trim_end();
+            let choice = opened.trim_end_matches(',').rsplit("Remedy::choice(").next();
+            let of_choice = choice.is_some_and(|opening| opening.trim().starts_with("Choice::"));
             let is_typed = opened.ends_with("Remedy::command(")
                 || opened.ends_with("Remedy::Command(")
-                || of_choice && choice.is_some_and(|it| !it.contains(';'));
+                || of_choice && choice.is_some_and(|opening| !opening.contains(';'));
             match names_the_command_line(&text) {
                 true if is_typed => typed += 1,
                 true => faults.push(format!("{}: {text}", file.path)),
@@ -172,32 +165,35 @@ fn remedies_of_the_command_line_are_typed_as_such() {
 
 #[test]
 fn every_command_named_in_a_message_parses() {
-    let mut found = Vec::new();
+    let mut named_commands = Vec::new();
     for file in repository::rust_files() {
         if file.path.contains("/src/") && !file.path.ends_with("remedies.rs") {
-            found.extend(of_source(&file.text));
+            named_commands.extend(of_source(&file.text));
         }
     }
     for file in repository::text_files() {
         if file.path.ends_with(".md") {
-            found.extend(of_guide(&file.text));
+            named_commands.extend(of_guide(&file.text));
         }
     }
-    found.sort();
-    found.dedup();
-    assert!(found.len() > 60, "{} commands are found", found.len());
-    let faults: Vec<String> = found.iter().filter_map(|command| fault(command)).collect();
+    named_commands.sort();
+    named_commands.dedup();
+    assert!(named_commands.len() > 60, "{} commands are found", named_commands.len());
+    let faults: Vec<String> = named_commands
+        .iter()
+        .filter_map(|command| find_remedy_fault(command))
+        .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
 fn a_remedy_with_an_unknown_command_is_noticed() {
-    assert!(fault("chereme list CORPUS values --no-such-option x").is_some());
-    assert!(fault("chereme dance").is_some());
-    assert!(fault("chereme check CORPUS --mend").is_none());
-    assert!(fault("chereme search {corpus} 'a b'").is_none());
+    assert!(find_remedy_fault("chereme list CORPUS values --no-such-option x").is_some());
+    assert!(find_remedy_fault("chereme dance").is_some());
+    assert!(find_remedy_fault("chereme check CORPUS --mend").is_none());
+    assert!(find_remedy_fault("chereme search {corpus} 'a b'").is_none());
     assert_eq!(
-        words("chereme search X 'a b' \"c\""),
+        split_command_words("chereme search X 'a b' \"c\""),
         ["chereme", "search", "X", "a b", "c"]
     );
 }

@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::Error;
+use chereme_corpus::CorpusError;
 use tempfile::TempDir;
 
 /// Returns whether a path is `-`, which stands for standard input or output.
@@ -13,27 +13,24 @@ pub(crate) fn is_standard(path: &Path) -> bool {
 }
 
 /// Reads all of standard input; it may be as large as a file that is read whole.
-pub(crate) fn read() -> Result<Vec<u8>> {
-    Ok(chereme_corpus::read_stream(
-        io::stdin().lock(),
-        Path::new("-"),
-    )?)
+pub(crate) fn read_stdin_bytes() -> Result<Vec<u8>> {
+    Ok(chereme_corpus::read_stream(io::stdin().lock(), Path::new("-"))?)
 }
 
 /// Reads all of standard input as text.
-pub(crate) fn read_text() -> Result<String> {
-    let text = String::from_utf8(read()?);
+pub(crate) fn read_stdin_text() -> Result<String> {
+    let text = String::from_utf8(read_stdin_bytes()?);
     text.map_err(|_| {
         let advice = "write it in UTF-8, or name a file";
-        Error::wrong("standard input is no text")
-            .at("-")
-            .advise(advice)
+        CorpusError::from_wrong_message("standard input is no text")
+            .with_error_place("-")
+            .with_advice(advice)
             .into()
     })
 }
 
 /// A temporary file that replaces standard input or output while a command works.
-pub(crate) struct Stand {
+pub(crate) struct StandInFile {
     /// Keeps the folder until the file is no longer needed.
     _folder: TempDir,
     /// The file.
@@ -41,30 +38,28 @@ pub(crate) struct Stand {
 }
 
 /// Writes standard input to a temporary file `NAME.FORMAT`, for readers that need a file.
-pub(crate) fn input(name: &str, format: &str) -> Result<Stand> {
-    let stand = output(name, format)?;
-    std::fs::write(&stand.path, read()?).map_err(|error| Error::file(&stand.path, error))?;
+pub(crate) fn stdin_stand_in(name: &str, format: &str) -> Result<StandInFile> {
+    let stand = stdout_stand_in(name, format)?;
+    std::fs::write(&stand.path, read_stdin_bytes()?)
+        .map_err(|error| CorpusError::from_file_failure(&stand.path, error))?;
     Ok(stand)
 }
 
-/// Returns the path for a temporary file `NAME.FORMAT`, which [`copy`] later writes to standard output.
-pub(crate) fn output(name: &str, format: &str) -> Result<Stand> {
+/// Returns the path for a temporary file `NAME.FORMAT`, which [`copy_to_stdout`] later writes to standard output.
+pub(crate) fn stdout_stand_in(name: &str, format: &str) -> Result<StandInFile> {
     let folder = tempfile::tempdir()?;
     let format = format.trim_start_matches('.');
     let path = folder.path().join(format!("{name}.{format}"));
-    Ok(Stand {
-        _folder: folder,
-        path,
-    })
+    Ok(StandInFile { _folder: folder, path })
 }
 
 /// Standard output for a document. If its reader stops before the end, as `head` does, the rest is dropped.
-pub(crate) struct Document {
+pub(crate) struct StdoutDocument {
     out: BufWriter<io::StdoutLock<'static>>,
     is_read: bool,
 }
 
-impl Document {
+impl StdoutDocument {
     /// Returns standard output.
     pub(crate) fn new() -> Self {
         Self {
@@ -85,7 +80,7 @@ impl Document {
     }
 }
 
-impl Write for Document {
+impl Write for StdoutDocument {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if !self.is_read {
             return Ok(bytes.len());
@@ -104,9 +99,9 @@ impl Write for Document {
 }
 
 /// Writes a file to standard output.
-pub(crate) fn copy(stand: &Stand) -> Result<()> {
-    let bytes = std::fs::read(&stand.path).map_err(|error| Error::file(&stand.path, error))?;
-    let mut out = Document::new();
+pub(crate) fn copy_to_stdout(stand: &StandInFile) -> Result<()> {
+    let bytes = std::fs::read(&stand.path).map_err(|error| CorpusError::from_file_failure(&stand.path, error))?;
+    let mut out = StdoutDocument::new();
     out.write_all(&bytes)?;
     Ok(out.flush()?)
 }
@@ -114,10 +109,12 @@ pub(crate) fn copy(stand: &Stand) -> Result<()> {
 /// Fails if `--json` is given although a file is written to standard output.
 pub(crate) fn not_with_json(json: bool) -> Result<()> {
     if json {
-        return Err(Error::wrong("--json and --to - both want standard output")
-            .at("-")
-            .advise("leave --json out, or name a file")
-            .into());
+        return Err(
+            CorpusError::from_wrong_message("--json and --to - both want standard output")
+                .with_error_place("-")
+                .with_advice("leave --json out, or name a file")
+                .into(),
+        );
     }
     Ok(())
 }

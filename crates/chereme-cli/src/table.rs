@@ -3,16 +3,16 @@
 use std::borrow::Cow;
 
 /// The number of blanks between two columns.
-const GAP: usize = 2;
+const COLUMN_GAP_BLANKS: usize = 2;
 /// The least width of a shortened column.
-const NARROWEST: usize = 8;
+const MIN_COLUMN_WIDTH: usize = 8;
 /// The number of columns that stay however narrow a table is.
-const FEWEST: usize = 2;
+const MIN_COLUMN_COUNT: usize = 2;
 /// The largest width of the rule below the titles, unless the titles are wider.
-const RULE: usize = 100;
+const MAX_RULE_WIDTH: usize = 100;
 
 /// A table as lines of text.
-pub(crate) struct Table {
+pub(crate) struct TerminalTable {
     /// The titles, a rule, and a line for each row.
     pub(crate) lines: Vec<String>,
     /// The titles of the columns for which there was no room.
@@ -21,7 +21,7 @@ pub(crate) struct Table {
 
 /// Returns a text as a terminal may show it: control characters, which a terminal obeys, and marks that turn the order of
 /// letters around are escaped, such as `\u{1b}`. Line ends and tabs stay if `lines` is set.
-pub(crate) fn shown(text: &str, lines: bool) -> Cow<'_, str> {
+pub(crate) fn escape_terminal_text(text: &str, lines: bool) -> Cow<'_, str> {
     let obeyed = |letter: char| match letter {
         '\n' | '\t' => !lines,
         '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
@@ -43,20 +43,23 @@ pub(crate) fn shown(text: &str, lines: bool) -> Cow<'_, str> {
 /// Returns a table: columns as wide as their widest cell, numbers to the right. With a width the widest columns are
 /// shortened, with an ellipsis, until the lines fit; if that is not enough, columns without any cell are left out, then
 /// the last ones.
-pub(crate) fn table(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Table {
-    let on_a_line =
-        |row: &Vec<String>| row.iter().map(|it| shown(it, false).into_owned()).collect();
+pub(crate) fn lay_out_table(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> TerminalTable {
+    let on_a_line = |row: &Vec<String>| {
+        row.iter()
+            .map(|cell| escape_terminal_text(cell, false).into_owned())
+            .collect()
+    };
     let rows: &[Vec<String>] = &rows.iter().map(on_a_line).collect::<Vec<_>>();
     let all: Vec<ColumnShape> = (0..header.len())
-        .map(|column| ColumnShape::of(header[column], rows, column))
+        .map(|column| ColumnShape::measure_column_shape(header[column], rows, column))
         .collect();
     let mut kept: Vec<usize> = (0..header.len()).collect();
-    let mut widths = all.iter().map(|it| it.widest).collect::<Vec<_>>();
+    let mut widths = all.iter().map(|column| column.widest).collect::<Vec<_>>();
     if let Some(width) = width {
         loop {
             let shapes: Vec<&ColumnShape> = kept.iter().map(|at| &all[*at]).collect();
-            widths = fitted(&shapes, width);
-            if whole(&widths) <= width || kept.len() <= FEWEST {
+            widths = fit_column_widths(&shapes, width);
+            if total_table_width(&widths) <= width || kept.len() <= MIN_COLUMN_COUNT {
                 break;
             }
             let empty = kept.iter().rposition(|at| all[*at].is_empty);
@@ -66,24 +69,24 @@ pub(crate) fn table(header: &[&str], rows: &[Vec<String>], width: Option<usize>)
     let line = |cell: &dyn Fn(usize) -> String| {
         let mut text = String::new();
         for (column, width) in kept.iter().zip(&widths) {
-            let cell = shortened(&cell(*column), *width);
+            let cell = shorten_cell(&cell(*column), *width);
             let pad = " ".repeat(width.saturating_sub(cell.chars().count()));
             let (before, after) = if all[*column].is_numeric {
                 (pad, String::new())
             } else {
                 (String::new(), pad)
             };
-            text.push_str(&format!("{before}{cell}{after}{}", " ".repeat(GAP)));
+            text.push_str(&format!("{before}{cell}{after}{}", " ".repeat(COLUMN_GAP_BLANKS)));
         }
         text.trim_end().to_owned()
     };
     let head = line(&|column| header[column].to_owned());
-    let rule = "-".repeat(whole(&widths).min(RULE.max(head.chars().count())));
+    let rule = "-".repeat(total_table_width(&widths).min(MAX_RULE_WIDTH.max(head.chars().count())));
     let mut lines = vec![head, rule];
     let cell = |row: &Vec<String>, column: usize| row.get(column).cloned().unwrap_or_default();
     lines.extend(rows.iter().map(|row| line(&|column| cell(row, column))));
     let left_out = (0..header.len()).filter(|column| !kept.contains(column));
-    Table {
+    TerminalTable {
         lines,
         left_out: left_out.map(|column| header[column].to_owned()).collect(),
     }
@@ -100,7 +103,7 @@ struct ColumnShape {
 }
 
 impl ColumnShape {
-    fn of(title: &str, rows: &[Vec<String>], column: usize) -> Self {
+    fn measure_column_shape(title: &str, rows: &[Vec<String>], column: usize) -> Self {
         let cells = || rows.iter().filter_map(|row| row.get(column));
         let widest = cells().map(|cell| cell.chars().count()).max().unwrap_or(0);
         let number = |cell: &String| cell.is_empty() || cell.parse::<f64>().is_ok();
@@ -108,9 +111,9 @@ impl ColumnShape {
         Self {
             widest: widest.max(title.chars().count()),
             least: if is_numeric {
-                widest.max(NARROWEST)
+                widest.max(MIN_COLUMN_WIDTH)
             } else {
-                NARROWEST
+                MIN_COLUMN_WIDTH
             },
             is_numeric,
             is_empty: widest == 0,
@@ -119,15 +122,15 @@ impl ColumnShape {
 }
 
 /// Returns the width of a table's lines.
-fn whole(widths: &[usize]) -> usize {
-    widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1)
+fn total_table_width(widths: &[usize]) -> usize {
+    widths.iter().sum::<usize>() + COLUMN_GAP_BLANKS * widths.len().saturating_sub(1)
 }
 
 /// Returns the widths of columns, the widest narrowed until the table fits or all have their least width.
-fn fitted(columns: &[&ColumnShape], width: usize) -> Vec<usize> {
-    let mut widths: Vec<usize> = columns.iter().map(|it| it.widest).collect();
+fn fit_column_widths(columns: &[&ColumnShape], width: usize) -> Vec<usize> {
+    let mut widths: Vec<usize> = columns.iter().map(|column| column.widest).collect();
     loop {
-        let over = whole(&widths).saturating_sub(width);
+        let over = total_table_width(&widths).saturating_sub(width);
         let mut loose: Vec<usize> = (0..widths.len())
             .filter(|at| widths[*at] > columns[*at].least)
             .collect();
@@ -143,7 +146,7 @@ fn fitted(columns: &[&ColumnShape], width: usize) -> Vec<usize> {
 }
 
 /// Returns a cell shortened to `width` letters, with an ellipsis as the last one if it was longer.
-fn shortened(cell: &str, width: usize) -> String {
+fn shorten_cell(cell: &str, width: usize) -> String {
     match cell.char_indices().nth(width) {
         Some(_) => {
             let kept: String = cell.chars().take(width.saturating_sub(1)).collect();
@@ -160,17 +163,13 @@ mod tests {
     fn rows() -> Vec<Vec<String>> {
         let row = |cells: [&str; 3]| cells.map(str::to_owned).to_vec();
         vec![
-            row([
-                "1",
-                "BOL",
-                "right.configuration=U placement=neutral movement=straight",
-            ]),
+            row(["1", "BOL", "right.configuration=U placement=neutral movement=straight"]),
             row(["12", "ÊTRE DÉGOÛTÉ", "placement=chin"]),
         ]
     }
 
     fn lines(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Vec<String> {
-        table(header, rows, width).lines
+        lay_out_table(header, rows, width).lines
     }
 
     #[test]
@@ -183,11 +182,11 @@ mod tests {
             ("one\r", "one\\r"),
         ];
         for (text, expected) in cases {
-            assert_eq!(shown(text, true), expected);
+            assert_eq!(escape_terminal_text(text, true), expected);
         }
-        assert_eq!(shown("two\nlines", true), "two\nlines");
+        assert_eq!(escape_terminal_text("two\nlines", true), "two\nlines");
         let rows = vec![vec!["two\nlines".to_owned()]];
-        assert_eq!(table(&["name"], &rows, None).lines[2], "two\\nlines");
+        assert_eq!(lay_out_table(&["name"], &rows, None).lines[2], "two\\nlines");
     }
 
     #[test]
@@ -198,10 +197,7 @@ mod tests {
         assert_eq!(wide[3], "   12  ÊTRE DÉGOÛTÉ  placement=chin");
         for width in [40, 50, 60] {
             let narrow = lines(&header, &rows(), Some(width));
-            assert!(
-                narrow.iter().all(|line| line.chars().count() <= width),
-                "{narrow:#?}"
-            );
+            assert!(narrow.iter().all(|line| line.chars().count() <= width), "{narrow:#?}");
             assert!(
                 narrow[2].ends_with('…') && narrow[3].starts_with("   12"),
                 "{narrow:#?}"
@@ -223,7 +219,7 @@ mod tests {
             (30, &["signer", "notes"][..]),
             (16, &["signer", "duration_us", "notes", "licence"][..]),
         ] {
-            let table = table(&header, &rows, Some(width));
+            let table = lay_out_table(&header, &rows, Some(width));
             assert_eq!(table.left_out, left_out, "{width}");
             let fits = |line: &String| line.chars().count() <= width;
             assert!(table.lines.iter().all(fits), "{:#?}", table.lines);

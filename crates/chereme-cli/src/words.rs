@@ -7,32 +7,23 @@ pub(crate) mod kinds;
 #[cfg(test)]
 mod tests;
 
-use chereme_corpus::words::{Language, Text, fill, guide, help_text};
+use chereme_corpus::words::{InterfaceLanguage, InterfaceText, fill_text_braces, help_text, translate_guide};
 use chereme_corpus::{TierRole, readable_files};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
-pub(crate) use chereme_corpus::words::{column_title as title, message};
+pub(crate) use chereme_corpus::words::{column_title as title, localized_message};
 
 /// The phrases of clap, as English and French.
-const FRAME: [(&str, &str); 20] = [
+const CLAP_PHRASES: [(&str, &str); 20] = [
     ("error: ", "erreur : "),
     ("  tip: ", "  conseil : "),
     ("unexpected argument ", "argument inattendu : "),
     ("unrecognized subcommand ", "commande inconnue : "),
-    (
-        "the following required arguments were not provided:",
-        "il manque :",
-    ),
+    ("the following required arguments were not provided:", "il manque :"),
     (" found\n", "\n"),
-    (
-        "a similar subcommand exists: ",
-        "une commande semblable existe : ",
-    ),
-    (
-        "a similar argument exists: ",
-        "un argument semblable existe : ",
-    ),
+    ("a similar subcommand exists: ", "une commande semblable existe : "),
+    ("a similar argument exists: ", "un argument semblable existe : "),
     ("a similar value exists: ", "une valeur semblable existe : "),
     (
         "some similar subcommands exist: ",
@@ -50,41 +41,38 @@ const FRAME: [(&str, &str); 20] = [
         " demande une sous-commande",
     ),
     ("Usage: ", "Utilisation : "),
-    (
-        "For more information, try '--help'.",
-        "Pour en savoir plus : '--help'.",
-    ),
+    ("For more information, try '--help'.", "Pour en savoir plus : '--help'."),
 ];
 
-const TEMPLATE: &str = "\
+const HELP_TEMPLATE: &str = "\
 {before-help}{about-with-newline}
 Utilisation : {usage}
 
 {all-args}{after-help}";
 
 /// Returns the help of an option that takes the role of a tier.
-pub(crate) fn roles(language: Language) -> String {
-    let help = Text::new(
+pub(crate) fn tier_roles_help(language: InterfaceLanguage) -> String {
+    let help = InterfaceText::new(
         "The subject of its annotations: {roles}, or a component such as right.placement or nonmanual.brows; the word \
          before the dot is their hand",
         "L’objet de ses annotations : {roles}, ou un composant comme right.placement ou nonmanual.brows ; le mot avant \
          le point est leur main",
     );
-    fill(help.of(language), &[("roles", &TierRole::plain_kinds())])
+    fill_text_braces(help.text_in_language(language), &[("roles", &TierRole::plain_kinds())])
 }
 
 /// Returns the command with its help in `language`; a text without French words stays English.
-pub(crate) fn spoken(command: Command, language: Language) -> Command {
+pub(crate) fn translate_command_help(command: Command, language: InterfaceLanguage) -> Command {
     match language {
-        Language::English => command,
-        Language::French => french(translated_command(command, language)),
-        Language::Other(_) => translated_command(command, language),
+        InterfaceLanguage::English => command,
+        InterfaceLanguage::French => with_french_frame(translated_command(command, language)),
+        InterfaceLanguage::Other(_) => translated_command(command, language),
     }
 }
 
 /// Returns the command with the texts of its help in `language`.
-fn translated_command(command: Command, language: Language) -> Command {
-    let spoken = |text: &StyledStr| translated(text, language);
+fn translated_command(command: Command, language: InterfaceLanguage) -> Command {
+    let spoken = |text: &StyledStr| translate_help_text(text, language);
     let argument = |argument: Arg| {
         let short = argument.get_help().map(spoken);
         let long = argument.get_long_help().map(spoken);
@@ -95,34 +83,32 @@ fn translated_command(command: Command, language: Language) -> Command {
     let long = command.get_long_about().map(spoken);
     let after = command.get_after_help().map(spoken);
     let after_long = command.get_after_long_help().map(spoken);
-    let command = about.into_iter().fold(command, Command::about);
-    let command = long.into_iter().fold(command, Command::long_about);
-    let command = after.into_iter().fold(command, Command::after_help);
-    let command = after_long
-        .into_iter()
-        .fold(command, Command::after_long_help);
+    let titled_command = about.into_iter().fold(command, Command::about);
+    let command = long.into_iter().fold(titled_command, Command::long_about);
+    let annotated_command = after.into_iter().fold(command, Command::after_help);
+    let command = after_long.into_iter().fold(annotated_command, Command::after_long_help);
     let subcommand = |command: Command| translated_command(command, language);
     command.mut_args(argument).mut_subcommands(subcommand)
 }
 
 /// Returns a command, whose texts are French, with the frame that clap gives them in French.
-fn french(command: Command) -> Command {
+fn with_french_frame(command: Command) -> Command {
     command
-        .help_template(TEMPLATE)
+        .help_template(HELP_TEMPLATE)
         .subcommand_help_heading("Commandes ")
         .subcommand_value_name("COMMANDE")
         .disable_help_flag(true)
         .disable_version_flag(true)
         .disable_help_subcommand(true)
         .mut_args(argument)
-        .mut_subcommands(french)
-        .arg(flag(
+        .mut_subcommands(with_french_frame)
+        .arg(build_help_flag(
             "help",
             'h',
             "Afficher l’aide ; -h en donne un résumé",
             ArgAction::Help,
         ))
-        .arg(flag(
+        .arg(build_help_flag(
             "version",
             'V',
             "Afficher la version",
@@ -130,7 +116,7 @@ fn french(command: Command) -> Command {
         ))
 }
 
-fn flag(name: &'static str, short: char, help: &'static str, action: ArgAction) -> Arg {
+fn build_help_flag(name: &'static str, short: char, help: &'static str, action: ArgAction) -> Arg {
     Arg::new(name)
         .short(short)
         .long(name)
@@ -146,7 +132,7 @@ fn argument(argument: Arg) -> Arg {
         true => "Arguments ",
         false => "Options ",
     };
-    let values = values(&argument);
+    let values = argument_value_help(&argument);
     let explained = values.iter().any(|(_, help)| help.is_some());
     let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
     let mut short = argument.get_help().map(ToString::to_string);
@@ -155,15 +141,14 @@ fn argument(argument: Arg) -> Arg {
         let text = long.take().or_else(|| short.clone()).unwrap_or_default();
         long = Some(format!(
             "{text}\n\nValeurs possibles :\n{}",
-            listed(&values)
+            format_value_lines(&values)
         ));
     }
-    let defaults =
-        match argument.get_action().takes_values() && !argument.is_hide_default_value_set() {
-            true => argument.get_default_values(),
-            false => &[],
-        };
-    let defaults: Vec<_> = defaults.iter().map(|it| it.to_string_lossy()).collect();
+    let defaults = match argument.get_action().takes_values() && !argument.is_hide_default_value_set() {
+        true => argument.get_default_values(),
+        false => &[],
+    };
+    let defaults: Vec<_> = defaults.iter().map(|value| value.to_string_lossy()).collect();
     let mut notes = Vec::new();
     if !defaults.is_empty() {
         notes.push(format!("[défaut : {}]", defaults.join(", ")));
@@ -199,7 +184,7 @@ fn argument(argument: Arg) -> Arg {
 }
 
 /// Returns the possible values of an argument that its help shows, with their French help.
-fn values(argument: &Arg) -> Vec<(String, Option<String>)> {
+fn argument_value_help(argument: &Arg) -> Vec<(String, Option<String>)> {
     if argument.is_hide_possible_values_set() || !argument.get_action().takes_values() {
         return Vec::new();
     }
@@ -207,15 +192,15 @@ fn values(argument: &Arg) -> Vec<(String, Option<String>)> {
     let shown = all.filter(|value| !value.is_hide_set());
     shown
         .map(|value| {
-            let help = value.get_help();
-            let help = help.map(|text| translated(text, Language::French));
+            let english_help = value.get_help();
+            let help = english_help.map(|text| translate_help_text(text, InterfaceLanguage::French));
             (value.get_name().to_owned(), help)
         })
         .collect()
 }
 
 /// Returns values as lines, with their help.
-fn listed(values: &[(String, Option<String>)]) -> String {
+fn format_value_lines(values: &[(String, Option<String>)]) -> String {
     let line = |(name, help): &(String, Option<String>)| match help {
         Some(help) => format!("- {name} : {help}"),
         None => format!("- {name}"),
@@ -225,28 +210,28 @@ fn listed(values: &[(String, Option<String>)]) -> String {
 
 /// Returns a text of the help in `language`, paragraph by paragraph, and guides line by line; one that the language lacks
 /// stays English.
-fn translated(text: &StyledStr, language: Language) -> String {
+fn translate_help_text(text: &StyledStr, language: InterfaceLanguage) -> String {
     let text = text.to_string();
     let help = |english: &str| help_text(english, language);
     if let Some(known) = help(&text) {
         return known.to_owned();
     }
     let paragraph = |text: &str| {
-        let lists = [readable_files, roles];
-        if let Some(list) = lists.iter().find(|list| list(Language::English) == text) {
+        let lists = [readable_files, tier_roles_help];
+        if let Some(list) = lists.iter().find(|list| list(InterfaceLanguage::English) == text) {
             return list(language);
         }
-        let known = help(text).or_else(|| help(text.trim_end_matches('.')));
-        known.map_or_else(|| guide(text, language), str::to_owned)
+        let known_help = help(text).or_else(|| help(text.trim_end_matches('.')));
+        known_help.map_or_else(|| translate_guide(text, language), str::to_owned)
     };
     let all: Vec<String> = text.split("\n\n").map(paragraph).collect();
     all.join("\n\n")
 }
 
 /// Returns the message of clap about wrong usage in French.
-pub(crate) fn usage(text: &str) -> String {
+pub(crate) fn french_usage_message(text: &str) -> String {
     let mut message = text.to_owned();
-    for (english, french) in FRAME {
+    for (english, french) in CLAP_PHRASES {
         message = message.replace(english, french);
     }
     let lines: Vec<String> = message.trim_end().lines().map(with_reason).collect();
@@ -256,7 +241,7 @@ pub(crate) fn usage(text: &str) -> String {
 /// Puts the reason for which a value was refused, at the end of a line of clap, into French.
 fn with_reason(line: &str) -> String {
     let translated = line.rsplit_once("': ").and_then(|(head, reason)| {
-        let reason = message(reason, Language::French)?;
+        let reason = localized_message(reason, InterfaceLanguage::French)?;
         Some(format!("{head}' : {reason}"))
     });
     translated.unwrap_or_else(|| line.to_owned())

@@ -1,7 +1,7 @@
 //! The corpus's answers for the parts of a recipe: typed slots that are filled once and read repeatedly.
 //!
-//! Each operator and source declares a [`Slot`] for every answer that it needs. Resolving writes through [`Ask`],
-//! evaluating reads through [`Given`], both by the same slot, so that its name cannot be misspelt and it holds one
+//! Each operator and source declares a [`AnswerSlot`] for every answer that it needs. Resolving writes through [`CorpusAsker`],
+//! evaluating reads through [`NodeAnswers`], both by the same slot, so that its name cannot be misspelt and it holds one
 //! type.
 
 use std::borrow::Cow;
@@ -10,47 +10,47 @@ use std::fmt::{self, Display, Formatter};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-use chereme_motion::Side;
-use chereme_sign::hamnosys::Notated;
-use chereme_sign::{Component, Handedness};
+use chereme_motion::BodySide;
+use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::{SignComponent, SignerHandedness};
 
-use crate::course::{self, Courses};
+use crate::course::{self, TransitionCourses};
 use crate::cue::CuePhases;
-use crate::error::Cause;
-use crate::language::Language;
-use crate::ops::place;
+use crate::error::StepError;
+use crate::language::BodyLanguageChanges;
+use crate::ops::place_operator;
 use crate::poses::HandPose;
-use crate::recipe::{Profile, Spot, Transition};
-use crate::resolve::{ExpressionInput, Input, Inputs, LetterInput, MaterialInput, PlaceInput};
-use crate::sources::{LearnedProfile, Material, Meaning, Sources, SpellingTimes};
+use crate::recipe::{PostureTransition, SigningSpot, TransitionProfile};
+use crate::resolve::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
+use crate::sources::{LearnedProfile, MovementMaterial, RecipeSources, SpellingTimes, ValueMeaning};
 
 /// The place of a node or operator in a recipe's JSON, such as `/pipe/steps/0`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Path(String);
+pub(crate) struct RecipePath(String);
 
-impl Path {
+impl RecipePath {
     /// Returns the path of the operand of a pipe.
-    pub(crate) fn operand(&self) -> Self {
+    pub(crate) fn operand_path(&self) -> Self {
         Self(format!("{self}/pipe/of"))
     }
 
     /// Returns the path of an operator.
-    pub(crate) fn step(&self, n: usize) -> Self {
+    pub(crate) fn operator_step_path(&self, n: usize) -> Self {
         Self(format!("{self}/pipe/steps/{n}"))
     }
 
     /// Returns the path of the first piece of an utterance.
-    pub(crate) fn first(&self) -> Self {
+    pub(crate) fn first_piece_path(&self) -> Self {
         Self(format!("{self}/then/first"))
     }
 
     /// Returns the path of a later piece, together with its transition.
-    pub(crate) fn joined(&self, n: usize) -> Self {
+    pub(crate) fn later_piece_path(&self, n: usize) -> Self {
         Self(format!("{self}/then/next/{n}"))
     }
 
     /// Returns the path of the piece itself, below the path of a later piece.
-    pub(crate) fn piece(&self) -> Self {
+    pub(crate) fn inner_piece_path(&self) -> Self {
         Self(format!("{self}/node"))
     }
 
@@ -59,29 +59,29 @@ impl Path {
     }
 }
 
-impl Display for Path {
+impl Display for RecipePath {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
 }
 
 /// A kind of answer.
-pub(crate) trait Answer: Sized {
+pub(crate) trait AnswerKind: Sized {
     /// Converts the answer to the stored form.
-    fn stored(self) -> Input;
+    fn to_stored_input(self) -> RecipeInput;
     /// Returns the answer; `None` if the stored one is of another kind.
-    fn of(input: &Input) -> Option<&Self>;
+    fn from_stored_input(input: &RecipeInput) -> Option<&Self>;
 }
 
 macro_rules! answers {
     ($($kind:ident: $type:ty;)*) => {
-        $(impl Answer for $type {
-            fn stored(self) -> Input {
-                Input::$kind(self)
+        $(impl AnswerKind for $type {
+            fn to_stored_input(self) -> RecipeInput {
+                RecipeInput::$kind(self)
             }
-            fn of(input: &Input) -> Option<&Self> {
+            fn from_stored_input(input: &RecipeInput) -> Option<&Self> {
                 match input {
-                    Input::$kind(answer) => Some(answer),
+                    RecipeInput::$kind(answer) => Some(answer),
                     _ => None,
                 }
             }
@@ -94,8 +94,8 @@ answers! {
     Poses: Vec<HandPose>;
     Place: PlaceInput;
     Letters: Vec<LetterInput>;
-    Notation: Vec<Notated>;
-    Language: Language;
+    Notation: Vec<NotatedSign>;
+    Language: BodyLanguageChanges;
     Courses: LearnedProfile;
     Times: SpellingTimes;
     Phases: CuePhases;
@@ -104,12 +104,12 @@ answers! {
 
 /// The name of one answer below the node that needs it, such as `configure/via`.
 #[derive(Debug, Clone)]
-pub(crate) struct Slot<T> {
+pub(crate) struct AnswerSlot<T> {
     end: Cow<'static, str>,
     kind: PhantomData<fn() -> T>,
 }
 
-impl<T> Slot<T> {
+impl<T> AnswerSlot<T> {
     /// Returns a slot with this name in the JSON of the node.
     pub(crate) const fn new(end: &'static str) -> Self {
         Self {
@@ -119,28 +119,28 @@ impl<T> Slot<T> {
     }
 
     /// Returns the slot of one of several answers: that for the value with this number on a side.
-    pub(crate) fn of(&self, n: usize, side: Side) -> Self {
+    pub(crate) fn numbered_side_slot(&self, n: usize, side: BodySide) -> Self {
         Self {
-            end: Cow::Owned(format!("{}/{n}/{}", self.end, side.name())),
+            end: Cow::Owned(format!("{}/{n}/{}", self.end, side.body_side_name())),
             kind: PhantomData,
         }
     }
 
     /// Returns its path in the whole recipe, for a node at `path`.
-    pub(crate) fn at(&self, path: &Path) -> String {
+    pub(crate) fn slot_path_at(&self, path: &RecipePath) -> String {
         format!("{path}/{}", self.end)
     }
 }
 
 /// The signer whose movement an operator changes.
 #[derive(Clone)]
-pub(crate) struct Setting {
+pub(crate) struct MaterialSigner {
     pub(crate) signer: Option<String>,
-    pub(crate) handedness: Handedness,
+    pub(crate) handedness: SignerHandedness,
 }
 
-impl Setting {
-    pub(crate) fn of(material: &Material) -> Self {
+impl MaterialSigner {
+    pub(crate) fn signer_from_material(material: &MovementMaterial) -> Self {
         Self {
             signer: material.signer.clone(),
             handedness: material.handedness,
@@ -150,35 +150,35 @@ impl Setting {
 
 /// The answers found so far.
 #[derive(Default)]
-pub(crate) struct Answers {
-    pub(crate) inputs: Inputs,
-    pub(crate) materials: BTreeMap<String, Arc<Material>>,
+pub(crate) struct RecipeAnswers {
+    pub(crate) inputs: RecipeInputs,
+    pub(crate) materials: BTreeMap<String, Arc<MovementMaterial>>,
 }
 
 /// Asks the corpus for the needs of one node or operator, and stores the answers.
-pub(crate) struct Ask<'a> {
-    pub(crate) sources: &'a dyn Sources,
-    pub(crate) path: &'a Path,
-    pub(crate) answers: &'a mut Answers,
+pub(crate) struct CorpusAsker<'a> {
+    pub(crate) sources: &'a dyn RecipeSources,
+    pub(crate) path: &'a RecipePath,
+    pub(crate) answers: &'a mut RecipeAnswers,
 }
 
-impl Ask<'_> {
+impl CorpusAsker<'_> {
     /// Stores an answer.
-    pub(crate) fn put<T: Answer>(&mut self, slot: &Slot<T>, answer: T) {
-        let at = slot.at(self.path);
-        self.answers.inputs.0.insert(at, answer.stored());
+    pub(crate) fn put_answer<T: AnswerKind>(&mut self, slot: &AnswerSlot<T>, answer: T) {
+        let slot_path = slot.slot_path_at(self.path);
+        self.answers.inputs.0.insert(slot_path, answer.to_stored_input());
     }
 
     /// Stores movement; returns its signer.
-    pub(crate) fn keep(
+    pub(crate) fn keep_movement(
         &mut self,
-        slot: &Slot<MaterialInput>,
-        material: Material,
-    ) -> Result<Setting, Cause> {
-        if material.clip.frames() == 0 {
-            return Err(Cause::Empty(material.address));
+        slot: &AnswerSlot<MaterialInput>,
+        material: MovementMaterial,
+    ) -> Result<MaterialSigner, StepError> {
+        if material.clip.clip_frame_count() == 0 {
+            return Err(StepError::Empty(material.address));
         }
-        let setting = Setting::of(&material);
+        let setting = MaterialSigner::signer_from_material(&material);
         let input = MaterialInput {
             address: material.address.clone(),
             hash: material.hash.clone(),
@@ -187,32 +187,32 @@ impl Ask<'_> {
             held: material.held.clone(),
             body: self.sources.performer(&material.address)?,
         };
-        self.put(slot, input);
-        let at = slot.at(self.path);
-        self.answers.materials.insert(at, Arc::new(material));
+        self.put_answer(slot, input);
+        let slot_path = slot.slot_path_at(self.path);
+        self.answers.materials.insert(slot_path, Arc::new(material));
         Ok(setting)
     }
 
     /// Stores the body of a signer, or of one that the corpus chooses; returns the signer.
-    pub(crate) fn body(
+    pub(crate) fn ask_signer_body(
         &mut self,
-        slot: &Slot<MaterialInput>,
+        slot: &AnswerSlot<MaterialInput>,
         on: Option<&str>,
-    ) -> Result<Setting, Cause> {
+    ) -> Result<MaterialSigner, StepError> {
         let stage = self.sources.stage(on)?;
-        self.keep(slot, stage)
+        self.keep_movement(slot, stage)
     }
 
     /// Stores the learned courses if a transition uses them.
-    pub(crate) fn course(
+    pub(crate) fn ask_learned_courses(
         &mut self,
-        slot: &Slot<LearnedProfile>,
-        via: &Transition,
-    ) -> Result<(), Cause> {
-        if via.profile == Some(Profile::Learned) {
-            let profile = self.sources.learned_profile()?.ok_or(Cause::NoProfile)?;
+        slot: &AnswerSlot<LearnedProfile>,
+        via: &PostureTransition,
+    ) -> Result<(), StepError> {
+        if via.profile == Some(TransitionProfile::Learned) {
+            let profile = self.sources.learned_profile()?.ok_or(StepError::NoProfile)?;
             let reaches = None;
-            self.put(slot, LearnedProfile { reaches, ..profile });
+            self.put_answer(slot, LearnedProfile { reaches, ..profile });
         }
         Ok(())
     }
@@ -220,94 +220,100 @@ impl Ask<'_> {
     /// Stores the learned reaches for a gesture that takes them by default.
     pub(crate) fn usual_reaches(
         &mut self,
-        slot: &Slot<LearnedProfile>,
-        via: &Transition,
-    ) -> Result<(), Cause> {
+        slot: &AnswerSlot<LearnedProfile>,
+        via: &PostureTransition,
+    ) -> Result<(), StepError> {
         if via.profile.is_some() {
-            return self.course(slot, via);
+            return self.ask_learned_courses(slot, via);
         }
         let learned = self.sources.learned_profile()?;
         if let Some(learned) = learned.filter(|learned| learned.reaches.is_some()) {
-            self.put(slot, learned);
+            self.put_answer(slot, learned);
         }
         Ok(())
     }
 
     /// Stores the place of a spot if the spot is a value of an inventory.
-    pub(crate) fn spot(&mut self, slot: &Slot<PlaceInput>, spot: &Spot) -> Result<(), Cause> {
-        if let Spot::Value(value) = spot {
-            let place = self.place(value)?;
-            self.put(slot, place);
+    pub(crate) fn ask_spot_place(
+        &mut self,
+        slot: &AnswerSlot<PlaceInput>,
+        spot: &SigningSpot,
+    ) -> Result<(), StepError> {
+        if let SigningSpot::Value(value) = spot {
+            let place = self.find_value_place(value)?;
+            self.put_answer(slot, place);
         }
         Ok(())
     }
 
     /// Returns the place of a value: the inventory's own, or that of a sign with the value.
-    pub(crate) fn place(&self, text: &str) -> Result<PlaceInput, Cause> {
-        let value = self.sources.value(Component::Placement, text)?;
-        if let Some(Meaning::Place(at)) = value.meaning {
+    pub(crate) fn find_value_place(&self, text: &str) -> Result<PlaceInput, StepError> {
+        let value = self.sources.find_component_value(SignComponent::Placement, text)?;
+        if let Some(ValueMeaning::Place(at)) = value.meaning {
             return Ok(PlaceInput {
                 value: Some(value.id),
                 from: value.inventory,
                 at,
             });
         }
-        let examples = self.sources.holding(Component::Placement, &value.id)?;
+        let examples = self.sources.holding(SignComponent::Placement, &value.id)?;
         let Some(example) = examples.first() else {
             let what = "place on the body";
-            return Err(Cause::NoMeaning {
-                value: value.id,
-                what,
-            });
+            return Err(StepError::NoMeaning { value: value.id, what });
         };
-        let material = self.sources.material(&example.address)?;
-        let side = example.hand.unwrap_or(material.handedness.dominant());
-        let found = place::shown_by(&material, &[side], None)?;
+        let material = self.sources.find_material(&example.address)?;
+        let side = example.hand.unwrap_or(material.handedness.signer_dominant_side());
+        let shown_place = place_operator::shown_by(&material, &[side], None)?;
         Ok(PlaceInput {
             value: Some(value.id),
-            ..found
+            ..shown_place
         })
     }
 }
 
 /// The answers for one node or operator.
-pub(crate) struct Given<'a> {
-    pub(crate) inputs: &'a BTreeMap<String, Input>,
-    pub(crate) materials: &'a BTreeMap<String, Arc<Material>>,
-    pub(crate) path: &'a Path,
+pub(crate) struct NodeAnswers<'a> {
+    pub(crate) inputs: &'a BTreeMap<String, RecipeInput>,
+    pub(crate) materials: &'a BTreeMap<String, Arc<MovementMaterial>>,
+    pub(crate) path: &'a RecipePath,
     /// The node or operator as text.
     pub(crate) text: &'a str,
     /// Notes for the report on the sources of answers.
     pub(crate) aside: Vec<String>,
 }
 
-impl<'a> Given<'a> {
+impl<'a> NodeAnswers<'a> {
     /// Returns an answer, if there is one.
-    pub(crate) fn get<T: Answer + 'a>(&self, slot: &Slot<T>) -> Option<&'a T> {
-        self.inputs.get(&slot.at(self.path)).and_then(T::of)
+    pub(crate) fn get_answer<T: AnswerKind + 'a>(&self, slot: &AnswerSlot<T>) -> Option<&'a T> {
+        self.inputs
+            .get(&slot.slot_path_at(self.path))
+            .and_then(T::from_stored_input)
     }
 
     /// Returns an answer that is required. Fails if it is missing.
-    pub(crate) fn need<T: Answer + 'a>(&self, slot: &Slot<T>) -> Result<&'a T, Cause> {
-        self.get(slot).ok_or(Cause::Input)
+    pub(crate) fn required_answer<T: AnswerKind + 'a>(&self, slot: &AnswerSlot<T>) -> Result<&'a T, StepError> {
+        self.get_answer(slot).ok_or(StepError::Input)
     }
 
     /// Returns the movement in a slot.
-    pub(crate) fn material(&self, slot: &Slot<MaterialInput>) -> Result<&'a Material, Cause> {
-        let found = self.materials.get(&slot.at(self.path));
-        found.map(AsRef::as_ref).ok_or(Cause::Input)
+    pub(crate) fn answered_material(
+        &self,
+        slot: &AnswerSlot<MaterialInput>,
+    ) -> Result<&'a MovementMaterial, StepError> {
+        let stored_material = self.materials.get(&slot.slot_path_at(self.path));
+        stored_material.map(AsRef::as_ref).ok_or(StepError::Input)
     }
 
     /// Returns the courses of a transition: those that it names, the learned ones if there are any, or the default ones.
-    pub(crate) fn course(
+    pub(crate) fn transition_courses(
         &mut self,
-        slot: &Slot<LearnedProfile>,
-        via: &Transition,
-        usual: Profile,
-    ) -> Result<Courses, Cause> {
-        let learned = self.get(slot);
-        self.aside.extend(learned.map(course::describe));
-        let usual = learned.map_or(usual, |_| Profile::Learned);
-        Courses::of(via.profile.unwrap_or(usual), learned).ok_or(Cause::NoProfile)
+        slot: &AnswerSlot<LearnedProfile>,
+        via: &PostureTransition,
+        usual: TransitionProfile,
+    ) -> Result<TransitionCourses, StepError> {
+        let learned = self.get_answer(slot);
+        self.aside.extend(learned.map(course::describe_learned_profile));
+        let usual = learned.map_or(usual, |_| TransitionProfile::Learned);
+        TransitionCourses::from_transition_profile(via.profile.unwrap_or(usual), learned).ok_or(StepError::NoProfile)
     }
 }

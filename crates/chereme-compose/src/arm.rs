@@ -8,12 +8,12 @@
 //! hold: elbows of captured takes would follow a rule, or generated elbows a rest posture.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, fabrik, two_bone};
-use chereme_motion::{ArmChain, Side};
+use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, solve_fabrik, two_bone};
+use chereme_motion::{ArmChain, BodySide};
 
-use crate::body::Frame;
-use crate::recipe::Solver;
-use crate::work::{Columns, Work};
+use crate::body::SignerFrame;
+use crate::recipe::ArmSolverMethod;
+use crate::work::{JointColumns, WorkingClip};
 
 mod free_angle;
 mod smooth;
@@ -25,20 +25,20 @@ pub(crate) const HELP_FROM: f64 = 0.9;
 const HELP_MOST: f64 = 0.5;
 /// The least and the greatest length of the soft end of the reach, as shares of the arm's length. At the least, the
 /// wrist comes within a millimetre of every reachable target.
-const SOFT: (f64, f64) = (0.004, 0.08);
+const SOFT_REACH_SHARES: (f64, f64) = (0.004, 0.08);
 /// The distance of an elbow from the line from shoulder to wrist at which its swivel counts in full, as a share of the
 /// arm's length.
-const STRAIGHT: f64 = 0.12;
+const STRAIGHT_ELBOW_SHARE: f64 = 0.12;
 /// The distance of the wrist from the shoulder at which the swivel counts in full, as a share of the arm's length.
-const FOLDED: f64 = 0.35;
+const FOLDED_ARM_SHARE: f64 = 0.35;
 /// The time before and after a fast exit from the reach during which the soft end is longer, in seconds.
-const AROUND: f64 = 0.3;
+const FAST_EXIT_SECONDS: f64 = 0.3;
 /// The opening speed of an elbow that the soft end allows, in radians per second.
-const OPENING: f64 = 9.6;
+const MAX_ELBOW_OPENING_SPEED: f64 = 9.6;
 
 /// The accuracy with which wrists reach their targets.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Reach {
+pub(crate) struct WristReach {
     /// The largest distance left between a wrist and its target, in metres.
     pub(crate) residual: f64,
     /// The frame of that distance.
@@ -53,9 +53,9 @@ pub(crate) struct Reach {
     pub(crate) soft: f64,
 }
 
-impl Reach {
+impl WristReach {
     /// Returns the worse of two results.
-    pub(crate) fn worse(self, other: Self) -> Self {
+    pub(crate) fn worse_reach(self, other: Self) -> Self {
         let worst = if self.arm == 0.0 || other.residual > self.residual {
             other
         } else {
@@ -71,7 +71,7 @@ impl Reach {
 
     /// Returns whether the soft end was lengthened, so that reachable targets may be missed.
     pub(crate) fn is_softened(&self) -> bool {
-        self.soft > SOFT.0
+        self.soft > SOFT_REACH_SHARES.0
     }
 }
 
@@ -85,54 +85,54 @@ impl Reach {
 /// before and after are changed, too. Returns `None` if the skeleton has no such arm, or one of its bones has no
 /// length.
 pub(crate) fn move_wrist(
-    work: &mut Work,
-    side: Side,
-    columns: &Columns,
+    work: &mut WorkingClip,
+    side: BodySide,
+    columns: &JointColumns,
     targets: &[DVec3],
     hands: Option<&[DQuat]>,
-    solver: Solver,
-) -> Option<Reach> {
-    let source = Source::of(work, side, columns)?;
-    let helps: Vec<Option<Help>> = (0..work.frames)
+    solver: ArmSolverMethod,
+) -> Option<WristReach> {
+    let source = ArmSource::read_arm_source(work, side, columns)?;
+    let helps: Vec<Option<CollarBoneHelp>> = (0..work.frames)
         .map(|frame| source.help(frame, targets[frame]))
         .collect();
     let [soft, near] = source.soft(targets, &helps, work.rate.frame_time());
     let mut steps = Vec::with_capacity(work.frames);
     for (frame, help) in helps.into_iter().enumerate() {
-        let moves = hands.is_some() || source.wrists()[frame] != targets[frame];
+        let moves = hands.is_some() || source.source_wrists()[frame] != targets[frame];
         let target = source.kept_off(frame, targets[frame], help, near[frame]);
-        steps.push(source.step(frame, target, help, moves, soft[frame], solver)?);
+        steps.push(source.solve_arm_step(frame, target, help, moves, soft[frame], solver)?);
     }
-    if solver == Solver::Analytic {
-        swivel::swivel(&mut steps, work.rate.frame_time());
-        swivel::ease(&source, &mut steps, work.rate.frame_time());
+    if solver == ArmSolverMethod::Analytic {
+        swivel::swivel_arm_steps(&mut steps, work.rate.frame_time());
+        swivel::ease_elbow_jumps(&source, &mut steps, work.rate.frame_time());
     }
-    let mut turns: Vec<Turns> = steps
+    let mut turns: Vec<ArmJointTurns> = steps
         .iter()
         .enumerate()
-        .map(|(frame, step)| source.turns(frame, step, hands.map(|hands| hands[frame])))
+        .map(|(frame, step)| source.arm_joint_turns(frame, step, hands.map(|hands| hands[frame])))
         .collect();
-    swivel::twist(&source, &steps, &mut turns, work.rate.frame_time());
+    swivel::twist_arm_bones(&source, &steps, &mut turns, work.rate.frame_time());
     for (frame, (step, turns)) in steps.iter().zip(&turns).enumerate() {
         if step.moves {
-            source.write(work, frame, step, turns);
+            source.write_arm_rotations(work, frame, step, turns);
         }
     }
     let softest = soft.into_iter().fold(0.0, f64::max);
-    Some(source.reach(targets, &steps, softest))
+    Some(source.measure_wrist_reach(targets, &steps, softest))
 }
 
 /// An arm before the change, over all frames in model space.
-struct Source<'a> {
+struct ArmSource<'a> {
     arm: ArmChain,
-    columns: &'a Columns,
+    columns: &'a JointColumns,
     /// The joints above collar bone, upper arm, forearm and hand.
     above: [Option<usize>; 4],
-    pole: Pole,
+    pole: ElbowPole,
 }
 
 /// The direction of an elbow if nothing else determines it.
-enum Pole {
+enum ElbowPole {
     /// In the space of the upper arm.
     Arm(DVec3),
     /// In model space.
@@ -141,15 +141,15 @@ enum Pole {
 
 /// The collar bone's help for a target.
 #[derive(Clone, Copy)]
-struct Help {
+struct CollarBoneHelp {
     rotation: DQuat,
     shoulder: DVec3,
 }
 
 /// The new position of the arm in one frame.
-struct Step {
+struct ArmStep {
     moves: bool,
-    help: Option<Help>,
+    help: Option<CollarBoneHelp>,
     /// Shoulder, elbow and wrist before the change.
     was: [DVec3; 3],
     /// Shoulder, elbow and wrist after the change.
@@ -167,7 +167,7 @@ struct Step {
 }
 
 /// The rotations of the arm's joints in model space in one frame.
-struct Turns {
+struct ArmJointTurns {
     /// The rotations of upper arm and forearm before the change.
     old: [DQuat; 2],
     upper: DQuat,
@@ -181,14 +181,16 @@ struct Turns {
     reliability: f64,
 }
 
-impl<'a> Source<'a> {
-    fn of(work: &Work, side: Side, columns: &'a Columns) -> Option<Self> {
-        let arm = work.anatomy.arm(side)?;
-        let pole = match work.anatomy.elbow(side) {
-            Some(out) => Pole::Arm(out),
-            None => Pole::Model(Frame::of(work).map_or(DVec3::NEG_Y, |f| -f.forward - DVec3::Y)),
+impl<'a> ArmSource<'a> {
+    fn read_arm_source(work: &WorkingClip, side: BodySide, columns: &'a JointColumns) -> Option<Self> {
+        let arm = work.anatomy.arm_chain(side)?;
+        let pole = match work.anatomy.elbow_direction(side) {
+            Some(out) => ElbowPole::Arm(out),
+            None => {
+                ElbowPole::Model(SignerFrame::from_mean_posture(work).map_or(DVec3::NEG_Y, |f| -f.forward - DVec3::Y))
+            }
         };
-        let above = |joint| work.skeleton.parent(joint);
+        let above = |joint| work.skeleton.joint_parent(joint);
         Some(Self {
             columns,
             above: [
@@ -202,23 +204,22 @@ impl<'a> Source<'a> {
         })
     }
 
-    fn wrists(&self) -> &[DVec3] {
-        self.columns.positions(self.arm.hand)
+    fn source_wrists(&self) -> &[DVec3] {
+        self.columns.joint_positions(self.arm.hand)
     }
 
-    fn points(&self, frame: usize) -> [DVec3; 3] {
-        [self.arm.upper, self.arm.forearm, self.arm.hand]
-            .map(|joint| self.columns.positions(joint)[frame])
+    fn arm_points_at(&self, frame: usize) -> [DVec3; 3] {
+        [self.arm.upper, self.arm.forearm, self.arm.hand].map(|joint| self.columns.joint_positions(joint)[frame])
     }
 
-    fn turned(&self, joint: usize, frame: usize) -> DQuat {
-        self.columns.rotations(joint)[frame]
+    fn joint_rotation_at(&self, joint: usize, frame: usize) -> DQuat {
+        self.columns.joint_rotations(joint)[frame]
     }
 
     /// Returns the rotations from model space to the space of the joint above the arm or its collar bone.
     fn trunks(&self, frames: usize) -> Vec<DQuat> {
         let above = self.arm.clavicle.map_or(self.above[1], |_| self.above[0]);
-        let turned = |frame| above.map_or(DQuat::IDENTITY, |joint| self.turned(joint, frame));
+        let turned = |frame| above.map_or(DQuat::IDENTITY, |joint| self.joint_rotation_at(joint, frame));
         (0..frames).map(|frame| turned(frame).inverse()).collect()
     }
 
@@ -227,16 +228,16 @@ impl<'a> Source<'a> {
     ///
     /// The angle is at most the missing distance divided by the bone's length, even if that is of little use: a collar
     /// bone that points at the target cannot bring the shoulder nearer.
-    fn help(&self, frame: usize, target: DVec3) -> Option<Help> {
-        let [shoulder, elbow, wrist] = self.points(frame);
-        let length = length([shoulder, elbow, wrist]);
+    fn help(&self, frame: usize, target: DVec3) -> Option<CollarBoneHelp> {
+        let [shoulder, elbow, wrist] = self.arm_points_at(frame);
+        let length = full_arm_length([shoulder, elbow, wrist]);
         let enough = (HELP_FROM * length).max(shoulder.distance(wrist));
         let missing = shoulder.distance(target) - enough;
         if missing <= 0.0 {
             return None;
         }
         let clavicle = self.arm.clavicle?;
-        let root = self.columns.positions(clavicle)[frame];
+        let root = self.columns.joint_positions(clavicle)[frame];
         let (bone, to_target) = (shoulder - root, target - root);
         let (b, w) = (bone.length(), to_target.length());
         if b <= 1e-9 * length {
@@ -244,27 +245,27 @@ impl<'a> Source<'a> {
         }
         let axis = bone.cross(to_target).try_normalize()?;
         let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
-        let wanted = bone.angle_between(to_target) - cosine.clamp(-1.0, 1.0).acos();
-        let wanted = wanted.clamp(0.0, missing / b);
+        let missing_angle = bone.angle_between(to_target) - cosine.clamp(-1.0, 1.0).acos();
+        let wanted = missing_angle.clamp(0.0, missing / b);
         let turn = DQuat::from_axis_angle(axis, HELP_MOST * (wanted / HELP_MOST).tanh());
-        Some(Help {
-            rotation: turn * self.turned(clavicle, frame),
+        Some(CollarBoneHelp {
+            rotation: turn * self.joint_rotation_at(clavicle, frame),
             shoulder: root + turn * bone,
         })
     }
 
     /// Returns the soft ends at the far and the near limit of the reach for each frame: the least length if no target
     /// leaves the reach; around frames that leave it, the length that keeps the elbow from opening too fast.
-    fn soft(&self, targets: &[DVec3], helps: &[Option<Help>], frame_time: f64) -> [Vec<f64>; 2] {
+    fn soft(&self, targets: &[DVec3], helps: &[Option<CollarBoneHelp>], frame_time: f64) -> [Vec<f64>; 2] {
         let extension = |frame: usize| {
-            let points = self.points(frame);
+            let points = self.arm_points_at(frame);
             let shoulder = helps[frame].map_or(points[0], |help| help.shoulder);
-            shoulder.distance(targets[frame]) / length(points)
+            shoulder.distance(targets[frame]) / full_arm_length(points)
         };
         let far: Vec<f64> = (0..targets.len()).map(extension).collect();
         let near = far.iter().enumerate().map(|(frame, extension)| {
-            let points = self.points(frame);
-            1.0 + folded(points) / length(points) - extension
+            let points = self.arm_points_at(frame);
+            1.0 + folded_arm_length(points) / full_arm_length(points) - extension
         });
         let near: Vec<f64> = near.collect();
         [&far, &near].map(|extensions| softened(extensions, frame_time))
@@ -272,39 +273,39 @@ impl<'a> Source<'a> {
 
     /// Returns the target; if it is nearer to the shoulder than the wrist of the folded arm plus `soft`, returns a
     /// place in the same direction at a soft distance. `soft` is a share of the arm's length.
-    fn kept_off(&self, frame: usize, target: DVec3, help: Option<Help>, soft: f64) -> DVec3 {
-        let points = self.points(frame);
+    fn kept_off(&self, frame: usize, target: DVec3, help: Option<CollarBoneHelp>, soft: f64) -> DVec3 {
+        let points = self.arm_points_at(frame);
         let shoulder = help.map_or(points[0], |help| help.shoulder);
-        let soft = soft * length(points);
-        let (to_target, edge) = (target - shoulder, folded(points) + soft);
+        let soft = soft * full_arm_length(points);
+        let (to_target, edge) = (target - shoulder, folded_arm_length(points) + soft);
         let distance = to_target.length();
         if distance >= edge {
             return target;
         }
         let kept = edge - soft + soft * ((distance - edge) / soft).exp();
-        shoulder + to_target.normalize_or(line(points)) * kept
+        shoulder + to_target.normalize_or(shoulder_wrist_direction(points)) * kept
     }
 
-    fn step(
+    fn solve_arm_step(
         &self,
         frame: usize,
         target: DVec3,
-        help: Option<Help>,
+        help: Option<CollarBoneHelp>,
         moves: bool,
         soft: f64,
-        solver: Solver,
-    ) -> Option<Step> {
-        let was = self.points(frame);
+        solver: ArmSolverMethod,
+    ) -> Option<ArmStep> {
+        let was = self.arm_points_at(frame);
         let pole = match self.pole {
-            Pole::Arm(out) => self.turned(self.arm.upper, frame) * out,
-            Pole::Model(direction) => direction,
+            ElbowPole::Arm(out) => self.joint_rotation_at(self.arm.upper, frame) * out,
+            ElbowPole::Model(direction) => direction,
         };
-        let old = line(was);
-        let across = pole.reject_from_normalized(old).try_normalize();
-        let across = across.unwrap_or_else(|| old.any_orthonormal_vector());
-        let stands = bend(was, across, 1.0);
+        let old = shoulder_wrist_direction(was);
+        let pole_across = pole.reject_from_normalized(old).try_normalize();
+        let across = pole_across.unwrap_or_else(|| old.any_orthonormal_vector());
+        let stands = elbow_bend_direction(was, across, 1.0);
         if !moves {
-            return Some(Step {
+            return Some(ArmStep {
                 moves,
                 help: None,
                 was,
@@ -321,49 +322,48 @@ impl<'a> Source<'a> {
         let pole = Some(pole);
         let solved = two_bone(start, target, &TwoBoneOptions { soft, pole }).ok()?;
         let is = match solver {
-            Solver::Analytic => [start[0], solved.middle, solved.end],
-            Solver::Fabrik => {
+            ArmSolverMethod::Analytic => [start[0], solved.middle, solved.end],
+            ArmSolverMethod::Fabrik => {
                 let options = FabrikOptions {
                     pole,
                     ..FabrikOptions::default()
                 };
-                let points = fabrik(&start, target, &options).ok()?.points;
+                let points = solve_fabrik(&start, target, &options).ok()?.points;
                 [start[0], points[1], points[2]]
             }
         };
-        let grown = (off_line(is) - off_line(was)) / (STRAIGHT * length(was));
-        let known = match self.pole {
-            Pole::Arm(_) => 1.0,
-            Pole::Model(_) => smooth(off_line(was) / (STRAIGHT * length(was))),
+        let grown = (off_line(is) - off_line(was)) / (STRAIGHT_ELBOW_SHARE * full_arm_length(was));
+        let pole_trust = match self.pole {
+            ElbowPole::Arm(_) => 1.0,
+            ElbowPole::Model(_) => smooth_share(off_line(was) / (STRAIGHT_ELBOW_SHARE * full_arm_length(was))),
         };
-        Some(Step {
+        Some(ArmStep {
             moves,
             help,
             was,
             is,
             pole: across,
             stands,
-            bends: bend(was, across, grown.clamp(0.0, 1.0)),
-            carry: least_turn(old, line(is)),
-            trust: known * meaning(was, is),
+            bends: elbow_bend_direction(was, across, grown.clamp(0.0, 1.0)),
+            carry: least_turn(old, shoulder_wrist_direction(is)),
+            trust: pole_trust * swivel_weight(was, is),
         })
     }
 
     /// Returns the rotations of the arm's joints that put its bones in the positions of the step.
-    fn turns(&self, frame: usize, step: &Step, hand: Option<DQuat>) -> Turns {
-        let [upper, forearm, held] = [self.arm.upper, self.arm.forearm, self.arm.hand]
-            .map(|joint| self.turned(joint, frame));
+    fn arm_joint_turns(&self, frame: usize, step: &ArmStep, hand: Option<DQuat>) -> ArmJointTurns {
+        let [upper, forearm, held] =
+            [self.arm.upper, self.arm.forearm, self.arm.hand].map(|joint| self.joint_rotation_at(joint, frame));
         let hand = hand.unwrap_or(held).normalize();
-        let whole = step.carry;
+        let carry_turn = step.carry;
         let bones = |points: [DVec3; 3]| [points[1] - points[0], points[2] - points[1]];
         let ([first, second], [to, on]) = (bones(step.was), bones(step.is));
-        let turned =
-            |from: DVec3, to: DVec3| least_turn((whole * from).normalize(), to.normalize()) * whole;
+        let turned = |from: DVec3, to: DVec3| least_turn((carry_turn * from).normalize(), to.normalize()) * carry_turn;
         let straight = (turned(second, on) * forearm).normalize();
         let bone = (forearm.inverse() * second).normalize();
         let (was, _) = twist_about(forearm.inverse() * held, bone);
         let (now, reliability) = twist_about(straight.inverse() * hand, bone);
-        Turns {
+        ArmJointTurns {
             old: [upper, forearm],
             upper: (turned(first, to) * upper).normalize(),
             forearm: straight,
@@ -375,10 +375,9 @@ impl<'a> Source<'a> {
     }
 
     /// Sets the local rotations of the arm's joints, so that they have the given rotations in model space.
-    fn write(&self, work: &mut Work, frame: usize, step: &Step, turns: &Turns) {
-        let above =
-            |n: usize| self.above[n].map_or(DQuat::IDENTITY, |joint| self.turned(joint, frame));
-        let change = |joint: usize, now: DQuat| now * self.turned(joint, frame).inverse();
+    fn write_arm_rotations(&self, work: &mut WorkingClip, frame: usize, step: &ArmStep, turns: &ArmJointTurns) {
+        let above = |n: usize| self.above[n].map_or(DQuat::IDENTITY, |joint| self.joint_rotation_at(joint, frame));
+        let change = |joint: usize, now: DQuat| now * self.joint_rotation_at(joint, frame).inverse();
         let mut set = |joint: usize, above: DQuat, now: DQuat| {
             work.channels[joint].rotations[frame] = (above.inverse() * now).normalize();
         };
@@ -395,13 +394,13 @@ impl<'a> Source<'a> {
         set(self.arm.hand, carried * above(3), turns.hand);
     }
 
-    fn reach(&self, targets: &[DVec3], steps: &[Step], soft: f64) -> Reach {
-        let mut reach = Reach {
+    fn measure_wrist_reach(&self, targets: &[DVec3], steps: &[ArmStep], soft: f64) -> WristReach {
+        let mut reach = WristReach {
             soft,
-            ..Reach::default()
+            ..WristReach::default()
         };
         for (frame, (target, step)) in targets.iter().zip(steps).enumerate() {
-            reach.arm = length(step.was);
+            reach.arm = full_arm_length(step.was);
             reach.farthest = reach.farthest.max(step.was[0].distance(*target));
             reach.helped += usize::from(step.help.is_some());
             let residual = step.is[2].distance(*target);
@@ -418,43 +417,43 @@ impl<'a> Source<'a> {
 /// The elbow of an arm that is extended to `1 - s` opens by `√(2/s)` radians for each arm length that the wrist moves
 /// outwards.
 fn softened(extensions: &[f64], frame_time: f64) -> Vec<f64> {
-    let mut soft = vec![SOFT.0; extensions.len()];
+    let mut soft = vec![SOFT_REACH_SHARES.0; extensions.len()];
     if extensions
         .iter()
-        .all(|&extension| extension <= 1.0 - SOFT.0)
+        .all(|&extension| extension <= 1.0 - SOFT_REACH_SHARES.0)
     {
         return soft;
     }
-    let near = (AROUND / frame_time).round() as usize;
+    let near = (FAST_EXIT_SECONDS / frame_time).round() as usize;
     for frame in 1..extensions.len() {
         let [before, now] = [extensions[frame - 1], extensions[frame]];
-        if before.max(now) < 1.0 - SOFT.1 || before.min(now) > 1.0 + SOFT.1 {
+        if before.max(now) < 1.0 - SOFT_REACH_SHARES.1 || before.min(now) > 1.0 + SOFT_REACH_SHARES.1 {
             continue;
         }
         let speed = (now - before).abs() / frame_time;
-        let wanted = (2.0 * (speed / OPENING).powi(2)).clamp(SOFT.0, SOFT.1);
+        let wanted = (2.0 * (speed / MAX_ELBOW_OPENING_SPEED).powi(2)).clamp(SOFT_REACH_SHARES.0, SOFT_REACH_SHARES.1);
         for at in frame.saturating_sub(near)..(frame + near).min(soft.len()) {
             let away = at.abs_diff(frame) as f64 / near.max(1) as f64;
-            let share = smooth(2.0 - 2.0 * away);
-            soft[at] = soft[at].max(SOFT.0 + (wanted - SOFT.0) * share);
+            let share = smooth_share(2.0 - 2.0 * away);
+            soft[at] = soft[at].max(SOFT_REACH_SHARES.0 + (wanted - SOFT_REACH_SHARES.0) * share);
         }
     }
     soft
 }
 
 /// Returns the distance from shoulder to wrist of the folded arm.
-fn folded([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
+fn folded_arm_length([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
     (shoulder.distance(elbow) - elbow.distance(wrist)).abs()
 }
 
-fn length([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
+fn full_arm_length([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
     shoulder.distance(elbow) + elbow.distance(wrist)
 }
 
 /// Returns the unit vector from shoulder to wrist; along the upper arm if the two coincide.
-fn line([shoulder, elbow, wrist]: [DVec3; 3]) -> DVec3 {
+fn shoulder_wrist_direction([shoulder, elbow, wrist]: [DVec3; 3]) -> DVec3 {
     let line = wrist - shoulder;
-    if line.length() > 1e-9 * length([shoulder, elbow, wrist]) {
+    if line.length() > 1e-9 * full_arm_length([shoulder, elbow, wrist]) {
         line.normalize()
     } else {
         (elbow - shoulder).normalize_or(DVec3::X)
@@ -475,10 +474,10 @@ fn twist_about(q: DQuat, axis: DVec3) -> (f64, f64) {
 
 /// Returns the direction of the elbow from the line from shoulder to wrist. As the arm becomes straight, so that this
 /// direction becomes undefined, the share `grown` of the natural bend `pole` counts more and more.
-fn bend(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
-    let clear = STRAIGHT * length(arm);
-    let own = (arm[1] - arm[0]).reject_from_normalized(line(arm));
-    let mixed = own + pole * (clear * (1.0 - smooth(own.length() / clear)) * grown);
+fn elbow_bend_direction(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
+    let clear = STRAIGHT_ELBOW_SHARE * full_arm_length(arm);
+    let elbow_offset = (arm[1] - arm[0]).reject_from_normalized(shoulder_wrist_direction(arm));
+    let mixed = elbow_offset + pole * (clear * (1.0 - smooth_share(elbow_offset.length() / clear)) * grown);
     mixed
         .try_normalize()
         .filter(|_| mixed.length() > 1e-9 * clear)
@@ -487,18 +486,20 @@ fn bend(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
 
 /// Returns the distance of the elbow from the line from shoulder to wrist.
 fn off_line(arm: [DVec3; 3]) -> f64 {
-    (arm[1] - arm[0]).reject_from_normalized(line(arm)).length()
+    (arm[1] - arm[0])
+        .reject_from_normalized(shoulder_wrist_direction(arm))
+        .length()
 }
 
 /// Returns the weight of the source's swivel in the arm's new direction: 0 for an arm that is folded on the shoulder,
 /// or whose old direction is opposite to the new one.
-fn meaning(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
-    let folded = smooth(was[0].distance(was[2]) / (FOLDED * length(was)));
-    folded * smooth((1.0 + line(was).dot(line(is))) / 0.5)
+fn swivel_weight(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
+    let folded = smooth_share(was[0].distance(was[2]) / (FOLDED_ARM_SHARE * full_arm_length(was)));
+    folded * smooth_share((1.0 + shoulder_wrist_direction(was).dot(shoulder_wrist_direction(is))) / 0.5)
 }
 
 /// Returns a smooth share from 0 to 1 whose slope is 0 at both ends.
-fn smooth(share: f64) -> f64 {
+fn smooth_share(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
 }
@@ -506,18 +507,17 @@ fn smooth(share: f64) -> f64 {
 /// Moves wrist and hand of an idle arm to their targets, with a hanging elbow: down, and a little to the arm's own
 /// side.
 pub(crate) fn raise_arm(
-    work: &mut Work,
-    side: Side,
+    work: &mut WorkingClip,
+    side: BodySide,
     targets: &[DVec3],
     hands: &[DQuat],
     outside: DVec3,
-) -> Option<Reach> {
-    let arm = work.anatomy.arm(side)?;
-    let columns = Columns::of(work, [arm.hand]);
-    move_wrist(work, side, &columns, targets, Some(hands), Solver::Analytic)?;
-    let columns = Columns::of(work, [arm.hand]);
-    let [shoulders, elbows, wrists] =
-        [arm.upper, arm.forearm, arm.hand].map(|j| columns.positions(j));
+) -> Option<WristReach> {
+    let arm = work.anatomy.arm_chain(side)?;
+    let columns = JointColumns::joint_columns_of(work, [arm.hand]);
+    move_wrist(work, side, &columns, targets, Some(hands), ArmSolverMethod::Analytic)?;
+    let columns = JointColumns::joint_columns_of(work, [arm.hand]);
+    let [shoulders, elbows, wrists] = [arm.upper, arm.forearm, arm.hand].map(|j| columns.joint_positions(j));
     let wanted = DVec3::NEG_Y + outside * 0.35;
     for frame in 0..work.frames {
         let Some(line) = (wrists[frame] - shoulders[frame]).try_normalize() else {
@@ -529,15 +529,15 @@ pub(crate) fn raise_arm(
             continue;
         }
         let angle = line.dot(now.cross(then)).atan2(now.dot(then));
-        let model = DQuat::from_axis_angle(line, angle) * columns.rotations(arm.upper)[frame];
-        let above = match work.skeleton.parent(arm.upper) {
-            Some(parent) => columns.rotations(parent)[frame],
+        let model = DQuat::from_axis_angle(line, angle) * columns.joint_rotations(arm.upper)[frame];
+        let above = match work.skeleton.joint_parent(arm.upper) {
+            Some(parent) => columns.joint_rotations(parent)[frame],
             None => DQuat::IDENTITY,
         };
         work.channels[arm.upper].rotations[frame] = (above.inverse() * model).normalize();
     }
-    let columns = Columns::of(work, [arm.hand]);
-    move_wrist(work, side, &columns, targets, Some(hands), Solver::Analytic)
+    let columns = JointColumns::joint_columns_of(work, [arm.hand]);
+    move_wrist(work, side, &columns, targets, Some(hands), ArmSolverMethod::Analytic)
 }
 
 #[cfg(test)]
@@ -547,14 +547,14 @@ mod tests {
     #[test]
     fn the_soft_zone_is_longer_if_the_wrist_leaves_the_reach_fast() {
         let within = softened(&[0.5; 50], 1.0 / 120.0);
-        assert_eq!(within, vec![SOFT.0; 50]);
+        assert_eq!(within, vec![SOFT_REACH_SHARES.0; 50]);
         let leaving = |per_frame: f64| {
             let distances = (0..300).map(|n| 1.0 + per_frame * (f64::from(n) - 150.0));
             softened(&distances.collect::<Vec<f64>>(), 1.0 / 120.0)
         };
         let (slow, fast) = (leaving(1e-4), leaving(0.02));
-        assert!(slow.iter().all(|soft| (soft - SOFT.0).abs() < 1e-9));
-        assert_eq!((fast[0], fast[299]), (SOFT.0, SOFT.0));
-        assert!((fast[150] - SOFT.1).abs() < 1e-9);
+        assert!(slow.iter().all(|soft| (soft - SOFT_REACH_SHARES.0).abs() < 1e-9));
+        assert_eq!((fast[0], fast[299]), (SOFT_REACH_SHARES.0, SOFT_REACH_SHARES.0));
+        assert!((fast[150] - SOFT_REACH_SHARES.1).abs() < 1e-9);
     }
 }

@@ -2,65 +2,64 @@
 
 use crate::error::RecipeError;
 use crate::recipe::*;
-use crate::units::{Hands, Length, Seconds, towards};
-use chereme_sign::cue::Alphabet;
+use crate::units::{HandChoice, RecipeLength, RecipeSeconds, mean_of_directions};
+use chereme_sign::cue::PhoneAlphabet;
 
 /// The deepest nesting of pipes and utterances.
-pub const DEEPEST: usize = 32;
+pub const MAX_RECIPE_DEPTH: usize = 32;
 /// The most sources and operators.
 pub const MOST_PARTS: usize = 1000;
 /// The longest time in seconds that a recipe can state: a day.
-pub(crate) const LONGEST: f64 = 86_400.0;
+pub(crate) const MAX_RECIPE_SECONDS: f64 = 86_400.0;
 
 impl Recipe {
     /// Returns the recipe of a tree, with nested pipes and utterances flattened.
     ///
     /// # Errors
     /// [`RecipeError`] if a number, list or size is out of range.
-    pub fn new(root: Node) -> Result<Self, RecipeError> {
+    pub fn new(root: RecipeNode) -> Result<Self, RecipeError> {
         let mut parts = 0;
-        check(&root, 0, &mut parts)?;
-        Ok(Self { root: flat(root) })
+        check_recipe_node(&root, 0, &mut parts)?;
+        Ok(Self {
+            root: flatten_recipe_node(root),
+        })
     }
 
     /// Returns the tree.
     #[must_use]
-    pub fn root(&self) -> &Node {
+    pub fn recipe_root(&self) -> &RecipeNode {
         &self.root
     }
 }
 
-fn flat(node: Node) -> Node {
+fn flatten_recipe_node(node: RecipeNode) -> RecipeNode {
     match node {
-        Node::Pipe(pipe) => {
+        RecipeNode::Pipe(pipe) => {
             let mut steps = pipe.steps;
-            match flat(*pipe.of) {
-                Node::Pipe(mut inner) => {
+            match flatten_recipe_node(*pipe.of) {
+                RecipeNode::Pipe(mut inner) => {
                     inner.steps.append(&mut steps);
-                    Node::Pipe(inner)
+                    RecipeNode::Pipe(inner)
                 }
                 of if steps.is_empty() => of,
-                of => Node::Pipe(Pipe {
+                of => RecipeNode::Pipe(OperatorPipe {
                     of: Box::new(of),
                     steps,
                 }),
             }
         }
-        Node::Then(then) => {
-            let mut next: Vec<Joined> = then.next;
+        RecipeNode::Then(then) => {
+            let mut next: Vec<JoinedPiece> = then.next;
             for joined in &mut next {
-                joined.node = flat(std::mem::replace(
-                    &mut joined.node,
-                    Node::Sign(String::new()),
-                ));
+                joined.node = flatten_recipe_node(std::mem::replace(&mut joined.node, RecipeNode::Sign(String::new())));
             }
-            match flat(*then.first) {
-                Node::Then(mut inner) => {
+            match flatten_recipe_node(*then.first) {
+                RecipeNode::Then(mut inner) => {
                     inner.next.append(&mut next);
-                    Node::Then(inner)
+                    RecipeNode::Then(inner)
                 }
                 first if next.is_empty() => first,
-                first => Node::Then(Then {
+                first => RecipeNode::Then(RecipeChain {
                     first: Box::new(first),
                     next,
                 }),
@@ -70,61 +69,59 @@ fn flat(node: Node) -> Node {
     }
 }
 
-fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError> {
-    let step = node.name();
-    if depth > DEEPEST {
+fn check_recipe_node(node: &RecipeNode, depth: usize, parts: &mut usize) -> Result<(), RecipeError> {
+    let step = node.node_kind_name();
+    if depth > MAX_RECIPE_DEPTH {
         return Err(RecipeError::Size {
             what: "levels",
-            most: DEEPEST,
+            most: MAX_RECIPE_DEPTH,
         });
     }
-    count(parts, 1)?;
+    count_recipe_parts(parts, 1)?;
     match node {
-        Node::Sign(address) => named(step, address, "the name of the sign is empty"),
-        Node::Spell(spell) => {
-            named(step, &spell.word, "the word is empty")?;
+        RecipeNode::Sign(address) => check_named_text(step, address, "the name of the sign is empty"),
+        RecipeNode::Spell(spell) => {
+            check_named_text(step, &spell.word, "the word is empty")?;
             if spell.word.chars().count() > 200 {
                 return Err(RecipeError::Size {
                     what: "letters in a word",
                     most: 200,
                 });
             }
-            optional(
-                spell.alphabet.as_deref(),
-                step,
-                "the name of the alphabet is empty",
-            )?;
-            optional(spell.on.as_deref(), step, "the name of the signer is empty")?;
-            time(step, "hold", spell.hold, 60.0)?;
-            via(step, &spell.via)
+            check_optional_text(spell.alphabet.as_deref(), step, "the name of the alphabet is empty")?;
+            check_optional_text(spell.on.as_deref(), step, "the name of the signer is empty")?;
+            check_step_time(step, "hold", spell.hold, 60.0)?;
+            check_step_transition(step, &spell.via)
         }
-        Node::Point(point) => {
-            spot(step, &point.at)?;
+        RecipeNode::Point(point) => {
+            check_step_spot(step, &point.at)?;
             if let Some(with) = &point.with {
-                choice(step, with)?;
+                check_step_choice(step, with)?;
             }
-            optional(point.on.as_deref(), step, "the name of the signer is empty")?;
-            time(step, "hold", point.hold, 60.0)?;
-            via(step, &point.via)
+            check_optional_text(point.on.as_deref(), step, "the name of the signer is empty")?;
+            check_step_time(step, "hold", point.hold, 60.0)?;
+            check_step_transition(step, &point.via)
         }
-        Node::Cue(cue) => {
-            named(step, &cue.text, "there is nothing to cue")?;
+        RecipeNode::Cue(cue) => {
+            check_named_text(step, &cue.text, "there is nothing to cue")?;
             for (name, what) in [
                 (&cue.phones, "the name of the alphabet is empty"),
                 (&cue.code, "the name of the code is empty"),
                 (&cue.on, "the name of the signer is empty"),
             ] {
-                optional(name.as_deref(), step, what)?;
+                check_optional_text(name.as_deref(), step, what)?;
             }
             if let Some(phones) = &cue.phones
-                && !Alphabet::ALL.iter().any(|it| it.name() == phones)
+                && !PhoneAlphabet::ALL_ALPHABETS
+                    .iter()
+                    .any(|alphabet| alphabet.alphabet_name() == phones)
             {
                 return Err(RecipeError::Empty {
                     step,
                     what: "phones are written as sampa, ipa or mfa",
                 });
             }
-            if cue.hand == Hands::Both {
+            if cue.hand == HandChoice::Both {
                 return Err(RecipeError::Empty {
                     step,
                     what: "one hand cues: name right, left, dominant or weak",
@@ -141,35 +138,31 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
                 _ => Ok(()),
             }
         }
-        Node::Hamnosys(notation) | Node::Sigml(notation) => {
-            named(step, &notation.of, "nothing is notated")?;
-            optional(
+        RecipeNode::Hamnosys(notation) | RecipeNode::Sigml(notation) => {
+            check_named_text(step, &notation.of, "nothing is notated")?;
+            check_optional_text(
                 notation.language.as_deref(),
                 step,
                 "the name of the body language is empty",
             )?;
-            optional(
-                notation.on.as_deref(),
-                step,
-                "the name of the signer is empty",
-            )
+            check_optional_text(notation.on.as_deref(), step, "the name of the signer is empty")
         }
-        Node::Pipe(pipe) => {
-            check(&pipe.of, depth + 1, parts)?;
-            count(parts, pipe.steps.len())?;
-            pipe.steps.iter().try_for_each(Step::check)
+        RecipeNode::Pipe(pipe) => {
+            check_recipe_node(&pipe.of, depth + 1, parts)?;
+            count_recipe_parts(parts, pipe.steps.len())?;
+            pipe.steps.iter().try_for_each(Step::check_step_settings)
         }
-        Node::Then(then) => {
-            check(&then.first, depth + 1, parts)?;
+        RecipeNode::Then(then) => {
+            check_recipe_node(&then.first, depth + 1, parts)?;
             then.next.iter().try_for_each(|joined| {
-                via("then", &joined.via)?;
-                check(&joined.node, depth + 1, parts)
+                check_step_transition("then", &joined.via)?;
+                check_recipe_node(&joined.node, depth + 1, parts)
             })
         }
     }
 }
 
-fn count(parts: &mut usize, more: usize) -> Result<(), RecipeError> {
+fn count_recipe_parts(parts: &mut usize, more: usize) -> Result<(), RecipeError> {
     *parts += more;
     if *parts > MOST_PARTS {
         return Err(RecipeError::Size {
@@ -181,10 +174,10 @@ fn count(parts: &mut usize, more: usize) -> Result<(), RecipeError> {
 }
 
 /// Checks the two ends of a part of a movement.
-pub(crate) fn part(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
-    time(step, "the start", cut.from, LONGEST)?;
-    time(step, "the end", cut.to, LONGEST)?;
-    let (from, to) = (cut.from.map_or(0.0, |it| it.0), cut.to.map(|it| it.0));
+pub(crate) fn check_movement_part(step: &'static str, cut: &SpanSettings) -> Result<(), RecipeError> {
+    check_step_time(step, "the start", cut.from, MAX_RECIPE_SECONDS)?;
+    check_step_time(step, "the end", cut.to, MAX_RECIPE_SECONDS)?;
+    let (from, to) = (cut.from.map_or(0.0, |time| time.0), cut.to.map(|time| time.0));
     if to.is_some_and(|to| to <= from) || (cut.from.is_none() && to.is_none()) {
         let what = "it ends before it begins; write the earlier time first, such as 0.4s..1.9s";
         return Err(RecipeError::Empty { step, what });
@@ -193,46 +186,46 @@ pub(crate) fn part(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
 }
 
 /// Checks straight legs.
-pub(crate) fn legs(step: &'static str, legs: &[Leg]) -> Result<(), RecipeError> {
+pub(crate) fn check_path_legs(step: &'static str, legs: &[StraightLeg]) -> Result<(), RecipeError> {
     legs.iter().try_for_each(|leg| {
-        directions(step, &leg.towards)?;
-        length(step, leg.distance)?;
-        time(step, "the time", leg.time, 600.0)
+        check_step_directions(step, &leg.towards)?;
+        check_step_length(step, leg.distance)?;
+        check_step_time(step, "the time", leg.time, 600.0)
     })
 }
 
-pub(crate) fn directions(
+pub(crate) fn check_step_directions(
     step: &'static str,
-    directions: &[crate::units::Direction],
+    directions: &[crate::units::BodyDirection],
 ) -> Result<(), RecipeError> {
-    if towards(directions).is_none() || directions.len() > 6 {
+    if mean_of_directions(directions).is_none() || directions.len() > 6 {
         let what = "the directions are missing, too many, or cancel out";
         return Err(RecipeError::Empty { step, what });
     }
     Ok(())
 }
 
-pub(crate) fn length(step: &'static str, length: Length) -> Result<(), RecipeError> {
+pub(crate) fn check_step_length(step: &'static str, length: RecipeLength) -> Result<(), RecipeError> {
     match length {
-        Length::Metres(metres) => range(step, "the length in metres", metres, -10.0, 10.0),
-        Length::Arm(share) => range(step, "the share of the arm", share, -10.0, 10.0),
+        RecipeLength::Metres(metres) => check_step_range(step, "the length in metres", metres, -10.0, 10.0),
+        RecipeLength::Arm(share) => check_step_range(step, "the share of the arm", share, -10.0, 10.0),
     }
 }
 
-pub(crate) fn time(
+pub(crate) fn check_step_time(
     step: &'static str,
     what: &'static str,
-    time: Option<Seconds>,
+    time: Option<RecipeSeconds>,
     most: f64,
 ) -> Result<(), RecipeError> {
-    time.map_or(Ok(()), |time| range(step, what, time.0, 0.0, most))
+    time.map_or(Ok(()), |time| check_step_range(step, what, time.0, 0.0, most))
 }
 
-pub(crate) fn via(step: &'static str, via: &Transition) -> Result<(), RecipeError> {
-    time(step, "the transition's time", via.time, 60.0)
+pub(crate) fn check_step_transition(step: &'static str, via: &PostureTransition) -> Result<(), RecipeError> {
+    check_step_time(step, "the transition's time", via.time, 60.0)
 }
 
-pub(crate) fn range(
+pub(crate) fn check_step_range(
     step: &'static str,
     what: &'static str,
     found: f64,
@@ -251,44 +244,40 @@ pub(crate) fn range(
     })
 }
 
-pub(crate) fn choice(step: &'static str, choice: &Choice) -> Result<(), RecipeError> {
+pub(crate) fn check_step_choice(step: &'static str, choice: &ValueChoice) -> Result<(), RecipeError> {
     match choice {
-        Choice::Keep => Ok(()),
-        Choice::Value(text) => named(step, text, "the value is empty"),
-        Choice::From(text) => named(step, text, "the name of the sign is empty"),
-        Choice::Best(text) => named(step, text, "the query is empty"),
+        ValueChoice::Keep => Ok(()),
+        ValueChoice::Value(text) => check_named_text(step, text, "the value is empty"),
+        ValueChoice::From(text) => check_named_text(step, text, "the name of the sign is empty"),
+        ValueChoice::Best(text) => check_named_text(step, text, "the query is empty"),
     }
 }
 
-pub(crate) fn spot(step: &'static str, spot: &Spot) -> Result<(), RecipeError> {
+pub(crate) fn check_step_spot(step: &'static str, spot: &SigningSpot) -> Result<(), RecipeError> {
     match spot {
-        Spot::Me | Spot::You => Ok(()),
-        Spot::Towards(all) => directions(step, all),
-        Spot::Value(text) => named(step, text, "the name of the placement is empty"),
-        Spot::Point(point) => point.iter().try_for_each(|&at| length(step, at)),
+        SigningSpot::Me | SigningSpot::You => Ok(()),
+        SigningSpot::Towards(all) => check_step_directions(step, all),
+        SigningSpot::Value(text) => check_named_text(step, text, "the name of the placement is empty"),
+        SigningSpot::Point(point) => point.iter().try_for_each(|&at| check_step_length(step, at)),
     }
 }
 
-pub(crate) fn named(step: &'static str, text: &str, what: &'static str) -> Result<(), RecipeError> {
+pub(crate) fn check_named_text(step: &'static str, text: &str, what: &'static str) -> Result<(), RecipeError> {
     if text.trim().is_empty() {
         return Err(RecipeError::Empty { step, what });
     }
     Ok(())
 }
 
-pub(crate) fn optional(
+pub(crate) fn check_optional_text(
     text: Option<&str>,
     step: &'static str,
     what: &'static str,
 ) -> Result<(), RecipeError> {
-    text.map_or(Ok(()), |text| named(step, text, what))
+    text.map_or(Ok(()), |text| check_named_text(step, text, what))
 }
 
-pub(crate) fn filled<T>(
-    step: &'static str,
-    list: &[T],
-    what: &'static str,
-) -> Result<(), RecipeError> {
+pub(crate) fn check_filled_list<T>(step: &'static str, list: &[T], what: &'static str) -> Result<(), RecipeError> {
     if list.is_empty() {
         return Err(RecipeError::Empty { step, what });
     }

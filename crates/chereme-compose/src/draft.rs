@@ -3,45 +3,45 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::answers::Path;
-use crate::contact::Contacts;
+use crate::answers::RecipePath;
+use crate::contact::MovementContacts;
 use crate::error::MakeError;
 use crate::evaluate;
-use crate::outcome::{Generated, Report};
-use crate::recipe::{Joined, Node, Recipe, Step, Then};
-use crate::resolve::{self, Input, Resolved};
-use crate::simplify::Planned;
-use crate::sources::{Material, Sources};
-use crate::work::Work;
+use crate::outcome::{GeneratedMovement, GenerationReport};
+use crate::recipe::{JoinedPiece, Recipe, RecipeChain, RecipeNode, Step};
+use crate::resolve::{self, RecipeInput, ResolvedRecipe};
+use crate::simplify::PlannedStep;
+use crate::sources::{MovementMaterial, RecipeSources};
+use crate::work::WorkingClip;
 
 /// A recipe that is evaluated repeatedly while it changes.
 ///
 /// Movement is stored after every source, operator and join, so that only the parts after a change are evaluated again;
-/// the result equals that of [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), bit by bit. The answers
-/// for a part of the recipe are reused as long as that part does not change: call [`forget`](Self::forget) if the
+/// the result equals that of [`resolve_recipe`](crate::resolve_recipe()) and [`evaluate_recipe`](crate::evaluate_recipe()), bit by bit. The answers
+/// for a part of the recipe are reused as long as that part does not change: call [`forget_draft_results`](Self::forget_draft_results) if the
 /// corpus changed.
 #[derive(Debug, Default)]
-pub struct Draft {
-    resolved: Option<Resolved>,
-    kept: Kept,
+pub struct RecipeDraft {
+    resolved: Option<ResolvedRecipe>,
+    kept: KeptStages,
 }
 
-impl Draft {
+impl RecipeDraft {
     /// Generates the movement of a recipe; between two steps `goes_on` is asked whether the result is still wanted.
     ///
     /// # Errors
-    /// Those of [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), and
-    /// [`Cause::Stopped`](crate::Cause::Stopped) if the result is no longer wanted; the next call reuses the steps
+    /// Those of [`resolve_recipe`](crate::resolve_recipe()) and [`evaluate_recipe`](crate::evaluate_recipe()), and
+    /// [`StepError::Stopped`](crate::StepError::Stopped) if the result is no longer wanted; the next call reuses the steps
     /// evaluated by then.
-    pub fn make(
+    pub fn generate_draft(
         &mut self,
         recipe: &Recipe,
-        sources: &dyn Sources,
+        sources: &dyn RecipeSources,
         goes_on: &dyn Fn() -> bool,
-    ) -> Result<Generated, MakeError> {
-        let resolved = resolve::after(recipe, sources, self.resolved.as_ref())?;
+    ) -> Result<GeneratedMovement, MakeError> {
+        let resolved = resolve::resolve_after_change(recipe, sources, self.resolved.as_ref())?;
         self.kept.round += 1;
-        let made = evaluate::with(&resolved, Some(&mut self.kept), goes_on);
+        let made = evaluate::evaluate_with_kept(&resolved, Some(&mut self.kept), goes_on);
         if made.is_ok() {
             self.kept.drop_unused();
         }
@@ -50,18 +50,18 @@ impl Draft {
     }
 
     /// Discards all results, so that the next evaluation starts from scratch.
-    pub fn forget(&mut self) {
+    pub fn forget_draft_results(&mut self) {
         *self = Self::default();
     }
 }
 
 /// The most memory for stored results, in numbers of eight bytes.
-const MOST: usize = 12 << 20;
+const MAX_DRAFT_NUMBERS: usize = 12 << 20;
 
 /// The stored results for parts of recipes.
 #[derive(Debug, Default)]
-pub(crate) struct Kept {
-    stages: Vec<Stage>,
+pub(crate) struct KeptStages {
+    stages: Vec<DraftStage>,
     /// The number of the current evaluation.
     round: u64,
     /// The index of the stage that was stored or found last.
@@ -71,51 +71,51 @@ pub(crate) struct Kept {
 /// A part of a recipe: a source, pieces joined so far, or movement with operators applied to it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DraftPart {
-    pub(crate) of: Node,
-    pub(crate) steps: Vec<Planned>,
+    pub(crate) of: RecipeNode,
+    pub(crate) steps: Vec<PlannedStep>,
 }
 
 /// The answers for a part, by paths relative to the part's own.
-type PartAnswers = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
+type PartAnswers = BTreeMap<String, (Option<RecipeInput>, Option<Arc<MovementMaterial>>)>;
 
 /// The movement after a part, with the report so far.
 #[derive(Debug)]
-pub(crate) struct Stage {
+pub(crate) struct DraftStage {
     part: DraftPart,
     given: PartAnswers,
     /// The path of the part in the recipe.
     base: String,
-    pub(crate) work: Work,
-    pub(crate) contacts: Option<Contacts>,
-    report: Report,
+    pub(crate) work: WorkingClip,
+    pub(crate) contacts: Option<MovementContacts>,
+    report: GenerationReport,
     round: u64,
 }
 
 impl DraftPart {
     /// Returns whether `path`, relative to the part's own, belongs to the part.
-    fn covers(&self, path: &str) -> bool {
-        let own = Path::default();
-        let below = |start: Path| {
+    fn covers_recipe_path(&self, path: &str) -> bool {
+        let root_path = RecipePath::default();
+        let below = |start: RecipePath| {
             let rest = path.strip_prefix(start.as_str());
             rest.is_some_and(|rest| rest.starts_with('/'))
         };
         match &self.of {
             _ if !self.steps.is_empty() => {
                 let mut steps = self.steps.iter();
-                below(own.operand()) || steps.any(|it| below(own.step(it.index)))
+                below(root_path.operand_path()) || steps.any(|step| below(root_path.operator_step_path(step.index)))
             }
-            Node::Then(then) => {
+            RecipeNode::Then(then) => {
                 let mut next = 0..then.next.len();
-                below(own.first()) || next.any(|n| below(own.joined(n)))
+                below(root_path.first_piece_path()) || next.any(|n| below(root_path.later_piece_path(n)))
             }
             _ => path.starts_with('/'),
         }
     }
 
     /// Returns the part of an utterance up to its first piece and `count` more.
-    pub(crate) fn pieces(then: &Then, count: usize) -> Self {
+    pub(crate) fn utterance_pieces_part(then: &RecipeChain, count: usize) -> Self {
         Self {
-            of: Node::Then(Then {
+            of: RecipeNode::Then(RecipeChain {
                 first: then.first.clone(),
                 next: then.next[..count].to_vec(),
             }),
@@ -125,23 +125,23 @@ impl DraftPart {
 }
 
 /// Returns the answers of `resolved` for a part at `base`.
-fn given(resolved: &Resolved, base: &str, part: &DraftPart) -> PartAnswers {
+fn part_answers(resolved: &ResolvedRecipe, base: &str, part: &DraftPart) -> PartAnswers {
     let mut given = PartAnswers::new();
-    for (path, input) in resolved.below(base) {
-        if part.covers(&path[base.len()..]) {
+    for (path, input) in resolved.inputs_below_path(base) {
+        if part.covers_recipe_path(&path[base.len()..]) {
             let material = resolved.materials.get(path).cloned();
-            let found = (Some(input.clone()), material);
-            given.insert(path[base.len()..].to_owned(), found);
+            let part_input = (Some(input.clone()), material);
+            given.insert(path[base.len()..].to_owned(), part_input);
         }
     }
     given
 }
 
-impl Stage {
-    fn holds(&self, resolved: &Resolved, base: &str) -> bool {
+impl DraftStage {
+    fn stage_holds_for(&self, resolved: &ResolvedRecipe, base: &str) -> bool {
         let mut now = resolved
-            .below(base)
-            .filter(|(path, _)| self.part.covers(&path[base.len()..]));
+            .inputs_below_path(base)
+            .filter(|(path, _)| self.part.covers_recipe_path(&path[base.len()..]));
         let same = self.given.iter().all(|(at, (input, material))| {
             now.next().is_some_and(|(path, found)| {
                 let loaded = resolved.materials.get(path);
@@ -158,7 +158,7 @@ impl Stage {
     }
 
     /// Returns the report with paths at `base` instead of the former path of the part.
-    pub(crate) fn report_at(&self, base: &str) -> Report {
+    pub(crate) fn report_at(&self, base: &str) -> GenerationReport {
         let mut report = self.report.clone();
         for step in &mut report.steps {
             step.path = format!("{base}{}", &step.path[self.base.len()..]);
@@ -166,12 +166,12 @@ impl Stage {
         report
     }
 
-    fn size(&self) -> usize {
-        size(&self.work)
+    fn stage_memory_size(&self) -> usize {
+        work_memory_size(&self.work)
     }
 }
 
-fn size(work: &Work) -> usize {
+fn work_memory_size(work: &WorkingClip) -> usize {
     let numbers = work.channels.iter().map(|channel| {
         let moved = channel.translations.as_ref().map_or(0, Vec::len);
         channel.rotations.len() * 4 + moved * 3
@@ -179,42 +179,44 @@ fn size(work: &Work) -> usize {
     numbers.sum()
 }
 
-impl Kept {
+impl KeptStages {
     /// Returns the movement after a part, if it was evaluated before.
-    pub(crate) fn find(
+    pub(crate) fn find_kept_stage(
         &mut self,
-        resolved: &Resolved,
+        resolved: &ResolvedRecipe,
         base: &str,
         part: &DraftPart,
-    ) -> Option<&Stage> {
-        let at = self
+    ) -> Option<&DraftStage> {
+        let stage_index = self
             .stages
             .iter()
-            .position(|stage| stage.part == *part && stage.holds(resolved, base))?;
-        self.last = Some(at);
-        self.stages[at].round = self.round;
-        Some(&self.stages[at])
+            .position(|stage| stage.part == *part && stage.stage_holds_for(resolved, base))?;
+        self.last = Some(stage_index);
+        self.stages[stage_index].round = self.round;
+        Some(&self.stages[stage_index])
     }
 
     /// Stores the movement after a part, with the report on that part.
-    pub(crate) fn keep(
+    pub(crate) fn keep_draft_stage(
         &mut self,
-        (resolved, base): (&Resolved, &str),
+        (resolved, base): (&ResolvedRecipe, &str),
         part: DraftPart,
-        work: &Work,
-        report: Report,
+        work: &WorkingClip,
+        report: GenerationReport,
     ) {
         self.last = None;
-        let held: usize = self.stages.iter().map(Stage::size).sum();
-        if held + size(work) > MOST {
+        let kept_size: usize = self.stages.iter().map(DraftStage::stage_memory_size).sum();
+        if kept_size + work_memory_size(work) > MAX_DRAFT_NUMBERS {
             let round = self.round;
             self.stages.retain(|stage| stage.round == round);
-            if self.stages.iter().map(Stage::size).sum::<usize>() + size(work) > MOST {
+            if self.stages.iter().map(DraftStage::stage_memory_size).sum::<usize>() + work_memory_size(work)
+                > MAX_DRAFT_NUMBERS
+            {
                 return;
             }
         }
-        self.stages.push(Stage {
-            given: given(resolved, base, &part),
+        self.stages.push(DraftStage {
+            given: part_answers(resolved, base, &part),
             part,
             base: base.to_owned(),
             work: work.clone(),
@@ -226,7 +228,7 @@ impl Kept {
     }
 
     /// Returns the stage that was stored or found last, if there is one.
-    pub(crate) fn last(&mut self) -> Option<&mut Stage> {
+    pub(crate) fn last_kept_stage(&mut self) -> Option<&mut DraftStage> {
         self.stages.get_mut(self.last?)
     }
 
@@ -239,73 +241,73 @@ impl Kept {
 
 /// A part of the previous recipe, with its path there.
 #[derive(Debug, Clone)]
-pub(crate) struct Former<'a> {
-    node: &'a Node,
-    pub(crate) path: Path,
+pub(crate) struct FormerPart<'a> {
+    node: &'a RecipeNode,
+    pub(crate) path: RecipePath,
 }
 
-impl<'a> Former<'a> {
-    pub(crate) fn of(recipe: &'a Recipe) -> Self {
+impl<'a> FormerPart<'a> {
+    pub(crate) fn from_former_recipe(recipe: &'a Recipe) -> Self {
         Self {
             node: &recipe.root,
-            path: Path::default(),
+            path: RecipePath::default(),
         }
     }
 
-    pub(crate) fn is(&self, node: &Node) -> bool {
+    pub(crate) fn is_same_node(&self, node: &RecipeNode) -> bool {
         self.node == node
     }
 
     /// Returns the operand of the operators, or the whole if there is no operator.
-    pub(crate) fn operated(&self) -> Self {
+    pub(crate) fn former_operand(&self) -> Self {
         match self.node {
-            Node::Pipe(pipe) => Self {
+            RecipeNode::Pipe(pipe) => Self {
                 node: &pipe.of,
-                path: self.path.operand(),
+                path: self.path.operand_path(),
             },
             _ => self.clone(),
         }
     }
 
     /// Returns the first of several pieces, or the only one, with its operators.
-    pub(crate) fn first(&self) -> Self {
+    pub(crate) fn first_former_piece(&self) -> Self {
         match self.node {
-            Node::Then(then) => Self {
+            RecipeNode::Then(then) => Self {
                 node: &then.first,
-                path: self.path.first(),
+                path: self.path.first_piece_path(),
             },
             _ => self.clone(),
         }
     }
 
     /// Returns the first source in it.
-    pub(crate) fn source(&self) -> Self {
+    pub(crate) fn first_former_source(&self) -> Self {
         match self.node {
-            Node::Pipe(_) => self.operated().source(),
-            Node::Then(_) => self.first().source(),
+            RecipeNode::Pipe(_) => self.former_operand().first_former_source(),
+            RecipeNode::Then(_) => self.first_former_piece().first_former_source(),
             _ => self.clone(),
         }
     }
 
     /// Returns the path of an equal operator.
-    pub(crate) fn step(&self, step: &Step) -> Option<Path> {
-        let Node::Pipe(pipe) = self.node else {
+    pub(crate) fn former_step_path(&self, step: &Step) -> Option<RecipePath> {
+        let RecipeNode::Pipe(pipe) = self.node else {
             return None;
         };
-        let at = pipe.steps.iter().position(|old| old == step)?;
-        Some(self.path.step(at))
+        let old_index = pipe.steps.iter().position(|old| old == step)?;
+        Some(self.path.operator_step_path(old_index))
     }
 
     /// Returns the equal piece, or else the piece at the same position, among those after the first.
-    pub(crate) fn piece(&self, joined: &Joined, nth: usize) -> Option<Self> {
-        let Node::Then(then) = self.node else {
+    pub(crate) fn find_former_piece(&self, joined: &JoinedPiece, nth: usize) -> Option<Self> {
+        let RecipeNode::Then(then) = self.node else {
             return None;
         };
         let same = then.next.iter().position(|old| old.node == joined.node);
-        let at = same.unwrap_or(nth);
+        let piece_index = same.unwrap_or(nth);
         Some(Self {
-            node: &then.next.get(at)?.node,
-            path: self.path.joined(at).piece(),
+            node: &then.next.get(piece_index)?.node,
+            path: self.path.later_piece_path(piece_index).inner_piece_path(),
         })
     }
 }

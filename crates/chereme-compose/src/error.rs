@@ -1,7 +1,7 @@
 //! The faults of a recipe that are known before its evaluation.
 
-use chereme_motion::Side;
-use chereme_sign::Remedy;
+use chereme_motion::BodySide;
+use chereme_sign::ErrorRemedy;
 
 use crate::sources::SourceError;
 use crate::units::UnitError;
@@ -13,9 +13,7 @@ pub enum RecipeError {
     #[error(transparent)]
     Text(#[from] TextError),
     /// The JSON is of a version that this engine does not know.
-    #[error(
-        "this recipe is of version {found}; this program reads version 1, so a newer one is needed"
-    )]
+    #[error("this recipe is of version {found}; this program reads version 1, so a newer one is needed")]
     Version {
         /// The version as written.
         found: String,
@@ -67,20 +65,20 @@ pub struct TextError {
     /// The character, from 0, at which reading stopped.
     pub at: usize,
     /// The fault there.
-    pub problem: Problem,
+    pub problem: RecipeTextProblem,
 }
 
 impl TextError {
     /// Returns the text with a mark under the character, on two lines.
     #[must_use]
-    pub fn pointed(&self) -> String {
+    pub fn mark_fault_character(&self) -> String {
         format!("{}\n{}^", self.text, " ".repeat(self.at))
     }
 }
 
 /// The fault at a character of a recipe's text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Problem {
+pub enum RecipeTextProblem {
     /// A word stands where another one was expected.
     #[error(
         "{} where {expected} was expected{}",
@@ -122,12 +120,12 @@ pub struct MakeError {
     pub step: String,
     /// The reason.
     #[source]
-    pub cause: Cause,
+    pub cause: StepError,
 }
 
 /// The reason why a step cannot be done.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Cause {
+pub enum StepError {
     /// The result is no longer wanted.
     #[error("the evaluation was stopped")]
     Stopped,
@@ -150,11 +148,11 @@ pub enum Cause {
     #[error("the body language cannot be used: {0}")]
     Language(String),
     /// The skeleton has no such arm.
-    #[error("this skeleton has no {} arm (shoulder, elbow, wrist)", .0.name())]
-    NoArm(Side),
+    #[error("this skeleton has no {} arm (shoulder, elbow, wrist)", .0.body_side_name())]
+    NoArm(BodySide),
     /// The hand has no fingers, or too few to define its palm.
-    #[error("the {} hand has no fingers in this skeleton", .0.name())]
-    NoFingers(Side),
+    #[error("the {} hand has no fingers in this skeleton", .0.body_side_name())]
+    NoFingers(BodySide),
     /// The skeleton has no head that hangs on a chest.
     #[error("there is no head in this skeleton")]
     NoHead,
@@ -170,24 +168,24 @@ pub enum Cause {
         what: &'static str,
     },
     /// A target is far beyond the body's reach.
-    #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long", distance * 100.0, side.name(), arm * 100.0)]
+    #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long", distance * 100.0, side.body_side_name(), arm * 100.0)]
     TooFar {
         /// The arm.
-        side: Side,
+        side: BodySide,
         /// From the shoulder to the target, in metres.
         distance: f64,
         /// The arm's length in metres.
         arm: f64,
     },
     /// A list gives neither one value nor one for each span.
-    #[error("{given} values are given, but the {} hand holds {held} one after another", side.name())]
+    #[error("{given} values are given, but the {} hand holds {held} one after another", side.body_side_name())]
     Count {
         /// The values given.
         given: usize,
         /// The spans that the sign holds.
         held: usize,
         /// The hand.
-        side: Side,
+        side: BodySide,
     },
     /// A list gives neither one pace nor one for each phase.
     #[error("{given} paces are given, but the sign has {phases} phases")]
@@ -233,9 +231,7 @@ pub enum Cause {
         least: f64,
     },
     /// A step would move hips, wrists or feet much faster than its source does.
-    #[error(
-        "too fast: {speed:.1} m/s at {part}, {added:.1} m/s more than before, and at most {most} m/s can be added"
-    )]
+    #[error("too fast: {speed:.1} m/s at {part}, {added:.1} m/s more than before, and at most {most} m/s can be added")]
     Rushed {
         /// The part of the body: `the hips`, `the wrists`, `the feet`.
         part: &'static str,
@@ -260,9 +256,7 @@ pub enum Cause {
     #[error("{0:?} has no frames")]
     Empty(String),
     /// The result would be too long to hold.
-    #[error(
-        "the result would have {frames} frames, and at most {most} can be generated for this skeleton"
-    )]
+    #[error("the result would have {frames} frames, and at most {most} can be generated for this skeleton")]
     TooLong {
         /// Its frames.
         frames: usize,
@@ -287,23 +281,23 @@ pub enum Cause {
 }
 
 /// Returns a remedy as it stands after a message.
-fn remedy_after(cause: &Cause) -> String {
+fn remedy_after(cause: &StepError) -> String {
     cause
-        .remedy()
+        .step_remedy()
         .map_or_else(String::new, |remedy| format!("; {remedy}"))
 }
 
 /// The name that was most likely meant, and the one that was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Meant {
+pub struct MeantName {
     /// The name as written, without quotes.
     pub written: String,
     /// What would be right.
     pub right: String,
 }
 
-impl Meant {
-    pub(crate) fn of(written: &str, right: Option<&str>) -> Option<Self> {
+impl MeantName {
+    pub(crate) fn from_written_name(written: &str, right: Option<&str>) -> Option<Self> {
         Some(Self {
             written: written.to_owned(),
             right: right?.to_owned(),
@@ -311,25 +305,25 @@ impl Meant {
     }
 }
 
-impl Cause {
+impl StepError {
     /// Returns the name that was meant, if a name near to one was written.
     #[must_use]
-    pub fn meant(&self) -> Option<Meant> {
+    pub fn step_meant_name(&self) -> Option<MeantName> {
         match self {
-            Self::Source(error) => error.meant(),
+            Self::Source(error) => error.source_meant_name(),
             _ => None,
         }
     }
 
     /// Returns what would work, if that is known.
     #[must_use]
-    pub fn remedy(&self) -> Option<Remedy> {
-        const RESOLVE: &str = "resolve the recipe again";
-        const ROLES: &str = "name its joints in a roles file, or use a recording that has one";
+    pub fn step_remedy(&self) -> Option<ErrorRemedy> {
+        const RESOLVE_REMEDY: &str = "resolve the recipe again";
+        const ROLES_REMEDY: &str = "name its joints in a roles file, or use a recording that has one";
         let text = match self {
-            Self::Source(error) => return error.remedy(),
-            Self::Utterance(error) => return Some(error.remedy()),
-            Self::Notation(error) => return error.remedy().map(Remedy::from),
+            Self::Source(error) => return error.source_remedy(),
+            Self::Utterance(error) => return Some(error.utterance_error_remedy()),
+            Self::Notation(error) => return error.notation_remedy().map(ErrorRemedy::from),
             Self::TooFast { least, .. } => {
                 let least = least.max(0.01);
                 return Some(format!("leave the time out, or give it {least:.2} s or more").into());
@@ -344,10 +338,8 @@ impl Cause {
             Self::Stopped => "generate it again",
             Self::NoPhases => "name another rule: paper, attina, sppas or duchnowski",
             Self::Language(_) => "generate the sign again",
-            Self::NoArm(_) => ROLES,
-            Self::NoFingers(_) => {
-                "use a recording of the hands, or name its joints in a roles file"
-            }
+            Self::NoArm(_) => ROLES_REMEDY,
+            Self::NoFingers(_) => "use a recording of the hands, or name its joints in a roles file",
             Self::NoHead => "name its joint in a roles file",
             Self::BothMove(_) => "name one hand, such as `place right at …`",
             Self::HandsStill { .. } => "name a sign in which a hand moves",
@@ -355,9 +347,7 @@ impl Cause {
             Self::NothingFound(_) => "loosen it",
             Self::NothingToTake { .. } => "choose another sign",
             Self::Cut { .. } => "name times within it",
-            Self::Rushed { .. } => {
-                "give it more time, or cut wrong first or last frames off before (`| trim`)"
-            }
+            Self::Rushed { .. } => "give it more time, or cut wrong first or last frames off before (`| trim`)",
             Self::Torn { .. } => {
                 "cut wrong first or last frames off (`| trim`, or `| span 0.2s..1.5s`), or give the transition more time \
                  (`then via 0.4s`, `repeat 2 gap 0.3s`)"
@@ -365,7 +355,7 @@ impl Cause {
             Self::Empty(_) => "name a recording with movement",
             Self::TooLong { .. } => "make it shorter, or in several signs",
             Self::NoProfile => "import captured movement, or use sigmoid",
-            Self::Changed { .. } | Self::Input => RESOLVE,
+            Self::Changed { .. } | Self::Input => RESOLVE_REMEDY,
             Self::Hamnosys(_) | Self::Clip(_) => return None,
         };
         Some(text.into())

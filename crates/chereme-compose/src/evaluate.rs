@@ -3,24 +3,24 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::answers::{Given, Path};
-use crate::contact::{self, Contacts};
+use crate::answers::{NodeAnswers, RecipePath};
+use crate::contact::{self, MovementContacts};
 use crate::cue;
-use crate::draft::{DraftPart, Kept};
-use crate::error::{Cause, MakeError};
-use crate::ops::notated::{self, Written};
-use crate::ops::{Done, point, spell, then};
-use crate::outcome::{ChannelReport, Generated, Report, StepReport};
+use crate::draft::{DraftPart, KeptStages};
+use crate::error::{MakeError, StepError};
+use crate::ops::notated_operator::{self, NotationSpelling};
+use crate::ops::{StepOutcome, point, spell, then};
+use crate::outcome::{ChannelReport, GeneratedMovement, GenerationReport, StepReport};
 use crate::recipe::*;
-use crate::resolve::{Input, JOIN, Resolved, SIGN};
-use crate::simplify::{self, Planned};
-use crate::sources::Material;
+use crate::resolve::{JOIN_COURSE_SLOT, RecipeInput, ResolvedRecipe, SIGN_MATERIAL_SLOT};
+use crate::simplify::{self, PlannedStep};
+use crate::sources::MovementMaterial;
 use crate::speed::{self, StepSpeeds};
-use crate::work::{Group, Work};
+use crate::work::{JointGroup, WorkingClip};
 
 /// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
 /// stored sign can be distinguished from one that would be generated today.
-pub const ENGINE: u32 = 24;
+pub const ENGINE_VERSION: u32 = 24;
 
 /// Generates the movement of a recipe.
 ///
@@ -28,44 +28,44 @@ pub const ENGINE: u32 = 24;
 ///
 /// # Errors
 /// [`MakeError`] with the step that cannot be done, the reason, and a remedy.
-pub fn evaluate(resolved: &Resolved) -> Result<Generated, MakeError> {
-    with(resolved, None, &|| true)
+pub fn evaluate_recipe(resolved: &ResolvedRecipe) -> Result<GeneratedMovement, MakeError> {
+    evaluate_with_kept(resolved, None, &|| true)
 }
 
-/// Does the same as [`evaluate`], but reuses stored movement of parts from `kept`, and adds to it; stops between two
+/// Does the same as [`evaluate_recipe`], but reuses stored movement of parts from `kept`, and adds to it; stops between two
 /// steps if `goes_on` returns false.
-pub(crate) fn with(
-    resolved: &Resolved,
-    kept: Option<&mut Kept>,
+pub(crate) fn evaluate_with_kept(
+    resolved: &ResolvedRecipe,
+    kept: Option<&mut KeptStages>,
     goes_on: &dyn Fn() -> bool,
-) -> Result<Generated, MakeError> {
-    let mut evaluator = Evaluator {
+) -> Result<GeneratedMovement, MakeError> {
+    let mut evaluator = RecipeEvaluator {
         resolved,
         kept,
         goes_on,
         inputs: &resolved.inputs.0,
         materials: &resolved.materials,
-        report: Report::default(),
+        report: GenerationReport::default(),
     };
-    let work = evaluator.node(&resolved.recipe.root, &Path::default())?;
+    let work = evaluator.evaluate_node(&resolved.recipe.root, &RecipePath::default())?;
     let fault = |cause| MakeError {
         path: String::new(),
         step: resolved.recipe.to_string(),
         cause,
     };
     let mut report = evaluator.report;
-    report.channels = Group::ALL
+    report.channels = JointGroup::ALL_JOINT_GROUPS
         .into_iter()
         .map(|group| ChannelReport {
-            channel: group.name(),
+            channel: group.joint_group_name(),
             from: work.from.get(&group).cloned().unwrap_or_default(),
         })
         .collect();
     let (anatomy, handedness) = (Arc::clone(&work.anatomy), work.handedness);
     let (signer, mut notes) = (work.signer.clone(), work.notes.clone());
     let curves = work.curves.clone();
-    notes.sort_by_key(|note| (note.span.start(), note.span.end()));
-    Ok(Generated {
+    notes.sort_by_key(|note| (note.span.span_start_instant(), note.span.span_end_instant()));
+    Ok(GeneratedMovement {
         clip: work.into_clip().map_err(|error| fault(error.into()))?,
         anatomy,
         handedness,
@@ -76,13 +76,13 @@ pub(crate) fn with(
     })
 }
 
-struct Evaluator<'a> {
-    resolved: &'a Resolved,
-    kept: Option<&'a mut Kept>,
+struct RecipeEvaluator<'a> {
+    resolved: &'a ResolvedRecipe,
+    kept: Option<&'a mut KeptStages>,
     goes_on: &'a dyn Fn() -> bool,
-    inputs: &'a BTreeMap<String, Input>,
-    materials: &'a BTreeMap<String, Arc<Material>>,
-    report: Report,
+    inputs: &'a BTreeMap<String, RecipeInput>,
+    materials: &'a BTreeMap<String, Arc<MovementMaterial>>,
+    report: GenerationReport,
 }
 
 /// The lengths of the report's lists at some moment.
@@ -94,29 +94,32 @@ struct ReportLengths {
     warnings: usize,
 }
 
-impl<'a> Evaluator<'a> {
-    fn node(&mut self, node: &Node, path: &Path) -> Result<Work, MakeError> {
+impl<'a> RecipeEvaluator<'a> {
+    fn evaluate_node(&mut self, node: &RecipeNode, path: &RecipePath) -> Result<WorkingClip, MakeError> {
         match node {
-            Node::Pipe(pipe) => self.pipe(pipe, path),
-            Node::Then(then) => self.chain(then, path),
-            leaf => self.source(leaf, path),
+            RecipeNode::Pipe(pipe) => self.evaluate_pipe(pipe, path),
+            RecipeNode::Then(then) => self.evaluate_chain(then, path),
+            leaf => self.evaluate_source(leaf, path),
         }
     }
 
-    fn source(&mut self, leaf: &Node, path: &Path) -> Result<Work, MakeError> {
+    fn evaluate_source(&mut self, leaf: &RecipeNode, path: &RecipePath) -> Result<WorkingClip, MakeError> {
         let part = DraftPart {
             of: leaf.clone(),
             steps: Vec::new(),
         };
-        if let Some(work) = self.kept(path, &part) {
+        if let Some(work) = self.reuse_kept_work(path, &part) {
             return Ok(work);
         }
         let text = leaf.to_string();
-        let mark = self.mark();
-        match self.wanted().and_then(|()| self.leaf(leaf, path, &text)) {
+        let mark = self.mark_report_lengths();
+        match self
+            .check_still_wanted()
+            .and_then(|()| self.evaluate_leaf(leaf, path, &text))
+        {
             Ok((work, done)) => {
-                self.done(path, text, done);
-                self.keep(path, part, &work, mark);
+                self.report_done_step(path, text, done);
+                self.keep_evaluated_work(path, part, &work, mark);
                 Ok(work)
             }
             Err(cause) => Err(MakeError {
@@ -127,40 +130,40 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn pipe(&mut self, pipe: &Pipe, path: &Path) -> Result<Work, MakeError> {
-        let mark = self.mark();
-        let plan = simplify::plan(&pipe.steps);
+    fn evaluate_pipe(&mut self, pipe: &OperatorPipe, path: &RecipePath) -> Result<WorkingClip, MakeError> {
+        let mark = self.mark_report_lengths();
+        let plan = simplify::plan_effective_steps(&pipe.steps);
         let part = |count: usize| DraftPart {
             of: (*pipe.of).clone(),
             steps: plan[..count].to_vec(),
         };
-        let known = (1..=plan.len()).rev();
-        let known = known.map(|count| (part(count), count));
-        let mut found = None;
+        let prefix_lengths = (1..=plan.len()).rev();
+        let plan_prefixes = prefix_lengths.map(|count| (part(count), count));
+        let mut kept_prefix = None;
         if self.kept.is_some() {
-            for (part, count) in known {
-                found = self.kept(path, &part).map(|work| (work, count));
-                if found.is_some() {
+            for (part, count) in plan_prefixes {
+                kept_prefix = self.reuse_kept_work(path, &part).map(|work| (work, count));
+                if kept_prefix.is_some() {
                     break;
                 }
             }
         }
-        let (mut work, taken) = match found {
+        let (mut work, taken) = match kept_prefix {
             Some(found) => found,
-            None => (self.node(&pipe.of, &path.operand())?, 0),
+            None => (self.evaluate_node(&pipe.of, &path.operand_path())?, 0),
         };
-        for (count, Planned { index, step }) in plan.iter().enumerate().skip(taken) {
-            let at = path.step(*index);
+        for (count, PlannedStep { index, step }) in plan.iter().enumerate().skip(taken) {
+            let step_path = path.operator_step_path(*index);
             let text = step.to_string();
-            let wanted = self.wanted();
-            match wanted.and_then(|()| self.step(&mut work, step, &at, &text)) {
+            let wanted = self.check_still_wanted();
+            match wanted.and_then(|()| self.evaluate_step(&mut work, step, &step_path, &text)) {
                 Ok(done) => {
-                    self.done(&at, text, done);
-                    self.keep(path, part(count + 1), &work, mark);
+                    self.report_done_step(&step_path, text, done);
+                    self.keep_evaluated_work(path, part(count + 1), &work, mark);
                 }
                 Err(cause) => {
                     return Err(MakeError {
-                        path: at.to_string(),
+                        path: step_path.to_string(),
                         step: text,
                         cause,
                     });
@@ -175,35 +178,35 @@ impl<'a> Evaluator<'a> {
         Ok(work)
     }
 
-    fn chain(&mut self, then: &Then, path: &Path) -> Result<Work, MakeError> {
-        let mark = self.mark();
-        let mut found = None;
+    fn evaluate_chain(&mut self, then: &RecipeChain, path: &RecipePath) -> Result<WorkingClip, MakeError> {
+        let mark = self.mark_report_lengths();
+        let mut kept_prefix = None;
         if self.kept.is_some() {
             for count in (1..=then.next.len()).rev() {
-                let work = self.kept(path, &DraftPart::pieces(then, count));
-                found = work.map(|work| (work, count));
-                if found.is_some() {
+                let work = self.reuse_kept_work(path, &DraftPart::utterance_pieces_part(then, count));
+                kept_prefix = work.map(|work| (work, count));
+                if kept_prefix.is_some() {
                     break;
                 }
             }
         }
-        let (mut work, taken) = match found {
+        let (mut work, taken) = match kept_prefix {
             Some(found) => found,
-            None => (self.node(&then.first, &path.first())?, 0),
+            None => (self.evaluate_node(&then.first, &path.first_piece_path())?, 0),
         };
         for (n, joined) in then.next.iter().enumerate().skip(taken) {
-            let at = path.joined(n);
-            let next = self.node(&joined.node, &at.piece())?;
+            let joined_path = path.later_piece_path(n);
+            let next = self.evaluate_node(&joined.node, &joined_path.inner_piece_path())?;
             let text = format!("then{} {}", joined.via, joined.node);
-            let then_joined = self.wanted();
-            match then_joined.and_then(|()| self.then(&mut work, next, joined, &at, &text)) {
+            let then_joined = self.check_still_wanted();
+            match then_joined.and_then(|()| self.join_next_work(&mut work, next, joined, &joined_path, &text)) {
                 Ok(done) => {
-                    self.done(&at, text, done);
-                    self.keep(path, DraftPart::pieces(then, n + 1), &work, mark);
+                    self.report_done_step(&joined_path, text, done);
+                    self.keep_evaluated_work(path, DraftPart::utterance_pieces_part(then, n + 1), &work, mark);
                 }
                 Err(cause) => {
                     return Err(MakeError {
-                        path: at.to_string(),
+                        path: joined_path.to_string(),
                         step: text,
                         cause,
                     });
@@ -213,11 +216,11 @@ impl<'a> Evaluator<'a> {
         Ok(work)
     }
 
-    fn wanted(&self) -> Result<(), Cause> {
-        (self.goes_on)().then_some(()).ok_or(Cause::Stopped)
+    fn check_still_wanted(&self) -> Result<(), StepError> {
+        (self.goes_on)().then_some(()).ok_or(StepError::Stopped)
     }
 
-    fn mark(&self) -> ReportLengths {
+    fn mark_report_lengths(&self) -> ReportLengths {
         ReportLengths {
             steps: self.report.steps.len(),
             joins: self.report.joins.len(),
@@ -227,9 +230,9 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns the stored movement after a part, if any, and adds its report again.
-    fn kept(&mut self, path: &Path, part: &DraftPart) -> Option<Work> {
+    fn reuse_kept_work(&mut self, path: &RecipePath, part: &DraftPart) -> Option<WorkingClip> {
         let path = path.as_str();
-        let stage = self.kept.as_mut()?.find(self.resolved, path, part)?;
+        let stage = self.kept.as_mut()?.find_kept_stage(self.resolved, path, part)?;
         let report = stage.report_at(path);
         self.report.steps.extend(report.steps);
         self.report.joins.extend(report.joins);
@@ -238,28 +241,28 @@ impl<'a> Evaluator<'a> {
         Some(stage.work.clone())
     }
 
-    fn keep(&mut self, path: &Path, part: DraftPart, work: &Work, mark: ReportLengths) {
+    fn keep_evaluated_work(&mut self, path: &RecipePath, part: DraftPart, work: &WorkingClip, mark: ReportLengths) {
         let Some(kept) = &mut self.kept else { return };
-        let report = Report {
+        let report = GenerationReport {
             steps: self.report.steps[mark.steps..].to_vec(),
             channels: Vec::new(),
             joins: self.report.joins[mark.joins..].to_vec(),
             contacts: self.report.contacts[mark.contacts..].to_vec(),
             warnings: self.report.warnings[mark.warnings..].to_vec(),
         };
-        kept.keep((self.resolved, path.as_str()), part, work, report);
+        kept.keep_draft_stage((self.resolved, path.as_str()), part, work, report);
     }
 
     /// Returns the contacts in the movement after the last step; they are computed once.
-    fn touches(&mut self, work: &Work) -> Contacts {
-        let Some(stage) = self.kept.as_mut().and_then(|kept| kept.last()) else {
-            return contact::touches(work);
+    fn current_contacts(&mut self, work: &WorkingClip) -> MovementContacts {
+        let Some(stage) = self.kept.as_mut().and_then(|kept| kept.last_kept_stage()) else {
+            return contact::find_contacts(work);
         };
-        let found = stage.contacts.get_or_insert_with(|| contact::touches(work));
-        found.clone()
+        let stage_contacts = stage.contacts.get_or_insert_with(|| contact::find_contacts(work));
+        stage_contacts.clone()
     }
 
-    fn done(&mut self, path: &Path, step: String, done: Done) {
+    fn report_done_step(&mut self, path: &RecipePath, step: String, done: StepOutcome) {
         let lost = done.lost.iter().map(|lost| format!("{step}: {lost}"));
         self.report.contacts.extend(lost);
         self.report.joins.extend(done.joins);
@@ -281,60 +284,65 @@ impl<'a> Evaluator<'a> {
         });
     }
 
-    fn leaf(&mut self, leaf: &Node, path: &Path, text: &str) -> Result<(Work, Done), Cause> {
-        let mut given = self.given(path, text);
+    fn evaluate_leaf(
+        &mut self,
+        leaf: &RecipeNode,
+        path: &RecipePath,
+        text: &str,
+    ) -> Result<(WorkingClip, StepOutcome), StepError> {
+        let mut given = self.given_answers(path, text);
         let (work, mut done) = match leaf {
-            Node::Sign(_) => {
-                let material = given.material(&SIGN)?;
+            RecipeNode::Sign(_) => {
+                let material = given.answered_material(&SIGN_MATERIAL_SLOT)?;
                 let clip = &material.clip;
                 let did = format!(
                     "{} ({:?}), {} frames at {}",
                     material.address,
                     material.gloss,
-                    clip.frames(),
-                    clip.rate()
+                    clip.clip_frame_count(),
+                    clip.clip_frame_rate()
                 );
-                let body = given.need(&SIGN)?.body.as_ref();
-                let body = body.map(|body| notated::performed_by(&body.address));
+                let sign_body = given.required_answer(&SIGN_MATERIAL_SLOT)?.body.as_ref();
+                let body = sign_body.map(|body| notated_operator::performed_by(&body.address));
                 let did: Vec<String> = std::iter::once(did).chain(body).collect();
-                (Work::of(material), did.into())
+                (WorkingClip::working_clip_from(material), did.into())
             }
-            Node::Spell(settings) => spell::generate(settings, &mut given)?,
-            Node::Point(settings) => point::generate(settings, &mut given)?,
-            Node::Cue(settings) => cue::leaf::generate(settings, &mut given)?,
-            Node::Hamnosys(_) => Written::Hamnosys.generate(&mut given)?,
-            Node::Sigml(_) => Written::Sigml.generate(&mut given)?,
-            Node::Pipe(_) | Node::Then(_) => return Err(Cause::Input),
+            RecipeNode::Spell(settings) => spell::generate_spelling(settings, &mut given)?,
+            RecipeNode::Point(settings) => point::generate_pointing(settings, &mut given)?,
+            RecipeNode::Cue(settings) => cue::leaf::generate_cue_movement(settings, &mut given)?,
+            RecipeNode::Hamnosys(_) => NotationSpelling::Hamnosys.generate_from_notation(&mut given)?,
+            RecipeNode::Sigml(_) => NotationSpelling::Sigml.generate_from_notation(&mut given)?,
+            RecipeNode::Pipe(_) | RecipeNode::Then(_) => return Err(StepError::Input),
         };
         done.did.append(&mut given.aside);
         Ok((work, done))
     }
 
-    fn step(
+    fn evaluate_step(
         &mut self,
-        work: &mut Work,
+        work: &mut WorkingClip,
         step: &Step,
-        path: &Path,
+        path: &RecipePath,
         text: &str,
-    ) -> Result<Done, Cause> {
-        let mut given = self.given(path, text);
+    ) -> Result<StepOutcome, StepError> {
+        let mut given = self.given_answers(path, text);
         let operator = step.operator();
         let before = StepSpeeds::peak_speeds(work);
         let longer = operator.make_time(work)?;
-        let touched = operator.contacts(work.handedness);
-        let mut touched = touched.map(|(carry, keep)| {
+        let contact_rule = operator.contact_effect_for(work.handedness);
+        let mut touched = contact_rule.map(|(carry, keep)| {
             let before = match longer {
-                Some(_) => contact::touches(work),
-                None => self.touches(work),
+                Some(_) => contact::find_contacts(work),
+                None => self.current_contacts(work),
             };
             (before, carry, keep)
         });
-        let mut done = operator.apply(work, &mut given)?;
+        let mut done = operator.apply_operator(work, &mut given)?;
         done.did.extend(longer);
         if let Some((before, carry, keep)) = &mut touched {
-            let kept = contact::mend(work, before, *keep, text);
+            let kept = contact::restore_contacts(work, before, *keep, text);
             done.did.extend(kept);
-            done.lost.extend(contact::lost(before, work, *carry));
+            done.lost.extend(contact::describe_lost_contacts(before, work, *carry));
             done.warnings.extend(contact::long_repairs(before, text));
         }
         let added = speed::check_added(before, StepSpeeds::peak_speeds(work))?;
@@ -344,11 +352,11 @@ impl<'a> Evaluator<'a> {
         Ok(done)
     }
 
-    fn given<'b>(&self, path: &'b Path, text: &'b str) -> Given<'b>
+    fn given_answers<'b>(&self, path: &'b RecipePath, text: &'b str) -> NodeAnswers<'b>
     where
         'a: 'b,
     {
-        Given {
+        NodeAnswers {
             inputs: self.inputs,
             materials: self.materials,
             path,
@@ -357,17 +365,17 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn then(
+    fn join_next_work(
         &self,
-        work: &mut Work,
-        next: Work,
-        joined: &Joined,
-        path: &Path,
+        work: &mut WorkingClip,
+        next: WorkingClip,
+        joined: &JoinedPiece,
+        path: &RecipePath,
         text: &str,
-    ) -> Result<Done, Cause> {
-        let mut given = self.given(path, text);
-        let course = given.course(&JOIN, &joined.via, Profile::Sigmoid)?;
-        let mut done: Done = then::then(work, next, joined.via.time, &course, text)?.into();
+    ) -> Result<StepOutcome, StepError> {
+        let mut given = self.given_answers(path, text);
+        let course = given.transition_courses(&JOIN_COURSE_SLOT, &joined.via, TransitionProfile::Sigmoid)?;
+        let mut done: StepOutcome = then::append_next_work(work, next, joined.via.time, &course, text)?.into();
         done.did.append(&mut given.aside);
         Ok(done)
     }

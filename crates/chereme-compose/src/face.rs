@@ -2,47 +2,52 @@
 
 use std::ops::Range;
 
-use chereme_motion::Face;
-use chereme_sign::hamnosys::face::Expression;
+use chereme_motion::FacePosture;
+use chereme_sign::hamnosys::hamnosys_face::FacialExpression;
 
-use crate::outcome::Curve;
+use crate::outcome::GeneratedCurve;
 
 /// The prefix of the names of curves that hold a number of a face.
-pub const NUMBER: &str = "face.";
+pub const FACE_NUMBER_PREFIX: &str = "face.";
 
 /// Returns the face of each frame, as many as the longest curve has; empty if no curve belongs to a face.
 ///
-/// A curve `face.jaw_open` is a number of the face itself, by [`Face::NAMES`]. Any other curve gives the amount of its
+/// A curve `face.jaw_open` is a number of the face itself, by [`FacePosture::FACE_NUMBER_NAMES`]. Any other curve gives the amount of its
 /// non-manual. If that has several phases, such as the sounds of a mouth picture, they are spread evenly over the time
 /// in which the amount is at least half of its maximum.
 #[must_use]
-pub fn faces(curves: &[Curve]) -> Vec<Face> {
+pub fn faces_from_curves(curves: &[GeneratedCurve]) -> Vec<FacePosture> {
     let mut faces = Vec::new();
     for curve in curves {
-        if let Some(at) = curve.name.strip_prefix(NUMBER).and_then(Face::position) {
+        if let Some(at) = curve
+            .name
+            .strip_prefix(FACE_NUMBER_PREFIX)
+            .and_then(FacePosture::face_number_position)
+        {
             if faces.len() < curve.values.len() {
-                faces.resize(curve.values.len(), Face::default());
+                faces.resize(curve.values.len(), FacePosture::default());
             }
             for (face, value) in faces.iter_mut().zip(&curve.values) {
-                let mut numbers = [0.0; Face::LEN];
+                let mut numbers = [0.0; FacePosture::FACE_NUMBER_COUNT];
                 numbers[at] = *value;
-                face.add(&Face::from_numbers(numbers), 1.0);
+                face.add_face_share(&FacePosture::from_numbers(numbers), 1.0);
             }
             continue;
         }
-        let known = curve.name.split_once('.');
-        let Some(expression) = known.and_then(|(part, code)| Expression::of(part, code)) else {
+        let name_parts = curve.name.split_once('.');
+        let Some(expression) = name_parts.and_then(|(part, code)| FacialExpression::from_nonmanual_code(part, code))
+        else {
             continue;
         };
         if faces.len() < curve.values.len() {
-            faces.resize(curve.values.len(), Face::default());
+            faces.resize(curve.values.len(), FacePosture::default());
         }
-        for run in runs(&curve.values) {
-            let core = core(&curve.values, &run);
+        for run in positive_value_runs(&curve.values) {
+            let core = face_run_core(&curve.values, &run);
             for frame in run {
                 let share = (frame as f64 + 0.5 - core.start as f64) / core.len() as f64;
-                let face = expression.at(share.clamp(0.0, 1.0));
-                faces[frame].add(&face, curve.values[frame]);
+                let face = expression.expression_face_at(share.clamp(0.0, 1.0));
+                faces[frame].add_face_share(&face, curve.values[frame]);
             }
         }
     }
@@ -50,7 +55,7 @@ pub fn faces(curves: &[Curve]) -> Vec<Face> {
 }
 
 /// Returns the runs of frames with values above zero.
-fn runs(values: &[f64]) -> Vec<Range<usize>> {
+fn positive_value_runs(values: &[f64]) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
     for (frame, value) in values.iter().enumerate() {
         if *value > 0.0 {
@@ -64,7 +69,7 @@ fn runs(values: &[f64]) -> Vec<Range<usize>> {
 }
 
 /// Returns the part of a run from the first to the last frame with at least half of the run's greatest value.
-fn core(values: &[f64], run: &Range<usize>) -> Range<usize> {
+fn face_run_core(values: &[f64], run: &Range<usize>) -> Range<usize> {
     let most = values[run.clone()].iter().copied().fold(0.0, f64::max);
     let much = |frame: &usize| values[*frame] >= most / 2.0;
     let first = run.clone().find(much).unwrap_or(run.start);
@@ -74,11 +79,11 @@ fn core(values: &[f64], run: &Range<usize>) -> Range<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::faces;
-    use crate::outcome::Curve;
+    use super::faces_from_curves;
+    use crate::outcome::GeneratedCurve;
 
-    fn curve(name: &str, values: &[f64]) -> Curve {
-        Curve {
+    fn curve(name: &str, values: &[f64]) -> GeneratedCurve {
+        GeneratedCurve {
             name: name.to_owned(),
             values: values.to_vec(),
         }
@@ -87,7 +92,7 @@ mod tests {
     #[test]
     fn curves_of_a_face_add_up() {
         let up = [0.0, 0.5, 1.0, 0.5, 0.0];
-        let all = faces(&[
+        let all = faces_from_curves(&[
             curve("brows.RB", &up),
             curve("lids.SB", &up),
             curve("head.SH", &[1.0; 9]),
@@ -96,12 +101,12 @@ mod tests {
         let brows: Vec<f64> = all.iter().map(|face| face.brows[0]).collect();
         assert_eq!(brows, up);
         assert_eq!(all[2].lids, [0.5, 0.5]);
-        assert!(faces(&[curve("head.SH", &[1.0; 9])]).is_empty());
+        assert!(faces_from_curves(&[curve("head.SH", &[1.0; 9])]).is_empty());
     }
 
     #[test]
     fn numeric_face_curves_are_used_unchanged() {
-        let all = faces(&[
+        let all = faces_from_curves(&[
             curve("face.mouth_stretch", &[-0.5, 0.25]),
             curve("face.jaw_open", &[0.3, 0.6]),
             curve("brows.RB", &[1.0, 0.0]),
@@ -116,7 +121,7 @@ mod tests {
         let mut values = vec![0.0; 30];
         values[5..25].fill(1.0);
         (values[4], values[25]) = (0.3, 0.3);
-        let all = faces(&[curve("mouthing.map", &values)]);
+        let all = faces_from_curves(&[curve("mouthing.map", &values)]);
         assert!(all[14].jaw > 0.7 && all[15].jaw > 0.7, "open in the middle");
         assert!(all[5].jaw < 0.1 && all[24].jaw < 0.1, "closed at both ends");
         assert!(all[5].pressed > 0.3 && all[4].pressed < 0.2);
@@ -127,7 +132,7 @@ mod tests {
     fn a_word_mouthed_twice_begins_twice() {
         let mut values = vec![1.0; 21];
         values[10] = 0.0;
-        let all = faces(&[curve("mouthing.ba", &values)]);
+        let all = faces_from_curves(&[curve("mouthing.ba", &values)]);
         assert!(all[0].jaw < 0.1 && all[9].jaw > 0.7);
         assert!(all[11].jaw < 0.1 && all[20].jaw > 0.7);
     }

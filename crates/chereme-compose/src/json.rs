@@ -4,22 +4,22 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::error::RecipeError;
-use crate::recipe::{Node, Recipe};
+use crate::recipe::{Recipe, RecipeNode};
 
 /// The version of the tree that this engine reads and writes.
-pub const VERSION: u64 = 1;
+pub const RECIPE_TREE_VERSION: u64 = 1;
 
 /// A recipe's JSON object before its version is checked.
 #[derive(Serialize, Deserialize)]
 #[serde(transparent)]
-pub(crate) struct Versioned(Map<String, Value>);
+pub(crate) struct VersionedRecipe(Map<String, Value>);
 
-impl TryFrom<Versioned> for Recipe {
+impl TryFrom<VersionedRecipe> for Recipe {
     type Error = RecipeError;
 
-    fn try_from(Versioned(mut fields): Versioned) -> Result<Self, RecipeError> {
+    fn try_from(VersionedRecipe(mut fields): VersionedRecipe) -> Result<Self, RecipeError> {
         match fields.remove("version") {
-            Some(Value::Number(found)) if found.as_u64() == Some(VERSION) => {}
+            Some(Value::Number(found)) if found.as_u64() == Some(RECIPE_TREE_VERSION) => {}
             Some(found) => {
                 return Err(RecipeError::Version {
                     found: found.to_string(),
@@ -40,7 +40,7 @@ impl TryFrom<Versioned> for Recipe {
             });
         }
         one_key("make", &make)?;
-        let root: Node = serde_json::from_value(make).map_err(|error| RecipeError::Field {
+        let root: RecipeNode = serde_json::from_value(make).map_err(|error| RecipeError::Field {
             message: error.to_string(),
         })?;
         Self::new(root)
@@ -57,24 +57,17 @@ fn one_key(name: &str, object: &Value) -> Result<(), RecipeError> {
         .collect();
     match keys.as_slice() {
         [first, second, ..] => Err(RecipeError::Field {
-            message: format!(
-                "{name:?} holds one thing, but {first:?} and {second:?} are given; leave one out"
-            ),
+            message: format!("{name:?} holds one thing, but {first:?} and {second:?} are given; leave one out"),
         }),
         _ => Ok(()),
     }
 }
 
-impl From<Recipe> for Versioned {
+impl From<Recipe> for VersionedRecipe {
     fn from(recipe: Recipe) -> Self {
         let make = serde_json::to_value(&recipe.root)
             .expect("a recipe's tree has only strings, lists and objects with string keys");
-        let fields = [("version", Value::from(VERSION)), ("make", make)];
-        Self(
-            fields
-                .map(|(key, value)| (key.to_owned(), value))
-                .into_iter()
-                .collect(),
-        )
+        let fields = [("version", Value::from(RECIPE_TREE_VERSION)), ("make", make)];
+        Self(fields.map(|(key, value)| (key.to_owned(), value)).into_iter().collect())
     }
 }

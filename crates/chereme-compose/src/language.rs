@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 /// It is stored with a recipe, so that later measurements do not change signs that were generated before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Language {
+pub struct BodyLanguageChanges {
     /// `measured` in the corpus, `quiet`, or the file; empty if all numbers are the default ones.
     #[serde(default)]
     pub from: String,
-    /// Numbers by the names of [`BodyLanguage::NAMES`].
+    /// Numbers by the names of [`BodyLanguage::LANGUAGE_VALUE_NAMES`].
     #[serde(default)]
     pub values: BTreeMap<String, LanguageValue>,
     /// Offsets of places, as in [`BodyLanguage::places`].
@@ -26,7 +26,7 @@ pub struct Language {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LanguageValue {
-    /// The number: the median of the measurements, in the unit in [`BodyLanguage::NAMES`].
+    /// The number: the median of the measurements, in the unit in [`BodyLanguage::LANGUAGE_VALUE_NAMES`].
     pub value: f64,
     /// The quartiles of the measurements: half of them lie between these; `None` for a number that was not measured
     /// itself.
@@ -39,16 +39,17 @@ pub struct LanguageValue {
     pub of: String,
 }
 
-impl Language {
+impl BodyLanguageChanges {
     /// Returns the default numbers without sway, blinks and the help of head, eyes and shoulders.
     #[must_use]
-    pub fn quiet() -> Self {
-        let (usual, still) = (BodyLanguage::usual(), BodyLanguage::usual().without_life());
-        let names = BodyLanguage::NAMES.iter().map(|(name, _)| *name);
+    pub fn quiet_body_language() -> Self {
+        let (usual, still) = (
+            BodyLanguage::default_body_language(),
+            BodyLanguage::default_body_language().without_life(),
+        );
+        let names = BodyLanguage::LANGUAGE_VALUE_NAMES.iter().map(|(name, _)| *name);
         let changed = names.filter_map(|name| {
-            let value = still
-                .value(name)
-                .filter(|value| usual.value(name) != Some(*value))?;
+            let value = still.value(name).filter(|value| usual.value(name) != Some(*value))?;
             let of = "a quiet body".to_owned();
             let value = LanguageValue {
                 value,
@@ -75,23 +76,23 @@ impl Language {
     ///
     /// # Errors
     /// [`LanguageError`] if a name is unknown or a number out of range.
-    pub fn whole(&self) -> Result<BodyLanguage, LanguageError> {
-        let values = self.values.iter();
-        let values = values.map(|(name, value)| (name.as_str(), value.value));
-        let mut whole = BodyLanguage::usual().with_measured(values)?;
-        whole.places.clone_from(&self.places);
-        Ok(whole)
+    pub fn whole_body_language(&self) -> Result<BodyLanguage, LanguageError> {
+        let value_entries = self.values.iter();
+        let values = value_entries.map(|(name, value)| (name.as_str(), value.value));
+        let mut complete_language = BodyLanguage::default_body_language().with_measured(values)?;
+        complete_language.places.clone_from(&self.places);
+        Ok(complete_language)
     }
 
     /// Describes each number and place for people; empty if all are the default ones.
     #[must_use]
-    pub fn describe(&self) -> Vec<String> {
+    pub fn describe_body_language(&self) -> Vec<String> {
         let unit = |name: &str| {
-            let known = BodyLanguage::NAMES.iter().find(|(own, _)| *own == name);
-            known.map_or("", |(_, unit)| *unit)
+            let unit_entry = BodyLanguage::LANGUAGE_VALUE_NAMES.iter().find(|(own, _)| *own == name);
+            unit_entry.map_or("", |(_, unit)| *unit)
         };
         let number = |(name, it): (&String, &LanguageValue)| {
-            let usual = BodyLanguage::usual().value(name).unwrap_or_default();
+            let usual = BodyLanguage::default_body_language().value(name).unwrap_or_default();
             let spread = match it.quartiles {
                 Some([low, high]) => {
                     format!(", half of {} from {low:.3} to {high:.3}", it.count)
@@ -122,20 +123,23 @@ mod tests {
 
     #[test]
     fn a_quiet_body_language_is_the_usual_one_without_sway_and_blinks() {
-        let quiet = Language::quiet();
-        let whole = quiet.whole().expect("known names");
-        assert_eq!(whole, BodyLanguage::usual().without_life());
-        assert!(!quiet.is_usual() && quiet.describe()[0].contains("a quiet body"));
+        let quiet = BodyLanguageChanges::quiet_body_language();
+        let whole = quiet.whole_body_language().expect("known names");
+        assert_eq!(whole, BodyLanguage::default_body_language().without_life());
+        assert!(!quiet.is_usual() && quiet.describe_body_language()[0].contains("a quiet body"));
     }
 
     #[test]
     fn measured_values_are_reported_with_their_spread_and_replace_the_usual_ones() {
-        let mut language = Language {
+        let mut language = BodyLanguageChanges {
             from: "measured".into(),
-            ..Language::default()
+            ..BodyLanguageChanges::default()
         };
-        assert!(language.is_usual() && language.describe().is_empty());
-        assert_eq!(&language.whole().expect("usual"), BodyLanguage::usual());
+        assert!(language.is_usual() && language.describe_body_language().is_empty());
+        assert_eq!(
+            &language.whole_body_language().expect("usual"),
+            BodyLanguage::default_body_language()
+        );
         let value = LanguageValue {
             value: 0.31,
             quartiles: Some([0.25, 0.4]),
@@ -144,20 +148,20 @@ mod tests {
         };
         language.values.insert("move.normal".into(), value);
         language.places.insert("chin".into(), [0.0, 0.1, 0.0]);
-        let whole = language.whole().expect("in range");
+        let whole = language.whole_body_language().expect("in range");
         assert_eq!(whole.move_normal, 0.31);
         assert_eq!(whole.places["chin"], [0.0, 0.1, 0.0]);
-        let lines = language.describe();
+        let lines = language.describe_body_language();
         assert!(
             lines[0].contains("0.310 arm, half of 12 from 0.250 to 0.400 (signer:Anna"),
             "{lines:?}"
         );
         assert!(lines[1].contains("chin moved 0 left, 0.1 up"));
         let text = serde_json::to_string(&language).expect("JSON");
-        let back: Language = serde_json::from_str(&text).expect("the same");
+        let back: BodyLanguageChanges = serde_json::from_str(&text).expect("the same");
         assert_eq!(back, language);
         let odd = text.replace("move.normal", "move.odd");
-        let odd: Language = serde_json::from_str(&odd).expect("JSON");
-        assert!(odd.whole().is_err());
+        let odd: BodyLanguageChanges = serde_json::from_str(&odd).expect("JSON");
+        assert!(odd.whole_body_language().is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! Generates movement from recipes: recombination and synthesis of signs.
 //!
-//! A [`Recipe`] describes how to build a sign, as text or as JSON. [`resolve`] asks a corpus, through the one trait
-//! [`Sources`], for everything the recipe needs, and fixes it; [`evaluate`] generates the movement, its
+//! A [`Recipe`] describes how to build a sign, as text or as JSON. [`resolve_recipe`] asks a corpus, through the one trait
+//! [`RecipeSources`], for everything the recipe needs, and fixes it; [`evaluate_recipe`] generates the movement, its
 //! annotations, and a report on the source of every part.
 //!
 //! ```
@@ -25,8 +25,8 @@
 //! | [`outcome`] | movement with its notes and its report |
 //! | [`notation`] | movement from HamNoSys and SiGML |
 //!
-//! The rest is reached through functions: [`resolve`] and [`restore`], [`evaluate`],
-//! [`value_in`] and [`letters_in`] for a corpus's answers, [`learn_course`] and [`bridge`] for courses
+//! The rest is reached through functions: [`resolve_recipe`] and [`restore_recipe_inputs`], [`evaluate_recipe`],
+//! [`value_in`] and [`letters_in`] for a corpus's answers, [`learn_course`] and [`bridge_captured_stretch`] for courses
 //! learned from captured transitions.
 //!
 //! After Naert, Larboulette & Gibet, *Motion synthesis and editing for the generation of new sign
@@ -71,32 +71,32 @@ mod transfer;
 pub mod units;
 mod work;
 
-pub use check::{DEEPEST, MOST_PARTS};
+pub use check::{MAX_RECIPE_DEPTH, MOST_PARTS};
 pub use cue::{CuePhases, PhaseRule};
-pub use curve::Spline;
-pub use draft::Draft;
-pub use error::{Cause, MakeError, Meant, Problem, RecipeError, TextError};
-pub use evaluate::{ENGINE, evaluate};
-pub use explain::brief;
-pub use face::{NUMBER, faces};
-pub use json::VERSION;
-pub use language::{Language, LanguageValue};
-pub use learn::{CourseLearner, Stretch, bridge, learn_course};
+pub use curve::MeasuredSpline;
+pub use draft::RecipeDraft;
+pub use error::{MakeError, MeantName, RecipeError, RecipeTextProblem, StepError, TextError};
+pub use evaluate::{ENGINE_VERSION, evaluate_recipe};
+pub use explain::shorten_step_text;
+pub use face::{FACE_NUMBER_PREFIX, faces_from_curves};
+pub use json::RECIPE_TREE_VERSION;
+pub use language::{BodyLanguageChanges, LanguageValue};
+pub use learn::{CapturedStretch, CourseLearner, bridge_captured_stretch, learn_course};
 pub use lookup::{letters_in, value_in};
-pub use ops::repeat::MOST_REPETITIONS;
+pub use ops::repeat_operator::MOST_REPETITIONS;
 pub use outcome::{
-    About, ChannelReport, CueTier, Curve, Generated, HandReport, JoinReport, Note, Report,
-    StepReport,
+    ChannelReport, CueTier, GeneratedCurve, GeneratedMovement, GeneratedNote, GenerationReport, HandReport, JoinReport,
+    NoteSubject, StepReport,
 };
-pub use poses::{Exact, HandPose, PoseOrigin};
+pub use poses::{ExactHandRotations, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{
-    BodyInput, ExpressionInput, Input, Inputs, LetterInput, MaterialInput, PlaceInput, Resolved,
-    resolve, restore,
+    BodyInput, ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs, ResolvedRecipe,
+    resolve_recipe, restore_recipe_inputs,
 };
 pub use sources::{
-    Example, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile, LearnedReaches, Letter,
-    LetterStroke, Material, Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes,
-    Value,
+    AlphabetLetter, BodyRelativePlace, ComponentValue, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile,
+    LearnedReaches, LetterStroke, MedianTime, MovementMaterial, RecipeSources, SourceError, SpellingTimes,
+    TokenExample, ValueMeaning,
 };
-pub use transfer::{Transferred, on_body};
+pub use transfer::{TransferredMovement, on_body};

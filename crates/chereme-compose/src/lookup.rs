@@ -1,11 +1,11 @@
-//! Looks values and letters up in inventories, for a corpus that answers [`Sources`](crate::Sources).
+//! Looks values and letters up in inventories, for a corpus that answers [`RecipeSources`](crate::RecipeSources).
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::Component;
-use chereme_sign::inventory::{Inventory, InventoryValue};
-use chereme_sign::text::fold;
+use chereme_sign::SignComponent;
+use chereme_sign::inventory::{ComponentInventory, InventoryValue};
+use chereme_sign::text::fold_text;
 
-use crate::sources::{Letter, LetterStroke, SourceError, Value};
+use crate::sources::{AlphabetLetter, ComponentValue, LetterStroke, SourceError};
 
 /// Returns the value of `component` that `text` names in the first of the inventories that knows it.
 ///
@@ -15,26 +15,26 @@ use crate::sources::{Letter, LetterStroke, SourceError, Value};
 /// # Errors
 /// [`SourceError::UnknownValue`] with the value that was probably meant.
 pub fn value_in<'a>(
-    inventories: impl IntoIterator<Item = &'a Inventory>,
-    component: Component,
+    inventories: impl IntoIterator<Item = &'a ComponentInventory>,
+    component: SignComponent,
     text: &str,
-) -> Result<Value, SourceError> {
-    let mut of: Vec<&Inventory> = inventories
+) -> Result<ComponentValue, SourceError> {
+    let mut of: Vec<&ComponentInventory> = inventories
         .into_iter()
         .filter(|inventory| inventory.component == component)
         .collect();
     of.sort_by_key(|inventory| inventory.feature.is_some());
-    let found = of
+    let matching_value = of
         .iter()
-        .find_map(|inventory| Some((inventory, inventory.find(text)?)));
-    match found {
+        .find_map(|inventory| Some((inventory, inventory.find_inventory_value(text)?)));
+    match matching_value {
         Some((inventory, value)) => Ok(with_pose(&of, inventory, value)),
         None => Err(SourceError::UnknownValue {
             component,
             text: text.to_owned(),
             nearest: of
                 .iter()
-                .find_map(|inventory| inventory.suggest(text).first().map(|id| (*id).to_owned())),
+                .find_map(|inventory| inventory.suggest_value_ids(text).first().map(|id| (*id).to_owned())),
         }),
     }
 }
@@ -45,12 +45,12 @@ pub fn value_in<'a>(
 /// # Errors
 /// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] with the first letter that the alphabet lacks.
 pub fn letters_in<'a>(
-    inventories: impl IntoIterator<Item = &'a Inventory>,
+    inventories: impl IntoIterator<Item = &'a ComponentInventory>,
     alphabet: Option<&str>,
     word: &str,
-) -> Result<Vec<Letter>, SourceError> {
-    let all: Vec<&Inventory> = inventories.into_iter().collect();
-    let alphabets: Vec<&Inventory> = all
+) -> Result<Vec<AlphabetLetter>, SourceError> {
+    let all: Vec<&ComponentInventory> = inventories.into_iter().collect();
+    let alphabets: Vec<&ComponentInventory> = all
         .iter()
         .copied()
         .filter(|inventory| inventory.values.iter().any(|value| value.letter.is_some()))
@@ -58,17 +58,17 @@ pub fn letters_in<'a>(
     let chosen = match alphabet {
         None => alphabets.first(),
         Some(name) => alphabets.iter().find(|inventory| {
-            let language = inventory.language.as_deref().map(fold);
-            fold(&inventory.id) == fold(name) || language.is_some_and(|l| l == fold(name))
+            let language = inventory.language.as_deref().map(fold_text);
+            fold_text(&inventory.id) == fold_text(name) || language.is_some_and(|l| l == fold_text(name))
         }),
     };
     let Some(chosen) = chosen else {
         return Err(SourceError::UnknownAlphabet {
             name: alphabet.unwrap_or_default().to_owned(),
-            known: alphabets.iter().map(|it| it.id.clone()).collect(),
+            known: alphabets.iter().map(|alphabet| alphabet.id.clone()).collect(),
         });
     };
-    fold(word)
+    fold_text(word)
         .chars()
         .filter(|c| !c.is_whitespace() && !"-'".contains(*c))
         .map(|c| {
@@ -76,7 +76,7 @@ pub fn letters_in<'a>(
                 value
                     .letter
                     .as_deref()
-                    .is_some_and(|letter| fold(letter) == c.to_string())
+                    .is_some_and(|letter| fold_text(letter) == c.to_string())
             };
             let value = chosen.values.iter().find(is);
             value
@@ -90,67 +90,66 @@ pub fn letters_in<'a>(
         .collect()
 }
 
-fn known_letters(alphabet: &Inventory) -> String {
-    let letters = alphabet.values.iter().filter_map(|it| it.letter.as_deref());
+fn known_letters(alphabet: &ComponentInventory) -> String {
+    let letters = alphabet.values.iter().filter_map(|value| value.letter.as_deref());
     letters.collect::<Vec<_>>().join(" ")
 }
 
 /// Returns a value; if it has no posture of its own, it gets that of the configuration that it names.
-fn with_pose(all: &[&Inventory], inventory: &Inventory, value: &InventoryValue) -> Value {
-    let own = Value::of(inventory, value);
-    if own.meaning.is_some() {
-        return own;
+fn with_pose(all: &[&ComponentInventory], inventory: &ComponentInventory, value: &InventoryValue) -> ComponentValue {
+    let plain_value = ComponentValue::value_from_inventory(inventory, value);
+    if plain_value.meaning.is_some() {
+        return plain_value;
     }
     let shape = value.configuration.as_deref().and_then(|id| {
-        let whole = all
+        let configurations = all
             .iter()
-            .filter(|i| i.component == Component::Configuration && i.feature.is_none());
-        whole
+            .filter(|i| i.component == SignComponent::Configuration && i.feature.is_none());
+        configurations
             .into_iter()
-            .find_map(|i| Some(Value::of(i, i.get(id)?)))
+            .find_map(|i| Some(ComponentValue::value_from_inventory(i, i.value_by_id(id)?)))
     });
-    shape.unwrap_or(own)
+    shape.unwrap_or(plain_value)
 }
 
-fn letter(all: &[&Inventory], alphabet: &Inventory, value: &InventoryValue) -> Letter {
-    let feature = |component: Component, feature: &str, id: &str| {
+fn letter(all: &[&ComponentInventory], alphabet: &ComponentInventory, value: &InventoryValue) -> AlphabetLetter {
+    let feature = |component: SignComponent, feature: &str, id: &str| {
         let of = all
             .iter()
             .filter(|i| i.component == component && i.feature.as_deref() == Some(feature));
-        of.into_iter().find_map(|inventory| inventory.get(id))
+        of.into_iter().find_map(|inventory| inventory.value_by_id(id))
     };
-    let fingers = value.orientation.as_ref().and_then(|orientation| {
-        feature(Component::Orientation, "fingers", &orientation.fingers)?.direction
-    });
+    let fingers = value
+        .orientation
+        .as_ref()
+        .and_then(|orientation| feature(SignComponent::Orientation, "fingers", &orientation.fingers)?.direction);
     let roll = value
         .orientation
         .as_ref()
-        .and_then(|orientation| feature(Component::Orientation, "palm", &orientation.palm)?.roll);
+        .and_then(|orientation| feature(SignComponent::Orientation, "palm", &orientation.palm)?.roll);
     let strokes = value.strokes.iter().map(|stroke| {
         let displacement = stroke
             .direction
             .as_deref()
-            .and_then(|id| feature(Component::Movement, "direction", id)?.direction)
-            .map_or(DVec3::ZERO, |displacement| {
-                DVec3::from(displacement) * stroke.size
-            });
+            .and_then(|id| feature(SignComponent::Movement, "direction", id)?.direction)
+            .map_or(DVec3::ZERO, |displacement| DVec3::from(displacement) * stroke.size);
         LetterStroke {
             displacement: displacement.to_array(),
             turn: stroke.turn,
         }
     });
-    Letter {
+    AlphabetLetter {
         letter: value.letter.clone().unwrap_or_default(),
         value: with_pose(all, alphabet, value),
         fingers,
-        palm: roll.map(|roll| palm(fingers, roll).to_array()),
+        palm: roll.map(|roll| lookup_palm_direction(fingers, roll).to_array()),
         strokes: strokes.collect(),
     }
 }
 
 /// Returns the direction of the palm in HamNoSys's convention: palm down on a hand that points out, rotated by `roll`
 /// to the right, then rotated with the hand to its direction by the shortest rotation.
-fn palm(fingers: Option<[f64; 3]>, roll: f64) -> DVec3 {
+fn lookup_palm_direction(fingers: Option<[f64; 3]>, roll: f64) -> DVec3 {
     let out = DVec3::new(-roll.sin(), -roll.cos(), 0.0);
     let to = fingers.map_or(DVec3::Y, DVec3::from).normalize_or(DVec3::Y);
     let turn = if to.z < -1.0 + 1e-9 {
@@ -165,25 +164,19 @@ fn palm(fingers: Option<[f64; 3]>, roll: f64) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sources::Meaning;
-    use chereme_sign::inventory::builtin;
+    use crate::sources::ValueMeaning;
+    use chereme_sign::inventory::builtin_inventories;
 
     #[test]
     fn every_letter_of_the_alphabet_has_a_posture_and_a_direction() {
-        let letters = letters_in(builtin(), None, "abcdefghijklmnopqrstuvwxyz").expect("letters");
+        let letters = letters_in(builtin_inventories(), None, "abcdefghijklmnopqrstuvwxyz").expect("letters");
         assert_eq!(letters.len(), 26);
         for letter in &letters {
             let name = &letter.letter;
-            assert!(
-                matches!(letter.value.meaning, Some(Meaning::Hand(_))),
-                "{name}"
-            );
+            assert!(matches!(letter.value.meaning, Some(ValueMeaning::Hand(_))), "{name}");
             let fingers = DVec3::from(letter.fingers.expect("a direction"));
             let palm = DVec3::from(letter.palm.expect("a direction"));
-            assert!(
-                fingers.dot(palm).abs() < 1e-9 && palm.is_normalized(),
-                "{name}"
-            );
+            assert!(fingers.dot(palm).abs() < 1e-9 && palm.is_normalized(), "{name}");
         }
         let a = &letters[0];
         assert!(
@@ -192,7 +185,7 @@ mod tests {
         );
         assert!(letters[9].strokes.len() > 1 && letters[25].strokes.len() == 3);
         assert_eq!(
-            letters_in(builtin(), Some("lsf"), "week-end É")
+            letters_in(builtin_inventories(), Some("lsf"), "week-end É")
                 .expect("letters")
                 .len(),
             8
@@ -202,15 +195,15 @@ mod tests {
     #[test]
     fn unknown_letters_and_alphabets_are_named() {
         for (alphabet, word, want) in [(None, "a1", "\"1\""), (Some("morse"), "a", "\"morse\"")] {
-            let error = letters_in(builtin(), alphabet, word)
+            let error = letters_in(builtin_inventories(), alphabet, word)
                 .expect_err(word)
                 .to_string();
             assert!(error.contains(want), "{error}");
         }
-        let value = value_in(builtin(), Component::Placement, "chin").expect("chin");
-        assert!(matches!(value.meaning, Some(Meaning::Place(_))));
-        let error = value_in(builtin(), Component::Placement, "foreheda").expect_err("misspelt");
-        let right = error.meant().map(|it| it.right);
+        let value = value_in(builtin_inventories(), SignComponent::Placement, "chin").expect("chin");
+        assert!(matches!(value.meaning, Some(ValueMeaning::Place(_))));
+        let error = value_in(builtin_inventories(), SignComponent::Placement, "foreheda").expect_err("misspelt");
+        let right = error.source_meant_name().map(|it| it.right);
         assert_eq!(right.as_deref(), Some("forehead"), "{error}");
     }
 }

@@ -1,36 +1,36 @@
 //! The result of a recipe: movement, its annotations, and the report.
 
-use chereme_motion::{Clip, Side, Span};
-use chereme_sign::{Component, Handedness, Reading};
+use chereme_motion::{BodySide, Clip, TimeSpan};
+use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-use chereme_motion::Anatomy;
+use chereme_motion::BodyAnatomy;
 
-use crate::language::Language;
+use crate::language::BodyLanguageChanges;
 
 /// A generated sign or utterance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Generated {
+pub struct GeneratedMovement {
     /// The movement.
     pub clip: Clip,
     /// The parts of the body that the skeleton's joints are.
-    pub anatomy: Arc<Anatomy>,
+    pub anatomy: Arc<BodyAnatomy>,
     /// The hand with which the signer signs.
-    pub handedness: Handedness,
+    pub handedness: SignerHandedness,
     /// The signer whose body moves, if known.
     pub signer: Option<String>,
     /// The amount of each non-manual at each frame.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<GeneratedCurve>,
     /// The annotations.
-    pub notes: Vec<Note>,
+    pub notes: Vec<GeneratedNote>,
     /// The steps, sources and accuracy of the result.
-    pub report: Report,
+    pub report: GenerationReport,
 }
 
 /// A scalar curve of a clip, with a value per frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Curve {
+pub struct GeneratedCurve {
     /// The part and the code of SiGML: `head.SH`, `brows.RB`, `mouth.L04`, `mouthing.hYs`.
     pub name: String,
     /// The amount, from 0 to 1.
@@ -39,15 +39,15 @@ pub struct Curve {
 
 /// A statement about a span of generated movement; the corpus turns these into annotations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Note {
+pub struct GeneratedNote {
     /// The hand; `None` for glosses and non-manual components.
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The subject.
-    pub about: About,
+    pub about: NoteSubject,
     /// The value.
-    pub value: Reading,
+    pub value: ComponentReading,
     /// The time, from the first frame.
-    pub span: Span,
+    pub span: TimeSpan,
     /// The source of the movement in that span.
     pub origin: String,
 }
@@ -55,11 +55,11 @@ pub struct Note {
 /// The subject of a note.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum About {
+pub enum NoteSubject {
     /// The gloss of the sign from which the span was generated.
     Gloss,
     /// A component, and its part if the note is not about the whole.
-    Component(Component, Option<String>),
+    Component(SignComponent, Option<String>),
     /// Movement synthesised between two pieces or values.
     Transition,
     /// Cued speech.
@@ -83,7 +83,7 @@ pub enum CueTier {
 impl CueTier {
     /// Returns the name of the tier.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn cue_tier_name(self) -> &'static str {
         match self {
             Self::Phones => "Phones",
             Self::Keys => "Keys",
@@ -95,7 +95,7 @@ impl CueTier {
 
 /// The steps, sources and accuracy of a generated sign, for people and for `--explain`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Report {
+pub struct GenerationReport {
     /// The steps in the order in which they were taken.
     pub steps: Vec<StepReport>,
     /// The source of movement for each channel of the body.
@@ -125,7 +125,7 @@ pub struct StepReport {
     pub moved: Option<[f64; 3]>,
     /// The body language that animated the notation, if it is not the default one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub language: Option<Language>,
+    pub language: Option<BodyLanguageChanges>,
     /// The accuracy of each hand, for notation.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hands: Vec<HandReport>,
@@ -135,7 +135,7 @@ pub struct StepReport {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HandReport {
     /// The hand.
-    pub hand: Side,
+    pub hand: BodySide,
     /// The distance from its path, in metres.
     pub off_m: f64,
     /// The distance from the place that it should touch, in metres.
@@ -161,9 +161,9 @@ pub struct JoinReport {
     /// The joined pieces.
     pub what: String,
     /// The hand.
-    pub hand: Side,
+    pub hand: BodySide,
     /// The transition.
-    pub span: Span,
+    pub span: TimeSpan,
     /// The distance of the wrist from the position that its speed predicts, in metres; the larger of both ends.
     pub position: f64,
     /// The change of velocity in metres per second; the larger of both ends.

@@ -1,14 +1,14 @@
 //! Chooses the posture of a hand for a value, in order of preference.
 
 use chereme_motion::glam::DQuat;
-use chereme_motion::{HandAngles, Side, Skeleton};
-use chereme_sign::Component;
+use chereme_motion::{BodySide, HandAngles, Skeleton};
+use chereme_sign::SignComponent;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::Setting;
-use crate::error::Cause;
-use crate::recipe::Choice;
-use crate::sources::{Example, Material, Meaning, Sources, Value};
+use crate::answers::MaterialSigner;
+use crate::error::StepError;
+use crate::recipe::ValueChoice;
+use crate::sources::{ComponentValue, MovementMaterial, RecipeSources, TokenExample, ValueMeaning};
 
 /// A chosen posture of the hand.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -22,13 +22,13 @@ pub struct HandPose {
     pub angles: HandAngles,
     /// The local rotations of the joints below the wrist, for a skeleton with the same fingers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub exact: Option<Exact>,
+    pub exact: Option<ExactHandRotations>,
 }
 
 impl HandPose {
     /// Returns the address of the sign that shows the posture; `None` if it is the inventory's own.
     #[must_use]
-    pub fn giver(&self) -> Option<&str> {
+    pub fn posture_giver_address(&self) -> Option<&str> {
         match &self.origin {
             PoseOrigin::Named(sign)
             | PoseOrigin::SameSigner(sign)
@@ -42,9 +42,9 @@ impl HandPose {
 /// Local rotations of the joints below a wrist.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Exact {
+pub struct ExactHandRotations {
     /// The hand.
-    pub side: Side,
+    pub side: BodySide,
     /// Each joint's name and local rotation.
     pub joints: Vec<(String, DQuat)>,
 }
@@ -83,67 +83,67 @@ impl std::fmt::Display for PoseOrigin {
 }
 
 /// The greatest distance of a neighbouring value, as the root mean square of its angles' differences in radians.
-const NEAR: f64 = 0.25;
+const NEAR_VALUE_DISTANCE_RAD: f64 = 0.25;
 /// The greatest such distance of a posture from the value that it shows.
-const SHOWN: f64 = 0.2;
+const SHOWN_VALUE_DISTANCE_RAD: f64 = 0.2;
 /// The number of examples that are tried before the next best kind of source.
-const TRIES: usize = 8;
+const MAX_EXAMPLE_TRIES: usize = 8;
 
 /// Returns the postures for `choice`: one, or the successive ones of a sign.
-pub(crate) fn choose(
-    sources: &dyn Sources,
-    choice: &Choice,
-    side: Side,
-    setting: &Setting,
-) -> Result<Vec<HandPose>, Cause> {
+pub(crate) fn choose_hand_poses(
+    sources: &dyn RecipeSources,
+    choice: &ValueChoice,
+    side: BodySide,
+    setting: &MaterialSigner,
+) -> Result<Vec<HandPose>, StepError> {
     match choice {
-        Choice::Keep => Ok(Vec::new()),
-        Choice::Value(text) => {
-            let value = sources.value(Component::Configuration, text)?;
+        ValueChoice::Keep => Ok(Vec::new()),
+        ValueChoice::Value(text) => {
+            let value = sources.find_component_value(SignComponent::Configuration, text)?;
             Ok(vec![of_value(sources, &value, side, setting)?])
         }
-        Choice::From(address) => {
-            let material = sources.material(address)?;
+        ValueChoice::From(address) => {
+            let material = sources.find_material(address)?;
             let poses = held_by(&material, side);
             if poses.is_empty() {
                 let address = material.address;
                 let what = "configuration";
-                return Err(Cause::NothingToTake { address, what });
+                return Err(StepError::NothingToTake { address, what });
             }
             Ok(poses)
         }
-        Choice::Best(query) => {
-            let examples = sources.best(query, setting.signer.as_deref())?;
-            for example in examples.iter().take(TRIES) {
-                if let Some(pose) = shown(sources, example, None, side)? {
+        ValueChoice::Best(query) => {
+            let examples = sources.find_best_examples(query, setting.signer.as_deref())?;
+            for example in examples.iter().take(MAX_EXAMPLE_TRIES) {
+                if let Some(pose) = pose_shown_by_example(sources, example, None, side)? {
                     return Ok(vec![with_origin(pose, example, setting)]);
                 }
             }
-            Err(Cause::NothingFound(query.clone()))
+            Err(StepError::NothingFound(query.clone()))
         }
     }
 }
 
 /// Returns the posture for a value: from the same signer, another signer, a modified neighbour, or the inventory.
 pub(crate) fn of_value(
-    sources: &dyn Sources,
-    value: &Value,
-    side: Side,
-    setting: &Setting,
-) -> Result<HandPose, Cause> {
-    let examples = sources.holding(Component::Configuration, &value.id)?;
-    let same = |example: &&Example| setting.signer.is_some() && example.signer == setting.signer;
-    let own = examples.iter().filter(same).take(TRIES);
-    let others = examples.iter().filter(|e| !same(e)).take(TRIES);
-    for example in own.chain(others) {
-        if let Some(pose) = shown(sources, example, Some(&value.id), side)? {
+    sources: &dyn RecipeSources,
+    value: &ComponentValue,
+    side: BodySide,
+    setting: &MaterialSigner,
+) -> Result<HandPose, StepError> {
+    let examples = sources.holding(SignComponent::Configuration, &value.id)?;
+    let same = |example: &&TokenExample| setting.signer.is_some() && example.signer == setting.signer;
+    let same_examples = examples.iter().filter(same).take(MAX_EXAMPLE_TRIES);
+    let others = examples.iter().filter(|e| !same(e)).take(MAX_EXAMPLE_TRIES);
+    for example in same_examples.chain(others) {
+        if let Some(pose) = pose_shown_by_example(sources, example, Some(&value.id), side)? {
             return Ok(with_origin(pose, example, setting));
         }
     }
-    let Some(Meaning::Hand(angles)) = &value.meaning else {
+    let Some(ValueMeaning::Hand(angles)) = &value.meaning else {
         let value = value.id.clone();
         let what = "posture of the hand";
-        return Err(Cause::NoMeaning { value, what });
+        return Err(StepError::NoMeaning { value, what });
     };
     if let Some(pose) = from_neighbour(sources, value, angles, side, setting)? {
         return Ok(pose);
@@ -158,19 +158,19 @@ pub(crate) fn of_value(
 
 /// Returns the posture of the same signer's nearest value, changed by the difference of the inventory's postures.
 fn from_neighbour(
-    sources: &dyn Sources,
-    wanted: &Value,
+    sources: &dyn RecipeSources,
+    wanted: &ComponentValue,
     angles: &HandAngles,
-    side: Side,
-    setting: &Setting,
-) -> Result<Option<HandPose>, Cause> {
-    let mut near: Vec<(f64, Value, HandAngles)> = Vec::new();
-    for value in sources.values(Component::Configuration) {
-        if let Some(Meaning::Hand(other)) = value.meaning
+    side: BodySide,
+    setting: &MaterialSigner,
+) -> Result<Option<HandPose>, StepError> {
+    let mut near: Vec<(f64, ComponentValue, HandAngles)> = Vec::new();
+    for value in sources.list_component_values(SignComponent::Configuration) {
+        if let Some(ValueMeaning::Hand(other)) = value.meaning
             && value.id != wanted.id
         {
-            let distance = distance(angles, &other);
-            if distance < NEAR {
+            let distance = hand_angle_distance(angles, &other);
+            if distance < NEAR_VALUE_DISTANCE_RAD {
                 near.push((distance, value, other));
             }
         }
@@ -178,14 +178,14 @@ fn from_neighbour(
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.id.cmp(&b.1.id)));
     for (_, value, other) in near.iter().take(3) {
         for example in sources
-            .holding(Component::Configuration, &value.id)?
+            .holding(SignComponent::Configuration, &value.id)?
             .iter()
-            .take(TRIES)
+            .take(MAX_EXAMPLE_TRIES)
         {
             if setting.signer.is_none() || example.signer != setting.signer {
                 continue;
             }
-            let Some(pose) = shown(sources, example, Some(&value.id), side)? else {
+            let Some(pose) = pose_shown_by_example(sources, example, Some(&value.id), side)? else {
                 continue;
             };
             let (a, b, c) = (pose.angles.to_array(), angles.to_array(), other.to_array());
@@ -205,61 +205,63 @@ fn from_neighbour(
 }
 
 /// Returns the value that a posture shows: the nearest of the inventories, if one is near enough.
-pub(crate) fn nearest_value(sources: &dyn Sources, angles: &HandAngles) -> Option<String> {
-    let values = sources.values(Component::Configuration).into_iter();
+pub(crate) fn nearest_value(sources: &dyn RecipeSources, angles: &HandAngles) -> Option<String> {
+    let values = sources.list_component_values(SignComponent::Configuration).into_iter();
     let near = values.filter_map(|value| match &value.meaning {
-        Some(Meaning::Hand(own)) => Some((distance(angles, own), value.id)),
+        Some(ValueMeaning::Hand(own)) => Some((hand_angle_distance(angles, own), value.id)),
         _ => None,
     });
     let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
-    nearest.filter(|it| it.0 < SHOWN).map(|it| it.1)
+    nearest
+        .filter(|candidate| candidate.0 < SHOWN_VALUE_DISTANCE_RAD)
+        .map(|candidate| candidate.1)
 }
 
-fn distance(a: &HandAngles, b: &HandAngles) -> f64 {
+fn hand_angle_distance(a: &HandAngles, b: &HandAngles) -> f64 {
     let squares = a
         .to_array()
         .into_iter()
         .zip(b.to_array())
         .map(|(x, y)| (x - y) * (x - y));
-    (squares.sum::<f64>() / HandAngles::LEN as f64).sqrt()
+    (squares.sum::<f64>() / HandAngles::HAND_ANGLE_COUNT as f64).sqrt()
 }
 
 /// Returns the posture in the middle of an example's span; `None` if the hand has no fingers.
-fn shown(
-    sources: &dyn Sources,
-    example: &Example,
+fn pose_shown_by_example(
+    sources: &dyn RecipeSources,
+    example: &TokenExample,
     value: Option<&str>,
-    side: Side,
-) -> Result<Option<HandPose>, Cause> {
-    let material = sources.material(&example.address)?;
-    let held = |side: Side| {
+    side: BodySide,
+) -> Result<Option<HandPose>, StepError> {
+    let material = sources.find_material(&example.address)?;
+    let held_value = |side: BodySide| {
         material.held.iter().find(|held| {
             held.hand == Some(side)
-                && held.component == Component::Configuration
+                && held.component == SignComponent::Configuration
                 && held.feature.is_none()
-                && held.value.value().is_some()
-                && value.is_none_or(|value| held.value.value() == Some(value))
+                && held.value.reading_value().is_some()
+                && value.is_none_or(|value| held.value.reading_value() == Some(value))
         })
     };
     let from = example
         .hand
         .or_else(|| {
-            [side, side.other()]
+            [side, side.opposite_side()]
                 .into_iter()
-                .find(|&s| held(s).is_some())
+                .find(|&s| held_value(s).is_some())
         })
         .unwrap_or(side);
-    let found = held(from);
+    let source_value = held_value(from);
     let span = example
         .span
-        .or(found.map(|held| held.span))
-        .unwrap_or(material.clip.span());
-    let middle = span.start().shifted(span.micros() / 2);
-    let name = value.or(found.and_then(|held| held.value.value()));
+        .or(source_value.map(|held| held.span))
+        .unwrap_or(material.clip.clip_span());
+    let middle = span.span_start_instant().shifted_instant(span.span_micros() / 2);
+    let name = value.or(source_value.and_then(|held| held.value.reading_value()));
     Ok(pose_at(&material, from, middle, name.map(str::to_owned)))
 }
 
-fn with_origin(pose: HandPose, example: &Example, setting: &Setting) -> HandPose {
+fn with_origin(pose: HandPose, example: &TokenExample, setting: &MaterialSigner) -> HandPose {
     let same = setting.signer.is_some() && example.signer == setting.signer;
     let address = example.address.clone();
     let origin = if same {
@@ -272,64 +274,64 @@ fn with_origin(pose: HandPose, example: &Example, setting: &Setting) -> HandPose
 
 /// Returns the successive postures of `side` in a sign; those of the other hand if that side has none; the one in the
 /// middle if no configuration is annotated.
-fn held_by(material: &Material, side: Side) -> Vec<HandPose> {
-    for side in [side, side.other()] {
-        let mut held: Vec<_> = material
+fn held_by(material: &MovementMaterial, side: BodySide) -> Vec<HandPose> {
+    for side in [side, side.opposite_side()] {
+        let mut held_values: Vec<_> = material
             .held
             .iter()
             .filter(|held| {
                 held.hand == Some(side)
-                    && held.component == Component::Configuration
+                    && held.component == SignComponent::Configuration
                     && held.feature.is_none()
-                    && held.value.value().is_some()
+                    && held.value.reading_value().is_some()
             })
             .collect();
-        held.sort_by_key(|held| (held.span.start(), held.span.end()));
-        let poses: Vec<HandPose> = held
+        held_values.sort_by_key(|held| (held.span.span_start_instant(), held.span.span_end_instant()));
+        let poses: Vec<HandPose> = held_values
             .iter()
             .filter_map(|held| {
-                let middle = held.span.start().shifted(held.span.micros() / 2);
-                pose_at(
-                    material,
-                    side,
-                    middle,
-                    held.value.value().map(str::to_owned),
-                )
+                let middle = held
+                    .span
+                    .span_start_instant()
+                    .shifted_instant(held.span.span_micros() / 2);
+                pose_at(material, side, middle, held.value.reading_value().map(str::to_owned))
             })
             .collect();
         if !poses.is_empty() {
             return poses;
         }
     }
-    let span = material.clip.span();
-    let middle = span.start().shifted(span.micros() / 2);
+    let span = material.clip.clip_span();
+    let middle = span.span_start_instant().shifted_instant(span.span_micros() / 2);
     pose_at(material, side, middle, None).into_iter().collect()
 }
 
 fn pose_at(
-    material: &Material,
-    side: Side,
-    at: chereme_motion::Instant,
+    material: &MovementMaterial,
+    side: BodySide,
+    at: chereme_motion::RecordingInstant,
     value: Option<String>,
 ) -> Option<HandPose> {
     let clip = &material.clip;
-    if clip.frames() == 0 || !material.anatomy.has_fingers(side) {
+    if clip.clip_frame_count() == 0 || !material.anatomy.has_fingers(side) {
         return None;
     }
-    let frame = clip.rate().frame_at(at).min(clip.frames() - 1);
-    let pose = clip.pose(frame);
-    let angles = material.anatomy.hand_angles(clip.skeleton(), side, &pose)?;
-    let joints = material.anatomy.fingers(side).into_iter().map(|joint| {
-        (
-            clip.skeleton().joint(joint).name.clone(),
-            pose.rotations[joint],
-        )
-    });
+    let frame = clip
+        .clip_frame_rate()
+        .nearest_frame_at(at)
+        .min(clip.clip_frame_count() - 1);
+    let pose = clip.clip_pose_at(frame);
+    let angles = material.anatomy.hand_angles(clip.clip_skeleton(), side, &pose)?;
+    let joints = material
+        .anatomy
+        .finger_joints(side)
+        .into_iter()
+        .map(|joint| (clip.clip_skeleton().joint_at(joint).name.clone(), pose.rotations[joint]));
     Some(HandPose {
         value,
         origin: PoseOrigin::Named(material.address.clone()),
         angles,
-        exact: Some(Exact {
+        exact: Some(ExactHandRotations {
             side,
             joints: joints.collect(),
         }),
@@ -340,20 +342,20 @@ fn pose_at(
 ///
 /// If the donor's finger joints have the same names, in the same order, on the same side, and give the same angles on
 /// this skeleton, its rotations are used unchanged; otherwise the angles are set.
-pub(crate) fn rotations(
+pub(crate) fn hand_pose_rotations(
     skeleton: &Skeleton,
-    anatomy: &chereme_motion::Anatomy,
-    side: Side,
+    anatomy: &chereme_motion::BodyAnatomy,
+    side: BodySide,
     pose: &HandPose,
 ) -> Option<Vec<(usize, DQuat)>> {
-    let fingers = anatomy.fingers(side);
+    let fingers = anatomy.finger_joints(side);
     if let Some(exact) = pose.exact.as_ref().filter(|exact| exact.side == side) {
         let same = exact.joints.len() == fingers.len()
             && exact
                 .joints
                 .iter()
                 .zip(&fingers)
-                .all(|((name, _), &j)| skeleton.joint(j).name == *name);
+                .all(|((name, _), &j)| skeleton.joint_at(j).name == *name);
         let trial = same.then(|| {
             let mut trial = skeleton.rest_pose();
             for ((_, rotation), &joint) in exact.joints.iter().zip(&fingers) {
@@ -364,7 +366,7 @@ pub(crate) fn rotations(
         // The same names on other bones would give different angles.
         if let Some(trial) = trial
             && let Some(angles) = anatomy.hand_angles(skeleton, side, &trial)
-            && distance(&angles, &pose.angles) < 1e-6
+            && hand_angle_distance(&angles, &pose.angles) < 1e-6
         {
             return Some(fingers.iter().map(|&j| (j, trial.rotations[j])).collect());
         }

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::cue::PhaseRule;
-use crate::units::{Direction, Factor, Hands, Length, Seconds};
+use crate::units::{BodyDirection, HandChoice, RecipeFactor, RecipeLength, RecipeSeconds};
 
 pub use crate::ops::settings::*;
-pub use crate::ops::{Description, Field, FieldSetting, Step};
+pub use crate::ops::{FieldSetting, OperatorDescription, OperatorField, Step};
 
 /// A description from which movement is generated, as text (`ESCARGOT | configure right U`) and as JSON.
 ///
@@ -15,39 +15,39 @@ pub use crate::ops::{Description, Field, FieldSetting, Step};
 /// ["reverse"]}}}`. Unknown fields and versions from the future are refused by name. A recipe names its sources and
 /// does not refer to other recipes, so that there are no cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "crate::json::Versioned", into = "crate::json::Versioned")]
+#[serde(try_from = "crate::json::VersionedRecipe", into = "crate::json::VersionedRecipe")]
 pub struct Recipe {
-    pub(crate) root: Node,
+    pub(crate) root: RecipeNode,
 }
 
 /// A part of a recipe that produces movement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Node {
+pub enum RecipeNode {
     /// A sign of the corpus by its address as written: a gloss, `token:41`, `sign:LIMACE`.
     Sign(String),
     /// A word in a manual alphabet.
-    Spell(Spell),
+    Spell(SpellSettings),
     /// A pointing gesture.
-    Point(Point),
+    Point(PointSettings),
     /// Cued speech.
-    Cue(Cue),
+    Cue(CueSettings),
     /// A sign written in HamNoSys.
-    Hamnosys(Notation),
+    Hamnosys(NotationSettings),
     /// The signs of a SiGML file, or a notated sign, that the corpus knows.
-    Sigml(Notation),
+    Sigml(NotationSettings),
     /// Movement with operators applied to it, in order.
-    Pipe(Pipe),
+    Pipe(OperatorPipe),
     /// One piece of movement after another.
-    Then(Then),
+    Then(RecipeChain),
 }
 
-impl Node {
+impl RecipeNode {
     /// The words that begin sources other than names of signs.
-    pub(crate) const WORDS: [&'static str; 5] = ["spell", "point", "cue", "hamnosys", "sigml"];
+    pub(crate) const SOURCE_FIRST_WORDS: [&'static str; 5] = ["spell", "point", "cue", "hamnosys", "sigml"];
 
     /// Returns the name of the kind of node, as JSON has it.
-    pub(crate) fn name(&self) -> &'static str {
+    pub(crate) fn node_kind_name(&self) -> &'static str {
         match self {
             Self::Sign(_) => "sign",
             Self::Spell(_) => "spell",
@@ -64,9 +64,9 @@ impl Node {
 /// Operators applied to a piece of movement, in order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Pipe {
+pub struct OperatorPipe {
     /// The operand of the first operator; never itself a pipe once normalised.
-    pub of: Box<Node>,
+    pub of: Box<RecipeNode>,
     /// The operators; at least one once normalised.
     pub steps: Vec<Step>,
 }
@@ -74,37 +74,37 @@ pub struct Pipe {
 /// Pieces of movement one after another, joined by transitions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Then {
+pub struct RecipeChain {
     /// The first piece.
-    pub first: Box<Node>,
+    pub first: Box<RecipeNode>,
     /// The pieces that follow; at least one once normalised.
-    pub next: Vec<Joined>,
+    pub next: Vec<JoinedPiece>,
 }
 
 /// A piece of movement that follows another.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Joined {
+pub struct JoinedPiece {
     /// The transition from the piece before.
-    #[serde(default, skip_serializing_if = "Transition::is_default")]
-    pub via: Transition,
+    #[serde(default, skip_serializing_if = "PostureTransition::is_default")]
+    pub via: PostureTransition,
     /// The piece.
-    pub node: Node,
+    pub node: RecipeNode,
 }
 
 /// A transition from one posture to the next: `via sigmoid 0.2s`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Transition {
+pub struct PostureTransition {
     /// The course; the default is the sigmoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub profile: Option<Profile>,
+    pub profile: Option<TransitionProfile>,
     /// The time it takes; by default the operator chooses, from the material if it can.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub time: Option<Seconds>,
+    pub time: Option<RecipeSeconds>,
 }
 
-impl Transition {
+impl PostureTransition {
     /// Returns whether every setting is the default.
     #[must_use]
     pub fn is_default(&self) -> bool {
@@ -115,7 +115,7 @@ impl Transition {
 /// The course of a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Profile {
+pub enum TransitionProfile {
     /// Constant angular speed (eq. 1 of Naert, Larboulette & Gibet 2021).
     Slerp,
     /// The cosine blend (eq. 2).
@@ -129,9 +129,9 @@ pub enum Profile {
     Learned,
 }
 
-impl Profile {
+impl TransitionProfile {
     /// Every course.
-    pub const ALL: [Self; 5] = [
+    pub const ALL_TRANSITION_PROFILES: [Self; 5] = [
         Self::Slerp,
         Self::Cosine,
         Self::Sigmoid,
@@ -141,7 +141,7 @@ impl Profile {
 
     /// Returns the word recipes print.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn transition_profile_name(self) -> &'static str {
         match self {
             Self::Slerp => "slerp",
             Self::Cosine => "cosine",
@@ -155,21 +155,21 @@ impl Profile {
 /// A word in a manual alphabet: `spell LSF with lsf dominant hold 0.2s via sigmoid 0.25s on signer:1`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Spell {
+pub struct SpellSettings {
     /// The word to spell.
     pub word: String,
     /// The hand that spells.
-    #[serde(default = "dominant")]
-    pub hand: Hands,
+    #[serde(default = "dominant_hand_choice")]
+    pub hand: HandChoice,
     /// The inventory with the letters; `None` for the corpus's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alphabet: Option<String>,
     /// The time for which each letter is held; the default is the median of the corpus's letters, else 0.2 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hold: Option<Seconds>,
+    pub hold: Option<RecipeSeconds>,
     /// The transition from letter to letter.
-    #[serde(default, skip_serializing_if = "Transition::is_default")]
-    pub via: Transition,
+    #[serde(default, skip_serializing_if = "PostureTransition::is_default")]
+    pub via: PostureTransition,
     /// The signer whose body spells; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
@@ -178,7 +178,7 @@ pub struct Spell {
 /// Cued speech: `cue "le chat dort" dominant by paper pace 1.6 on signer:1`, `cue "l=87 @=131" as sampa`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Cue {
+pub struct CueSettings {
     /// The text, or phones separated by blanks; `a=120` is a phone of 120 ms.
     pub text: String,
     /// The alphabet of the phones: `sampa`, `ipa` or `mfa`; `None` if the text is in ordinary spelling.
@@ -191,14 +191,14 @@ pub struct Cue {
     #[serde(rename = "variant", default, skip_serializing_if = "Vec::is_empty")]
     pub variants: Vec<String>,
     /// The hand that cues; never both.
-    #[serde(default = "dominant")]
-    pub hand: Hands,
+    #[serde(default = "dominant_hand_choice")]
+    pub hand: HandChoice,
     /// The rule for the times of the hand.
     #[serde(rename = "by", default, skip_serializing_if = "PhaseRule::is_default")]
     pub phase: PhaseRule,
     /// The factor on the usual durations of sounds, if the phones have no times; the default is 1.6.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pace: Option<Factor>,
+    pub pace: Option<RecipeFactor>,
     /// The signer whose body cues; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
@@ -207,7 +207,7 @@ pub struct Cue {
 /// Movement from notation: `hamnosys "…" with default on signer:1`, `sigml HUIS`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Notation {
+pub struct NotationSettings {
     /// The symbols of the sign, or the name of notation in the corpus.
     pub of: String,
     /// The body language: `default` for the program's own, `measured` for measurements in the corpus's captured signs,
@@ -222,39 +222,39 @@ pub struct Notation {
 /// A pointing gesture: `point right at 30cm,140cm,50cm with U hold 0.3s via sigmoid 0.5s on signer:1`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Point {
+pub struct PointSettings {
     /// The hand that points.
-    #[serde(default = "dominant")]
-    pub hand: Hands,
+    #[serde(default = "dominant_hand_choice")]
+    pub hand: HandChoice,
     /// The target.
-    pub at: Spot,
+    pub at: SigningSpot,
     /// The hand's shape; the default is the index finger's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub with: Option<Choice>,
+    pub with: Option<ValueChoice>,
     /// The time for which the gesture stays at its apex; the default is 0.3 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hold: Option<Seconds>,
+    pub hold: Option<RecipeSeconds>,
     /// The transitions of reaching and retraction; course and time are by default those of the corpus's captured reaches,
     /// and no wrist is faster than captured ones.
-    #[serde(default, skip_serializing_if = "Transition::is_default")]
-    pub via: Transition,
+    #[serde(default, skip_serializing_if = "PostureTransition::is_default")]
+    pub via: PostureTransition,
     /// The signer whose body points; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }
 
-pub(crate) fn dominant() -> Hands {
-    Hands::Dominant
+pub(crate) fn dominant_hand_choice() -> HandChoice {
+    HandChoice::Dominant
 }
 
-pub(crate) fn both() -> Hands {
-    Hands::Both
+pub(crate) fn both_hands_choice() -> HandChoice {
+    HandChoice::Both
 }
 
 /// The source of a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Choice {
+pub enum ValueChoice {
     /// The present value; written `_`.
     Keep,
     /// A value of an inventory by its name.
@@ -268,20 +268,20 @@ pub enum Choice {
 /// A straight leg of a path: `left 25cm`, `right up 10cm` (the diagonal), `down 20cm in 0.4s`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Leg {
+pub struct StraightLeg {
     /// The directions; the leg goes half-way between them.
-    pub towards: Vec<Direction>,
+    pub towards: Vec<BodyDirection>,
     /// Its length.
-    pub distance: Length,
+    pub distance: RecipeLength,
     /// The time it takes; only a path has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub time: Option<Seconds>,
+    pub time: Option<RecipeSeconds>,
 }
 
 /// A point of the hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum HandPoint {
+pub enum RecipeHandPoint {
     /// The wrist joint.
     Wrist,
     /// The middle of the palm.
@@ -298,9 +298,9 @@ pub enum HandPoint {
     Little,
 }
 
-impl HandPoint {
+impl RecipeHandPoint {
     /// Every point.
-    pub const ALL: [Self; 7] = [
+    pub const ALL_HAND_POINTS: [Self; 7] = [
         Self::Wrist,
         Self::Palm,
         Self::Thumb,
@@ -312,7 +312,7 @@ impl HandPoint {
 
     /// Returns the word recipes print.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn hand_point_name(self) -> &'static str {
         match self {
             Self::Wrist => "wrist",
             Self::Palm => "palm",
@@ -328,7 +328,7 @@ impl HandPoint {
 /// The method that finds an arm's posture from the wrist's place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Solver {
+pub enum ArmSolverMethod {
     /// Two bones in closed form, the elbow turned as in the source.
     #[default]
     Analytic,
@@ -336,13 +336,13 @@ pub enum Solver {
     Fabrik,
 }
 
-impl Solver {
+impl ArmSolverMethod {
     /// Every solver.
-    pub const ALL: [Self; 2] = [Self::Analytic, Self::Fabrik];
+    pub const ALL_ARM_SOLVERS: [Self; 2] = [Self::Analytic, Self::Fabrik];
 
     /// Returns the word that recipes print.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn arm_solver_name(self) -> &'static str {
         match self {
             Self::Analytic => "analytic",
             Self::Fabrik => "fabrik",
@@ -359,15 +359,15 @@ impl Solver {
 /// A place in the signing space that signs refer to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Spot {
+pub enum SigningSpot {
     /// The signer's own chest.
     Me,
     /// The person in front of the signer.
     You,
     /// A direction from the chest, such as `left` or `right forward`.
-    Towards(Vec<Direction>),
+    Towards(Vec<BodyDirection>),
     /// A placement of an inventory.
     Value(String),
     /// A point of body space: to the left, up from the floor, and forward.
-    Point([Length; 3]),
+    Point([RecipeLength; 3]),
 }

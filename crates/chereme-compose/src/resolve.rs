@@ -3,61 +3,58 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_motion::Side;
-use chereme_sign::Handedness;
-use chereme_sign::hamnosys::Notated;
-use chereme_sign::milestones::{Function, Milestones};
+use chereme_motion::BodySide;
+use chereme_sign::SignerHandedness;
+use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{Answers, Ask, Path, Setting, Slot};
+use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, RecipeAnswers, RecipePath};
 use crate::cue::{self, CuePhases};
-use crate::draft::Former;
-use crate::error::{Cause, MakeError};
-use crate::language::Language;
-use crate::ops::notated::Written;
+use crate::draft::FormerPart;
+use crate::error::{MakeError, StepError};
+use crate::language::BodyLanguageChanges;
+use crate::ops::notated_operator::NotationSpelling;
 use crate::ops::{point, spell};
 use crate::poses::HandPose;
 use crate::recipe::*;
 use crate::sources::{
-    HeldValue, LearnedProfile, Letter, Material, Sources, Spatial, SpellingTimes,
+    AlphabetLetter, BodyRelativePlace, HeldValue, LearnedProfile, MovementMaterial, RecipeSources, SpellingTimes,
 };
 
 /// The movement of a sign.
-pub(crate) const SIGN: Slot<MaterialInput> = Slot::new("sign");
+pub(crate) const SIGN_MATERIAL_SLOT: AnswerSlot<MaterialInput> = AnswerSlot::new("sign");
 /// The learned courses of the transition from one piece to the next.
-pub(crate) const JOIN: Slot<LearnedProfile> = Slot::new("via");
+pub(crate) const JOIN_COURSE_SLOT: AnswerSlot<LearnedProfile> = AnswerSlot::new("via");
 
 /// A recipe with all its inputs.
 #[derive(Debug, Clone)]
-pub struct Resolved {
+pub struct ResolvedRecipe {
     pub(crate) recipe: Recipe,
-    pub(crate) inputs: Inputs,
-    pub(crate) materials: BTreeMap<String, Arc<Material>>,
+    pub(crate) inputs: RecipeInputs,
+    pub(crate) materials: BTreeMap<String, Arc<MovementMaterial>>,
 }
 
-impl Resolved {
+impl ResolvedRecipe {
     /// Returns the recipe.
     #[must_use]
-    pub fn recipe(&self) -> &Recipe {
+    pub fn resolved_recipe(&self) -> &Recipe {
         &self.recipe
     }
 
-    /// Returns the chosen inputs, to be stored with the recipe; see [`restore`].
+    /// Returns the chosen inputs, to be stored with the recipe; see [`restore_recipe_inputs`].
     #[must_use]
-    pub fn inputs(&self) -> &Inputs {
+    pub fn resolved_inputs(&self) -> &RecipeInputs {
         &self.inputs
     }
 
     /// Returns the chosen inputs below a path of the recipe.
-    pub(crate) fn below(&self, base: &str) -> impl Iterator<Item = (&String, &Input)> {
+    pub(crate) fn inputs_below_path(&self, base: &str) -> impl Iterator<Item = (&String, &RecipeInput)> {
         let from = self.inputs.0.range(base.to_owned()..);
         let base = base.to_owned();
-        let rest = move |path: &str| {
-            path.strip_prefix(base.as_str())
-                .map(|it| it.starts_with('/'))
-        };
-        let held = rest.clone();
-        from.take_while(move |(path, _)| held(path).is_some())
+        let rest = move |path: &str| path.strip_prefix(base.as_str()).map(|tail| tail.starts_with('/'));
+        let rest_copy = rest.clone();
+        from.take_while(move |(path, _)| rest_copy(path).is_some())
             .filter(move |(path, _)| rest(path) == Some(true))
     }
 }
@@ -68,12 +65,12 @@ impl Resolved {
 /// a sign that was generated before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Inputs(pub BTreeMap<String, Input>);
+pub struct RecipeInputs(pub BTreeMap<String, RecipeInput>);
 
 /// The choice for one path in a recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Input {
+pub enum RecipeInput {
     /// A source of movement.
     Material(MaterialInput),
     /// Postures of the hand.
@@ -83,9 +80,9 @@ pub enum Input {
     /// The letters of a word.
     Letters(Vec<LetterInput>),
     /// Signs as notation.
-    Notation(Vec<Notated>),
+    Notation(Vec<NotatedSign>),
     /// Body language that differs from the default one.
-    Language(Language),
+    Language(BodyLanguageChanges),
     /// Learned courses of transitions: the progress of arms and fingers over time.
     Courses(LearnedProfile),
     /// The times of held letters, and of the change from one to the next.
@@ -96,19 +93,19 @@ pub enum Input {
     Expression(ExpressionInput),
 }
 
-impl Input {
+impl RecipeInput {
     /// Returns the addresses of the signs that gave postures or a place, but no movement.
     #[must_use]
-    pub fn givers(&self) -> Vec<&str> {
+    pub fn input_giver_addresses(&self) -> Vec<&str> {
         match self {
-            Self::Poses(poses) => poses.iter().filter_map(HandPose::giver).collect(),
+            Self::Poses(poses) => poses.iter().filter_map(HandPose::posture_giver_address).collect(),
             Self::Letters(letters) => {
                 let poses = letters.iter().map(|letter| &letter.pose);
-                poses.filter_map(HandPose::giver).collect()
+                poses.filter_map(HandPose::posture_giver_address).collect()
             }
             Self::Place(place) => {
                 let is_sign = ["token:", "recording:"];
-                let sign = is_sign.iter().any(|it| place.from.starts_with(it));
+                let sign = is_sign.iter().any(|prefix| place.from.starts_with(prefix));
                 sign.then_some(place.from.as_str()).into_iter().collect()
             }
             _ => Vec::new(),
@@ -121,9 +118,9 @@ impl Input {
 #[serde(deny_unknown_fields)]
 pub struct ExpressionInput {
     /// Its function in the signs that it spans.
-    pub function: Function,
+    pub function: ExpressionFunction,
     /// Its milestones, from the first frame of its movement on.
-    pub milestones: Milestones,
+    pub milestones: ExpressionMilestones,
 }
 
 /// The source of movement that was found for a recipe.
@@ -137,7 +134,7 @@ pub struct MaterialInput {
     /// Its gloss.
     pub gloss: String,
     /// The hand with which its signer signs.
-    pub handedness: Handedness,
+    pub handedness: SignerHandedness,
     /// Its component values.
     pub held: Vec<HeldValue>,
     /// The body that performs it, if it is a notation.
@@ -164,7 +161,7 @@ pub struct PlaceInput {
     /// The inventory or sign that gives it.
     pub from: String,
     /// The position.
-    pub at: Spatial,
+    pub at: BodyRelativePlace,
 }
 
 /// A letter with the posture chosen for it.
@@ -172,7 +169,7 @@ pub struct PlaceInput {
 #[serde(deny_unknown_fields)]
 pub struct LetterInput {
     /// The letter.
-    pub letter: Letter,
+    pub letter: AlphabetLetter,
     /// The hand's posture.
     pub pose: HandPose,
 }
@@ -181,26 +178,26 @@ pub struct LetterInput {
 ///
 /// # Errors
 /// [`MakeError`] with the step for which nothing was found, and a remedy.
-pub fn resolve(recipe: &Recipe, sources: &dyn Sources) -> Result<Resolved, MakeError> {
-    after(recipe, sources, None)
+pub fn resolve_recipe(recipe: &Recipe, sources: &dyn RecipeSources) -> Result<ResolvedRecipe, MakeError> {
+    resolve_after_change(recipe, sources, None)
 }
 
-/// Does the same as [`resolve`], but reuses the answers in `before` for unchanged parts of the recipe.
-pub(crate) fn after(
+/// Does the same as [`resolve_recipe`], but reuses the answers in `before` for unchanged parts of the recipe.
+pub(crate) fn resolve_after_change(
     recipe: &Recipe,
-    sources: &dyn Sources,
-    before: Option<&Resolved>,
-) -> Result<Resolved, MakeError> {
-    let mut resolver = Resolver {
+    sources: &dyn RecipeSources,
+    before: Option<&ResolvedRecipe>,
+) -> Result<ResolvedRecipe, MakeError> {
+    let mut resolver = RecipeResolver {
         sources,
         before,
-        answers: Answers::default(),
+        answers: RecipeAnswers::default(),
         takes_faces: false,
     };
-    let former = before.map(|before| Former::of(&before.recipe));
-    resolver.node(&recipe.root, &Path::default(), former)?;
-    let Answers { inputs, materials } = resolver.answers;
-    Ok(Resolved {
+    let former = before.map(|before| FormerPart::from_former_recipe(&before.recipe));
+    resolver.resolve_node(&recipe.root, &RecipePath::default(), former)?;
+    let RecipeAnswers { inputs, materials } = resolver.answers;
+    Ok(ResolvedRecipe {
         recipe: recipe.clone(),
         inputs,
         materials,
@@ -211,14 +208,14 @@ pub(crate) fn after(
 ///
 /// # Errors
 /// [`MakeError`] if a source is gone or its movement has changed.
-pub fn restore(
+pub fn restore_recipe_inputs(
     recipe: &Recipe,
-    inputs: Inputs,
-    sources: &dyn Sources,
-) -> Result<Resolved, MakeError> {
+    inputs: RecipeInputs,
+    sources: &dyn RecipeSources,
+) -> Result<ResolvedRecipe, MakeError> {
     let mut materials = BTreeMap::new();
     for (path, input) in &inputs.0 {
-        let Input::Material(stored) = input else {
+        let RecipeInput::Material(stored) = input else {
             continue;
         };
         let fault = |cause| MakeError {
@@ -227,31 +224,31 @@ pub fn restore(
             cause,
         };
         let mut material = sources
-            .material(&stored.address)
+            .find_material(&stored.address)
             .map_err(|error| fault(error.into()))?;
         if material.hash != stored.hash {
             let address = stored.address.clone();
-            return Err(fault(Cause::Changed { address }));
+            return Err(fault(StepError::Changed { address }));
         }
-        if material.clip.frames() == 0 {
-            return Err(fault(Cause::Empty(material.address)));
+        if material.clip.clip_frame_count() == 0 {
+            return Err(fault(StepError::Empty(material.address)));
         }
         material.held.clone_from(&stored.held);
         material.gloss.clone_from(&stored.gloss);
         material.handedness = stored.handedness;
         materials.insert(path.clone(), Arc::new(material));
     }
-    Ok(Resolved {
+    Ok(ResolvedRecipe {
         recipe: recipe.clone(),
         inputs,
         materials,
     })
 }
 
-struct Resolver<'a> {
-    sources: &'a dyn Sources,
-    before: Option<&'a Resolved>,
-    answers: Answers,
+struct RecipeResolver<'a> {
+    sources: &'a dyn RecipeSources,
+    before: Option<&'a ResolvedRecipe>,
+    answers: RecipeAnswers,
     /// Whether the next sign gets expressions only.
     takes_faces: bool,
 }
@@ -265,26 +262,21 @@ const LEAST_SHIFT: f64 = 1e-3;
 const FACE_ONLY: &str = "it shows a face only";
 
 /// Returns what a piece lacks in which no joint of arms or fingers moves: it can only be a body that stands still.
-fn still_hands(material: &Material) -> Option<&'static str> {
+fn still_hands(material: &MovementMaterial) -> Option<&'static str> {
     let anatomy = &material.anatomy;
-    let joints = Side::BOTH.map(|side| [anatomy.arm_joints(side), anatomy.fingers(side)].concat());
-    let joints = joints.concat();
+    let joint_lists = BodySide::BOTH_SIDES.map(|side| [anatomy.arm_joints(side), anatomy.finger_joints(side)].concat());
+    let joints = joint_lists.concat();
     let moves = |joint: &usize| {
-        let channel = material.clip.channel(*joint);
+        let channel = material.clip.joint_channel(*joint);
         let (turns, places) = (&channel.rotations, channel.translations.iter().flatten());
-        let first = channel
-            .translations
-            .as_ref()
-            .and_then(|places| places.first());
-        let turned = turns
-            .iter()
-            .any(|turn| turn.angle_between(turns[0]) > LEAST_TURN);
+        let first = channel.translations.as_ref().and_then(|places| places.first());
+        let turned = turns.iter().any(|turn| turn.angle_between(turns[0]) > LEAST_TURN);
         turned
             || places
                 .zip(first.into_iter().cycle())
                 .any(|(at, first)| at.distance(*first) > LEAST_SHIFT)
     };
-    if material.clip.frames() == 0 || joints.iter().any(moves) {
+    if material.clip.clip_frame_count() == 0 || joints.iter().any(moves) {
         return None;
     }
     Some(if joints.is_empty() {
@@ -297,23 +289,23 @@ fn still_hands(material: &Material) -> Option<&'static str> {
 }
 
 /// Returns the slot in which a source stores its initial movement.
-fn body_of(leaf: &Node) -> Option<Slot<MaterialInput>> {
+fn body_of(leaf: &RecipeNode) -> Option<AnswerSlot<MaterialInput>> {
     Some(match leaf {
-        Node::Sign(_) => SIGN,
-        Node::Spell(_) => spell::BODY,
-        Node::Point(_) => point::BODY,
-        Node::Cue(_) => cue::leaf::BODY,
-        Node::Hamnosys(_) => Written::Hamnosys.body(),
-        Node::Sigml(_) => Written::Sigml.body(),
-        Node::Pipe(_) | Node::Then(_) => return None,
+        RecipeNode::Sign(_) => SIGN_MATERIAL_SLOT,
+        RecipeNode::Spell(_) => spell::SPELL_BODY_SLOT,
+        RecipeNode::Point(_) => point::POINT_BODY_SLOT,
+        RecipeNode::Cue(_) => cue::leaf::CUE_BODY_SLOT,
+        RecipeNode::Hamnosys(_) => NotationSpelling::Hamnosys.notation_body_slot(),
+        RecipeNode::Sigml(_) => NotationSpelling::Sigml.notation_body_slot(),
+        RecipeNode::Pipe(_) | RecipeNode::Then(_) => return None,
     })
 }
 
-impl Resolver<'_> {
+impl RecipeResolver<'_> {
     /// Copies the answers for a part at `from` to `to`.
-    fn again(&mut self, from: &Path, to: &Path) {
+    fn copy_part_answers(&mut self, from: &RecipePath, to: &RecipePath) {
         let Some(before) = self.before else { return };
-        for (path, input) in before.below(from.as_str()) {
+        for (path, input) in before.inputs_below_path(from.as_str()) {
             let now = format!("{to}{}", &path[from.as_str().len()..]);
             if let Some(material) = before.materials.get(path) {
                 let material = Arc::clone(material);
@@ -326,34 +318,34 @@ impl Resolver<'_> {
     /// Reuses the earlier answer for a source that has not changed.
     fn source_again(
         &mut self,
-        leaf: &Node,
-        path: &Path,
-        former: Option<Former<'_>>,
-    ) -> Option<Setting> {
-        let former = former?.source();
-        if !former.is(leaf) {
+        leaf: &RecipeNode,
+        path: &RecipePath,
+        former: Option<FormerPart<'_>>,
+    ) -> Option<MaterialSigner> {
+        let former = former?.first_former_source();
+        if !former.is_same_node(leaf) {
             return None;
         }
-        self.again(&former.path, path);
-        let body = self.answers.materials.get(&body_of(leaf)?.at(path));
-        body.map(|it| Setting::of(it))
+        self.copy_part_answers(&former.path, path);
+        let body = self.answers.materials.get(&body_of(leaf)?.slot_path_at(path));
+        body.map(|material| MaterialSigner::signer_from_material(material))
     }
 
-    fn node(
+    fn resolve_node(
         &mut self,
-        node: &Node,
-        path: &Path,
-        former: Option<Former<'_>>,
-    ) -> Result<Setting, MakeError> {
+        node: &RecipeNode,
+        path: &RecipePath,
+        former: Option<FormerPart<'_>>,
+    ) -> Result<MaterialSigner, MakeError> {
         match node {
-            Node::Pipe(pipe) => self.pipe(pipe, path, former),
-            Node::Then(then) => self.chain(then, path, former),
+            RecipeNode::Pipe(pipe) => self.resolve_pipe(pipe, path, former),
+            RecipeNode::Then(then) => self.resolve_chain(then, path, former),
             leaf => {
                 if let Some(setting) = self.source_again(leaf, path, former) {
                     return Ok(setting);
                 }
-                let found = self.source(leaf, path);
-                found.map_err(|cause| MakeError {
+                let source_setting = self.resolve_source(leaf, path);
+                source_setting.map_err(|cause| MakeError {
                     path: path.to_string(),
                     step: leaf.to_string(),
                     cause,
@@ -362,52 +354,54 @@ impl Resolver<'_> {
         }
     }
 
-    fn source(&mut self, leaf: &Node, path: &Path) -> Result<Setting, Cause> {
+    fn resolve_source(&mut self, leaf: &RecipeNode, path: &RecipePath) -> Result<MaterialSigner, StepError> {
         let takes_faces = self.takes_faces;
-        let mut ask = self.ask(path);
+        let mut ask = self.ask_at_path(path);
         match leaf {
-            Node::Sign(address) => {
-                let material = ask.sources.material(address)?;
+            RecipeNode::Sign(address) => {
+                let material = ask.sources.find_material(address)?;
                 // A face alone can get the expressions of another one.
                 if let Some(what) = still_hands(&material)
                     && !(what == FACE_ONLY && takes_faces)
                 {
                     let address = material.address;
-                    return Err(Cause::HandsStill { address, what });
+                    return Err(StepError::HandsStill { address, what });
                 }
-                ask.keep(&SIGN, material)
+                ask.keep_movement(&SIGN_MATERIAL_SLOT, material)
             }
-            Node::Spell(settings) => spell::resolve(settings, &mut ask),
-            Node::Point(settings) => point::resolve(settings, &mut ask),
-            Node::Cue(settings) => cue::leaf::resolve(settings, &mut ask),
-            Node::Hamnosys(settings) => Written::Hamnosys.resolve(settings, &mut ask),
-            Node::Sigml(settings) => Written::Sigml.resolve(settings, &mut ask),
-            Node::Pipe(_) | Node::Then(_) => Err(Cause::Input),
+            RecipeNode::Spell(settings) => spell::resolve_spelling_inputs(settings, &mut ask),
+            RecipeNode::Point(settings) => point::resolve_pointing_inputs(settings, &mut ask),
+            RecipeNode::Cue(settings) => cue::leaf::resolve_cue_inputs(settings, &mut ask),
+            RecipeNode::Hamnosys(settings) => NotationSpelling::Hamnosys.resolve_notation_inputs(settings, &mut ask),
+            RecipeNode::Sigml(settings) => NotationSpelling::Sigml.resolve_notation_inputs(settings, &mut ask),
+            RecipeNode::Pipe(_) | RecipeNode::Then(_) => Err(StepError::Input),
         }
     }
 
-    fn pipe(
+    fn resolve_pipe(
         &mut self,
-        pipe: &Pipe,
-        path: &Path,
-        former: Option<Former<'_>>,
-    ) -> Result<Setting, MakeError> {
-        let of = former.as_ref().map(Former::operated);
-        let same = of.as_ref().is_some_and(|of| of.is(&pipe.of));
+        pipe: &OperatorPipe,
+        path: &RecipePath,
+        former: Option<FormerPart<'_>>,
+    ) -> Result<MaterialSigner, MakeError> {
+        let of = former.as_ref().map(FormerPart::former_operand);
+        let same = of.as_ref().is_some_and(|of| of.is_same_node(&pipe.of));
         let on_faces = |step: &Step| matches!(step, Step::Nonmanual(_));
-        let is_sign = matches!(*pipe.of, Node::Sign(_));
+        let is_sign = matches!(*pipe.of, RecipeNode::Sign(_));
         self.takes_faces = is_sign && pipe.steps.iter().all(on_faces);
-        let setting = self.node(&pipe.of, &path.operand(), of)?;
+        let setting = self.resolve_node(&pipe.of, &path.operand_path(), of)?;
         self.takes_faces = false;
         for (n, step) in pipe.steps.iter().enumerate() {
-            let path = path.step(n);
-            let known = former.as_ref().filter(|_| same);
-            if let Some(known) = known.and_then(|former| former.step(step)) {
-                self.again(&known, &path);
+            let path = path.operator_step_path(n);
+            let same_former = former.as_ref().filter(|_| same);
+            if let Some(known) = same_former.and_then(|former| former.former_step_path(step)) {
+                self.copy_part_answers(&known, &path);
                 continue;
             }
-            let found = step.operator().resolve(&mut self.ask(&path), &setting);
-            found.map_err(|cause| MakeError {
+            let resolved_step = step
+                .operator()
+                .resolve_operator_inputs(&mut self.ask_at_path(&path), &setting);
+            resolved_step.map_err(|cause| MakeError {
                 path: path.to_string(),
                 step: step.to_string(),
                 cause,
@@ -416,30 +410,32 @@ impl Resolver<'_> {
         Ok(setting)
     }
 
-    fn chain(
+    fn resolve_chain(
         &mut self,
-        then: &Then,
-        path: &Path,
-        former: Option<Former<'_>>,
-    ) -> Result<Setting, MakeError> {
-        let first = former.as_ref().map(Former::first);
-        let setting = self.node(&then.first, &path.first(), first)?;
+        then: &RecipeChain,
+        path: &RecipePath,
+        former: Option<FormerPart<'_>>,
+    ) -> Result<MaterialSigner, MakeError> {
+        let first = former.as_ref().map(FormerPart::first_former_piece);
+        let setting = self.resolve_node(&then.first, &path.first_piece_path(), first)?;
         for (n, joined) in then.next.iter().enumerate() {
-            let at = path.joined(n);
-            let piece = former.as_ref().and_then(|former| former.piece(joined, n));
-            self.node(&joined.node, &at.piece(), piece)?;
-            let found = self.ask(&at).course(&JOIN, &joined.via);
-            found.map_err(|cause| MakeError {
+            let joined_path = path.later_piece_path(n);
+            let piece = former.as_ref().and_then(|former| former.find_former_piece(joined, n));
+            self.resolve_node(&joined.node, &joined_path.inner_piece_path(), piece)?;
+            let course_answer = self
+                .ask_at_path(&joined_path)
+                .ask_learned_courses(&JOIN_COURSE_SLOT, &joined.via);
+            course_answer.map_err(|cause| MakeError {
                 path: path.to_string(),
-                step: Node::Then(then.clone()).to_string(),
+                step: RecipeNode::Then(then.clone()).to_string(),
                 cause,
             })?;
         }
         Ok(setting)
     }
 
-    fn ask<'a>(&'a mut self, path: &'a Path) -> Ask<'a> {
-        Ask {
+    fn ask_at_path<'a>(&'a mut self, path: &'a RecipePath) -> CorpusAsker<'a> {
+        CorpusAsker {
             sources: self.sources,
             path,
             answers: &mut self.answers,

@@ -1,42 +1,44 @@
 //! Simplifies pipelines: removes neighbours that cancel out, and merges those that can be one.
 
-use crate::ops::Neighbours;
+use crate::ops::OperatorNeighbours;
 use crate::recipe::*;
 
 impl Recipe {
-    /// Returns the recipe for the same sign with the fewest operators: pairs of `reverse` or `swap` are removed,
+    /// Returns the recipe for the same sign with the fewest operators: pairs of `reverse` or `swap_arm_movements` are removed,
     /// displacements of the same hands are merged, and operators without effect are left out.
     ///
     /// Evaluation performs the same reduced steps, so that moving hands out of reach and back loses nothing.
     #[must_use]
-    pub fn simplified(&self) -> Self {
+    pub fn simplified_recipe(&self) -> Self {
         Self {
-            root: node(&self.root),
+            root: simplify_node(&self.root),
         }
     }
 }
 
 /// A step to be evaluated.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Planned {
+pub(crate) struct PlannedStep {
     /// Its index in the pipe as written; for merged steps, that of the first.
     pub(crate) index: usize,
     pub(crate) step: Step,
 }
 
 /// Returns the steps of a pipe that have an effect.
-pub(crate) fn plan(steps: &[Step]) -> Vec<Planned> {
-    let mut kept: Vec<Planned> = Vec::with_capacity(steps.len());
+pub(crate) fn plan_effective_steps(steps: &[Step]) -> Vec<PlannedStep> {
+    let mut kept: Vec<PlannedStep> = Vec::with_capacity(steps.len());
     for (index, step) in steps.iter().enumerate() {
         let operator = step.operator();
         if operator.is_nothing() {
             continue;
         }
         let before = kept.last_mut().map(|planned| &mut planned.step);
-        match before.map_or(Neighbours::Apart, |before| operator.after(before)) {
-            Neighbours::Nothing => drop(kept.pop()),
-            Neighbours::One => {}
-            Neighbours::Apart => kept.push(Planned {
+        match before.map_or(OperatorNeighbours::Apart, |before| {
+            operator.relation_to_previous(before)
+        }) {
+            OperatorNeighbours::Nothing => drop(kept.pop()),
+            OperatorNeighbours::One => {}
+            OperatorNeighbours::Apart => kept.push(PlannedStep {
                 index,
                 step: step.clone(),
             }),
@@ -45,27 +47,27 @@ pub(crate) fn plan(steps: &[Step]) -> Vec<Planned> {
     kept
 }
 
-fn node(of: &Node) -> Node {
+fn simplify_node(of: &RecipeNode) -> RecipeNode {
     match of {
-        Node::Pipe(pipe) => {
-            let steps: Vec<Step> = plan(&pipe.steps).into_iter().map(|p| p.step).collect();
-            let of = node(&pipe.of);
+        RecipeNode::Pipe(pipe) => {
+            let steps: Vec<Step> = plan_effective_steps(&pipe.steps).into_iter().map(|p| p.step).collect();
+            let of = simplify_node(&pipe.of);
             if steps.is_empty() {
                 return of;
             }
-            Node::Pipe(Pipe {
+            RecipeNode::Pipe(OperatorPipe {
                 of: Box::new(of),
                 steps,
             })
         }
-        Node::Then(then) => Node::Then(Then {
-            first: Box::new(node(&then.first)),
+        RecipeNode::Then(then) => RecipeNode::Then(RecipeChain {
+            first: Box::new(simplify_node(&then.first)),
             next: then
                 .next
                 .iter()
-                .map(|joined| Joined {
+                .map(|joined| JoinedPiece {
                     via: joined.via,
-                    node: node(&joined.node),
+                    node: simplify_node(&joined.node),
                 })
                 .collect(),
         }),
@@ -82,14 +84,8 @@ mod tests {
         for (text, simple) in [
             ("A | reverse | reverse", "A"),
             ("A | swap | reverse | reverse | swap", "A"),
-            (
-                "A | reverse | swap | reverse",
-                "A | reverse | swap | reverse",
-            ),
-            (
-                "A | repeat 1 | retime 100% | amplify 1 | place both by up 0cm",
-                "A",
-            ),
+            ("A | reverse | swap | reverse", "A | reverse | swap | reverse"),
+            ("A | repeat 1 | retime 100% | amplify 1 | place both by up 0cm", "A"),
             (
                 "A | place both by left 60cm | place both by right 60cm",
                 "A | place both by left 60cm right 60cm",
@@ -104,7 +100,7 @@ mod tests {
             ),
         ] {
             let recipe: Recipe = text.parse().expect(text);
-            assert_eq!(recipe.simplified().to_string(), simple);
+            assert_eq!(recipe.simplified_recipe().to_string(), simple);
         }
     }
 }

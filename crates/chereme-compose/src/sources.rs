@@ -2,33 +2,33 @@
 
 use std::sync::Arc;
 
-use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
-use chereme_sign::hamnosys::Notated;
-use chereme_sign::inventory::{Inventory, InventoryValue, Landmark};
-use chereme_sign::milestones::{Function, Milestones};
-use chereme_sign::{Choice, Remedy};
-use chereme_sign::{Component, Handedness, Reading};
+use chereme_motion::{BodyAnatomy, BodySide, Clip, HandAngles, TimeSpan};
+use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::inventory::{BodyLandmark, ComponentInventory, InventoryValue};
+use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
+use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use serde::{Deserialize, Serialize};
 
 use crate::cue::CuePhases;
-use crate::error::Meant;
-use crate::language::Language;
-use crate::outcome::Curve;
+use crate::error::MeantName;
+use crate::language::BodyLanguageChanges;
+use crate::outcome::GeneratedCurve;
 use crate::resolve::BodyInput;
 
 /// The source of movement, values and examples for recipes; a corpus implements it.
 ///
 /// All questions are asked while a recipe is [resolved](crate::Recipe), none during evaluation. Answers must depend on
 /// the corpus only: the same question gives the same answer in the same order.
-pub trait Sources {
+pub trait RecipeSources {
     /// Returns the movement at an address as written: a gloss, `token:41`, `sign:LIMACE`.
     ///
     /// # Errors
     /// [`SourceError::Missing`] if nothing has that address, [`SourceError::Ambiguous`] if several things have it,
     /// [`SourceError::NoMovement`] for a lexicon entry without movement.
-    fn material(&self, address: &str) -> Result<Material, SourceError>;
+    fn find_material(&self, address: &str) -> Result<MovementMaterial, SourceError>;
 
-    /// Returns the body that performs the movement at an address of [`material`](Self::material), if that is a notation,
+    /// Returns the body that performs the movement at an address of [`material`](Self::find_material), if that is a notation,
     /// which has no body of its own.
     ///
     /// # Errors
@@ -42,36 +42,36 @@ pub trait Sources {
     ///
     /// # Errors
     /// [`SourceError`] if there is no such signer, or no movement at all.
-    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError>;
+    fn stage(&self, signer: Option<&str>) -> Result<MovementMaterial, SourceError>;
 
     /// Returns the value of `component` that `text` names: by id, by a name in any language, or by
     /// its notation.
     ///
     /// # Errors
     /// [`SourceError::UnknownValue`] with the value that was probably meant.
-    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError>;
+    fn find_component_value(&self, component: SignComponent, text: &str) -> Result<ComponentValue, SourceError>;
 
     /// Returns every value of `component` in the inventories, in their order.
-    fn values(&self, component: Component) -> Vec<Value>;
+    fn list_component_values(&self, component: SignComponent) -> Vec<ComponentValue>;
 
     /// Returns the tokens with movement that have the value with this id, best examples first.
     ///
     /// # Errors
     /// [`SourceError`] if the corpus cannot be read.
-    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError>;
+    fn holding(&self, component: SignComponent, value: &str) -> Result<Vec<TokenExample>, SourceError>;
 
     /// Returns the tokens with movement that answer `query`, best first; `signer=same` in it means
     /// the signer given here.
     ///
     /// # Errors
     /// [`SourceError::Query`] if the query is not understood.
-    fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError>;
+    fn find_best_examples(&self, query: &str, signer: Option<&str>) -> Result<Vec<TokenExample>, SourceError>;
 
     /// Returns the signs of the notation named `name`: a SiGML file in the corpus, or the notation of a sign.
     ///
     /// # Errors
     /// [`SourceError::Missing`] if no notation has that name.
-    fn notation(&self, name: &str) -> Result<Vec<Notated>, SourceError> {
+    fn find_named_notation(&self, name: &str) -> Result<Vec<NotatedSign>, SourceError> {
         Err(SourceError::Missing {
             address: name.to_owned(),
             nearest: None,
@@ -83,24 +83,16 @@ pub trait Sources {
     ///
     /// # Errors
     /// [`SourceError::Language`] if a file is not a body language; [`SourceError::Unreadable`].
-    fn body_language(
-        &self,
-        _named: Option<&str>,
-        _signer: Option<&str>,
-    ) -> Result<Language, SourceError> {
-        Ok(Language::default())
+    fn body_language(&self, _named: Option<&str>, _signer: Option<&str>) -> Result<BodyLanguageChanges, SourceError> {
+        Ok(BodyLanguageChanges::default())
     }
 
     /// Returns an expression of the face with its milestones: that of `function` at the address, or the only one there.
     ///
     /// # Errors
     /// [`SourceError::Expression`] if nothing there has milestones, or several things have; those of
-    /// [`material`](Self::material).
-    fn expression(
-        &self,
-        address: &str,
-        function: Option<&str>,
-    ) -> Result<ExpressionSource, SourceError> {
+    /// [`material`](Self::find_material).
+    fn find_face_expression(&self, address: &str, function: Option<&str>) -> Result<ExpressionSource, SourceError> {
         let _ = function;
         Err(SourceError::Expression {
             address: address.to_owned(),
@@ -114,7 +106,7 @@ pub trait Sources {
     /// # Errors
     /// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] with the first letter that the alphabet
     /// lacks.
-    fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError>;
+    fn find_alphabet_letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<AlphabetLetter>, SourceError>;
 
     /// Returns the usual courses of the corpus's own transitions and reaches; `None` if there are too few.
     ///
@@ -218,7 +210,7 @@ pub struct MedianTime {
 
 /// A piece of movement with its annotations.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Material {
+pub struct MovementMaterial {
     /// Its unambiguous address, such as `token:41`.
     pub address: String,
     /// A hash of the movement, as the corpus computes it; equal movements have equal hashes.
@@ -228,26 +220,26 @@ pub struct Material {
     /// The address of the signer, if known.
     pub signer: Option<String>,
     /// The hand with which the signer signs.
-    pub handedness: Handedness,
+    pub handedness: SignerHandedness,
     /// The movement; times in `held` count from its first frame.
     pub clip: Clip,
     /// The parts of the body that its joints are.
-    pub anatomy: Arc<Anatomy>,
+    pub anatomy: Arc<BodyAnatomy>,
     /// Its component values, in any order.
     pub held: Vec<HeldValue>,
     /// Its scalar curves, with a value per frame.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<GeneratedCurve>,
 }
 
 /// An expression of the face with the movement that contains it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExpressionSource {
     /// The movement, at least from M1 to M5 as far as it was recorded.
-    pub material: Material,
+    pub material: MovementMaterial,
     /// The function of the expression in the signs that it spans.
-    pub function: Function,
+    pub function: ExpressionFunction,
     /// Its milestones, from the first frame of the movement on.
-    pub milestones: Milestones,
+    pub milestones: ExpressionMilestones,
 }
 
 /// A value of a component over a span of a piece of movement.
@@ -256,44 +248,44 @@ pub struct ExpressionSource {
 pub struct HeldValue {
     /// The hand; `None` for non-manual components.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The part of the component, such as `brows` or `palm`; `None` for the whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature: Option<String>,
     /// The value: an id of an inventory if it has one.
-    pub value: Reading,
+    pub value: ComponentReading,
     /// The time, from the movement's first frame.
-    pub span: Span,
+    pub span: TimeSpan,
 }
 
 /// A value of an inventory with its meaning for a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Value {
+pub struct ComponentValue {
     /// The id under which annotations name it.
     pub id: String,
     /// The id of the inventory.
     pub inventory: String,
     /// Its meaning, if the inventory gives one.
-    pub meaning: Option<Meaning>,
+    pub meaning: Option<ValueMeaning>,
 }
 
 /// The meaning of a value for a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Meaning {
+pub enum ValueMeaning {
     /// A posture of the hand.
     Hand(HandAngles),
     /// A place.
-    Place(Spatial),
+    Place(BodyRelativePlace),
 }
 
 /// A place relative to a signer's body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Spatial {
-    /// The landmark's name, as [`Anatomy::landmark`] spells it; `ipsi-` and `contra-` at its start
+pub struct BodyRelativePlace {
+    /// The landmark's name, as [`BodyAnatomy::landmark_place_position`] spells it; `ipsi-` and `contra-` at its start
     /// stand for the acting hand's own and other side.
     pub landmark: String,
     /// Offset from the landmark to the left, up and forward in shoulder widths; with `ipsi-` and `contra-` the first
@@ -301,8 +293,8 @@ pub struct Spatial {
     pub offset: [f64; 3],
 }
 
-impl From<&Landmark> for Spatial {
-    fn from(landmark: &Landmark) -> Self {
+impl From<&BodyLandmark> for BodyRelativePlace {
+    fn from(landmark: &BodyLandmark) -> Self {
         Self {
             landmark: landmark.name.clone(),
             offset: landmark.offset,
@@ -310,12 +302,12 @@ impl From<&Landmark> for Spatial {
     }
 }
 
-impl Value {
+impl ComponentValue {
     /// Returns a value of an inventory with its meaning for a body.
     #[must_use]
-    pub fn of(inventory: &Inventory, value: &InventoryValue) -> Self {
-        let hand = value.pose.map(Meaning::Hand);
-        let place = || value.landmark.as_ref().map(|at| Meaning::Place(at.into()));
+    pub fn value_from_inventory(inventory: &ComponentInventory, value: &InventoryValue) -> Self {
+        let hand = value.pose.map(ValueMeaning::Hand);
+        let place = || value.landmark.as_ref().map(|at| ValueMeaning::Place(at.into()));
         Self {
             id: value.id.clone(),
             inventory: inventory.id.clone(),
@@ -326,25 +318,25 @@ impl Value {
 
 /// A token that is an example of something, with the hand and span that show it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Example {
+pub struct TokenExample {
     /// Its address, such as `token:41`.
     pub address: String,
     /// Its signer's address, if known.
     pub signer: Option<String>,
     /// The hand that shows it; `None` if it is unknown.
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The span, from the start of its movement; `None` for all of it.
-    pub span: Option<Span>,
+    pub span: Option<TimeSpan>,
 }
 
 /// A letter of a manual alphabet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Letter {
+pub struct AlphabetLetter {
     /// The letter as written.
     pub letter: String,
     /// Its configuration's value.
-    pub value: Value,
+    pub value: ComponentValue,
     /// The direction of the straight fingers: left, up, forward for a right hand; `None` for up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingers: Option<[f64; 3]>,
@@ -412,7 +404,7 @@ pub enum SourceError {
         /// The reason.
         why: String,
         /// The remedy, if one is known.
-        remedy: Option<Box<Remedy>>,
+        remedy: Option<Box<ErrorRemedy>>,
     },
     /// The sign has no notation.
     #[error("{address:?} has no notation")]
@@ -424,7 +416,7 @@ pub enum SourceError {
     #[error("{text:?} is no {component} of any inventory")]
     UnknownValue {
         /// The component.
-        component: Component,
+        component: SignComponent,
         /// The value as written.
         text: String,
         /// A similar value.
@@ -472,18 +464,18 @@ pub enum SourceError {
 impl SourceError {
     /// Returns the name that was meant, if a name near to one was written.
     #[must_use]
-    pub fn meant(&self) -> Option<Meant> {
+    pub fn source_meant_name(&self) -> Option<MeantName> {
         match self {
-            Self::Missing { address, nearest } => Meant::of(address, nearest.as_deref()),
-            Self::OtherKind { address, right, .. } => Meant::of(address, right.as_deref()),
-            Self::UnknownValue { text, nearest, .. } => Meant::of(text, nearest.as_deref()),
+            Self::Missing { address, nearest } => MeantName::from_written_name(address, nearest.as_deref()),
+            Self::OtherKind { address, right, .. } => MeantName::from_written_name(address, right.as_deref()),
+            Self::UnknownValue { text, nearest, .. } => MeantName::from_written_name(text, nearest.as_deref()),
             _ => None,
         }
     }
 
     /// Returns what would work, if that is known.
     #[must_use]
-    pub fn remedy(&self) -> Option<Remedy> {
+    pub fn source_remedy(&self) -> Option<ErrorRemedy> {
         let text = match self {
             Self::Missing { nearest, .. } | Self::UnknownValue { nearest, .. } => {
                 format!("did you mean {:?}?", nearest.as_ref()?)
@@ -493,8 +485,8 @@ impl SourceError {
             Self::NoMovement { .. } => "name a sign that was captured or generated".to_owned(),
             Self::Expression { remedy, .. } => return remedy.as_deref().cloned(),
             Self::NoNotation { address } => {
-                return Some(Remedy::choice(
-                    Choice::Notation,
+                return Some(ErrorRemedy::choice_remedy(
+                    RemedyChoice::Notation,
                     format!(
                         "import it as SiGML or HamNoSys, or write it from its movement: \
                          `chereme transcribe CORPUS {address} --store`"

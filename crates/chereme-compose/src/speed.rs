@@ -2,15 +2,15 @@
 
 use std::ops::Range;
 
-use chereme_motion::{Part, Side};
+use chereme_motion::{BodyPart, BodySide};
 
-use crate::error::Cause;
-use crate::work::{Columns, Work};
+use crate::error::StepError;
+use crate::work::{JointColumns, WorkingClip};
 
 /// Parts of the body whose speed is watched.
 struct WatchedPart {
     name: &'static str,
-    parts: &'static [Part],
+    parts: &'static [BodyPart],
     /// The speed in metres per second that a step may add without a warning: signers stand on their feet, and the
     /// wrists of captured ones stay below some 2 m/s.
     unwarned: f64,
@@ -19,17 +19,17 @@ struct WatchedPart {
 const WATCHED_PARTS: [WatchedPart; 3] = [
     WatchedPart {
         name: "the hips",
-        parts: &[Part::Hips],
+        parts: &[BodyPart::Hips],
         unwarned: 0.5,
     },
     WatchedPart {
         name: "the wrists",
-        parts: &[Part::Hand(Side::Right), Part::Hand(Side::Left)],
+        parts: &[BodyPart::Hand(BodySide::Right), BodyPart::Hand(BodySide::Left)],
         unwarned: 4.0,
     },
     WatchedPart {
         name: "the feet",
-        parts: &[Part::Foot(Side::Right), Part::Foot(Side::Left)],
+        parts: &[BodyPart::Foot(BodySide::Right), BodyPart::Foot(BodySide::Left)],
         unwarned: 0.5,
     },
 ];
@@ -45,19 +45,19 @@ pub(crate) type PeakSpeeds = [f64; WATCHED_PARTS.len()];
 pub(crate) struct StepSpeeds([Vec<f64>; WATCHED_PARTS.len()]);
 
 impl StepSpeeds {
-    pub(crate) fn between_frames(work: &Work) -> Self {
-        let joints = WATCHED_PARTS.map(|watched| {
+    pub(crate) fn between_frames(work: &WorkingClip) -> Self {
+        let watched_joints = WATCHED_PARTS.map(|watched| {
             let parts = watched.parts.iter();
-            let joints = parts.filter_map(|&part| work.anatomy.joint(part));
+            let joints = parts.filter_map(|&part| work.anatomy.part_joint(part));
             joints.collect::<Vec<usize>>()
         });
-        let columns = Columns::of(work, joints.iter().flatten().copied());
+        let columns = JointColumns::joint_columns_of(work, watched_joints.iter().flatten().copied());
         let speed = |joint: usize, frame: usize| {
-            let path = columns.positions(joint);
+            let path = columns.joint_positions(joint);
             path[frame].distance(path[frame + 1]) * work.rate.per_second()
         };
         let steps = work.frames.saturating_sub(1);
-        Self(joints.map(|joints| {
+        Self(watched_joints.map(|joints| {
             let steps = if joints.is_empty() { 0 } else { steps };
             let fastest = |frame: usize| {
                 let speeds = joints.iter().map(|&joint| speed(joint, frame));
@@ -68,7 +68,7 @@ impl StepSpeeds {
     }
 
     /// Returns the greatest speeds over a whole movement.
-    pub(crate) fn peak_speeds(work: &Work) -> PeakSpeeds {
+    pub(crate) fn peak_speeds(work: &WorkingClip) -> PeakSpeeds {
         Self::between_frames(work).peaks_over(0..work.frames)
     }
 
@@ -95,12 +95,12 @@ impl StepSpeeds {
     /// Returns the speeds between two pieces, a sentence for each part.
     pub(crate) fn between_pieces(&self, steps: Range<usize>) -> Vec<String> {
         let peaks = self.peaks_over(steps);
-        let known = (0..WATCHED_PARTS.len()).filter(|&n| !self.0[n].is_empty());
+        let known_parts = (0..WATCHED_PARTS.len()).filter(|&n| !self.0[n].is_empty());
         let sentence = |n: usize| {
             let name = WATCHED_PARTS[n].name;
             format!("up to {:.2} m/s at {name} between the pieces", peaks[n])
         };
-        known.map(sentence).collect()
+        known_parts.map(sentence).collect()
     }
 }
 
@@ -112,13 +112,13 @@ pub(crate) fn faster_of_both(one: PeakSpeeds, other: PeakSpeeds) -> PeakSpeeds {
 /// Returns a warning for each part to which a step adds more speed than people need.
 ///
 /// # Errors
-/// [`Cause::Rushed`] if it adds over three times that.
-pub(crate) fn check_added(before: PeakSpeeds, after: PeakSpeeds) -> Result<Vec<String>, Cause> {
+/// [`StepError::Rushed`] if it adds over three times that.
+pub(crate) fn check_added(before: PeakSpeeds, after: PeakSpeeds) -> Result<Vec<String>, StepError> {
     let mut warnings = Vec::new();
     for (n, watched) in WATCHED_PARTS.iter().enumerate() {
         let added = after[n] - before[n];
         if added > REFUSED_MULTIPLE * watched.unwarned {
-            return Err(Cause::Rushed {
+            return Err(StepError::Rushed {
                 part: watched.name,
                 speed: after[n],
                 added,

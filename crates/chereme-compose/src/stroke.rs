@@ -5,9 +5,9 @@ use std::ops::Range;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Clip, ends};
 
-use crate::error::Cause;
+use crate::error::StepError;
 use crate::ops::cut;
-use crate::work::Work;
+use crate::work::WorkingClip;
 
 /// The time in which an operator sets in after a rest, and ends before one, in seconds: a hand needs half a second to
 /// rise. At most a quarter of the movement between the rests.
@@ -24,13 +24,13 @@ pub(crate) struct SignStroke {
 
 impl SignStroke {
     /// Finds the stroke of a movement: what `trim` keeps, without the way from rest and back to it.
-    pub(crate) fn of_work(work: &Work) -> Result<Self, Cause> {
+    pub(crate) fn of_work(work: &WorkingClip) -> Result<Self, StepError> {
         let clip = Clip::new(work.skeleton.clone(), work.rate, work.channels.clone())?;
         let all = 0..work.frames;
-        let moving = ends::activity(&clip, &work.anatomy).unwrap_or(all.clone());
-        let signed = cut::signed(work)?;
-        let onset = (STROKE_ONSET / work.rate.frame_time()).round() as usize;
-        let onset = onset.min(moving.len() / 4);
+        let moving = ends::activity_frames(&clip, &work.anatomy).unwrap_or(all.clone());
+        let signed = cut::signed_frame_range(work)?;
+        let onset_frames = (STROKE_ONSET / work.rate.frame_time()).round() as usize;
+        let onset = onset_frames.min(moving.len() / 4);
         // Known phases begin where the hand has risen; otherwise it rises for a while.
         let start = match moving.start {
             0 => 0,
@@ -42,11 +42,7 @@ impl SignStroke {
             rest if signed.end < rest => signed.end,
             rest => rest - onset,
         };
-        let frames = if start < end {
-            start..end
-        } else {
-            moving.clone()
-        };
+        let frames = if start < end { start..end } else { moving.clone() };
         Ok(Self { frames, moving })
     }
 
@@ -94,21 +90,19 @@ impl SignStroke {
     }
 
     /// Returns the time from its first frame to its last, in seconds.
-    pub(crate) fn stroke_seconds(&self, work: &Work) -> f64 {
+    pub(crate) fn stroke_seconds(&self, work: &WorkingClip) -> f64 {
         self.frames.len().saturating_sub(1).max(1) as f64 * work.rate.frame_time()
     }
 
     /// Describes the rests that stay as they are.
-    pub(crate) fn describe_rests(&self, work: &Work) -> Option<String> {
+    pub(crate) fn describe_rests(&self, work: &WorkingClip) -> Option<String> {
         let (start, end) = (self.moving.start, self.moving.end);
-        let [before, after] = [start, end].map(|frame| work.rate.instant(frame));
+        let [before, after] = [start, end].map(|frame| work.rate.frame_start_instant(frame));
         match (start > 0, end < work.frames) {
             (false, false) => None,
             (true, false) => Some(format!("the rest before {before} stays as it is")),
             (false, true) => Some(format!("the rest after {after} stays as it is")),
-            (true, true) => Some(format!(
-                "the rest before {before} and after {after} stays as it is"
-            )),
+            (true, true) => Some(format!("the rest before {before} and after {after} stays as it is")),
         }
     }
 }

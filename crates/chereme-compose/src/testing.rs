@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use chereme_motion::glam::{DQuat, DVec3, EulerRot};
 use chereme_motion::{
-    Anatomy, Channel, Clip, HandAngles, Instant, Joint, ModelPose, Rate, Side, Skeleton, Span,
+    BodyAnatomy, BodySide, Clip, FrameRate, HandAngles, JointChannel, ModelPose, RecordingInstant, Skeleton,
+    SkeletonJoint, TimeSpan,
 };
-use chereme_sign::milestones::{Function, Milestones};
-use chereme_sign::{Component, Handedness, Reading};
+use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
+use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 
 use crate::sources::*;
 
@@ -40,36 +41,11 @@ pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
     let neck = add("Neck", Some(chest), [0.0, 1.47, 0.0], None);
     add("Head", Some(neck), [0.0, 1.56, 0.0], Some([0.0, 0.2, 0.0]));
     for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
-        let clavicle = add(
-            &format!("{side}Shoulder"),
-            Some(chest),
-            [0.03 * x, 1.42, 0.0],
-            None,
-        );
-        let upper = add(
-            &format!("{side}Arm"),
-            Some(clavicle),
-            [0.18 * x, 1.42, 0.0],
-            None,
-        );
-        let fore = add(
-            &format!("{side}ForeArm"),
-            Some(upper),
-            [0.46 * x, 1.42, 0.0],
-            None,
-        );
-        let hand = add(
-            &format!("{side}Hand"),
-            Some(fore),
-            [0.71 * x, 1.42, 0.0],
-            None,
-        );
-        for (finger, z) in [
-            ("Index", 0.03),
-            ("Middle", 0.01),
-            ("Ring", -0.01),
-            ("Pinky", -0.03),
-        ] {
+        let clavicle = add(&format!("{side}Shoulder"), Some(chest), [0.03 * x, 1.42, 0.0], None);
+        let upper = add(&format!("{side}Arm"), Some(clavicle), [0.18 * x, 1.42, 0.0], None);
+        let fore = add(&format!("{side}ForeArm"), Some(upper), [0.46 * x, 1.42, 0.0], None);
+        let hand = add(&format!("{side}Hand"), Some(fore), [0.71 * x, 1.42, 0.0], None);
+        for (finger, z) in [("Index", 0.03), ("Middle", 0.01), ("Ring", -0.01), ("Pinky", -0.03)] {
             let mut parent = hand;
             for (n, along) in [(1, 0.80), (2, 0.84), (3, 0.865)] {
                 let tip = (n == 3).then_some([0.02 * x, 0.0, 0.0]);
@@ -84,31 +60,11 @@ pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
         let mut parent = hand;
         for (n, along, z) in [(1, 0.73, 0.03), (2, 0.75, 0.06), (3, 0.77, 0.08)] {
             let tip = (n == 3).then_some([0.015 * x, 0.0, 0.015]);
-            parent = add(
-                &format!("{side}HandThumb{n}"),
-                Some(parent),
-                [along * x, 1.42, z],
-                tip,
-            );
+            parent = add(&format!("{side}HandThumb{n}"), Some(parent), [along * x, 1.42, z], tip);
         }
-        let thigh = add(
-            &format!("{side}UpLeg"),
-            Some(hips),
-            [0.09 * x, 0.9, 0.0],
-            None,
-        );
-        let shin = add(
-            &format!("{side}Leg"),
-            Some(thigh),
-            [0.09 * x, 0.5, 0.0],
-            None,
-        );
-        add(
-            &format!("{side}Foot"),
-            Some(shin),
-            [0.09 * x, 0.08, 0.0],
-            None,
-        );
+        let thigh = add(&format!("{side}UpLeg"), Some(hips), [0.09 * x, 0.9, 0.0], None);
+        let shin = add(&format!("{side}Leg"), Some(thigh), [0.09 * x, 0.5, 0.0], None);
+        add(&format!("{side}Foot"), Some(shin), [0.09 * x, 0.08, 0.0], None);
     }
     let turned: Vec<DQuat> = (0..names.len())
         .map(|n| match axes {
@@ -119,20 +75,17 @@ pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
             }
         })
         .collect();
-    let joints = names
-        .iter()
-        .enumerate()
-        .map(|(n, (name, parent, at, tip))| {
-            let above = parent.map_or(DQuat::IDENTITY, |p| turned[p]);
-            let from = parent.map_or(DVec3::ZERO, |p| names[p].2);
-            Joint {
-                name: name.clone(),
-                parent: *parent,
-                offset: above.inverse() * (*at - from),
-                rest: (above.inverse() * turned[n]).normalize(),
-                tip: tip.map(|tip| turned[n].inverse() * tip),
-            }
-        });
+    let joints = names.iter().enumerate().map(|(n, (name, parent, at, tip))| {
+        let above = parent.map_or(DQuat::IDENTITY, |p| turned[p]);
+        let from = parent.map_or(DVec3::ZERO, |p| names[p].2);
+        SkeletonJoint {
+            name: name.clone(),
+            parent: *parent,
+            offset: above.inverse() * (*at - from),
+            rest: (above.inverse() * turned[n]).normalize(),
+            tip: tip.map(|tip| turned[n].inverse() * tip),
+        }
+    });
     Skeleton::new(joints.collect()).expect("a tree")
 }
 
@@ -140,30 +93,24 @@ pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
 /// trunk swaying a little; each `seed` gives a different movement.
 pub(crate) fn clip(skeleton: &Arc<Skeleton>, frames: usize, seed: f64) -> Clip {
     let rest = skeleton.rest_model_pose();
-    let rate = Rate::new(120, 1).expect("rate");
+    let rate = FrameRate::new(120, 1).expect("rate");
     let mut columns: Vec<Vec<DQuat>> = Vec::new();
     let mut moved: Vec<Vec<DQuat>> = Vec::new();
-    for (n, joint) in skeleton.joints().iter().enumerate() {
-        let deltas: Vec<DQuat> = (0..frames)
-            .map(|f| bend(&joint.name, f as f64 / 120.0, seed))
-            .collect();
+    for (n, joint) in skeleton.skeleton_joints().iter().enumerate() {
+        let deltas: Vec<DQuat> = (0..frames).map(|f| bend(&joint.name, f as f64 / 120.0, seed)).collect();
         let carried: Vec<DQuat> = match joint.parent {
             None => deltas,
-            Some(parent) => deltas
-                .iter()
-                .zip(&moved[parent])
-                .map(|(d, p)| *p * *d)
-                .collect(),
+            Some(parent) => deltas.iter().zip(&moved[parent]).map(|(d, p)| *p * *d).collect(),
         };
-        let model: Vec<DQuat> = carried.iter().map(|d| *d * rest.rotation(n)).collect();
+        let model: Vec<DQuat> = carried.iter().map(|d| *d * rest.model_joint_rotation(n)).collect();
         columns.push(model);
         moved.push(carried);
     }
     let channels = skeleton
-        .joints()
+        .skeleton_joints()
         .iter()
         .enumerate()
-        .map(|(n, joint)| Channel {
+        .map(|(n, joint)| JointChannel {
             rotations: (0..frames)
                 .map(|f| {
                     let above = joint.parent.map_or(DQuat::IDENTITY, |p| columns[p][f]);
@@ -196,11 +143,7 @@ fn bend(name: &str, t: f64, seed: f64) -> DQuat {
             1.1 + 0.15 * wave(0.8, apart),
         ),
         "ForeArm" => turn(0.3 * wave(0.9, apart), 1.4 + 0.3 * wave(1.2, apart), -0.2),
-        "Hand" => turn(
-            0.2 * wave(1.5, apart),
-            0.1 * wave(1.4, apart),
-            0.2 * wave(1.3, apart),
-        ),
+        "Hand" => turn(0.2 * wave(1.5, apart), 0.1 * wave(1.4, apart), 0.2 * wave(1.3, apart)),
         _ if part.contains("Thumb") => turn(0.0, -0.2 - 0.05 * wave(1.0, 0.0), 0.1),
         _ if part.starts_with("Hand") => turn(0.0, 0.0, 0.4 + 0.1 * wave(1.0, apart)),
         _ => DQuat::IDENTITY,
@@ -208,27 +151,27 @@ fn bend(name: &str, t: f64, seed: f64) -> DQuat {
 }
 
 /// Returns a span in milliseconds.
-pub(crate) fn span(start: i64, end: i64) -> Span {
-    Span::between(Instant::from_millis(start), Instant::from_millis(end))
+pub(crate) fn span(start: i64, end: i64) -> TimeSpan {
+    TimeSpan::span_between(RecordingInstant::from_millis(start), RecordingInstant::from_millis(end))
 }
 
 /// Returns a component value of a sign.
-pub(crate) fn held(hand: Side, component: Component, value: &str, span: Span) -> HeldValue {
+pub(crate) fn held(hand: BodySide, component: SignComponent, value: &str, span: TimeSpan) -> HeldValue {
     HeldValue {
         hand: Some(hand),
         component,
         feature: None,
-        value: Reading::Value(value.into()),
+        value: ComponentReading::Value(value.into()),
         span,
     }
 }
 
 /// A corpus of a few signs, in memory.
 pub(crate) struct Shelf {
-    pub(crate) materials: BTreeMap<String, Material>,
-    pub(crate) values: Vec<(Component, Value)>,
+    pub(crate) materials: BTreeMap<String, MovementMaterial>,
+    pub(crate) values: Vec<(SignComponent, ComponentValue)>,
     /// Expressions of the face by their material.
-    pub(crate) expressions: BTreeMap<String, (Function, Milestones)>,
+    pub(crate) expressions: BTreeMap<String, (ExpressionFunction, ExpressionMilestones)>,
 }
 
 impl Shelf {
@@ -236,24 +179,19 @@ impl Shelf {
     pub(crate) fn new() -> Self {
         let plain = Arc::new(skeleton(Axes::Plain, 1.0));
         let odd = Arc::new(skeleton(Axes::Odd, 0.85));
-        let configuration = Component::Configuration;
-        let material = |gloss: &str,
-                        skeleton: &Arc<Skeleton>,
-                        signer: &str,
-                        seed: f64,
-                        held: Vec<HeldValue>| {
-            Material {
+        let configuration = SignComponent::Configuration;
+        let material =
+            |gloss: &str, skeleton: &Arc<Skeleton>, signer: &str, seed: f64, held: Vec<HeldValue>| MovementMaterial {
                 address: format!("token:{gloss}"),
                 hash: format!("{gloss}-{seed}"),
                 gloss: gloss.to_owned(),
                 signer: Some(signer.to_owned()),
-                handedness: Handedness::Right,
+                handedness: SignerHandedness::Right,
                 clip: clip(skeleton, 120, seed),
-                anatomy: Arc::new(Anatomy::detect(skeleton)),
+                anatomy: Arc::new(BodyAnatomy::detect_anatomy(skeleton)),
                 curves: Vec::new(),
                 held,
-            }
-        };
+            };
         let all = [
             material(
                 "ESCARGOT",
@@ -261,9 +199,9 @@ impl Shelf {
                 "signer:1",
                 0.0,
                 vec![
-                    held(Side::Right, configuration, "Y", span(200, 800)),
-                    held(Side::Right, Component::Placement, "chest", span(200, 800)),
-                    held(Side::Right, Component::Movement, "arc", span(200, 800)),
+                    held(BodySide::Right, configuration, "Y", span(200, 800)),
+                    held(BodySide::Right, SignComponent::Placement, "chest", span(200, 800)),
+                    held(BodySide::Right, SignComponent::Movement, "arc", span(200, 800)),
                 ],
             ),
             material(
@@ -272,10 +210,10 @@ impl Shelf {
                 "signer:1",
                 1.0,
                 vec![
-                    held(Side::Right, configuration, "B", span(0, 400)),
-                    held(Side::Right, configuration, "S", span(600, 1000)),
-                    held(Side::Left, configuration, "B", span(0, 1000)),
-                    held(Side::Left, Component::Placement, "high-left", span(0, 1000)),
+                    held(BodySide::Right, configuration, "B", span(0, 400)),
+                    held(BodySide::Right, configuration, "S", span(600, 1000)),
+                    held(BodySide::Left, configuration, "B", span(0, 1000)),
+                    held(BodySide::Left, SignComponent::Placement, "high-left", span(0, 1000)),
                 ],
             ),
             material(
@@ -283,14 +221,14 @@ impl Shelf {
                 &odd,
                 "signer:2",
                 2.0,
-                vec![held(Side::Right, configuration, "U", span(100, 900))],
+                vec![held(BodySide::Right, configuration, "U", span(100, 900))],
             ),
             material(
                 "CHAT",
                 &odd,
                 "signer:2",
                 3.0,
-                vec![held(Side::Left, configuration, "S", span(100, 900))],
+                vec![held(BodySide::Left, configuration, "S", span(100, 900))],
             ),
         ];
         let pose = |curl: f64| {
@@ -298,17 +236,17 @@ impl Shelf {
             for (n, finger) in angles.fingers.iter_mut().enumerate() {
                 finger.flexion = [curl * n as f64 / 3.0, curl, curl / 2.0];
             }
-            Some(Meaning::Hand(angles))
+            Some(ValueMeaning::Hand(angles))
         };
-        let value = |id: &str, meaning| Value {
+        let value = |id: &str, meaning| ComponentValue {
             id: id.to_owned(),
             inventory: "configurations".into(),
             meaning,
         };
-        let place = |id: &str, landmark: &str, offset: [f64; 3]| Value {
+        let place = |id: &str, landmark: &str, offset: [f64; 3]| ComponentValue {
             id: id.to_owned(),
             inventory: "placements".into(),
-            meaning: Some(Meaning::Place(Spatial {
+            meaning: Some(ValueMeaning::Place(BodyRelativePlace {
                 landmark: landmark.to_owned(),
                 offset,
             })),
@@ -324,9 +262,9 @@ impl Shelf {
                 (configuration, value("B", pose(0.1))),
                 (configuration, value("S", pose(1.5))),
                 (configuration, value("claw", None)),
-                (Component::Placement, place("chin", "chin", [0.0, 0.0, 0.3])),
+                (SignComponent::Placement, place("chin", "chin", [0.0, 0.0, 0.3])),
                 (
-                    Component::Placement,
+                    SignComponent::Placement,
                     place("neutral-space", "neutral-space", [0.0; 3]),
                 ),
             ],
@@ -334,28 +272,18 @@ impl Shelf {
     }
 }
 
-impl Sources for Shelf {
-    fn material(&self, address: &str) -> Result<Material, SourceError> {
+impl RecipeSources for Shelf {
+    fn find_material(&self, address: &str) -> Result<MovementMaterial, SourceError> {
         let gloss = address.strip_prefix("token:").unwrap_or(address);
-        self.materials
-            .get(gloss)
-            .cloned()
-            .ok_or_else(|| SourceError::Missing {
-                address: address.to_owned(),
-                nearest: chereme_sign::text::nearest(
-                    gloss,
-                    self.materials.keys().map(String::as_str),
-                )
+        self.materials.get(gloss).cloned().ok_or_else(|| SourceError::Missing {
+            address: address.to_owned(),
+            nearest: chereme_sign::text::nearest_candidate(gloss, self.materials.keys().map(String::as_str))
                 .map(str::to_owned),
-            })
+        })
     }
 
-    fn expression(
-        &self,
-        address: &str,
-        _function: Option<&str>,
-    ) -> Result<ExpressionSource, SourceError> {
-        let material = self.material(address)?;
+    fn find_face_expression(&self, address: &str, _function: Option<&str>) -> Result<ExpressionSource, SourceError> {
+        let material = self.find_material(address)?;
         match self.expressions.get(&material.gloss) {
             Some((function, milestones)) => Ok(ExpressionSource {
                 material,
@@ -370,7 +298,7 @@ impl Sources for Shelf {
         }
     }
 
-    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {
+    fn stage(&self, signer: Option<&str>) -> Result<MovementMaterial, SourceError> {
         let found = self
             .materials
             .values()
@@ -379,9 +307,9 @@ impl Sources for Shelf {
             address: signer.unwrap_or_default().to_owned(),
             nearest: None,
         })?;
-        material.clip = Clip::still(
-            Arc::clone(material.clip.skeleton()),
-            material.clip.rate(),
+        material.clip = Clip::from_rest_pose(
+            Arc::clone(material.clip.clip_skeleton()),
+            material.clip.clip_frame_rate(),
             1,
         );
         material.held.clear();
@@ -390,24 +318,20 @@ impl Sources for Shelf {
         Ok(material)
     }
 
-    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
-        let mut of = self
-            .values
-            .iter()
-            .filter(|(c, _)| *c == component)
-            .map(|(_, v)| v);
+    fn find_component_value(&self, component: SignComponent, text: &str) -> Result<ComponentValue, SourceError> {
+        let mut of = self.values.iter().filter(|(c, _)| *c == component).map(|(_, v)| v);
         of.clone()
             .find(|v| v.id == text)
             .cloned()
             .ok_or_else(|| SourceError::UnknownValue {
                 component,
                 text: text.to_owned(),
-                nearest: chereme_sign::text::nearest(text, of.by_ref().map(|v| v.id.as_str()))
+                nearest: chereme_sign::text::nearest_candidate(text, of.by_ref().map(|v| v.id.as_str()))
                     .map(str::to_owned),
             })
     }
 
-    fn values(&self, component: Component) -> Vec<Value> {
+    fn list_component_values(&self, component: SignComponent) -> Vec<ComponentValue> {
         self.values
             .iter()
             .filter(|(c, _)| *c == component)
@@ -415,13 +339,13 @@ impl Sources for Shelf {
             .collect()
     }
 
-    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError> {
+    fn holding(&self, component: SignComponent, value: &str) -> Result<Vec<TokenExample>, SourceError> {
         Ok(self
             .materials
             .values()
             .flat_map(|m| m.held.iter().map(move |h| (m, h)))
-            .filter(|(_, h)| h.component == component && h.value.value() == Some(value))
-            .map(|(m, h)| Example {
+            .filter(|(_, h)| h.component == component && h.value.reading_value() == Some(value))
+            .map(|(m, h)| TokenExample {
                 address: m.address.clone(),
                 signer: m.signer.clone(),
                 hand: h.hand,
@@ -430,18 +354,18 @@ impl Sources for Shelf {
             .collect())
     }
 
-    fn best(&self, query: &str, _: Option<&str>) -> Result<Vec<Example>, SourceError> {
+    fn find_best_examples(&self, query: &str, _: Option<&str>) -> Result<Vec<TokenExample>, SourceError> {
         let value = query.split('=').nth(1).unwrap_or_default();
         let value = value.split_whitespace().next().unwrap_or_default();
-        self.holding(Component::Configuration, value)
+        self.holding(SignComponent::Configuration, value)
     }
 
-    fn letters(&self, _: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
+    fn find_alphabet_letters(&self, _: Option<&str>, word: &str) -> Result<Vec<AlphabetLetter>, SourceError> {
         word.chars()
             .map(|c| {
-                Ok(Letter {
+                Ok(AlphabetLetter {
                     letter: c.to_string(),
-                    value: self.value(Component::Configuration, &c.to_string())?,
+                    value: self.find_component_value(SignComponent::Configuration, &c.to_string())?,
                     fingers: None,
                     palm: None,
                     strokes: Vec::new(),
@@ -472,15 +396,19 @@ impl Sources for Shelf {
 }
 
 /// Returns the positions of every fingertip and wrist of `side` at every frame.
-pub(crate) fn tips(clip: &Clip, side: Side) -> Vec<Vec<DVec3>> {
-    let skeleton = clip.skeleton();
-    let anatomy = Anatomy::detect(skeleton);
-    let mut joints = anatomy.fingers(side);
-    joints.extend(anatomy.arm(side).map(|arm| arm.hand));
-    (0..clip.frames())
+pub(crate) fn tips(clip: &Clip, side: BodySide) -> Vec<Vec<DVec3>> {
+    let skeleton = clip.clip_skeleton();
+    let anatomy = BodyAnatomy::detect_anatomy(skeleton);
+    let mut joints = anatomy.finger_joints(side);
+    joints.extend(anatomy.arm_chain(side).map(|arm| arm.hand));
+    (0..clip.clip_frame_count())
         .map(|frame| {
             let model = clip.model_pose(frame);
-            let at = |&joint: &usize| model.tip(skeleton, joint).unwrap_or(model.position(joint));
+            let at = |&joint: &usize| {
+                model
+                    .bone_tip_position(skeleton, joint)
+                    .unwrap_or(model.model_joint_position(joint))
+            };
             joints.iter().map(at).collect()
         })
         .collect()
@@ -488,14 +416,10 @@ pub(crate) fn tips(clip: &Clip, side: Side) -> Vec<Vec<DVec3>> {
 
 /// Returns the largest distance between the same points of two clips' hands.
 pub(crate) fn farthest(a: &Clip, b: &Clip) -> f64 {
-    assert_eq!(a.frames(), b.frames());
+    assert_eq!(a.clip_frame_count(), b.clip_frame_count());
     let mut farthest: f64 = 0.0;
-    for side in Side::BOTH {
-        for (x, y) in tips(a, side)
-            .iter()
-            .flatten()
-            .zip(tips(b, side).iter().flatten())
-        {
+    for side in BodySide::BOTH_SIDES {
+        for (x, y) in tips(a, side).iter().flatten().zip(tips(b, side).iter().flatten()) {
             farthest = farthest.max(x.distance(*y));
         }
     }

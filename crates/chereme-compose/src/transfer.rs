@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_motion::{Anatomy, Clip, Skeleton};
-use chereme_sign::Handedness;
+use chereme_motion::{BodyAnatomy, Clip, Skeleton};
+use chereme_sign::SignerHandedness;
 
-use crate::error::Cause;
+use crate::error::StepError;
 use crate::ops::retarget::{self, TargetBody};
-use crate::work::Work;
+use crate::work::WorkingClip;
 
 /// Movement on another body.
 #[derive(Debug, Clone)]
-pub struct Transferred {
+pub struct TransferredMovement {
     /// The movement.
     pub clip: Clip,
     /// The number of times that a hand touched the other hand or the body.
@@ -25,30 +25,26 @@ pub struct Transferred {
 /// directions, fingers their angles, and hands that touched something touch it again.
 ///
 /// # Errors
-/// [`Cause::NoArm`] if the body has an arm that the movement lacks.
+/// [`StepError::NoArm`] if the body has an arm that the movement lacks.
 pub fn on_body(
-    (clip, anatomy): (&Clip, &Arc<Anatomy>),
-    handedness: Handedness,
-    (skeleton, of_body): (&Arc<Skeleton>, &Arc<Anatomy>),
-) -> Result<Transferred, Cause> {
-    let work = Work {
-        skeleton: Arc::clone(clip.skeleton()),
+    (clip, anatomy): (&Clip, &Arc<BodyAnatomy>),
+    handedness: SignerHandedness,
+    (skeleton, of_body): (&Arc<Skeleton>, &Arc<BodyAnatomy>),
+) -> Result<TransferredMovement, StepError> {
+    let work = WorkingClip {
+        skeleton: Arc::clone(clip.clip_skeleton()),
         anatomy: Arc::clone(anatomy),
-        rate: clip.rate(),
-        frames: clip.frames(),
-        channels: clip.channels().to_vec(),
+        rate: clip.clip_frame_rate(),
+        frames: clip.clip_frame_count(),
+        channels: clip.joint_channels().to_vec(),
         handedness,
         signer: None,
         notes: Vec::new(),
         curves: Vec::new(),
         from: BTreeMap::new(),
     };
-    let done = retarget::touching(
-        &work,
-        &TargetBody::at_rest(skeleton, of_body),
-        "another body",
-    )?;
-    Ok(Transferred {
+    let done = retarget::retarget_with_contacts(&work, &TargetBody::at_rest(skeleton, of_body), "another body")?;
+    Ok(TransferredMovement {
         clip: done.work.into_clip()?,
         contacts: done.contacts,
         lost: done.lost,
@@ -57,7 +53,7 @@ pub fn on_body(
 
 #[cfg(test)]
 mod tests {
-    use chereme_motion::{ModelPose, Part, Side};
+    use chereme_motion::{BodyPart, BodySide, ModelPose};
 
     use super::*;
     use crate::testing::{Axes, Shelf, skeleton};
@@ -67,17 +63,17 @@ mod tests {
         let materials = Shelf::new().materials;
         for (axes, size) in [(Axes::Plain, 0.8), (Axes::Odd, 1.1)] {
             let skeleton = Arc::new(skeleton(axes, size));
-            let anatomy = Arc::new(Anatomy::detect(&skeleton));
+            let anatomy = Arc::new(BodyAnatomy::detect_anatomy(&skeleton));
             for (gloss, material) in &materials {
                 let from = (&material.clip, &material.anatomy);
                 let made = on_body(from, material.handedness, (&skeleton, &anatomy));
                 let made = made.unwrap_or_else(|error| panic!("{gloss}: {error}"));
-                assert_eq!(made.clip.frames(), material.clip.frames());
-                assert_eq!(made.clip.skeleton(), &skeleton);
+                assert_eq!(made.clip.clip_frame_count(), material.clip.clip_frame_count());
+                assert_eq!(made.clip.clip_skeleton(), &skeleton);
                 assert!(made.lost.is_empty(), "{gloss}: {:?}", made.lost);
-                let hand = anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
-                let pose = ModelPose::of(&skeleton, &made.clip.pose(0));
-                assert!(pose.position(hand).is_finite(), "{gloss}");
+                let hand = anatomy.part_joint(BodyPart::Hand(BodySide::Right)).expect("a hand");
+                let pose = ModelPose::from_local_pose(&skeleton, &made.clip.clip_pose_at(0));
+                assert!(pose.model_joint_position(hand).is_finite(), "{gloss}");
             }
         }
     }

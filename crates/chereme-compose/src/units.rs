@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use chereme_motion::Side;
+use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;
-use chereme_sign::Handedness;
+use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
 /// A quantity that cannot be read.
@@ -44,17 +44,17 @@ fn unit_found(unit: &str) -> String {
 /// As text and in JSON `25cm`, `250mm`, `0.25m`, `10in`, or `40%` (of the arm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub enum Length {
+pub enum RecipeLength {
     /// Metres.
     Metres(f64),
     /// A share of the arm's length; 1 is the whole arm.
     Arm(f64),
 }
 
-impl Length {
+impl RecipeLength {
     /// Returns the length in metres for an arm of `arm` metres.
     #[must_use]
-    pub fn metres(self, arm: f64) -> f64 {
+    pub fn length_in_metres(self, arm: f64) -> f64 {
         match self {
             Self::Metres(metres) => metres,
             Self::Arm(share) => share * arm,
@@ -64,33 +64,35 @@ impl Length {
     /// Returns whether the length is zero for every arm.
     #[must_use]
     pub fn is_zero(self) -> bool {
-        self.metres(1.0) == 0.0
+        self.length_in_metres(1.0) == 0.0
     }
 }
 
-impl FromStr for Length {
+impl FromStr for RecipeLength {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let (number, unit) = split(text, "25cm")?;
+        let (number, unit) = split_number_unit(text, "25cm")?;
         Ok(match unit {
             "m" => Self::Metres(number),
             "cm" => Self::Metres(number / 100.0),
             "mm" => Self::Metres(number / 1000.0),
             "in" | "inch" | "inches" => Self::Metres(number * 0.0254),
             "%" => Self::Arm(number / 100.0),
-            _ => return Err(unknown(text, unit, "mm, cm, m, in, % (of the arm)")),
+            _ => {
+                return Err(unknown_unit_error(text, unit, "mm, cm, m, in, % (of the arm)"));
+            }
         })
     }
 }
 
-impl fmt::Display for Length {
+impl fmt::Display for RecipeLength {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Metres(m) => match scaled(m, 100.0) {
+            Self::Metres(m) => match scale_exactly(m, 100.0) {
                 Some(cm) => write!(f, "{cm}cm"),
                 None => write!(f, "{m}m"),
             },
-            Self::Arm(share) => match scaled(share, 100.0) {
+            Self::Arm(share) => match scale_exactly(share, 100.0) {
                 Some(percent) => write!(f, "{percent}%"),
                 None => write!(f, "{}%", share * 100.0),
             },
@@ -101,21 +103,21 @@ impl fmt::Display for Length {
 /// A length of time in seconds; as text and in JSON `0.2s` or `200ms`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub struct Seconds(pub f64);
+pub struct RecipeSeconds(pub f64);
 
-impl FromStr for Seconds {
+impl FromStr for RecipeSeconds {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let (number, unit) = split(text, "0.2s")?;
+        let (number, unit) = split_number_unit(text, "0.2s")?;
         Ok(Self(match unit {
             "s" | "sec" => number,
             "ms" => number / 1000.0,
-            _ => return Err(unknown(text, unit, "s, ms")),
+            _ => return Err(unknown_unit_error(text, unit, "s, ms")),
         }))
     }
 }
 
-impl fmt::Display for Seconds {
+impl fmt::Display for RecipeSeconds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}s", self.0)
     }
@@ -124,20 +126,20 @@ impl fmt::Display for Seconds {
 /// An angle in degrees; as text and in JSON `30deg`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub struct Degrees(pub f64);
+pub struct RecipeDegrees(pub f64);
 
-impl FromStr for Degrees {
+impl FromStr for RecipeDegrees {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let (number, unit) = split(text, "30deg")?;
+        let (number, unit) = split_number_unit(text, "30deg")?;
         match unit {
             "deg" | "°" | "degrees" => Ok(Self(number)),
-            _ => Err(unknown(text, unit, "deg")),
+            _ => Err(unknown_unit_error(text, unit, "deg")),
         }
     }
 }
 
-impl fmt::Display for Degrees {
+impl fmt::Display for RecipeDegrees {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}deg", self.0)
     }
@@ -146,21 +148,21 @@ impl fmt::Display for Degrees {
 /// A plain factor; as text `1.5` or `150%`, in JSON the text.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub struct Factor(pub f64);
+pub struct RecipeFactor(pub f64);
 
-impl FromStr for Factor {
+impl FromStr for RecipeFactor {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let (number, unit) = split(text, "1.5")?;
+        let (number, unit) = split_number_unit(text, "1.5")?;
         match unit {
             "" => Ok(Self(number)),
             "%" => Ok(Self(number / 100.0)),
-            _ => Err(unknown(text, unit, "none, or %")),
+            _ => Err(unknown_unit_error(text, unit, "none, or %")),
         }
     }
 }
 
-impl fmt::Display for Factor {
+impl fmt::Display for RecipeFactor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.0)
     }
@@ -181,9 +183,9 @@ macro_rules! as_text {
         }
     )*};
 }
-as_text!(Length, Seconds, Degrees, Factor);
+as_text!(RecipeLength, RecipeSeconds, RecipeDegrees, RecipeFactor);
 
-fn split<'a>(text: &'a str, example: &'static str) -> Result<(f64, &'a str), UnitError> {
+fn split_number_unit<'a>(text: &'a str, example: &'static str) -> Result<(f64, &'a str), UnitError> {
     let text = text.trim();
     let end = text
         .char_indices()
@@ -196,15 +198,15 @@ fn split<'a>(text: &'a str, example: &'static str) -> Result<(f64, &'a str), Uni
             !(c.is_ascii_digit() || c == '.' || exponent || sign)
         })
         .map_or(text.len(), |(at, _)| at);
-    let number = text[..end].parse::<f64>().ok().filter(|n| n.is_finite());
-    let number = number.ok_or_else(|| UnitError::Number {
+    let parsed_number = text[..end].parse::<f64>().ok().filter(|n| n.is_finite());
+    let number = parsed_number.ok_or_else(|| UnitError::Number {
         text: text.to_owned(),
         example,
     })?;
     Ok((number, text[end..].trim()))
 }
 
-fn unknown(text: &str, unit: &str, units: &'static str) -> UnitError {
+fn unknown_unit_error(text: &str, unit: &str, units: &'static str) -> UnitError {
     UnitError::Unit {
         text: text.to_owned(),
         unit: unit.to_owned(),
@@ -214,7 +216,7 @@ fn unknown(text: &str, unit: &str, units: &'static str) -> UnitError {
 
 /// Returns `value` times `by`, rounded to 12 digits so that 0.07 m prints as 7 cm; `None` if dividing it again does not
 /// give `value` exactly.
-fn scaled(value: f64, by: f64) -> Option<f64> {
+fn scale_exactly(value: f64, by: f64) -> Option<f64> {
     let rounded: f64 = format!("{:.11e}", value * by).parse().ok()?;
     (rounded / by == value && rounded.abs() >= 0.1 || value == 0.0).then_some(rounded)
 }
@@ -222,7 +224,7 @@ fn scaled(value: f64, by: f64) -> Option<f64> {
 /// One of six directions of the signer's own body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Direction {
+pub enum BodyDirection {
     /// To the signer's left.
     Left,
     /// To the signer's right.
@@ -237,20 +239,14 @@ pub enum Direction {
     Back,
 }
 
-impl Direction {
+impl BodyDirection {
     /// Every direction.
-    pub const ALL: [Self; 6] = [
-        Self::Left,
-        Self::Right,
-        Self::Up,
-        Self::Down,
-        Self::Forward,
-        Self::Back,
-    ];
+    pub const ALL_BODY_DIRECTIONS: [Self; 6] =
+        [Self::Left, Self::Right, Self::Up, Self::Down, Self::Forward, Self::Back];
 
     /// Returns the word recipes print.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn body_direction_name(self) -> &'static str {
         match self {
             Self::Left => "left",
             Self::Right => "right",
@@ -267,13 +263,15 @@ impl Direction {
         match word {
             "out" | "forwards" | "front" => Some(Self::Forward),
             "in" | "backward" | "backwards" => Some(Self::Back),
-            _ => Self::ALL.into_iter().find(|d| d.name() == word),
+            _ => Self::ALL_BODY_DIRECTIONS
+                .into_iter()
+                .find(|d| d.body_direction_name() == word),
         }
     }
 
     /// Returns the unit vector in body space: X to the left, Y up, Z forward.
     #[must_use]
-    pub fn vector(self) -> DVec3 {
+    pub fn direction_unit_vector(self) -> DVec3 {
         match self {
             Self::Left => DVec3::X,
             Self::Right => DVec3::NEG_X,
@@ -287,10 +285,10 @@ impl Direction {
 
 /// Returns the unit vector in body space half-way between directions; `None` if they cancel.
 #[must_use]
-pub fn towards(directions: &[Direction]) -> Option<DVec3> {
+pub fn mean_of_directions(directions: &[BodyDirection]) -> Option<DVec3> {
     directions
         .iter()
-        .map(|d| d.vector())
+        .map(|d| d.direction_unit_vector())
         .sum::<DVec3>()
         .try_normalize()
 }
@@ -298,7 +296,7 @@ pub fn towards(directions: &[Direction]) -> Option<DVec3> {
 /// The hand or hands an operator changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Hands {
+pub enum HandChoice {
     /// The signer's right hand.
     Right,
     /// The signer's left hand.
@@ -311,19 +309,13 @@ pub enum Hands {
     Weak,
 }
 
-impl Hands {
+impl HandChoice {
     /// Every choice.
-    pub const ALL: [Self; 5] = [
-        Self::Right,
-        Self::Left,
-        Self::Both,
-        Self::Dominant,
-        Self::Weak,
-    ];
+    pub const ALL_HAND_CHOICES: [Self; 5] = [Self::Right, Self::Left, Self::Both, Self::Dominant, Self::Weak];
 
     /// Returns the word recipes print.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn hand_choice_name(self) -> &'static str {
         match self {
             Self::Right => "right",
             Self::Left => "left",
@@ -336,22 +328,24 @@ impl Hands {
     /// Returns the choice that `word` names.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|hands| hands.name() == word)
+        Self::ALL_HAND_CHOICES
+            .into_iter()
+            .find(|hands| hands.hand_choice_name() == word)
     }
 
     /// Returns the sides of these hands for a signer of this handedness.
     #[must_use]
-    pub fn sides(self, handedness: Handedness) -> &'static [Side] {
+    pub fn chosen_sides(self, handedness: SignerHandedness) -> &'static [BodySide] {
         let side = match self {
-            Self::Both => return &Side::BOTH,
-            Self::Right => Side::Right,
-            Self::Left => Side::Left,
-            Self::Dominant => handedness.dominant(),
-            Self::Weak => handedness.dominant().other(),
+            Self::Both => return &BodySide::BOTH_SIDES,
+            Self::Right => BodySide::Right,
+            Self::Left => BodySide::Left,
+            Self::Dominant => handedness.signer_dominant_side(),
+            Self::Weak => handedness.signer_dominant_side().opposite_side(),
         };
         match side {
-            Side::Right => &[Side::Right],
-            Side::Left => &[Side::Left],
+            BodySide::Right => &[BodySide::Right],
+            BodySide::Left => &[BodySide::Left],
         }
     }
 }
@@ -373,13 +367,13 @@ mod tests {
             ("1e2cm", 1.0, "100cm"),
             ("40%", 0.4 * 0.6, "40%"),
         ] {
-            let length: Length = text.parse().expect(text);
-            assert!((length.metres(0.6) - metres).abs() < 1e-15, "{text}");
+            let length: RecipeLength = text.parse().expect(text);
+            assert!((length.length_in_metres(0.6) - metres).abs() < 1e-15, "{text}");
             assert_eq!(length.to_string(), printed, "{text}");
         }
-        assert_eq!("200ms".parse(), Ok(Seconds(0.2)));
-        assert_eq!("150%".parse(), Ok(Factor(1.5)));
-        assert_eq!("30°".parse(), Ok(Degrees(30.0)));
+        assert_eq!("200ms".parse(), Ok(RecipeSeconds(0.2)));
+        assert_eq!("150%".parse(), Ok(RecipeFactor(1.5)));
+        assert_eq!("30°".parse(), Ok(RecipeDegrees(30.0)));
         for (text, want) in [
             ("25", "no unit"),
             ("25 miles", "unknown unit \"miles\""),
@@ -387,7 +381,7 @@ mod tests {
             ("1e999m", "no number"),
             ("", "no number"),
         ] {
-            let error = text.parse::<Length>().expect_err(text).to_string();
+            let error = text.parse::<RecipeLength>().expect_err(text).to_string();
             assert!(error.contains(want), "{text}: {error}");
         }
     }
@@ -397,10 +391,10 @@ mod tests {
 
         #[test]
         fn printed_lengths_parse_to_the_same_length(metres in -3.0f64..3.0, share in any::<bool>()) {
-            let length = if share { Length::Arm(metres) } else { Length::Metres(metres) };
-            let back: Length = length.to_string().parse().expect("printed");
-            prop_assert!((back.metres(1.0) - length.metres(1.0)).abs() < 1e-15);
-            let cm = Length::Metres((metres * 1000.0).round() / 1000.0);
+            let length = if share { RecipeLength::Arm(metres) } else { RecipeLength::Metres(metres) };
+            let back: RecipeLength = length.to_string().parse().expect("printed");
+            prop_assert!((back.length_in_metres(1.0) - length.length_in_metres(1.0)).abs() < 1e-15);
+            let cm = RecipeLength::Metres((metres * 1000.0).round() / 1000.0);
             prop_assert_eq!(cm.to_string().parse(), Ok(cm));
         }
     }

@@ -12,10 +12,10 @@ use std::path::Path;
 use std::time::{Duration, Instant as Clock};
 
 use chereme_corpus::{
-    AnnotateOptions, AnnotationAction, AnnotationName, Corpus, ExportOptions, ExportWhat,
-    ImportOptions, Moment, Progress, TierName, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationName, Corpus, ExportOptions, ExportWhat, ImportOptions,
+    ProgressReceiver, TableMoment, TierRequestName, ignore_progress_step,
 };
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 
 /// The tiers below the glosses.
 const COMPONENTS: [&str; 3] = ["RH Configuration", "RH Placement", "LH Configuration"];
@@ -43,15 +43,11 @@ fn main() {
 
 fn import(text: &Path, path: &Path, signs: usize) -> Corpus {
     let clock = Clock::now();
-    let mut corpus = Corpus::create(path, "bench").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(path, "bench").expect("made");
+    let mut hear = ignore_progress_step;
     let files = [text.to_owned()];
     let report = corpus
-        .import(
-            &files,
-            &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
     let ours = clock.elapsed();
     assert!(!report.has_refusals(), "{report:?}");
@@ -81,21 +77,13 @@ fn plain_rows(path: &Path, count: usize) -> Duration {
         )
         .expect("made");
     let mut insert = connection
-        .prepare(
-            "INSERT INTO annotation (tier, start, end, value, parent) VALUES (?1, ?2, ?3, ?4, ?5)",
-        )
+        .prepare("INSERT INTO annotation (tier, start, end, value, parent) VALUES (?1, ?2, ?3, ?4, ?5)")
         .expect("sql");
     for row in 0..count {
         let start = (row * STEP) as i64;
         let value = configuration(row);
         insert
-            .execute((
-                row as i64 % 5,
-                start,
-                start + SIGN as i64,
-                value,
-                row as i64 / 4,
-            ))
+            .execute((row as i64 % 5, start, start + SIGN as i64, value, row as i64 / 4))
             .expect("written");
     }
     drop(insert);
@@ -114,12 +102,12 @@ fn edits(corpus: &mut Corpus, signs: usize) {
             .map(|edit| {
                 let action = change((signs - 1) * edit / 8);
                 let clock = Clock::now();
-                let mut hear = unheard;
+                let mut hear = ignore_progress_step;
                 corpus
-                    .annotate(
+                    .annotate_corpus(
                         &[action.into()],
                         &AnnotateOptions::default(),
-                        &mut Progress::new(&mut hear),
+                        &mut ProgressReceiver::new(&mut hear),
                     )
                     .expect("changed");
                 clock.elapsed()
@@ -135,10 +123,10 @@ fn edits(corpus: &mut Corpus, signs: usize) {
 }
 
 fn gloss_at(sign: usize) -> AnnotationName {
-    let start = Instant::from_micros((sign * STEP * 1000) as i64);
+    let start = RecordingInstant::from_micros((sign * STEP * 1000) as i64);
     AnnotationName::At {
-        tier: TierName::Number(1),
-        start: Moment::Time(start),
+        tier: TierRequestName::Number(1),
+        start: TableMoment::Time(start),
     }
 }
 
@@ -152,11 +140,11 @@ fn value(sign: usize) -> AnnotationAction {
 }
 
 fn end(sign: usize) -> AnnotationAction {
-    let end = Instant::from_micros(((sign * STEP + SIGN - 40) * 1000) as i64);
+    let end = RecordingInstant::from_micros(((sign * STEP + SIGN - 40) * 1000) as i64);
     AnnotationAction::Set {
         annotation: gloss_at(sign),
         start: None,
-        end: Some(Moment::Time(end)),
+        end: Some(TableMoment::Time(end)),
         value: None,
     }
 }
@@ -165,16 +153,14 @@ fn export(corpus: &Corpus, folder: &Path, signs: usize) {
     for to in ["tokens.csv", "session.eaf"] {
         let to = folder.join(format!("{signs}-{to}"));
         let what = match to.extension() {
-            Some(kind) if kind == "eaf" => {
-                ExportWhat::Address("recording:1".parse().expect("an address"))
-            }
+            Some(kind) if kind == "eaf" => ExportWhat::Address("recording:1".parse().expect("an address")),
             _ => ExportWhat::All,
         };
         let clock = Clock::now();
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let options = ExportOptions::default();
         let report = corpus
-            .export(&what, &to, &options, &mut Progress::new(&mut hear))
+            .export_corpus(&what, &to, &options, &mut ProgressReceiver::new(&mut hear))
             .expect("written");
         println!(
             "  {} written: {}, {:.1} MB",
@@ -187,12 +173,12 @@ fn export(corpus: &Corpus, folder: &Path, signs: usize) {
 
 /// Undoes all operations, the import last.
 fn take_back(corpus: &mut Corpus) {
-    let edits = corpus.log(usize::MAX).expect("log").len() - 1;
+    let edits = corpus.operation_log(usize::MAX).expect("log").len() - 1;
     for _ in 0..edits {
-        corpus.undo().expect("undone");
+        corpus.undo_operation().expect("undone");
     }
     let clock = Clock::now();
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     println!("  the import taken back: {}", shown(clock.elapsed()));
 }
 

@@ -17,25 +17,18 @@ const RECORDINGS: usize = 500;
 
 fn main() {
     let tokens = std::env::var("CHEREME_BENCH_TOKENS");
-    let tokens: usize = tokens
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(1_000_000);
+    let tokens: usize = tokens.ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000);
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("search-{tokens}.chereme"));
     remove(&path);
     let (_, took) = timed(|| build(&path, tokens));
     println!("{tokens} tokens written as rows            {}", shown(took));
-    let (mut corpus, _) = timed(|| Corpus::open(&path, "bench").expect("opened"));
+    let (mut corpus, _) = timed(|| Corpus::open_corpus(&path, "bench").expect("opened"));
     let (_, took) = timed(|| search(&mut corpus, "gloss=INDEX", 50, false));
     println!("index made from the rows                {}", shown(took));
     drop(corpus);
     let size = std::fs::metadata(&path).map_or(0, |data| data.len());
     let index = index_size(&path);
-    println!(
-        "file {} MB, of which the index {} MB",
-        size >> 20,
-        index >> 20
-    );
+    println!("file {} MB, of which the index {} MB", size >> 20, index >> 20);
     println!("peak memory so far {} MB\n", peak_memory());
     open_and_ask(&path);
     ask(&path);
@@ -48,27 +41,19 @@ fn open_and_ask(path: &Path) {
     let mut opened = Vec::new();
     let mut asked = Vec::new();
     for _ in 0..7 {
-        let (mut corpus, took) = timed(|| Corpus::open(path, "bench").expect("opened"));
+        let (mut corpus, took) = timed(|| Corpus::open_corpus(path, "bench").expect("opened"));
         opened.push(took);
         asked.push(timed(|| search(&mut corpus, PATTERN, 50, false)).1);
     }
-    println!(
-        "open                                    {}",
-        shown(best(opened))
-    );
-    println!(
-        "first query after it                    {}\n",
-        shown(best(asked))
-    );
+    println!("open                                    {}", shown(best(opened)));
+    println!("first query after it                    {}\n", shown(best(asked)));
 }
 
 fn ask(path: &Path) {
-    let mut corpus = Corpus::open(path, "bench").expect("opened");
+    let mut corpus = Corpus::open_corpus(path, "bench").expect("opened");
     let peer = Connection::open(path).expect("opened");
-    peer.execute_batch(
-        "CREATE INDEX IF NOT EXISTS bench ON token_value (component, hand, value, token_id)",
-    )
-    .expect("indexed");
+    peer.execute_batch("CREATE INDEX IF NOT EXISTS bench ON token_value (component, hand, value, token_id)")
+        .expect("indexed");
     println!(
         "{:<34}{:>8}{:>11}{:>11}{:>11}{:>11}",
         "", "found", "ours", "+facets", "join", "exists"
@@ -89,11 +74,7 @@ fn ask(path: &Path) {
             })
         });
         let ratio = |peer: Option<Duration>| match peer {
-            Some(peer) => format!(
-                "{} {:.0}x",
-                shown(peer),
-                peer.as_secs_f64() / ours.as_secs_f64()
-            ),
+            Some(peer) => format!("{} {:.0}x", shown(peer), peer.as_secs_f64() / ours.as_secs_f64()),
             None => String::new(),
         };
         println!(
@@ -177,11 +158,11 @@ fn search(corpus: &mut Corpus, query: &str, limit: usize, facets: bool) -> usize
         facets,
         ..SearchOptions::default()
     };
-    corpus.search(query, &options).expect("answered").total
+    corpus.search_tokens(query, &options).expect("answered").total
 }
 
 fn build(path: &Path, tokens: usize) {
-    drop(Corpus::create(path, "bench").expect("made"));
+    drop(Corpus::create_corpus(path, "bench").expect("made"));
     let mut connection = Connection::open(path).expect("opened");
     connection
         .execute_batch("PRAGMA synchronous = OFF; PRAGMA cache_size = -500000;")
@@ -305,8 +286,7 @@ fn gloss(number: usize) -> String {
         _ => {}
     }
     const SYLLABLES: [&str; 17] = [
-        "MA", "TO", "BO", "LI", "CHA", "RE", "SON", "VE", "PU", "NI", "DO", "KA", "ÉCO", "GRU",
-        "FI", "ZA", "HU",
+        "MA", "TO", "BO", "LI", "CHA", "RE", "SON", "VE", "PU", "NI", "DO", "KA", "ÉCO", "GRU", "FI", "ZA", "HU",
     ];
     let mut rest = number;
     let mut text = String::new();
@@ -319,9 +299,8 @@ fn gloss(number: usize) -> String {
 
 fn sentence(numbers: &mut Numbers) -> String {
     const WORDS: [&str; 24] = [
-        "the", "a", "slow", "animal", "cat", "dog", "house", "bowl", "goes", "sees", "gives", "to",
-        "from", "old", "young", "friend", "school", "snail", "quickly", "was", "is", "under",
-        "over", "again",
+        "the", "a", "slow", "animal", "cat", "dog", "house", "bowl", "goes", "sees", "gives", "to", "from", "old",
+        "young", "friend", "school", "snail", "quickly", "was", "is", "under", "over", "again",
     ];
     let count = 3 + (numbers.next() * 6.0) as usize;
     let words = (0..count).map(|_| WORDS[(numbers.next() * 24.0) as usize % 24]);
@@ -344,9 +323,7 @@ impl Zipf {
     fn pick(&self, numbers: &mut Numbers) -> usize {
         let total = self.0.last().copied().unwrap_or(1.0);
         let at = numbers.next() * total;
-        self.0
-            .partition_point(|sum| *sum < at)
-            .min(self.0.len() - 1)
+        self.0.partition_point(|sum| *sum < at).min(self.0.len() - 1)
     }
 }
 

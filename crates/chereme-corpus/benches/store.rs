@@ -11,8 +11,8 @@ use std::io::{BufWriter, Read, Write};
 use std::path::Path;
 use std::time::Instant as Clock;
 
-use chereme_corpus::{ChannelGroup, Corpus, ImportOptions, Progress, unheard};
-use chereme_motion::{Instant, Span};
+use chereme_corpus::{ChannelGroup, Corpus, ImportOptions, ProgressReceiver, ignore_progress_step};
+use chereme_motion::{RecordingInstant, TimeSpan};
 
 const JOINTS: usize = 75;
 const RATE: usize = 120;
@@ -27,20 +27,17 @@ fn main() {
     let text = folder.path().join("capture.bvh");
     let size = write_capture(&text, frames).expect("written");
     let hours = frames as f64 / RATE as f64 / 3600.0;
-    println!(
-        "{JOINTS} joints, {frames} frames, {:.0} MB of text",
-        mega(size)
-    );
+    println!("{JOINTS} joints, {frames} frames, {:.0} MB of text", mega(size));
 
     let path = folder.path().join("bench.chereme");
     let clock = Clock::now();
-    let mut corpus = Corpus::create(&path, "bench").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&path, "bench").expect("made");
+    let mut hear = ignore_progress_step;
     let report = corpus
-        .import(
+        .import_paths(
             std::slice::from_ref(&text),
             &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("imported");
     assert!(!report.has_refusals(), "{report:?}");
@@ -63,13 +60,8 @@ fn main() {
     if minutes <= 10.0 {
         for level in [3, 12] {
             let bytes = std::fs::read(&text).expect("read");
-            let packed = zstd::encode_all(bytes.as_slice(), level)
-                .expect("packed")
-                .len() as u64;
-            println!(
-                "  the text under zstd -{level}: {:.0} MB an hour",
-                mega(packed) / hours
-            );
+            let packed = zstd::encode_all(bytes.as_slice(), level).expect("packed").len() as u64;
+            println!("  the text under zstd -{level}: {:.0} MB an hour", mega(packed) / hours);
         }
     }
     partial_reads(&path, frames);
@@ -77,23 +69,21 @@ fn main() {
 
 fn partial_reads(path: &Path, frames: usize) {
     let clock = Clock::now();
-    let corpus = Corpus::open(path, "bench").expect("opened");
+    let corpus = Corpus::open_corpus(path, "bench").expect("opened");
     println!("opening: {:.1} ms", clock.elapsed().as_secs_f64() * 1e3);
     let address = "recording:1".parse().expect("an address");
     let seconds = frames / RATE - 1;
     for (what, groups) in [
         ("one hand", &[ChannelGroup::RightHand][..]),
-        ("the whole body", &ChannelGroup::ALL[..]),
+        ("the whole body", &ChannelGroup::ALL_CHANNEL_GROUPS[..]),
     ] {
         let clock = Clock::now();
         let reads = 100;
         for read in 0..reads {
-            let start = Instant::from_seconds((read * 7919 % seconds) as f64);
-            let span = Span::between(start, start.shifted(1_000_000));
-            let moving = corpus
-                .movement_in(&address, Some(span), groups)
-                .expect("read");
-            assert_eq!(moving.clip.frames(), RATE);
+            let start = RecordingInstant::from_seconds((read * 7919 % seconds) as f64);
+            let span = TimeSpan::span_between(start, start.shifted_instant(1_000_000));
+            let moving = corpus.movement_in(&address, Some(span), groups).expect("read");
+            assert_eq!(moving.clip.clip_frame_count(), RATE);
         }
         println!(
             "one second of {what}, anywhere: {:.2} ms",
@@ -112,18 +102,11 @@ fn import_with_bvh_anim(text: &Path, folder: &Path) -> (f64, u64) {
     let path = folder.join("peer.db");
     let connection = rusqlite::Connection::open(&path).expect("opened");
     connection
-        .execute_batch(
-            "PRAGMA journal_mode = WAL; CREATE TABLE b (i INTEGER PRIMARY KEY, d BLOB); BEGIN",
-        )
+        .execute_batch("PRAGMA journal_mode = WAL; CREATE TABLE b (i INTEGER PRIMARY KEY, d BLOB); BEGIN")
         .expect("made");
     let mut blob = Vec::new();
     for (at, frame) in bvh.frames().enumerate() {
-        blob.extend(
-            frame
-                .as_slice()
-                .iter()
-                .flat_map(|value| value.to_le_bytes()),
-        );
+        blob.extend(frame.as_slice().iter().flat_map(|value| value.to_le_bytes()));
         if at % RATE == RATE - 1 {
             connection
                 .execute("INSERT INTO b (d) VALUES (?1)", [&blob])
@@ -148,10 +131,7 @@ fn mega(bytes: u64) -> f64 {
 fn peak_memory() -> String {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    line.map_or_else(
-        || "not known here".to_owned(),
-        |text| text.trim().to_owned(),
-    )
+    line.map_or_else(|| "not known here".to_owned(), |text| text.trim().to_owned())
 }
 
 /// Writes a capture of a body with hands in which every channel moves.
@@ -171,11 +151,7 @@ fn write_capture(path: &Path, frames: usize) -> std::io::Result<u64> {
         .map(|_| {
             std::array::from_fn(|k| {
                 let hertz = 0.2 + 5.8 * k as f64 / 7.0;
-                (
-                    8.0 / hertz * random(),
-                    hertz * std::f64::consts::TAU,
-                    random() * 6.3,
-                )
+                (8.0 / hertz * random(), hertz * std::f64::consts::TAU, random() * 6.3)
             })
         })
         .collect();
@@ -205,17 +181,11 @@ fn write_hierarchy(out: &mut impl Write) -> std::io::Result<()> {
     let mut count = 0;
     let mut open = |out: &mut dyn Write, name: &str, offset: &str| -> std::io::Result<()> {
         let (word, channels) = match count {
-            0 => (
-                "ROOT",
-                "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation",
-            ),
+            0 => ("ROOT", "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"),
             _ => ("JOINT", "3 Zrotation Xrotation Yrotation"),
         };
         count += 1;
-        writeln!(
-            out,
-            "{word} {name}\n{{\nOFFSET {offset}\nCHANNELS {channels}"
-        )
+        writeln!(out, "{word} {name}\n{{\nOFFSET {offset}\nCHANNELS {channels}")
     };
     let end = |out: &mut dyn Write| writeln!(out, "End Site\n{{\nOFFSET 0 2 0\n}}");
     let close = |out: &mut dyn Write, many: usize| out.write_all("}\n".repeat(many).as_bytes());
@@ -228,11 +198,7 @@ fn write_hierarchy(out: &mut impl Write) -> std::io::Result<()> {
         end(out)?;
         close(out, 3)?;
     }
-    for (name, offset) in [
-        ("Spine", "0 10 0"),
-        ("Spine1", "0 12 0"),
-        ("Spine2", "0 12 0"),
-    ] {
+    for (name, offset) in [("Spine", "0 10 0"), ("Spine1", "0 12 0"), ("Spine2", "0 12 0")] {
         open(out, name, offset)?;
     }
     open(out, "Neck", "0 18 0")?;
@@ -249,26 +215,11 @@ fn write_hierarchy(out: &mut impl Write) -> std::io::Result<()> {
         open(out, &format!("{side}Arm"), &format!("{sign}14 0 0"))?;
         open(out, &format!("{side}ForeArm"), &format!("{sign}28 0 0"))?;
         open(out, &format!("{side}Hand"), &format!("{sign}25 0 0"))?;
-        for (at, finger) in ["Thumb", "Index", "Middle", "Ring", "Pinky"]
-            .iter()
-            .enumerate()
-        {
+        for (at, finger) in ["Thumb", "Index", "Middle", "Ring", "Pinky"].iter().enumerate() {
             let z = 3 - 2 * at as i32;
-            open(
-                out,
-                &format!("{side}Hand{finger}1"),
-                &format!("{sign}9 0 {z}"),
-            )?;
-            open(
-                out,
-                &format!("{side}Hand{finger}2"),
-                &format!("{sign}3 0 0"),
-            )?;
-            open(
-                out,
-                &format!("{side}Hand{finger}3"),
-                &format!("{sign}2 0 0"),
-            )?;
+            open(out, &format!("{side}Hand{finger}1"), &format!("{sign}9 0 {z}"))?;
+            open(out, &format!("{side}Hand{finger}2"), &format!("{sign}3 0 0"))?;
+            open(out, &format!("{side}Hand{finger}3"), &format!("{sign}2 0 0"))?;
             end(out)?;
             close(out, 3)?;
         }

@@ -11,15 +11,11 @@ use chereme_corpus::starter_signs;
 use chereme_figure::{SheetOptions, contact_sheet, write_png};
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let named = std::env::args()
-        .nth(1)
-        .filter(|name| name.ends_with(".png"));
+    let named = std::env::args().nth(1).filter(|name| name.ends_with(".png"));
     let folder = tempfile::tempdir()?;
     let to = named.map_or_else(|| folder.path().join("sheet.png"), PathBuf::from);
 
-    let sign = starter_signs()
-        .next()
-        .ok_or("the starter corpus has signs")??;
+    let sign = starter_signs().next().ok_or("the starter corpus has signs")??;
     let options = SheetOptions {
         title: sign.gloss,
         ..SheetOptions::default()

@@ -10,7 +10,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use chereme_corpus::Film;
+use chereme_corpus::FilmFile;
 use sha2::{Digest, Sha256};
 
 #[allow(clippy::print_stdout, reason = "a program for the terminal")]
@@ -19,19 +19,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = arguments.next().ok_or("which film?")?;
     let backwards = arguments.next().is_some();
     let begun = Instant::now();
-    let mut film = Film::open(Path::new(&path))?;
+    let mut film = FilmFile::open_film(Path::new(&path))?;
     println!("opened in {:.1} ms", begun.elapsed().as_secs_f64() * 1e3);
-    println!("{:#?}", film.facts());
-    let frames = film.times().frames();
+    println!("{:#?}", film.film_facts());
+    let frames = film.film_times().film_frame_count();
     let begun = Instant::now();
     if backwards {
         for frame in (0..frames).rev() {
-            film.planes(frame, &|| false)?;
+            film.decoded_frame_planes(frame, &|| false)?;
         }
     }
     let mut hash = Sha256::new();
     for frame in 0..frames {
-        let planes = film.planes(frame, &|| false)?;
+        let planes = film.decoded_frame_planes(frame, &|| false)?;
         hash.update(&planes.y);
         hash.update(&planes.u);
         hash.update(&planes.v);
@@ -41,11 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "{frames} frames in {seconds:.2} s, {:.0} a second",
         frames as f64 / seconds
     );
-    let hash: String = hash
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
+    let hash: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
     println!("sha256 {hash}");
     Ok(())
 }

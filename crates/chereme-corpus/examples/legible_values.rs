@@ -12,10 +12,10 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-use chereme_corpus::value_pictures::{Panel, Scene, expression, turned};
-use chereme_figure::{Image, Theme, write_png};
-use chereme_motion::Face;
-use chereme_sign::Inventory;
+use chereme_corpus::value_pictures::{PlacePanel, RestingBodyScene, facial_expression_of_value, turned_camera};
+use chereme_figure::{PaperTheme, RasterImage, write_png};
+use chereme_motion::FacePosture;
+use chereme_sign::ComponentInventory;
 use chereme_sign::inventory::{InventoryValue, builtin_by_id};
 
 #[path = "../../chereme-figure/examples/common/likeness.rs"]
@@ -28,7 +28,7 @@ const TRIES: usize = 3;
 const SIZES: [usize; 3] = [24, 48, 96];
 
 /// Draws the value at an index, as it is or noisy.
-type Draw<'a> = Box<dyn Fn(usize, usize, Option<&mut Random>) -> Option<Image> + 'a>;
+type Draw<'a> = Box<dyn Fn(usize, usize, Option<&mut Random>) -> Option<RasterImage> + 'a>;
 
 /// A set of values to draw.
 struct Set<'a> {
@@ -41,12 +41,12 @@ struct Set<'a> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1);
-    let scene = Scene::new()?;
+    let scene = RestingBodyScene::new()?;
     let places = builtin_by_id("placements").ok_or("no places")?;
     let mouth = builtin_by_id("mouth").ok_or("no mouths")?;
     let on_head = |value: &&InventoryValue| {
         let landmark = value.landmark.as_ref();
-        landmark.is_some_and(|it| Panel::of(it) == Panel::Head)
+        landmark.is_some_and(|it| PlacePanel::panel_of_landmark(it) == PlacePanel::Head)
     };
     let head: Vec<&InventoryValue> = places.values.iter().filter(on_head).collect();
     let all: Vec<&InventoryValue> = places.values.iter().collect();
@@ -65,10 +65,9 @@ fn measure(sets: &[Set<'_>], folder: Option<&Path>) -> Result<(), Box<dyn Error>
     for set in sets {
         for size in SIZES {
             let count = set.names.len();
-            let images: Option<Vec<Image>> =
-                (0..count).map(|at| (set.draw)(at, size, None)).collect();
+            let images: Option<Vec<RasterImage>> = (0..count).map(|at| (set.draw)(at, size, None)).collect();
             let images = images.ok_or("a value without a picture")?;
-            let seen = |image: &Image| match set.placed {
+            let seen = |image: &RasterImage| match set.placed {
                 true => tones(image).fixed(),
                 false => tones(image),
             };
@@ -95,20 +94,20 @@ fn measure(sets: &[Set<'_>], folder: Option<&Path>) -> Result<(), Box<dyn Error>
 
 fn set_of_places<'a>(
     name: &'static str,
-    (scene, inventory): (&'a Scene, &'a Inventory),
+    (scene, inventory): (&'a RestingBodyScene, &'a ComponentInventory),
     values: &[&'a InventoryValue],
 ) -> Set<'a> {
     let values = values.to_vec();
     let names = values.iter().map(|it| it.id.as_str()).collect();
     let draw = move |at: usize, size, noise: Option<&mut Random>| {
         let value = values[at];
-        let mut camera = scene.camera(Panel::of(value.landmark.as_ref()?), false)?;
+        let mut camera = scene.panel_camera(PlacePanel::panel_of_landmark(value.landmark.as_ref()?), false)?;
         if let Some(random) = noise {
             let most = 6f64.to_radians();
             let mut next = || (random.next() * most) as f32;
-            camera = turned(&camera, [next(), next()]);
+            camera = turned_camera(&camera, [next(), next()]);
         }
-        scene.place_from((inventory, value), &camera, size, Theme::Light)
+        scene.place_from((inventory, value), &camera, size, PaperTheme::Light)
     };
     Set {
         name,
@@ -118,12 +117,12 @@ fn set_of_places<'a>(
     }
 }
 
-fn set_of_faces<'a>(name: &'static str, scene: &'a Scene, inventory: &'a Inventory) -> Set<'a> {
+fn set_of_faces<'a>(name: &'static str, scene: &'a RestingBodyScene, inventory: &'a ComponentInventory) -> Set<'a> {
     let values = inventory.values.iter();
-    let mut faces: Vec<(&str, Face)> = Vec::new();
+    let mut faces: Vec<(&str, FacePosture)> = Vec::new();
     for value in values {
         // Two codes for the same face are one picture.
-        if let Some(face) = expression(inventory, value)
+        if let Some(face) = facial_expression_of_value(inventory, value)
             && faces.iter().all(|(_, known)| *known != face)
         {
             faces.push((&value.id, face));
@@ -134,10 +133,10 @@ fn set_of_faces<'a>(name: &'static str, scene: &'a Scene, inventory: &'a Invento
     let draw = move |at: usize, size, noise: Option<&mut Random>| {
         let mut face = faces[at].1;
         if let Some(random) = noise {
-            let numbers = face.numbers().map(|it| it * (1.0 + 0.1 * random.next()));
-            face = Face::from_numbers(numbers);
+            let numbers = face.face_numbers().map(|it| it * (1.0 + 0.1 * random.next()));
+            face = FacePosture::from_numbers(numbers);
         }
-        scene.face(&face, &feature, size, Theme::Light)
+        scene.draw_expression_picture(&face, &feature, size, PaperTheme::Light)
     };
     Set {
         name,
@@ -147,14 +146,14 @@ fn set_of_faces<'a>(name: &'static str, scene: &'a Scene, inventory: &'a Invento
     }
 }
 
-fn sheet(images: &[Image], size: usize) -> Image {
+fn sheet(images: &[RasterImage], size: usize) -> RasterImage {
     const COLUMNS: usize = 12;
     let step = size + 4;
     let rows = images.len().div_ceil(COLUMNS);
-    let paper = Theme::Light.background();
-    let mut sheet = Image::new(COLUMNS * step, rows * step, paper);
+    let paper = PaperTheme::Light.theme_paper_colour();
+    let mut sheet = RasterImage::new(COLUMNS * step, rows * step, paper);
     for (at, image) in images.iter().enumerate() {
-        sheet.paste(image, [at % COLUMNS * step, at / COLUMNS * step]);
+        sheet.paste_image(image, [at % COLUMNS * step, at / COLUMNS * step]);
     }
     sheet
 }

@@ -4,7 +4,7 @@
 
 use std::error::Error;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, SearchOptions, unheard, unpack_starter};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, SearchOptions, ignore_progress_step, unpack_starter};
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
@@ -12,17 +12,17 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
     // Each change is one operation under a person's name; a listener hears how far it is.
     let path = folder.path().join("starter.chereme");
-    let mut corpus = Corpus::create(&path, "Ada")?;
-    let mut listener = unheard;
-    corpus.import(
+    let mut corpus = Corpus::create_corpus(&path, "Ada")?;
+    let mut listener = ignore_progress_step;
+    corpus.import_paths(
         &files,
         &ImportOptions::default(),
-        &mut Progress::new(&mut listener),
+        &mut ProgressReceiver::new(&mut listener),
     )?;
 
     // A corpus is a file: it is opened again wherever it lies.
-    let mut corpus = Corpus::open(&path, "Ada")?;
-    let answer = corpus.search("right.configuration=U", &SearchOptions::default())?;
+    let mut corpus = Corpus::open_corpus(&path, "Ada")?;
+    let answer = corpus.search_tokens("right.configuration=U", &SearchOptions::default())?;
     println!("{}: {} signs", answer.query, answer.total);
     for hit in &answer.hits {
         let place = hit.recording.as_deref().unwrap_or("the lexicon");

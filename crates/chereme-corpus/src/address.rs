@@ -3,53 +3,53 @@
 use std::fmt;
 use std::str::FromStr;
 
-use chereme_motion::{Instant, Span};
-use chereme_sign::text::{fold, nearest};
-use chereme_sign::{Choice, Remedy};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::text::{fold_text, nearest_candidate};
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 
 use crate::db::notations;
-use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow};
-use crate::error::{Error, Meant, Result};
+use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
+use crate::error::{CorpusError, CorpusResult, MeantName};
 
 /// A row by its number or its name.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Name {
+pub enum RowName {
     /// `recording:3`.
     Number(i64),
     /// `recording:"NGT Thanks"`.
     Text(String),
 }
 
-impl Name {
+impl RowName {
     /// Reads the name of a recording where nothing else can be meant: `recording:3`, `recording:"NGT Thanks"`, or the
     /// bare name.
     ///
     /// # Errors
     /// Fails if the text is empty or names something other than a recording.
-    pub fn of_recording(text: &str) -> Result<Self> {
+    pub fn parse_recording_name(text: &str) -> CorpusResult<Self> {
         match text.parse()? {
-            Address::Recording(name) => Ok(name),
-            Address::Gloss(name) => Ok(Self::Text(name)),
-            other => Err(Error::wrong(format!("{other} is no recording"))
-                .at(text)
-                .advise("write recording:3, or the name of a recording")),
+            CorpusAddress::Recording(name) => Ok(name),
+            CorpusAddress::Gloss(name) => Ok(Self::Text(name)),
+            other => Err(CorpusError::from_wrong_message(format!("{other} is no recording"))
+                .with_error_place(text)
+                .with_advice("write recording:3, or the name of a recording")),
         }
     }
 }
 
 /// The object that a text such as `token:41` names.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Address {
+pub enum CorpusAddress {
     /// `recording:…`.
-    Recording(Name),
+    Recording(RowName),
     /// `token:…`, always a number.
     Token(i64),
     /// `sign:…`, the gloss or the number.
-    Sign(Name),
+    Sign(RowName),
     /// `signer:…`.
-    Signer(Name),
+    Signer(RowName),
     /// `tier:…`, always a number.
     Tier(i64),
     /// `annotation:…`, always a number.
@@ -59,14 +59,18 @@ pub enum Address {
     Gloss(String),
 }
 
-const FORMS: &str = "write token:41, recording:3, recording:\"NGT Thanks\", sign:LIMACE or a gloss";
+const ADDRESS_FORMS: &str = "write token:41, recording:3, recording:\"NGT Thanks\", sign:LIMACE or a gloss";
 
-impl FromStr for Address {
-    type Err = Error;
+impl FromStr for CorpusAddress {
+    type Err = CorpusError;
 
-    fn from_str(text: &str) -> Result<Self> {
+    fn from_str(text: &str) -> CorpusResult<Self> {
         let text = text.trim();
-        let wrong = |message: String| Error::wrong(message).at(text).advise(FORMS);
+        let wrong = |message: String| {
+            CorpusError::from_wrong_message(message)
+                .with_error_place(text)
+                .with_advice(ADDRESS_FORMS)
+        };
         let (kind, rest) = match text.split_once(':') {
             Some((kind, rest)) => (kind.to_lowercase(), rest.trim()),
             None => (String::new(), text),
@@ -78,9 +82,9 @@ impl FromStr for Address {
             } else if bare == rest
                 && let Ok(number) = rest.parse()
             {
-                Ok(Name::Number(number))
+                Ok(RowName::Number(number))
             } else {
-                Ok(Name::Text(bare.to_owned()))
+                Ok(RowName::Text(bare.to_owned()))
             }
         };
         let number = || match rest.parse::<i64>() {
@@ -108,7 +112,7 @@ fn unquoted(text: &str) -> &str {
         .unwrap_or(text)
 }
 
-impl fmt::Display for Address {
+impl fmt::Display for CorpusAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (kind, name) = match self {
             Self::Token(number) => return write!(f, "token:{number}"),
@@ -120,73 +124,70 @@ impl fmt::Display for Address {
             Self::Signer(name) => ("signer", name),
         };
         match name {
-            Name::Number(number) => write!(f, "{kind}:{number}"),
-            Name::Text(text) => write!(f, "{kind}:\"{text}\""),
+            RowName::Number(number) => write!(f, "{kind}:{number}"),
+            RowName::Text(text) => write!(f, "{kind}:\"{text}\""),
         }
     }
 }
 
 /// A stretch of a recording that an address names.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Stretch {
+pub struct RecordingStretch {
     /// The recording.
     pub recording: RecordingRow,
     /// The named part of the recording.
-    pub span: Span,
+    pub span: TimeSpan,
     /// The token, if the address names one.
     pub token: Option<TokenRow>,
 }
 
 /// Returns the token that `address` names: a token, or a sign's citation form.
-pub(crate) fn token(connection: &Connection, address: &Address) -> Result<TokenRow> {
+pub(crate) fn find_addressed_token(connection: &Connection, address: &CorpusAddress) -> CorpusResult<TokenRow> {
     match address {
-        Address::Token(id) => signs::token(connection, *id),
-        Address::Sign(Name::Number(id)) => citation(connection, *id, address),
-        Address::Sign(Name::Text(gloss)) | Address::Gloss(gloss) => {
-            citation(connection, sign(connection, gloss)?, address)
+        CorpusAddress::Token(id) => signs::load_token_row(connection, *id),
+        CorpusAddress::Sign(RowName::Number(id)) => citation(connection, *id, address),
+        CorpusAddress::Sign(RowName::Text(gloss)) | CorpusAddress::Gloss(gloss) => {
+            citation(connection, find_sign_by_gloss(connection, gloss)?, address)
         }
-        other => Err(Error::wrong(format!("{other} is no token"))
-            .at(other.to_string())
-            .advise("write token:41 or a gloss")),
+        other => Err(CorpusError::from_wrong_message(format!("{other} is no token"))
+            .with_error_place(other.to_string())
+            .with_advice("write token:41 or a gloss")),
     }
 }
 
 /// Returns the sign with exactly this gloss, otherwise the only one that differs from it in case and accents alone.
-pub(crate) fn sign(connection: &Connection, gloss: &str) -> Result<i64> {
+pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> CorpusResult<i64> {
     if let Some(id) = signs::find_sign(connection, gloss)? {
         return Ok(id);
     }
-    let glosses = signs::glosses(connection)?;
-    let folded = fold(gloss);
-    let alike: Vec<&String> = glosses
-        .iter()
-        .filter(|known| fold(known) == folded)
-        .collect();
+    let glosses = signs::list_all_glosses(connection)?;
+    let folded = fold_text(gloss);
+    let alike: Vec<&String> = glosses.iter().filter(|known| fold_text(known) == folded).collect();
     match alike.as_slice() {
         [one] => Ok(signs::find_sign(connection, one)?.unwrap_or_default()),
         [] => {
-            let near = nearest(gloss, glosses.iter().map(String::as_str));
-            if let Some(row) = recordings::recording_named(connection, gloss)? {
-                let address = Address::Recording(Name::Text(row.name));
-                return Err(Error::wrong(format!("no sign is called {gloss:?}"))
-                    .at(gloss)
-                    .advise(format!("a recording has this name: write {address}")));
+            let near = nearest_candidate(gloss, glosses.iter().map(String::as_str));
+            if let Some(row) = stored_recordings::recording_named(connection, gloss)? {
+                let address = CorpusAddress::Recording(RowName::Text(row.name));
+                return Err(CorpusError::from_wrong_message(format!("no sign is called {gloss:?}"))
+                    .with_error_place(gloss)
+                    .with_advice(format!("a recording has this name: write {address}")));
             }
-            Err(Error::wrong(format!("no sign is called {gloss:?}"))
-                .at(gloss)
-                .meaning(meant(gloss, near))
-                .advise(Remedy::command(
+            Err(CorpusError::from_wrong_message(format!("no sign is called {gloss:?}"))
+                .with_error_place(gloss)
+                .with_meant_name(meant_name_slip(gloss, near))
+                .with_advice(ErrorRemedy::command_remedy(
                     "`chereme list CORPUS signs` lists the glosses",
                 )))
         }
-        several => Err(ambiguous(
+        several => Err(ambiguous_name_error(
             gloss,
             several.iter().map(|gloss| format!("sign:\"{gloss}\"")),
         )),
     }
 }
 
-fn citation(connection: &Connection, sign: i64, address: &Address) -> Result<TokenRow> {
+fn citation(connection: &Connection, sign: i64, address: &CorpusAddress) -> CorpusResult<TokenRow> {
     let tokens = signs::tokens_of_sign(connection, sign)?;
     let cited: Vec<&TokenRow> = tokens.iter().filter(|token| token.citation).collect();
     let moving: Vec<&TokenRow> = cited
@@ -197,30 +198,32 @@ fn citation(connection: &Connection, sign: i64, address: &Address) -> Result<Tok
     match (moving.as_slice(), cited.as_slice(), tokens.as_slice()) {
         ([one], _, _) | ([], [one], _) => Ok((*one).clone()),
         ([], [], [one]) => Ok(one.clone()),
-        ([], [], []) => Err(Error::wrong(format!("the sign {address} has no token"))
-            .at(address.to_string())
-            .advise("import or make one first")),
-        _ => Err(ambiguous(
+        ([], [], []) => Err(
+            CorpusError::from_wrong_message(format!("the sign {address} has no token"))
+                .with_error_place(address.to_string())
+                .with_advice("import or make one first"),
+        ),
+        _ => Err(ambiguous_name_error(
             &address.to_string(),
-            tokens.iter().map(candidate),
+            tokens.iter().map(describe_token_candidate),
         )),
     }
 }
 
-fn candidate(token: &TokenRow) -> String {
+fn describe_token_candidate(token: &TokenRow) -> String {
     match (&token.recording, token.start_us) {
         (Some(recording), Some(start)) => {
             format!(
                 "token:{} ({recording:?} at {})",
                 token.id,
-                Instant::from_micros(start)
+                RecordingInstant::from_micros(start)
             )
         }
         _ => format!("token:{} (lexicon)", token.id),
     }
 }
 
-fn ambiguous(text: &str, candidates: impl Iterator<Item = String>) -> Error {
+fn ambiguous_name_error(text: &str, candidates: impl Iterator<Item = String>) -> CorpusError {
     let all: Vec<String> = candidates.collect();
     let shown = all.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
     let more = if all.len() > 12 {
@@ -228,103 +231,106 @@ fn ambiguous(text: &str, candidates: impl Iterator<Item = String>) -> Error {
     } else {
         String::new()
     };
-    Error::wrong(format!(
-        "{text:?} can mean {} things: {shown}{more}",
-        all.len()
-    ))
-    .at(text)
-    .advise("write which one")
+    CorpusError::from_wrong_message(format!("{text:?} can mean {} things: {shown}{more}", all.len()))
+        .with_error_place(text)
+        .with_advice("write which one")
 }
 
 /// Returns the slip between a name as written and one near to it.
-fn meant(written: &str, near: Option<&str>) -> Option<Meant> {
-    Some(Meant {
+fn meant_name_slip(written: &str, near: Option<&str>) -> Option<MeantName> {
+    Some(MeantName {
         written: written.to_owned(),
         right: near?.to_owned(),
     })
 }
 
 /// Returns the recording with this name or number.
-pub(crate) fn recording(connection: &Connection, name: &Name) -> Result<RecordingRow> {
+pub(crate) fn find_recording_by_name(connection: &Connection, name: &RowName) -> CorpusResult<RecordingRow> {
     match name {
-        Name::Number(id) => recordings::recording(connection, *id),
-        Name::Text(text) => {
-            if let Some(row) = recordings::recording_named(connection, text)? {
+        RowName::Number(id) => stored_recordings::load_recording_row(connection, *id),
+        RowName::Text(text) => {
+            if let Some(row) = stored_recordings::recording_named(connection, text)? {
                 return Ok(row);
             }
-            let all = recordings::recordings(connection)?;
-            let near = nearest(text, all.iter().map(|row| row.name.as_str()));
-            Err(Error::wrong(format!("no recording is called {text:?}"))
-                .at(text)
-                .meaning(meant(text, near))
-                .advise(Remedy::command(
-                    "`chereme list CORPUS recordings` lists them",
-                )))
+            let all = stored_recordings::load_recording_rows(connection)?;
+            let near = nearest_candidate(text, all.iter().map(|row| row.name.as_str()));
+            Err(
+                CorpusError::from_wrong_message(format!("no recording is called {text:?}"))
+                    .with_error_place(text)
+                    .with_meant_name(meant_name_slip(text, near))
+                    .with_advice(ErrorRemedy::command_remedy(
+                        "`chereme list CORPUS recordings` lists them",
+                    )),
+            )
         }
     }
 }
 
 /// Returns the signer with this name or number.
-pub(crate) fn signer(connection: &Connection, name: &Name) -> Result<SignerRow> {
-    let found = match name {
-        Name::Number(id) => recordings::signer(connection, *id)?,
-        Name::Text(text) => recordings::find_signer(connection, text)?,
+pub(crate) fn find_signer_by_name(connection: &Connection, name: &RowName) -> CorpusResult<SignerRow> {
+    let matching_signer = match name {
+        RowName::Number(id) => stored_recordings::find_signer_row(connection, *id)?,
+        RowName::Text(text) => stored_recordings::find_signer(connection, text)?,
     };
-    found.ok_or_else(|| {
-        let all = recordings::signers(connection).unwrap_or_default();
-        let known: Vec<&str> = all.iter().map(|signer| signer.name.as_str()).collect();
-        let address = Address::Signer(name.clone()).to_string();
-        let remedy = match known.as_slice() {
+    matching_signer.ok_or_else(|| {
+        let all = stored_recordings::load_signer_rows(connection).unwrap_or_default();
+        let known_names: Vec<&str> = all.iter().map(|signer| signer.name.as_str()).collect();
+        let address = CorpusAddress::Signer(name.clone()).to_string();
+        let remedy = match known_names.as_slice() {
             [] => "the corpus knows no signer; a recording's body is recording:NAME".to_owned(),
             known => format!("the signers are: {}", known.join(", ")),
         };
-        Error::wrong(format!("there is no {address}"))
-            .at(address)
-            .advise(remedy)
+        CorpusError::from_wrong_message(format!("there is no {address}"))
+            .with_error_place(address)
+            .with_advice(remedy)
     })
 }
 
 /// Returns the stretch of movement that `address` names; a bare name that belongs to no sign may be a recording's name.
-pub(crate) fn stretch(connection: &Connection, address: &Address) -> Result<Stretch> {
+pub(crate) fn find_addressed_stretch(
+    connection: &Connection,
+    address: &CorpusAddress,
+) -> CorpusResult<RecordingStretch> {
     let named = match address {
-        Address::Recording(name) => Some(recording(connection, name)?),
-        Address::Gloss(name) if sign(connection, name).is_err() => {
-            recordings::recording_named(connection, name)?
+        CorpusAddress::Recording(name) => Some(find_recording_by_name(connection, name)?),
+        CorpusAddress::Gloss(name) if find_sign_by_gloss(connection, name).is_err() => {
+            stored_recordings::recording_named(connection, name)?
         }
         _ => None,
     };
     if let Some(recording) = named {
-        let span = Span::between(Instant::ZERO, Instant::from_micros(recording.duration_us));
-        return Ok(Stretch {
+        let span = TimeSpan::span_between(
+            RecordingInstant::RECORDING_START,
+            RecordingInstant::from_micros(recording.duration_us),
+        );
+        return Ok(RecordingStretch {
             recording,
             span,
             token: None,
         });
     }
-    let token = token(connection, address)?;
-    let (Some(recording), Some(start), Some(end)) =
-        (token.recording_id, token.start_us, token.end_us)
-    else {
-        let (known_by, remedy) = if notations::of_token(connection, token.id)?.is_some() {
-            let remedy = Remedy::choice(
-                Choice::Notation,
+    let token = find_addressed_token(connection, address)?;
+    let (Some(recording), Some(start), Some(end)) = (token.recording_id, token.start_us, token.end_us) else {
+        let (known_by, remedy) = if notations::find_token_notation(connection, token.id)?.is_some() {
+            let remedy = ErrorRemedy::choice_remedy(
+                RemedyChoice::Notation,
                 "make it move first: `chereme animate CORPUS GLOSS --as NAME`",
             );
             ("is notation", remedy)
         } else {
-            let remedy = Remedy::from("name a token that was recorded, such as token:41");
+            let remedy = ErrorRemedy::from("name a token that was recorded, such as token:41");
             ("is a lexicon entry", remedy)
         };
         return Err(
-            Error::wrong(format!("{address} {known_by} without movement"))
-                .at(address.to_string())
-                .advise(remedy)
-                .lacking(),
+            CorpusError::from_wrong_message(format!("{address} {known_by} without movement"))
+                .with_error_place(address.to_string())
+                .with_advice(remedy)
+                .into_lacking_content(),
         );
     };
-    Ok(Stretch {
-        recording: recordings::recording(connection, recording)?,
-        span: Span::between(Instant::from_micros(start), Instant::from_micros(end)),
+    Ok(RecordingStretch {
+        recording: stored_recordings::load_recording_row(connection, recording)?,
+        span: TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end)),
         token: Some(token),
     })
 }
@@ -336,42 +342,39 @@ mod tests {
     #[test]
     fn addresses_read_as_written() {
         for (text, want) in [
-            ("token:41", Address::Token(41)),
-            ("recording:3", Address::Recording(Name::Number(3))),
+            ("token:41", CorpusAddress::Token(41)),
+            ("recording:3", CorpusAddress::Recording(RowName::Number(3))),
             (
                 "recording:\"NGT Thanks\"",
-                Address::Recording(Name::Text("NGT Thanks".into())),
+                CorpusAddress::Recording(RowName::Text("NGT Thanks".into())),
             ),
-            (
-                "recording:\"3\"",
-                Address::Recording(Name::Text("3".into())),
-            ),
+            ("recording:\"3\"", CorpusAddress::Recording(RowName::Text("3".into()))),
             (
                 "recording:NGT Thanks",
-                Address::Recording(Name::Text("NGT Thanks".into())),
+                CorpusAddress::Recording(RowName::Text("NGT Thanks".into())),
             ),
-            ("sign:LIMACE", Address::Sign(Name::Text("LIMACE".into()))),
-            ("INDEX:1", Address::Gloss("INDEX:1".into())),
-            ("\"ÊTRE DÉGOÛTÉ\"", Address::Gloss("ÊTRE DÉGOÛTÉ".into())),
-            ("signer:Anna", Address::Signer(Name::Text("Anna".into()))),
+            ("sign:LIMACE", CorpusAddress::Sign(RowName::Text("LIMACE".into()))),
+            ("INDEX:1", CorpusAddress::Gloss("INDEX:1".into())),
+            ("\"ÊTRE DÉGOÛTÉ\"", CorpusAddress::Gloss("ÊTRE DÉGOÛTÉ".into())),
+            ("signer:Anna", CorpusAddress::Signer(RowName::Text("Anna".into()))),
         ] {
-            assert_eq!(text.parse::<Address>().ok(), Some(want), "{text}");
+            assert_eq!(text.parse::<CorpusAddress>().ok(), Some(want), "{text}");
         }
         for (text, want) in [
-            ("recording:3", Some(Name::Number(3))),
-            ("recording:\"3\"", Some(Name::Text("3".into()))),
-            ("3", Some(Name::Text("3".into()))),
-            (" NGT Thanks ", Some(Name::Text("NGT Thanks".into()))),
-            ("\"two\"", Some(Name::Text("two".into()))),
+            ("recording:3", Some(RowName::Number(3))),
+            ("recording:\"3\"", Some(RowName::Text("3".into()))),
+            ("3", Some(RowName::Text("3".into()))),
+            (" NGT Thanks ", Some(RowName::Text("NGT Thanks".into()))),
+            ("\"two\"", Some(RowName::Text("two".into()))),
             ("token:41", None),
             ("sign:LIMACE", None),
             ("recording:", None),
             (" ", None),
         ] {
-            assert_eq!(Name::of_recording(text).ok(), want, "{text}");
+            assert_eq!(RowName::parse_recording_name(text).ok(), want, "{text}");
         }
         for bad in ["token:x", "recording:", "", "tier:a", "recording:\"\""] {
-            assert!(bad.parse::<Address>().is_err(), "{bad}");
+            assert!(bad.parse::<CorpusAddress>().is_err(), "{bad}");
         }
     }
 }

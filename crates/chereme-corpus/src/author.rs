@@ -1,18 +1,18 @@
 //! The name of the person at work, for the history.
 
 /// Variables of the environment that name the person, the first that counts first.
-const VARIABLES: [&str; 4] = ["CHEREME_AUTHOR", "USER", "USERNAME", "LOGNAME"];
+const AUTHOR_ENVIRONMENT_VARIABLES: [&str; 4] = ["CHEREME_AUTHOR", "USER", "USERNAME", "LOGNAME"];
 
 /// Returns the author for the history: the given name, otherwise that of the environment, which `variable` reads.
 #[must_use]
-pub fn author(given: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> String {
-    let found = || {
-        let mut names = VARIABLES.iter().filter_map(|name| variable(name));
+pub fn determine_author(given: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> String {
+    let environment_name = || {
+        let mut names = AUTHOR_ENVIRONMENT_VARIABLES.iter().filter_map(|name| variable(name));
         names.find(|name| !name.trim().is_empty())
     };
     given
         .map(str::to_owned)
-        .or_else(found)
+        .or_else(environment_name)
         .unwrap_or_else(|| "unknown".to_owned())
 }
 
@@ -27,8 +27,8 @@ mod tests {
             "USER" | "LOGNAME" => Some(name.to_lowercase()),
             _ => None,
         };
-        assert_eq!(author(Some("Camille"), of), "Camille");
-        assert_eq!(author(None, of), "user");
-        assert_eq!(author(None, |_| None), "unknown");
+        assert_eq!(determine_author(Some("Camille"), of), "Camille");
+        assert_eq!(determine_author(None, of), "user");
+        assert_eq!(determine_author(None, |_| None), "unknown");
     }
 }

@@ -2,27 +2,27 @@
 
 use std::collections::BTreeMap;
 
-use chereme_formats::bvh::raw::Hierarchy;
-use chereme_motion::{Column, Instant, Span};
-use chereme_sign::Reading;
-use chereme_sign::tier::{self, AnnotationId, Hands, TierId, TierSet, Violation};
-use chereme_sign::{Choice, Remedy};
+use chereme_formats::bvh::raw::BvhHierarchy;
+use chereme_motion::{FrameNumberColumn, RecordingInstant, TimeSpan};
+use chereme_sign::ComponentReading;
+use chereme_sign::tier::{self, AnnotatedHands, AnnotationId, TierId, TierSet, TierViolation};
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::Store;
-use crate::annotate::messages;
-use crate::db::check as rows;
-use crate::db::motion::hex;
-use crate::db::search::{self as index_rows, State};
-use crate::db::{notations, recordings, seals, studies, tiers, tracks};
-use crate::error::{Cause, Result};
+use crate::IndexedStore;
+use crate::annotate::annotate_messages;
+use crate::db::stored_check as rows;
+use crate::db::stored_motion::to_hex_text;
+use crate::db::stored_search::{self as index_rows, SearchIndexState};
+use crate::db::{notations, seals, stored_recordings, stored_studies, stored_tiers, stored_tracks};
+use crate::error::{CorpusResult, DatabaseFailureCause};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
-use crate::progress::{Progress, Step, Unit};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::search::index::SearchIndex;
 use crate::tokens;
 use crate::track::{self, TrackKind, TrackRow};
@@ -39,23 +39,23 @@ pub struct CheckReport {
     /// Number of checked objects of each kind.
     pub checked: BTreeMap<&'static str, u64>,
     /// The damage: what is not as the program stored it.
-    pub faults: Vec<Fault>,
+    pub faults: Vec<CorpusFault>,
     /// Questions about the data: annotations and tiers that break the rules of ELAN, as they came from a file.
-    pub questions: Vec<Fault>,
+    pub questions: Vec<CorpusFault>,
     /// Descriptions of the repairs.
     pub mended: Vec<String>,
 }
 
 impl CheckReport {
     /// Returns the damage, then the questions.
-    pub fn findings(&self) -> impl Iterator<Item = &Fault> {
+    pub fn all_findings(&self) -> impl Iterator<Item = &CorpusFault> {
         self.faults.iter().chain(&self.questions)
     }
 }
 
 /// A fault in a corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Fault {
+pub struct CorpusFault {
     /// `database`, `reference`, `row`, `file`, `block`, `movement`, `skeleton`, `inventory`, `study`, `notation`,
     /// `tier`, `tokens`, `history` or `index`.
     pub kind: &'static str,
@@ -64,31 +64,31 @@ pub struct Fault {
     /// The fault in words.
     pub message: String,
     /// The remedy.
-    pub remedy: Remedy,
+    pub remedy: ErrorRemedy,
 }
 
-const BACKUP: &str = "take the file from a backup, or import the recording again";
+const RESTORE_BACKUP_ADVICE: &str = "take the file from a backup, or import the recording again";
 /// The number of overlaps on one tier that are listed as separate faults; the rest are counted.
 const SHOWN_OVERLAPS: u64 = 3;
 
 /// Returns the remedy for rows that are not as they were stored.
-fn compare() -> Remedy {
-    Remedy::command(
+fn compare_backup_remedy() -> ErrorRemedy {
+    ErrorRemedy::command_remedy(
         "compare it with a backup; if it is right as it is now, `chereme check CORPUS --accept` keeps it so",
     )
 }
 
 /// Returns the remedy for an index that the next search builds again.
-fn next_search() -> Remedy {
-    Remedy::choice(
-        Choice::Check,
+fn next_search() -> ErrorRemedy {
+    ErrorRemedy::choice_remedy(
+        RemedyChoice::Check,
         "the next search builds it again; so does `chereme check CORPUS --mend`",
     )
 }
 
 /// Returns the remedy for derived data with a fault.
-fn mend() -> Remedy {
-    Remedy::choice(Choice::Check, "`chereme check CORPUS --mend` puts it right")
+fn mend_derived_remedy() -> ErrorRemedy {
+    ErrorRemedy::choice_remedy(RemedyChoice::Check, "`chereme check CORPUS --mend` puts it right")
 }
 
 impl Corpus {
@@ -99,48 +99,48 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database cannot be read at all, or the work is stopped.
-    pub fn check(&mut self, mend: bool, progress: &mut Progress<'_>) -> Result<CheckReport> {
+    pub fn check_corpus(&mut self, mend: bool, progress: &mut ProgressReceiver<'_>) -> CorpusResult<CheckReport> {
         let mut report = CheckReport::default();
-        let mut looking = Looking {
+        let mut looking = CheckRun {
             report: &mut report,
             progress: &mut *progress,
         };
-        let looked = looking.database(self.store.read());
+        let looked = looking.database(self.store.read_connection());
         looking.go_on("database", "the file", looked)?;
         let looked = looking.index_files(&mut self.store);
         looking.go_on("database", "search index", looked)?;
         // One state of all rows; foreign keys cannot be switched within it, and the index not be built.
-        let reading = index_rows::begin_reading(self.store.read())?;
+        let reading = index_rows::begin_reading(self.store.read_connection())?;
         let connection: &Connection = &reading;
         let looked = looking.index(connection, self.store.index());
         looking.go_on("database", "search index", looked)?;
-        let looked = looking.rows(connection);
+        let looked = looking.check_sealed_rows(connection);
         looking.go_on("row", "rows", looked)?;
-        let looked = looking.files(connection);
+        let looked = looking.check_stored_files(connection);
         looking.go_on("file", "files", looked)?;
-        let looked = looking.blocks(connection);
+        let looked = looking.check_block_hashes(connection);
         looking.go_on("block", "blocks", looked)?;
-        let looked = looking.movement(connection);
+        let looked = looking.check_stored_movement(connection);
         looking.go_on("movement", "tracks", looked)?;
-        looking.inventories(connection)?;
-        let looked = looking.notations(connection);
+        looking.check_all_inventories(connection)?;
+        let looked = looking.check_all_notations(connection);
         looking.go_on("notation", "notations", looked)?;
-        let looked = looking.tiers(connection);
+        let looked = looking.check_tier_rules(connection);
         looking.go_on("tier", "recordings", looked)?;
         match self.store.check_history(looking.progress) {
             Ok(faults) => {
                 for fault in faults {
-                    looking.fault("history", "history", fault, BACKUP);
+                    looking.report_check_fault("history", "history", fault, RESTORE_BACKUP_ADVICE);
                 }
             }
             Err(error) => looking.go_on("history", "history", Err(error))?,
         }
         drop(reading);
-        let looked = looking.tokens(self.store.read());
+        let looked = looking.check_derived_tokens(self.store.read_connection());
         looking.go_on("tier", "recordings", looked)?;
         if mend {
-            let mended = self.mend(&mut report, progress);
-            Looking {
+            let mended = self.mend_faults(&mut report, progress);
+            CheckRun {
                 report: &mut report,
                 progress,
             }
@@ -154,57 +154,46 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn accept_rows(&mut self) -> Result<()> {
+    pub fn accept_rows(&mut self) -> CorpusResult<()> {
         self.store.seal_again(seals::sealed_tables())
     }
 
-    fn mend(&mut self, report: &mut CheckReport, progress: &mut Progress<'_>) -> Result<()> {
+    fn mend_faults(&mut self, report: &mut CheckReport, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         if report.faults.iter().any(|fault| fault.kind == "tokens") {
-            self.store
-                .operation_with_progress(progress, |connection, progress| {
-                    let inventories = inventories::load(connection)?;
-                    for recording in recordings::recordings(connection)? {
-                        tokens::derive_with_progress(
-                            connection,
-                            recording.id,
-                            None,
-                            &inventories,
-                            progress,
-                        )?;
-                    }
-                    Ok(((), OperationEffect::Mend {}))
-                })?;
+            self.store.operation_with_progress(progress, |connection, progress| {
+                let inventories = inventories::load_all_inventories(connection)?;
+                for recording in stored_recordings::load_recording_rows(connection)? {
+                    tokens::derive_with_progress(connection, recording.id, None, &inventories, progress)?;
+                }
+                Ok(((), OperationEffect::Mend {}))
+            })?;
             self.store.seal_again(["token", "token_value"])?;
             report
                 .mended
                 .push("the tokens were derived again from the tiers".to_owned());
         }
-        self.store.reindex(progress)?;
-        report
-            .mended
-            .push("the search index was built again".to_owned());
-        report
-            .faults
-            .retain(|fault| !["tokens", "index"].contains(&fault.kind));
+        self.store.rebuild_search_index(progress)?;
+        report.mended.push("the search index was built again".to_owned());
+        report.faults.retain(|fault| !["tokens", "index"].contains(&fault.kind));
         Ok(())
     }
 }
 
-struct Looking<'a, 'p> {
+struct CheckRun<'a, 'p> {
     report: &'a mut CheckReport,
-    progress: &'a mut Progress<'p>,
+    progress: &'a mut ProgressReceiver<'p>,
 }
 
-impl Looking<'_, '_> {
-    fn fault(
+impl CheckRun<'_, '_> {
+    fn report_check_fault(
         &mut self,
         kind: &'static str,
         place: impl Into<String>,
         message: impl Into<String>,
-        remedy: impl Into<Remedy>,
+        remedy: impl Into<ErrorRemedy>,
     ) {
         let (place, message, remedy) = (place.into(), message.into(), remedy.into());
-        self.report.faults.push(Fault {
+        self.report.faults.push(CorpusFault {
             kind,
             place,
             message,
@@ -216,66 +205,68 @@ impl Looking<'_, '_> {
     ///
     /// # Errors
     /// Fails if the work was stopped, or the file cannot be read or written at all.
-    fn go_on(&mut self, kind: &'static str, place: &str, looked: Result<()>) -> Result<()> {
+    fn go_on(&mut self, kind: &'static str, place: &str, looked: CorpusResult<()>) -> CorpusResult<()> {
         let Err(error) = looked else { return Ok(()) };
-        let is_of_file = error.cause().is_some_and(|cause| cause != Cause::Damaged);
-        if is_of_file || matches!(error, crate::Error::Stopped) {
+        let is_of_file = error
+            .database_failure_cause()
+            .is_some_and(|cause| cause != DatabaseFailureCause::Damaged);
+        if is_of_file || matches!(error, crate::CorpusError::Stopped) {
             return Err(error);
         }
         let message = format!("this part cannot be read: {error}");
         // Tiers that cannot be read have no tokens to be compared either.
-        let is_known = |fault: &Fault| fault.place == place && fault.message == message;
+        let is_known = |fault: &CorpusFault| fault.place == place && fault.message == message;
         if !self.report.faults.iter().any(is_known) {
-            self.fault(kind, place, message, BACKUP);
+            self.report_check_fault(kind, place, message, RESTORE_BACKUP_ADVICE);
         }
         Ok(())
     }
 
-    fn count(&mut self, what: &'static str) -> Result<()> {
+    fn count_checked_object(&mut self, what: &'static str) -> CorpusResult<()> {
         let count = self.report.checked.entry(what).or_default();
         *count += 1;
         let quick = matches!(what, "blocks" | "notations" | "skeletons");
         if !quick || count.is_multiple_of(64) {
             let (task, done) = (what, *count);
-            self.progress.report(Step {
+            self.progress.report_step(ProgressStep {
                 task,
                 done,
                 total: None,
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
         }
         Ok(())
     }
 
-    fn database(&mut self, connection: &Connection) -> Result<()> {
-        let lines = rows::integrity(connection)?;
+    fn database(&mut self, connection: &Connection) -> CorpusResult<()> {
+        let lines = rows::check_sqlite_integrity(connection)?;
         let broken = rows::broken_rows(connection, &lines)?;
         for line in lines {
             let table = rows::table_of(&line);
-            if !broken.iter().any(|it| Some(it.table.as_str()) == table) {
-                self.fault("database", "the file", line, BACKUP);
+            if !broken.iter().any(|row| Some(row.table.as_str()) == table) {
+                self.report_check_fault("database", "the file", line, RESTORE_BACKUP_ADVICE);
             }
         }
         for it in broken {
             let place = format!("row {} of {}", it.row, it.table);
             let message = format!("it breaks a rule of its table: {}", it.rule);
-            self.fault("database", place, message, BACKUP);
+            self.report_check_fault("database", place, message, RESTORE_BACKUP_ADVICE);
         }
         for (table, row, other) in rows::broken_references(connection)? {
             let place = format!("row {row} of {table}");
             let message = format!("it refers to a row of {other} that is not there");
-            self.fault("reference", place, message, BACKUP);
+            self.report_check_fault("reference", place, message, RESTORE_BACKUP_ADVICE);
         }
         Ok(())
     }
 
     /// Looks at the files of the search index, and loads it unless they are wrong.
-    fn index_files(&mut self, store: &mut Store) -> Result<()> {
-        let connection = store.read();
-        let state = State::read(connection)?;
+    fn index_files(&mut self, store: &mut IndexedStore) -> CorpusResult<()> {
+        let connection = store.read_connection();
+        let state = SearchIndexState::read_index_state(connection)?;
         let damaged = index_rows::damaged_files(connection)?;
         if state.content != state.indexed && state.format != 0 {
-            self.fault(
+            self.report_check_fault(
                 "index",
                 "search index",
                 "the rows were changed without it",
@@ -283,177 +274,176 @@ impl Looking<'_, '_> {
             );
         } else if let Some(first) = damaged.first() {
             let message = format!("its file {first:?} is not as it was stored");
-            self.fault("index", "search index", message, next_search());
+            self.report_check_fault("index", "search index", message, next_search());
         } else if !index_rows::has_stored_files(connection)? {
             let message = "its files are not those that were stored";
-            self.fault("index", "search index", message, next_search());
+            self.report_check_fault("index", "search index", message, next_search());
         } else {
-            store.searchable()?;
+            store.searchable_connection()?;
         }
         Ok(())
     }
 
-    fn index(&mut self, connection: &Connection, index: &SearchIndex) -> Result<()> {
+    fn index(&mut self, connection: &Connection, index: &SearchIndex) -> CorpusResult<()> {
         if !index.is_current(connection)? {
             return Ok(());
         }
-        let (tokens, documents) = (rows::tokens(connection)?, index.documents());
+        let (tokens, documents) = (rows::count_all_tokens(connection)?, index.indexed_document_count());
         self.report.checked.insert("index documents", documents);
         if i64::try_from(documents).ok() != Some(tokens) {
             let message = format!("it holds {documents} documents for {tokens} tokens");
-            self.fault("index", "search index", message, mend());
+            self.report_check_fault("index", "search index", message, mend_derived_remedy());
         }
         Ok(())
     }
 
     /// Compares all rows with their seals.
-    fn rows(&mut self, connection: &Connection) -> Result<()> {
+    fn check_sealed_rows(&mut self, connection: &Connection) -> CorpusResult<()> {
         for table in seals::sealed_tables() {
             for broken in seals::broken_seals(connection, table)? {
-                self.fault("row", broken.to_string(), seals::NOT_AS_STORED, compare());
+                self.report_check_fault("row", broken.to_string(), seals::NOT_AS_STORED, compare_backup_remedy());
             }
-            self.count("tables")?;
+            self.count_checked_object("tables")?;
         }
         Ok(())
     }
 
     /// Compares stored files and plans of studies with their hashes.
-    fn files(&mut self, connection: &Connection) -> Result<()> {
-        for file in recordings::all_source_files(connection)? {
-            if let Err(error) = recordings::source_bytes(connection, file.id) {
-                self.fault(
+    fn check_stored_files(&mut self, connection: &Connection) -> CorpusResult<()> {
+        for file in stored_recordings::all_source_files(connection)? {
+            if let Err(error) = stored_recordings::source_bytes(connection, file.id) {
+                self.report_check_fault(
                     "file",
                     format!("file {:?}", file.name),
                     error.to_string(),
-                    BACKUP,
+                    RESTORE_BACKUP_ADVICE,
                 );
             }
-            self.count("files")?;
+            self.count_checked_object("files")?;
         }
-        for name in studies::names(connection)? {
-            if let Err(error) = studies::study(connection, &name) {
-                self.fault(
+        for name in stored_studies::list_study_names(connection)? {
+            if let Err(error) = stored_studies::find_study_row(connection, &name) {
+                self.report_check_fault(
                     "study",
                     format!("study {name:?}"),
                     error.to_string(),
-                    BACKUP,
+                    RESTORE_BACKUP_ADVICE,
                 );
             }
         }
         Ok(())
     }
 
-    fn blocks(&mut self, connection: &Connection) -> Result<()> {
-        rows::blocks(connection, |name, whole| {
+    fn check_block_hashes(&mut self, connection: &Connection) -> CorpusResult<()> {
+        rows::check_each_block(connection, |name, whole| {
             if !whole {
-                self.fault(
+                self.report_check_fault(
                     "block",
                     format!("block {name}"),
                     "its bytes do not match the hash that names it",
-                    BACKUP,
+                    RESTORE_BACKUP_ADVICE,
                 );
             }
-            self.count("blocks")
+            self.count_checked_object("blocks")
         })
     }
 
-    fn notations(&mut self, connection: &Connection) -> Result<()> {
-        notations::each(connection, |row| {
+    fn check_all_notations(&mut self, connection: &Connection) -> CorpusResult<()> {
+        notations::visit_each_notation(connection, |row| {
             let place = format!("notation {}", row.id);
-            if let Err(error) = notation::read(row) {
-                self.fault("notation", place, error.to_string(), BACKUP);
+            if let Err(error) = notation::read_notation_row(row) {
+                self.report_check_fault("notation", place, error.to_string(), RESTORE_BACKUP_ADVICE);
             }
-            self.count("notations")
+            self.count_checked_object("notations")
         })
     }
 
-    fn movement(&mut self, connection: &Connection) -> Result<()> {
-        for (id, document, hash) in rows::skeletons(connection)? {
+    fn check_stored_movement(&mut self, connection: &Connection) -> CorpusResult<()> {
+        for (id, document, hash) in rows::list_skeleton_documents(connection)? {
             let place = format!("skeleton {id}");
-            if serde_json::from_str::<Hierarchy>(&document).is_err() {
-                self.fault("skeleton", place, "its document cannot be read", BACKUP);
-            } else if hex(&Sha256::digest(document.as_bytes())) != hash {
-                self.fault(
+            if serde_json::from_str::<BvhHierarchy>(&document).is_err() {
+                self.report_check_fault("skeleton", place, "its document cannot be read", RESTORE_BACKUP_ADVICE);
+            } else if to_hex_text(&Sha256::digest(document.as_bytes())) != hash {
+                self.report_check_fault(
                     "skeleton",
                     place,
                     "its document does not match the hash that names it",
-                    BACKUP,
+                    RESTORE_BACKUP_ADVICE,
                 );
             }
-            self.count("skeletons")?;
+            self.count_checked_object("skeletons")?;
         }
-        for row in tracks::all_moving(connection)? {
-            if let Err(error) = self.track(connection, &row) {
-                if matches!(error, crate::Error::Stopped) {
+        for row in stored_tracks::all_moving(connection)? {
+            if let Err(error) = self.check_track_blocks(connection, &row) {
+                if matches!(error, crate::CorpusError::Stopped) {
                     return Err(error);
                 }
-                self.fault(
+                self.report_check_fault(
                     "movement",
                     format!("track {} of recording:{}", row.id, row.recording_id),
                     error.to_string(),
-                    BACKUP,
+                    RESTORE_BACKUP_ADVICE,
                 );
             }
-            self.count("tracks")?;
+            self.count_checked_object("tracks")?;
         }
         Ok(())
     }
 
     /// Decodes every block of a track and looks for missing frames.
-    fn track(&mut self, connection: &Connection, row: &TrackRow) -> Result<()> {
+    fn check_track_blocks(&mut self, connection: &Connection, row: &TrackRow) -> CorpusResult<()> {
         if row.kind != TrackKind::Skeleton {
-            return track::read::track(connection, row, None).map(|_| ());
+            return track::track_read::read_stored_track(connection, row, None).map(|_| ());
         }
         let track = MotionTrack::of_row(connection, row.id)?;
         track.frame_time()?;
-        for group in ChannelGroup::ALL {
+        for group in ChannelGroup::ALL_CHANNEL_GROUPS {
             if track.columns_of(group).is_empty() {
                 continue;
             }
             let mut next = 0;
-            track.blocks(
+            track.take_frame_blocks(
                 connection,
                 &[group],
-                &(0..track.frames()),
+                &(0..track.motion_frame_count()),
                 |_, first, columns| {
-                    self.progress.report(Step {
+                    self.progress.report_step(ProgressStep {
                         task: "movement",
                         done: first as u64,
-                        total: Some(track.frames() as u64),
-                        unit: Unit::Frames,
+                        total: Some(track.motion_frame_count() as u64),
+                        unit: ProgressUnit::Frames,
                     })?;
-                    let frames = columns.first().map_or(0, Column::len);
+                    let frames = columns.first().map_or(0, FrameNumberColumn::len);
                     if first != next {
-                        let what =
-                            format!("frames {next} to {first} of {} are missing", group.name());
-                        return Err(crate::Error::wrong(what));
+                        let what = format!("frames {next} to {first} of {} are missing", group.channel_group_name());
+                        return Err(crate::CorpusError::from_wrong_message(what));
                     }
                     next = first + frames;
                     Ok(())
                 },
             )?;
-            if next != track.frames() {
-                let frames = track.frames();
-                let what = format!("{} has {next} frames of {frames}", group.name());
-                return Err(crate::Error::wrong(what));
+            if next != track.motion_frame_count() {
+                let frames = track.motion_frame_count();
+                let what = format!("{} has {next} frames of {frames}", group.channel_group_name());
+                return Err(crate::CorpusError::from_wrong_message(what));
             }
         }
         Ok(())
     }
 
-    fn inventories(&mut self, connection: &Connection) -> Result<()> {
-        match inventories::load(connection) {
+    fn check_all_inventories(&mut self, connection: &Connection) -> CorpusResult<()> {
+        match inventories::load_all_inventories(connection) {
             Ok(all) => {
                 self.report.checked.insert("inventories", all.len() as u64);
             }
-            Err(error) => self.fault("inventory", "inventories", error.to_string(), BACKUP),
+            Err(error) => self.report_check_fault("inventory", "inventories", error.to_string(), RESTORE_BACKUP_ADVICE),
         }
         Ok(())
     }
 
     /// Reports what breaks the rules of tiers as questions: it came so from a file.
-    fn tiers(&mut self, connection: &Connection) -> Result<()> {
-        for recording in recordings::recordings(connection)? {
+    fn check_tier_rules(&mut self, connection: &Connection) -> CorpusResult<()> {
+        for recording in stored_recordings::load_recording_rows(connection)? {
             let place = format!("recording {:?}", recording.name);
             let set = match tier_set(connection, recording.id) {
                 Ok(set) => set,
@@ -462,31 +452,30 @@ impl Looking<'_, '_> {
                     continue;
                 }
             };
-            let mut ask = |message: &str, remedy: Remedy| {
-                self.report.questions.push(Fault {
+            let mut ask = |message: &str, remedy: ErrorRemedy| {
+                self.report.questions.push(CorpusFault {
                     kind: "tier",
                     place: place.clone(),
-                    message: messages::named(connection, message),
+                    message: annotate_messages::name_message_ids(connection, message),
                     remedy,
                 });
             };
             let mut overlaps: BTreeMap<TierId, u64> = BTreeMap::new();
-            for violation in tier::check(&set) {
-                if let Violation::Overlap { tier, .. } = violation {
+            for violation in tier::check_tier_set(&set) {
+                if let TierViolation::Overlap { tier, .. } = violation {
                     let count = overlaps.entry(tier).or_default();
                     *count += 1;
                     if *count > SHOWN_OVERLAPS {
                         continue;
                     }
                 }
-                ask(&violation.to_string(), correction(&violation));
+                ask(&violation.to_string(), violation_remedy(&violation));
             }
             for (tier, count) in overlaps {
                 if let Some(more) = count.checked_sub(SHOWN_OVERLAPS).filter(|&more| more > 0) {
                     ask(
                         &format!("further overlapping annotations on {tier}: {more}"),
-                        "ELAN allows no overlap within a tier; put one of each two on another tier"
-                            .into(),
+                        "ELAN allows no overlap within a tier; put one of each two on another tier".into(),
                     );
                 }
             }
@@ -495,99 +484,90 @@ impl Looking<'_, '_> {
     }
 
     /// Derives the tokens of each recording on trial; each recording is read in one state.
-    fn tokens(&mut self, connection: &Connection) -> Result<()> {
-        let inventories = inventories::load(connection).unwrap_or_default();
-        for recording in recordings::recordings(connection)? {
+    fn check_derived_tokens(&mut self, connection: &Connection) -> CorpusResult<()> {
+        let inventories = inventories::load_all_inventories(connection).unwrap_or_default();
+        for recording in stored_recordings::load_recording_rows(connection)? {
             let place = format!("recording {:?}", recording.name);
-            let derived = rows::tried(connection, || {
-                let before = rows::changes(connection)?;
-                tokens::derive_with_progress(
-                    connection,
-                    recording.id,
-                    None,
-                    &inventories,
-                    self.progress,
-                )?;
-                Ok(rows::changes(connection)? - before)
+            let derived = rows::run_and_roll_back(connection, || {
+                let before = rows::count_recorded_changes(connection)?;
+                tokens::derive_with_progress(connection, recording.id, None, &inventories, self.progress)?;
+                Ok(rows::count_recorded_changes(connection)? - before)
             });
             match derived {
                 Ok(0) => {}
-                Ok(_) => self.fault(
+                Ok(_) => self.report_check_fault(
                     "tokens",
                     place,
                     "its tokens do not agree with its tiers",
-                    mend(),
+                    mend_derived_remedy(),
                 ),
                 Err(error) => {
                     self.go_on("tier", &place, Err(error))?;
                     continue;
                 }
             }
-            self.count("recordings")?;
+            self.count_checked_object("recordings")?;
         }
         Ok(())
     }
 }
 
 /// Returns what corrects a broken rule of tiers.
-fn correction(violation: &Violation) -> Remedy {
-    Remedy::command(match violation {
-        Violation::DuplicateName { .. } => {
+fn violation_remedy(violation: &TierViolation) -> ErrorRemedy {
+    ErrorRemedy::command_remedy(match violation {
+        TierViolation::DuplicateName { .. } => {
             "give it another name: `chereme annotate CORPUS tier TIER --name NAME --in RECORDING`"
         }
-        Violation::MissingParentTier { .. }
-        | Violation::ParentCycle { .. }
-        | Violation::TooDeep { .. }
-        | Violation::AlignableBelowSymbolic { .. } => {
+        TierViolation::MissingParentTier { .. }
+        | TierViolation::ParentCycle { .. }
+        | TierViolation::TooDeep { .. }
+        | TierViolation::AlignableBelowSymbolic { .. } => {
             "correct the tiers in the file that they come from, and import it again"
         }
-        Violation::NotInVocabulary { .. } => {
+        TierViolation::NotInVocabulary { .. } => {
             "correct the value: `chereme annotate CORPUS set ANNOTATION --value TEXT`"
         }
-        Violation::ZeroLength { .. }
-        | Violation::Overlap { .. }
-        | Violation::OutsideParent { .. }
-        | Violation::Gap { .. }
-        | Violation::DerivedSpan { .. } => {
+        TierViolation::ZeroLength { .. }
+        | TierViolation::Overlap { .. }
+        | TierViolation::OutsideParent { .. }
+        | TierViolation::Gap { .. }
+        | TierViolation::DerivedSpan { .. } => {
             "correct the times: `chereme annotate CORPUS set ANNOTATION --start TIME --end TIME`"
         }
-        Violation::MissingTier { .. }
-        | Violation::MissingParent { .. }
-        | Violation::ParentOfRoot { .. }
-        | Violation::SecondAssociation { .. }
-        | Violation::Order { .. } => {
+        TierViolation::MissingTier { .. }
+        | TierViolation::MissingParent { .. }
+        | TierViolation::ParentOfRoot { .. }
+        | TierViolation::SecondAssociation { .. }
+        | TierViolation::Order { .. } => {
             "correct it in the file that it comes from and import that again, or remove it: `chereme annotate CORPUS remove ANNOTATION`"
         }
     })
 }
 
 /// Returns the tiers of a recording with all their annotations, for a check of the tier rules.
-pub(crate) fn tier_set(connection: &Connection, recording: i64) -> Result<TierSet> {
+pub(crate) fn tier_set(connection: &Connection, recording: i64) -> CorpusResult<TierSet> {
     let mut annotations = Vec::new();
     let mut all = Vec::new();
-    for row in tiers::tiers(connection, recording)? {
-        for annotation in tiers::annotations(connection, row.id)? {
-            annotations.push(tier::Annotation {
+    for row in stored_tiers::load_tier_rows(connection, recording)? {
+        for annotation in stored_tiers::load_tier_annotation_rows(connection, row.id)? {
+            annotations.push(tier::TierAnnotation {
                 id: AnnotationId(annotation.id as u64),
                 tier: TierId(row.id as u64),
                 parent: annotation.parent_id.map(|id| AnnotationId(id as u64)),
                 order: u32::try_from(annotation.position).unwrap_or(u32::MAX),
-                span: Span::between(
-                    Instant::from_micros(annotation.start_us),
-                    Instant::from_micros(annotation.end_us),
+                span: TimeSpan::span_between(
+                    RecordingInstant::from_micros(annotation.start_us),
+                    RecordingInstant::from_micros(annotation.end_us),
                 ),
-                value: Reading::from(annotation.value.as_str()),
+                value: ComponentReading::from(annotation.value.as_str()),
             });
         }
         all.push(tier::Tier {
             id: TierId(row.id as u64),
             name: row.name,
             role: row.role,
-            hand: row.hand.and_then(Hands::one),
-            parent: row
-                .parent_id
-                .map(|id| TierId(id as u64))
-                .zip(row.stereotype),
+            hand: row.hand.and_then(AnnotatedHands::single_hand),
+            parent: row.parent_id.map(|id| TierId(id as u64)).zip(row.stereotype),
             vocabulary: None,
         });
     }

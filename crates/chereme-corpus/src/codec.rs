@@ -12,8 +12,8 @@
 
 use std::ops::Range;
 
-use chereme_motion::Column;
-use chereme_motion::column::{Decimals, Gaps, Integers, Number, Numbers};
+use chereme_motion::FrameNumberColumn;
+use chereme_motion::column::{ColumnGaps, ColumnNumbers, DecimalColumn, FileNumber, ScaledIntegers};
 use pco::ChunkConfig;
 use pco::data_types::Number as Coded;
 use pco::standalone::{simple_compress, simple_decompress_into};
@@ -21,15 +21,15 @@ use pco::standalone::{simple_compress, simple_decompress_into};
 const DECIMALS_ONLY: u8 = 1;
 const ANY_FORM: u8 = 2;
 
-const CONSTANT: u8 = 0;
-const PCO: u8 = 1;
+const CONSTANT_COLUMN_CODE: u8 = 0;
+const PCO_COLUMN_CODE: u8 = 1;
 
 /// The forms of columns in version 2.
 mod form {
-    pub(super) const DECIMALS: u8 = 0;
-    pub(super) const SINGLES: u8 = 1;
-    pub(super) const DOUBLES: u8 = 2;
-    pub(super) const INTEGERS: u8 = 3;
+    pub(super) const DECIMAL_COLUMN_KIND: u8 = 0;
+    pub(super) const SINGLE_COLUMN_KIND: u8 = 1;
+    pub(super) const DOUBLE_COLUMN_KIND: u8 = 2;
+    pub(super) const INTEGER_COLUMN_KIND: u8 = 3;
     pub(super) const SHORT_DOUBLES: u8 = 4;
 }
 
@@ -37,8 +37,8 @@ mod form {
 ///
 /// # Panics
 /// Panics if a column is longer or shorter.
-pub(crate) fn encode(frames: usize, columns: &[&Decimals]) -> Vec<u8> {
-    let mut bytes = begin(DECIMALS_ONLY, frames, columns.len());
+pub(crate) fn encode_decimal_columns(frames: usize, columns: &[&DecimalColumn]) -> Vec<u8> {
+    let mut bytes = begin_block_bytes(DECIMALS_ONLY, frames, columns.len());
     for column in columns {
         check_length(column.mantissas.len(), frames);
         put_decimals(&mut bytes, column);
@@ -47,40 +47,40 @@ pub(crate) fn encode(frames: usize, columns: &[&Decimals]) -> Vec<u8> {
 }
 
 /// Returns the bytes of columns of any form, of `frames` numbers each; decimals without gaps get the bytes that
-/// [`encode`] gives them.
+/// [`encode_decimal_columns`] gives them.
 ///
 /// # Panics
 /// Panics if a column is longer or shorter.
-pub(crate) fn encode_any(frames: usize, columns: &[Column]) -> Vec<u8> {
-    let plain = columns.iter().map(|column| match column.numbers() {
-        Numbers::Decimals(decimals) if column.gaps().is_empty() => Some(decimals),
+pub(crate) fn encode_any(frames: usize, columns: &[FrameNumberColumn]) -> Vec<u8> {
+    let plain = columns.iter().map(|column| match column.column_numbers() {
+        ColumnNumbers::Decimals(decimals) if column.column_gaps().is_empty() => Some(decimals),
         _ => None,
     });
-    if let Some(decimals) = plain.collect::<Option<Vec<&Decimals>>>() {
-        return encode(frames, &decimals);
+    if let Some(decimals) = plain.collect::<Option<Vec<&DecimalColumn>>>() {
+        return encode_decimal_columns(frames, &decimals);
     }
-    let mut bytes = begin(ANY_FORM, frames, columns.len());
+    let mut bytes = begin_block_bytes(ANY_FORM, frames, columns.len());
     for column in columns {
         check_length(column.len(), frames);
-        match column.numbers() {
-            Numbers::Decimals(decimals) => {
-                bytes.push(form::DECIMALS);
+        match column.column_numbers() {
+            ColumnNumbers::Decimals(decimals) => {
+                bytes.push(form::DECIMAL_COLUMN_KIND);
                 put_decimals(&mut bytes, decimals);
             }
-            Numbers::Singles(values) => {
-                bytes.push(form::SINGLES);
+            ColumnNumbers::Singles(values) => {
+                bytes.push(form::SINGLE_COLUMN_KIND);
                 put_code(&mut bytes, values);
             }
-            Numbers::Doubles(values) => put_doubles(&mut bytes, values),
-            Numbers::Integers(Integers { values, zero, unit }) => {
-                bytes.push(form::INTEGERS);
+            ColumnNumbers::Doubles(values) => put_doubles(&mut bytes, values),
+            ColumnNumbers::Integers(ScaledIntegers { values, zero, unit }) => {
+                bytes.push(form::INTEGER_COLUMN_KIND);
                 bytes.extend_from_slice(&zero.to_le_bytes());
                 bytes.extend_from_slice(&unit.to_le_bytes());
                 put_code(&mut bytes, values);
             }
         }
-        put(&mut bytes, column.gaps().runs().len());
-        for run in column.gaps().runs() {
+        put_block_count(&mut bytes, column.column_gaps().gap_runs().len());
+        for run in column.column_gaps().gap_runs() {
             bytes.extend_from_slice(&run.start.to_le_bytes());
             bytes.extend_from_slice(&run.end.to_le_bytes());
         }
@@ -88,10 +88,10 @@ pub(crate) fn encode_any(frames: usize, columns: &[Column]) -> Vec<u8> {
     bytes
 }
 
-fn begin(version: u8, frames: usize, columns: usize) -> Vec<u8> {
+fn begin_block_bytes(version: u8, frames: usize, columns: usize) -> Vec<u8> {
     let mut bytes = vec![version];
-    put(&mut bytes, frames);
-    put(&mut bytes, columns);
+    put_block_count(&mut bytes, frames);
+    put_block_count(&mut bytes, columns);
     bytes
 }
 
@@ -99,19 +99,19 @@ fn check_length(length: usize, frames: usize) {
     assert_eq!(length, frames, "a block's columns are equally long");
 }
 
-fn put(bytes: &mut Vec<u8>, number: usize) {
+fn put_block_count(bytes: &mut Vec<u8>, number: usize) {
     let number = u32::try_from(number).expect("a block is far smaller than 4 GiB");
     bytes.extend_from_slice(&number.to_le_bytes());
 }
 
-fn put_decimals(bytes: &mut Vec<u8>, column: &Decimals) {
+fn put_decimals(bytes: &mut Vec<u8>, column: &DecimalColumn) {
     bytes.push(column.scale);
     put_code(bytes, &column.mantissas);
-    put(bytes, column.exceptions.len());
+    put_block_count(bytes, column.exceptions.len());
     for (frame, number) in &column.exceptions {
         let text = number.to_string();
         bytes.extend_from_slice(&frame.to_le_bytes());
-        put(bytes, text.len());
+        put_block_count(bytes, text.len());
         bytes.extend_from_slice(text.as_bytes());
     }
 }
@@ -123,24 +123,24 @@ fn put_doubles(bytes: &mut Vec<u8>, values: &[f64]) {
         bytes.push(form::SHORT_DOUBLES);
         put_code(bytes, &short);
     } else {
-        bytes.push(form::DOUBLES);
+        bytes.push(form::DOUBLE_COLUMN_KIND);
         put_code(bytes, values);
     }
 }
 
 /// A number that can be coded: its bytes distinguish it from every other, so that a zero keeps its sign.
-trait Plain: Coded + Default {
-    fn bytes(self) -> Vec<u8>;
-    fn of(bytes: &[u8]) -> Option<Self>;
+trait PlainNumber: Coded + Default {
+    fn to_plain_bytes(self) -> Vec<u8>;
+    fn from_plain_bytes(bytes: &[u8]) -> Option<Self>;
 }
 
 macro_rules! plain {
     ($($kind:ty),*) => {$(
-        impl Plain for $kind {
-            fn bytes(self) -> Vec<u8> {
+        impl PlainNumber for $kind {
+            fn to_plain_bytes(self) -> Vec<u8> {
                 self.to_le_bytes().to_vec()
             }
-            fn of(bytes: &[u8]) -> Option<Self> {
+            fn from_plain_bytes(bytes: &[u8]) -> Option<Self> {
                 Some(Self::from_le_bytes(bytes.try_into().ok()?))
             }
         }
@@ -149,36 +149,40 @@ macro_rules! plain {
 
 plain!(i64, i32, f32, f64);
 
-fn put_code<T: Plain>(bytes: &mut Vec<u8>, values: &[T]) {
-    let first = values.first().copied().unwrap_or_default().bytes();
-    let (coding, code) = if values.iter().all(|value| value.bytes() == first) {
-        (CONSTANT, first)
+fn put_code<T: PlainNumber>(bytes: &mut Vec<u8>, values: &[T]) {
+    let first = values.first().copied().unwrap_or_default().to_plain_bytes();
+    let (coding, code) = if values.iter().all(|value| value.to_plain_bytes() == first) {
+        (CONSTANT_COLUMN_CODE, first)
     } else {
         let code = simple_compress(values, &ChunkConfig::default());
         (
-            PCO,
+            PCO_COLUMN_CODE,
             code.expect("the default configuration codes any numbers"),
         )
     };
     bytes.push(coding);
-    put(bytes, code.len());
+    put_block_count(bytes, code.len());
     bytes.extend_from_slice(&code);
 }
 
 /// Decodes `bytes` as `count` columns of `frames` numbers.
-pub(crate) fn decode(bytes: &[u8], frames: usize, count: usize) -> Result<Vec<Column>, String> {
+pub(crate) fn decode_block_columns(
+    bytes: &[u8],
+    frames: usize,
+    count: usize,
+) -> Result<Vec<FrameNumberColumn>, String> {
     let mut rest = bytes;
-    match start(&mut rest, frames, count)? {
-        DECIMALS_ONLY => all(rest, count, |rest| {
-            take_decimals(rest, frames).map(Column::from)
+    match read_block_start(&mut rest, frames, count)? {
+        DECIMALS_ONLY => read_all_columns(rest, count, |rest| {
+            take_decimals(rest, frames).map(FrameNumberColumn::from)
         }),
-        _ => all(rest, count, |rest| take_column(rest, frames)),
+        _ => read_all_columns(rest, count, |rest| take_column(rest, frames)),
     }
 }
 
 /// Reads the beginning of a block, and returns its version.
-fn start(rest: &mut &[u8], frames: usize, count: usize) -> Result<u8, String> {
-    let [version] = take::<1>(rest)?;
+fn read_block_start(rest: &mut &[u8], frames: usize, count: usize) -> Result<u8, String> {
+    let [version] = take_byte_array::<1>(rest)?;
     if ![DECIMALS_ONLY, ANY_FORM].contains(&version) {
         return Err(format!(
             "its version is {version}, and this program reads {DECIMALS_ONLY} and {ANY_FORM}"
@@ -193,7 +197,7 @@ fn start(rest: &mut &[u8], frames: usize, count: usize) -> Result<u8, String> {
     Ok(version)
 }
 
-fn all<T>(
+fn read_all_columns<T>(
     mut rest: &[u8],
     count: usize,
     column: impl Fn(&mut &[u8]) -> Result<T, String>,
@@ -209,19 +213,19 @@ fn all<T>(
     }
 }
 
-fn take_column(rest: &mut &[u8], frames: usize) -> Result<Column, String> {
-    let [form] = take::<1>(rest)?;
+fn take_column(rest: &mut &[u8], frames: usize) -> Result<FrameNumberColumn, String> {
+    let [form] = take_byte_array::<1>(rest)?;
     let numbers = match form {
-        form::DECIMALS => Numbers::Decimals(take_decimals(rest, frames)?),
-        form::SINGLES => Numbers::Singles(take_code(rest, frames)?),
-        form::DOUBLES => Numbers::Doubles(take_code(rest, frames)?),
+        form::DECIMAL_COLUMN_KIND => ColumnNumbers::Decimals(take_decimals(rest, frames)?),
+        form::SINGLE_COLUMN_KIND => ColumnNumbers::Singles(take_code(rest, frames)?),
+        form::DOUBLE_COLUMN_KIND => ColumnNumbers::Doubles(take_code(rest, frames)?),
         form::SHORT_DOUBLES => {
             let short: Vec<f32> = take_code(rest, frames)?;
-            Numbers::Doubles(short.into_iter().map(f64::from).collect())
+            ColumnNumbers::Doubles(short.into_iter().map(f64::from).collect())
         }
-        form::INTEGERS => {
-            let (zero, unit) = (take::<8>(rest)?, take::<8>(rest)?);
-            Numbers::Integers(Integers {
+        form::INTEGER_COLUMN_KIND => {
+            let (zero, unit) = (take_byte_array::<8>(rest)?, take_byte_array::<8>(rest)?);
+            ColumnNumbers::Integers(ScaledIntegers {
                 zero: f64::from_le_bytes(zero),
                 unit: f64::from_le_bytes(unit),
                 values: take_code(rest, frames)?,
@@ -231,26 +235,26 @@ fn take_column(rest: &mut &[u8], frames: usize) -> Result<Column, String> {
     };
     let mut runs: Vec<Range<u32>> = Vec::new();
     for _ in 0..take_u32(rest)? {
-        let run = u32::from_le_bytes(take(rest)?)..u32::from_le_bytes(take(rest)?);
+        let run = u32::from_le_bytes(take_byte_array(rest)?)..u32::from_le_bytes(take_byte_array(rest)?);
         if run.is_empty() || runs.last().is_some_and(|last| run.start <= last.end) {
             return Err("its gaps are out of order".into());
         }
         runs.push(run);
     }
-    let gaps = Gaps::of(runs);
-    let column = Column::new(numbers, gaps.clone()).map_err(|error| error.to_string())?;
-    if *column.gaps() != gaps {
+    let gaps = ColumnGaps::from_gap_runs(runs);
+    let column = FrameNumberColumn::new(numbers, gaps.clone()).map_err(|error| error.to_string())?;
+    if *column.column_gaps() != gaps {
         return Err("a number is not finite".into());
     }
     Ok(column)
 }
 
-fn take_decimals(rest: &mut &[u8], frames: usize) -> Result<Decimals, String> {
-    let [scale] = take::<1>(rest)?;
+fn take_decimals(rest: &mut &[u8], frames: usize) -> Result<DecimalColumn, String> {
+    let [scale] = take_byte_array::<1>(rest)?;
     let mantissas = take_code(rest, frames)?;
-    let mut exceptions: Vec<(u32, Number)> = Vec::new();
+    let mut exceptions: Vec<(u32, FileNumber)> = Vec::new();
     for _ in 0..take_u32(rest)? {
-        let frame = u32::from_le_bytes(take::<4>(rest)?);
+        let frame = u32::from_le_bytes(take_byte_array::<4>(rest)?);
         let length = take_u32(rest)?;
         let text = std::str::from_utf8(take_slice(rest, length)?).map_err(|e| e.to_string())?;
         if frame as usize >= frames {
@@ -261,26 +265,25 @@ fn take_decimals(rest: &mut &[u8], frames: usize) -> Result<Decimals, String> {
             .map_err(|_| format!("the exception {text:?} is no number"))?;
         exceptions.push((frame, number));
     }
-    Ok(Decimals {
+    Ok(DecimalColumn {
         scale,
         mantissas,
         exceptions,
     })
 }
 
-fn take_code<T: Plain>(rest: &mut &[u8], frames: usize) -> Result<Vec<T>, String> {
-    let [coding] = take::<1>(rest)?;
+fn take_code<T: PlainNumber>(rest: &mut &[u8], frames: usize) -> Result<Vec<T>, String> {
+    let [coding] = take_byte_array::<1>(rest)?;
     let length = take_u32(rest)?;
     let code = take_slice(rest, length)?;
     match coding {
-        CONSTANT => {
-            let value = T::of(code).ok_or("a constant is not as long as its numbers")?;
+        CONSTANT_COLUMN_CODE => {
+            let value = T::from_plain_bytes(code).ok_or("a constant is not as long as its numbers")?;
             Ok(vec![value; frames])
         }
-        PCO => {
+        PCO_COLUMN_CODE => {
             let mut values = vec![T::default(); frames];
-            let progress =
-                simple_decompress_into(code, &mut values).map_err(|error| error.to_string())?;
+            let progress = simple_decompress_into(code, &mut values).map_err(|error| error.to_string())?;
             if progress.n_processed != frames {
                 return Err(format!("a column has {} numbers", progress.n_processed));
             }
@@ -296,14 +299,14 @@ fn take_slice<'a>(rest: &mut &'a [u8], length: usize) -> Result<&'a [u8], String
     Ok(slice)
 }
 
-fn take<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], String> {
-    take_slice(rest, N)?
+fn take_byte_array<const BYTE_COUNT: usize>(rest: &mut &[u8]) -> Result<[u8; BYTE_COUNT], String> {
+    take_slice(rest, BYTE_COUNT)?
         .try_into()
         .map_err(|_| "it is cut short".to_owned())
 }
 
 fn take_u32(rest: &mut &[u8]) -> Result<usize, String> {
-    Ok(u32::from_le_bytes(take::<4>(rest)?) as usize)
+    Ok(u32::from_le_bytes(take_byte_array::<4>(rest)?) as usize)
 }
 
 #[cfg(test)]
@@ -311,23 +314,21 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn columns() -> Vec<Decimals> {
+    fn columns() -> Vec<DecimalColumn> {
         vec![
-            Decimals {
+            DecimalColumn {
                 scale: 6,
                 mantissas: (0..100).map(|i| i * i * 37 - 999_999).collect(),
                 exceptions: vec![],
             },
-            Decimals {
+            DecimalColumn {
                 scale: 0,
                 mantissas: vec![-7; 100],
                 exceptions: vec![(3, "1e300".parse().expect("a number"))],
             },
-            Decimals {
+            DecimalColumn {
                 scale: 18,
-                mantissas: (0..100)
-                    .map(|i| if i % 2 == 0 { i64::MIN } else { i64::MAX })
-                    .collect(),
+                mantissas: (0..100).map(|i| if i % 2 == 0 { i64::MIN } else { i64::MAX }).collect(),
                 exceptions: vec![],
             },
         ]
@@ -336,10 +337,10 @@ mod tests {
     #[test]
     fn blocks_read_back_unchanged_and_damage_is_named() {
         let columns = columns();
-        let bytes = encode(100, &columns.iter().collect::<Vec<_>>());
-        let back = decode(&bytes, 100, 3).expect("whole");
+        let bytes = encode_decimal_columns(100, &columns.iter().collect::<Vec<_>>());
+        let back = decode_block_columns(&bytes, 100, 3).expect("whole");
         for (a, b) in columns.iter().zip(back) {
-            let Numbers::Decimals(b) = b.into_numbers() else {
+            let ColumnNumbers::Decimals(b) = b.into_numbers() else {
                 panic!("decimals are decimals");
             };
             assert_eq!(
@@ -347,7 +348,7 @@ mod tests {
                 (b.scale, &b.mantissas, &b.exceptions)
             );
         }
-        assert!(decode(&bytes, 99, 3).is_err_and(|e| e.contains("3 columns of 100 frames")));
+        assert!(decode_block_columns(&bytes, 99, 3).is_err_and(|e| e.contains("3 columns of 100 frames")));
         damage(&bytes, 100, 3);
     }
 
@@ -355,7 +356,7 @@ mod tests {
     fn damage(bytes: &[u8], frames: usize, count: usize) {
         for length in 0..bytes.len() {
             assert!(
-                decode(&bytes[..length], frames, count).is_err(),
+                decode_block_columns(&bytes[..length], frames, count).is_err(),
                 "{length} bytes"
             );
         }
@@ -363,58 +364,57 @@ mod tests {
             for flip in [0x55, 0xff] {
                 let mut broken = bytes.to_vec();
                 broken[at] ^= flip;
-                let _ = decode(&broken, frames, count);
+                let _ = decode_block_columns(&broken, frames, count);
             }
         }
     }
 
     #[test]
     fn a_block_of_no_frames_or_no_columns_is_a_block() {
-        assert!(decode(&encode(0, &[]), 0, 0).is_ok_and(|columns| columns.is_empty()));
-        let none = [Column::singles(Vec::new())];
-        let back = decode(&encode_any(0, &none), 0, 1).expect("whole");
+        assert!(decode_block_columns(&encode_decimal_columns(0, &[]), 0, 0).is_ok_and(|columns| columns.is_empty()));
+        let none = [FrameNumberColumn::from_single_floats(Vec::new())];
+        let back = decode_block_columns(&encode_any(0, &none), 0, 1).expect("whole");
         assert_eq!(back, none);
     }
 
     /// Columns of every form, with gaps and without.
-    fn of_every_form() -> Vec<Column> {
+    fn of_every_form() -> Vec<FrameNumberColumn> {
         let wave = |i: i32| f64::from(i).sin() * 1000.0;
-        let gaps = Gaps::of([3..7, 99..100]);
+        let gaps = ColumnGaps::from_gap_runs([3..7, 99..100]);
         let integers = (0..100).map(|i| i * 317 - 30_000).collect();
-        let decimals =
-            (0..100).map(|i| (i % 9 != 4).then(|| Number::parse(b"1.250").ok()).flatten());
+        let decimals = (0..100).map(|i| {
+            (i % 9 != 4)
+                .then(|| FileNumber::parse_file_number(b"1.250").ok())
+                .flatten()
+        });
         vec![
-            Column::singles((0..100).map(|i| wave(i) as f32).collect()),
-            Column::doubles((0..100).map(wave).collect()),
-            Column::doubles((0..100).map(|i| f64::from(wave(i) as f32)).collect()),
-            Column::doubles(vec![-0.0; 100]),
-            Column::singles(
-                (0..100)
-                    .map(|i| if i < 40 { f32::NAN } else { -0.0 })
-                    .collect(),
-            ),
-            Column::integers(integers, 12.5, 0.083_333)
+            FrameNumberColumn::from_single_floats((0..100).map(|i| wave(i) as f32).collect()),
+            FrameNumberColumn::from_double_floats((0..100).map(wave).collect()),
+            FrameNumberColumn::from_double_floats((0..100).map(|i| f64::from(wave(i) as f32)).collect()),
+            FrameNumberColumn::from_double_floats(vec![-0.0; 100]),
+            FrameNumberColumn::from_single_floats((0..100).map(|i| if i < 40 { f32::NAN } else { -0.0 }).collect()),
+            FrameNumberColumn::from_scaled_integers(integers, 12.5, 0.083_333)
                 .and_then(|it| it.with_gaps(&gaps))
                 .expect("a column"),
-            Column::decimals(decimals),
+            FrameNumberColumn::from_decimals(decimals),
         ]
     }
 
-    fn bits(column: &Column) -> Vec<Option<u64>> {
-        column
-            .values()
-            .map(|value| value.map(f64::to_bits))
-            .collect()
+    fn bits(column: &FrameNumberColumn) -> Vec<Option<u64>> {
+        column.column_values().map(|value| value.map(f64::to_bits)).collect()
     }
 
     #[test]
     fn every_form_reads_back_bit_for_bit_with_its_gaps() {
         let columns = of_every_form();
         let bytes = encode_any(100, &columns);
-        let back = decode(&bytes, 100, columns.len()).expect("whole");
+        let back = decode_block_columns(&bytes, 100, columns.len()).expect("whole");
         assert_eq!(back, columns);
         for (a, b) in columns.iter().zip(&back) {
-            assert_eq!((bits(a), a.numbers().form()), (bits(b), b.numbers().form()));
+            assert_eq!(
+                (bits(a), a.column_numbers().number_form_name()),
+                (bits(b), b.column_numbers().number_form_name())
+            );
         }
         let short = encode_any(100, &columns[2..3]).len();
         assert!(
@@ -425,9 +425,9 @@ mod tests {
 
     #[test]
     fn damaged_columns_of_any_form_are_refused_without_a_panic() {
-        let columns: Vec<Column> = of_every_form()
+        let columns: Vec<FrameNumberColumn> = of_every_form()
             .iter()
-            .map(|column| column.slice(0..12))
+            .map(|column| column.slice_column(0..12))
             .collect();
         damage(&encode_any(12, &columns), 12, columns.len());
     }
@@ -435,10 +435,10 @@ mod tests {
     #[test]
     fn decimals_without_gaps_keep_the_bytes_that_they_always_had() {
         let columns = columns();
-        let plain = encode(100, &columns.iter().collect::<Vec<_>>());
-        let any: Vec<Column> = columns.into_iter().map(Column::from).collect();
+        let plain = encode_decimal_columns(100, &columns.iter().collect::<Vec<_>>());
+        let any: Vec<FrameNumberColumn> = columns.into_iter().map(FrameNumberColumn::from).collect();
         assert_eq!(encode_any(100, &any), plain);
-        assert_eq!(decode(&plain, 100, 3).expect("whole"), any);
+        assert_eq!(decode_block_columns(&plain, 100, 3).expect("whole"), any);
     }
 
     proptest! {
@@ -452,15 +452,15 @@ mod tests {
         ) {
             let frames = bits.len();
             let columns = vec![
-                Column::doubles(bits.iter().map(|bits| f64::from_bits(*bits)).collect()),
-                Column::singles(bits.iter().map(|bits| f32::from_bits(*bits as u32)).collect()),
-                Column::integers(bits.iter().map(|bits| *bits as i32).collect(), zero, unit)
+                FrameNumberColumn::from_double_floats(bits.iter().map(|bits| f64::from_bits(*bits)).collect()),
+                FrameNumberColumn::from_single_floats(bits.iter().map(|bits| f32::from_bits(*bits as u32)).collect()),
+                FrameNumberColumn::from_scaled_integers(bits.iter().map(|bits| *bits as i32).collect(), zero, unit)
                     .expect("a column"),
             ];
-            let back = decode(&encode_any(frames, &columns), frames, 3).expect("whole");
+            let back = decode_block_columns(&encode_any(frames, &columns), frames, 3).expect("whole");
             for (column, back) in columns.iter().zip(&back) {
                 prop_assert_eq!(self::bits(column), self::bits(back));
-                prop_assert_eq!(column.gaps(), back.gaps());
+                prop_assert_eq!(column.column_gaps(), back.column_gaps());
             }
         }
     }

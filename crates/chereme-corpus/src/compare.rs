@@ -2,23 +2,23 @@
 
 use std::path::Path;
 
-use chereme_formats::compare::{self, Conflict, Difference, Merged};
-use chereme_formats::eaf::{self, Transcript, patched, raw, to_raw};
+use chereme_formats::compare::{self, MergeConflict, MergedTranscript, TranscriptDifference};
+use chereme_formats::eaf::{self, AnnotationTranscript, eaf_raw, patch_eaf, to_raw};
 use chereme_formats::table::annotations;
 use chereme_formats::{subtitles, textgrid};
-use chereme_sign::Remedy;
+use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, Address};
-use crate::error::{Error, Result};
+use crate::address::{self, CorpusAddress};
+use crate::error::{CorpusError, CorpusResult};
 use crate::import::readers;
 
 /// One side of a comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum CompareSide {
     /// The tiers of a recording.
-    Recording(Address),
+    Recording(CorpusAddress),
     /// An annotation file.
     File {
         /// Its name, for errors.
@@ -35,15 +35,15 @@ pub struct FileMerge {
     #[serde(skip)]
     pub bytes: Vec<u8>,
     /// The differences between `mine` and the merged file.
-    pub changes: Difference,
+    pub changes: TranscriptDifference,
     /// Annotations that both changed in different ways. The merged file has that of `mine`; the other candidate is on a
     /// tier `NAME (theirs)`.
-    pub conflicts: Vec<Conflict>,
+    pub conflicts: Vec<MergeConflict>,
 }
 
 /// The formats of annotation files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
+enum AnnotationFileFormat {
     Eaf,
     TextGrid,
     Subtitles,
@@ -55,17 +55,17 @@ impl CompareSide {
     /// Returns the differences between two annotation files.
     ///
     /// # Errors
-    /// Fails if one of them is a recording, for which [`Corpus::diff`] is needed, or cannot be read.
-    pub fn diff(&self, other: &Self) -> Result<Difference> {
+    /// Fails if one of them is a recording, for which [`Corpus::diff_compare_sides`] is needed, or cannot be read.
+    pub fn diff_annotation_files(&self, other: &Self) -> CorpusResult<TranscriptDifference> {
         let read = |side: &Self| match side {
-            Self::File { name, bytes } => read(name, bytes).map(|it| it.0),
-            Self::Recording(address) => Err(Error::wrong("a recording is in a corpus")
-                .at(address.to_string())
-                .advise(Remedy::command(
+            Self::File { name, bytes } => read_compared_document(name, bytes).map(|parsed| parsed.0),
+            Self::Recording(address) => Err(CorpusError::from_wrong_message("a recording is in a corpus")
+                .with_error_place(address.to_string())
+                .with_advice(ErrorRemedy::command_remedy(
                     "name the corpus first: `chereme diff CORPUS recording:1 recording:2`",
                 ))),
         };
-        Ok(compare::diff(&read(self)?, &read(other)?))
+        Ok(compare::diff_transcripts(&read(self)?, &read(other)?))
     }
 }
 
@@ -74,17 +74,20 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if an address names no recording, or a file cannot be read.
-    pub fn diff(&self, a: &CompareSide, b: &CompareSide) -> Result<Difference> {
-        Ok(compare::diff(&self.document(a)?, &self.document(b)?))
+    pub fn diff_compare_sides(&self, a: &CompareSide, b: &CompareSide) -> CorpusResult<TranscriptDifference> {
+        Ok(compare::diff_transcripts(
+            &self.load_side_transcript(a)?,
+            &self.load_side_transcript(b)?,
+        ))
     }
 
-    fn document(&self, side: &CompareSide) -> Result<Transcript> {
+    fn load_side_transcript(&self, side: &CompareSide) -> CorpusResult<AnnotationTranscript> {
         match side {
-            CompareSide::File { name, bytes } => read(name, bytes).map(|it| it.0),
+            CompareSide::File { name, bytes } => read_compared_document(name, bytes).map(|parsed| parsed.0),
             CompareSide::Recording(address) => {
-                let connection = self.store.read();
-                let stretch = address::stretch(connection, address)?;
-                crate::export::eaf::tiers_of(connection, &stretch.recording)
+                let connection = self.store.read_connection();
+                let stretch = address::find_addressed_stretch(connection, address)?;
+                crate::export::export_eaf::tiers_of(connection, &stretch.recording)
             }
         }
     }
@@ -94,59 +97,59 @@ impl Corpus {
 ///
 /// # Errors
 /// Fails if a file cannot be read, or the merged one cannot be written in the format of mine.
-pub fn merge_files(
-    base: Option<(&str, &[u8])>,
-    mine: (&str, &[u8]),
-    theirs: (&str, &[u8]),
-) -> Result<FileMerge> {
-    let (own, format) = read(mine.0, mine.1)?;
-    let (other, _) = read(theirs.0, theirs.1)?;
+pub fn merge_files(base: Option<(&str, &[u8])>, mine: (&str, &[u8]), theirs: (&str, &[u8])) -> CorpusResult<FileMerge> {
+    let (own, format) = read_compared_document(mine.0, mine.1)?;
+    let (other, _) = read_compared_document(theirs.0, theirs.1)?;
     let merged = match base {
-        Some((name, bytes)) => compare::merge(&read(name, bytes)?.0, &own, &other),
+        Some((name, bytes)) => compare::merge_transcripts(&read_compared_document(name, bytes)?.0, &own, &other),
         None => compare::merge_two(&own, &other),
     };
-    let whole = compare::with_candidates(&merged);
+    let full_transcript = compare::with_candidates(&merged);
     let bytes = match format {
-        Format::Eaf => write_eaf(mine.1, &whole)?,
-        Format::TextGrid => {
-            let (text, _) = textgrid::write(&whole, textgrid::Form::Long, whole.end());
+        AnnotationFileFormat::Eaf => write_eaf(mine.1, &full_transcript)?,
+        AnnotationFileFormat::TextGrid => {
+            let (text, _) = textgrid::write_textgrid(
+                &full_transcript,
+                textgrid::TextGridForm::Long,
+                full_transcript.transcript_end(),
+            );
             text.into_bytes()
         }
-        Format::Other => {
+        AnnotationFileFormat::Other => {
             return Err(
-                Error::wrong("a merged file cannot be written in the format of this one")
-                    .at(mine.0)
-                    .advise(Remedy::command(
+                CorpusError::from_wrong_message("a merged file cannot be written in the format of this one")
+                    .with_error_place(mine.0)
+                    .with_advice(ErrorRemedy::command_remedy(
                         "import it into a corpus, then the other with `chereme import CORPUS FILE --merge`",
                     )),
             );
         }
-        Format::Subtitles => {
+        AnnotationFileFormat::Subtitles => {
             return Err(
-                Error::wrong("subtitles are not merged: their lines have no tiers")
-                    .at(mine.0)
-                    .advise("merge the .eaf or .TextGrid, and export subtitles from it"),
+                CorpusError::from_wrong_message("subtitles are not merged: their lines have no tiers")
+                    .with_error_place(mine.0)
+                    .with_advice("merge the .eaf or .TextGrid, and export subtitles from it"),
             );
         }
     };
-    let Merged { conflicts, .. } = merged;
+    let MergedTranscript { conflicts, .. } = merged;
     Ok(FileMerge {
         bytes,
-        changes: compare::diff(&own, &whole),
+        changes: compare::diff_transcripts(&own, &full_transcript),
         conflicts,
     })
 }
 
-fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
-    let fault = |error: eaf::Error| Error::wrong(error.to_string());
-    if let Some(bytes) = patched(mine, whole).map_err(fault)? {
+fn write_eaf(mine: &[u8], whole: &AnnotationTranscript) -> CorpusResult<Vec<u8>> {
+    let fault = |error: eaf::EafError| CorpusError::from_wrong_message(error.to_string());
+    if let Some(bytes) = patch_eaf(mine, whole).map_err(fault)? {
         return Ok(bytes);
     }
-    let decoded = eaf::decode(mine).map_err(fault)?;
-    let (template, _) = raw::read(decoded.text.as_bytes()).map_err(fault)?;
+    let decoded = eaf::decode_eaf(mine).map_err(fault)?;
+    let (template, _) = eaf_raw::read_eaf_document(decoded.text.as_bytes()).map_err(fault)?;
     let mut bytes = Vec::new();
-    raw::write(&to_raw(whole, &template), &mut bytes)
-        .map_err(|error| Error::wrong(error.to_string()))?;
+    eaf_raw::write_eaf_document(&to_raw(whole, &template), &mut bytes)
+        .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     Ok(bytes)
 }
 
@@ -154,35 +157,32 @@ fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
 const TABLE_HEAD: usize = 1 << 14;
 
 /// Reads a document. Its contents determine its format; the ending of its name does if they do not.
-fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
+fn read_compared_document(name: &str, bytes: &[u8]) -> CorpusResult<(AnnotationTranscript, AnnotationFileFormat)> {
     let head = &bytes[..bytes.len().min(4096)];
     let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();
-    let says = |word: &[u8]| plain.windows(word.len()).any(|it| it == word);
-    let fault = |error: String| Error::wrong(error).at(name);
+    let says = |word: &[u8]| plain.windows(word.len()).any(|window| window == word);
+    let fault = |error: String| CorpusError::from_wrong_message(error).with_error_place(name);
     if says(b"ooTextFile") || says(b"ooBinaryFile") {
-        let (it, _) = textgrid::read(bytes).map_err(|error| fault(error.to_string()))?;
-        return Ok((it, Format::TextGrid));
+        let (it, _) = textgrid::read_textgrid_file(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, AnnotationFileFormat::TextGrid));
     }
     let table = &bytes[..bytes.len().min(TABLE_HEAD)];
     if !says(b"<?xml") && !says(b"<ANNOTATION_DOCUMENT") && annotations::is_export(table) {
-        let (it, _) = annotations::transcript(bytes).map_err(|error| fault(error.to_string()))?;
-        return Ok((it, Format::Other));
+        let (it, _) = annotations::read_elan_table(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, AnnotationFileFormat::Other));
     }
     if says(b"-->") && !says(b"<?xml") {
-        let (it, _) = subtitles::read(bytes).map_err(|error| fault(error.to_string()))?;
-        return Ok((it, Format::Subtitles));
+        let (it, _) = subtitles::read_subtitles(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, AnnotationFileFormat::Subtitles));
     }
-    let by_name = readers::transcript(Path::new(name)).filter(|_| !says(b"<ANNOTATION_DOCUMENT"));
+    let by_name = readers::find_transcript_parser(Path::new(name)).filter(|_| !says(b"<ANNOTATION_DOCUMENT"));
     if let Some(read) = by_name {
-        return Ok((read(bytes).map_err(fault)?.0, Format::Other));
+        return Ok((read(bytes).map_err(fault)?.0, AnnotationFileFormat::Other));
     }
-    let (it, _) = eaf::read(bytes).map_err(|error| {
-        fault(error.to_string()).advise(format!(
-            "name annotation files: {}",
-            readers::annotation_endings()
-        ))
+    let (it, _) = eaf::read_eaf(bytes).map_err(|error| {
+        fault(error.to_string()).with_advice(format!("name annotation files: {}", readers::annotation_endings()))
     })?;
-    Ok((it, Format::Eaf))
+    Ok((it, AnnotationFileFormat::Eaf))
 }
 
 #[cfg(test)]
@@ -202,7 +202,7 @@ mod tests {
             ("a.srt", &subtitles[..], 1),
             ("a.TextGrid", &short[..], 1),
         ] {
-            let (found, _) = read(name, bytes).expect(name);
+            let (found, _) = read_compared_document(name, bytes).expect(name);
             let all: usize = found.tiers.iter().map(|it| it.annotations.len()).sum();
             assert_eq!(all, rows, "{name}");
         }
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn a_file_whose_contents_show_no_format_is_read_by_the_ending_of_its_name() {
         let message = |name: &str| {
-            let error = read(name, b"neither").expect_err("no annotation file");
+            let error = read_compared_document(name, b"neither").expect_err("no annotation file");
             error.to_string()
         };
         assert!(message("a.TextGrid").contains("TextGrid"));
@@ -220,8 +220,8 @@ mod tests {
             message("merge_file_1"),
             message("a.eaf").replace("a.eaf", "merge_file_1")
         );
-        let error = read("merge_file_1", b"neither").expect_err("no annotation file");
-        let remedy = error.remedy().expect("a remedy").text().to_owned();
+        let error = read_compared_document("merge_file_1", b"neither").expect_err("no annotation file");
+        let remedy = error.error_remedy().expect("a remedy").remedy_text().to_owned();
         assert!(remedy.contains(".eaf, .etf"), "{remedy}");
     }
 }

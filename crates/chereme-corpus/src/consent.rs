@@ -6,24 +6,24 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::str::FromStr;
 
-use chereme_sign::Remedy;
-use chereme_sign::text::fold;
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::fold_text;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
 use crate::Corpus;
-use crate::address::{self, Address};
-use crate::db::recordings::RecordingRow;
-use crate::db::{consents, edits, recordings};
-use crate::error::{Error, Result};
+use crate::address::{self, CorpusAddress};
+use crate::db::stored_recordings::RecordingRow;
+use crate::db::{consents, edits, stored_recordings};
+use crate::error::{CorpusError, CorpusResult};
 use crate::merge;
-use crate::sources::notation::OWN_BODY;
+use crate::sources::sources_notation::OWN_BODY;
 use crate::words::effect::OperationEffect;
 
 /// The people who may see something, from the fewest to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Audience {
+pub enum ConsentAudience {
     /// Nobody beyond those who keep the corpus.
     Nobody,
     /// People who do research with the corpus.
@@ -32,13 +32,13 @@ pub enum Audience {
     Public,
 }
 
-impl Audience {
+impl ConsentAudience {
     /// All of them, from the most people to the fewest.
-    pub const ALL: [Self; 3] = [Self::Public, Self::Research, Self::Nobody];
+    pub const ALL_AUDIENCES: [Self; 3] = [Self::Public, Self::Research, Self::Nobody];
 
     /// Returns its name, such as `public`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn audience_name(self) -> &'static str {
         match self {
             Self::Public => "public",
             Self::Research => "research",
@@ -47,21 +47,23 @@ impl Audience {
     }
 }
 
-impl fmt::Display for Audience {
+impl fmt::Display for ConsentAudience {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.audience_name())
     }
 }
 
-impl FromStr for Audience {
-    type Err = Error;
+impl FromStr for ConsentAudience {
+    type Err = CorpusError;
 
-    fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|it| it.name() == text.trim());
-        found.ok_or_else(|| {
-            Error::wrong(format!("{text:?} is no audience"))
-                .at(text)
-                .advise("write public, research or nobody")
+    fn from_str(text: &str) -> CorpusResult<Self> {
+        let named_audience = Self::ALL_AUDIENCES
+            .into_iter()
+            .find(|audience| audience.audience_name() == text.trim());
+        named_audience.ok_or_else(|| {
+            CorpusError::from_wrong_message(format!("{text:?} is no audience"))
+                .with_error_place(text)
+                .with_advice("write public, research or nobody")
         })
     }
 }
@@ -80,21 +82,21 @@ pub enum ConsentKind {
 
 impl ConsentKind {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Movement, Self::Annotation, Self::Derived];
+    pub const ALL_CONSENT_KINDS: [Self; 3] = [Self::Movement, Self::Annotation, Self::Derived];
 }
 
 /// The consent of a person. A missing entry is unknown, which differs from a refusal but is not published either.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Consent {
+pub struct PersonConsent {
     /// Who may see the recorded movement.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub movement: Option<Audience>,
+    pub movement: Option<ConsentAudience>,
     /// Who may see what annotators wrote about it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub annotation: Option<Audience>,
+    pub annotation: Option<ConsentAudience>,
     /// Who may see signs made from it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub derived: Option<Audience>,
+    pub derived: Option<ConsentAudience>,
     /// The day of the agreement, as `2026-11-27`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub day: Option<String>,
@@ -103,10 +105,10 @@ pub struct Consent {
     pub form: Option<String>,
 }
 
-impl Consent {
+impl PersonConsent {
     /// Returns who may see something; `None` if it is unknown.
     #[must_use]
-    pub fn of(&self, kind: ConsentKind) -> Option<Audience> {
+    pub fn audience_of_kind(&self, kind: ConsentKind) -> Option<ConsentAudience> {
         match kind {
             ConsentKind::Movement => self.movement,
             ConsentKind::Annotation => self.annotation,
@@ -114,17 +116,17 @@ impl Consent {
         }
     }
 
-    fn read(json: Option<&str>, place: &str) -> Result<Self> {
+    fn parse_consent_json(json: Option<&str>, place: &str) -> CorpusResult<Self> {
         let Some(json) = json else {
             return Ok(Self::default());
         };
-        serde_json::from_str(json).map_err(|error| Error::Damaged {
+        serde_json::from_str(json).map_err(|error| CorpusError::Damaged {
             place: format!("the consent of {place}"),
             reason: error.to_string(),
         })
     }
 
-    fn json(&self) -> Option<String> {
+    fn to_consent_json(&self) -> Option<String> {
         // Words and texts only.
         let json = serde_json::to_string(self).unwrap_or_default();
         (*self != Self::default()).then_some(json)
@@ -135,11 +137,11 @@ impl Consent {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ConsentChange {
     /// Who may see the recorded movement.
-    pub movement: Option<Option<Audience>>,
+    pub movement: Option<Option<ConsentAudience>>,
     /// Who may see what annotators wrote about it.
-    pub annotation: Option<Option<Audience>>,
+    pub annotation: Option<Option<ConsentAudience>>,
     /// Who may see signs made from it.
-    pub derived: Option<Option<Audience>>,
+    pub derived: Option<Option<ConsentAudience>>,
     /// The day of the agreement.
     pub day: Option<Option<String>>,
     /// What was signed.
@@ -159,19 +161,19 @@ pub struct ConsentRow {
     pub name: String,
     /// What was agreed to.
     #[serde(flatten)]
-    pub consent: Consent,
+    pub consent: PersonConsent,
 }
 
 /// The longest form that is kept, in bytes.
-const LONGEST: usize = 2000;
+const MAX_CONSENT_FORM_BYTES: usize = 2000;
 
 impl Corpus {
     /// Returns the consents of all signers, and those that belong to single recordings.
     ///
     /// # Errors
     /// Fails if the database fails or a stored consent is damaged.
-    pub fn consents(&self) -> Result<Vec<ConsentRow>> {
-        let connection = self.store.read();
+    pub fn list_consents(&self) -> CorpusResult<Vec<ConsentRow>> {
+        let connection = self.store.read_connection();
         let mut all = Vec::new();
         for row in consents::of_signers(connection)? {
             all.push(consent_row("signer", row)?);
@@ -188,9 +190,9 @@ impl Corpus {
     ///
     /// # Errors
     /// As [`change_consent`](Self::change_consent).
-    pub fn consents_of(&self, of: &[Address]) -> Result<Vec<ConsentRow>> {
-        let connection = self.store.read();
-        let each = of.iter().map(|it| Ok(stored(connection, it)?.0));
+    pub fn consents_of(&self, of: &[CorpusAddress]) -> CorpusResult<Vec<ConsentRow>> {
+        let connection = self.store.read_connection();
+        let each = of.iter().map(|address| Ok(load_stored_consent(connection, address)?.0));
         each.collect()
     }
 
@@ -198,25 +200,21 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if a signer or recording does not exist, an address names something else, or a text is too long.
-    pub fn change_consent(
-        &mut self,
-        of: &[Address],
-        change: &ConsentChange,
-    ) -> Result<Vec<ConsentRow>> {
+    pub fn change_consent(&mut self, of: &[CorpusAddress], change: &ConsentChange) -> CorpusResult<Vec<ConsentRow>> {
         for text in [&change.day, &change.form].into_iter().flatten().flatten() {
-            if text.len() > LONGEST {
-                return Err(Error::wrong(format!(
-                    "a text of a consent has at most {LONGEST} bytes"
+            if text.len() > MAX_CONSENT_FORM_BYTES {
+                return Err(CorpusError::from_wrong_message(format!(
+                    "a text of a consent has at most {MAX_CONSENT_FORM_BYTES} bytes"
                 )));
             }
         }
         let day = change.day.iter().flatten().map(String::as_str);
         if let Some(day) = day.clone().find(|day| !is_day(day)) {
-            return Err(Error::wrong(format!("{day:?} is no day"))
-                .at(day)
-                .advise("write it as 2026-11-27"));
+            return Err(CorpusError::from_wrong_message(format!("{day:?} is no day"))
+                .with_error_place(day)
+                .with_advice("write it as 2026-11-27"));
         }
-        self.store.operation(|connection| {
+        self.store.run_store_operation(|connection| {
             let mut changed = Vec::new();
             for address in of {
                 changed.push(change_one(connection, address, change)?);
@@ -231,39 +229,39 @@ impl Corpus {
 pub(crate) fn is_day(text: &str) -> bool {
     let parts: Vec<&str> = text.split('-').collect();
     let number = |text: &str, digits: usize| {
-        let all = text.len() == digits && text.bytes().all(|it| it.is_ascii_digit());
+        let all = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_digit());
         text.parse::<u32>().ok().filter(|_| all)
     };
     match &parts[..] {
         [year, month, day] => {
             number(year, 4).is_some()
-                && number(month, 2).is_some_and(|it| (1..=12).contains(&it))
-                && number(day, 2).is_some_and(|it| (1..=31).contains(&it))
+                && number(month, 2).is_some_and(|value| (1..=12).contains(&value))
+                && number(day, 2).is_some_and(|value| (1..=31).contains(&value))
         }
         _ => false,
     }
 }
 
-fn consent_row(of: &'static str, row: consents::ConsentColumn) -> Result<ConsentRow> {
+fn consent_row(of: &'static str, row: consents::ConsentColumn) -> CorpusResult<ConsentRow> {
     let place = format!("{of}:{:?}", row.name);
     Ok(ConsentRow {
         of,
         id: row.id,
-        consent: Consent::read(row.consent.as_deref(), &place)?,
+        consent: PersonConsent::parse_consent_json(row.consent.as_deref(), &place)?,
         name: row.name,
     })
 }
 
 /// Returns the consent at an address, and its JSON.
-fn stored(connection: &Connection, address: &Address) -> Result<(ConsentRow, Option<String>)> {
+fn load_stored_consent(connection: &Connection, address: &CorpusAddress) -> CorpusResult<(ConsentRow, Option<String>)> {
     let (of, id) = match address {
-        Address::Signer(name) => ("signer", address::signer(connection, name)?.id),
-        Address::Recording(name) => ("recording", address::recording(connection, name)?.id),
+        CorpusAddress::Signer(name) => ("signer", address::find_signer_by_name(connection, name)?.id),
+        CorpusAddress::Recording(name) => ("recording", address::find_recording_by_name(connection, name)?.id),
         other => {
             return Err(
-                Error::wrong(format!("{other} is neither a signer nor a recording"))
-                    .at(other.to_string())
-                    .advise("write signer:NAME or recording:NAME"),
+                CorpusError::from_wrong_message(format!("{other} is neither a signer nor a recording"))
+                    .with_error_place(other.to_string())
+                    .with_advice("write signer:NAME or recording:NAME"),
             );
         }
     };
@@ -271,18 +269,14 @@ fn stored(connection: &Connection, address: &Address) -> Result<(ConsentRow, Opt
         "signer" => consents::of_signers(connection)?,
         _ => consents::of_recordings(connection)?,
     };
-    let known = all.into_iter().find(|it| it.id == id);
-    let known = known.ok_or_else(|| Error::wrong(format!("there is no {of}:{id}")))?;
-    let old = known.consent.clone();
-    Ok((consent_row(of, known)?, old))
+    let possible_row = all.into_iter().find(|row| row.id == id);
+    let stored_row = possible_row.ok_or_else(|| CorpusError::from_wrong_message(format!("there is no {of}:{id}")))?;
+    let old = stored_row.consent.clone();
+    Ok((consent_row(of, stored_row)?, old))
 }
 
-fn change_one(
-    connection: &Connection,
-    address: &Address,
-    change: &ConsentChange,
-) -> Result<ConsentRow> {
-    let (mut row, old) = stored(connection, address)?;
+fn change_one(connection: &Connection, address: &CorpusAddress, change: &ConsentChange) -> CorpusResult<ConsentRow> {
+    let (mut row, old) = load_stored_consent(connection, address)?;
     let (of, id) = (row.of, row.id);
     let it = &mut row.consent;
     it.movement = change.movement.unwrap_or(it.movement);
@@ -294,7 +288,7 @@ fn change_one(
     if let Some(form) = &change.form {
         it.form.clone_from(form);
     }
-    let new = it.json();
+    let new = it.to_consent_json();
     if new != old {
         match of {
             "signer" => consents::set_of_signer(connection, id, new.as_deref())?,
@@ -308,20 +302,20 @@ fn change_one(
 }
 
 /// States the terms of a recording, or of a signer's recordings, that have none.
-fn state_terms(connection: &Connection, (of, id): (&str, i64), licence: &str) -> Result<()> {
+fn state_terms(connection: &Connection, (of, id): (&str, i64), licence: &str) -> CorpusResult<()> {
     let licence = licence.trim();
-    if licence.is_empty() || licence.len() > LONGEST {
-        return Err(Error::wrong(format!(
-            "terms of use are a text of at most {LONGEST} bytes"
+    if licence.is_empty() || licence.len() > MAX_CONSENT_FORM_BYTES {
+        return Err(CorpusError::from_wrong_message(format!(
+            "terms of use are a text of at most {MAX_CONSENT_FORM_BYTES} bytes"
         )));
     }
-    let own = match of {
+    let recording_ids = match of {
         "signer" => edits::recordings_of_signer(connection, id)?,
         _ => vec![id],
     };
-    for recording in own {
-        let mut row = recordings::recording(connection, recording)?;
-        if row.licence.as_deref().is_none_or(|it| it.trim().is_empty()) {
+    for recording in recording_ids {
+        let mut row = stored_recordings::load_recording_row(connection, recording)?;
+        if row.licence.as_deref().is_none_or(|text| text.trim().is_empty()) {
             row.licence = Some(licence.to_owned());
             edits::update_recording(connection, &row)?;
         }
@@ -332,7 +326,7 @@ fn state_terms(connection: &Connection, (of, id): (&str, i64), licence: &str) ->
 /// A reason why something may not be published.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Withheld {
+pub enum WithheldReason {
     /// Nobody recorded what the signer agreed to.
     ConsentUnknown,
     /// The signer did not agree that everybody sees it.
@@ -348,10 +342,10 @@ pub enum Withheld {
 }
 
 /// The permissions of a corpus, read at one moment.
-pub(crate) struct Permissions {
+pub(crate) struct PublishPermissions {
     recordings: BTreeMap<i64, RecordingRow>,
     /// Whether everybody may see a recording, by kind: the narrowest of the consents that apply.
-    agreed: BTreeMap<i64, [std::result::Result<(), Withheld>; 3]>,
+    agreed: BTreeMap<i64, [std::result::Result<(), WithheldReason>; 3]>,
     /// The subjects that recordings themselves refuse to everybody.
     refused: BTreeSet<(i64, ConsentKind)>,
     /// The recordings that a generated one takes movement from; `None` if one of them is gone or not known.
@@ -362,39 +356,39 @@ pub(crate) struct Permissions {
     terms: Option<String>,
 }
 
-impl Permissions {
+impl PublishPermissions {
     /// Reads the permissions of a corpus; `terms` hold for what has none of its own and shows nobody.
-    pub(crate) fn of(connection: &Connection, terms: Option<&str>) -> Result<Self> {
-        let mut signers: BTreeMap<i64, (String, Consent)> = BTreeMap::new();
+    pub(crate) fn read_publish_permissions(connection: &Connection, terms: Option<&str>) -> CorpusResult<Self> {
+        let mut signers: BTreeMap<i64, (String, PersonConsent)> = BTreeMap::new();
         for row in consents::of_signers(connection)? {
             let row = consent_row("signer", row)?;
             signers.insert(row.id, (row.name, row.consent));
         }
-        let mut own: BTreeMap<i64, Consent> = BTreeMap::new();
+        let mut own_consents: BTreeMap<i64, PersonConsent> = BTreeMap::new();
         for row in consents::of_recordings(connection)? {
             let row = consent_row("recording", row)?;
-            own.insert(row.id, row.consent);
+            own_consents.insert(row.id, row.consent);
         }
         let mut named: BTreeMap<i64, BTreeSet<String>> = BTreeMap::new();
-        for (recording, name) in consents::participants(connection)? {
+        for (recording, name) in consents::list_tier_participants(connection)? {
             named.entry(recording).or_default().insert(name);
         }
         let mut inputs: BTreeMap<i64, Option<BTreeSet<i64>>> = BTreeMap::new();
-        for (made, input, token) in consents::inputs(connection, OWN_BODY)? {
+        for (made, input, token) in consents::list_recipe_movement_inputs(connection, OWN_BODY)? {
             let all = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
             match input {
-                Some(input) => drop(all.as_mut().map(|it| it.insert(input))),
+                Some(input) => drop(all.as_mut().map(|set| set.insert(input))),
                 None if token => {}
                 None => *all = None,
             }
         }
-        let rows = recordings::recordings(connection)?;
-        unnamed::complete(connection, &rows, &mut inputs)?;
+        let rows = stored_recordings::load_recording_rows(connection)?;
+        unnamed::complete_unnamed_inputs(connection, &rows, &mut inputs)?;
         let doubts = doubts(connection)?;
         // A participant written in other letters is the same person.
         let mut by_name: BTreeMap<String, Vec<i64>> = BTreeMap::new();
         for (id, (name, _)) in &signers {
-            by_name.entry(fold(name.trim())).or_default().push(*id);
+            by_name.entry(fold_text(name.trim())).or_default().push(*id);
         }
         let mut refused = BTreeSet::new();
         let (mut agreed, mut personal) = (BTreeMap::new(), BTreeSet::new());
@@ -402,40 +396,39 @@ impl Permissions {
         for row in rows {
             let mut people: Vec<Option<i64>> = row.signer_id.map(Some).into_iter().collect();
             for name in named.get(&row.id).into_iter().flatten() {
-                match by_name.get(&fold(name)) {
+                match by_name.get(&fold_text(name)) {
                     Some(known) => people.extend(known.iter().copied().map(Some)),
                     None => people.push(None),
                 }
             }
-            let shows = row.origin == crate::Origin::Captured || !people.is_empty();
+            let shows = row.origin == crate::RecordOrigin::Captured || !people.is_empty();
             if shows {
                 personal.insert(row.id);
             }
-            if row.origin == crate::Origin::Made {
+            if row.origin == crate::RecordOrigin::Made {
                 // Without a recipe nobody knows whose movement it is.
                 inputs.entry(row.id).or_insert(None);
             }
-            let consent = own.get(&row.id);
-            let each: Vec<Option<&Consent>> = people
+            let consent = own_consents.get(&row.id);
+            let each: Vec<Option<&PersonConsent>> = people
                 .iter()
-                .map(|it| it.and_then(|id| signers.get(&id)).map(|(_, it)| it))
+                .map(|entry| entry.and_then(|id| signers.get(&id)).map(|(_, it)| it))
                 .collect();
             agreed.insert(
                 row.id,
-                ConsentKind::ALL.map(|kind| {
-                    let own = consent.and_then(|it| it.of(kind));
-                    if own.is_some_and(|it| it < Audience::Public) {
+                ConsentKind::ALL_CONSENT_KINDS.map(|kind| {
+                    let own_audience = consent.and_then(|statement| statement.audience_of_kind(kind));
+                    if own_audience.is_some_and(|audience| audience < ConsentAudience::Public) {
                         refused.insert((row.id, kind));
                     }
                     let doubted = doubts.contains(&("recording", row.id, kind));
                     let mut people = people.iter().flatten();
-                    let doubted =
-                        doubted || people.any(|it| doubts.contains(&("signer", *it, kind)));
+                    let doubted = doubted || people.any(|person| doubts.contains(&("signer", *person, kind)));
                     match narrowest(consent, &each, kind) {
-                        Some(Audience::Nobody | Audience::Research) => Err(Withheld::NotPublic),
-                        None if shows => Err(Withheld::ConsentUnknown),
-                        _ if doubted => Err(Withheld::Undecided),
-                        Some(Audience::Public) | None => Ok(()),
+                        Some(ConsentAudience::Nobody | ConsentAudience::Research) => Err(WithheldReason::NotPublic),
+                        None if shows => Err(WithheldReason::ConsentUnknown),
+                        _ if doubted => Err(WithheldReason::Undecided),
+                        Some(ConsentAudience::Public) | None => Ok(()),
                     }
                 }),
             );
@@ -452,41 +445,37 @@ impl Permissions {
     }
 
     /// Returns the terms under which an entry of a table may be published.
-    pub(crate) fn of_entry(&self) -> std::result::Result<BTreeSet<String>, Withheld> {
-        let terms = self.terms.clone().ok_or(Withheld::NoTerms)?;
+    pub(crate) fn of_entry(&self) -> std::result::Result<BTreeSet<String>, WithheldReason> {
+        let terms = self.terms.clone().ok_or(WithheldReason::NoTerms)?;
         Ok(BTreeSet::from([terms]))
     }
 
     /// Returns the terms under which a recording may be published, those of all its inputs included.
-    pub(crate) fn of_recording(
+    pub(crate) fn recording_publish_terms(
         &self,
         recording: i64,
         kind: ConsentKind,
-    ) -> std::result::Result<BTreeSet<String>, Withheld> {
+    ) -> std::result::Result<BTreeSet<String>, WithheldReason> {
         let (mut terms, mut known) = (BTreeSet::new(), BTreeSet::from([recording]));
         let mut waiting = vec![(recording, kind)];
         while let Some((at, kind)) = waiting.pop() {
-            let row = self.recordings.get(&at).ok_or(Withheld::InputGone)?;
+            let row = self.recordings.get(&at).ok_or(WithheldReason::InputGone)?;
             let inputs = match self.inputs.get(&at) {
-                Some(None) => return Err(Withheld::InputGone),
+                Some(None) => return Err(WithheldReason::InputGone),
                 Some(Some(inputs)) => Some(inputs),
                 None => None,
             };
-            let licence = row.licence.as_deref().map(str::trim);
-            let licence = licence.filter(|it| !it.is_empty());
+            let raw_licence = row.licence.as_deref().map(str::trim);
+            let licence = raw_licence.filter(|text| !text.is_empty());
             let personal = self.personal.contains(&at);
-            let from_others = inputs.is_some_and(|it| !it.is_empty());
+            let from_others = inputs.is_some_and(|list| !list.is_empty());
             if self.refused.contains(&(at, kind)) {
-                return Err(Withheld::NotPublic);
+                return Err(WithheldReason::NotPublic);
             }
-            let kind = if from_others {
-                ConsentKind::Derived
-            } else {
-                kind
-            };
-            let index = ConsentKind::ALL.iter().position(|it| *it == kind);
+            let kind = if from_others { ConsentKind::Derived } else { kind };
+            let index = ConsentKind::ALL_CONSENT_KINDS.iter().position(|other| *other == kind);
             let agreed = self.agreed.get(&at).zip(index);
-            agreed.map_or(Err(Withheld::ConsentUnknown), |(all, index)| all[index])?;
+            agreed.map_or(Err(WithheldReason::ConsentUnknown), |(all, index)| all[index])?;
             match licence {
                 Some(it) => {
                     terms.insert(it.to_owned());
@@ -494,10 +483,10 @@ impl Permissions {
                 // A sign made from others has their terms.
                 None if from_others => {}
                 None if !personal => terms.extend(self.of_entry()?),
-                None => return Err(Withheld::NoTerms),
+                None => return Err(WithheldReason::NoTerms),
             }
             if at != recording && licence.is_some_and(forbids_derivatives) {
-                return Err(Withheld::NoDerivatives);
+                return Err(WithheldReason::NoDerivatives);
             }
             for &input in inputs.into_iter().flatten() {
                 if known.insert(input) {
@@ -509,44 +498,37 @@ impl Permissions {
     }
 
     /// Returns the signer of a recording, or the number of the recording if nobody is named.
-    pub(crate) fn person(&self, recording: i64) -> Option<(bool, i64)> {
+    pub(crate) fn recording_person_key(&self, recording: i64) -> Option<(bool, i64)> {
         let row = self.recordings.get(&recording)?;
         match row.signer_id {
             Some(signer) => Some((true, signer)),
-            None => self
-                .personal
-                .contains(&recording)
-                .then_some((false, recording)),
+            None => self.personal.contains(&recording).then_some((false, recording)),
         }
     }
 }
 
 /// Returns the consents that may not stand: another copy of the corpus allows less, and nobody has decided.
-fn doubts(connection: &Connection) -> Result<BTreeSet<(&'static str, i64, ConsentKind)>> {
+fn doubts(connection: &Connection) -> CorpusResult<BTreeSet<(&'static str, i64, ConsentKind)>> {
     let mut doubts = BTreeSet::new();
-    for dispute in merge::disputes(connection)? {
+    for dispute in merge::undecided_disputes(connection)? {
         let differs = |column: &str| dispute.mine.get(column) != dispute.theirs.get(column);
-        let other = dispute.theirs.get("consent").and_then(|it| it.as_str());
+        let other_text = dispute.theirs.get("consent").and_then(|value| value.as_str());
         // A consent that cannot be read allows nothing.
-        let other = Consent::read(other, dispute.table).unwrap_or_default();
-        for kind in ConsentKind::ALL {
-            let whole = match dispute.table {
+        let other = PersonConsent::parse_consent_json(other_text, dispute.table).unwrap_or_default();
+        for kind in ConsentKind::ALL_CONSENT_KINDS {
+            let is_whole = match dispute.table {
                 _ if dispute.theirs.is_empty() => true,
                 "signer" => false,
                 "tier" => differs("participant"),
                 _ => ["signer_id", "origin", "licence"].into_iter().any(differs),
             };
-            let less = differs("consent") && other.of(kind) != Some(Audience::Public);
+            let less = differs("consent") && other.audience_of_kind(kind) != Some(ConsentAudience::Public);
             match dispute.table {
-                "signer" if whole || less => drop(doubts.insert(("signer", dispute.id, kind))),
-                "recording" if whole || less => {
+                "signer" if is_whole || less => drop(doubts.insert(("signer", dispute.id, kind))),
+                "recording" if is_whole || less => {
                     doubts.insert(("recording", dispute.id, kind));
                 }
-                "tier" if whole => doubts.extend(
-                    dispute
-                        .recording
-                        .map(|recording| ("recording", recording, kind)),
-                ),
+                "tier" if is_whole => doubts.extend(dispute.recording.map(|recording| ("recording", recording, kind))),
                 _ => {}
             }
         }
@@ -557,21 +539,21 @@ fn doubts(connection: &Connection) -> Result<BTreeSet<(&'static str, i64, Consen
 /// Returns the narrowest consent of a recording and its people; `None` if a person's is unknown and the recording has
 /// none, or if nothing is known.
 fn narrowest(
-    own: Option<&Consent>,
-    people: &[Option<&Consent>],
+    own: Option<&PersonConsent>,
+    people: &[Option<&PersonConsent>],
     kind: ConsentKind,
-) -> Option<Audience> {
-    let own = own.and_then(|it| it.of(kind));
-    let each: Vec<Option<Audience>> = people
+) -> Option<ConsentAudience> {
+    let own_audience = own.and_then(|consent| consent.audience_of_kind(kind));
+    let each: Vec<Option<ConsentAudience>> = people
         .iter()
-        .map(|it| it.and_then(|it| it.of(kind)))
+        .map(|person| person.and_then(|consent| consent.audience_of_kind(kind)))
         .collect();
-    let least = each.iter().copied().flatten().chain(own).min();
+    let least = each.iter().copied().flatten().chain(own_audience).min();
     // A refusal holds whatever else is unknown.
-    if least.is_some_and(|it| it < Audience::Public) {
+    if least.is_some_and(|audience| audience < ConsentAudience::Public) {
         return least;
     }
-    match own {
+    match own_audience {
         Some(own) => least.or(Some(own)),
         None if each.is_empty() || each.contains(&None) => None,
         None => least,
@@ -581,28 +563,26 @@ fn narrowest(
 /// Reports whether terms of use forbid that something is made from it, as the ND licences of Creative Commons do.
 fn forbids_derivatives(licence: &str) -> bool {
     let licence = licence.to_lowercase();
-    let words = licence.split(|it: char| !it.is_alphanumeric());
+    let words = licence.split(|letter: char| !letter.is_alphanumeric());
     let nd = words.clone().any(|word| word == "nd");
     nd || licence.contains("noderiv") || licence.contains("no deriv")
 }
 
 /// Returns the remedy for something that was withheld.
-pub(crate) fn remedy(reason: Withheld) -> Remedy {
+pub(crate) fn withheld_remedy(reason: WithheldReason) -> ErrorRemedy {
     match reason {
-        Withheld::ConsentUnknown => Remedy::command(
+        WithheldReason::ConsentUnknown => ErrorRemedy::command_remedy(
             "state what the signers agreed to: `chereme consent CORPUS signer:NAME --all public`",
         ),
-        Withheld::NotPublic => "the signers did not agree that everybody sees it".into(),
-        Withheld::NoTerms => Remedy::command(
+        WithheldReason::NotPublic => "the signers did not agree that everybody sees it".into(),
+        WithheldReason::NoTerms => ErrorRemedy::command_remedy(
             "state the terms of recordings with `chereme consent CORPUS signer:NAME --licence TERMS`, those of entries that show nobody with --terms TERMS",
         ),
-        Withheld::NoDerivatives => "a recording that they were made from may not be changed".into(),
-        Withheld::Undecided => Remedy::command(
+        WithheldReason::NoDerivatives => "a recording that they were made from may not be changed".into(),
+        WithheldReason::Undecided => ErrorRemedy::command_remedy(
             "two copies of the corpus disagree about it: `chereme conflicts CORPUS` lists what is to be decided",
         ),
-        Withheld::InputGone => {
-            "a recording that they were made from is not known, or was deleted".into()
-        }
+        WithheldReason::InputGone => "a recording that they were made from is not known, or was deleted".into(),
     }
 }
 

@@ -4,23 +4,23 @@
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::db::contents as rows;
-use crate::db::inventories::inventories as inventory_rows;
-use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
-pub use crate::db::rows::{AnnotationColumns, RecordingGlance, ShownFrames, SignGlance};
-use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
-use crate::db::tiers::{self, TierRow};
+use crate::db::stored_contents as rows;
+use crate::db::stored_inventories::load_inventory_rows as inventory_rows;
+use crate::db::stored_recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
+pub use crate::db::stored_rows::{AnnotationColumns, RecordingGlance, ShownFrames, SignGlance};
+use crate::db::stored_search::begin_reading;
+use crate::db::stored_tiers::{self, TierRow};
 use crate::db::{OperationRow, history_log};
-use crate::error::Result;
+use crate::error::CorpusResult;
 use crate::inventories::{self, StoredInventory};
 use crate::merge::CorpusConflict;
 use crate::saved_search::{self, KeptSearch};
 
 /// Overview of a corpus at one moment.
 #[derive(Debug, Clone, Default)]
-pub struct Overview {
-    /// The moment: [`Corpus::generation`].
+pub struct CorpusOverview {
+    /// The moment: [`Corpus::corpus_generation`].
     pub generation: i64,
     /// Whether the file cannot be written, so that every change is refused.
     pub read_only: bool,
@@ -42,8 +42,8 @@ pub struct Overview {
 
 /// The annotations of one recording, at one moment.
 #[derive(Debug, Clone)]
-pub struct Contents {
-    /// The moment: [`Corpus::generation`].
+pub struct RecordingContents {
+    /// The moment: [`Corpus::corpus_generation`].
     pub generation: i64,
     /// The recording.
     pub recording: RecordingRow,
@@ -67,11 +67,8 @@ pub struct TierContents {
 }
 
 /// Adds the frames of faces without a skeleton.
-fn with_faces(
-    connection: &Connection,
-    mut recordings: Vec<RecordingGlance>,
-) -> Result<Vec<RecordingGlance>> {
-    let faces = crate::face::stage::shown_alone(connection)?;
+fn with_faces(connection: &Connection, mut recordings: Vec<RecordingGlance>) -> CorpusResult<Vec<RecordingGlance>> {
+    let faces = crate::face::face_stage::shown_alone(connection)?;
     for glance in &mut recordings {
         glance.face_alone = faces.get(&glance.row.id).copied();
     }
@@ -83,30 +80,30 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn generation(&self) -> Result<i64> {
-        rows::generation(self.store.read())
+    pub fn corpus_generation(&self) -> CorpusResult<i64> {
+        rows::newest_operation_number(self.store.read_connection())
     }
 
     /// Returns an overview of the corpus, with its newest `operations` operations.
     ///
     /// # Errors
     /// Fails if the database fails or holds invalid rows.
-    pub fn overview(&self, operations: usize) -> Result<Overview> {
-        let reading = begin_reading(self.store.read())?;
+    pub fn load_corpus_overview(&self, operations: usize) -> CorpusResult<CorpusOverview> {
+        let reading = begin_reading(self.store.read_connection())?;
         let inventories = inventory_rows(&reading, None)?;
-        Ok(Overview {
-            generation: rows::generation(&reading)?,
+        Ok(CorpusOverview {
+            generation: rows::newest_operation_number(&reading)?,
             read_only: rows::is_read_only(&reading)?,
-            recordings: with_faces(&reading, rows::recordings(&reading)?)?,
-            signs: rows::signs(&reading)?,
-            signers: recordings::signers(&reading)?,
+            recordings: with_faces(&reading, rows::load_recording_glances(&reading)?)?,
+            signs: rows::load_sign_glances(&reading)?,
+            signers: stored_recordings::load_signer_rows(&reading)?,
             inventories: inventories
                 .into_iter()
-                .map(inventories::read)
-                .collect::<Result<_>>()?,
-            searches: saved_search::searches(&reading)?,
+                .map(inventories::stored_inventory_from_row)
+                .collect::<CorpusResult<_>>()?,
+            searches: saved_search::list_saved_searches(&reading)?,
             operations: history_log(&reading, operations)?,
-            conflicts: crate::merge::waiting(&reading)?,
+            conflicts: crate::merge::undecided_conflicts(&reading)?,
         })
     }
 
@@ -114,21 +111,23 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such recording, or the database fails.
-    pub fn contents(&self, recording: i64) -> Result<Contents> {
-        let reading = begin_reading(self.store.read())?;
-        let tiers = tiers::tiers(&reading, recording)?.into_iter().map(|row| {
-            Ok(TierContents {
-                annotations: rows::annotations(&reading, row.id)?,
-                row,
-            })
-        });
-        Ok(Contents {
-            generation: rows::generation(&reading)?,
-            recording: recordings::recording(&reading, recording)?,
-            tiers: tiers.collect::<Result<_>>()?,
+    pub fn load_recording_contents(&self, recording: i64) -> CorpusResult<RecordingContents> {
+        let reading = begin_reading(self.store.read_connection())?;
+        let tiers = stored_tiers::load_tier_rows(&reading, recording)?
+            .into_iter()
+            .map(|row| {
+                Ok(TierContents {
+                    annotations: rows::load_annotation_columns(&reading, row.id)?,
+                    row,
+                })
+            });
+        Ok(RecordingContents {
+            generation: rows::newest_operation_number(&reading)?,
+            recording: stored_recordings::load_recording_row(&reading, recording)?,
+            tiers: tiers.collect::<CorpusResult<_>>()?,
             tokens: signs::tokens_of_recording(&reading, recording)?,
-            media: recordings::media_tracks(&reading, recording)?,
-            tracks: crate::db::tracks::tracks(&reading, recording)?,
+            media: stored_recordings::media_tracks(&reading, recording)?,
+            tracks: crate::db::stored_tracks::load_track_rows(&reading, recording)?,
         })
     }
 }
@@ -137,7 +136,7 @@ impl Corpus {
 mod tests {
     use super::*;
     use crate::ValueState;
-    use crate::{ImportOptions, Progress, unheard, unpack_starter};
+    use crate::{ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
     use chereme_sign::TierRole;
 
     #[test]
@@ -145,37 +144,29 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let files = folder.path().join("starter");
         let paths = unpack_starter(&files).expect("unpacked");
-        let two = |path: &std::path::PathBuf| {
-            path.file_stem()
-                .is_some_and(|stem| stem == "bol" || stem == "lexicon")
-        };
+        let two = |path: &std::path::PathBuf| path.file_stem().is_some_and(|stem| stem == "bol" || stem == "lexicon");
         let paths: Vec<_> = paths.into_iter().filter(two).collect();
         let path = folder.path().join("c.chereme");
-        let mut corpus = Corpus::create(&path, "A").expect("made");
-        let other = Corpus::open(&path, "B").expect("opened");
-        assert_eq!(other.generation().expect("read"), 0);
-        let mut hear = unheard;
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+        let other = Corpus::open_corpus(&path, "B").expect("opened");
+        assert_eq!(other.corpus_generation().expect("read"), 0);
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
-                &paths,
-                &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
-            )
+            .import_paths(&paths, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
             .expect("imported");
-        assert_eq!(other.generation().expect("read"), 1);
-        let overview = other.overview(10).expect("read");
+        assert_eq!(other.corpus_generation().expect("read"), 1);
+        let overview = other.load_corpus_overview(10).expect("read");
         assert_eq!(overview.recordings.len(), 1);
         assert!(overview.recordings[0].frames > 0 && overview.recordings[0].rate.is_some());
         assert!(overview.signs.len() > 1 && overview.signs.iter().all(|s| s.citation.is_some()));
         let recording = overview.recordings[0].row.id;
-        let placed = overview
-            .signs
-            .iter()
-            .filter_map(|s| Some((&*s.gloss, s.place?.0)));
+        let placed = overview.signs.iter().filter_map(|s| Some((&*s.gloss, s.place?.0)));
         assert_eq!(placed.collect::<Vec<_>>(), [("BOL", recording)]);
         assert!(!overview.inventories.is_empty());
         assert_eq!(overview.operations.len(), 1);
-        let contents = other.contents(overview.recordings[0].row.id).expect("read");
+        let contents = other
+            .load_recording_contents(overview.recordings[0].row.id)
+            .expect("read");
         let gloss = contents
             .tiers
             .iter()
@@ -183,13 +174,13 @@ mod tests {
             .expect("a gloss tier");
         assert_eq!(&*gloss.annotations.values[0], "BOL");
         assert_eq!(gloss.annotations.states[0], ValueState::Value);
-        assert!(!gloss.annotations.span(0).is_empty());
+        assert!(!gloss.annotations.annotation_span_at(0).is_empty());
         assert!(contents.tiers.iter().all(|tier| {
             let starts = &tier.annotations.starts;
             starts.is_sorted() && starts.len() == tier.annotations.len()
         }));
-        assert!(other.contents(999).is_err());
-        corpus.undo().expect("undone");
-        assert_eq!(other.generation().expect("read"), 2);
+        assert!(other.load_recording_contents(999).is_err());
+        corpus.undo_operation().expect("undone");
+        assert_eq!(other.corpus_generation().expect("read"), 2);
     }
 }

@@ -1,10 +1,10 @@
 //! The annotations before and after tokens on their tiers.
 
 use crate::Corpus;
-use crate::db::contents as rows;
-pub use crate::db::rows::Around;
-use crate::db::search::begin_reading;
-use crate::error::Result;
+use crate::db::stored_contents as rows;
+pub use crate::db::stored_rows::TokenNeighbours;
+use crate::db::stored_search::begin_reading;
+use crate::error::CorpusResult;
 
 impl Corpus {
     /// Returns the annotations before and after tokens, at most `most` on each side, in the order of `tokens`; for a
@@ -12,11 +12,11 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn around(&self, tokens: &[i64], most: usize) -> Result<Vec<Around>> {
-        let reading = begin_reading(self.store.read())?;
+    pub fn annotations_around_tokens(&self, tokens: &[i64], most: usize) -> CorpusResult<Vec<TokenNeighbours>> {
+        let reading = begin_reading(self.store.read_connection())?;
         tokens
             .iter()
-            .map(|token| rows::around(&reading, *token, most))
+            .map(|token| rows::load_annotations_around(&reading, *token, most))
             .collect()
     }
 }
@@ -25,10 +25,10 @@ impl Corpus {
 mod tests {
     use super::*;
     use crate::{
-        AnnotateOptions, AnnotationAction, AnnotationChange, ImportOptions, Moment, Progress,
-        SearchOptions, TierName, unheard, unpack_starter,
+        AnnotateOptions, AnnotationAction, AnnotationChange, ImportOptions, ProgressReceiver, SearchOptions,
+        TableMoment, TierRequestName, ignore_progress_step, unpack_starter,
     };
-    use chereme_motion::Instant;
+    use chereme_motion::RecordingInstant;
 
     #[test]
     fn neighbouring_tokens_are_listed_in_the_order_of_time() {
@@ -36,32 +36,30 @@ mod tests {
         let paths = unpack_starter(&folder.path().join("s")).expect("unpacked");
         let one = |path: &std::path::PathBuf| path.file_stem().is_some_and(|stem| stem == "bol");
         let paths: Vec<_> = paths.into_iter().filter(one).collect();
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-        let mut hear = unheard;
-        let mut progress = Progress::new(&mut hear);
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
         let options = ImportOptions::default();
-        corpus
-            .import(&paths, &options, &mut progress)
-            .expect("imported");
+        corpus.import_paths(&paths, &options, &mut progress).expect("imported");
         let hits = |corpus: &mut Corpus| {
-            let found = corpus.search("", &SearchOptions::default()).expect("found");
+            let found = corpus.search_tokens("", &SearchOptions::default()).expect("found");
             let hits: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
             hits
         };
         let bol = hits(&mut corpus)[0];
-        let first = corpus.around(&[bol, 999], 2).expect("read");
+        let first = corpus.annotations_around_tokens(&[bol, 999], 2).expect("read");
         assert!(first[0].before.is_empty() && first[0].after.is_empty());
-        let nobody = Around {
+        let nobody = TokenNeighbours {
             token: 999,
-            ..Around::default()
+            ..TokenNeighbours::default()
         };
         assert_eq!(first[1], nobody);
-        let tier = TierName::Number(first[0].tier.expect("a tier"));
-        let end = corpus.overview(0).expect("read").recordings[0]
+        let tier = TierRequestName::Number(first[0].tier.expect("a tier"));
+        let end = corpus.load_corpus_overview(0).expect("read").recordings[0]
             .row
             .duration_us;
         let add = |number: i64| {
-            let at = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+            let at = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
             AnnotationChange::from(AnnotationAction::Add {
                 tier: tier.clone(),
                 start: at(end - 40_000 + number * 10_000),
@@ -73,15 +71,15 @@ mod tests {
             })
         };
         let changes: Vec<AnnotationChange> = (0..3).map(add).collect();
-        let mut progress = Progress::new(&mut hear);
+        let mut progress = ProgressReceiver::new(&mut hear);
         let options = AnnotateOptions::default();
         corpus
-            .annotate(&changes, &options, &mut progress)
+            .annotate_corpus(&changes, &options, &mut progress)
             .expect("annotated");
-        let around = corpus.around(&[bol], 2).expect("read");
+        let around = corpus.annotations_around_tokens(&[bol], 2).expect("read");
         assert_eq!(around[0].after, ["G0", "G1"]);
         let last = hits(&mut corpus).pop().expect("the last");
-        let around = corpus.around(&[last], 2).expect("read");
+        let around = corpus.annotations_around_tokens(&[last], 2).expect("read");
         assert_eq!(around[0].before, ["G0", "G1"]);
         assert!(around[0].after.is_empty());
     }

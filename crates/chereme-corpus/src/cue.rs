@@ -3,22 +3,22 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use chereme_compose::recipe::{Cue, Node};
-use chereme_compose::units::{Factor, Hands};
-use chereme_compose::{PhaseRule, VERSION};
-use chereme_formats::eaf::convert::{Tier, Transcript};
+use chereme_compose::recipe::{CueSettings, RecipeNode};
+use chereme_compose::units::{HandChoice, RecipeFactor};
+use chereme_compose::{PhaseRule, RECIPE_TREE_VERSION};
+use chereme_formats::eaf::eaf_convert::{AnnotationTranscript, TranscriptTier};
 use chereme_formats::{eaf, textgrid};
-use chereme_motion::Instant;
-use chereme_sign::Remedy;
-use chereme_sign::cue::{self, Alphabet, CueCode, Phone, Utterance, UtteranceError};
+use chereme_motion::RecordingInstant;
+use chereme_sign::ErrorRemedy;
+use chereme_sign::cue::{self, CueCode, CuedUtterance, PhoneAlphabet, SpokenPhone, UtteranceError};
 use serde::Serialize;
 use serde_json::json;
 
 use crate::Corpus;
-use crate::error::{Error, Result};
-use crate::recombine::Recombination;
+use crate::error::{CorpusError, CorpusResult};
+use crate::recombine::RecombinationResult;
 
-pub use chereme_sign::cue::Reading as KeysOptions;
+pub use chereme_sign::cue::UtteranceReading as KeysOptions;
 
 /// The keys of an utterance.
 #[derive(Debug, Clone, Serialize)]
@@ -70,23 +70,23 @@ pub struct CueKey {
 /// Returns the keys of `input`, which is text or phones separated by blanks; `a=120` is a phone of 120 ms.
 ///
 /// # Errors
-/// [`Error::Wrong`] if the code or a variant does not exist, the pace is no positive number, the input is
+/// [`CorpusError::Wrong`] if the code or a variant does not exist, the pace is no positive number, the input is
 /// larger than a MiB, text is given for a code without rules of spelling, or there is nothing to cue in the input.
-pub fn cue_keys(input: &str, options: &KeysOptions) -> Result<CueKeys> {
-    let read = Utterance::read(input, options).map_err(unread)?;
-    let keys = CueKeys::of(&read);
+pub fn cue_keys(input: &str, options: &KeysOptions) -> CorpusResult<CueKeys> {
+    let read = CuedUtterance::read_cued_utterance(input, options).map_err(utterance_read_error)?;
+    let keys = CueKeys::from_read_utterance(&read);
     if keys.keys.is_empty() && keys.findings.is_empty() {
         return Err(nothing_to_cue(input));
     }
     Ok(keys)
 }
 
-fn unread(error: UtteranceError) -> Error {
-    Error::wrong(error.to_string()).advise(error.remedy())
+fn utterance_read_error(error: UtteranceError) -> CorpusError {
+    CorpusError::from_wrong_message(error.to_string()).with_advice(error.utterance_error_remedy())
 }
 
 impl CueKeys {
-    fn of(read: &Utterance) -> Self {
+    fn from_read_utterance(read: &CuedUtterance) -> Self {
         let words = read.words.iter().filter(|(text, _)| !text.is_empty());
         Self {
             code: read.code.id.clone(),
@@ -96,7 +96,7 @@ impl CueKeys {
                     phones: phones.clone(),
                 })
                 .collect(),
-            keys: read.keys.iter().map(shown).collect(),
+            keys: read.keys.iter().map(cue_key_from_analysis).collect(),
             findings: read.findings.iter().map(ToString::to_string).collect(),
             tier: None,
             alphabet: None,
@@ -126,19 +126,19 @@ const MOST_FILE_BYTES: u64 = 1 << 28;
 ///
 /// # Errors
 /// Fails if the file cannot be read, or has no such tier, or nothing to cue on it.
-pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> Result<CueKeys> {
-    let (read, name, mut findings) = aligned(path, tier, options)?;
-    let mut keys = CueKeys::of(&read);
+pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> CorpusResult<CueKeys> {
+    let (read, name, mut findings) = read_aligned_utterance(path, tier, options)?;
+    let mut keys = CueKeys::from_read_utterance(&read);
     findings.append(&mut keys.findings);
     keys.findings = findings;
     if keys.keys.is_empty() && keys.findings.is_empty() {
         let text = format!("the tier {name:?} has no phones to cue");
-        return Err(Error::wrong(text)
-            .at(path.display().to_string())
-            .advise(Remedy::command("name one with --tier")));
+        return Err(CorpusError::from_wrong_message(text)
+            .with_error_place(path.display().to_string())
+            .with_advice(ErrorRemedy::command_remedy("name one with --tier")));
     }
     keys.tier = Some(name);
-    keys.alphabet = Some(read.alphabet.name());
+    keys.alphabet = Some(read.alphabet.alphabet_name());
     Ok(keys)
 }
 
@@ -154,10 +154,10 @@ pub fn cue_phones_of_file(
     path: &Path,
     tier: Option<&str>,
     options: &KeysOptions,
-) -> Result<(String, Vec<String>)> {
-    let (read, _, mut findings) = aligned(path, tier, options)?;
+) -> CorpusResult<(String, Vec<String>)> {
+    let (read, _, mut findings) = read_aligned_utterance(path, tier, options)?;
     findings.extend(read.findings.iter().map(ToString::to_string));
-    Ok((read.written(), findings))
+    Ok((read.write_sampa_phones(), findings))
 }
 
 /// The cuer, and the manner of cueing.
@@ -179,46 +179,48 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if nothing in the text can be cued, or the body has no arm, fingers or head. Nothing incomplete is stored.
-    pub fn cue(
+    pub fn generate_cued_speech(
         &mut self,
         text: &str,
         options: &CueOptions,
         gloss: Option<&str>,
-    ) -> Result<Recombination> {
+    ) -> CorpusResult<RecombinationResult> {
         check_size(text)?;
         // A text that means nothing is refused by itself, not as a recipe that holds all of it.
-        let read = Utterance::read(text, &options.reading).map_err(unread)?;
+        let read = CuedUtterance::read_cued_utterance(text, &options.reading).map_err(utterance_read_error)?;
         if read.keys.is_empty() {
             return Err(nothing_to_cue(text));
         }
         let signer = options.signer.as_deref();
-        let on = signer.map(|it| self.body(it)).transpose()?;
+        let on = signer.map(|name| self.body_address(name)).transpose()?;
         let recipe = cue_recipe(text, options, on);
         match gloss {
-            Some(gloss) => self.recombine(&recipe, gloss),
-            None => self.preview(&recipe),
+            Some(gloss) => self.recombine_recipe(&recipe, gloss),
+            None => self.preview_recipe(&recipe),
         }
     }
 }
 
 /// Refuses a text by its length, before it is read.
-pub(crate) fn check_size(text: &str) -> Result<()> {
+pub(crate) fn check_size(text: &str) -> CorpusResult<()> {
     if text.len() > MOST_CUED_BYTES {
-        return Err(Error::wrong(format!("the text has {} bytes", text.len()))
-            .advise("cue at most 256 KiB at once, about an hour of speech"));
+        return Err(
+            CorpusError::from_wrong_message(format!("the text has {} bytes", text.len()))
+                .with_advice("cue at most 256 KiB at once, about an hour of speech"),
+        );
     }
     Ok(())
 }
 
 /// Returns the error for a text without any key.
-pub(crate) fn nothing_to_cue(text: &str) -> Error {
-    const SHOWN: usize = 60;
-    let mut begin: String = text.trim().chars().take(SHOWN).collect();
-    if text.trim().chars().nth(SHOWN).is_some() {
+pub(crate) fn nothing_to_cue(text: &str) -> CorpusError {
+    const MAX_UNREAD_TEXT_CHARS: usize = 60;
+    let mut begin: String = text.trim().chars().take(MAX_UNREAD_TEXT_CHARS).collect();
+    if text.trim().chars().nth(MAX_UNREAD_TEXT_CHARS).is_some() {
         begin.push('…');
     }
-    Error::wrong(format!("there is nothing to cue in {begin:?}"))
-        .advise(Remedy::command("write words, or phones with --phones"))
+    CorpusError::from_wrong_message(format!("there is nothing to cue in {begin:?}"))
+        .with_advice(ErrorRemedy::command_remedy("write words, or phones with --phones"))
 }
 
 /// Returns the phones of `text` in IPA as the program `espeak-ng` pronounces them, if it is installed, and the
@@ -226,23 +228,28 @@ pub(crate) fn nothing_to_cue(text: &str) -> Error {
 ///
 /// # Errors
 /// Fails if the code does not exist, the text is larger than 64 KiB, or `espeak-ng` cannot be run.
-pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>)> {
-    const MOST: usize = 1 << 16;
-    let known = cue::code(code).ok_or_else(|| unread(UtteranceError::NoCode(code.to_owned())))?;
-    if text.len() > MOST {
-        return Err(Error::wrong(format!("the text has {} bytes", text.len()))
-            .advise("give at most 64 KiB at once to espeak-ng"));
+pub fn cue_phones_of_espeak(text: &str, code: &str) -> CorpusResult<(String, Vec<char>)> {
+    const MAX_ESPEAK_TEXT_BYTES: usize = 1 << 16;
+    let cue_code =
+        cue::find_cue_code(code).ok_or_else(|| utterance_read_error(UtteranceError::NoCode(code.to_owned())))?;
+    if text.len() > MAX_ESPEAK_TEXT_BYTES {
+        return Err(
+            CorpusError::from_wrong_message(format!("the text has {} bytes", text.len()))
+                .with_advice("give at most 64 KiB at once to espeak-ng"),
+        );
     }
-    let voice = match known.language.as_str() {
+    let voice = match cue_code.language.as_str() {
         "fr" => "fr-fr",
         "en-US" => "en-us",
         "en-GB" => "en-gb",
         other => other,
     };
     let cannot = |error: std::io::Error| {
-        Error::wrong(format!("espeak-ng cannot be run: {error}")).advise(Remedy::command(
-            "install espeak-ng, or give French text without --espeak, or phones with --phones",
-        ))
+        CorpusError::from_wrong_message(format!("espeak-ng cannot be run: {error}")).with_advice(
+            ErrorRemedy::command_remedy(
+                "install espeak-ng, or give French text without --espeak, or phones with --phones",
+            ),
+        )
     };
     let mut child = Command::new("espeak-ng")
         .args(["-q", "-v", voice, "--ipa", "--stdin"])
@@ -262,14 +269,11 @@ pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>
     let output = child.wait_with_output().map_err(cannot)?;
     drop(writer.join());
     if !output.status.success() {
-        return Err(Error::wrong("espeak-ng failed").advise(format!(
+        return Err(CorpusError::from_wrong_message("espeak-ng failed").with_advice(format!(
             "try `espeak-ng -v {voice}` by itself: the voice may be missing"
         )));
     }
-    Ok(cue::of_espeak(
-        &String::from_utf8_lossy(&output.stdout),
-        known,
-    ))
+    Ok(cue::of_espeak(&String::from_utf8_lossy(&output.stdout), cue_code))
 }
 
 /// Returns the recipe, as JSON, for a cuer who says `text`; `on` is the address of a body, and without it the corpus
@@ -282,114 +286,113 @@ pub fn cue_recipe(text: &str, options: &CueOptions, on: Option<String>) -> Strin
         variants.push("no-liaison".to_owned());
     }
     match french.schwa {
-        cue::french::Schwa::Usual => {}
-        cue::french::Schwa::Said => variants.push("schwa-said".to_owned()),
-        cue::french::Schwa::Dropped => variants.push("schwa-dropped".to_owned()),
+        cue::french::SchwaCondition::Usual => {}
+        cue::french::SchwaCondition::Said => variants.push("schwa-said".to_owned()),
+        cue::french::SchwaCondition::Dropped => variants.push("schwa-dropped".to_owned()),
     }
     let code = Some(options.reading.code.clone()).filter(|code| code != "french");
-    let node = Node::Cue(Cue {
+    let node = RecipeNode::Cue(CueSettings {
         text: text.to_owned(),
-        phones: options.reading.phones.map(|it| it.name().to_owned()),
+        phones: options
+            .reading
+            .phones
+            .map(|alphabet| alphabet.alphabet_name().to_owned()),
         code,
         variants,
         hand: if options.left {
-            Hands::Left
+            HandChoice::Left
         } else {
-            Hands::Dominant
+            HandChoice::Dominant
         },
         phase: options.phase,
-        pace: options.reading.pace.map(Factor),
+        pace: options.reading.pace.map(RecipeFactor),
         on,
     });
-    json!({"version": VERSION, "make": node}).to_string()
+    json!({"version": RECIPE_TREE_VERSION, "make": node}).to_string()
 }
 
-fn aligned(
+fn read_aligned_utterance(
     path: &Path,
     tier: Option<&str>,
     options: &KeysOptions,
-) -> Result<(Utterance, String, Vec<String>)> {
-    let file = |source| Error::File {
+) -> CorpusResult<(CuedUtterance, String, Vec<String>)> {
+    let file = |source| CorpusError::File {
         path: path.to_owned(),
         source,
     };
     let size = std::fs::metadata(path).map_err(file)?.len();
     if size > MOST_FILE_BYTES {
-        return Err(Error::wrong(format!("the file has {size} bytes"))
-            .at(path.display().to_string())
-            .advise("give a file of at most 256 MiB"));
+        return Err(CorpusError::from_wrong_message(format!("the file has {size} bytes"))
+            .with_error_place(path.display().to_string())
+            .with_advice("give a file of at most 256 MiB"));
     }
     let bytes = std::fs::read(path).map_err(file)?;
     let wrong = |error: String| {
-        Error::wrong(error)
-            .at(path.display().to_string())
-            .advise("give a TextGrid or an EAF file with a tier of phones")
+        CorpusError::from_wrong_message(error)
+            .with_error_place(path.display().to_string())
+            .with_advice("give a TextGrid or an EAF file with a tier of phones")
     };
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
     let is_eaf = text.trim_ascii_start().starts_with(b"<");
     let (transcript, odd) = if is_eaf {
-        eaf::read(&bytes).map_err(|error| wrong(error.to_string()))?
+        eaf::read_eaf(&bytes).map_err(|error| wrong(error.to_string()))?
     } else {
-        textgrid::read(&bytes).map_err(|error| wrong(error.to_string()))?
+        textgrid::read_textgrid_file(&bytes).map_err(|error| wrong(error.to_string()))?
     };
-    let tier =
-        phone_tier(&transcript, tier).map_err(|error| error.at(path.display().to_string()))?;
-    let labels = tier.annotations.iter().map(|one| Phone {
+    let tier = phone_tier(&transcript, tier).map_err(|error| error.with_error_place(path.display().to_string()))?;
+    let labels = tier.annotations.iter().map(|one| SpokenPhone {
         label: one.value.trim().to_owned(),
         span: Some(one.span),
     });
-    let mut phones: Vec<Phone> = labels.collect();
-    phones.sort_by_key(|phone| phone.span.map(|span| span.start()));
-    let known = cue::code(&options.code)
-        .ok_or_else(|| unread(UtteranceError::NoCode(options.code.clone())))?;
+    let mut phones: Vec<SpokenPhone> = labels.collect();
+    phones.sort_by_key(|phone| phone.span.map(|span| span.span_start_instant()));
+    let cue_code = cue::find_cue_code(&options.code)
+        .ok_or_else(|| utterance_read_error(UtteranceError::NoCode(options.code.clone())))?;
     let variants: Vec<&str> = options.variants.iter().map(String::as_str).collect();
-    let code = known
+    let code = cue_code
         .with_variants(&variants)
-        .map_err(|error| unread(error.into()))?;
-    let alphabet = options
-        .phones
-        .unwrap_or_else(|| guessed_alphabet(&code, &phones));
+        .map_err(|error| utterance_read_error(error.into()))?;
+    let alphabet = options.phones.unwrap_or_else(|| guessed_alphabet(&code, &phones));
     let spaced = with_gaps(phones);
     let name = tier.name.clone();
     let findings = odd.iter().map(|finding| finding.message.clone()).collect();
-    Ok((Utterance::of_phones(code, spaced, alphabet), name, findings))
+    Ok((CuedUtterance::of_phones(code, spaced, alphabet), name, findings))
 }
 
 /// Returns the alphabet that contains most of the labels; in a tie SAMPA before IPA before MFA.
-pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[Phone]) -> Alphabet {
-    let knows = |alphabet: &Alphabet| {
+pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[SpokenPhone]) -> PhoneAlphabet {
+    let knows = |alphabet: &PhoneAlphabet| {
         let labels = phones.iter().map(|phone| &phone.label);
         labels
-            .filter(|label| code.symbols(label, *alphabet).is_some())
+            .filter(|label| code.sampa_symbols(label, *alphabet).is_some())
             .count()
     };
-    let rated = Alphabet::ALL.iter().rev().max_by_key(|it| knows(it));
+    let rated = PhoneAlphabet::ALL_ALPHABETS
+        .iter()
+        .rev()
+        .max_by_key(|alphabet| knows(alphabet));
     rated.copied().unwrap_or_default()
 }
 
 /// Returns whether a tier's name is one that aligners use for phones.
 pub(crate) fn is_phone_tier(name: &str) -> bool {
-    let folded = chereme_sign::text::fold(name);
+    let folded = chereme_sign::text::fold_text(name);
     let plain: String = folded.chars().filter(|c| c.is_alphanumeric()).collect();
     let fits = |known: &&str| plain == **known || plain.ends_with(*known) && *known != "mau";
     PHONE_TIERS.iter().any(fits)
 }
 
 /// Returns the wanted tier, or the first one whose name aligners use for phones.
-fn phone_tier<'a>(transcript: &'a Transcript, wanted: Option<&str>) -> Result<&'a Tier> {
+fn phone_tier<'a>(transcript: &'a AnnotationTranscript, wanted: Option<&str>) -> CorpusResult<&'a TranscriptTier> {
     let plain = |name: &str| -> String {
-        let folded = chereme_sign::text::fold(name);
+        let folded = chereme_sign::text::fold_text(name);
         folded.chars().filter(|c| c.is_alphanumeric()).collect()
     };
     let names = || {
-        let names: Vec<&str> = transcript
-            .tiers
-            .iter()
-            .map(|tier| tier.name.as_str())
-            .collect();
+        let names: Vec<&str> = transcript.tiers.iter().map(|tier| tier.name.as_str()).collect();
         names.join(", ")
     };
-    let found = match wanted {
+    let chosen_tier = match wanted {
         Some(wanted) => transcript.tiers.iter().find(|tier| tier.name == wanted),
         None => PHONE_TIERS.iter().find_map(|known| {
             transcript.tiers.iter().find(|tier| {
@@ -398,48 +401,45 @@ fn phone_tier<'a>(transcript: &'a Transcript, wanted: Option<&str>) -> Result<&'
             })
         }),
     };
-    found.ok_or_else(|| match wanted {
-        Some(wanted) => Error::wrong(format!(
-            "there is no tier {wanted:?}; there are: {}",
-            names()
-        ))
-        .advise("name one of them"),
-        None => Error::wrong(format!(
-            "no tier is called like phones; there are: {}",
-            names()
-        ))
-        .advise(Remedy::command("name one with --tier")),
+    chosen_tier.ok_or_else(|| match wanted {
+        Some(wanted) => CorpusError::from_wrong_message(format!("there is no tier {wanted:?}; there are: {}", names()))
+            .with_advice("name one of them"),
+        None => CorpusError::from_wrong_message(format!("no tier is called like phones; there are: {}", names()))
+            .with_advice(ErrorRemedy::command_remedy("name one with --tier")),
     })
 }
 
 /// Inserts a pause into every silence between two phones.
-pub(crate) fn with_gaps(phones: Vec<Phone>) -> Vec<Phone> {
-    let mut spaced: Vec<Phone> = Vec::with_capacity(phones.len());
-    let mut at = Instant::ZERO;
+pub(crate) fn with_gaps(phones: Vec<SpokenPhone>) -> Vec<SpokenPhone> {
+    let mut spaced: Vec<SpokenPhone> = Vec::with_capacity(phones.len());
+    let mut last_end = RecordingInstant::RECORDING_START;
     for phone in phones {
         let Some(span) = phone.span else { continue };
-        if span.start().micros() - at.micros() > SILENCE_MICROS {
-            spaced.push(Phone {
+        if span.span_start_instant().instant_micros() - last_end.instant_micros() > SILENCE_MICROS {
+            spaced.push(SpokenPhone {
                 label: "#".to_owned(),
-                span: Some(chereme_motion::Span::between(at, span.start())),
+                span: Some(chereme_motion::TimeSpan::span_between(
+                    last_end,
+                    span.span_start_instant(),
+                )),
             });
         }
-        at = at.max(span.end());
+        last_end = last_end.max(span.span_end_instant());
         spaced.push(phone);
     }
     spaced
 }
 
-fn shown(key: &cue::Key) -> CueKey {
-    let micros = |instant: Instant| instant.micros();
+fn cue_key_from_analysis(key: &cue::HandCueKey) -> CueKey {
+    let micros = |instant: RecordingInstant| instant.instant_micros();
     CueKey {
         shape: key.shape,
         placement: key.placement.clone(),
         or_placement: key.or_at.clone(),
         phones: key.phones.clone(),
-        start_us: key.span.map(|span| micros(span.start())),
-        vowel_us: key.vowel.map(|span| micros(span.start())),
-        end_us: key.span.map(|span| micros(span.end())),
+        start_us: key.span.map(|span| micros(span.span_start_instant())),
+        vowel_us: key.vowel.map(|span| micros(span.span_start_instant())),
+        end_us: key.span.map(|span| micros(span.span_end_instant())),
     }
 }
 
@@ -449,10 +449,7 @@ mod tests {
 
     fn plain(input: &str, options: &KeysOptions) -> String {
         let found = cue_keys(input, options).expect("keys");
-        let words = found
-            .keys
-            .iter()
-            .map(|key| format!("{}-{}", key.shape, key.placement));
+        let words = found.keys.iter().map(|key| format!("{}-{}", key.shape, key.placement));
         words.collect::<Vec<String>>().join(" ")
     }
 
@@ -462,7 +459,7 @@ mod tests {
         let expected = "6-side 6-side 1-chin 3-side";
         assert_eq!(plain("le chat dort", &text), expected);
         let phones = KeysOptions {
-            phones: Some(Alphabet::Ipa),
+            phones: Some(PhoneAlphabet::Ipa),
             ..KeysOptions::default()
         };
         assert_eq!(plain("l ə ʃ a d ɔ ʁ", &phones), expected);
@@ -492,7 +489,7 @@ mod tests {
     fn input_that_means_nothing_is_refused_with_the_remedy() {
         let refuse = |input: &str, options: KeysOptions| {
             let error = cue_keys(input, &options).expect_err("refused");
-            error.remedy().unwrap_or_default().to_string()
+            error.error_remedy().unwrap_or_default().to_string()
         };
         let code = |code: &str| KeysOptions {
             code: code.to_owned(),
@@ -510,7 +507,7 @@ mod tests {
         let long = "a ".repeat(1 << 20);
         assert!(refuse(&long, KeysOptions::default()).contains("1 MiB"));
         let phones = || KeysOptions {
-            phones: Some(Alphabet::Ipa),
+            phones: Some(PhoneAlphabet::Ipa),
             ..KeysOptions::default()
         };
         for (nothing, options) in [
@@ -520,10 +517,7 @@ mod tests {
             ("", phones()),
             ("#", phones()),
         ] {
-            assert!(
-                refuse(nothing, options).contains("write words"),
-                "{nothing:?}"
-            );
+            assert!(refuse(nothing, options).contains("write words"), "{nothing:?}");
         }
     }
 }

@@ -2,30 +2,30 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_motion::Instant;
-use chereme_sign::Remedy;
+use chereme_motion::RecordingInstant;
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
+use crate::address::{self, CorpusAddress, RowName};
 use crate::annotate;
-use crate::db::check::tried;
-use crate::db::delete::{self as rows, Belongings};
 use crate::db::edits;
 use crate::db::recipes;
-use crate::db::recordings;
 use crate::db::signs::{self, TokenRow};
-use crate::db::tiers;
+use crate::db::stored_check::run_and_roll_back;
+use crate::db::stored_delete::{self as rows, RecordingBelongings};
+use crate::db::stored_recordings;
+use crate::db::stored_tiers;
 use crate::edit::sign_there;
-use crate::error::{Error, Result};
-use crate::progress::{Progress, Step, Unit};
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::words;
 use crate::words::effect::OperationEffect;
 
 /// What happens to things that depend on a deleted one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Dependents {
+pub enum DependentsPolicy {
     /// Nothing is deleted if there are any.
     #[default]
     Refuse,
@@ -40,7 +40,7 @@ pub enum Dependents {
 pub struct DeleteOptions {
     /// What happens to generated signs whose recipes take movement from something deleted, and to annotations of a
     /// deleted sign in recordings that stay.
-    pub dependents: Dependents,
+    pub dependents: DependentsPolicy,
     /// Whether to report what would be deleted, and write nothing.
     pub dry_run: bool,
 }
@@ -54,12 +54,12 @@ pub struct DeletedRecording {
     pub name: String,
     /// The rows that went with it.
     #[serde(flatten)]
-    pub belongings: Belongings,
+    pub belongings: RecordingBelongings,
 }
 
 /// Something that depends on a deleted recording or sign.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct Dependent {
+pub struct DeletionDependent {
     /// Its address: a generated recording, or an annotation of the sign in a recording that stays.
     pub address: String,
     /// The name of the recording.
@@ -70,7 +70,7 @@ pub struct Dependent {
 
 /// The result of a deletion.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Deleted {
+pub struct DeletionReport {
     /// Whether nothing was written.
     pub dry_run: bool,
     /// The recordings, in the order of their rows.
@@ -80,7 +80,7 @@ pub struct Deleted {
     /// How many annotations were removed from recordings that stay.
     pub annotations: u64,
     /// Things that depend on deleted ones: deleted or kept, as asked for, or in the way.
-    pub dependents: Vec<Dependent>,
+    pub dependents: Vec<DeletionDependent>,
     /// The names of the recordings and of the named signs, as in the history.
     pub summary: String,
 }
@@ -96,39 +96,38 @@ impl Corpus {
     /// # Errors
     /// Fails if there is no such recording or sign, or if something depends on it and `options` does not say what
     /// happens to that.
-    pub fn delete(
+    pub fn delete_objects(
         &mut self,
-        what: &[Address],
+        what: &[CorpusAddress],
         options: DeleteOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Deleted> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DeletionReport> {
         if options.dry_run {
-            let connection = self.store.read();
-            let plan = Plan::of(connection, what, options.dependents)?;
+            let connection = self.store.read_connection();
+            let plan = DeletionPlan::plan_deletion(connection, what, options.dependents)?;
             let mut done = match plan.is_refused(options.dependents) {
                 true => plan.foreseen(connection)?,
-                false => tried(connection, || plan.carry_out(connection, progress))?,
+                false => run_and_roll_back(connection, || plan.carry_out_deletion(connection, progress))?,
             };
             done.dry_run = true;
             return Ok(done);
         }
-        self.store
-            .operation_with_progress(progress, |connection, progress| {
-                edits::defer_references(connection)?;
-                let plan = Plan::of(connection, what, options.dependents)?;
-                if plan.is_refused(options.dependents) {
-                    return Err(plan.refusal(connection)?);
-                }
-                let names = plan.names(connection)?;
-                let done = plan.carry_out(connection, progress)?;
-                Ok((done, OperationEffect::Delete { names }))
-            })
+        self.store.operation_with_progress(progress, |connection, progress| {
+            edits::defer_references(connection)?;
+            let plan = DeletionPlan::plan_deletion(connection, what, options.dependents)?;
+            if plan.is_refused(options.dependents) {
+                return Err(plan.refusal(connection)?);
+            }
+            let names = plan.deleted_object_names(connection)?;
+            let done = plan.carry_out_deletion(connection, progress)?;
+            Ok((done, OperationEffect::Delete { names }))
+        })
     }
 }
 
 /// The rows that a deletion removes, and those that depend on them.
 #[derive(Default)]
-struct Plan {
+struct DeletionPlan {
     recordings: BTreeSet<i64>,
     signs: BTreeSet<i64>,
     /// Entries of the signs in the lexicon.
@@ -139,19 +138,23 @@ struct Plan {
     made: BTreeMap<i64, String>,
 }
 
-impl Plan {
-    fn of(connection: &Connection, what: &[Address], dependents: Dependents) -> Result<Self> {
+impl DeletionPlan {
+    fn plan_deletion(
+        connection: &Connection,
+        what: &[CorpusAddress],
+        dependents: DependentsPolicy,
+    ) -> CorpusResult<Self> {
         let mut plan = Self::default();
         for address in what {
             match address {
-                Address::Recording(name) => {
+                CorpusAddress::Recording(name) => {
                     plan.recordings
-                        .insert(address::recording(connection, name)?.id);
+                        .insert(address::find_recording_by_name(connection, name)?.id);
                 }
-                Address::Sign(name) => {
-                    plan.signs.insert(sign(connection, name)?);
+                CorpusAddress::Sign(name) => {
+                    plan.signs.insert(find_deleted_sign(connection, name)?);
                 }
-                Address::Gloss(name) => {
+                CorpusAddress::Gloss(name) => {
                     plan.recordings.insert(bare_recording(connection, name)?);
                 }
                 other => return Err(not_here(other)),
@@ -160,12 +163,12 @@ impl Plan {
         for sign in plan.signs.clone() {
             plan.tokens_of(connection, sign)?;
         }
-        plan.follow(connection, dependents)?;
+        plan.follow_generated_recordings(connection, dependents)?;
         Ok(plan)
     }
 
     /// Sorts the tokens of a sign: recordings that were generated for it alone go with it.
-    fn tokens_of(&mut self, connection: &Connection, sign: i64) -> Result<()> {
+    fn tokens_of(&mut self, connection: &Connection, sign: i64) -> CorpusResult<()> {
         for token in signs::tokens_of_sign(connection, sign)? {
             let Some(recording) = token.recording_id else {
                 self.entries.push(token.id);
@@ -174,9 +177,9 @@ impl Plan {
             if self.recordings.contains(&recording) {
                 continue;
             }
-            let generated = recipes::of_recording(connection, recording)?.is_some();
+            let generated = recipes::find_recording_recipe(connection, recording)?.is_some();
             let all = signs::tokens_of_recording(connection, recording)?;
-            if generated && all.iter().all(|it| self.signs.contains(&it.sign_id)) {
+            if generated && all.iter().all(|other| self.signs.contains(&other.sign_id)) {
                 self.recordings.insert(recording);
             } else {
                 self.annotated.push(token);
@@ -187,7 +190,11 @@ impl Plan {
 
     /// Finds the generated recordings that take movement from something that goes; if they go too, also those that
     /// take movement from them.
-    fn follow(&mut self, connection: &Connection, dependents: Dependents) -> Result<()> {
+    fn follow_generated_recordings(
+        &mut self,
+        connection: &Connection,
+        dependents: DependentsPolicy,
+    ) -> CorpusResult<()> {
         let mut next: Vec<i64> = self.recordings.iter().copied().collect();
         let mut users = Vec::new();
         for entry in &self.entries {
@@ -205,7 +212,7 @@ impl Plan {
                     continue;
                 }
                 self.made.insert(recording, name);
-                if dependents == Dependents::Delete {
+                if dependents == DependentsPolicy::Delete {
                     self.recordings.insert(recording);
                     next.push(recording);
                 }
@@ -213,80 +220,80 @@ impl Plan {
         }
         let gone = &self.recordings;
         self.annotated
-            .retain(|token| token.recording_id.is_none_or(|it| !gone.contains(&it)));
+            .retain(|token| token.recording_id.is_none_or(|recording| !gone.contains(&recording)));
         Ok(())
     }
 
     /// Returns whether something is in the way. Generated signs can be kept, but no annotation of a sign that goes.
-    fn is_refused(&self, dependents: Dependents) -> bool {
+    fn is_refused(&self, dependents: DependentsPolicy) -> bool {
         match dependents {
-            Dependents::Refuse => !self.made.is_empty() || !self.annotated.is_empty(),
-            Dependents::Keep => !self.annotated.is_empty(),
-            Dependents::Delete => false,
+            DependentsPolicy::Refuse => !self.made.is_empty() || !self.annotated.is_empty(),
+            DependentsPolicy::Keep => !self.annotated.is_empty(),
+            DependentsPolicy::Delete => false,
         }
     }
 
-    fn refusal(&self, connection: &Connection) -> Result<Error> {
-        let gone = self.names(connection)?.join(", ");
+    fn refusal(&self, connection: &Connection) -> CorpusResult<CorpusError> {
+        let gone = self.deleted_object_names(connection)?.join(", ");
         if let Some(token) = self.annotated.first() {
-            let place = place(token);
-            let count = words::counted(self.annotated.len() as u64, "tokens");
-            return Ok(Error::wrong(format!(
+            let place = token_place_text(token);
+            let count = words::format_noun_count(self.annotated.len() as u64, "tokens");
+            return Ok(CorpusError::from_wrong_message(format!(
                 "{} has {count} in recordings that stay, the first in {place}",
                 token.gloss
             ))
-            .at(place)
-            .advise(
-                Remedy::command("delete its annotations as well with --with-dependents, or name the recordings, too"),
-            ));
+            .with_error_place(place)
+            .with_advice(ErrorRemedy::command_remedy(
+                "delete its annotations as well with --with-dependents, or name the recordings, too",
+            )));
         }
         let made: Vec<&str> = self.made.values().map(String::as_str).collect();
-        Ok(Error::wrong(format!(
+        Ok(CorpusError::from_wrong_message(format!(
             "generated signs take movement from {gone}: {}",
             made.join(", ")
         ))
-        .at(gone)
-        .advise(
-            Remedy::command("delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own \
-             movement, and their recipes cannot be evaluated again"),
-        ))
+        .with_error_place(gone)
+        .with_advice(ErrorRemedy::command_remedy(
+            "delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own \
+             movement, and their recipes cannot be evaluated again",
+        )))
     }
 
     /// Returns the names of the recordings and the glosses of the signs that go.
-    fn names(&self, connection: &Connection) -> Result<Vec<String>> {
+    fn deleted_object_names(&self, connection: &Connection) -> CorpusResult<Vec<String>> {
         let mut names = BTreeSet::new();
         for recording in &self.recordings {
-            names.insert(recordings::recording(connection, *recording)?.name);
+            names.insert(stored_recordings::load_recording_row(connection, *recording)?.name);
         }
         for sign in &self.signs {
-            names.insert(edits::sign(connection, *sign)?.0);
+            names.insert(edits::sign_gloss_and_notes(connection, *sign)?.0);
         }
         Ok(names.into_iter().collect())
     }
 
     /// Returns what is to be deleted, without trying it.
-    fn foreseen(&self, connection: &Connection) -> Result<Deleted> {
-        let mut done = Deleted {
-            summary: self.names(connection)?.join(", "),
+    fn foreseen(&self, connection: &Connection) -> CorpusResult<DeletionReport> {
+        let mut done = DeletionReport {
+            summary: self.deleted_object_names(connection)?.join(", "),
             dependents: self.dependents(),
-            ..Deleted::default()
+            ..DeletionReport::default()
         };
         for recording in &self.recordings {
-            done.recordings.push(counted(connection, *recording)?);
+            done.recordings.push(count_deleted_recording(connection, *recording)?);
         }
         for sign in &self.signs {
-            done.signs.push(edits::sign(connection, *sign)?.0);
+            done.signs.push(edits::sign_gloss_and_notes(connection, *sign)?.0);
         }
         Ok(done)
     }
 
-    fn dependents(&self) -> Vec<Dependent> {
-        let made = self.made.iter().map(|(recording, name)| Dependent {
+    fn dependents(&self) -> Vec<DeletionDependent> {
+        let made = self.made.iter().map(|(recording, name)| DeletionDependent {
             address: format!("recording:{recording}"),
             recording: name.clone(),
             start_us: None,
         });
-        let annotated = self.annotated.iter().map(|token| Dependent {
+        let annotated = self.annotated.iter().map(|token| DeletionDependent {
             address: format!("annotation:{}", token.annotation_id.unwrap_or_default()),
             recording: token.recording.clone().unwrap_or_default(),
             start_us: token.start_us,
@@ -294,15 +301,19 @@ impl Plan {
         made.chain(annotated).collect()
     }
 
-    fn carry_out(&self, connection: &Connection, progress: &mut Progress<'_>) -> Result<Deleted> {
+    fn carry_out_deletion(
+        &self,
+        connection: &Connection,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DeletionReport> {
         let mut done = self.foreseen(connection)?;
         let mut affected: BTreeMap<i64, String> = BTreeMap::new();
         for (count, recording) in self.recordings.iter().enumerate() {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "deleting",
                 done: count as u64,
                 total: Some(self.recordings.len() as u64),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             for token in signs::tokens_of_recording(connection, *recording)? {
                 affected.insert(token.sign_id, token.gloss);
@@ -329,21 +340,13 @@ impl Plan {
     }
 
     /// Removes the annotations of the signs from recordings that stay, with all below them.
-    fn remove_annotations(
-        &self,
-        connection: &Connection,
-        progress: &mut Progress<'_>,
-    ) -> Result<u64> {
-        let own: BTreeSet<i64> = self
-            .annotated
-            .iter()
-            .filter_map(|token| token.annotation_id)
-            .collect();
+    fn remove_annotations(&self, connection: &Connection, progress: &mut ProgressReceiver<'_>) -> CorpusResult<u64> {
+        let annotation_ids: BTreeSet<i64> = self.annotated.iter().filter_map(|token| token.annotation_id).collect();
         let mut roots = Vec::new();
-        for id in &own {
-            let mut above = tiers::annotation(connection, *id)?.parent_id;
-            while let Some(parent) = above.filter(|parent| !own.contains(parent)) {
-                above = tiers::annotation(connection, parent)?.parent_id;
+        for id in &annotation_ids {
+            let mut above = stored_tiers::load_annotation_row(connection, *id)?.parent_id;
+            while let Some(parent) = above.filter(|parent| !annotation_ids.contains(parent)) {
+                above = stored_tiers::load_annotation_row(connection, parent)?.parent_id;
             }
             if above.is_none() {
                 roots.push(*id);
@@ -353,61 +356,61 @@ impl Plan {
     }
 }
 
-fn counted(connection: &Connection, recording: i64) -> Result<DeletedRecording> {
+fn count_deleted_recording(connection: &Connection, recording: i64) -> CorpusResult<DeletedRecording> {
     Ok(DeletedRecording {
         recording,
-        name: recordings::recording(connection, recording)?.name,
-        belongings: rows::belongings(connection, recording)?,
+        name: stored_recordings::load_recording_row(connection, recording)?.name,
+        belongings: rows::count_recording_belongings(connection, recording)?,
     })
 }
 
-fn place(token: &TokenRow) -> String {
-    let start = Instant::from_micros(token.start_us.unwrap_or_default());
+fn token_place_text(token: &TokenRow) -> String {
+    let start = RecordingInstant::from_micros(token.start_us.unwrap_or_default());
     let recording = token.recording.as_deref().unwrap_or_default();
     format!("{recording:?} at {start}")
 }
 
-fn sign(connection: &Connection, name: &Name) -> Result<i64> {
+fn find_deleted_sign(connection: &Connection, name: &RowName) -> CorpusResult<i64> {
     match name {
-        Name::Text(gloss) => address::sign(connection, gloss),
-        Name::Number(id) => sign_there(connection, *id),
+        RowName::Text(gloss) => address::find_sign_by_gloss(connection, gloss),
+        RowName::Number(id) => sign_there(connection, *id),
     }
 }
 
 /// Returns the recording with a bare name. A sign must be named as one: it takes all its tokens with it.
-fn bare_recording(connection: &Connection, name: &str) -> Result<i64> {
-    let recording = recordings::recording_named(connection, name)?;
-    match (address::sign(connection, name), recording) {
+fn bare_recording(connection: &Connection, name: &str) -> CorpusResult<i64> {
+    let recording = stored_recordings::recording_named(connection, name)?;
+    match (address::find_sign_by_gloss(connection, name), recording) {
         (Err(_), Some(recording)) => Ok(recording.id),
         (Ok(_), None) => Err(
-            Error::wrong(format!("{name:?} is a sign with all its tokens"))
-                .at(name)
-                .advise(format!("write sign:{name:?} to delete them all")),
+            CorpusError::from_wrong_message(format!("{name:?} is a sign with all its tokens"))
+                .with_error_place(name)
+                .with_advice(format!("write sign:{name:?} to delete them all")),
         ),
         (Ok(_), Some(_)) => {
             let text = format!("{name:?} is both a sign and a recording");
-            Err(Error::wrong(text)
-                .at(name)
-                .advise(format!("write sign:{name:?} or recording:{name:?}")))
+            Err(CorpusError::from_wrong_message(text)
+                .with_error_place(name)
+                .with_advice(format!("write sign:{name:?} or recording:{name:?}")))
         }
         (Err(error), None) => Err(error),
     }
 }
 
 /// Returns the error for something that is removed in another way.
-fn not_here(address: &Address) -> Error {
+fn not_here(address: &CorpusAddress) -> CorpusError {
     let remedy = match address {
-        Address::Annotation(_) | Address::Token(_) => Remedy::command(
-            "a token goes with its annotation: `chereme annotate CORPUS remove ANNOTATION`",
-        ),
-        Address::Tier(_) => {
-            Remedy::command("remove a tier with `chereme annotate CORPUS remove-tier TIER`")
+        CorpusAddress::Annotation(_) | CorpusAddress::Token(_) => {
+            ErrorRemedy::command_remedy("a token goes with its annotation: `chereme annotate CORPUS remove ANNOTATION`")
+        }
+        CorpusAddress::Tier(_) => {
+            ErrorRemedy::command_remedy("remove a tier with `chereme annotate CORPUS remove-tier TIER`")
         }
         _ => "write recording:3, recording:NAME or sign:GLOSS".into(),
     };
-    Error::wrong(format!("{address} is neither a recording nor a sign"))
-        .at(address.to_string())
-        .advise(remedy)
+    CorpusError::from_wrong_message(format!("{address} is neither a recording nor a sign"))
+        .with_error_place(address.to_string())
+        .with_advice(remedy)
 }
 
 #[cfg(test)]

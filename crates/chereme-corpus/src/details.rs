@@ -1,25 +1,25 @@
 //! Full details of one token, sign, signer or recording, read at one moment.
 
-use chereme_motion::anatomy::Measures;
-use chereme_sign::Component;
+use chereme_motion::anatomy::BodyMeasures;
+use chereme_sign::SignComponent;
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
-use crate::db::columns::{ValueState, phase_name};
-use crate::db::recordings::{self, RecordingRow};
-use crate::db::search::begin_reading;
+use crate::address::{self, CorpusAddress, RowName};
 use crate::db::signs::{self, TokenRow};
-use crate::db::tracks::{self, TrackRow};
+use crate::db::stored_columns::{ValueState, phase_name};
+use crate::db::stored_recordings::{self, RecordingRow};
+use crate::db::stored_search::begin_reading;
+use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 use crate::media::MediaPlace;
 use crate::movement::MotionTrack;
 use crate::notation;
 
 /// Full details of one object.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Details {
+pub enum ObjectDetails {
     /// Details of a token.
     Token(Box<TokenDetails>),
     /// Details of a sign.
@@ -55,7 +55,7 @@ pub struct TokenValue {
     /// The field, such as `initial.right.placement`.
     pub field: String,
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// Whether it has a value.
     pub state: ValueState,
     /// The value.
@@ -89,7 +89,7 @@ pub struct SignerDetails {
     /// The recordings.
     pub recordings: Vec<RecordingRow>,
     /// The body's measures in metres, from the first recording with a body that can be measured.
-    pub measures: Option<Measures>,
+    pub measures: Option<BodyMeasures>,
 }
 
 /// Details of a recording beyond its rows.
@@ -118,17 +118,17 @@ pub struct RecordingDetails {
 }
 
 /// Returns the HamNoSys of a token, as written or converted from its SiGML; `None` if it is not notated.
-fn hamnosys(connection: &Connection, token: i64) -> Result<Option<String>> {
-    if notations::of_token(connection, token)?.is_none() {
+fn token_hamnosys_text(connection: &Connection, token: i64) -> CorpusResult<Option<String>> {
+    if notations::find_token_notation(connection, token)?.is_none() {
         return Ok(None);
     }
     // The check of the corpus reports an unreadable notation; the other details can be shown without it.
-    let Ok(notation) = notation::find(connection, &Address::Token(token)) else {
+    let Ok(notation) = notation::find_address_notation(connection, &CorpusAddress::Token(token)) else {
         return Ok(None);
     };
     let text = match notation.text {
         Some(text) => text,
-        None => notation.document.hamnosys().text,
+        None => notation.document.hamnosys_text().text,
     };
     Ok(Some(text).filter(|text| !text.is_empty()))
 }
@@ -138,36 +138,36 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the address names no token, or the database fails.
-    pub fn token_details(&self, address: &Address) -> Result<TokenDetails> {
-        let reading = begin_reading(self.store.read())?;
-        let row = address::token(&reading, address)?;
-        let value = |it: signs::TokenValueRow| {
-            let hand = it.hand.map(|hand| format!("{hand}."));
-            let phase = it.phase.map(|phase| format!("{}.", phase_name(phase)));
-            let feature = it.feature.as_deref().map(|feature| format!(".{feature}"));
+    pub fn token_details(&self, address: &CorpusAddress) -> CorpusResult<TokenDetails> {
+        let reading = begin_reading(self.store.read_connection())?;
+        let row = address::find_addressed_token(&reading, address)?;
+        let value = |value_row: signs::TokenValueRow| {
+            let hand = value_row.hand.map(|hand| format!("{hand}."));
+            let phase = value_row.phase.map(|phase| format!("{}.", phase_name(phase)));
+            let feature = value_row.feature.as_deref().map(|feature| format!(".{feature}"));
             let [hand, phase, feature] = [hand, phase, feature].map(Option::unwrap_or_default);
             TokenValue {
-                field: format!("{phase}{hand}{}{feature}", it.component),
-                component: it.component,
-                state: it.state,
-                value: it.value,
-                inventory: it.inventory_id,
-                annotation: it.annotation_id,
+                field: format!("{phase}{hand}{}{feature}", value_row.component),
+                component: value_row.component,
+                state: value_row.state,
+                value: value_row.value,
+                inventory: value_row.inventory_id,
+                annotation: value_row.annotation_id,
             }
         };
-        let values = signs::values(&reading, row.id)?;
+        let values = signs::load_token_values(&reading, row.id)?;
         let recipe = match row.recording_id {
-            Some(recording) => recipes::of_recording(&reading, recording)?,
+            Some(recording) => recipes::find_recording_recipe(&reading, recording)?,
             None => None,
         };
         let made_from = match &recipe {
-            Some(recipe) => recipes::inputs(&reading, recipe.id)?,
+            Some(recipe) => recipes::list_recipe_inputs(&reading, recipe.id)?,
             None => Vec::new(),
         };
         Ok(TokenDetails {
             values: values.into_iter().map(value).collect(),
-            notation: hamnosys(&reading, row.id)?,
-            recipe: recipe.map(|it| it.text),
+            notation: token_hamnosys_text(&reading, row.id)?,
+            recipe: recipe.map(|recipe| recipe.text),
             made_from,
             made_into: recipes::made_from(&reading, row.id)?,
             row,
@@ -178,20 +178,20 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such sign, or the database fails.
-    pub fn sign_details(&self, sign: &Name) -> Result<SignDetails> {
-        let reading = begin_reading(self.store.read())?;
+    pub fn sign_details(&self, sign: &RowName) -> CorpusResult<SignDetails> {
+        let reading = begin_reading(self.store.read_connection())?;
         let id = match sign {
-            Name::Number(id) => *id,
-            Name::Text(gloss) => address::sign(&reading, gloss)?,
+            RowName::Number(id) => *id,
+            RowName::Text(gloss) => address::find_sign_by_gloss(&reading, gloss)?,
         };
         let tokens = signs::tokens_of_sign(&reading, id)?;
-        let (gloss, notes) = edits::sign(&reading, id)
-            .map_err(|_| Error::wrong(format!("there is no sign:{id}")))?;
+        let (gloss, notes) = edits::sign_gloss_and_notes(&reading, id)
+            .map_err(|_| CorpusError::from_wrong_message(format!("there is no sign:{id}")))?;
         Ok(SignDetails {
             id,
             gloss,
             notes,
-            texts: signs::texts(&reading, id)?,
+            texts: signs::list_sign_translations(&reading, id)?,
             tokens,
         })
     }
@@ -200,23 +200,20 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such signer, or the database fails.
-    pub fn signer_details(&self, signer: &Name) -> Result<SignerDetails> {
-        let reading = begin_reading(self.store.read())?;
-        let signer = address::signer(&reading, signer)?;
+    pub fn signer_details(&self, signer: &RowName) -> CorpusResult<SignerDetails> {
+        let reading = begin_reading(self.store.read_connection())?;
+        let signer = address::find_signer_by_name(&reading, signer)?;
         let shown = edits::recordings_of_signer(&reading, signer.id)?;
-        let all = recordings::recordings(&reading)?;
-        let own: Vec<RecordingRow> = all
-            .into_iter()
-            .filter(|row| shown.contains(&row.id))
-            .collect();
-        let measures = own
+        let all = stored_recordings::load_recording_rows(&reading)?;
+        let signer_recordings: Vec<RecordingRow> = all.into_iter().filter(|row| shown.contains(&row.id)).collect();
+        let measures = signer_recordings
             .iter()
-            .filter_map(|row| MotionTrack::of(&reading, row.id).ok())
+            .filter_map(|row| MotionTrack::open_motion_track(&reading, row.id).ok())
             .take(5)
-            .find_map(|track| track.anatomy(&reading).ok()?.measures());
+            .find_map(|track| track.track_anatomy(&reading).ok()?.anatomy_measures());
         Ok(SignerDetails {
             id: signer.id,
-            recordings: own,
+            recordings: signer_recordings,
             measures,
         })
     }
@@ -225,9 +222,9 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such recording, or the database fails.
-    pub fn recording_details(&self, recording: &Name) -> Result<RecordingDetails> {
-        let reading = begin_reading(self.store.read())?;
-        let id = address::recording(&reading, recording)?.id;
+    pub fn recording_details(&self, recording: &RowName) -> CorpusResult<RecordingDetails> {
+        let reading = begin_reading(self.store.read_connection())?;
+        let id = address::find_recording_by_name(&reading, recording)?.id;
         let mut details = RecordingDetails {
             id,
             joints: 0,
@@ -235,25 +232,25 @@ impl Corpus {
             missing: Vec::new(),
             metres_per_unit: None,
             axes: None,
-            files: recordings::source_files(&reading, id)?
+            files: stored_recordings::source_files(&reading, id)?
                 .into_iter()
                 .map(|file| (file.kind, file.name))
                 .collect(),
-            tracks: tracks::tracks(&reading, id)?,
-            media: self.media(&Name::Number(id))?,
-            engine: recipes::of_recording(&reading, id)?.map(|it| it.engine),
+            tracks: stored_tracks::load_track_rows(&reading, id)?,
+            media: self.recording_media(&RowName::Number(id))?,
+            engine: recipes::find_recording_recipe(&reading, id)?.map(|recipe| recipe.engine),
         };
-        if recordings::body_track(&reading, id)?.is_some() {
-            let track = MotionTrack::of(&reading, id)?;
-            let anatomy = track.anatomy(&reading)?;
+        if stored_recordings::body_track(&reading, id)?.is_some() {
+            let track = MotionTrack::open_motion_track(&reading, id)?;
+            let anatomy = track.track_anatomy(&reading)?;
             let name = |joint: usize| track.hierarchy.joints[joint].name.clone();
             details.joints = track.hierarchy.joints.len();
             details.roles = anatomy
-                .found()
+                .found_parts()
                 .filter(|(_, joint, _)| *joint < track.hierarchy.joints.len())
                 .map(|(part, joint, _)| (part.to_string(), name(joint)))
                 .collect();
-            details.missing = anatomy.missing().iter().map(ToString::to_string).collect();
+            details.missing = anatomy.missing_parts().iter().map(ToString::to_string).collect();
             details.metres_per_unit = Some(track.convention.metres_per_unit);
             details.axes = Some(track.convention.axes.to_string());
         }
@@ -264,15 +261,15 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn value_uses(&self, inventory: i64, value: &str) -> Result<u64> {
-        signs::tokens_with(self.store.read(), inventory, value)
+    pub fn value_uses(&self, inventory: i64, value: &str) -> CorpusResult<u64> {
+        signs::tokens_with(self.store.read_connection(), inventory, value)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ImportOptions, Progress, unheard, unpack_starter};
+    use crate::{ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
 
     #[test]
     fn a_generated_sign_lists_its_sources_and_a_source_its_generated_signs() {
@@ -283,14 +280,14 @@ mod tests {
                 .is_some_and(|stem| stem == "escargot" || stem == "lexicon")
         };
         let paths: Vec<_> = paths.into_iter().filter(wanted).collect();
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-        let mut hear = unheard;
-        let mut progress = Progress::new(&mut hear);
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
         corpus
-            .import(&paths, &ImportOptions::default(), &mut progress)
+            .import_paths(&paths, &ImportOptions::default(), &mut progress)
             .expect("imported");
         let made = corpus
-            .recombine("ESCARGOT | configure right U", "LIMACE")
+            .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
             .expect("made");
         let of = |text: &str| corpus.token_details(&text.parse().expect("an address"));
         let source = of("ESCARGOT").expect("details");
@@ -300,38 +297,25 @@ mod tests {
             [(made.recording.expect("stored"), "LIMACE".to_owned())]
         );
         let token = of(&format!("token:{}", made.token.expect("stored"))).expect("details");
-        assert_eq!(
-            token.recipe.as_deref(),
-            Some("ESCARGOT | configure right U")
-        );
-        assert!(
-            token
-                .made_from
-                .contains(&format!("token:{}", source.row.id))
-        );
-        let sign = corpus
-            .sign_details(&Name::Text("LIMACE".into()))
-            .expect("details");
+        assert_eq!(token.recipe.as_deref(), Some("ESCARGOT | configure right U"));
+        assert!(token.made_from.contains(&format!("token:{}", source.row.id)));
+        let sign = corpus.sign_details(&RowName::Text("LIMACE".into())).expect("details");
         assert!(sign.tokens.iter().any(|it| Some(it.id) == made.token));
         let value = source
             .values
             .iter()
-            .find(|it| it.component == Component::Configuration && it.inventory.is_some())
+            .find(|it| it.component == SignComponent::Configuration && it.inventory.is_some())
             .expect("a handshape");
         let (inventory, id) = (value.inventory.expect("one"), value.value.clone());
         let uses = corpus.value_uses(inventory, &id.expect("one"));
         assert!(uses.expect("counted") > 0);
-        let recording = Name::Number(source.row.recording_id.expect("one"));
+        let recording = RowName::Number(source.row.recording_id.expect("one"));
         let recording = corpus.recording_details(&recording).expect("details");
         assert!(recording.joints > 20 && recording.roles.len() > 20);
         assert!(recording.files.iter().any(|(kind, _)| kind == "bvh"));
-        let signer = source.row.recording.map(|_| Name::Number(1)).expect("one");
+        let signer = source.row.recording.map(|_| RowName::Number(1)).expect("one");
         let signer = corpus.signer_details(&signer).expect("details");
-        assert!(
-            signer
-                .measures
-                .is_some_and(|it| it.arm > 0.3 && it.arm < 0.9)
-        );
-        assert!(corpus.sign_details(&Name::Number(9999)).is_err());
+        assert!(signer.measures.is_some_and(|it| it.arm > 0.3 && it.arm < 0.9));
+        assert!(corpus.sign_details(&RowName::Number(9999)).is_err());
     }
 }

@@ -1,16 +1,16 @@
 //! Small edits of recordings, signers and signs; each is an operation.
 
-use chereme_motion::Side;
-use chereme_sign::Remedy;
+use chereme_motion::BodySide;
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
-use crate::db::columns::Origin;
+use crate::address::{self, CorpusAddress, RowName};
 use crate::db::edits;
-use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow};
-use crate::error::{Error, Result};
+use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
 use crate::tokens;
 use crate::words::effect::OperationEffect;
@@ -23,7 +23,7 @@ pub struct RecordingChange {
     /// The signer's name, or nobody; a missing signer is added.
     pub signer: Option<Option<String>>,
     /// Its origin.
-    pub origin: Option<Origin>,
+    pub origin: Option<RecordOrigin>,
     /// The terms under which it may be used, or none.
     pub licence: Option<Option<String>>,
     /// Remarks, or none.
@@ -36,7 +36,7 @@ pub struct SignerChange {
     /// The name, which no other signer may have.
     pub name: Option<String>,
     /// The dominant hand, or nothing if it is unknown.
-    pub handedness: Option<Option<Side>>,
+    pub handedness: Option<Option<BodySide>>,
     /// Remarks, or none.
     pub notes: Option<Option<String>>,
 }
@@ -59,17 +59,13 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the recording does not exist, or the name is taken.
-    pub fn change_recording(
-        &mut self,
-        recording: &Name,
-        change: &RecordingChange,
-    ) -> Result<RecordingRow> {
-        self.store.operation(|connection| {
-            let old = address::recording(connection, recording)?;
+    pub fn change_recording(&mut self, recording: &RowName, change: &RecordingChange) -> CorpusResult<RecordingRow> {
+        self.store.run_store_operation(|connection| {
+            let old = address::find_recording_by_name(connection, recording)?;
             let mut row = old.clone();
             if let Some(name) = &change.name {
-                row.name = named(name, "recording")?;
-                let other = recordings::recording_named(connection, &row.name)?;
+                row.name = require_trimmed_name(name, "recording")?;
+                let other = stored_recordings::recording_named(connection, &row.name)?;
                 if other.is_some_and(|other| other.id != row.id) {
                     return Err(taken("recording", &row.name));
                 }
@@ -77,25 +73,23 @@ impl Corpus {
             if let Some(signer) = &change.signer {
                 row.signer_id = match signer {
                     Some(name) => {
-                        let name = named(name, "signer")?;
-                        Some(recordings::signer_named(connection, &name, None)?)
+                        let name = require_trimmed_name(name, "signer")?;
+                        Some(stored_recordings::signer_named(connection, &name, None)?)
                     }
                     None => None,
                 };
             }
             row.origin = change.origin.unwrap_or(row.origin);
-            set(&mut row.licence, change.licence.as_ref());
-            set(&mut row.notes, change.notes.as_ref());
+            apply_optional_change(&mut row.licence, change.licence.as_ref());
+            apply_optional_change(&mut row.notes, change.notes.as_ref());
             if row != old {
                 edits::update_recording(connection, &row)?;
             }
             if row.signer_id != old.signer_id {
-                derive(connection, &[row.id])?;
+                derive_edited_recordings(connection, &[row.id])?;
             }
-            let effect = OperationEffect::ChangeRecording {
-                recording: row.name,
-            };
-            Ok((recordings::recording(connection, row.id)?, effect))
+            let effect = OperationEffect::ChangeRecording { recording: row.name };
+            Ok((stored_recordings::load_recording_row(connection, row.id)?, effect))
         })
     }
 
@@ -104,22 +98,22 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the signer does not exist, or the name is taken.
-    pub fn change_signer(&mut self, signer: &Name, change: &SignerChange) -> Result<SignerRow> {
-        self.store.operation(|connection| {
-            let old = address::signer(connection, signer)?;
+    pub fn change_signer(&mut self, signer: &RowName, change: &SignerChange) -> CorpusResult<SignerRow> {
+        self.store.run_store_operation(|connection| {
+            let old = address::find_signer_by_name(connection, signer)?;
             let mut row = old.clone();
             if let Some(name) = &change.name {
-                row.name = named(name, "signer")?;
-                let other = recordings::find_signer(connection, &row.name)?;
+                row.name = require_trimmed_name(name, "signer")?;
+                let other = stored_recordings::find_signer(connection, &row.name)?;
                 if other.is_some_and(|other| other.id != row.id) {
                     return Err(taken("signer", &row.name));
                 }
             }
             let hand = change
                 .handedness
-                .map(|side| side.map(|side| side.name().to_owned()));
-            set(&mut row.handedness, hand.as_ref());
-            set(&mut row.notes, change.notes.as_ref());
+                .map(|side| side.map(|side| side.body_side_name().to_owned()));
+            apply_optional_change(&mut row.handedness, hand.as_ref());
+            apply_optional_change(&mut row.notes, change.notes.as_ref());
             if row != old {
                 edits::update_signer(connection, &row)?;
             }
@@ -127,10 +121,7 @@ impl Corpus {
                 edits::rename_participant(connection, &old.name, &row.name)?;
             }
             if row.handedness != old.handedness {
-                derive(
-                    connection,
-                    &edits::recordings_of_signer(connection, row.id)?,
-                )?;
+                derive_edited_recordings(connection, &edits::recordings_of_signer(connection, row.id)?)?;
             }
             let signer = row.name.clone();
             Ok((row, OperationEffect::ChangeSigner { signer }))
@@ -141,13 +132,13 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the address names no token.
-    pub fn set_citation(&mut self, token: &Address) -> Result<TokenRow> {
-        self.store.operation(|connection| {
-            let row = address::token(connection, token)?;
-            edits::cite(connection, row.sign_id, row.id)?;
+    pub fn set_citation(&mut self, token: &CorpusAddress) -> CorpusResult<TokenRow> {
+        self.store.run_store_operation(|connection| {
+            let row = address::find_addressed_token(connection, token)?;
+            edits::set_citation_token(connection, row.sign_id, row.id)?;
             let (token, gloss) = (row.id, row.gloss);
             let effect = OperationEffect::SetCitation { token, gloss };
-            Ok((signs::token(connection, token)?, effect))
+            Ok((signs::load_token_row(connection, token)?, effect))
         })
     }
 
@@ -155,41 +146,41 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the sign or a translation to remove does not exist, or the gloss is another sign's.
-    pub fn change_sign(&mut self, sign: &Name, change: &SignChange) -> Result<String> {
-        self.store.operation(|connection| {
+    pub fn change_sign(&mut self, sign: &RowName, change: &SignChange) -> CorpusResult<String> {
+        self.store.run_store_operation(|connection| {
             let id = match sign {
-                Name::Number(id) => sign_there(connection, *id)?,
-                Name::Text(gloss) => address::sign(connection, gloss)?,
+                RowName::Number(id) => sign_there(connection, *id)?,
+                RowName::Text(gloss) => address::find_sign_by_gloss(connection, gloss)?,
             };
-            let (old, mut notes) = edits::sign(connection, id)?;
+            let (old, mut notes) = edits::sign_gloss_and_notes(connection, id)?;
             let gloss = match &change.gloss {
-                Some(gloss) => named(gloss, "sign")?,
+                Some(gloss) => require_trimmed_name(gloss, "sign")?,
                 None => old.clone(),
             };
             if signs::find_sign(connection, &gloss)?.is_some_and(|other| other != id) {
                 return Err(taken("sign", &gloss));
             }
-            set(&mut notes, change.notes.as_ref());
+            apply_optional_change(&mut notes, change.notes.as_ref());
             edits::update_sign(connection, id, &gloss, notes.as_deref())?;
             let renamed = if gloss == old {
                 0
             } else {
-                edits::regloss(connection, &old, &gloss)?
+                edits::replace_gloss_values(connection, &old, &gloss)?
             };
             for (language, text) in &change.add_texts {
                 signs::add_text(
                     connection,
                     id,
                     language.trim(),
-                    &named(text, "translation")?,
+                    &require_trimmed_name(text, "translation")?,
                 )?;
             }
             for (language, text) in &change.remove_texts {
                 if !edits::remove_text(connection, id, language.trim(), text.trim())? {
-                    return Err(Error::wrong(format!(
+                    return Err(CorpusError::from_wrong_message(format!(
                         "{gloss} has no translation {text:?} in {language:?}"
                     ))
-                    .at(gloss));
+                    .with_error_place(gloss));
                 }
             }
             let effect = OperationEffect::ChangeSign {
@@ -202,42 +193,42 @@ impl Corpus {
     }
 }
 
-fn set<T: Clone>(value: &mut Option<T>, change: Option<&Option<T>>) {
+fn apply_optional_change<T: Clone>(value: &mut Option<T>, change: Option<&Option<T>>) {
     if let Some(new) = change {
         value.clone_from(new);
     }
 }
 
-fn derive(connection: &Connection, recordings: &[i64]) -> Result<()> {
+fn derive_edited_recordings(connection: &Connection, recordings: &[i64]) -> CorpusResult<()> {
     for recording in recordings {
         let inventories = inventories::load_of(connection, *recording)?;
-        tokens::derive(connection, *recording, None, &inventories)?;
+        tokens::update_recording_tokens(connection, *recording, None, &inventories)?;
     }
     Ok(())
 }
 
 /// Returns the number of a sign if there is such a sign.
-pub(crate) fn sign_there(connection: &Connection, id: i64) -> Result<i64> {
-    match edits::sign(connection, id) {
+pub(crate) fn sign_there(connection: &Connection, id: i64) -> CorpusResult<i64> {
+    match edits::sign_gloss_and_notes(connection, id) {
         Ok(_) => Ok(id),
-        Err(Error::Database(rusqlite::Error::QueryReturnedNoRows)) => {
-            Err(Error::wrong(format!("there is no sign:{id}"))
-                .at(format!("sign:{id}"))
-                .advise(Remedy::command("`chereme list CORPUS signs` lists them")))
+        Err(CorpusError::Database(rusqlite::Error::QueryReturnedNoRows)) => {
+            Err(CorpusError::from_wrong_message(format!("there is no sign:{id}"))
+                .with_error_place(format!("sign:{id}"))
+                .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS signs` lists them")))
         }
         Err(other) => Err(other),
     }
 }
 
-fn named(text: &str, what: &str) -> Result<String> {
+fn require_trimmed_name(text: &str, what: &str) -> CorpusResult<String> {
     match text.trim() {
-        "" => Err(Error::wrong(format!("a {what} needs a name"))),
+        "" => Err(CorpusError::from_wrong_message(format!("a {what} needs a name"))),
         text => Ok(text.to_owned()),
     }
 }
 
-fn taken(what: &str, name: &str) -> Error {
-    Error::wrong(format!("there is another {what} called {name:?}"))
-        .at(name)
-        .advise("give it another name")
+fn taken(what: &str, name: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("there is another {what} called {name:?}"))
+        .with_error_place(name)
+        .with_advice("give it another name")
 }

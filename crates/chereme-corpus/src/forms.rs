@@ -2,24 +2,24 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::lexicon::{self, Column, Lexicon, LexiconEntry, Meaning};
-use chereme_formats::roles::Hands;
-use chereme_sign::Field;
-use chereme_sign::text::{did_you_mean, fold, nearest};
+use chereme_formats::lexicon::{self, LexiconColumn, LexiconColumnMeaning, LexiconEntry, SignLexicon};
+use chereme_formats::roles::AnnotatedHands;
+use chereme_sign::ComponentField;
+use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::Corpus;
-use crate::db::recordings::{self, SourceFileRow};
 use crate::db::signs::{self, TokenRow};
-use crate::error::{Error, Result};
-use crate::progress::{Progress, Step, Unit};
+use crate::db::stored_recordings::{self, SourceFileRow};
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::suggest;
 
 /// The treatment of an empty cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Empty {
+pub enum EmptyCellTreatment {
     /// An empty cell is a value like any other: a sign without a weak hand differs from one with it, and two signs
     /// without it are equal there.
     #[default]
@@ -29,7 +29,7 @@ pub enum Empty {
 }
 
 /// The number of tokens between two reports of progress.
-const STEP: usize = 64;
+const FORM_REPORT_STEP_TOKENS: usize = 64;
 
 /// Named sets of columns of the Signbank.
 pub const FIELD_SETS: [(&str, &[&str]); 5] = [
@@ -86,10 +86,7 @@ pub const FIELD_SETS: [(&str, &[&str]); 5] = [
             "Movement direction",
         ],
     ),
-    (
-        "C3",
-        &["Handshape strong", "Location", "Movement direction"],
-    ),
+    ("C3", &["Handshape strong", "Location", "Movement direction"]),
 ];
 
 /// The place from which forms come.
@@ -106,11 +103,11 @@ pub enum FormSource {
 
 /// Signs with what they have in some fields.
 #[derive(Debug, Clone)]
-pub(crate) struct Forms {
+pub(crate) struct SignForms {
     /// The fields.
     pub(crate) fields: Vec<FormField>,
     /// The signs, each with a cell for each field.
-    pub(crate) rows: Vec<Form>,
+    pub(crate) rows: Vec<SignForm>,
     /// The place from which they come.
     pub(crate) source: FormSource,
 }
@@ -126,7 +123,7 @@ pub(crate) struct FormField {
 
 /// A sign with its cells, an empty one for a field without value.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Form {
+pub(crate) struct SignForm {
     /// The gloss.
     pub(crate) gloss: String,
     /// The cells, in the order of the fields.
@@ -135,16 +132,16 @@ pub(crate) struct Form {
     pub(crate) line: Option<u64>,
 }
 
-impl Forms {
+impl SignForms {
     /// Returns signs with their codings in some fields of queries.
-    pub(crate) fn of(
+    pub(crate) fn forms_from_codings(
         codings: &[(String, BTreeMap<String, String>)],
         fields: Vec<String>,
         source: FormSource,
     ) -> Self {
         let rows = codings.iter().map(|(gloss, coding)| {
             let cells = fields.iter().map(|field| coding.get(field).cloned());
-            Form {
+            SignForm {
                 gloss: gloss.clone(),
                 cells: cells.map(Option::unwrap_or_default).collect(),
                 line: None,
@@ -164,7 +161,7 @@ impl Forms {
     }
 }
 
-impl Form {
+impl SignForm {
     /// Returns whether every field has a value.
     pub(crate) fn is_complete(&self) -> bool {
         self.cells.iter().all(|cell| !cell.is_empty())
@@ -190,13 +187,13 @@ impl Corpus {
     ///
     /// # Errors
     /// [`Error::Wrong`] if a field does not exist; [`Error::Stopped`].
-    pub(crate) fn forms(
+    pub(crate) fn load_sign_forms(
         &self,
         fields: &[String],
         among: Option<&[TokenRow]>,
-        progress: &mut Progress<'_>,
-    ) -> Result<Forms> {
-        match of_tables(self.store.read(), fields, among)? {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<SignForms> {
+        match of_tables(self.store.read_connection(), fields, among)? {
             Some(forms) => Ok(forms),
             None => of_codings(self, fields, among, progress),
         }
@@ -204,19 +201,18 @@ impl Corpus {
 
     /// Returns the columns that code components in the first imported table that has all of `titles` as columns, and
     /// these; nothing if no table has them.
-    pub(crate) fn columns_with(&self, titles: &[String]) -> Result<Option<Vec<String>>> {
-        let connection = self.store.read();
-        for file in recordings::lexicon_files(connection)? {
+    pub(crate) fn columns_with(&self, titles: &[String]) -> CorpusResult<Option<Vec<String>>> {
+        let connection = self.store.read_connection();
+        for file in stored_recordings::lexicon_files(connection)? {
             let Some(table) = table_of(connection, &file)? else {
                 continue;
             };
-            let places = titles.iter().map(|title| place(&table, title));
+            let places = titles.iter().map(|title| find_title_column(&table, title));
             let Some(named) = places.collect::<Option<Vec<usize>>>() else {
                 continue;
             };
             let columns = table.columns.iter().enumerate();
-            let kept =
-                columns.filter(|(at, column)| is_coding(&column.meaning) || named.contains(at));
+            let kept = columns.filter(|(at, column)| is_coding(&column.meaning) || named.contains(at));
             return Ok(Some(kept.map(|(_, it)| it.title.clone()).collect()));
         }
         Ok(None)
@@ -224,44 +220,38 @@ impl Corpus {
 }
 
 /// Returns an imported table, with the meanings of columns that the user gave it; nothing if it cannot be read.
-fn table_of(connection: &Connection, file: &SourceFileRow) -> Result<Option<Lexicon>> {
-    let bytes = recordings::source_bytes(connection, file.id)?;
-    let mapping = recordings::source_mapping(connection, file.id)?.unwrap_or_default();
-    let read = |bytes: Vec<u8>| lexicon::read(&bytes, &mapping).ok();
+fn table_of(connection: &Connection, file: &SourceFileRow) -> CorpusResult<Option<SignLexicon>> {
+    let bytes = stored_recordings::source_bytes(connection, file.id)?;
+    let mapping = stored_recordings::source_mapping(connection, file.id)?.unwrap_or_default();
+    let read = |bytes: Vec<u8>| lexicon::read_lexicon(&bytes, &mapping).ok();
     Ok(bytes.and_then(read).map(|(table, _)| table))
 }
 
 /// Returns the place of a column by its title, case and accents apart, otherwise by the component that the title means:
 /// `Handshape strong` is `Strong Hand`, too.
-fn place(table: &Lexicon, title: &str) -> Option<usize> {
-    let wanted = fold(title.trim());
-    let position = |is: &dyn Fn(&Column) -> bool| table.columns.iter().position(is);
-    let titled = position(&|column| fold(column.title.trim()) == wanted);
-    let meant = || {
+fn find_title_column(table: &SignLexicon, title: &str) -> Option<usize> {
+    let wanted = fold_text(title.trim());
+    let position = |is: &dyn Fn(&LexiconColumn) -> bool| table.columns.iter().position(is);
+    let titled = position(&|column| fold_text(column.title.trim()) == wanted);
+    let coding_place = || {
         // A field of queries asks for codings.
         let meaning = Some(lexicon::meaning_of_title(title)).filter(is_coding)?;
-        position(&|column| column.meaning == meaning).filter(|_| title.parse::<Field>().is_err())
+        position(&|column| column.meaning == meaning).filter(|_| title.parse::<ComponentField>().is_err())
     };
-    titled.or_else(meant)
+    titled.or_else(coding_place)
 }
 
-fn is_coding(meaning: &Meaning) -> bool {
-    matches!(meaning, Meaning::Coding { .. })
+fn is_coding(meaning: &LexiconColumnMeaning) -> bool {
+    matches!(meaning, LexiconColumnMeaning::Coding { .. })
 }
 
 /// Returns whether a row of a table has these cells, by their titles.
-pub(crate) fn row_has_cells(
-    table: &Lexicon,
-    row: &LexiconEntry,
-    cells: &Map<String, Value>,
-) -> bool {
+pub(crate) fn row_has_cells(table: &SignLexicon, row: &LexiconEntry, cells: &Map<String, Value>) -> bool {
     let titles = table.columns.iter().map(|column| column.title.as_str());
-    let filled = titles
-        .zip(&row.cells)
-        .filter(|(_, cell)| !cell.trim().is_empty());
-    let own: BTreeMap<&str, &str> = filled.map(|(title, cell)| (title, cell.as_str())).collect();
+    let filled = titles.zip(&row.cells).filter(|(_, cell)| !cell.trim().is_empty());
+    let row_cells: BTreeMap<&str, &str> = filled.map(|(title, cell)| (title, cell.as_str())).collect();
     let mut cells = cells.iter();
-    cells.all(|(title, cell)| own.get(title.as_str()).copied() == cell.as_str())
+    cells.all(|(title, cell)| row_cells.get(title.as_str()).copied() == cell.as_str())
 }
 
 /// An entry of a table that the corpus still has.
@@ -272,11 +262,11 @@ struct StandingEntry {
 }
 
 /// The entries of one table that the corpus still has, by the line of the table.
-type Standing = BTreeMap<u64, Vec<StandingEntry>>;
+type StandingTableEntries = BTreeMap<u64, Vec<StandingEntry>>;
 
 /// Returns the entries that the corpus has of each table, by the table's path, or its name if the path is not known.
-fn standing(connection: &Connection) -> Result<BTreeMap<String, Standing>> {
-    let mut tables: BTreeMap<String, Standing> = BTreeMap::new();
+fn load_standing_entries(connection: &Connection) -> CorpusResult<BTreeMap<String, StandingTableEntries>> {
+    let mut tables: BTreeMap<String, StandingTableEntries> = BTreeMap::new();
     for token in signs::lexicon_entries(connection)? {
         let source = token.source.as_deref().unwrap_or_default();
         let Ok(mut source) = serde_json::from_str::<Value>(source) else {
@@ -301,16 +291,16 @@ fn standing(connection: &Connection) -> Result<BTreeMap<String, Standing>> {
 
 /// Returns what the corpus has now of a row of a table; nothing if the corpus no longer has its sign.
 fn standing_entry<'a>(
-    standing: &'a Standing,
-    table: &Lexicon,
+    standing: &'a StandingTableEntries,
+    table: &SignLexicon,
     row: &LexiconEntry,
 ) -> Option<&'a StandingEntry> {
     let entries = standing.get(&row.line)?;
-    let named = entries.iter().find(|it| it.gloss == row.gloss);
+    let named = entries.iter().find(|entry| entry.gloss == row.gloss);
     // A sign that was renamed in the corpus is known by its cells.
     named.or_else(|| {
         let mut entries = entries.iter();
-        entries.find(|it| row_has_cells(table, row, &it.cells))
+        entries.find(|entry| row_has_cells(table, row, &entry.cells))
     })
 }
 
@@ -320,23 +310,23 @@ fn of_tables(
     connection: &Connection,
     fields: &[String],
     among: Option<&[TokenRow]>,
-) -> Result<Option<Forms>> {
+) -> CorpusResult<Option<SignForms>> {
     if fields.is_empty() {
         return Ok(None);
     }
     let mut rows = Vec::new();
-    let mut known: BTreeSet<String> = BTreeSet::new();
+    let mut known_titles: BTreeSet<String> = BTreeSet::new();
     // The fewest fields that a table lacks, with the first of them.
     let mut lacking: Option<(usize, &String)> = None;
     let mut columns: Option<Vec<FormField>> = None;
-    let tables = standing(connection)?;
-    let among: Option<BTreeSet<i64>> = among.map(|it| it.iter().map(|token| token.id).collect());
-    for file in recordings::lexicon_files(connection)? {
+    let tables = load_standing_entries(connection)?;
+    let among: Option<BTreeSet<i64>> = among.map(|tokens| tokens.iter().map(|token| token.id).collect());
+    for file in stored_recordings::lexicon_files(connection)? {
         let Some(table) = table_of(connection, &file)? else {
             continue;
         };
-        known.extend(table.columns.iter().map(|it| it.title.clone()));
-        let places: Vec<Option<usize>> = fields.iter().map(|field| place(&table, field)).collect();
+        known_titles.extend(table.columns.iter().map(|column| column.title.clone()));
+        let places: Vec<Option<usize>> = fields.iter().map(|field| find_title_column(&table, field)).collect();
         let mut lacks = fields.iter().zip(&places).filter(|(_, at)| at.is_none());
         if let Some((first, _)) = lacks.next() {
             let count = lacks.count();
@@ -358,45 +348,39 @@ fn of_tables(
         rows.extend(table.entries.iter().filter_map(|entry| {
             let standing = standing_entry(entries, &table, entry)?;
             let among = among.as_ref();
-            among
-                .is_none_or(|it| it.contains(&standing.token))
-                .then(|| Form {
-                    gloss: standing.gloss.clone(),
-                    cells: (places.iter())
-                        .map(|at| entry.cells[*at].trim().to_owned())
-                        .collect(),
-                    line: Some(entry.line),
-                })
+            among.is_none_or(|ids| ids.contains(&standing.token)).then(|| SignForm {
+                gloss: standing.gloss.clone(),
+                cells: (places.iter()).map(|at| entry.cells[*at].trim().to_owned()).collect(),
+                line: Some(entry.line),
+            })
         }));
     }
     if let Some(fields) = columns {
         let source = FormSource::Columns;
-        return Ok(Some(Forms {
-            fields,
-            rows,
-            source,
-        }));
+        return Ok(Some(SignForms { fields, rows, source }));
     }
-    let title = |field: &&String| field.parse::<Field>().is_err();
+    let title = |field: &&String| field.parse::<ComponentField>().is_err();
     match fields.iter().find(title) {
         None => Ok(None),
         Some(title) => {
             let field = lacking.map_or(title, |(_, first)| first);
-            let others = known.iter().filter(|it| *it != field);
-            let near = did_you_mean(nearest(field, others.map(String::as_str)));
-            let titles: Vec<&str> = known.iter().map(String::as_str).collect();
+            let others = known_titles.iter().filter(|title| *title != field);
+            let near = did_you_mean(nearest_candidate(field, others.map(String::as_str)));
+            let titles: Vec<&str> = known_titles.iter().map(String::as_str).collect();
             let text = format!("no imported table has a column {field:?} with the others{near}");
-            Err(Error::wrong(text).at(field).advise(format!(
-                "name fields of queries such as dominant.configuration, or columns of one table: {}",
-                titles.join(", ")
-            )))
+            Err(CorpusError::from_wrong_message(text)
+                .with_error_place(field)
+                .with_advice(format!(
+                    "name fields of queries such as dominant.configuration, or columns of one table: {}",
+                    titles.join(", ")
+                )))
         }
     }
 }
 
 /// Returns the field of queries that a column codes.
-fn coding_of_column(column: &Column) -> Option<String> {
-    let Meaning::Coding {
+fn coding_of_column(column: &LexiconColumn) -> Option<String> {
+    let LexiconColumnMeaning::Coding {
         hand,
         component,
         feature,
@@ -405,8 +389,8 @@ fn coding_of_column(column: &Column) -> Option<String> {
     else {
         return None;
     };
-    let field = Field {
-        hand: hand.and_then(Hands::one),
+    let field = ComponentField {
+        hand: hand.and_then(AnnotatedHands::single_hand),
         component: *component,
         feature: feature.clone(),
         phase: None,
@@ -419,24 +403,24 @@ fn of_codings(
     corpus: &Corpus,
     fields: &[String],
     among: Option<&[TokenRow]>,
-    progress: &mut Progress<'_>,
-) -> Result<Forms> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<SignForms> {
     let (tokens, source) = match among {
         Some(tokens) => (tokens.to_vec(), FormSource::Tokens),
         None => (
-            signs::citations(corpus.store.read())?,
+            signs::load_citation_tokens(corpus.store.read_connection())?,
             FormSource::Citations,
         ),
     };
     let all = tokens.len() as u64;
     let mut codings = Vec::new();
     for (done, token) in tokens.into_iter().enumerate() {
-        if done % STEP == 0 {
-            progress.report(Step {
+        if done % FORM_REPORT_STEP_TOKENS == 0 {
+            progress.report_step(ProgressStep {
                 task: "codings",
                 done: done as u64,
                 total: Some(all),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
         }
         let coding = corpus.coding_of(&token)?;
@@ -445,37 +429,39 @@ fn of_codings(
         }
     }
     let coded: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
-    let wanted = |field: &String| -> Result<String> {
-        let written = match field.parse::<Field>() {
+    let wanted = |field: &String| -> CorpusResult<String> {
+        let written = match field.parse::<ComponentField>() {
             Ok(field) => suggest::coding_name(&field),
-            Err(error) => return Err(Error::wrong(error.to_string()).at(field)),
+            Err(error) => {
+                return Err(CorpusError::from_wrong_message(error.to_string()).with_error_place(field));
+            }
         };
         if coded.contains(&written) {
             return Ok(written);
         }
-        let names: Vec<&str> = coded.iter().map(|it| it.as_str()).collect();
+        let names: Vec<&str> = coded.iter().map(|name| name.as_str()).collect();
         let text = match source {
             FormSource::Tokens => format!("no token found is coded for {field}"),
             _ => format!("no citation form is coded for {field}"),
         };
-        Err(Error::wrong(text)
-            .at(field)
-            .advise(format!("coded are: {}", names.join(", "))))
+        Err(CorpusError::from_wrong_message(text)
+            .with_error_place(field)
+            .with_advice(format!("coded are: {}", names.join(", "))))
     };
     let keys: Vec<String> = match fields {
-        [] => coded.iter().map(|it| (*it).clone()).collect(),
-        some => some.iter().map(wanted).collect::<Result<_>>()?,
+        [] => coded.iter().map(|name| (*name).clone()).collect(),
+        some => some.iter().map(wanted).collect::<CorpusResult<_>>()?,
     };
-    Ok(Forms::of(&codings, keys, source))
+    Ok(SignForms::forms_from_codings(&codings, keys, source))
 }
 
 /// Returns the cells as numbers that are equal if the texts are equal, and the text of each number; the empty cell is 0.
-pub(crate) fn numbered(rows: &[Form]) -> (Vec<Vec<u32>>, Vec<&str>) {
-    let mut known: BTreeMap<&str, u32> = BTreeMap::from([("", 0)]);
+pub(crate) fn number_form_cells(rows: &[SignForm]) -> (Vec<Vec<u32>>, Vec<&str>) {
+    let mut number_by_text: BTreeMap<&str, u32> = BTreeMap::from([("", 0)]);
     let mut texts = vec![""];
     let mut number = |text| {
         let next = u32::try_from(texts.len()).unwrap_or(u32::MAX);
-        *known.entry(text).or_insert_with(|| {
+        *number_by_text.entry(text).or_insert_with(|| {
             texts.push(text);
             next
         })

@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::Corpus;
-pub use crate::db::info::Amount;
-pub use crate::db::rows::{InventoryInfo, SignerInfo};
-use crate::db::{OperationRow, SCHEMA_VERSION, attributes, info as rows};
-use crate::error::Result;
+pub use crate::db::stored_info::TrackAmount;
+pub use crate::db::stored_rows::{InventoryInfo, SignerInfo};
+use crate::db::{OperationRow, SCHEMA_VERSION, stored_attributes, stored_info as rows};
+use crate::error::CorpusResult;
 
 /// Overview of the contents of a corpus.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Info {
+pub struct CorpusInfo {
     /// The file.
     pub path: PathBuf,
     /// Its size in bytes.
@@ -35,7 +35,7 @@ pub struct Info {
     /// Frames of movement of skeletons.
     pub motion_frames: u64,
     /// Hours and frames by kind of track: `skeleton`, `markers`, `curves`.
-    pub amounts: BTreeMap<String, Amount>,
+    pub amounts: BTreeMap<String, TrackAmount>,
     /// Sizes of the file's contents in bytes: `motion`, `history`, `search`, `sources`, `rest`.
     pub bytes: BTreeMap<&'static str, u64>,
     /// The signers.
@@ -66,36 +66,36 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn info(&self) -> Result<Info> {
-        let connection = self.store.read();
-        let amounts = rows::amounts(connection)?;
+    pub fn load_corpus_info(&self) -> CorpusResult<CorpusInfo> {
+        let connection = self.store.read_connection();
+        let amounts = rows::sum_track_amounts(connection)?;
         let motion = amounts.get("skeleton").copied().unwrap_or_default();
-        let bytes = rows::bytes(connection)?;
-        Ok(Info {
-            path: self.path().to_owned(),
+        let bytes = rows::content_sizes_bytes(connection)?;
+        Ok(CorpusInfo {
+            path: self.corpus_file_path().to_owned(),
             file_bytes: bytes.values().sum(),
             schema_version: SCHEMA_VERSION,
-            counts: rows::counts(connection)?,
-            recordings: rows::recordings(connection)?,
-            tracks: rows::tracks(connection)?,
-            tokens: rows::tokens(connection)?,
-            tiers: rows::tiers(connection)?,
+            counts: rows::count_rows_by_kind(connection)?,
+            recordings: rows::count_recordings_by_origin(connection)?,
+            tracks: rows::count_tracks_by_kind(connection)?,
+            tokens: rows::count_tokens_by_origin(connection)?,
+            tiers: rows::count_tiers_by_role(connection)?,
             motion_hours: motion.hours,
             motion_frames: motion.frames,
             amounts,
             bytes,
-            signers: rows::signers(connection)?,
-            inventories: rows::inventories(connection)?,
-            attributes: attributes::described(connection)?
+            signers: rows::load_signer_infos(connection)?,
+            inventories: rows::load_inventory_infos(connection)?,
+            attributes: stored_attributes::summarise_attributes(connection)?
                 .into_iter()
-                .map(|it| AttributeInfo {
-                    name: it.name,
-                    entries: it.entries,
-                    least: it.range.map(|(least, _)| least),
-                    greatest: it.range.map(|(_, greatest)| greatest),
+                .map(|attribute| AttributeInfo {
+                    name: attribute.name,
+                    entries: attribute.entries,
+                    least: attribute.range.map(|(least, _)| least),
+                    greatest: attribute.range.map(|(_, greatest)| greatest),
                 })
                 .collect(),
-            last_operation: self.log(1)?.pop(),
+            last_operation: self.operation_log(1)?.pop(),
         })
     }
 }
@@ -107,8 +107,8 @@ mod tests {
     #[test]
     fn a_new_corpus_has_its_inventories_and_nothing_else() {
         let folder = tempfile::tempdir().expect("a folder");
-        let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-        let info = corpus.info().expect("info");
+        let corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+        let info = corpus.load_corpus_info().expect("info");
         let full: Vec<_> = info
             .counts
             .iter()
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(full, ["inventories", "values"]);
         assert_eq!(
             info.inventories.len(),
-            chereme_sign::inventory::builtin().len()
+            chereme_sign::inventory::builtin_inventories().len()
         );
         assert!(info.bytes["rest"] > 0 && info.file_bytes >= info.bytes["rest"]);
         assert_eq!((info.motion_frames, info.last_operation), (0, None));
@@ -139,12 +139,12 @@ mod tests {
         std::fs::write(&path, format!("{head}{}", rows(&even))).expect("written");
         let other = folder.path().join("other.csv");
         std::fs::write(&other, format!("{head}{}", rows(&[0.0, 8.0, 27.0]))).expect("written");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-        let mut hear = crate::unheard;
-        let progress = &mut crate::Progress::new(&mut hear);
-        let report = corpus.import(&[path, other], &crate::ImportOptions::default(), progress);
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = crate::ignore_progress_step;
+        let progress = &mut crate::ProgressReceiver::new(&mut hear);
+        let report = corpus.import_paths(&[path, other], &crate::ImportOptions::default(), progress);
         report.expect("imported");
-        let info = corpus.info().expect("info");
+        let info = corpus.load_corpus_info().expect("info");
         assert_eq!((info.motion_frames, info.motion_hours), (0, 0.0));
         let kinds: Vec<&str> = info.amounts.keys().map(String::as_str).collect();
         assert_eq!(kinds, ["curves"]);

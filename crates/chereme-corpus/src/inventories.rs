@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::text::fold;
-use chereme_sign::{Inventory, InventoryValue, inventory};
+use chereme_sign::text::fold_text;
+use chereme_sign::{ComponentInventory, InventoryValue, inventory};
 use rusqlite::Connection;
 use serde_json::Value;
 
-use crate::db::{damaged, inventories as rows};
-use crate::error::Result;
+use crate::db::{damaged_row_error, stored_inventories as rows};
+use crate::error::CorpusResult;
 
 /// An inventory of the corpus with its row.
 #[derive(Debug, Clone)]
@@ -16,37 +16,33 @@ pub struct StoredInventory {
     /// The row.
     pub id: i64,
     /// The inventory.
-    pub inventory: Inventory,
+    pub inventory: ComponentInventory,
 }
 
 /// Writes the built-in inventories into a corpus.
-pub(crate) fn store_builtin(connection: &Connection) -> Result<()> {
-    for inventory in inventory::builtin() {
-        store(connection, inventory)?;
+pub(crate) fn store_builtin(connection: &Connection) -> CorpusResult<()> {
+    for inventory in inventory::builtin_inventories() {
+        store_inventory(connection, inventory)?;
     }
     Ok(())
 }
 
 /// Writes an inventory, and returns its row; further values of the stored inventory remain.
-pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i64> {
+pub(crate) fn store_inventory(connection: &Connection, inventory: &ComponentInventory) -> CorpusResult<i64> {
     let place = || format!("inventory {:?}", inventory.id);
-    let mut document: Value = serde_json::from_str(&inventory.to_json())
-        .map_err(|error| damaged(place(), error.to_string()))?;
-    let values = document
-        .as_object_mut()
-        .and_then(|map| map.remove("values"));
+    let mut document: Value =
+        serde_json::from_str(&inventory.to_json()).map_err(|error| damaged_row_error(place(), error.to_string()))?;
+    let values = document.as_object_mut().and_then(|map| map.remove("values"));
     let row = rows::InventoryRow {
         id: 0,
         key: inventory.id.clone(),
-        component: inventory.component.name().to_owned(),
+        component: inventory.component.component_name().to_owned(),
         feature: inventory.feature.clone(),
         document: document.to_string(),
         values: Vec::new(),
     };
-    let id = rows::store(connection, &row)?;
-    let values = values
-        .and_then(|values| values.as_array().cloned())
-        .unwrap_or_default();
+    let id = rows::store_inventory_row(connection, &row)?;
+    let values = values.and_then(|values| values.as_array().cloned()).unwrap_or_default();
     for (position, (value, document)) in inventory.values.iter().zip(values).enumerate() {
         rows::store_value(connection, id, position, &value.id, &document.to_string())?;
     }
@@ -57,25 +53,28 @@ pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i6
 ///
 /// Ids that differ in case or accents are two values, unless one of them is a further spelling of an existing value. A
 /// value or a name that would mean a different existing value is left out.
-pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
+pub(crate) fn join_stored_inventory(
+    before: Option<&ComponentInventory>,
+    new: ComponentInventory,
+) -> ComponentInventory {
     let mut all = before.map_or_else(Vec::new, |before| before.values.clone());
-    let mut meant: BTreeMap<String, String> = BTreeMap::new();
+    let mut value_by_text: BTreeMap<String, String> = BTreeMap::new();
     for value in &all {
-        let own = |text: &str| (fold(text.trim()), value.id.clone());
-        meant.extend(value.spellings().map(own));
+        let keyed_id = |text: &str| (fold_text(text.trim()), value.id.clone());
+        value_by_text.extend(value.value_spellings().map(keyed_id));
     }
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
     places.extend(all.iter().enumerate().map(|(at, it)| (it.id.clone(), at)));
     for mut value in new.values {
         let free = |text: &str| {
-            let other = meant.get(&fold(text.trim()));
+            let other = value_by_text.get(&fold_text(text.trim()));
             other.is_none_or(|other| *other == value.id)
         };
         let spelt =
-            |it: &InventoryValue| it.id != value.id && it.spellings().any(|text| text == value.id);
-        let apart = meant
-            .get(&fold(value.id.trim()))
-            .is_some_and(|other| fold(other.trim()) == fold(value.id.trim()));
+            |other: &InventoryValue| other.id != value.id && other.value_spellings().any(|text| text == value.id);
+        let apart = value_by_text
+            .get(&fold_text(value.id.trim()))
+            .is_some_and(|other| fold_text(other.trim()) == fold_text(value.id.trim()));
         if all.iter().any(spelt) || !(apart || free(&value.id)) {
             continue;
         }
@@ -84,8 +83,8 @@ pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
         let names = names.into_iter().filter(|(_, name)| free(name)).collect();
         let aliases = aliases.into_iter().filter(|alias| free(alias)).collect();
         (value.names, value.aliases) = (names, aliases);
-        let own = |text: &str| (fold(text.trim()), value.id.clone());
-        meant.extend(value.spellings().map(own));
+        let keyed_id = |text: &str| (fold_text(text.trim()), value.id.clone());
+        value_by_text.extend(value.value_spellings().map(keyed_id));
         match places.get(&value.id) {
             Some(&at) => all[at] = value,
             None => {
@@ -94,61 +93,57 @@ pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
             }
         }
     }
-    Inventory { values: all, ..new }
+    ComponentInventory { values: all, ..new }
 }
 
 /// Returns every inventory of the corpus, oldest first.
-pub(crate) fn load(connection: &Connection) -> Result<Vec<StoredInventory>> {
-    rows::inventories(connection, None)?
+pub(crate) fn load_all_inventories(connection: &Connection) -> CorpusResult<Vec<StoredInventory>> {
+    rows::load_inventory_rows(connection, None)?
         .into_iter()
-        .map(read)
+        .map(stored_inventory_from_row)
         .collect()
 }
 
 /// Returns the inventories of a recording's tiers, oldest first.
-pub(crate) fn load_of(connection: &Connection, recording: i64) -> Result<Vec<StoredInventory>> {
-    rows::inventories(connection, Some(recording))?
+pub(crate) fn load_of(connection: &Connection, recording: i64) -> CorpusResult<Vec<StoredInventory>> {
+    rows::load_inventory_rows(connection, Some(recording))?
         .into_iter()
-        .map(read)
+        .map(stored_inventory_from_row)
         .collect()
 }
 
-pub(crate) fn read(row: rows::InventoryRow) -> Result<StoredInventory> {
+pub(crate) fn stored_inventory_from_row(row: rows::InventoryRow) -> CorpusResult<StoredInventory> {
     let place = || format!("inventory {:?}", row.key);
-    let parse = |text: &str| {
-        serde_json::from_str::<Value>(text).map_err(|error| damaged(place(), error.to_string()))
-    };
+    let parse =
+        |text: &str| serde_json::from_str::<Value>(text).map_err(|error| damaged_row_error(place(), error.to_string()));
     let mut document = parse(&row.document)?;
     let values = row
         .values
         .iter()
         .map(|(_, document)| parse(document))
-        .collect::<Result<Vec<_>>>()?;
+        .collect::<CorpusResult<Vec<_>>>()?;
     let map = document
         .as_object_mut()
-        .ok_or_else(|| damaged(place(), "it is no object"))?;
+        .ok_or_else(|| damaged_row_error(place(), "it is no object"))?;
     map.insert("values".to_owned(), Value::Array(values));
-    let inventory = Inventory::from_json(&document.to_string())
-        .map_err(|error| damaged(place(), error.to_string()))?;
-    Ok(StoredInventory {
-        id: row.id,
-        inventory,
-    })
+    let inventory = ComponentInventory::from_json(&document.to_string())
+        .map_err(|error| damaged_row_error(place(), error.to_string()))?;
+    Ok(StoredInventory { id: row.id, inventory })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn inventory(values: &[(&str, &str)]) -> Inventory {
+    fn inventory(values: &[(&str, &str)]) -> ComponentInventory {
         let value = |(id, name): &(&str, &str)| InventoryValue {
             id: (*id).to_owned(),
             names: BTreeMap::from([("en".to_owned(), (*name).to_owned())]),
             ..InventoryValue::default()
         };
-        Inventory {
+        ComponentInventory {
             values: values.iter().map(value).collect(),
-            ..inventory::builtin()[0].clone()
+            ..inventory::builtin_inventories()[0].clone()
         }
     }
 
@@ -156,7 +151,7 @@ mod tests {
     fn a_merged_inventory_has_one_meaning_for_each_spelling() {
         let before = inventory(&[("B-spread", "open hand"), ("cap", "the cap")]);
         let new = inventory(&[("b-SPREAD", "five"), ("hat", "The Cap"), ("cap", "a cap")]);
-        let joined = joined(Some(&before), new);
+        let joined = join_stored_inventory(Some(&before), new);
         let listed: Vec<_> = joined
             .values
             .iter()
@@ -171,6 +166,6 @@ mod tests {
                 ("hat", None)
             ]
         );
-        assert!(Inventory::from_json(&joined.to_json()).is_ok());
+        assert!(ComponentInventory::from_json(&joined.to_json()).is_ok());
     }
 }

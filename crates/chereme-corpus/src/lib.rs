@@ -70,158 +70,155 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A corpus file with its search index.
-type Store = db::Store<search::index::SearchIndex>;
+type IndexedStore = db::CorpusStore<search::index::SearchIndex>;
 
-pub use chereme_formats::faces::{Loss, System as FaceSystem};
-pub use chereme_formats::roles::{Hands, Mapping, MappingError, TierGuess};
-pub use chereme_formats::table::annotations::{Moment, TimeUnit};
-pub use chereme_motion::Instant;
-pub use chereme_sign::milestones::{Function, Milestones, Phase as ExpressionPhase};
-pub use chereme_sign::query::HELP as QUERY_HELP;
+pub use chereme_formats::faces::{FaceSystem, MappingLoss};
+pub use chereme_formats::roles::{AnnotatedHands, MappingError, TierGuess, TierMapping};
+pub use chereme_formats::table::annotations::{TableMoment, TableTimeUnit};
+pub use chereme_motion::RecordingInstant;
+pub use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones, ExpressionPhase};
+pub use chereme_sign::query::QUERY_HELP;
 pub use chereme_sign::remedy;
-pub use chereme_sign::tier::spans::Mode;
-pub use chereme_sign::{Stereotype, TierRole, TierTopic};
+pub use chereme_sign::tier::tier_spans::NeighbourMode;
+pub use chereme_sign::{TierRole, TierStereotype, TierTopic};
 
-pub use address::{Address, Name, Stretch};
+pub use address::{CorpusAddress, RecordingStretch, RowName};
 pub use agree::{
-    Adjudicated, AgreeOptions, Agreement, Confusion, Disagreement, DisagreementCounts,
-    DisagreementKind, DisagreementSide, FEWEST_UNITS, Figure, FigureInterval, MEASURES,
-    PairAgreement, USUAL_MEASURES, UnitCounts, ValueAgreement, alike_tiers,
+    AdjudicationResult, AgreeOptions, AnnotatorAgreement, DisagreementCounts, DisagreementKind, DisagreementSide,
+    FEWEST_UNITS, FigureInterval, MEASURE_NAMES, MeasureFigure, PairAgreement, USUAL_MEASURES, UnitCounts,
+    ValueAgreement, ValueConfusion, ValueDisagreement, alike_tiers,
 };
-pub use animate::Staging;
+pub use animate::NotationStaging;
 pub use annotate::{
-    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Copied,
-    Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme, TierChange, TierName, Values,
-    Within,
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, CopiedAnnotations, NewTier,
+    RemovedTiers, ReplacedValue, ReplacementReport, TierPropertyChange, TierRequestName, TierScheme, TierSelection,
+    TierValueSource, ValueSearch,
 };
-pub use annotate::{clipboard, drag_limits, paste, requests, snap, tier_values};
-pub use author::author;
-pub use check::{CheckReport, Fault};
-pub use chereme_analysis::detect::{DETECTORS, Detector, Nonmanuals};
-pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
+pub use annotate::{annotate_clipboard, annotate_paste, drag_limits, requests, snap, tier_values};
+pub use author::determine_author;
+pub use check::{CheckReport, CorpusFault};
+pub use chereme_analysis::detect::{ALL_DETECTORS, AnnotationDetector, NonmanualDetector};
+pub use chereme_analysis::kinematics::{ClipKinematicCurves, HandCurves};
 pub use chereme_analysis::phases::{NoPath, PhaseScore};
-pub use chereme_analysis::{Score, ScoreOptions};
-pub use chereme_compose::Curve;
-pub use chereme_figure::SPEEDS;
+pub use chereme_analysis::{ClipSimilarityScore, ScoreOptions};
+pub use chereme_compose::GeneratedCurve;
+pub use chereme_figure::ANIMATION_SPEEDS;
 pub use chereme_formats::compare::{
-    ComparedAnnotation, Conflict as FileConflict, Difference, Moved, Revalued,
-    TierChange as TierDifference,
+    ComparedAnnotation, MergeConflict as FileConflict, MovedAnnotation, RevaluedAnnotation, TranscriptDifference,
+    TranscriptTierChange as TierDifference,
 };
-pub use chereme_sign::query::{facet_condition, narrow, wants, without};
+pub use chereme_sign::query::{add_query_condition, facet_condition, has_query_condition, remove_query_condition};
 pub use compare::{CompareSide, FileMerge, merge_files};
-pub use consent::{Audience, Consent, ConsentChange, ConsentKind, ConsentRow, Withheld};
+pub use consent::{ConsentAudience, ConsentChange, ConsentKind, ConsentRow, PersonConsent, WithheldReason};
 pub use contents::{
-    AnnotationColumns, Contents, Overview, RecordingGlance, ShownFrames, SignGlance, TierContents,
+    AnnotationColumns, CorpusOverview, RecordingContents, RecordingGlance, ShownFrames, SignGlance, TierContents,
 };
-pub use context::Around;
+pub use context::TokenNeighbours;
 pub use cue::{
-    CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file,
-    cue_phones_of_espeak, cue_phones_of_file, cue_recipe,
+    CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file, cue_phones_of_espeak,
+    cue_phones_of_file, cue_recipe,
 };
 pub use cued::{
-    CueConfusion, CueCosts, CuePhaseRow, CuePhaseStatistics, CueRecognition, CueSlip, CueSlips,
-    CueTargets, CuedMarkers, CuedOptions, DictionaryReport, Dikeys, FoundKey, FromDictionary,
-    MarkerSet, Misread, MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, ScriptCoverage,
-    SentencePiece, SlipKind, WorthRecording, read_marker_labels,
+    CueConfusion, CueCosts, CuePhaseRow, CuePhaseStatistics, CueRecognition, CueSlip, CueSlips, CueTargets,
+    CuedMarkers, CuedOptions, DictionaryReport, DikeyDictionaryReport, FoundKey, FromDictionary, MarkerSet, MisreadKey,
+    MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, ScriptCoverage, SentencePiece, SlipKind,
+    WorthRecording, read_marker_labels,
 };
-pub use db::columns::{AnnotationOrigin, Origin, ValueState};
-pub use db::delete::Belongings;
 pub use db::file_identity::FileIdentity;
-pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
-pub use db::tiers::{TierRow, TierShown};
-pub use db::{OperationKind, OperationRow, Upgrade, on_waiting};
-pub use delete::{DeleteOptions, Deleted, DeletedRecording, Dependent, Dependents};
-pub use details::{
-    Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
-};
-pub use detect::{DetectOptions, Detected, DetectedIn, Proposal};
+pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
+pub use db::stored_delete::RecordingBelongings;
+pub use db::stored_recordings::{MediaTrackRow, RecordingRow, SignerRow};
+pub use db::stored_tiers::{TierRow, TierShown};
+pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
+pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
+pub use details::{ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue};
+pub use detect::{DetectOptions, DetectedIn, DetectionReport, ProposedAnnotation};
 pub use edit::{RecordingChange, SignChange, SignerChange};
-pub use error::{Cause, Error, FailedStep, Meant, Result, WrongQuery};
+pub use error::{CorpusError, CorpusResult, DatabaseFailureCause, FailedStep, MeantName, WrongQuery};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use face::{
-    CHANNELS as FACE_CHANNELS, Choice, ChooseOptions, Expressions, FaceChannel, FaceFinding,
-    FaceFit, FaceNumber, FaceProposals, FaceReport, FaceScore, FittedNumber, FoundExpression,
-    MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
+    ChooseOptions, FACE_CHANNELS, FaceChannel, FaceFinding, FaceFit, FaceNumber, FaceProposals, FaceReport, FaceScore,
+    FittedNumber, FoundExpression, FoundExpressions, MilestoneOptions, NonmanualOnsets, NumberQuartiles, OnsetRow,
+    PerformanceChoice, RankedPerformance, RankingCriterion, ScoredChannel,
 };
-pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
+pub use film::{FilmFacts, FilmFile, FilmPicture, FilmTimes, PicturePlanes};
 pub use foreign_code::hide_handled_panics;
-pub use forms::{Empty, FIELD_SETS, FormSource};
+pub use forms::{EmptyCellTreatment, FIELD_SETS, FormSource};
 pub use import::{
-    BodyRead, Changes, ConventionRead, FileReport, FileStatus, ImportOptions, ImportReport,
-    JointRole, MovementRead, Outcome, OwnEdit, OwnEdits, ReportFinding, RootRead, Saying, Shared,
-    TiersRead, TrackRead, Understood, Unread, read_stream, readable_files, time_of_day,
+    AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileReport, FileStatus, ImportOptions,
+    ImportReport, JointRole, MovementRead, OwnEdit, OwnEdits, ReimportChanges, ReportFinding, RootRead, SharedPart,
+    TiersRead, TrackRead, UnreadFileKind, read_stream, readable_files, time_of_day,
 };
-pub use info::{Amount, AttributeInfo, Info, InventoryInfo, SignerInfo};
+pub use info::{AttributeInfo, CorpusInfo, InventoryInfo, SignerInfo, TrackAmount};
 pub use inventories::StoredInventory;
-pub use kinematics::Curves;
-pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
-pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
+pub use kinematics::KinematicCurves;
+pub use list::{ListFilter, ListKind, ListedRows, cell_text, components_text};
+pub use log::{ChangeKind, ChangedRow, FieldChange, OperationDetail};
 pub use map::{MapOptions, MapPoint, SignMap};
 pub use media::{MediaChange, MediaPlace, find_media, is_film};
-pub use merge::{Candidate, CorpusConflict, Decision, MergeReport};
+pub use merge::{ConflictCandidate, ConflictDecision, CorpusConflict, MergeReport};
 pub use movement::ChannelGroup;
-pub use notation::{Notation, read_notation};
-pub use pairs::{Dense, Pair, PairOptions, Pairs};
+pub use notation::{TokenNotation, read_notation};
+pub use pairs::{DenseSign, MinimalPair, MinimalPairs, PairOptions};
 pub use paths::paths_like;
-pub use picture::values as value_pictures;
-pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
-pub use progress::{Progress, Step, Unit, unheard};
-pub use propose::{ProposeOptions, ProposeScope, Proposed, accepting_tier, proposed_for};
-pub use publish::{LeftOut, PublishOptions, Published};
-pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
+pub use picture::picture_values as value_pictures;
+pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, built_in_body, draw_clip};
+pub use progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+pub use propose::{ProposalResult, ProposeOptions, ProposeScope, accepting_tier, proposed_for};
+pub use publish::{LeftOutSigns, PublishOptions, PublishedDictionary};
+pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
 pub use saved_search::{KeptSearch, kept_like};
-pub use score::Scored;
+pub use score::MovementScore;
 pub use search::{
-    Answer, FACET_VALUES, Finding, FindingKind, Hit, NO_VALUE, Order, SearchOptions, Tally,
-    TallyRow, guessed, meant,
+    FACET_VALUES, FindingKind, HitOrder, NO_VALUE, QueryFinding, SearchAnswer, SearchHit, SearchOptions, TallyRow,
+    ValueTally, guessed_query_text, meant_query_text,
 };
 pub use starter::{StarterSign, starter_files, starter_signs, unpack_starter};
 pub use stats::{
-    Battison, Chance, CrossCell, Ends, Estimate, FieldAssociation, FieldContrast, FieldInDepth,
-    FieldStatistics, FieldValue, HandCondition, LexiconStatistics, StatsFinding, StatsOptions,
-    TwoHands,
+    BattisonConditions, ChanceAssociation, CrossCell, FieldAssociation, FieldContrast, FieldInDepth, FieldStatistics,
+    FieldValue, HandCondition, IntervalEnds, LexiconStatistics, StatsEstimate, StatsFinding, StatsOptions, TwoHands,
 };
-pub use suggest::{Partner, Suggestions};
+pub use suggest::{MinimalPairPartner, SignSuggestions};
 pub use track::{
-    Alignment, FitOptions, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, Signal,
-    SkeletonTrack, Track, TrackChange, TrackKind, TrackRow,
+    AlignmentSignal, FitOptions, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, SkeletonTrack,
+    TrackAlignment, TrackChange, TrackContent, TrackKind, TrackRow,
 };
-pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
+pub use transcribe::{SignTranscription, TranscribedFeature, TranscribedStage, TranscribedValue};
 pub use values::MergedValues;
 
 /// An open corpus.
 pub struct Corpus {
-    store: Store,
+    store: IndexedStore,
     /// Cache of what was learned from the corpus: the profile of strokes and samples of body language.
-    learned: RefCell<sources::Learned>,
+    learned: RefCell<sources::LearnedCache>,
     /// Cache of the inventories, with the generation for which they are valid.
     inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
     /// Cache of the corrections of finger angles by recording.
-    hands: RefCell<hands::Kept>,
+    hands: RefCell<hands::HandCorrectionCache>,
     /// The recipe being drafted.
-    drafted: recombine::Drafted,
+    drafted: recombine::DraftedRecipe,
     /// Cache of facial expressions as numbers; after a change only the changed recordings are read again.
-    faces: RefCell<face::Pool>,
+    faces: RefCell<face::PerformancePool>,
 }
 
 impl Corpus {
     /// Creates an empty corpus at `path`; `author` is recorded with every change.
     ///
     /// # Errors
-    /// [`Error::File`] if something exists there already or the folder is missing.
-    pub fn create(path: &Path, author: &str) -> Result<Self> {
-        let store = Store::create(path, author, inventories::store_builtin)?;
+    /// [`CorpusError::File`] if something exists there already or the folder is missing.
+    pub fn create_corpus(path: &Path, author: &str) -> CorpusResult<Self> {
+        let store = IndexedStore::create_corpus_store(path, author, inventories::store_builtin)?;
         Ok(Self::of_store(store))
     }
 
-    fn of_store(store: Store) -> Self {
+    fn of_store(store: IndexedStore) -> Self {
         Self {
             store,
             learned: RefCell::default(),
             inventories: RefCell::default(),
             hands: RefCell::default(),
-            drafted: recombine::Drafted::default(),
+            drafted: recombine::DraftedRecipe::default(),
             faces: RefCell::default(),
         }
     }
@@ -229,79 +226,79 @@ impl Corpus {
     /// Writes the whole corpus to a new file, even if its own file was deleted while it is open.
     ///
     /// # Errors
-    /// [`Error::File`] if something exists there already, or if the disk or the database fails;
+    /// [`CorpusError::File`] if something exists there already, or if the disk or the database fails;
     /// then nothing is left there.
-    pub fn save_copy(&self, to: &Path) -> Result<()> {
-        self.store.copy(to)
+    pub fn save_copy(&self, to: &Path) -> CorpusResult<()> {
+        self.store.copy_store_file(to)
     }
 
     /// Opens the corpus at `path`; `author` is recorded with every change. A file of an older version is upgraded, and
-    /// kept as it was beside itself: [`upgrade`](Self::upgrade).
+    /// kept as it was beside itself: [`schema_upgrade`](Self::schema_upgrade).
     ///
     /// # Errors
-    /// [`Error::File`] if the file does not exist, [`Error::NotACorpus`] if it is another kind of file.
-    pub fn open(path: &Path, author: &str) -> Result<Self> {
-        Ok(Self::of_store(Store::open(path, author)?))
+    /// [`CorpusError::File`] if the file does not exist, [`CorpusError::NotACorpus`] if it is another kind of file.
+    pub fn open_corpus(path: &Path, author: &str) -> CorpusResult<Self> {
+        Ok(Self::of_store(IndexedStore::open_corpus_store(path, author)?))
     }
 
     /// Opens somebody else's corpus to read it, as for a merge into the one at `own`: the file stays as it is, also if its
     /// version is older. The changes of its copy are lost.
     ///
     /// # Errors
-    /// Those of [`open`](Self::open).
-    pub fn open_unchanged(path: &Path, own: &Path, author: &str) -> Result<Self> {
-        Ok(Self::of_store(Store::open_unchanged(path, own, author)?))
+    /// Those of [`open_corpus`](Self::open_corpus).
+    pub fn open_unchanged(path: &Path, own: &Path, author: &str) -> CorpusResult<Self> {
+        Ok(Self::of_store(IndexedStore::open_unchanged(path, own, author)?))
     }
 
     /// Returns the upgrade that opening the file made, if its version was older.
     #[must_use]
-    pub fn upgrade(&self) -> Option<&Upgrade> {
-        self.store.upgrade()
+    pub fn schema_upgrade(&self) -> Option<&SchemaUpgrade> {
+        self.store.store_upgrade()
     }
 
     /// Returns the path of the file.
     #[must_use]
-    pub fn path(&self) -> &Path {
-        self.store.path()
+    pub fn corpus_file_path(&self) -> &Path {
+        self.store.store_path()
     }
 
     /// Undoes the newest operation that is in effect, and returns the operation that did so.
     ///
     /// # Errors
     /// Fails if nothing is left to undo, or if another change has touched a row of the operation since.
-    pub fn undo(&mut self) -> Result<OperationRow> {
-        self.undo_with_progress(&mut Progress::new(&mut unheard))
+    pub fn undo_operation(&mut self) -> CorpusResult<OperationRow> {
+        self.undo_with_progress(&mut ProgressReceiver::new(&mut ignore_progress_step))
     }
 
-    /// Undoes as [`undo`](Self::undo) does, and can be stopped.
+    /// Undoes as [`undo_operation`](Self::undo_operation) does, and can be stopped.
     ///
     /// # Errors
-    /// Those of [`undo`](Self::undo), and [`Error::Stopped`].
-    pub fn undo_with_progress(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
-        self.store.undo(progress)
+    /// Those of [`undo_operation`](Self::undo_operation), and [`CorpusError::Stopped`].
+    pub fn undo_with_progress(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<OperationRow> {
+        self.store.undo_store_operation(progress)
     }
 
     /// Redoes the operation that was undone last, and returns the operation that did so.
     ///
     /// # Errors
     /// Fails if nothing is left to redo, or if a row of the operation is not as the undo left it.
-    pub fn redo(&mut self) -> Result<OperationRow> {
-        self.redo_with_progress(&mut Progress::new(&mut unheard))
+    pub fn redo_operation(&mut self) -> CorpusResult<OperationRow> {
+        self.redo_with_progress(&mut ProgressReceiver::new(&mut ignore_progress_step))
     }
 
-    /// Redoes as [`redo`](Self::redo) does, and can be stopped.
+    /// Redoes as [`redo_operation`](Self::redo_operation) does, and can be stopped.
     ///
     /// # Errors
-    /// Those of [`redo`](Self::redo), and [`Error::Stopped`].
-    pub fn redo_with_progress(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
-        self.store.redo(progress)
+    /// Those of [`redo_operation`](Self::redo_operation), and [`CorpusError::Stopped`].
+    pub fn redo_with_progress(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<OperationRow> {
+        self.store.redo_store_operation(progress)
     }
 
     /// Returns at most `limit` operations, the newest first.
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn log(&self, limit: usize) -> Result<Vec<OperationRow>> {
-        self.store.log(limit)
+    pub fn operation_log(&self, limit: usize) -> CorpusResult<Vec<OperationRow>> {
+        self.store.store_operation_log(limit)
     }
 }

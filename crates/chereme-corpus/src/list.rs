@@ -4,21 +4,21 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
-use chereme_sign::Field;
-use chereme_sign::Remedy;
+use chereme_sign::ComponentField;
+use chereme_sign::ErrorRemedy;
 use chereme_sign::hamnosys::to_names;
-use chereme_sign::text::{did_you_mean, nearest};
-use chereme_sign::tier::Hands;
+use chereme_sign::text::{did_you_mean, nearest_candidate};
+use chereme_sign::tier::AnnotatedHands;
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
-use crate::db::list::{self as rows, Holds, Table, Test, Wanted};
+use crate::address::{self, CorpusAddress, RowName};
 use crate::db::signs::{self, TokenValueRow};
-use crate::db::tiers;
-use crate::error::{Error, Result};
+use crate::db::stored_list::{self as rows, ColumnCondition, ListColumnContent, ListRequest, ListTable};
+use crate::db::stored_tiers;
+use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
 
 /// The kind of rows in a list.
@@ -52,7 +52,7 @@ pub enum ListKind {
 
 impl ListKind {
     /// Every kind.
-    pub const ALL: [Self; 12] = [
+    pub const ALL_LIST_KINDS: [Self; 12] = [
         Self::Recordings,
         Self::Tracks,
         Self::Signs,
@@ -69,7 +69,7 @@ impl ListKind {
 
     /// Returns the name, such as `recordings`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn list_kind_name(self) -> &'static str {
         match self {
             Self::Recordings => "recordings",
             Self::Tracks => "tracks",
@@ -88,8 +88,8 @@ impl ListKind {
 
     /// Returns the names of the columns, in order.
     #[must_use]
-    pub fn columns(self) -> Vec<&'static str> {
-        self.table()
+    pub fn list_column_names(self) -> Vec<&'static str> {
+        self.list_kind_table()
             .columns
             .iter()
             .map(|column| column.name)
@@ -101,65 +101,65 @@ impl ListKind {
             Self::Inventories => "inventory",
             Self::Searches => "search",
             Self::Studies => "study",
-            other => other.name().trim_end_matches('s'),
+            other => other.list_kind_name().trim_end_matches('s'),
         }
     }
 
-    fn table(self) -> &'static Table {
+    fn list_kind_table(self) -> &'static ListTable {
         match self {
-            Self::Recordings => &rows::RECORDINGS,
-            Self::Tracks => &rows::TRACKS,
-            Self::Signs => &rows::SIGNS,
-            Self::Tokens => &rows::TOKENS,
-            Self::Tiers => &rows::TIERS,
-            Self::Annotations => &rows::ANNOTATIONS,
-            Self::Inventories => &rows::INVENTORIES,
-            Self::Values => &rows::VALUES,
-            Self::Signers => &rows::SIGNERS,
-            Self::Searches => &rows::SEARCHES,
-            Self::Studies => &rows::STUDIES,
-            Self::Operations => &rows::OPERATIONS,
+            Self::Recordings => &rows::RECORDINGS_LIST,
+            Self::Tracks => &rows::TRACKS_LIST,
+            Self::Signs => &rows::SIGNS_LIST,
+            Self::Tokens => &rows::TOKENS_LIST,
+            Self::Tiers => &rows::TIERS_LIST,
+            Self::Annotations => &rows::ANNOTATIONS_LIST,
+            Self::Inventories => &rows::INVENTORIES_LIST,
+            Self::Values => &rows::INVENTORY_VALUES_LIST,
+            Self::Signers => &rows::SIGNERS_LIST,
+            Self::Searches => &rows::SEARCHES_LIST,
+            Self::Studies => &rows::STUDIES_LIST,
+            Self::Operations => &rows::OPERATIONS_LIST,
         }
     }
 
     /// Returns the column of that name; for recordings `recording` means their name, and so on.
-    fn column(self, name: &str) -> Result<usize> {
-        let columns = self.table().columns;
+    fn find_list_column(self, name: &str) -> CorpusResult<usize> {
+        let columns = self.list_kind_table().columns;
         let name = name.trim();
-        let own = self.singular() == name;
-        let found = columns.iter().position(|column| {
-            column.name == name || (own && matches!(column.name, "name" | "gloss" | "key"))
-        });
-        found.ok_or_else(|| {
+        let is_singular = self.singular() == name;
+        let index = columns
+            .iter()
+            .position(|column| column.name == name || (is_singular && matches!(column.name, "name" | "gloss" | "key")));
+        index.ok_or_else(|| {
             let names = columns.iter().map(|column| column.name);
-            let meant = did_you_mean(nearest(name, names.clone()));
+            let suggestion = did_you_mean(nearest_candidate(name, names.clone()));
             let all: Vec<&str> = names.collect();
-            Error::wrong(format!("{} have no column {name:?}{meant}", self.name()))
-                .at(name)
-                .advise(format!("the columns are: {}", all.join(", ")))
+            CorpusError::from_wrong_message(format!("{} have no column {name:?}{suggestion}", self.list_kind_name()))
+                .with_error_place(name)
+                .with_advice(format!("the columns are: {}", all.join(", ")))
         })
     }
 }
 
 impl fmt::Display for ListKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.list_kind_name())
     }
 }
 
 impl FromStr for ListKind {
-    type Err = Error;
+    type Err = CorpusError;
 
-    fn from_str(text: &str) -> Result<Self> {
-        let names = Self::ALL.map(Self::name);
-        Self::ALL
+    fn from_str(text: &str) -> CorpusResult<Self> {
+        let names = Self::ALL_LIST_KINDS.map(Self::list_kind_name);
+        Self::ALL_LIST_KINDS
             .into_iter()
-            .find(|kind| kind.name() == text)
+            .find(|kind| kind.list_kind_name() == text)
             .ok_or_else(|| {
-                let meant = did_you_mean(nearest(text, names));
-                Error::wrong(format!("{text:?} cannot be listed{meant}"))
-                    .at(text)
-                    .advise(format!("what can be listed: {}", names.join(", ")))
+                let suggestion = did_you_mean(nearest_candidate(text, names));
+                CorpusError::from_wrong_message(format!("{text:?} cannot be listed{suggestion}"))
+                    .with_error_place(text)
+                    .with_advice(format!("what can be listed: {}", names.join(", ")))
             })
     }
 }
@@ -186,7 +186,7 @@ pub struct ListFilter {
 impl ListFilter {
     /// Returns the filter with the condition `pattern` on `column` added.
     #[must_use]
-    pub fn with(mut self, column: impl Into<String>, pattern: impl Into<String>) -> Self {
+    pub fn with_column_pattern(mut self, column: impl Into<String>, pattern: impl Into<String>) -> Self {
         self.columns.push((column.into(), pattern.into()));
         self
     }
@@ -194,10 +194,10 @@ impl ListFilter {
 
 /// Rows for display.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Listing {
+pub struct ListedRows {
     /// The number of rows that meet the conditions, including those that are not listed.
     pub total: u64,
-    /// The rows, each with every column of [`ListKind::columns`] in that order.
+    /// The rows, each with every column of [`ListKind::list_column_names`] in that order.
     pub rows: Vec<Map<String, Value>>,
 }
 
@@ -206,117 +206,101 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if a column does not exist or a pattern does not suit its type.
-    pub fn list(&self, kind: ListKind, filter: &ListFilter) -> Result<Listing> {
-        let connection = self.store.read();
-        let mut wanted = Wanted {
+    pub fn list_rows(&self, kind: ListKind, filter: &ListFilter) -> CorpusResult<ListedRows> {
+        let connection = self.store.read_connection();
+        let mut wanted = ListRequest {
             limit: filter.limit,
             offset: filter.offset,
-            ..Wanted::default()
+            ..ListRequest::default()
         };
         for (name, pattern) in &filter.columns {
-            let column = kind.column(name)?;
-            let test = self.test(kind, column, pattern.trim())?;
+            let column = kind.find_list_column(name)?;
+            let test = self.parse_column_condition(kind, column, pattern.trim())?;
             wanted.tests.push((column, test));
         }
         if let Some(name) = &filter.sort {
-            wanted.sort = Some((kind.column(name)?, filter.descending));
+            wanted.sort = Some((kind.find_list_column(name)?, filter.descending));
         }
-        let (total, mut listed) = rows::list(connection, kind.table(), &wanted)?;
+        let (total, mut listed) = rows::query_list_rows(connection, kind.list_kind_table(), &wanted)?;
         if matches!(kind, ListKind::Tokens | ListKind::Signs) {
             add_notations(connection, &mut listed)?;
         }
         if kind == ListKind::Tokens {
             for row in &mut listed {
                 let token = row.get("id").and_then(Value::as_i64).unwrap_or_default();
-                let values = signs::values(connection, token)?;
-                row.insert("components".to_owned(), components(&values));
+                let values = signs::load_token_values(connection, token)?;
+                row.insert("components".to_owned(), token_values_by_field(&values));
             }
         }
-        Ok(Listing {
-            total,
-            rows: listed,
-        })
+        Ok(ListedRows { total, rows: listed })
     }
 
-    fn test(&self, kind: ListKind, at: usize, pattern: &str) -> Result<Test> {
-        let column = &kind.table().columns[at];
+    fn parse_column_condition(&self, kind: ListKind, at: usize, pattern: &str) -> CorpusResult<ColumnCondition> {
+        let column = &kind.list_kind_table().columns[at];
         if pattern.eq_ignore_ascii_case("none") || pattern.is_empty() {
-            return Ok(Test::Nothing);
+            return Ok(ColumnCondition::Nothing);
         }
         let unfit = |right: &str| {
-            Error::wrong(format!(
-                "the column {:?} cannot be {pattern:?}",
-                column.name
-            ))
-            .at(pattern)
-            .advise(right)
+            CorpusError::from_wrong_message(format!("the column {:?} cannot be {pattern:?}", column.name))
+                .with_error_place(pattern)
+                .with_advice(right)
         };
         match column.holds {
-            Holds::Text => Ok(match self.addressed(kind, column.name, pattern)? {
-                Some(row) => Test::Row(row),
-                None => Test::Like(pattern.to_owned()),
+            ListColumnContent::Text => Ok(match self.find_addressed_row(kind, column.name, pattern)? {
+                Some(row) => ColumnCondition::Row(row),
+                None => ColumnCondition::Like(pattern.to_owned()),
             }),
-            Holds::Json(_) | Holds::Notation(_) => Ok(Test::Like(format!("*{pattern}*"))),
-            Holds::Number => between(pattern)
-                .ok_or_else(|| unfit("write a number, >5, >=5, <5, <=5, 2..5, or none")),
-            Holds::Flag => match pattern.to_lowercase().as_str() {
-                "yes" | "true" | "1" => Ok(Test::Is(true)),
-                "no" | "false" | "0" => Ok(Test::Is(false)),
+            ListColumnContent::Json(_) | ListColumnContent::Notation(_) => {
+                Ok(ColumnCondition::Like(format!("*{pattern}*")))
+            }
+            ListColumnContent::Number => {
+                parse_between_condition(pattern).ok_or_else(|| unfit("write a number, >5, >=5, <5, <=5, 2..5, or none"))
+            }
+            ListColumnContent::Flag => match pattern.to_lowercase().as_str() {
+                "yes" | "true" | "1" => Ok(ColumnCondition::Is(true)),
+                "no" | "false" | "0" => Ok(ColumnCondition::Is(false)),
                 _ => Err(unfit("write yes or no")),
             },
-            Holds::Components => Err(Error::wrong(
+            ListColumnContent::Components => Err(CorpusError::from_wrong_message(
                 "tokens are filtered by their components with a query",
             )
-            .at(pattern)
-            .advise(Remedy::command(
+            .with_error_place(pattern)
+            .with_advice(ErrorRemedy::command_remedy(
                 "`chereme search CORPUS 'right.configuration=U'`",
             ))),
         }
     }
 
     /// Returns the row that an address such as `recording:3` names, if the column holds such rows.
-    fn addressed(&self, kind: ListKind, column: &str, pattern: &str) -> Result<Option<i64>> {
-        let connection = self.store.read();
+    fn find_addressed_row(&self, kind: ListKind, column: &str, pattern: &str) -> CorpusResult<Option<i64>> {
+        let connection = self.store.read_connection();
         let of = |what: &str| column == what || (column == "name" && kind.singular() == what);
         Ok(match pattern.parse() {
-            Ok(Address::Recording(name)) if of("recording") => {
-                Some(address::recording(connection, &name)?.id)
+            Ok(CorpusAddress::Recording(name)) if of("recording") => {
+                Some(address::find_recording_by_name(connection, &name)?.id)
             }
-            Ok(Address::Signer(name)) if of("signer") => {
-                Some(address::signer(connection, &name)?.id)
+            Ok(CorpusAddress::Signer(name)) if of("signer") => {
+                Some(address::find_signer_by_name(connection, &name)?.id)
             }
-            Ok(Address::Tier(tier)) if of("tier") || column == "parent" => {
-                Some(tiers::tier(connection, tier)?.id)
+            Ok(CorpusAddress::Tier(tier)) if of("tier") || column == "parent" => {
+                Some(stored_tiers::load_tier_row(connection, tier)?.id)
             }
-            Ok(Address::Sign(Name::Number(sign))) if column == "gloss" => Some(sign),
-            Ok(Address::Sign(Name::Text(gloss))) if column == "gloss" => {
-                Some(address::sign(connection, &gloss)?)
+            Ok(CorpusAddress::Sign(RowName::Number(sign))) if column == "gloss" => Some(sign),
+            Ok(CorpusAddress::Sign(RowName::Text(gloss))) if column == "gloss" => {
+                Some(address::find_sign_by_gloss(connection, &gloss)?)
             }
             _ => None,
         })
     }
 }
 
-fn between(pattern: &str) -> Option<Test> {
-    let number = |text: &str| {
-        text.trim()
-            .parse::<f64>()
-            .ok()
-            .filter(|number| !number.is_nan())
-    };
+fn parse_between_condition(pattern: &str) -> Option<ColumnCondition> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| !number.is_nan());
     let (low, high) = (f64::MIN, f64::MAX);
     if let Some((least, most)) = pattern.split_once("..") {
-        let least = if least.trim().is_empty() {
-            low
-        } else {
-            number(least)?
-        };
-        let most = if most.trim().is_empty() {
-            high
-        } else {
-            number(most)?
-        };
-        return Some(Test::Between(least, most));
+        let least = if least.trim().is_empty() { low } else { number(least)? };
+        let most = if most.trim().is_empty() { high } else { number(most)? };
+        return Some(ColumnCondition::Between(least, most));
     }
     let (least, most) = if let Some(text) = pattern.strip_prefix(">=") {
         (number(text)?, high)
@@ -329,24 +313,24 @@ fn between(pattern: &str) -> Option<Test> {
     } else {
         (number(pattern)?, number(pattern)?)
     };
-    Some(Test::Between(least, most))
+    Some(ColumnCondition::Between(least, most))
 }
 
 /// Returns the values of a token by field, such as `initial.right.placement`; a list if a field has several. A value
 /// that does not apply is `n/a`, an unclear one `unclear`.
-fn components(values: &[TokenValueRow]) -> Value {
+fn token_values_by_field(values: &[TokenValueRow]) -> Value {
     let mut map = Map::new();
     for row in values {
         let phase = row.phase.map(|phase| phase.to_string());
         let parts = [
             phase.as_deref(),
-            row.hand.map(Hands::name),
-            Some(row.component.name()),
+            row.hand.map(AnnotatedHands::annotated_hands_name),
+            Some(row.component.component_name()),
             row.feature.as_deref(),
         ];
         let field: Vec<&str> = parts.into_iter().flatten().collect();
-        let value = row.state.missing_text().or(row.value.as_deref());
-        let value = Value::from(value.unwrap_or_default());
+        let value_text = row.state.missing_text().or(row.value.as_deref());
+        let value = Value::from(value_text.unwrap_or_default());
         match map.get_mut(&field.join(".")) {
             Some(Value::Array(several)) => several.push(value),
             Some(one) => *one = Value::Array(vec![one.take(), value]),
@@ -360,14 +344,15 @@ fn components(values: &[TokenValueRow]) -> Value {
 
 /// Replaces each token in the column `notation` by its notation as JSON: `{"token", "system", "file", "line", "text",
 /// "document"}`.
-fn add_notations(connection: &Connection, rows: &mut [Map<String, Value>]) -> Result<()> {
+fn add_notations(connection: &Connection, rows: &mut [Map<String, Value>]) -> CorpusResult<()> {
     let token = |row: &Map<String, Value>| row.get("notation").and_then(Value::as_i64);
     let tokens: Vec<i64> = rows.iter().filter_map(token).collect();
-    let mut found = notation::of_tokens(connection, &tokens)?;
+    let mut notations = notation::of_tokens(connection, &tokens)?;
     for row in rows {
-        let own = token(row).and_then(|token| found.remove(&token));
-        let own = serde_json::to_value(own).map_err(|error| Error::wrong(error.to_string()))?;
-        row.insert("notation".to_owned(), own);
+        let row_notation = token(row).and_then(|token| notations.remove(&token));
+        let json_value =
+            serde_json::to_value(row_notation).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+        row.insert("notation".to_owned(), json_value);
     }
     Ok(())
 }
@@ -408,13 +393,13 @@ pub fn cell_text(value: &Value) -> String {
 pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Value)>) -> String {
     let mut cells: Vec<(String, BTreeMap<_, String>)> = Vec::new();
     for (name, value) in fields {
-        let (field, phase) = match name.parse::<Field>() {
-            Ok(field @ Field { phase: Some(_), .. }) => {
-                let whole = Field {
+        let (field, phase) = match name.parse::<ComponentField>() {
+            Ok(field @ ComponentField { phase: Some(_), .. }) => {
+                let plain_field = ComponentField {
                     phase: None,
                     ..field.clone()
                 };
-                (whole.to_string(), field.phase)
+                (plain_field.to_string(), field.phase)
             }
             _ => (name.clone(), None),
         };
@@ -439,39 +424,39 @@ pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Val
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
-    use crate::db::tiers::{AnnotationRow, TierRow};
-    use crate::db::{recordings, signs as sign_rows};
+    use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
+    use crate::db::stored_tiers::{AnnotationRow, TierRow};
+    use crate::db::{signs as sign_rows, stored_recordings};
     use crate::{inventories, tokens};
     use chereme_sign::TierRole;
     use serde_json::json;
 
     fn corpus() -> (tempfile::TempDir, Corpus) {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         corpus
             .store
             .named_operation("fill", |connection| {
-                let signer = recordings::signer_named(connection, "Anna", Some("left"))?;
+                let signer = stored_recordings::signer_named(connection, "Anna", Some("left"))?;
                 for (name, gloss) in [("One", "BOL"), ("Two", "Écœuré")] {
-                    let recording = recordings::RecordingRow {
+                    let recording = stored_recordings::RecordingRow {
                         id: 0,
                         name: name.into(),
                         signer_id: (name == "One").then_some(signer),
                         signer: None,
-                        origin: Origin::Captured,
+                        origin: RecordOrigin::Captured,
                         duration_us: 1_000_000,
                         licence: None,
                         notes: None,
                     };
-                    let recording_id = recordings::insert_recording(connection, &recording)?;
+                    let recording_id = stored_recordings::insert_recording(connection, &recording)?;
                     let tier = TierRow {
                         recording_id,
                         name: "Gloss".into(),
                         role: TierRole::Gloss,
                         ..TierRow::default()
                     };
-                    let tier_id = tiers::insert_tier(connection, &tier)?;
+                    let tier_id = stored_tiers::insert_tier(connection, &tier)?;
                     let row = |start_us, value: &str| AnnotationRow {
                         tier_id,
                         start_us,
@@ -481,13 +466,13 @@ mod tests {
                         origin: AnnotationOrigin::File,
                         ..AnnotationRow::default()
                     };
-                    tiers::insert_annotation(connection, &row(0, gloss))?;
-                    tiers::insert_annotation(connection, &row(200_000, "CHAT"))?;
-                    tokens::derive(
+                    stored_tiers::insert_annotation(connection, &row(0, gloss))?;
+                    stored_tiers::insert_annotation(connection, &row(200_000, "CHAT"))?;
+                    tokens::update_recording_tokens(
                         connection,
                         recording_id,
                         None,
-                        &inventories::load(connection)?,
+                        &inventories::load_all_inventories(connection)?,
                     )?;
                 }
                 let sign = sign_rows::sign_glossed(connection, "BOL")?;
@@ -521,34 +506,10 @@ mod tests {
             ("signs", "tokens=>=2", "", "gloss", "CHAT"),
             ("signs", "gloss=sign:chat", "", "gloss", "CHAT"),
             ("tiers", "role=gloss", "", "recording", "One Two"),
-            (
-                "annotations",
-                "tier=tier:2; value=CHAT",
-                "",
-                "start_us",
-                "200000",
-            ),
-            (
-                "inventories",
-                "component=placement",
-                "",
-                "key",
-                "placements",
-            ),
-            (
-                "values",
-                "inventory=configurations; value=U",
-                "",
-                "value",
-                "U",
-            ),
-            (
-                "values",
-                "component=configuration; names=victory",
-                "",
-                "inventory",
-                "",
-            ),
+            ("annotations", "tier=tier:2; value=CHAT", "", "start_us", "200000"),
+            ("inventories", "component=placement", "", "key", "placements"),
+            ("values", "inventory=configurations; value=U", "", "value", "U"),
+            ("values", "component=configuration; names=victory", "", "inventory", ""),
             ("signers", "", "", "handedness", "left"),
             ("operations", "", "", "name", "fill"),
             ("operations", "stands=yes", "", "id", "1"),
@@ -556,22 +517,17 @@ mod tests {
             let mut list = ListFilter::default();
             for part in filter.split("; ").filter(|part| !part.is_empty()) {
                 let (column, pattern) = part.split_once('=').expect("a filter");
-                list = list.with(column, pattern);
+                list = list.with_column_pattern(column, pattern);
             }
             list.descending = sort.starts_with('-');
-            list.sort =
-                Some(sort.trim_start_matches('-').to_owned()).filter(|sort| !sort.is_empty());
+            list.sort = Some(sort.trim_start_matches('-').to_owned()).filter(|sort| !sort.is_empty());
             let kind: ListKind = kind.parse().expect("a kind");
-            let listing = corpus.list(kind, &list).expect(filter);
-            let cells: Vec<String> = listing
-                .rows
-                .iter()
-                .map(|row| cell_text(&row[column]))
-                .collect();
+            let listing = corpus.list_rows(kind, &list).expect(filter);
+            let cells: Vec<String> = listing.rows.iter().map(|row| cell_text(&row[column])).collect();
             assert_eq!(cells.join(" "), want, "{kind} {filter} {sort}");
             assert_eq!(listing.total, listing.rows.len() as u64);
             for row in &listing.rows {
-                assert!(row.keys().eq(kind.columns()), "{kind}");
+                assert!(row.keys().eq(kind.list_column_names()), "{kind}");
             }
         }
     }
@@ -584,16 +540,13 @@ mod tests {
             offset: 1,
             ..ListFilter::default()
         };
-        let listing = corpus.list(ListKind::Tokens, &filter).expect("listed");
+        let listing = corpus.list_rows(ListKind::Tokens, &filter).expect("listed");
         assert_eq!((listing.total, listing.rows.len()), (4, 2));
         assert_eq!(listing.rows[0]["id"], 2);
         let texts = corpus
-            .list(ListKind::Signs, &ListFilter::default())
+            .list_rows(ListKind::Signs, &ListFilter::default())
             .expect("listed");
-        assert_eq!(
-            cell_text(&texts.rows[0]["translations"]),
-            "bowl (en), schaal"
-        );
+        assert_eq!(cell_text(&texts.rows[0]["translations"]), "bowl (en), schaal");
     }
 
     #[test]
@@ -623,10 +576,10 @@ mod tests {
             ("components", "U", "with a query"),
             ("recording", "recording:9", "no recording:9"),
         ] {
-            let filter = ListFilter::default().with(column, pattern);
-            let error = corpus.list(ListKind::Tokens, &filter).expect_err(column);
+            let filter = ListFilter::default().with_column_pattern(column, pattern);
+            let error = corpus.list_rows(ListKind::Tokens, &filter).expect_err(column);
             assert!(error.to_string().contains(want), "{error}");
-            assert!(error.remedy().is_some());
+            assert!(error.error_remedy().is_some());
         }
         assert!(
             "tokns"

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::Remedy;
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::Corpus;
 use crate::db::OperationRow;
-use crate::db::history::{self, RowChange};
-use crate::error::{Error, Result};
+use crate::db::stored_history::{self, RowChange};
+use crate::error::{CorpusError, CorpusResult};
 
 /// The tables that the user knows, each with the noun for a row and the column with its name.
-const KNOWN: [(&str, &str, &str); 13] = [
+const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 13] = [
     ("annotation", "annotation", "value"),
     ("tier", "tier", "name"),
     ("recording", "recording", "name"),
@@ -30,7 +30,7 @@ const KNOWN: [(&str, &str, &str); 13] = [
 ];
 
 /// Columns that are of no interest to the user.
-const SILENT: [&str; 8] = [
+const UNREPORTED_COLUMNS: [&str; 8] = [
     "id",
     "uid",
     "source",
@@ -51,12 +51,12 @@ pub struct OperationDetail {
     /// The number of changed rows by table, including derived rows.
     pub tables: BTreeMap<String, u64>,
     /// The changes, in order.
-    pub changes: Vec<Changed>,
+    pub changes: Vec<ChangedRow>,
 }
 
 /// A row changed by an operation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Changed {
+pub struct ChangedRow {
     /// The kind of thing, such as `annotation`.
     pub what: &'static str,
     /// Its row.
@@ -102,27 +102,27 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such operation, or its changeset cannot be read.
-    pub fn operation(&self, id: i64, limit: usize) -> Result<OperationDetail> {
-        let connection = self.store.read();
-        let operation = history::log(connection, usize::MAX)?
+    pub fn operation_detail(&self, id: i64, limit: usize) -> CorpusResult<OperationDetail> {
+        let connection = self.store.read_connection();
+        let operation = stored_history::load_newest_operations(connection, usize::MAX)?
             .into_iter()
             .find(|row| row.id == id)
             .ok_or_else(|| {
-                Error::wrong(format!("there is no operation {id}"))
-                    .at(id.to_string())
-                    .advise(Remedy::command("`chereme log CORPUS` lists them"))
+                CorpusError::from_wrong_message(format!("there is no operation {id}"))
+                    .with_error_place(id.to_string())
+                    .with_advice(ErrorRemedy::command_remedy("`chereme log CORPUS` lists them"))
             })?;
-        let mut rows = Rows::default();
-        history::each_change(connection, id, |change| {
-            rows.take(change);
+        let mut rows = OperationRows::default();
+        stored_history::each_change(connection, id, |change| {
+            rows.take_row_change(change);
             Ok(())
         })?;
         let mut changes = Vec::new();
         let mut total = 0;
-        for (table, before, after) in rows.known() {
+        for (table, before, after) in rows.changed_known_rows() {
             total += 1;
             if changes.len() < limit {
-                changes.push(changed(connection, &rows, table, before, after)?);
+                changes.push(describe_changed_row(connection, &rows, table, before, after)?);
             }
         }
         Ok(OperationDetail {
@@ -138,23 +138,23 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn steps(&self) -> Result<(usize, usize)> {
-        history::steps(self.store.read())
+    pub fn count_undo_steps(&self) -> CorpusResult<(usize, usize)> {
+        stored_history::count_undo_redo_steps(self.store.read_connection())
     }
 }
 
 /// The rows of an operation, each as before its first change and after its last.
 #[derive(Default)]
-struct Rows {
+struct OperationRows {
     order: Vec<(usize, i64)>,
     images: BTreeMap<(usize, i64), (Value, Value)>,
     counts: BTreeMap<String, u64>,
 }
 
-impl Rows {
-    fn take(&mut self, change: RowChange) {
+impl OperationRows {
+    fn take_row_change(&mut self, change: RowChange) {
         *self.counts.entry(change.table.clone()).or_default() += 1;
-        let Some(table) = KNOWN.iter().position(|known| known.0 == change.table) else {
+        let Some(table) = LOGGED_TABLE_NOUNS.iter().position(|known| known.0 == change.table) else {
             return;
         };
         let image = if change.after.is_null() {
@@ -173,7 +173,7 @@ impl Rows {
     }
 
     /// Returns the rows whose state at the end differs from that at the beginning, by table.
-    fn known(&self) -> impl Iterator<Item = (usize, &Value, &Value)> {
+    fn changed_known_rows(&self) -> impl Iterator<Item = (usize, &Value, &Value)> {
         self.order.iter().filter_map(|key| {
             let (before, after) = self.images.get(key)?;
             (before != after).then_some((key.0, before, after))
@@ -181,48 +181,42 @@ impl Rows {
     }
 
     /// Returns the name of a row of `table` at the time of this operation, otherwise its present name.
-    fn name(&self, connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
-        let known = KNOWN.iter().position(|known| known.0 == table);
-        let image = known.and_then(|known| {
+    fn logged_row_name(&self, connection: &Connection, table: &str, id: i64) -> CorpusResult<Option<String>> {
+        let table_index = LOGGED_TABLE_NOUNS.iter().position(|known| known.0 == table);
+        let row_image = table_index.and_then(|known| {
             let (before, after) = self.images.get(&(known, id))?;
             let image = if after.is_null() { before } else { after };
-            Some(image.get(KNOWN[known].2)?.as_str()?.to_owned())
+            Some(image.get(LOGGED_TABLE_NOUNS[known].2)?.as_str()?.to_owned())
         });
-        match image {
+        match row_image {
             Some(name) => Ok(Some(name)),
-            None => history::name_of(connection, table, id),
+            None => stored_history::name_of(connection, table, id),
         }
     }
 
     /// Returns the row that a row refers to, at the time of this operation, otherwise at present.
-    fn refers(
-        &self,
-        connection: &Connection,
-        table: &str,
-        id: i64,
-        column: &str,
-    ) -> Result<Option<i64>> {
-        let known = KNOWN.iter().position(|known| known.0 == table);
-        let image = known.and_then(|known| {
+    fn refers(&self, connection: &Connection, table: &str, id: i64, column: &str) -> CorpusResult<Option<i64>> {
+        let table_index = LOGGED_TABLE_NOUNS.iter().position(|known| known.0 == table);
+        let row_image = table_index.and_then(|known| {
             let (before, after) = self.images.get(&(known, id))?;
             let image = if after.is_null() { before } else { after };
             image.get(column)?.as_i64()
         });
-        match image {
+        match row_image {
             Some(id) => Ok(Some(id)),
-            None => history::reference_of(connection, table, id, column),
+            None => stored_history::reference_of(connection, table, id, column),
         }
     }
 }
 
-fn changed(
+fn describe_changed_row(
     connection: &Connection,
-    rows: &Rows,
+    rows: &OperationRows,
     table: usize,
     before: &Value,
     after: &Value,
-) -> Result<Changed> {
-    let (name_of_table, what, naming) = KNOWN[table];
+) -> CorpusResult<ChangedRow> {
+    let (name_of_table, what, naming) = LOGGED_TABLE_NOUNS[table];
     let kind = match (before.is_null(), after.is_null()) {
         (true, _) => ChangeKind::Added,
         (_, true) => ChangeKind::Removed,
@@ -230,18 +224,13 @@ fn changed(
     };
     let image = if before.is_null() { after } else { before };
     let number = |column: &str| image.get(column).and_then(Value::as_i64);
-    let text = |column: &str| {
-        image
-            .get(column)
-            .and_then(Value::as_str)
-            .unwrap_or_default()
-    };
+    let text = |column: &str| image.get(column).and_then(Value::as_str).unwrap_or_default();
     let name = match text(naming) {
         "" => text("state").to_owned(),
         name => name.to_owned(),
     };
     let named = |table: &str, id: Option<i64>| match id {
-        Some(id) => rows.name(connection, table, id),
+        Some(id) => rows.logged_row_name(connection, table, id),
         None => Ok(None),
     };
     let place_names = match name_of_table {
@@ -262,23 +251,19 @@ fn changed(
     };
     let mut fields = Vec::new();
     let both = [after, before].into_iter().filter_map(Value::as_object);
-    let columns: Vec<&String> = both.take(1).flat_map(serde_json::Map::keys).collect();
-    let columns = match columns.is_empty() {
-        true => before
-            .as_object()
-            .into_iter()
-            .flat_map(serde_json::Map::keys)
-            .collect(),
-        false => columns,
+    let row_columns: Vec<&String> = both.take(1).flat_map(serde_json::Map::keys).collect();
+    let columns = match row_columns.is_empty() {
+        true => before.as_object().into_iter().flat_map(serde_json::Map::keys).collect(),
+        false => row_columns,
     };
     for column in columns {
-        let at = |image: &Value| image.get(column).cloned().unwrap_or(Value::Null);
-        let (mut from, mut to) = (at(before), at(after));
-        if from == to || SILENT.contains(&column.as_str()) {
+        let column_value = |image: &Value| image.get(column).cloned().unwrap_or(Value::Null);
+        let (mut from, mut to) = (column_value(before), column_value(after));
+        if from == to || UNREPORTED_COLUMNS.contains(&column.as_str()) {
             continue;
         }
         let mut field = column.clone();
-        if let Some(other) = history::refers_to(name_of_table, column) {
+        if let Some(other) = stored_history::refers_to(name_of_table, column) {
             for side in [&mut from, &mut to] {
                 if let Some(name) = named(other, side.as_i64())? {
                     *side = Value::from(name);
@@ -288,7 +273,7 @@ fn changed(
         }
         fields.push(FieldChange { field, from, to });
     }
-    Ok(Changed {
+    Ok(ChangedRow {
         what,
         id: image.get("id").and_then(Value::as_i64),
         name,
@@ -302,26 +287,26 @@ fn changed(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::words::Language;
-    use crate::words::history::change_sentence;
+    use crate::words::InterfaceLanguage;
+    use crate::words::history_words::change_sentence;
     use crate::{
-        AnnotateOptions, AnnotationAction, AnnotationName, Name, NewTier, Progress,
-        RecordingChange, TierName, TierRole, unheard,
+        AnnotateOptions, AnnotationAction, AnnotationName, NewTier, ProgressReceiver, RecordingChange, RowName,
+        TierRequestName, TierRole, ignore_progress_step,
     };
 
     fn corpus(folder: &std::path::Path) -> Corpus {
         let file = folder.join("take.eaf");
         std::fs::write(&file, include_str!("export/tests.eaf")).expect("written");
-        let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
-        let mut hear = unheard;
+        let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
+            .import_paths(
                 &[file],
                 &crate::ImportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("imported");
-        let recording = Name::Text("take".into());
+        let recording = RowName::Text("take".into());
         corpus
             .add_tier(&NewTier::new(recording, "Remarks", TierRole::Comment))
             .expect("added");
@@ -330,22 +315,22 @@ mod tests {
 
     fn annotate(corpus: &mut Corpus, actions: Vec<AnnotationAction>) -> i64 {
         let changes: Vec<_> = actions.into_iter().map(Into::into).collect();
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let report = corpus
-            .annotate(
+            .annotate_corpus(
                 &changes,
                 &AnnotateOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("annotated");
         report.annotations[0]
     }
 
     fn newest(corpus: &Corpus) -> Vec<String> {
-        let id = corpus.log(1).expect("log")[0].id;
-        let detail = corpus.operation(id, 10).expect("detail");
+        let id = corpus.operation_log(1).expect("log")[0].id;
+        let detail = corpus.operation_detail(id, 10).expect("detail");
         assert_eq!(detail.total, detail.changes.len() as u64);
-        let sentence = |change| change_sentence(change, Language::English);
+        let sentence = |change| change_sentence(change, InterfaceLanguage::English);
         detail.changes.iter().map(sentence).collect()
     }
 
@@ -354,7 +339,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = corpus(folder.path());
         assert_eq!(newest(&corpus), ["added tier \"Remarks\" on take"]);
-        let tier = TierName::read("Remarks", Some(&Name::Text("take".into()))).expect("a tier");
+        let tier = TierRequestName::parse_tier_name("Remarks", Some(&RowName::Text("take".into()))).expect("a tier");
         let add = AnnotationAction::Add {
             tier,
             start: Some("0.1".parse().expect("a time")),
@@ -378,16 +363,12 @@ mod tests {
         annotate(&mut corpus, vec![set]);
         assert_eq!(
             newest(&corpus),
-            [
-                "annotation \"ja\" on Remarks of take: end from 0.200s to 0.300s; value from \"ja\" to \"NUR\""
-            ]
+            ["annotation \"ja\" on Remarks of take: end from 0.200s to 0.300s; value from \"ja\" to \"NUR\""]
         );
-        corpus.undo().expect("undone");
+        corpus.undo_operation().expect("undone");
         assert_eq!(
             newest(&corpus),
-            [
-                "annotation \"NUR\" on Remarks of take: end from 0.300s to 0.200s; value from \"NUR\" to \"ja\""
-            ]
+            ["annotation \"NUR\" on Remarks of take: end from 0.300s to 0.200s; value from \"NUR\" to \"ja\""]
         );
         let remove = AnnotationAction::Remove {
             annotation: AnnotationName::Number(id),
@@ -403,20 +384,17 @@ mod tests {
             ..RecordingChange::default()
         };
         corpus
-            .change_recording(&Name::Text("take".into()), &change)
+            .change_recording(&RowName::Text("take".into()), &change)
             .expect("changed");
         let lines = newest(&corpus);
+        assert!(lines.contains(&"added signer \"Zoé\"".to_owned()), "{lines:?}");
         assert!(
-            lines.contains(&"added signer \"Zoé\"".to_owned()),
+            lines.iter().any(|it| it
+                .starts_with("recording \"take\": name from \"take\" to \"take two\"; signer from ")
+                && it.ends_with(" to \"Zoé\"")),
             "{lines:?}"
         );
-        assert!(
-            lines.iter().any(|it| it.starts_with(
-                "recording \"take\": name from \"take\" to \"take two\"; signer from "
-            ) && it.ends_with(" to \"Zoé\"")),
-            "{lines:?}"
-        );
-        assert!(corpus.operation(99, 1).is_err());
-        assert!(corpus.operation(1, 1).expect("detail").changes.len() <= 1);
+        assert!(corpus.operation_detail(99, 1).is_err());
+        assert!(corpus.operation_detail(1, 1).expect("detail").changes.len() <= 1);
     }
 }

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, Name};
-use crate::db::recordings::{self, MediaTrackRow};
-use crate::error::{Error, Result};
-use crate::paths::legible;
+use crate::address::{self, RowName};
+use crate::db::stored_recordings::{self, MediaTrackRow};
+use crate::error::{CorpusError, CorpusResult};
+use crate::paths::legible_path_text;
 use crate::words::effect::OperationEffect;
 
 /// A change of a recording's media.
@@ -40,26 +40,22 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the recording does not exist, a track is not one of its media tracks, or a path is blank.
-    pub fn change_media(
-        &mut self,
-        recording: &Name,
-        change: &MediaChange,
-    ) -> Result<Vec<MediaTrackRow>> {
-        self.store.operation(|connection| {
-            let row = address::recording(connection, recording)?;
-            let before = recordings::media_tracks(connection, row.id)?;
-            let own = |id: i64| {
-                let found = before.iter().find(|it| it.id == id);
-                found.ok_or_else(|| {
-                    Error::wrong(format!("track {id} is no media file of {:?}", row.name))
-                        .advise("look at the recording's media again")
+    pub fn change_media(&mut self, recording: &RowName, change: &MediaChange) -> CorpusResult<Vec<MediaTrackRow>> {
+        self.store.run_store_operation(|connection| {
+            let row = address::find_recording_by_name(connection, recording)?;
+            let before = stored_recordings::media_tracks(connection, row.id)?;
+            let own_track = |id: i64| {
+                let track = before.iter().find(|it| it.id == id);
+                track.ok_or_else(|| {
+                    CorpusError::from_wrong_message(format!("track {id} is no media file of {:?}", row.name))
+                        .with_advice("look at the recording's media again")
                 })
             };
             match change {
                 MediaChange::Add(url) => {
                     let free = (1..).find(|n| {
                         let name = linked(*n);
-                        before.iter().all(|it| it.name != name)
+                        before.iter().all(|track| track.name != name)
                     });
                     let new = MediaTrackRow {
                         id: 0,
@@ -67,21 +63,21 @@ impl Corpus {
                         name: linked(free.unwrap_or_default()),
                         offset_us: 0,
                         media_type: media_type(url).map(str::to_owned),
-                        url: said(url)?,
+                        url: require_media_url(url)?,
                         imported: Vec::new(),
                     };
-                    recordings::insert_media_track(connection, &new)?;
+                    stored_recordings::insert_media_track(connection, &new)?;
                 }
                 MediaChange::Move(id, url) => {
-                    own(*id)?;
-                    recordings::move_media_track(connection, *id, &said(url)?)?;
+                    own_track(*id)?;
+                    stored_recordings::move_media_track(connection, *id, &require_media_url(url)?)?;
                 }
                 MediaChange::Remove(id) => {
-                    own(*id)?;
-                    recordings::remove_media_track(connection, *id)?;
+                    own_track(*id)?;
+                    stored_recordings::remove_media_track(connection, *id)?;
                 }
             }
-            let after = recordings::media_tracks(connection, row.id)?;
+            let after = stored_recordings::media_tracks(connection, row.id)?;
             let recording = row.name.clone();
             Ok((after, OperationEffect::ChangeMedia { recording }))
         })
@@ -92,11 +88,11 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the recording does not exist, or the database fails.
-    pub fn media(&self, recording: &Name) -> Result<Vec<MediaPlace>> {
-        let connection = self.store.read();
-        let row = address::recording(connection, recording)?;
-        let tracks = recordings::media_tracks(connection, row.id)?.into_iter();
-        Ok(tracks.map(|track| find_media(track, self.path())).collect())
+    pub fn recording_media(&self, recording: &RowName) -> CorpusResult<Vec<MediaPlace>> {
+        let connection = self.store.read_connection();
+        let row = address::find_recording_by_name(connection, recording)?;
+        let tracks = stored_recordings::media_tracks(connection, row.id)?.into_iter();
+        Ok(tracks.map(|track| find_media(track, self.corpus_file_path())).collect())
     }
 }
 
@@ -104,8 +100,8 @@ impl MediaTrackRow {
     /// Returns whether it is a film, by its media type or its name.
     #[must_use]
     pub fn is_film(&self) -> bool {
-        let said = self.media_type.as_deref().filter(|it| it.contains('/'));
-        let kind = said.or_else(|| media_type(&self.url));
+        let stated_type = self.media_type.as_deref().filter(|text| text.contains('/'));
+        let kind = stated_type.or_else(|| media_type(&self.url));
         kind.is_some_and(|kind| kind.starts_with("video"))
     }
 }
@@ -116,23 +112,17 @@ impl MediaTrackRow {
 #[must_use]
 pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
     let folder = corpus.parent().unwrap_or(Path::new(""));
-    let candidates = candidates(&track.url, folder);
-    let there = candidates.iter().find(|path| path.is_file()).cloned();
-    let there = there.or_else(|| {
+    let candidates = candidate_media_paths(&track.url, folder);
+    let nearby_path = candidates.iter().find(|path| path.is_file()).cloned();
+    let there = nearby_path.or_else(|| {
         // An import has seen the file at this place, which annotation files rarely contain.
-        let imported = track.imported.iter();
-        let imported = imported.filter(|it| is_same_film(&track, &file_name(it)));
-        imported
-            .map(|it| folder.join(it))
-            .find(|path| path.is_file())
+        let imported_paths = track.imported.iter();
+        let imported = imported_paths.filter(|path| is_same_film(&track, &file_name(path)));
+        imported.map(|path| folder.join(path)).find(|path| path.is_file())
     });
     let there = there.or_else(|| {
-        let name = candidates
-            .last()?
-            .file_name()?
-            .to_string_lossy()
-            .into_owned();
-        let own = |entry: &Path| entry.file_name().is_some_and(|it| legible(it) == name);
+        let name = candidates.last()?.file_name()?.to_string_lossy().into_owned();
+        let is_same_name = |entry: &Path| entry.file_name().is_some_and(|text| legible_path_text(text) == name);
         let stem = Path::new(&name).file_stem()?.to_owned();
         let converted = |entry: &Path| {
             let kind = entry.extension().unwrap_or_default().to_string_lossy();
@@ -140,8 +130,8 @@ pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
             film && track.is_film() && entry.file_stem() == Some(&stem)
         };
         let near = files_near(folder);
-        let found = near.iter().find(|path| own(path));
-        found
+        let exact_match = near.iter().find(|path| is_same_name(path));
+        exact_match
             .or_else(|| near.iter().find(|path| converted(path)))
             .cloned()
     });
@@ -154,25 +144,24 @@ pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
 
 /// The largest number of folder entries that are searched for a missing file, and the depth of folders.
 const MOST_ENTRIES: usize = 5000;
-const DEEPEST: usize = 3;
+const MAX_MEDIA_FOLDER_DEPTH: usize = 3;
 
 /// Returns files in a folder and the folders below, nearest first.
 fn files_near(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
     let mut seen = 0;
-    for _ in 0..DEEPEST {
+    for _ in 0..MAX_MEDIA_FOLDER_DEPTH {
         let mut deeper = Vec::new();
         for folder in folders {
-            let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-            let mut entries: Vec<PathBuf> = entries
+            let dir_entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+            let mut entries: Vec<PathBuf> = dir_entries
                 .take(MOST_ENTRIES - seen)
                 .map(|entry| entry.path())
                 .collect();
             entries.sort();
             seen += entries.len();
-            let (inner, outer): (Vec<PathBuf>, Vec<PathBuf>) =
-                entries.into_iter().partition(|path| path.is_dir());
+            let (inner, outer): (Vec<PathBuf>, Vec<PathBuf>) = entries.into_iter().partition(|path| path.is_dir());
             deeper.extend(inner);
             files.extend(outer);
         }
@@ -186,23 +175,23 @@ fn linked(number: u32) -> String {
     format!("linked {number}")
 }
 
-fn said(url: &str) -> Result<String> {
+fn require_media_url(url: &str) -> CorpusResult<String> {
     match url.trim() {
-        "" => Err(Error::wrong("a media file needs a place").advise("give its path")),
+        "" => Err(CorpusError::from_wrong_message("a media file needs a place").with_advice("give its path")),
         url => Ok(url.to_owned()),
     }
 }
 
 /// Returns the possible paths for a URL or path, most likely first.
-fn candidates(url: &str, folder: &Path) -> Vec<PathBuf> {
+fn candidate_media_paths(url: &str, folder: &Path) -> Vec<PathBuf> {
     let local = match url.split_once("://") {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
             // The host between the slashes is this computer.
-            decoded(&rest[rest.find('/').unwrap_or(0)..])
+            decode_url_path(&rest[rest.find('/').unwrap_or(0)..])
         }
         Some(_) => return Vec::new(),
         None => match url.strip_prefix("file:") {
-            Some(rest) => decoded(rest.strip_prefix('/').unwrap_or(rest)),
+            Some(rest) => decode_url_path(rest.strip_prefix('/').unwrap_or(rest)),
             None => url.to_owned(),
         },
     };
@@ -217,17 +206,17 @@ fn candidates(url: &str, folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Returns a URL's path with escapes such as `%20` decoded.
-fn decoded(text: &str) -> String {
+fn decode_url_path(text: &str) -> String {
     let bytes = text.as_bytes();
     let mut out = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while let Some(byte) = bytes.get(at) {
-        let hex = bytes.get(at + 1..at + 3).filter(|_| *byte == b'%');
+    let mut index = 0;
+    while let Some(byte) = bytes.get(index) {
+        let hex = bytes.get(index + 1..index + 3).filter(|_| *byte == b'%');
         let value = hex
-            .and_then(|it| std::str::from_utf8(it).ok())
-            .and_then(|it| u8::from_str_radix(it, 16).ok());
+            .and_then(|digits| std::str::from_utf8(digits).ok())
+            .and_then(|digits| u8::from_str_radix(digits, 16).ok());
         out.push(value.unwrap_or(*byte));
-        at += if value.is_some() { 3 } else { 1 };
+        index += if value.is_some() { 3 } else { 1 };
     }
     String::from_utf8_lossy(&out).into_owned()
 }
@@ -240,17 +229,17 @@ pub fn is_film(url: &str) -> bool {
 
 /// Returns the file name at the end of a path or URL of any system.
 pub(crate) fn file_name(url: &str) -> String {
-    decoded(url.rsplit(['/', '\\']).next().unwrap_or(url))
+    decode_url_path(url.rsplit(['/', '\\']).next().unwrap_or(url))
 }
 
 /// Returns whether a file of that name may hold the film of a track; a converted film differs only in its ending.
 pub(crate) fn is_same_film(track: &MediaTrackRow, name: &str) -> bool {
-    let own = file_name(&track.url);
+    let film_name = file_name(&track.url);
     let stem = |name: &str| {
         let stem = Path::new(name).file_stem();
-        stem.map(|it| it.to_ascii_lowercase())
+        stem.map(|text| text.to_ascii_lowercase())
     };
-    own.eq_ignore_ascii_case(name) || (track.is_film() && stem(&own) == stem(name))
+    film_name.eq_ignore_ascii_case(name) || (track.is_film() && stem(&film_name) == stem(name))
 }
 
 /// Returns the media type for the extension of a file's name.
@@ -271,12 +260,12 @@ pub(crate) fn media_type(url: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::address::Address;
+    use crate::address::CorpusAddress;
 
     #[test]
     fn places_are_read_as_elan_writes_them() {
         let folder = Path::new("/corpus");
-        let first = |url: &str| candidates(url, folder).first().cloned();
+        let first = |url: &str| candidate_media_paths(url, folder).first().cloned();
         for (url, path) in [
             ("./film.mp4", "/corpus/./film.mp4"),
             ("file:///films/a%20b/film.mp4", "/films/a b/film.mp4"),
@@ -288,7 +277,7 @@ mod tests {
             assert_eq!(first(url), Some(PathBuf::from(path)), "{url}");
         }
         assert_eq!(first("https://example.org/film.mp4"), None);
-        let last = candidates("file:///D:/Data\\film.mpg", folder).pop();
+        let last = candidate_media_paths("file:///D:/Data\\film.mpg", folder).pop();
         assert_eq!(last, Some(PathBuf::from("/corpus/film.mpg")));
     }
 
@@ -325,7 +314,7 @@ mod tests {
     fn a_film_is_relinked_and_found_and_undo_restores_the_old_link() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
-        let mut corpus = Corpus::create(&path, "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
         let eaf = folder.path().join("take.eaf");
         let text = r#"<?xml version="1.0" encoding="UTF-8"?>
 <ANNOTATION_DOCUMENT AUTHOR="" DATE="2020-01-01T00:00:00+00:00" FORMAT="3.0" VERSION="3.0">
@@ -334,41 +323,36 @@ mod tests {
 </ANNOTATION_DOCUMENT>"#;
         std::fs::write(&eaf, text).expect("written");
         let options = crate::ImportOptions::default();
-        let mut heard = crate::unheard;
-        let mut progress = crate::Progress::new(&mut heard);
-        corpus
-            .import(&[eaf], &options, &mut progress)
-            .expect("imported");
-        let take = Name::Text("take".to_owned());
-        let found = corpus.media(&take).expect("read");
+        let mut heard = crate::ignore_progress_step;
+        let mut progress = crate::ProgressReceiver::new(&mut heard);
+        corpus.import_paths(&[eaf], &options, &mut progress).expect("imported");
+        let take = RowName::Text("take".to_owned());
+        let found = corpus.recording_media(&take).expect("read");
         assert_eq!(found[0].path, Some(PathBuf::from("/gone/film.mp4")));
         assert!(!found[0].is_there);
         std::fs::write(folder.path().join("film.mp4"), "").expect("written");
-        assert!(corpus.media(&take).expect("read")[0].is_there);
+        assert!(corpus.recording_media(&take).expect("read")[0].is_there);
         let id = found[0].track.id;
         let moved = MediaChange::Move(id, "other.mp4".to_owned());
         let after = corpus.change_media(&take, &moved).expect("moved");
         assert_eq!(after[0].url, "other.mp4");
         let mut exported = |corpus: &Corpus, to: &str| {
             let path = folder.path().join(to);
-            let what = crate::ExportWhat::Address(Address::Recording(take.clone()));
+            let what = crate::ExportWhat::Address(CorpusAddress::Recording(take.clone()));
             let options = crate::ExportOptions {
                 force: true,
                 ..Default::default()
             };
             corpus
-                .export(&what, &path, &options, &mut progress)
+                .export_corpus(&what, &path, &options, &mut progress)
                 .expect("exported");
             std::fs::read_to_string(path).expect("an EAF file")
         };
         let text = exported(&corpus, "1.eaf");
-        assert!(
-            text.contains("other.mp4") && !text.contains("gone"),
-            "{text}"
-        );
-        corpus.undo().expect("undone");
+        assert!(text.contains("other.mp4") && !text.contains("gone"), "{text}");
+        corpus.undo_operation().expect("undone");
         assert_eq!(
-            corpus.media(&take).expect("read")[0].track.url,
+            corpus.recording_media(&take).expect("read")[0].track.url,
             "file:///gone/film.mp4"
         );
         let added = corpus.change_media(&take, &MediaChange::Add("b.mov".to_owned()));
@@ -380,14 +364,7 @@ mod tests {
             .change_media(&take, &MediaChange::Remove(left[0].id))
             .expect("removed");
         let text = exported(&corpus, "2.eaf");
-        assert!(
-            !text.contains("MEDIA_DESCRIPTOR"),
-            "what is unlinked is not written"
-        );
-        assert!(
-            corpus
-                .change_media(&take, &MediaChange::Remove(id))
-                .is_err()
-        );
+        assert!(!text.contains("MEDIA_DESCRIPTOR"), "what is unlinked is not written");
+        assert!(corpus.change_media(&take, &MediaChange::Remove(id)).is_err());
     }
 }

@@ -5,26 +5,26 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use chereme_formats::bvh::convert::ClipBuilder;
-use chereme_formats::bvh::raw::{ChannelFix, Column, Hierarchy, Number};
-use chereme_motion::anatomy::{Anatomy, Part, Roles};
-use chereme_motion::clip::Channel;
-use chereme_motion::column::{Column as Numbers, Numbers as Form};
-use chereme_motion::ends::{Ends, OddFrames};
+use chereme_formats::bvh::bvh_convert::ClipBuilder;
+use chereme_formats::bvh::raw::{BvhHierarchy, ChannelFix, Column, FileNumber};
+use chereme_motion::anatomy::{AssignedJointRoles, BodyAnatomy, BodyPart};
+use chereme_motion::clip::JointChannel;
+use chereme_motion::column::{ColumnNumbers as Form, FrameNumberColumn as Numbers};
+use chereme_motion::ends::{ClipEnds, OddFrames};
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Clip, Convention, Joint, Rate, Side, Skeleton, Span};
-use chereme_sign::Remedy;
+use chereme_motion::{BodySide, Clip, FrameRate, Skeleton, SkeletonJoint, SpaceConvention, TimeSpan};
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
-use crate::address::Stretch;
+use crate::address::RecordingStretch;
 use crate::codec;
-use crate::db::damaged;
-use crate::db::motion::{self, BlockRow};
+use crate::db::damaged_row_error;
 use crate::db::recipes;
-use crate::db::recordings::{self, MotionTrackRow};
-use crate::db::tracks;
-use crate::error::{Error, Result};
+use crate::db::stored_motion::{self, BlockRow};
+use crate::db::stored_recordings::{self, MotionTrackRow};
+use crate::db::stored_tracks;
+use crate::error::{CorpusError, CorpusResult};
 
 /// The number of frames in a block: enough for good compression, few enough to be read alone.
 pub(crate) const BLOCK_FRAMES: usize = 512;
@@ -48,7 +48,7 @@ pub enum ChannelGroup {
 
 impl ChannelGroup {
     /// Every group.
-    pub const ALL: [Self; 6] = [
+    pub const ALL_CHANNEL_GROUPS: [Self; 6] = [
         Self::RightHand,
         Self::LeftHand,
         Self::RightArm,
@@ -59,7 +59,7 @@ impl ChannelGroup {
 
     /// Returns the name under which the group is stored.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn channel_group_name(self) -> &'static str {
         match self {
             Self::RightHand => "right-hand",
             Self::LeftHand => "left-hand",
@@ -72,24 +72,23 @@ impl ChannelGroup {
 }
 
 /// Returns the joints of each group.
-pub(crate) fn channel_groups(
-    skeleton: &Skeleton,
-    anatomy: &Anatomy,
-) -> BTreeMap<ChannelGroup, Vec<usize>> {
+pub(crate) fn channel_groups(skeleton: &Skeleton, anatomy: &BodyAnatomy) -> BTreeMap<ChannelGroup, Vec<usize>> {
     let mut group = vec![ChannelGroup::Rest; skeleton.len()];
-    let top = anatomy.joint(Part::Neck).or(anatomy.joint(Part::Head));
+    let top = anatomy
+        .part_joint(BodyPart::Neck)
+        .or(anatomy.part_joint(BodyPart::Head));
     let sides = [
-        (Side::Right, ChannelGroup::RightArm, ChannelGroup::RightHand),
-        (Side::Left, ChannelGroup::LeftArm, ChannelGroup::LeftHand),
+        (BodySide::Right, ChannelGroup::RightArm, ChannelGroup::RightHand),
+        (BodySide::Left, ChannelGroup::LeftArm, ChannelGroup::LeftHand),
     ];
-    for joint in top.map(|top| skeleton.subtree(top)).unwrap_or_default() {
+    for joint in top.map(|top| skeleton.joint_subtree(top)).unwrap_or_default() {
         group[joint] = ChannelGroup::Head;
     }
     for (side, arm, hand) in sides {
         for joint in anatomy.arm_joints(side) {
             group[joint] = arm;
         }
-        for joint in anatomy.fingers(side) {
+        for joint in anatomy.finger_joints(side) {
             group[joint] = hand;
         }
     }
@@ -103,7 +102,7 @@ pub(crate) fn channel_groups(
 /// The column layout of a skeleton track that did not come from a BVH file: the unit quaternion of every joint (x, y,
 /// z, w), followed by the position in the parent's space for joints that move.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Layout {
+pub(crate) struct TrackColumnLayout {
     rotations: RotationForm,
     /// The joints with changing positions.
     moving: Vec<usize>,
@@ -115,18 +114,18 @@ enum RotationForm {
     Quaternion,
 }
 
-impl Layout {
+impl TrackColumnLayout {
     /// Returns the layout of a clip.
-    pub(crate) fn of(clip: &Clip) -> Self {
-        let moves = |joint: &usize| clip.channel(*joint).translations.is_some();
+    pub(crate) fn from_clip_columns(clip: &Clip) -> Self {
+        let moves = |joint: &usize| clip.joint_channel(*joint).translations.is_some();
         Self {
             rotations: RotationForm::Quaternion,
-            moving: (0..clip.skeleton().len()).filter(moves).collect(),
+            moving: (0..clip.clip_skeleton().len()).filter(moves).collect(),
         }
     }
 
     /// Returns how many columns a joint has.
-    fn width(&self, joint: usize) -> usize {
+    fn joint_column_count(&self, joint: usize) -> usize {
         if self.moving.binary_search(&joint).is_ok() {
             7
         } else {
@@ -135,33 +134,22 @@ impl Layout {
     }
 
     /// Returns the columns of a joint.
-    pub(crate) fn columns(&self, clip: &Clip, joint: usize) -> Vec<Numbers> {
-        let channel = clip.channel(joint);
-        let turned = |axis: usize| {
-            channel
-                .rotations
-                .iter()
-                .map(|q| q.to_array()[axis])
-                .collect()
-        };
-        let mut columns: Vec<Numbers> = (0..4).map(|axis| Numbers::doubles(turned(axis))).collect();
+    pub(crate) fn joint_columns(&self, clip: &Clip, joint: usize) -> Vec<Numbers> {
+        let channel = clip.joint_channel(joint);
+        let turned = |axis: usize| channel.rotations.iter().map(|q| q.to_array()[axis]).collect();
+        let mut columns: Vec<Numbers> = (0..4).map(|axis| Numbers::from_double_floats(turned(axis))).collect();
         if let Some(places) = &channel.translations {
             let moved = |axis: usize| places.iter().map(|at| at[axis]).collect();
-            columns.extend((0..3).map(|axis| Numbers::doubles(moved(axis))));
+            columns.extend((0..3).map(|axis| Numbers::from_double_floats(moved(axis))));
         }
         columns
     }
 
     /// Appends the frames `rows` of a joint's columns to its channel.
-    fn push(&self, channel: &mut Channel, columns: &[&Numbers], rows: Range<usize>) -> Option<()> {
-        let value = |axis: usize, row: usize| columns.get(axis)?.value(row);
+    fn append_joint_rows(&self, channel: &mut JointChannel, columns: &[&Numbers], rows: Range<usize>) -> Option<()> {
+        let value = |axis: usize, row: usize| columns.get(axis)?.column_value_at(row);
         for row in rows {
-            let [x, y, z, w] = [
-                value(0, row)?,
-                value(1, row)?,
-                value(2, row)?,
-                value(3, row)?,
-            ];
+            let [x, y, z, w] = [value(0, row)?, value(1, row)?, value(2, row)?, value(3, row)?];
             channel.rotations.push(DQuat::from_xyzw(x, y, z, w));
             if let Some(places) = &mut channel.translations {
                 places.push(DVec3::new(value(4, row)?, value(5, row)?, value(6, row)?));
@@ -173,21 +161,21 @@ impl Layout {
 
 /// The rest rotations in a skeleton's document.
 #[derive(Deserialize)]
-struct Rests {
-    joints: Vec<Rest>,
+struct RestRotations {
+    joints: Vec<JointRest>,
 }
 
 #[derive(Deserialize)]
-struct Rest {
+struct JointRest {
     rest: Option<[f64; 4]>,
 }
 
 /// Returns the skeleton of a document, whose joints may have rest rotations.
-fn skeleton_of(hierarchy: &Hierarchy, document: &str) -> Option<Skeleton> {
-    let plain = chereme_formats::bvh::convert::skeleton(hierarchy).ok()?;
-    let rests: Rests = serde_json::from_str(document).ok()?;
-    let joints = plain.joints().iter().zip(rests.joints);
-    let joints = joints.map(|(joint, rest)| Joint {
+fn skeleton_of(hierarchy: &BvhHierarchy, document: &str) -> Option<Skeleton> {
+    let plain = chereme_formats::bvh::bvh_convert::skeleton_from_hierarchy(hierarchy).ok()?;
+    let rests: RestRotations = serde_json::from_str(document).ok()?;
+    let joint_rests = plain.skeleton_joints().iter().zip(rests.joints);
+    let joints = joint_rests.map(|(joint, rest)| SkeletonJoint {
         rest: rest.rest.map_or(DQuat::IDENTITY, DQuat::from_array),
         ..joint.clone()
     });
@@ -197,63 +185,63 @@ fn skeleton_of(hierarchy: &Hierarchy, document: &str) -> Option<Skeleton> {
 /// The motion track of a recording, with everything needed to read it.
 pub(crate) struct MotionTrack {
     pub(crate) row: MotionTrackRow,
-    pub(crate) hierarchy: Hierarchy,
-    pub(crate) convention: Convention,
-    pub(crate) rate: Rate,
+    pub(crate) hierarchy: BvhHierarchy,
+    pub(crate) convention: SpaceConvention,
+    pub(crate) rate: FrameRate,
     fix: Option<ChannelFix>,
     groups: BTreeMap<ChannelGroup, Vec<usize>>,
     /// The layout of its numbers and its skeleton, if it did not come from a BVH file.
-    exact: Option<(Layout, Arc<Skeleton>)>,
+    exact: Option<(TrackColumnLayout, Arc<Skeleton>)>,
     /// Finger bones that are impossibly long, with their usual lengths in metres.
     long_bones: OnceCell<Vec<(usize, f64)>>,
 }
 
 /// Returns the error for a recording without movement.
-pub(crate) fn no_movement(recording: &str) -> Error {
-    Error::wrong(format!("the recording {recording:?} holds no movement"))
-        .at(recording)
-        .advise(Remedy::command(
+pub(crate) fn no_movement(recording: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("the recording {recording:?} holds no movement"))
+        .with_error_place(recording)
+        .with_advice(ErrorRemedy::command_remedy(
             "import the motion file of the same name; movement is made from markers by `chereme fit CORPUS RECORDING`",
         ))
-        .lacking()
+        .into_lacking_content()
 }
 
 impl MotionTrack {
     /// Returns the motion track of a recording's body.
-    pub(crate) fn of(connection: &Connection, recording: i64) -> Result<Self> {
-        let Some(row) = recordings::body_track(connection, recording)? else {
-            let name = recordings::recording(connection, recording)?.name;
+    pub(crate) fn open_motion_track(connection: &Connection, recording: i64) -> CorpusResult<Self> {
+        let Some(row) = stored_recordings::body_track(connection, recording)? else {
+            let name = stored_recordings::load_recording_row(connection, recording)?.name;
             return Err(no_movement(&name));
         };
-        Self::read(connection, row)
+        Self::read_motion_track(connection, row)
     }
 
     /// Returns the motion track of that row.
-    pub(crate) fn of_row(connection: &Connection, track: i64) -> Result<Self> {
-        let row = recordings::skeleton_track(connection, track)?;
+    pub(crate) fn of_row(connection: &Connection, track: i64) -> CorpusResult<Self> {
+        let row = stored_recordings::skeleton_track(connection, track)?;
         let place = format!("track {track}");
-        Self::read(
+        Self::read_motion_track(
             connection,
-            row.ok_or_else(|| damaged(place, "it holds no movement"))?,
+            row.ok_or_else(|| damaged_row_error(place, "it holds no movement"))?,
         )
     }
 
-    fn read(connection: &Connection, row: MotionTrackRow) -> Result<Self> {
+    fn read_motion_track(connection: &Connection, row: MotionTrackRow) -> CorpusResult<Self> {
         let place = format!("track {}", row.id);
-        let bad = |what: &str| damaged(place.clone(), format!("its {what} cannot be read"));
-        let document = recordings::skeleton_document(connection, row.skeleton_id)?;
-        let hierarchy: Hierarchy = serde_json::from_str(&document).map_err(|_| bad("skeleton"))?;
+        let bad = |what: &str| damaged_row_error(place.clone(), format!("its {what} cannot be read"));
+        let document = stored_recordings::skeleton_document(connection, row.skeleton_id)?;
+        let hierarchy: BvhHierarchy = serde_json::from_str(&document).map_err(|_| bad("skeleton"))?;
         let named: BTreeMap<String, Vec<usize>> =
             serde_json::from_str(&row.channel_groups).map_err(|_| bad("channel groups"))?;
-        let groups: BTreeMap<ChannelGroup, Vec<usize>> = ChannelGroup::ALL
+        let groups: BTreeMap<ChannelGroup, Vec<usize>> = ChannelGroup::ALL_CHANNEL_GROUPS
             .into_iter()
-            .filter_map(|group| Some((group, named.get(group.name())?.clone())))
+            .filter_map(|group| Some((group, named.get(group.channel_group_name())?.clone())))
             .collect();
         let joints = hierarchy.joints.len();
         if groups.values().flatten().any(|&joint| joint >= joints) {
             return Err(bad("channel groups"));
         }
-        let exact = match tracks::form(connection, row.id)?.layout {
+        let exact = match stored_tracks::load_track_form(connection, row.id)?.layout {
             None => None,
             Some(text) => {
                 let layout = serde_json::from_str(&text).map_err(|_| bad("layout"))?;
@@ -267,11 +255,11 @@ impl MotionTrack {
             Some(_) => return Err(bad("order of the root's columns")),
         };
         Ok(Self {
-            convention: Convention {
+            convention: SpaceConvention {
                 metres_per_unit: row.metres_per_unit,
                 axes: row.axes.parse().map_err(|_| bad("axes"))?,
             },
-            rate: Rate::new(row.rate_frames, row.rate_seconds).map_err(|_| bad("frame rate"))?,
+            rate: FrameRate::new(row.rate_frames, row.rate_seconds).map_err(|_| bad("frame rate"))?,
             hierarchy,
             fix,
             groups,
@@ -282,12 +270,12 @@ impl MotionTrack {
     }
 
     /// Returns the number of frames.
-    pub(crate) fn frames(&self) -> usize {
+    pub(crate) fn motion_frame_count(&self) -> usize {
         usize::try_from(self.row.frames).unwrap_or_default()
     }
 
     /// Returns the joint roles that a person set.
-    pub(crate) fn roles(&self) -> Option<Roles> {
+    pub(crate) fn manual_joint_roles(&self) -> Option<AssignedJointRoles> {
         self.row.roles.as_deref()?.parse().ok()
     }
 
@@ -300,10 +288,10 @@ impl MotionTrack {
     ///
     /// # Errors
     /// Fails if the stored one is no number.
-    pub(crate) fn frame_time(&self) -> Result<Option<Number>> {
+    pub(crate) fn frame_time(&self) -> CorpusResult<Option<FileNumber>> {
         let stored = self.row.frame_time.as_deref();
-        let time = stored.map(str::parse::<Number>).transpose();
-        time.map_err(|_| Error::wrong("the stored frame time is no number"))
+        let time = stored.map(str::parse::<FileNumber>).transpose();
+        time.map_err(|_| CorpusError::from_wrong_message("the stored frame time is no number"))
     }
 
     /// Returns the columns of the file for a group's joints.
@@ -312,38 +300,38 @@ impl MotionTrack {
         let Some((layout, _)) = &self.exact else {
             return columns_of(&self.hierarchy, joints);
         };
-        let first = |joint: usize| (0..joint).map(|it| layout.width(it)).sum::<usize>();
-        let own = |&joint: &usize| first(joint)..first(joint) + layout.width(joint);
-        joints.iter().flat_map(own).collect()
+        let first = |joint: usize| (0..joint).map(|index| layout.joint_column_count(index)).sum::<usize>();
+        let joint_columns = |&joint: &usize| first(joint)..first(joint) + layout.joint_column_count(joint);
+        joints.iter().flat_map(joint_columns).collect()
     }
 
     /// Returns the frames of a stretch: those of a token, or all of a recording.
-    pub(crate) fn frames_of(&self, stretch: &Stretch) -> Range<usize> {
+    pub(crate) fn stretch_frames(&self, stretch: &RecordingStretch) -> Range<usize> {
         match stretch.token {
             Some(_) => self.frames_in(stretch.span),
-            None => 0..self.frames(),
+            None => 0..self.motion_frame_count(),
         }
     }
 
     /// Returns the frames that start within `span`.
-    pub(crate) fn frames_in(&self, span: Span) -> Range<usize> {
-        let frames = self.rate.frames_in(span.shifted(-self.row.offset_us));
-        frames.start.min(self.frames())..frames.end.min(self.frames())
+    pub(crate) fn frames_in(&self, span: TimeSpan) -> Range<usize> {
+        let frames = self.rate.frames_in(span.shifted_span(-self.row.offset_us));
+        frames.start.min(self.motion_frame_count())..frames.end.min(self.motion_frame_count())
     }
 
     /// Calls `take` with the columns of complete blocks that contain any of `frames`, group by group.
     ///
     /// `take` receives the indices of the columns in the file, the first frame of the block, and the columns.
-    pub(crate) fn blocks(
+    pub(crate) fn take_frame_blocks(
         &self,
         connection: &Connection,
         groups: &[ChannelGroup],
         frames: &Range<usize>,
-        mut take: impl FnMut(&[usize], usize, Vec<Numbers>) -> Result<()>,
-    ) -> Result<()> {
+        mut take: impl FnMut(&[usize], usize, Vec<Numbers>) -> CorpusResult<()>,
+    ) -> CorpusResult<()> {
         for &group in groups {
             let columns = self.columns_of(group);
-            motion::blocks(connection, self.row.id, group.name(), frames, |block| {
+            stored_motion::visit_track_blocks(connection, self.row.id, group.channel_group_name(), frames, |block| {
                 let BlockRow {
                     first_frame,
                     frames,
@@ -351,14 +339,15 @@ impl MotionTrack {
                     hash,
                 } = block;
                 if frames > BLOCK_FRAMES {
-                    return Err(damaged(
-                        format!("block {}", motion::hex(&hash)),
+                    return Err(damaged_row_error(
+                        format!("block {}", stored_motion::to_hex_text(&hash)),
                         "it is too long",
                     ));
                 }
-                let decoded = codec::decode(&data, frames, columns.len());
-                let decoded = decoded
-                    .map_err(|reason| damaged(format!("block {}", motion::hex(&hash)), reason))?;
+                let decode_result = codec::decode_block_columns(&data, frames, columns.len());
+                let decoded = decode_result.map_err(|reason| {
+                    damaged_row_error(format!("block {}", stored_motion::to_hex_text(&hash)), reason)
+                })?;
                 take(&columns, first_frame, decoded)
             })?;
         }
@@ -367,36 +356,36 @@ impl MotionTrack {
 
     /// Returns the movement of `frames` in metres and model space; joints of groups that are not requested stay at
     /// rest. Finger bones that are impossibly long have their usual length.
-    pub(crate) fn clip(
+    pub(crate) fn read_motion_clip(
         &self,
         connection: &Connection,
         frames: Range<usize>,
         groups: &[ChannelGroup],
-    ) -> Result<Clip> {
-        let clip = self.raw(connection, frames, groups)?;
-        let clip = self.convention.clip(&clip);
+    ) -> CorpusResult<Clip> {
+        let raw_clip = self.read_raw_clip(connection, frames, groups)?;
+        let clip = self.convention.file_clip_to_model(&raw_clip);
         let long_bones = self.long_bones.get_or_init(|| {
-            let roles = self.roles().unwrap_or_default();
-            let anatomy = Anatomy::with_roles(clip.skeleton(), &roles);
-            anatomy.map_or_else(|_| Vec::new(), |it| it.long_finger_bones(clip.skeleton()))
+            let roles = self.manual_joint_roles().unwrap_or_default();
+            let anatomy = BodyAnatomy::with_roles(clip.clip_skeleton(), &roles);
+            anatomy.map_or_else(|_| Vec::new(), |body| body.long_finger_bones(clip.clip_skeleton()))
         });
         Ok(draw_in(clip, long_bones))
     }
 
     /// Returns the movement of `frames` in the file's unit and axes.
-    pub(crate) fn raw_clip(&self, connection: &Connection, frames: Range<usize>) -> Result<Clip> {
-        self.raw(connection, frames, &ChannelGroup::ALL)
+    pub(crate) fn raw_clip(&self, connection: &Connection, frames: Range<usize>) -> CorpusResult<Clip> {
+        self.read_raw_clip(connection, frames, &ChannelGroup::ALL_CHANNEL_GROUPS)
     }
 
-    fn raw(
+    fn read_raw_clip(
         &self,
         connection: &Connection,
         frames: Range<usize>,
         groups: &[ChannelGroup],
-    ) -> Result<Clip> {
-        let frames = frames.start.min(self.frames())..frames.end.min(self.frames());
+    ) -> CorpusResult<Clip> {
+        let frames = frames.start.min(self.motion_frame_count())..frames.end.min(self.motion_frame_count());
         let mut blocks: BTreeMap<usize, BTreeMap<usize, Numbers>> = BTreeMap::new();
-        self.blocks(connection, groups, &frames, |numbers, first, columns| {
+        self.take_frame_blocks(connection, groups, &frames, |numbers, first, columns| {
             let block = blocks.entry(first).or_default();
             block.extend(numbers.iter().copied().zip(columns));
             Ok(())
@@ -407,39 +396,34 @@ impl MotionTrack {
         let place = || format!("track {}", self.row.id);
         let mut decimals: BTreeMap<usize, BTreeMap<usize, Column>> = BTreeMap::new();
         for (first, columns) in blocks {
-            let plain = columns
-                .into_iter()
-                .map(|(at, column)| match column.into_numbers() {
-                    Form::Decimals(decimals) => Ok((at, decimals)),
-                    other => {
-                        let reason = format!("its numbers are {}, not decimals", other.form());
-                        Err(damaged(place(), reason))
-                    }
-                });
-            decimals.insert(first, plain.collect::<Result<_>>()?);
+            let plain = columns.into_iter().map(|(at, column)| match column.into_numbers() {
+                Form::Decimals(decimals) => Ok((at, decimals)),
+                other => {
+                    let reason = format!("its numbers are {}, not decimals", other.number_form_name());
+                    Err(damaged_row_error(place(), reason))
+                }
+            });
+            decimals.insert(first, plain.collect::<CorpusResult<_>>()?);
         }
         let blocks = decimals;
         let mut builder = ClipBuilder::new(&self.hierarchy, self.fix)
-            .map_err(|error| damaged(place(), error.to_string()))?;
+            .map_err(|error| damaged_row_error(place(), error.to_string()))?;
         let mut next = frames.start;
         for (first, columns) in &blocks {
-            let length = columns
-                .values()
-                .next()
-                .map_or(0, |column| column.mantissas.len());
+            let length = columns.values().next().map_or(0, |column| column.mantissas.len());
             let rows = next.saturating_sub(*first)..(frames.end - first).min(length);
             if *first > next || rows.is_empty() {
-                return Err(damaged(place(), format!("frame {next} is missing")));
+                return Err(damaged_row_error(place(), format!("frame {next} is missing")));
             }
             next = first + rows.end;
-            builder.push(rows, |at| columns.get(&at));
+            builder.push_block_rows(rows, |at| columns.get(&at));
         }
         if next < frames.end && self.hierarchy.channel_count() > 0 {
-            return Err(damaged(place(), format!("frame {next} is missing")));
+            return Err(damaged_row_error(place(), format!("frame {next} is missing")));
         }
         let clip = builder
-            .finish(self.rate)
-            .map_err(|error| damaged(place(), error.to_string()))?;
+            .finish_bvh_clip(self.rate)
+            .map_err(|error| damaged_row_error(place(), error.to_string()))?;
         Ok(match self.row.root_scale {
             None => clip,
             Some(scale) => scale_root(clip, scale),
@@ -449,12 +433,12 @@ impl MotionTrack {
     /// Returns the clip for columns of quaternions and positions; joints whose columns were not read stay at rest.
     fn exact_clip(
         &self,
-        layout: &Layout,
+        layout: &TrackColumnLayout,
         skeleton: &Arc<Skeleton>,
         blocks: &BTreeMap<usize, BTreeMap<usize, Numbers>>,
         frames: Range<usize>,
-    ) -> Result<Clip> {
-        let bad = |reason: String| damaged(format!("track {}", self.row.id), reason);
+    ) -> CorpusResult<Clip> {
+        let bad = |reason: String| damaged_row_error(format!("track {}", self.row.id), reason);
         let mut next = frames.start;
         let mut parts = Vec::new();
         for (first, columns) in blocks {
@@ -471,17 +455,18 @@ impl MotionTrack {
         }
         let mut from = 0;
         let mut channels = Vec::with_capacity(skeleton.len());
-        for (joint, at) in skeleton.joints().iter().enumerate() {
-            let width = layout.width(joint);
-            let own = from..from + width;
+        for (joint, at) in skeleton.skeleton_joints().iter().enumerate() {
+            let width = layout.joint_column_count(joint);
+            let joint_columns = from..from + width;
             from += width;
-            let mut channel = Channel {
+            let mut channel = JointChannel {
                 rotations: Vec::with_capacity(frames.len()),
                 translations: (width > 4).then(Vec::new),
             };
             for (columns, rows) in &parts {
-                let found: Option<Vec<&Numbers>> = own.clone().map(|it| columns.get(&it)).collect();
-                let Some(found) = found else {
+                let joint_numbers: Option<Vec<&Numbers>> =
+                    joint_columns.clone().map(|column| columns.get(&column)).collect();
+                let Some(found) = joint_numbers else {
                     channel.rotations.extend(rows.clone().map(|_| at.rest));
                     if let Some(places) = &mut channel.translations {
                         places.extend(rows.clone().map(|_| at.offset));
@@ -489,7 +474,7 @@ impl MotionTrack {
                     continue;
                 };
                 layout
-                    .push(&mut channel, &found, rows.clone())
+                    .append_joint_rows(&mut channel, &found, rows.clone())
                     .ok_or_else(|| bad(format!("joint {:?} has a gap", at.name)))?;
             }
             channels.push(channel);
@@ -499,51 +484,55 @@ impl MotionTrack {
 
     /// Returns the body parts of the skeleton's joints, measured at the beginning of the recording; for generated
     /// movement, measured at the beginning of the recording that provided its body.
-    pub(crate) fn anatomy(&self, connection: &Connection) -> Result<Anatomy> {
-        let first = self.clip(connection, 0..self.head(), &ChannelGroup::ALL)?;
-        let roles = self.row.roles.as_deref().map(str::parse::<Roles>);
+    pub(crate) fn track_anatomy(&self, connection: &Connection) -> CorpusResult<BodyAnatomy> {
+        let first = self.read_motion_clip(
+            connection,
+            0..self.head_frame_count(),
+            &ChannelGroup::ALL_CHANNEL_GROUPS,
+        )?;
+        let roles = self.row.roles.as_deref().map(str::parse::<AssignedJointRoles>);
         let place = format!("track {}", self.row.id);
         let roles = roles
             .transpose()
-            .map_err(|error| damaged(place.clone(), error.to_string()))?
+            .map_err(|error| damaged_row_error(place.clone(), error.to_string()))?
             .unwrap_or_default();
-        let anatomy = Anatomy::with_roles(first.skeleton(), &roles)
-            .map_err(|error| damaged(place, error.to_string()))?;
+        let anatomy = BodyAnatomy::with_roles(first.clip_skeleton(), &roles)
+            .map_err(|error| damaged_row_error(place, error.to_string()))?;
         if anatomy.is_posed() {
             return Ok(anatomy);
         }
-        let own = self.row.recording_id;
-        let body = recipes::body_of(connection, own, self.row.skeleton_id)?;
-        let Some(body) = body.filter(|body| *body != own) else {
-            return Ok(standing(anatomy, &first));
+        let recording_id = self.row.recording_id;
+        let body = recipes::body_of(connection, recording_id, self.row.skeleton_id)?;
+        let Some(body) = body.filter(|body| *body != recording_id) else {
+            return Ok(measure_standing_anatomy(anatomy, &first));
         };
-        let body = Self::of(connection, body)?;
-        let body = body.clip(connection, 0..body.head(), &ChannelGroup::ALL)?;
-        let same = body.skeleton() == first.skeleton();
-        Ok(standing(anatomy, if same { &body } else { &first }))
+        let body_track = Self::open_motion_track(connection, body)?;
+        let body = body_track.read_motion_clip(
+            connection,
+            0..body_track.head_frame_count(),
+            &ChannelGroup::ALL_CHANNEL_GROUPS,
+        )?;
+        let same = body.clip_skeleton() == first.clip_skeleton();
+        Ok(measure_standing_anatomy(anatomy, if same { &body } else { &first }))
     }
 
     /// Returns the number of initial frames that are searched for odd ones.
-    fn head(&self) -> usize {
-        let frames = (ENDS * self.rate.per_second()).ceil() as usize;
-        frames.clamp(1, BLOCK_FRAMES).min(self.frames().max(1))
+    fn head_frame_count(&self) -> usize {
+        let frames = (MAX_ODD_END_SECONDS * self.rate.per_second()).ceil() as usize;
+        frames.clamp(1, BLOCK_FRAMES).min(self.motion_frame_count().max(1))
     }
 
     /// Returns the odd frames at both ends of the recording.
-    pub(crate) fn odd_frames(
-        &self,
-        connection: &Connection,
-        anatomy: &Anatomy,
-    ) -> Result<Vec<OddFrames>> {
-        let (all, part) = (self.frames(), 4 * self.head());
-        let read = |frames: Range<usize>| self.clip(connection, frames, &ChannelGroup::ALL);
+    pub(crate) fn odd_frames(&self, connection: &Connection, anatomy: &BodyAnatomy) -> CorpusResult<Vec<OddFrames>> {
+        let (all, part) = (self.motion_frame_count(), 4 * self.head_frame_count());
+        let read = |frames: Range<usize>| self.read_motion_clip(connection, frames, &ChannelGroup::ALL_CHANNEL_GROUPS);
         if all <= 2 * part {
-            return Ok(Ends::of(&read(0..all)?, anatomy).odd);
+            return Ok(ClipEnds::examine_clip_ends(&read(0..all)?, anatomy).odd);
         }
-        let hips = anatomy.joint(Part::Hips).unwrap_or(0);
+        let hips = anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
         let above = |joint: &usize| self.hierarchy.joints[*joint].parent;
         let carriers: Vec<usize> = std::iter::successors(Some(hips), above).collect();
-        let mut groups = ChannelGroup::ALL.to_vec();
+        let mut groups = ChannelGroup::ALL_CHANNEL_GROUPS.to_vec();
         groups.retain(|group| {
             let joints = self.groups.get(group).into_iter().flatten();
             joints.into_iter().any(|joint| carriers.contains(joint))
@@ -551,31 +540,31 @@ impl MotionTrack {
         let mut path = Vec::with_capacity(all);
         for start in (0..all).step_by(BLOCK_FRAMES) {
             let frames = start..(start + BLOCK_FRAMES).min(all);
-            let clip = self.clip(connection, frames, &groups)?;
-            path.extend(clip.path(hips));
+            let clip = self.read_motion_clip(connection, frames, &groups)?;
+            path.extend(clip.joint_path(hips));
         }
-        Ok(Ends::of_long_take(&path, part, anatomy, read)?.odd)
+        Ok(ClipEnds::of_long_take(&path, part, anatomy, read)?.odd)
     }
 }
 
 /// Measures an anatomy in the first ordinary frame, if no body can assume the rest pose.
-pub(crate) fn standing(anatomy: Anatomy, head: &Clip) -> Anatomy {
-    if anatomy.is_posed() || head.frames() == 0 {
+pub(crate) fn measure_standing_anatomy(anatomy: BodyAnatomy, head: &Clip) -> BodyAnatomy {
+    if anatomy.is_posed() || head.clip_frame_count() == 0 {
         return anatomy;
     }
     let first = anatomy.clone().with_clip(head);
-    match Ends::of(head, &first).sound.start {
+    match ClipEnds::examine_clip_ends(head, &first).sound.start {
         0 => first,
-        sound => anatomy.with_reference(head.skeleton(), &head.model_pose(sound)),
+        sound => anatomy.with_reference(head.clip_skeleton(), &head.model_pose(sound)),
     }
 }
 
 /// The longest run of odd frames at an end of a recording that is skipped for measuring, in seconds.
-const ENDS: f64 = 2.5;
+const MAX_ODD_END_SECONDS: f64 = 2.5;
 
 /// Returns the clip with the root's positions multiplied.
 fn scale_root(clip: Clip, scale: f64) -> Clip {
-    let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
+    let (skeleton, rate) = (clip.clip_skeleton().clone(), clip.clip_frame_rate());
     let mut channels = clip.clone().into_channels();
     for at in channels[0].translations.iter_mut().flatten() {
         *at *= scale;
@@ -588,8 +577,8 @@ fn draw_in(clip: Clip, bones: &[(usize, f64)]) -> Clip {
     if bones.is_empty() {
         return clip;
     }
-    let mut joints = clip.skeleton().joints().to_vec();
-    let mut channels = clip.channels().to_vec();
+    let mut joints = clip.clip_skeleton().skeleton_joints().to_vec();
+    let mut channels = clip.joint_channels().to_vec();
     for &(joint, length) in bones {
         let share = length / joints[joint].offset.length();
         joints[joint].offset *= share;
@@ -597,14 +586,15 @@ fn draw_in(clip: Clip, bones: &[(usize, f64)]) -> Clip {
             *place *= share;
         }
     }
-    let drawn = Skeleton::new(joints).ok();
-    let drawn = drawn.and_then(|it| Clip::new(Arc::new(it), clip.rate(), channels).ok());
+    let drawn_skeleton = Skeleton::new(joints).ok();
+    let drawn =
+        drawn_skeleton.and_then(|skeleton| Clip::new(Arc::new(skeleton), clip.clip_frame_rate(), channels).ok());
     drawn.unwrap_or(clip)
 }
 
 /// Returns the columns of a file for those joints.
-pub(crate) fn columns_of(hierarchy: &Hierarchy, joints: &[usize]) -> Vec<usize> {
-    let ranges = hierarchy.columns();
+pub(crate) fn columns_of(hierarchy: &BvhHierarchy, joints: &[usize]) -> Vec<usize> {
+    let ranges = hierarchy.joint_channel_columns();
     joints
         .iter()
         .filter_map(|&joint| ranges.get(joint).cloned())
@@ -620,12 +610,19 @@ pub(crate) fn store_block(
     first_frame: usize,
     frames: usize,
     columns: &[Column],
-) -> Result<()> {
+) -> CorpusResult<()> {
     for (group, numbers) in groups {
-        let own: Vec<&Column> = numbers.iter().filter_map(|&at| columns.get(at)).collect();
-        if !own.is_empty() {
-            let data = codec::encode(frames, &own);
-            motion::insert_block(connection, track, group.name(), first_frame, frames, &data)?;
+        let group_columns: Vec<&Column> = numbers.iter().filter_map(|&at| columns.get(at)).collect();
+        if !group_columns.is_empty() {
+            let data = codec::encode_decimal_columns(frames, &group_columns);
+            stored_motion::insert_block(
+                connection,
+                track,
+                group.channel_group_name(),
+                first_frame,
+                frames,
+                &data,
+            )?;
         }
     }
     Ok(())

@@ -5,27 +5,27 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
-use chereme_formats::{Finding, hns, sigml};
-use chereme_sign::hamnosys::Notated;
-use chereme_sign::{Choice, Remedy};
+use chereme_formats::{ImportFinding, hns, sigml};
+use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
+use crate::address::{self, CorpusAddress, RowName};
 use crate::db::notations::{self, NotationRow};
-use crate::db::{damaged, recipes, signs};
-use crate::error::{Error, Result};
+use crate::db::{damaged_row_error, recipes, signs};
+use crate::error::{CorpusError, CorpusResult};
 
 /// The most bytes of a file that are read to recognise its kind.
-const LOOKED_AT: u64 = 1 << 16;
+const MAX_SNIFFED_BYTES: u64 = 1 << 16;
 /// The longest file of notation that is read from beside a corpus, in bytes.
-const MOST_BYTES: u64 = 1 << 26;
+const MAX_NOTATION_FILE_BYTES: u64 = 1 << 26;
 
 /// A token as notation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Notation {
+pub struct TokenNotation {
     /// The row of the token.
     pub token: i64,
     /// `hamnosys` or `sigml`.
@@ -37,7 +37,7 @@ pub struct Notation {
     /// The HamNoSys text as it was written, if it is HamNoSys.
     pub text: Option<String>,
     /// Actions of hands, face and body, and further contents of the file.
-    pub document: Notated,
+    pub document: NotatedSign,
 }
 
 impl Corpus {
@@ -46,8 +46,8 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the address names no token or sign, or nothing notated.
-    pub fn notation(&self, address: &Address) -> Result<Notation> {
-        find(self.store.read(), address)
+    pub fn notation_at(&self, address: &CorpusAddress) -> CorpusResult<TokenNotation> {
+        find_address_notation(self.store.read_connection(), address)
     }
 
     /// Returns the notations for a name: those of an imported file with this name (`BABY.sigml`, or `BABY`), in the
@@ -56,47 +56,46 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if no file has the name, and it names nothing notated.
-    pub fn notations(&self, name: &str) -> Result<Vec<Notation>> {
-        named(self.store.read(), name)
+    pub fn notations_named(&self, name: &str) -> CorpusResult<Vec<TokenNotation>> {
+        find_named_notations(self.store.read_connection(), name)
     }
 }
 
 /// Returns the notations of the file of this name, otherwise of an address. If `NAME.sigml` holds several signs and one
 /// of them is `NAME`, only that sign is returned.
-pub(crate) fn named(connection: &Connection, name: &str) -> Result<Vec<Notation>> {
+pub(crate) fn find_named_notations(connection: &Connection, name: &str) -> CorpusResult<Vec<TokenNotation>> {
     let name = name.trim();
-    let of_file = |file: &str| -> Result<Vec<Notation>> {
+    let of_file = |file: &str| -> CorpusResult<Vec<TokenNotation>> {
         let rows = notations::of_file(connection, file)?;
-        rows.into_iter().map(read).collect()
+        rows.into_iter().map(read_notation_row).collect()
     };
-    let whole = of_file(name)?;
-    if !whole.is_empty() {
-        return Ok(whole);
+    let file_notations = of_file(name)?;
+    if !file_notations.is_empty() {
+        return Ok(file_notations);
     }
     let all = of_file(&format!("{name}.sigml"))?;
     if all.is_empty() {
-        return Ok(vec![find(connection, &name.parse()?)?]);
+        return Ok(vec![find_address_notation(connection, &name.parse()?)?]);
     }
-    let (sign, others): (Vec<_>, Vec<_>) =
-        (all.into_iter()).partition(|found| found.document.gloss == name);
+    let (sign, others): (Vec<_>, Vec<_>) = (all.into_iter()).partition(|found| found.document.gloss == name);
     Ok(if sign.is_empty() { others } else { sign })
 }
 
 /// Returns the notation of the object at an address, or that from which it was generated.
-pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notation> {
+pub(crate) fn find_address_notation(connection: &Connection, address: &CorpusAddress) -> CorpusResult<TokenNotation> {
     let sign = match address {
-        Address::Sign(Name::Number(id)) => Some(*id),
-        Address::Sign(Name::Text(gloss)) | Address::Gloss(gloss) => {
-            Some(address::sign(connection, gloss)?)
+        CorpusAddress::Sign(RowName::Number(id)) => Some(*id),
+        CorpusAddress::Sign(RowName::Text(gloss)) | CorpusAddress::Gloss(gloss) => {
+            Some(address::find_sign_by_gloss(connection, gloss)?)
         }
         _ => None,
     };
     let tokens = match sign {
         Some(sign) => signs::tokens_of_sign(connection, sign)?,
-        None => vec![address::token(connection, address)?],
+        None => vec![address::find_addressed_token(connection, address)?],
     };
     for token in &tokens {
-        if let Some(found) = of_token(connection, token.id)? {
+        if let Some(found) = notation_of_token(connection, token.id)? {
             return Ok(found);
         }
     }
@@ -105,56 +104,50 @@ pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notatio
     if let Some(found) = ids.iter().find_map(|id| generated.remove(id)) {
         return Ok(found);
     }
-    Err(Error::wrong(format!("{address} has no notation"))
-        .at(address.to_string())
-        .advise(Remedy::choice(Choice::Notation, "import a SiGML file or a HamNoSys lexicon that holds the sign, or `chereme transcribe CORPUS SIGN --store`")))
+    Err(CorpusError::from_wrong_message(format!("{address} has no notation"))
+        .with_error_place(address.to_string())
+        .with_advice(ErrorRemedy::choice_remedy(RemedyChoice::Notation, "import a SiGML file or a HamNoSys lexicon that holds the sign, or `chereme transcribe CORPUS SIGN --store`")))
 }
 
 /// Returns the notation of a token, if it has one.
-pub(crate) fn of_token(connection: &Connection, token: i64) -> Result<Option<Notation>> {
-    let row = notations::of_token(connection, token)?;
-    row.map(read).transpose()
+pub(crate) fn notation_of_token(connection: &Connection, token: i64) -> CorpusResult<Option<TokenNotation>> {
+    let row = notations::find_token_notation(connection, token)?;
+    row.map(read_notation_row).transpose()
 }
 
 /// Returns the notations of these tokens, by token.
-pub(crate) fn of_tokens(
-    connection: &Connection,
-    tokens: &[i64],
-) -> Result<BTreeMap<i64, Notation>> {
-    let mut found = BTreeMap::new();
-    for ids in tokens.chunks(signs::AT_ONCE) {
+pub(crate) fn of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, TokenNotation>> {
+    let mut by_token = BTreeMap::new();
+    for ids in tokens.chunks(signs::MAX_ROWS_PER_QUERY) {
         for (token, row) in notations::of_tokens(connection, ids)? {
-            found.insert(token, read(row)?);
+            by_token.insert(token, read_notation_row(row)?);
         }
     }
-    Ok(found)
+    Ok(by_token)
 }
 
 /// Returns the notations from which these tokens were generated, by token. A sign that was changed after that, a
 /// sequence of signs, and a recording with several tokens have none.
-pub(crate) fn of_recipes(
-    connection: &Connection,
-    tokens: &[i64],
-) -> Result<BTreeMap<i64, Notation>> {
-    let mut found = BTreeMap::new();
-    for ids in tokens.chunks(signs::AT_ONCE) {
+pub(crate) fn of_recipes(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, TokenNotation>> {
+    let mut by_token = BTreeMap::new();
+    for ids in tokens.chunks(signs::MAX_ROWS_PER_QUERY) {
         for row in recipes::of_lone_tokens(connection, ids)? {
             let (token, gloss, document) = row;
             let inputs: Value = serde_json::from_str(&document)
-                .map_err(|error| damaged(format!("recipe of token {token}"), error.to_string()))?;
+                .map_err(|error| damaged_row_error(format!("recipe of token {token}"), error.to_string()))?;
             for system in ["hamnosys", "sigml"] {
                 let of = inputs["recipe"]["make"].get(system).map(|_| {
                     let answer = &inputs["inputs"][format!("/{system}/of")]["notation"];
-                    Vec::<Notated>::deserialize(answer).unwrap_or_default()
+                    Vec::<NotatedSign>::deserialize(answer).unwrap_or_default()
                 });
                 let Some([document]) = of.as_deref() else {
                     continue;
                 };
-                let document = Notated {
+                let document = NotatedSign {
                     gloss: gloss.clone(),
                     ..document.clone()
                 };
-                let own = Notation {
+                let notation = TokenNotation {
                     token,
                     system: system.to_owned(),
                     file: None,
@@ -162,23 +155,23 @@ pub(crate) fn of_recipes(
                     text: document.text.clone(),
                     document,
                 };
-                found.insert(token, own);
+                by_token.insert(token, notation);
             }
         }
     }
-    Ok(found)
+    Ok(by_token)
 }
 
 /// Reads the notation of a row.
-pub(crate) fn read(row: NotationRow) -> Result<Notation> {
-    let document: Notated = serde_json::from_str(&row.document)
-        .map_err(|error| damaged(format!("notation {}", row.id), error.to_string()))?;
+pub(crate) fn read_notation_row(row: NotationRow) -> CorpusResult<TokenNotation> {
+    let parsed: NotatedSign = serde_json::from_str(&row.document)
+        .map_err(|error| damaged_row_error(format!("notation {}", row.id), error.to_string()))?;
     // The sign may have another gloss now.
-    let document = Notated {
+    let document = NotatedSign {
         gloss: row.gloss,
-        ..document
+        ..parsed
     };
-    Ok(Notation {
+    Ok(TokenNotation {
         token: row.token_id,
         system: row.system,
         file: row.file,
@@ -190,58 +183,56 @@ pub(crate) fn read(row: NotationRow) -> Result<Notation> {
 
 /// Format of a notation file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Form {
+pub(crate) enum NotationFormat {
     /// SiGML, gestural or of symbols.
     Sigml,
     /// HamNoSys, one sign per line.
     Lines,
 }
 
-impl Form {
+impl NotationFormat {
     /// Returns the format of a file, by the ending of its name; for `.xml` and `.txt`, which are ambiguous, by the
     /// first bytes.
-    pub(crate) fn of(path: &Path) -> Option<Self> {
+    pub(crate) fn from_notation_path(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         match ending.as_str() {
             "sigml" | "hsigml" => Some(Self::Sigml),
             "hns" => Some(Self::Lines),
-            "xml" => (beginning(path).windows(6))
+            "xml" => (read_notation_beginning(path).windows(6))
                 .any(|six| six.eq_ignore_ascii_case(b"<sigml"))
                 .then_some(Self::Sigml),
-            "txt" => hns::holds_some(&beginning(path)).then_some(Self::Lines),
+            "txt" => hns::holds_some(&read_notation_beginning(path)).then_some(Self::Lines),
             _ => None,
         }
     }
 }
 
 /// Returns the first bytes of a file; nothing if it cannot be read.
-fn beginning(path: &Path) -> Vec<u8> {
+fn read_notation_beginning(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
     if let Ok(file) = File::open(path) {
         // A failure to read is reported when the whole file is read.
-        let _ = file.take(LOOKED_AT).read_to_end(&mut bytes);
+        let _ = file.take(MAX_SNIFFED_BYTES).read_to_end(&mut bytes);
     }
     bytes
 }
 
 /// Signs of a file, each with its line.
-pub(crate) type Signs = Vec<(Notated, u64)>;
+pub(crate) type NotatedSigns = Vec<(NotatedSign, u64)>;
 
 /// Returns the signs of a file, and findings about it.
-pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Signs, Vec<Finding>)> {
-    let wrong = |error: &dyn std::error::Error| Error::wrong(error.to_string());
+pub(crate) fn read_signs(bytes: &[u8], form: NotationFormat) -> CorpusResult<(NotatedSigns, Vec<ImportFinding>)> {
+    let wrong = |error: &dyn std::error::Error| CorpusError::from_wrong_message(error.to_string());
     Ok(match form {
-        Form::Sigml => {
-            let (signs, findings) = sigml::read(bytes).map_err(|error| {
-                wrong(&error).advise("a SiGML file holds <hamgestural_sign> elements")
-            })?;
+        NotationFormat::Sigml => {
+            let (signs, findings) = sigml::read_sigml_signs(bytes)
+                .map_err(|error| wrong(&error).with_advice("a SiGML file holds <hamgestural_sign> elements"))?;
             let signs = signs.into_iter().map(|entry| (entry.sign, entry.line.0));
             (signs.collect(), findings)
         }
-        Form::Lines => {
-            let (signs, findings) = hns::read(bytes).map_err(|error| {
-                wrong(&error).advise("write a sign a line: the gloss, a tab, and HamNoSys")
-            })?;
+        NotationFormat::Lines => {
+            let (signs, findings) = hns::read_hns(bytes)
+                .map_err(|error| wrong(&error).with_advice("write a sign a line: the gloss, a tab, and HamNoSys"))?;
             let signs = signs.into_iter().map(|entry| (entry.sign, entry.line));
             (signs.collect(), findings)
         }
@@ -253,15 +244,18 @@ pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Signs, Vec<Finding
 ///
 /// # Errors
 /// Fails if the file cannot be read, or holds no notation.
-pub fn read_notation(path: &Path) -> Result<(Vec<Notated>, Vec<Finding>)> {
-    let size = fs::metadata(path).map_err(|error| Error::file(path, error))?;
-    if size.len() > MOST_BYTES {
-        return Err(Error::wrong("it is too long for signs in a row")
-            .at(path.display().to_string())
-            .advise("import it, then animate its signs by gloss"));
+pub fn read_notation(path: &Path) -> CorpusResult<(Vec<NotatedSign>, Vec<ImportFinding>)> {
+    let size = fs::metadata(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
+    if size.len() > MAX_NOTATION_FILE_BYTES {
+        return Err(CorpusError::from_wrong_message("it is too long for signs in a row")
+            .with_error_place(path.display().to_string())
+            .with_advice("import it, then animate its signs by gloss"));
     }
-    let bytes = fs::read(path).map_err(|error| Error::file(path, error))?;
-    let (signs, findings) = read_signs(&bytes, Form::of(path).unwrap_or(Form::Sigml))
-        .map_err(|error| error.at(path.display().to_string()))?;
+    let bytes = fs::read(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
+    let (signs, findings) = read_signs(
+        &bytes,
+        NotationFormat::from_notation_path(path).unwrap_or(NotationFormat::Sigml),
+    )
+    .map_err(|error| error.with_error_place(path.display().to_string()))?;
     Ok((signs.into_iter().map(|(sign, _)| sign).collect(), findings))
 }

@@ -7,9 +7,9 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::error::{Error, Result};
-use crate::forms::{Empty, Form, FormSource, Forms, named_fields, numbered};
-use crate::progress::{Progress, unheard};
+use crate::error::{CorpusError, CorpusResult};
+use crate::forms::{EmptyCellTreatment, FormSource, SignForm, SignForms, named_fields, number_form_cells};
+use crate::progress::{ProgressReceiver, ignore_progress_step};
 
 /// The fields that are compared, and the treatment of empty cells.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -19,12 +19,12 @@ pub struct PairOptions {
     /// such as `S13` may stand for a [set](crate::FIELD_SETS). If empty, all coded fields.
     pub fields: Vec<String>,
     /// The treatment of an empty cell.
-    pub empty: Empty,
+    pub empty: EmptyCellTreatment,
 }
 
 /// The minimal pairs of a corpus.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Pairs {
+pub struct MinimalPairs {
     /// How many pairs there are.
     pub total: usize,
     /// How many signs are in at least one of them.
@@ -42,22 +42,22 @@ pub struct Pairs {
     /// The number of pairs whose two values are both given; in the others one cell is empty.
     pub certain: usize,
     /// The number of pairs by differing field, most first.
-    #[serde(serialize_with = "in_order")]
+    #[serde(serialize_with = "serialize_pair_counts")]
     pub by_field: Vec<(String, usize)>,
     /// The signs in the largest number of pairs, at most ten; equal numbers are ordered by gloss.
-    pub densest: Vec<Dense>,
+    pub densest: Vec<DenseSign>,
     /// The SHA-256 of the list: lines `A`, tab, `B`, tab, field, sorted, each ended by a line feed.
     pub sha256: String,
     /// The fields that were compared.
     pub fields: Vec<String>,
     /// The pairs themselves, in the order of the list.
     #[serde(skip)]
-    pub list: Vec<Pair>,
+    pub list: Vec<MinimalPair>,
 }
 
 /// A sign with the number of pairs that it is in.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Dense {
+pub struct DenseSign {
     /// Its gloss.
     pub gloss: String,
     /// How many pairs it is in.
@@ -66,7 +66,7 @@ pub struct Dense {
 
 /// Two signs that differ in one field.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct Pair {
+pub struct MinimalPair {
     /// The gloss that is the lesser of the two.
     pub a: String,
     /// The other gloss.
@@ -75,7 +75,7 @@ pub struct Pair {
     pub field: String,
 }
 
-fn in_order<S: serde::Serializer>(
+fn serialize_pair_counts<S: serde::Serializer>(
     counts: &[(String, usize)],
     out: S,
 ) -> std::result::Result<S::Ok, S::Error> {
@@ -83,48 +83,48 @@ fn in_order<S: serde::Serializer>(
 }
 
 /// The largest number of listed pairs.
-const MOST_PAIRS: usize = 5_000_000;
+const MAX_LISTED_PAIRS: usize = 5_000_000;
 /// The number of densest signs that are listed.
-const DENSEST: usize = 10;
+const DENSEST_SIGN_COUNT: usize = 10;
 
 impl Corpus {
     /// Returns the minimal pairs of the corpus: signs that differ in exactly one of the fields.
     ///
     /// # Errors
-    /// [`Error::Wrong`] if a field does not exist, or there are more pairs than can be listed.
-    pub fn pairs(&self, options: &PairOptions) -> Result<Pairs> {
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+    /// [`CorpusError::Wrong`] if a field does not exist, or there are more pairs than can be listed.
+    pub fn minimal_pairs(&self, options: &PairOptions) -> CorpusResult<MinimalPairs> {
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         let fields = named_fields(&options.fields);
-        pairs(self.forms(&fields, None, progress)?, options.empty)
+        find_minimal_pairs(self.load_sign_forms(&fields, None, progress)?, options.empty)
     }
 }
 
 /// Returns the minimal pairs of codings, by all fields that one of them has; `None` if there are too many to list.
-pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Option<Pairs> {
-    let fields: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
-    let fields = fields.into_iter().cloned().collect();
-    let coded = codings.iter().filter(|(_, it)| !it.is_empty());
-    let coded: Vec<(String, BTreeMap<String, String>)> = coded.cloned().collect();
+pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Option<MinimalPairs> {
+    let field_names: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
+    let fields = field_names.into_iter().cloned().collect();
+    let coded_signs = codings.iter().filter(|(_, it)| !it.is_empty());
+    let coded: Vec<(String, BTreeMap<String, String>)> = coded_signs.cloned().collect();
     // The only failure is that there are too many.
-    let forms = Forms::of(&coded, fields, FormSource::Citations);
-    pairs(forms, Empty::Value).ok()
+    let forms = SignForms::forms_from_codings(&coded, fields, FormSource::Citations);
+    find_minimal_pairs(forms, EmptyCellTreatment::Value).ok()
 }
 
-fn pairs(mut table: Forms, empty: Empty) -> Result<Pairs> {
-    if empty == Empty::Unknown {
-        table.rows.retain(Form::is_complete);
+fn find_minimal_pairs(mut table: SignForms, empty: EmptyCellTreatment) -> CorpusResult<MinimalPairs> {
+    if empty == EmptyCellTreatment::Unknown {
+        table.rows.retain(SignForm::is_complete);
     }
     table.rows.sort();
-    let (cells, _) = numbered(&table.rows);
-    let forms = groups(&cells, None);
+    let (cells, _) = number_form_cells(&table.rows);
+    let forms = group_equal_rows(&cells, None);
     let several = || forms.values().filter(|group| group.len() > 1);
-    let mut found: Vec<(usize, usize, usize)> = Vec::new();
+    let mut found_pairs: Vec<(usize, usize, usize)> = Vec::new();
     let mut by_field = Vec::new();
     let mut certain = 0;
     for (field, own) in table.fields.iter().enumerate() {
-        let before = found.len();
-        for group in groups(&cells, Some(field)).values() {
+        let before = found_pairs.len();
+        for group in group_equal_rows(&cells, Some(field)).values() {
             for (at, one) in group.iter().enumerate() {
                 for other in &group[at + 1..] {
                     let (a, b) = (cells[*one][field], cells[*other][field]);
@@ -133,27 +133,27 @@ fn pairs(mut table: Forms, empty: Empty) -> Result<Pairs> {
                     }
                     // The empty cell has the number 0.
                     certain += usize::from(a != 0 && b != 0);
-                    found.push((*one, *other, field));
+                    found_pairs.push((*one, *other, field));
                 }
-                if found.len() > MOST_PAIRS {
-                    let text = format!("there are more than {MOST_PAIRS} pairs");
-                    return Err(Error::wrong(text).advise("compare more fields"));
+                if found_pairs.len() > MAX_LISTED_PAIRS {
+                    let text = format!("there are more than {MAX_LISTED_PAIRS} pairs");
+                    return Err(CorpusError::from_wrong_message(text).with_advice("compare more fields"));
                 }
             }
         }
-        by_field.push((own.name.clone(), found.len() - before));
+        by_field.push((own.name.clone(), found_pairs.len() - before));
     }
     by_field.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let mut degrees = vec![0; table.rows.len()];
-    for (one, other, _) in &found {
+    for (one, other, _) in &found_pairs {
         degrees[*one] += 1;
         degrees[*other] += 1;
     }
-    let list = listed(&table, &found);
-    Ok(Pairs {
-        total: found.len(),
+    let list = list_minimal_pairs(&table, &found_pairs);
+    Ok(MinimalPairs {
+        total: found_pairs.len(),
         signs: degrees.iter().filter(|degree| **degree > 0).count(),
-        homonyms: several().map(|it| it.len() * (it.len() - 1) / 2).sum(),
+        homonyms: several().map(|group| group.len() * (group.len() - 1) / 2).sum(),
         homonym_groups: several().count(),
         homonym_signs: several().map(Vec::len).sum(),
         entries: table.rows.len(),
@@ -161,14 +161,14 @@ fn pairs(mut table: Forms, empty: Empty) -> Result<Pairs> {
         certain,
         by_field,
         densest: densest(&table, &degrees),
-        sha256: sha256(&list),
-        fields: table.fields.into_iter().map(|it| it.name).collect(),
+        sha256: minimal_pairs_sha256(&list),
+        fields: table.fields.into_iter().map(|field| field.name).collect(),
         list,
     })
 }
 
 /// Returns groups of rows that are equal in all fields, or in all fields but `without`; rows are in order.
-fn groups(cells: &[Vec<u32>], without: Option<usize>) -> BTreeMap<Vec<u32>, Vec<usize>> {
+fn group_equal_rows(cells: &[Vec<u32>], without: Option<usize>) -> BTreeMap<Vec<u32>, Vec<usize>> {
     let mut groups: BTreeMap<Vec<u32>, Vec<usize>> = BTreeMap::new();
     for (at, row) in cells.iter().enumerate() {
         let mut key = row.clone();
@@ -181,25 +181,25 @@ fn groups(cells: &[Vec<u32>], without: Option<usize>) -> BTreeMap<Vec<u32>, Vec<
 }
 
 /// Returns the pairs in the order of their lines; rows are sorted by gloss.
-fn listed(table: &Forms, found: &[(usize, usize, usize)]) -> Vec<Pair> {
-    let pair = |(one, other, field): &(usize, usize, usize)| Pair {
+fn list_minimal_pairs(table: &SignForms, found: &[(usize, usize, usize)]) -> Vec<MinimalPair> {
+    let pair = |(one, other, field): &(usize, usize, usize)| MinimalPair {
         a: table.rows[*one].gloss.clone(),
         b: table.rows[*other].gloss.clone(),
         field: table.fields[*field].name.clone(),
     };
-    let mut list: Vec<Pair> = found.iter().map(pair).collect();
-    list.sort_by_cached_key(line);
+    let mut list: Vec<MinimalPair> = found.iter().map(pair).collect();
+    list.sort_by_cached_key(minimal_pair_line);
     list
 }
 
-fn line(pair: &Pair) -> String {
+fn minimal_pair_line(pair: &MinimalPair) -> String {
     format!("{}\t{}\t{}\n", pair.a, pair.b, pair.field)
 }
 
-fn sha256(list: &[Pair]) -> String {
+fn minimal_pairs_sha256(list: &[MinimalPair]) -> String {
     let mut hash = Sha256::new();
     for pair in list {
-        hash.update(line(pair).as_bytes());
+        hash.update(minimal_pair_line(pair).as_bytes());
     }
     let mut text = String::new();
     for byte in hash.finalize() {
@@ -208,7 +208,7 @@ fn sha256(list: &[Pair]) -> String {
     text
 }
 
-fn densest(table: &Forms, degrees: &[usize]) -> Vec<Dense> {
+fn densest(table: &SignForms, degrees: &[usize]) -> Vec<DenseSign> {
     let mut all: Vec<(usize, &String)> = degrees
         .iter()
         .zip(&table.rows)
@@ -216,9 +216,9 @@ fn densest(table: &Forms, degrees: &[usize]) -> Vec<Dense> {
         .filter(|(degree, _)| *degree > 0)
         .collect();
     all.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| a.1.cmp(b.1)));
-    let named = all.into_iter().take(DENSEST);
+    let named = all.into_iter().take(DENSEST_SIGN_COUNT);
     named
-        .map(|(pairs, gloss)| Dense {
+        .map(|(pairs, gloss)| DenseSign {
             gloss: gloss.clone(),
             pairs,
         })

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{MAIN_SEPARATOR, Path};
 
 /// In folders with more entries only this many are considered.
-const MOST: usize = 5000;
+const MAX_FOLDER_ENTRIES: usize = 5000;
 
 /// Returns the files and folders whose paths begin with a typed one, folders first and with a final separator; hidden
 /// ones only after a dot, and no files that the database of an open corpus keeps beside it. An unreadable folder gives
@@ -22,7 +22,7 @@ pub fn paths_like(typed: &str) -> Vec<String> {
     };
     let wanted = start.to_lowercase();
     let (mut folders, mut files) = (Vec::new(), Vec::new());
-    for entry in entries.take(MOST).flatten() {
+    for entry in entries.take(MAX_FOLDER_ENTRIES).flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let hidden = name.starts_with('.') && !start.starts_with('.');
         if hidden || !name.to_lowercase().starts_with(&wanted) {
@@ -57,7 +57,7 @@ fn is_companion(path: &Path) -> bool {
 /// Returns a path or a name of a file as text, for storage and reports.
 ///
 /// Bytes that are not UTF-8 become `%FF`, so that the texts of two such names differ too.
-pub(crate) fn legible(name: impl AsRef<OsStr>) -> String {
+pub(crate) fn legible_path_text(name: impl AsRef<OsStr>) -> String {
     let mut text = String::new();
     for chunk in name.as_ref().as_encoded_bytes().utf8_chunks() {
         text.push_str(chunk.valid());
@@ -83,7 +83,7 @@ mod tests {
             (b"a\xc3/b\xe9\xe8", "a%C3/b%E9%E8"),
             ("caf\u{e9} 100%20.eaf".as_bytes(), "caf\u{e9} 100%20.eaf"),
         ] {
-            assert_eq!(legible(OsStr::from_bytes(name)), text);
+            assert_eq!(legible_path_text(OsStr::from_bytes(name)), text);
         }
     }
 

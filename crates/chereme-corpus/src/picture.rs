@@ -1,10 +1,10 @@
 //! Pictures of stored movement and of inventories, drawn without a window.
 
 mod atomic_write;
-mod faces;
-mod points;
+mod picture_faces;
+mod picture_points;
+pub mod picture_values;
 mod svg;
-pub mod values;
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -12,63 +12,63 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_figure::{
-    Animation, AnimationOptions, Caption, FigureError, HandshapeOptions, SheetOptions, Strip,
-    Theme, View, contact_sheet, handshape_picture, handshape_sheet, write_gif, write_png,
+    AnimationCaption, AnimationOptions, AnimationStrip, ClipAnimation, FigureError, FigureView, HandshapeOptions,
+    PaperTheme, SheetOptions, contact_sheet, handshape_picture, handshape_sheet, write_gif, write_png,
 };
-use chereme_motion::anatomy::Anatomy;
-use chereme_motion::{Clip, Face, Instant, Side, Span};
-use chereme_sign::hamnosys::{Symbol, drawing};
+use chereme_motion::anatomy::BodyAnatomy;
+use chereme_motion::{BodySide, Clip, FacePosture, RecordingInstant, TimeSpan};
+use chereme_sign::hamnosys::{HamnosysSymbol, drawing};
 use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, Address, Stretch};
-use crate::animate::Staging;
+use crate::address::{self, CorpusAddress, RecordingStretch};
+use crate::animate::NotationStaging;
 use crate::curves;
-use crate::db::{recordings, seals, signs};
-use crate::error::{Error, Result};
+use crate::db::{seals, signs, stored_recordings};
+use crate::error::{CorpusError, CorpusResult};
 use crate::face;
-use crate::film::{Shape, write_film};
+use crate::film::{WrittenFilmShape, write_film};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
-use crate::notation::{self, Notation};
-use crate::progress::{Progress, Step, Unit};
-use crate::recombine::Recombination;
-use crate::sources::notation::own_body;
+use crate::notation::{self, TokenNotation};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::recombine::RecombinationResult;
+use crate::sources::sources_notation::own_body;
 
-use atomic_write::extension;
-pub(crate) use atomic_write::write;
+use atomic_write::lowercase_extension;
+pub(crate) use atomic_write::write_atomically;
 pub(crate) use svg::write_svg;
 
 /// The height of a film in pixels, and its pictures per second.
-const FILM: usize = 540;
+const FILM_HEIGHT_PX: usize = 540;
 const FILM_RATE: u32 = 25;
 /// The longest stretch that is drawn, in microseconds: all of its movement is in memory.
-const LONGEST: i64 = 1_200_000_000;
+const MAX_DRAWN_STRETCH_US: i64 = 1_200_000_000;
 
 /// Returns a span if all of it can be drawn.
-fn drawable(span: Span) -> Result<Span> {
-    if span.micros() <= LONGEST {
+fn drawable(span: TimeSpan) -> CorpusResult<TimeSpan> {
+    if span.span_micros() <= MAX_DRAWN_STRETCH_US {
         return Ok(span);
     }
-    Err(Error::wrong(format!(
+    Err(CorpusError::from_wrong_message(format!(
         "the movement lasts {:.0} s, and at most {} s can be drawn at once",
-        span.seconds(),
-        LONGEST / 1_000_000
+        span.span_seconds(),
+        MAX_DRAWN_STRETCH_US / 1_000_000
     ))
-    .advise("name an annotation or a token of it, or store a part of it with a recipe: `| span 0s..600s`"))
+    .with_advice("name an annotation or a token of it, or store a part of it with a recipe: `| span 0s..600s`"))
 }
 
 /// The inventory name for the symbols of HamNoSys.
-const SYMBOLS: &str = "hamnosys";
+const HAMNOSYS_SYMBOL_INVENTORY: &str = "hamnosys";
 /// The inventory name for the faces of SiGML's non-manuals.
-const FACES: &str = "faces";
+const SIGML_FACE_INVENTORY: &str = "faces";
 /// The size in pixels up to which a handshape is drawn in the style for small sizes.
 const SMALL_HAND: usize = 160;
 /// The height of one picture of movement, in pixels.
-const HEIGHT: usize = 260;
+const MOVEMENT_PICTURE_HEIGHT_PX: usize = 260;
 /// The height of a notation symbol, in pixels of a scalable picture.
-const SYMBOL: f32 = 64.0;
+const NOTATION_SYMBOL_HEIGHT_PX: f32 = 64.0;
 
 /// Options for drawing a picture.
 #[derive(Debug, Clone)]
@@ -109,7 +109,7 @@ impl Default for PictureOptions {
 
 /// A picture that was drawn.
 #[derive(Debug, Clone, Serialize)]
-pub struct Picture {
+pub struct DrawnPicture {
     /// The file.
     pub path: PathBuf,
     /// Its subject.
@@ -128,30 +128,30 @@ pub struct Picture {
 
 /// A piece of movement with the data needed to display it.
 #[derive(Debug, Clone)]
-pub struct Moving {
+pub struct DisplayedMovement {
     /// Its stretch of a recording.
-    pub stretch: Stretch,
+    pub stretch: RecordingStretch,
     /// The movement in metres and model space.
     pub clip: Clip,
     /// The body part of each joint.
-    pub anatomy: Anatomy,
+    pub anatomy: BodyAnatomy,
     /// The face in each frame, if curves of non-manuals give it; otherwise empty.
-    pub faces: Vec<Face>,
+    pub faces: Vec<FacePosture>,
 }
 
 /// Movement in the form for drawing.
 #[derive(Debug, Clone, Copy)]
-pub struct Performance<'a> {
+pub struct DrawablePerformance<'a> {
     /// The movement.
     pub clip: &'a Clip,
     /// The body part of each joint.
-    pub anatomy: &'a Anatomy,
+    pub anatomy: &'a BodyAnatomy,
     /// The face in each frame; frames beyond them have a face at rest.
-    pub faces: &'a [Face],
+    pub faces: &'a [FacePosture],
 }
 
-impl<'a> From<&'a Moving> for Performance<'a> {
-    fn from(moving: &'a Moving) -> Self {
+impl<'a> From<&'a DisplayedMovement> for DrawablePerformance<'a> {
+    fn from(moving: &'a DisplayedMovement) -> Self {
         Self {
             clip: &moving.clip,
             anatomy: &moving.anatomy,
@@ -160,8 +160,8 @@ impl<'a> From<&'a Moving> for Performance<'a> {
     }
 }
 
-impl<'a> From<&'a Recombination> for Performance<'a> {
-    fn from(made: &'a Recombination) -> Self {
+impl<'a> From<&'a RecombinationResult> for DrawablePerformance<'a> {
+    fn from(made: &'a RecombinationResult) -> Self {
         Self {
             clip: &made.clip,
             anatomy: &made.anatomy,
@@ -174,7 +174,7 @@ impl<'a> From<&'a Recombination> for Performance<'a> {
 ///
 /// # Errors
 /// Fails if the program's own file is damaged.
-pub fn built_in_body() -> Result<(Clip, Arc<Anatomy>)> {
+pub fn built_in_body() -> CorpusResult<(Clip, Arc<BodyAnatomy>)> {
     let body = own_body()?;
     Ok((body.clip, body.anatomy))
 }
@@ -184,41 +184,41 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if nothing has that address, if several things have it, or if it has no movement.
-    pub fn movement(&self, address: &Address) -> Result<Moving> {
-        self.movement_in(address, None, &ChannelGroup::ALL)
+    pub fn movement_at_address(&self, address: &CorpusAddress) -> CorpusResult<DisplayedMovement> {
+        self.movement_in(address, None, &ChannelGroup::ALL_CHANNEL_GROUPS)
     }
 
     /// Returns part of the movement at an address: a span of the recording, and some channel groups; joints of other
     /// groups stay at rest.
     ///
     /// # Errors
-    /// As [`movement`](Self::movement).
+    /// As [`movement`](Self::movement_at_address).
     pub fn movement_in(
         &self,
-        address: &Address,
-        span: Option<Span>,
+        address: &CorpusAddress,
+        span: Option<TimeSpan>,
         groups: &[ChannelGroup],
-    ) -> Result<Moving> {
-        let connection = self.store.read();
-        let mut stretch = address::stretch(connection, address)?;
+    ) -> CorpusResult<DisplayedMovement> {
+        let connection = self.store.read_connection();
+        let mut stretch = address::find_addressed_stretch(connection, address)?;
         stretch.span = match span {
-            Some(span) => stretch.span.intersection(span).unwrap_or_default(),
+            Some(span) => stretch.span.span_intersection(span).unwrap_or_default(),
             None => stretch.span,
         };
-        if let Some(moving) = face::stage::moving(connection, &stretch)? {
+        if let Some(moving) = face::face_stage::load_moving_face(connection, &stretch)? {
             return Ok(moving);
         }
-        let track = MotionTrack::of(connection, stretch.recording.id)?;
+        let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
         let frames = track.frames_in(stretch.span);
-        let clip = track.clip(connection, frames.clone(), groups)?;
+        let clip = track.read_motion_clip(connection, frames.clone(), groups)?;
         // A word is mouthed over its whole curve, even if only a part of it is displayed.
-        let curves = curves::of_track(connection, &track, 0..track.frames())?;
-        let faces = chereme_compose::faces(&curves);
-        let faces = faces.get(frames).map(<[Face]>::to_vec).unwrap_or_default();
-        Ok(Moving {
+        let curves = curves::of_track(connection, &track, 0..track.motion_frame_count())?;
+        let all_faces = chereme_compose::faces_from_curves(&curves);
+        let faces = all_faces.get(frames).map(<[FacePosture]>::to_vec).unwrap_or_default();
+        Ok(DisplayedMovement {
             clip,
             faces,
-            anatomy: track.anatomy(connection)?,
+            anatomy: track.track_anatomy(connection)?,
             stretch,
         })
     }
@@ -229,21 +229,21 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is nothing to draw, the file has another ending, or it exists already.
-    pub fn draw(
+    pub fn draw_movement_file(
         &mut self,
-        address: &Address,
+        address: &CorpusAddress,
         to: &Path,
         options: &PictureOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Picture> {
-        let connection = self.store.read();
-        if extension(to) == "svg" {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DrawnPicture> {
+        let connection = self.store.read_connection();
+        if lowercase_extension(to) == "svg" {
             return self.draw_symbols(address, to, options.force, progress);
         }
-        let stretch = match address::stretch(connection, address) {
+        let stretch = match address::find_addressed_stretch(connection, address) {
             Ok(stretch) => stretch,
             Err(error) => {
-                let Ok(notated) = notation::find(connection, address) else {
+                let Ok(notated) = notation::find_address_notation(connection, address) else {
                     return Err(error);
                 };
                 return self.draw_notated(&notated, to, options, progress);
@@ -252,20 +252,20 @@ impl Corpus {
         verify_stretch(connection, &stretch)?;
         let span = drawable(self.usable_span(&stretch)?)?;
         // A face from points on film is shown on the program's own body.
-        let own = options.face && face::has_face(connection, stretch.recording.id)?;
-        if !own
-            && recordings::body_track(connection, stretch.recording.id)?.is_none()
-            && let Some(points) = points::of(connection, &stretch, span)?
+        let has_own_face = options.face && face::has_face(connection, stretch.recording.id)?;
+        if !has_own_face
+            && stored_recordings::body_track(connection, stretch.recording.id)?.is_none()
+            && let Some(points) = picture_points::first_point_track(connection, &stretch, span)?
         {
-            return points::draw(&points, &title(&stretch), to, options, progress);
+            return picture_points::draw_points_file(&points, &stretch_title(&stretch), to, options, progress);
         }
-        let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
-        let title = title(&moving.stretch);
+        let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+        let title = stretch_title(&moving.stretch);
         let captions = match options.captions {
             true => self.captions(&moving.stretch)?,
             false => Vec::new(),
         };
-        let scene = Scene {
+        let scene = SideBySideScene {
             performance: (&moving).into(),
             title: &title,
             captions,
@@ -277,39 +277,39 @@ impl Corpus {
     /// and a shorter one holds its last picture.
     ///
     /// # Errors
-    /// As [`draw`](Self::draw); also fails if one of them has no movement, or the file has another ending.
+    /// As [`draw_movement_file`](Self::draw_movement_file); also fails if one of them has no movement, or the file has another ending.
     pub fn draw_together(
         &mut self,
-        addresses: &[Address],
+        addresses: &[CorpusAddress],
         to: &Path,
         options: &PictureOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Picture> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DrawnPicture> {
         if let [one] = addresses {
-            return self.draw(one, to, options, progress);
+            return self.draw_movement_file(one, to, options, progress);
         }
-        if !matches!(extension(to).as_str(), "gif" | "mp4") {
+        if !matches!(lowercase_extension(to).as_str(), "gif" | "mp4") {
             return Err(
-                Error::wrong("such a picture shows one movement, and several are named")
-                    .at(to.display().to_string())
-                    .advise("several movements are drawn next to each other to an .mp4 or a .gif"),
+                CorpusError::from_wrong_message("such a picture shows one movement, and several are named")
+                    .with_error_place(to.display().to_string())
+                    .with_advice("several movements are drawn next to each other to an .mp4 or a .gif"),
             );
         }
         let mut all = Vec::with_capacity(addresses.len());
         for address in addresses {
-            let stretch = address::stretch(self.store.read(), address)?;
-            verify_stretch(self.store.read(), &stretch)?;
+            let stretch = address::find_addressed_stretch(self.store.read_connection(), address)?;
+            verify_stretch(self.store.read_connection(), &stretch)?;
             let span = drawable(self.usable_span(&stretch)?)?;
-            let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
+            let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
             let captions = match options.captions {
                 true => self.captions(&moving.stretch)?,
                 false => Vec::new(),
             };
-            all.push((title(&moving.stretch), captions, moving));
+            all.push((stretch_title(&moving.stretch), captions, moving));
         }
-        let scenes: Vec<Scene<'_>> = all
+        let scenes: Vec<SideBySideScene<'_>> = all
             .iter()
-            .map(|(title, captions, moving)| Scene {
+            .map(|(title, captions, moving)| SideBySideScene {
                 performance: moving.into(),
                 title,
                 captions: captions.clone(),
@@ -319,25 +319,25 @@ impl Corpus {
     }
 
     /// Returns the glosses in a stretch as captions, on the clock of its movement.
-    fn captions(&self, stretch: &Stretch) -> Result<Vec<Caption>> {
-        let from = stretch.span.start().micros();
-        let caption = |text: &str, span: Span| Caption {
-            span: span.shifted(-from),
+    fn captions(&self, stretch: &RecordingStretch) -> CorpusResult<Vec<AnimationCaption>> {
+        let from = stretch.span.span_start_instant().instant_micros();
+        let caption = |text: &str, span: TimeSpan| AnimationCaption {
+            span: span.shifted_span(-from),
             text: text.to_owned(),
         };
         if let Some(token) = &stretch.token {
             // The last picture may lie a fraction of a frame later, and is held.
-            let end = stretch.span.end().shifted(1_000_000);
-            let whole = Span::between(stretch.span.start(), end);
-            return Ok(vec![caption(&token.gloss, whole)]);
+            let end = stretch.span.span_end_instant().shifted_instant(1_000_000);
+            let full_span = TimeSpan::span_between(stretch.span.span_start_instant(), end);
+            return Ok(vec![caption(&token.gloss, full_span)]);
         }
-        let tokens = signs::tokens_of_recording(self.store.read(), stretch.recording.id)?;
+        let tokens = signs::tokens_of_recording(self.store.read_connection(), stretch.recording.id)?;
         let numbers: Vec<i64> = tokens.iter().map(|token| token.id).collect();
-        seals::verify_tokens(self.store.read(), &numbers)?;
+        seals::verify_tokens(self.store.read_connection(), &numbers)?;
         let spans = tokens.iter().filter_map(|token| {
             let (start, end) = (token.start_us?, token.end_us?);
-            let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
-            let within = span.intersection(stretch.span)?;
+            let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+            let within = span.span_intersection(stretch.span)?;
             Some(caption(&token.gloss, within))
         });
         Ok(spans.collect())
@@ -346,56 +346,57 @@ impl Corpus {
     /// Draws the symbols of a notation to an SVG: the stored notation, otherwise a transcription of the movement.
     fn draw_symbols(
         &self,
-        address: &Address,
+        address: &CorpusAddress,
         to: &Path,
         force: bool,
-        progress: &mut Progress<'_>,
-    ) -> Result<Picture> {
-        let connection = self.store.read();
-        let (title, text, transcribed) = match notation::find(connection, address) {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DrawnPicture> {
+        let connection = self.store.read_connection();
+        let (title, text, transcribed) = match notation::find_address_notation(connection, address) {
             Ok(found) => {
                 seals::verify_tokens(connection, &[found.token])?;
-                let text = found.text.unwrap_or_else(|| found.document.hamnosys().text);
+                let text = found.text.unwrap_or_else(|| found.document.hamnosys_text().text);
                 (found.document.gloss, text, false)
             }
             Err(error) => {
-                if let Ok(stretch) = address::stretch(connection, address) {
+                if let Ok(stretch) = address::find_addressed_stretch(connection, address) {
                     verify_stretch(connection, &stretch)?;
                 }
-                match self.transcribe(address, progress) {
+                match self.transcribe_movement(address, progress) {
                     Ok(written) => (written.gloss, written.hamnosys, true),
-                    Err(Error::Stopped) => return Err(Error::Stopped),
+                    Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
                     Err(_) => return Err(error),
                 }
             }
         };
-        let unknown = || Error::wrong("the notation holds what is no symbol").at(&title);
-        let symbols = drawing::drawn(&text).ok_or_else(unknown)?.len();
-        let picture = drawing::svg(&text, SYMBOL).ok_or_else(unknown)?;
-        Ok(Picture {
+        let unknown =
+            || CorpusError::from_wrong_message("the notation holds what is no symbol").with_error_place(&title);
+        let symbols = drawing::draw_hamnosys_text(&text).ok_or_else(unknown)?.len();
+        let picture = drawing::hamnosys_to_svg(&text, NOTATION_SYMBOL_HEIGHT_PX).ok_or_else(unknown)?;
+        Ok(DrawnPicture {
             transcribed,
-            ..written(&picture, &title, symbols, to, force)?
+            ..write_svg_picture(&picture, &title, symbols, to, force)?
         })
     }
 
     fn draw_notated(
         &mut self,
-        notated: &Notation,
+        notated: &TokenNotation,
         to: &Path,
         options: &PictureOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Picture> {
-        seals::verify_tokens(self.store.read(), &[notated.token])?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DrawnPicture> {
+        seals::verify_tokens(self.store.read_connection(), &[notated.token])?;
         let body = self.chosen_body()?;
         let name = format!("token:{}", notated.token);
-        let staging = Staging {
+        let staging = NotationStaging {
             signer: Some(&body),
             language: None,
         };
-        let done = self.animate(&[&name], &staging, None)?;
+        let done = self.animate_notation(&[&name], &staging, None)?;
         let title = &notated.document.gloss;
         let picture = draw_clip((&done).into(), title, to, options, progress)?;
-        Ok(Picture {
+        Ok(DrawnPicture {
             animated_on: Some(body),
             ..picture
         })
@@ -411,59 +412,60 @@ impl Corpus {
         &self,
         inventory: &str,
         value: Option<&str>,
-        side: Side,
+        side: BodySide,
         to: &Path,
         options: &PictureOptions,
-    ) -> Result<Picture> {
-        if inventory == SYMBOLS && value.is_none() {
-            if extension(to) != "svg" {
-                return Err(ending(to, "the symbols of HamNoSys are drawn to an .svg"));
+    ) -> CorpusResult<DrawnPicture> {
+        if inventory == HAMNOSYS_SYMBOL_INVENTORY && value.is_none() {
+            if lowercase_extension(to) != "svg" {
+                return Err(missing_ending_error(to, "the symbols of HamNoSys are drawn to an .svg"));
             }
-            let chart = drawing::chart();
-            return written(&chart, SYMBOLS, Symbol::all().len(), to, options.force);
+            let chart = drawing::symbol_chart_svg();
+            return write_svg_picture(
+                &chart,
+                HAMNOSYS_SYMBOL_INVENTORY,
+                HamnosysSymbol::all_symbols().len(),
+                to,
+                options.force,
+            );
         }
-        if inventory == FACES && value.is_none() {
-            return faces::draw(to, options);
+        if inventory == SIGML_FACE_INVENTORY && value.is_none() {
+            return picture_faces::draw_face_sheet(to, options);
         }
-        seals::verify_tables(self.store.read(), ["inventory", "inventory_value"])?;
-        let all = inventories::load(self.store.read())?;
-        let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
-        let stored = all
-            .iter()
-            .find(|it| it.inventory.id == inventory)
-            .ok_or_else(|| {
-                Error::wrong(format!("no inventory is called {inventory:?}"))
-                    .at(inventory)
-                    .advise(format!("the inventories are: {}", ids.join(", ")))
-            })?;
+        seals::verify_tables(self.store.read_connection(), ["inventory", "inventory_value"])?;
+        let all = inventories::load_all_inventories(self.store.read_connection())?;
+        let ids: Vec<&str> = all.iter().map(|row| row.inventory.id.as_str()).collect();
+        let stored = all.iter().find(|row| row.inventory.id == inventory).ok_or_else(|| {
+            CorpusError::from_wrong_message(format!("no inventory is called {inventory:?}"))
+                .with_error_place(inventory)
+                .with_advice(format!("the inventories are: {}", ids.join(", ")))
+        })?;
         let configurations = all
             .iter()
-            .find(|it| it.inventory.id == "configurations")
+            .find(|row| row.inventory.id == "configurations")
             .unwrap_or(stored);
-        let pose = |value: &chereme_sign::inventory::InventoryValue| {
-            value.hand_pose(&configurations.inventory)
-        };
+        let pose = |value: &chereme_sign::inventory::InventoryValue| value.hand_pose(&configurations.inventory);
         let usual = HandshapeOptions::default();
         let size = options.height.unwrap_or(usual.size);
-        let shape = if size <= SMALL_HAND {
-            HandshapeOptions::small(size)
+        let base_shape = if size <= SMALL_HAND {
+            HandshapeOptions::with_small_size(size)
         } else {
             HandshapeOptions { size, ..usual }
         };
-        let shape = HandshapeOptions { side, ..shape };
+        let shape = HandshapeOptions { side, ..base_shape };
         let (image, title, frames) = match value {
             Some(text) => {
-                let found = stored.inventory.find(text);
-                let found = found.and_then(|value| Some((value.id.clone(), pose(value)?)));
-                let (id, angles) = found.ok_or_else(|| {
-                    Error::wrong(format!("{inventory:?} has no handshape {text:?}"))
-                        .at(text)
-                        .advise(format!(
+                let named_value = stored.inventory.find_inventory_value(text);
+                let value_pose = named_value.and_then(|value| Some((value.id.clone(), pose(value)?)));
+                let (id, angles) = value_pose.ok_or_else(|| {
+                    CorpusError::from_wrong_message(format!("{inventory:?} has no handshape {text:?}"))
+                        .with_error_place(text)
+                        .with_advice(format!(
                             "near to it: {}",
-                            stored.inventory.suggest(text).join(", ")
+                            stored.inventory.suggest_value_ids(text).join(", ")
                         ))
                 })?;
-                (handshape_picture(&angles, &shape).map_err(figure)?, id, 1)
+                (handshape_picture(&angles, &shape).map_err(picture_figure_error)?, id, 1)
             }
             None => {
                 let posed: Vec<_> = stored
@@ -473,55 +475,55 @@ impl Corpus {
                     .filter_map(|value| Some((value.id.clone(), pose(value)?)))
                     .collect();
                 if posed.is_empty() {
-                    return Err(Error::wrong(format!(
+                    return Err(CorpusError::from_wrong_message(format!(
                         "the values of {inventory:?} have no handshapes"
                     ))
-                    .at(inventory)
-                    .advise("draw the inventory configurations"));
+                    .with_error_place(inventory)
+                    .with_advice("draw the inventory configurations"));
                 }
-                let image = handshape_sheet(&posed, 10, &shape).map_err(figure)?;
+                let image = handshape_sheet(&posed, 10, &shape).map_err(picture_figure_error)?;
                 (image, inventory.to_owned(), posed.len())
             }
         };
-        if extension(to) != "png" {
-            return Err(ending(to, "a handshape is drawn to a .png"));
+        if lowercase_extension(to) != "png" {
+            return Err(missing_ending_error(to, "a handshape is drawn to a .png"));
         }
-        let bytes = write(to, options.force, |out| {
-            write_png(&image, out).map_err(figure)
+        let bytes = write_atomically(to, options.force, |out| {
+            write_png(&image, out).map_err(picture_figure_error)
         })?;
         Ok(picture_report(to, &title, bytes, frames))
     }
 }
 
 /// Writes a picture in SVG.
-fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -> Result<Picture> {
-    let bytes = write(to, force, |out| {
+fn write_svg_picture(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -> CorpusResult<DrawnPicture> {
+    let bytes = write_atomically(to, force, |out| {
         out.write_all(picture.as_bytes())
-            .map_err(|error| Error::file(to, error))
+            .map_err(|error| CorpusError::from_file_failure(to, error))
     })?;
     Ok(picture_report(to, title, bytes, symbols))
 }
 
-/// Draws a clip to a file; see [`Corpus::draw`].
+/// Draws a clip to a file; see [`Corpus::draw_movement_file`].
 ///
 /// # Errors
-/// As [`Corpus::draw`].
+/// As [`Corpus::draw_movement_file`].
 pub fn draw_clip(
-    performance: Performance<'_>,
+    performance: DrawablePerformance<'_>,
     title: &str,
     to: &Path,
     options: &PictureOptions,
-    progress: &mut Progress<'_>,
-) -> Result<Picture> {
-    let whole = performance.clip.span();
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<DrawnPicture> {
+    let full_span = performance.clip.clip_span();
     let captions = match options.captions {
-        true => vec![Caption {
-            span: whole,
+        true => vec![AnimationCaption {
+            span: full_span,
             text: title.to_owned(),
         }],
         false => Vec::new(),
     };
-    let scene = Scene {
+    let scene = SideBySideScene {
         performance,
         title,
         captions,
@@ -530,27 +532,27 @@ pub fn draw_clip(
 }
 
 /// A movement that is drawn beside others.
-struct Scene<'a> {
-    performance: Performance<'a>,
+struct SideBySideScene<'a> {
+    performance: DrawablePerformance<'a>,
     title: &'a str,
-    captions: Vec<Caption>,
+    captions: Vec<AnimationCaption>,
 }
 
 fn draw_scenes(
-    scenes: &[Scene<'_>],
+    scenes: &[SideBySideScene<'_>],
     to: &Path,
     options: &PictureOptions,
-    progress: &mut Progress<'_>,
-) -> Result<Picture> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<DrawnPicture> {
     let mut report = |done: usize, total: usize| {
-        progress.report(Step {
+        progress.report_step(ProgressStep {
             task: "drawing",
             done: done as u64,
             total: Some(total as u64),
-            unit: Unit::Frames,
+            unit: ProgressUnit::Frames,
         })
     };
-    let kind = extension(to);
+    let kind = lowercase_extension(to);
     let (bytes, frames) = match (kind.as_str(), scenes) {
         ("png", [scene]) => {
             let mut hear = |done: usize, total: usize| match report(done, total) {
@@ -560,32 +562,32 @@ fn draw_scenes(
             sheet(scene, to, options, &mut hear)?
         }
         ("gif", _) => {
-            let height = options.height.unwrap_or(HEIGHT);
-            let mut strip = strip(scenes, options, (height, None))?;
+            let height = options.height.unwrap_or(MOVEMENT_PICTURE_HEIGHT_PX);
+            let mut strip = side_by_side_strip(scenes, options, (height, None))?;
             let mut hear = |done: usize, total: usize| match report(done, total) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             };
-            let frames = chereme_figure::Pictures::frames(&strip);
-            let bytes = write(to, options.force, |out| {
-                write_gif(&mut strip, out, &mut hear).map_err(figure)
+            let frames = chereme_figure::PictureSequence::picture_count(&strip);
+            let bytes = write_atomically(to, options.force, |out| {
+                write_gif(&mut strip, out, &mut hear).map_err(picture_figure_error)
             })?;
             (bytes, frames)
         }
         ("mp4", _) => {
             let rate = options.rate.clamp(1, 120);
-            let height = options.height.unwrap_or(FILM);
-            let mut strip = strip(scenes, options, (height, Some(rate)))?;
-            let shape = Shape { rate };
+            let height = options.height.unwrap_or(FILM_HEIGHT_PX);
+            let mut strip = side_by_side_strip(scenes, options, (height, Some(rate)))?;
+            let shape = WrittenFilmShape { rate };
             let mut frames = 0;
-            let bytes = write(to, options.force, |out| {
+            let bytes = write_atomically(to, options.force, |out| {
                 frames = write_film(&mut strip, shape, out, &mut report)?;
                 Ok(())
             })?;
             (bytes, frames)
         }
         _ => {
-            return Err(ending(
+            return Err(missing_ending_error(
                 to,
                 "write a contact sheet to .png, an animation to .gif, a film to .mp4, or the notation to .svg",
             ));
@@ -597,23 +599,19 @@ fn draw_scenes(
 
 /// Draws a contact sheet, and returns its size in bytes and the number of pictures.
 fn sheet(
-    scene: &Scene<'_>,
+    scene: &SideBySideScene<'_>,
     to: &Path,
     options: &PictureOptions,
-    hear: chereme_figure::Progress<'_>,
-) -> Result<(u64, usize)> {
-    let Performance {
-        clip,
-        anatomy,
-        faces,
-    } = scene.performance;
+    hear: chereme_figure::PictureProgress<'_>,
+) -> CorpusResult<(u64, usize)> {
+    let DrawablePerformance { clip, anatomy, faces } = scene.performance;
     let mut sheet = SheetOptions {
         title: scene.title.to_owned(),
-        frames: chereme_figure::Frames::Spaced(options.frames),
-        cell_height: options.height.unwrap_or(HEIGHT),
+        frames: chereme_figure::SheetFrames::Spaced(options.frames),
+        cell_height: options.height.unwrap_or(MOVEMENT_PICTURE_HEIGHT_PX),
         ..SheetOptions::default()
     };
-    if options.hands && Side::BOTH.iter().any(|&side| anatomy.has_fingers(side)) {
+    if options.hands && BodySide::BOTH_SIDES.iter().any(|&side| anatomy.has_fingers(side)) {
         sheet = sheet.with_hands();
     }
     if options.hands {
@@ -624,33 +622,29 @@ fn sheet(
     if options.face {
         sheet = sheet.with_face_row();
     }
-    let image = contact_sheet(clip, anatomy, &sheet, hear).map_err(figure)?;
-    let bytes = write(to, options.force, |out| {
-        write_png(&image, out).map_err(figure)
+    let image = contact_sheet(clip, anatomy, &sheet, hear).map_err(picture_figure_error)?;
+    let bytes = write_atomically(to, options.force, |out| {
+        write_png(&image, out).map_err(picture_figure_error)
     })?;
-    Ok((bytes, options.frames.min(clip.frames())))
+    Ok((bytes, options.frames.min(clip.clip_frame_count())))
 }
 
 /// Returns the pictures of movements side by side: a single one from two sides, several each from the front.
-fn strip<'a>(
-    scenes: &[Scene<'a>],
+fn side_by_side_strip<'a>(
+    scenes: &[SideBySideScene<'a>],
     options: &PictureOptions,
     (height, rate): (usize, Option<u32>),
-) -> Result<Strip<'a>> {
+) -> CorpusResult<AnimationStrip<'a>> {
     let mut views = match scenes {
-        [_] => vec![View::Addressee, View::Left],
-        _ => vec![View::Addressee],
+        [_] => vec![FigureView::Addressee, FigureView::Left],
+        _ => vec![FigureView::Addressee],
     };
     if options.face {
-        views.push(View::Face);
+        views.push(FigureView::Face);
     }
     let mut cells = Vec::with_capacity(scenes.len());
     for scene in scenes {
-        let Performance {
-            clip,
-            anatomy,
-            faces,
-        } = scene.performance;
+        let DrawablePerformance { clip, anatomy, faces } = scene.performance;
         let settings = AnimationOptions {
             views: views.clone(),
             height,
@@ -659,36 +653,36 @@ fn strip<'a>(
             faces: faces.to_vec(),
             ..AnimationOptions::default()
         };
-        let animation = Animation::new(clip, anatomy, settings).map_err(figure)?;
+        let animation = ClipAnimation::new(clip, anatomy, settings).map_err(picture_figure_error)?;
         cells.push((animation, scene.captions.clone()));
     }
-    Strip::new(cells, Theme::Light).map_err(figure)
+    AnimationStrip::new(cells, PaperTheme::Light).map_err(picture_figure_error)
 }
 
 /// Fails if the rows that a picture of a stretch shows are not as they were stored.
-fn verify_stretch(connection: &Connection, stretch: &Stretch) -> Result<()> {
+fn verify_stretch(connection: &Connection, stretch: &RecordingStretch) -> CorpusResult<()> {
     let tokens: Vec<i64> = stretch.token.iter().map(|token| token.id).collect();
     seals::verify_tokens(connection, &tokens)?;
     seals::verify_recordings(connection, &[stretch.recording.id])
 }
 
-fn title(stretch: &Stretch) -> String {
-    let start = |at: Instant| format!("{:.2}", at.seconds());
+fn stretch_title(stretch: &RecordingStretch) -> String {
+    let start = |at: RecordingInstant| format!("{:.2}", at.instant_seconds());
     match &stretch.token {
         Some(token) => format!(
             "{} - {} {}-{} s",
             token.gloss,
             stretch.recording.name,
-            start(stretch.span.start()),
-            start(stretch.span.end())
+            start(stretch.span.span_start_instant()),
+            start(stretch.span.span_end_instant())
         ),
         None => stretch.recording.name.clone(),
     }
 }
 
 /// Returns the report of a picture of stored movement or of an inventory.
-fn picture_report(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
-    Picture {
+fn picture_report(to: &Path, title: &str, bytes: u64, frames: usize) -> DrawnPicture {
+    DrawnPicture {
         path: to.to_owned(),
         title: title.to_owned(),
         bytes,
@@ -698,15 +692,15 @@ fn picture_report(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture 
     }
 }
 
-fn ending(path: &Path, advice: &str) -> Error {
-    Error::wrong("the picture's name has no ending that says its kind")
-        .at(path.display().to_string())
-        .advise(advice)
+fn missing_ending_error(path: &Path, advice: &str) -> CorpusError {
+    CorpusError::from_wrong_message("the picture's name has no ending that says its kind")
+        .with_error_place(path.display().to_string())
+        .with_advice(advice)
 }
 
-fn figure(error: FigureError) -> Error {
+fn picture_figure_error(error: FigureError) -> CorpusError {
     match error {
-        FigureError::Stopped { .. } => Error::Stopped,
-        other => Error::wrong(other.to_string()),
+        FigureError::Stopped { .. } => CorpusError::Stopped,
+        other => CorpusError::from_wrong_message(other.to_string()),
     }
 }

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 
 /// The current state of long work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Step<'a> {
+pub struct ProgressStep<'a> {
     /// The current task, such as a file's name.
     pub task: &'a str,
     /// The amount that is done.
@@ -14,12 +14,12 @@ pub struct Step<'a> {
     /// The total amount, if it is known.
     pub total: Option<u64>,
     /// The unit of the amounts.
-    pub unit: Unit,
+    pub unit: ProgressUnit,
 }
 
-/// Unit of the amounts in a [`Step`].
+/// Unit of the amounts in a [`ProgressStep`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
+pub enum ProgressUnit {
     /// Bytes of a file.
     Bytes,
     /// Frames of movement.
@@ -28,28 +28,28 @@ pub enum Unit {
     Items,
 }
 
-/// Receiver of every [`Step`], which decides whether to go on; stopping leaves the corpus unchanged.
-pub struct Progress<'a>(&'a mut dyn FnMut(Step<'_>) -> ControlFlow<()>);
+/// Receiver of every [`ProgressStep`], which decides whether to go on; stopping leaves the corpus unchanged.
+pub struct ProgressReceiver<'a>(&'a mut dyn FnMut(ProgressStep<'_>) -> ControlFlow<()>);
 
-impl<'a> Progress<'a> {
+impl<'a> ProgressReceiver<'a> {
     /// Returns progress that calls `hear` at each step.
-    pub fn new(hear: &'a mut dyn FnMut(Step<'_>) -> ControlFlow<()>) -> Self {
+    pub fn new(hear: &'a mut dyn FnMut(ProgressStep<'_>) -> ControlFlow<()>) -> Self {
         Self(hear)
     }
 
     /// Reports a step.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if the receiver asks to stop.
-    pub fn report(&mut self, step: Step<'_>) -> Result<()> {
+    /// [`CorpusError::Stopped`] if the receiver asks to stop.
+    pub fn report_step(&mut self, step: ProgressStep<'_>) -> CorpusResult<()> {
         match (self.0)(step) {
             ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Error::Stopped),
+            ControlFlow::Break(()) => Err(CorpusError::Stopped),
         }
     }
 }
 
 /// Ignores the step and never stops.
-pub fn unheard(_: Step<'_>) -> ControlFlow<()> {
+pub fn ignore_progress_step(_: ProgressStep<'_>) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }

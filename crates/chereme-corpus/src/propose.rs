@@ -3,33 +3,32 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_analysis::transcribe::FeatureKind;
-use chereme_formats::roles::Hands;
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::{Instant, Side, Span};
-use chereme_sign::hamnosys::Notated;
-use chereme_sign::hamnosys::components::Mapper;
-use chereme_sign::{Component, Field, HandRef, Phase, TierRole};
+use chereme_formats::roles::AnnotatedHands;
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
+use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::hamnosys::components::SignMapper;
+use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, TierRole};
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{Address, Name};
+use crate::address::{CorpusAddress, RowName};
 use crate::annotate::{
-    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, NewTier,
-    TierName,
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName,
 };
-use crate::db::columns::AnnotationOrigin;
-use crate::db::{recordings, tiers};
-use crate::error::{Error, Result};
-use crate::progress::{Progress, Step, Unit};
-use crate::search::{Hit, SearchOptions};
+use crate::db::stored_columns::AnnotationOrigin;
+use crate::db::{stored_recordings, stored_tiers};
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::search::{SearchHit, SearchOptions};
 use crate::transcribe::TranscribedFeature;
 use crate::words::effect::{AnnotationEffect, OperationEffect};
 
 /// Options of proposals: the components, and the tokens.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProposeOptions {
-    /// The components, of [`Proposed::COMPONENTS`].
-    pub components: Vec<Component>,
+    /// The components, of [`ProposalResult::READABLE_COMPONENTS`].
+    pub components: Vec<SignComponent>,
     /// The tokens; a token that already has a value for a component keeps it.
     pub scope: ProposeScope,
 }
@@ -40,16 +39,16 @@ pub enum ProposeScope {
     /// All of the corpus.
     All,
     /// Those of a recording.
-    Recording(Name),
+    Recording(RowName),
     /// Those of a recording that overlap a span.
-    Span(Name, Span),
+    Span(RowName, TimeSpan),
     /// A single one.
     Token(i64),
 }
 
 /// The result of a proposal.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Proposed {
+pub struct ProposalResult {
     /// The number of tokens that got values.
     pub tokens: u64,
     /// The number of annotations written.
@@ -63,50 +62,53 @@ pub struct Proposed {
     pub findings: Vec<String>,
 }
 
-impl Proposed {
+impl ProposalResult {
     /// The components that can be read from movement.
-    pub const COMPONENTS: [Component; 4] = [
-        Component::Configuration,
-        Component::Placement,
-        Component::Movement,
-        Component::Orientation,
+    pub const READABLE_COMPONENTS: [SignComponent; 4] = [
+        SignComponent::Configuration,
+        SignComponent::Placement,
+        SignComponent::Movement,
+        SignComponent::Orientation,
     ];
 }
 
 /// The suffix of the names of tiers with proposals.
-const SUFFIX: &str = " (proposed)";
+const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
 
 /// Returns the name of the tier that accepted values from a tier with proposals are moved to; `None` for other tiers.
 #[must_use]
 pub fn proposed_for(tier: &str) -> Option<&str> {
-    tier.strip_suffix(SUFFIX)
+    tier.strip_suffix(PROPOSAL_TIER_SUFFIX)
 }
 
 /// Returns the tier on which proposals are accepted, of all tiers of their recording: that of the same subject and hand, by
 /// preference the one with their name; `None` if it must be added.
 pub fn accepting_tier<'a>(
-    proposals: &tiers::TierRow,
-    all: impl Iterator<Item = &'a tiers::TierRow> + Clone,
-) -> Option<&'a tiers::TierRow> {
+    proposals: &stored_tiers::TierRow,
+    all: impl Iterator<Item = &'a stored_tiers::TierRow> + Clone,
+) -> Option<&'a stored_tiers::TierRow> {
     let name = proposed_for(&proposals.name);
-    let mut same = all.filter(|it| {
-        let alike = (&it.role, it.hand) == (&proposals.role, proposals.hand);
-        alike && proposed_for(&it.name).is_none()
+    let mut same = all.filter(|tier| {
+        let alike = (&tier.role, tier.hand) == (&proposals.role, proposals.hand);
+        alike && proposed_for(&tier.name).is_none()
     });
-    let named = same.clone().find(|it| Some(it.name.as_str()) == name);
+    let named = same.clone().find(|tier| Some(tier.name.as_str()) == name);
     named.or_else(|| same.next())
 }
 
 /// Returns the name of the tier for proposals of a field, such as `configuration dominant (proposed)`.
-pub(crate) fn proposal_tier(field: &Field) -> String {
-    let feature = field.feature.as_deref().map(|it| format!(".{it}"));
-    let hand = field.hand.map(|it| format!(" {}", it.name()));
+pub(crate) fn proposal_tier(field: &ComponentField) -> String {
+    let feature = field.feature.as_deref().map(|name| format!(".{name}"));
+    let hand = field.hand.map(|side| format!(" {}", side.hand_ref_name()));
     let (feature, hand) = (feature.unwrap_or_default(), hand.unwrap_or_default());
-    format!("{}{feature}{hand}{SUFFIX}", field.component.name())
+    format!(
+        "{}{feature}{hand}{PROPOSAL_TIER_SUFFIX}",
+        field.component.component_name()
+    )
 }
 
 /// A value of a token to be written.
-struct Value {
+struct ProposedValue {
     start: i64,
     end: i64,
     value: String,
@@ -114,10 +116,10 @@ struct Value {
 }
 
 /// The subject of a tier with proposals: a component, a feature of it, and the hand.
-type Subject = (Component, Option<String>, HandRef);
+type ProposalSubject = (SignComponent, Option<String>, HandRef);
 
 /// The values for each tier, by recording and subject.
-type Values = BTreeMap<(String, Subject), Vec<Value>>;
+type ProposedTierValues = BTreeMap<(String, ProposalSubject), Vec<ProposedValue>>;
 
 impl Corpus {
     /// Returns the scope that an address names: a recording, a token, or a bare name, which is a sign's citation form or,
@@ -125,39 +127,39 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the address names something else, or nothing in the corpus.
-    pub fn propose_scope(&self, address: &Address) -> Result<ProposeScope> {
+    pub fn propose_scope(&self, address: &CorpusAddress) -> CorpusResult<ProposeScope> {
         match address {
-            Address::Recording(name) => Ok(ProposeScope::Recording(name.clone())),
-            Address::Token(token) => Ok(ProposeScope::Token(*token)),
-            Address::Gloss(_) | Address::Sign(_) => {
-                let stretch = crate::address::stretch(self.store.read(), address)?;
+            CorpusAddress::Recording(name) => Ok(ProposeScope::Recording(name.clone())),
+            CorpusAddress::Token(token) => Ok(ProposeScope::Token(*token)),
+            CorpusAddress::Gloss(_) | CorpusAddress::Sign(_) => {
+                let stretch = crate::address::find_addressed_stretch(self.store.read_connection(), address)?;
                 Ok(match stretch.token {
                     Some(token) => ProposeScope::Token(token.id),
-                    None => ProposeScope::Recording(Name::Number(stretch.recording.id)),
+                    None => ProposeScope::Recording(RowName::Number(stretch.recording.id)),
                 })
             }
             other => Err(
-                Error::wrong(format!("{other} is no recording and no token"))
-                    .at(other.to_string())
-                    .advise("name one, such as recording:3 or token:41"),
+                CorpusError::from_wrong_message(format!("{other} is no recording and no token"))
+                    .with_error_place(other.to_string())
+                    .with_advice("name one, such as recording:3 or token:41"),
             ),
         }
     }
 
-    /// Proposes one component for every token of the corpus without a value for it, see [`propose`](Self::propose).
+    /// Proposes one component for every token of the corpus without a value for it, see [`propose_components`](Self::propose_components).
     ///
     /// # Errors
-    /// As [`propose`](Self::propose).
+    /// As [`propose_components`](Self::propose_components).
     pub fn propose_coding(
         &mut self,
-        component: Component,
-        progress: &mut Progress<'_>,
-    ) -> Result<Proposed> {
+        component: SignComponent,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<ProposalResult> {
         let options = ProposeOptions {
             components: vec![component],
             scope: ProposeScope::All,
         };
-        self.propose(&options, progress)
+        self.propose_components(&options, progress)
     }
 
     /// Reads components of tokens from their movement if they have no value for them, and writes the values onto tiers
@@ -165,42 +167,42 @@ impl Corpus {
     ///
     /// Each value is an annotation by a detector ([`AnnotationOrigin::Detector`]) with its confidence, so that a
     /// person's codings stay separate and another detector may replace it. All of it is one operation, which one undo
-    /// reverts. The values are those of [`transcribe`](Self::transcribe), expressed in the corpus's inventories.
+    /// reverts. The values are those of [`transcribe`](Self::transcribe_movement), expressed in the corpus's inventories.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if `progress` asks to stop before anything is written. Fails if a component cannot be read
+    /// [`CorpusError::Stopped`] if `progress` asks to stop before anything is written. Fails if a component cannot be read
     /// from movement, nothing has the name in the scope, or the corpus cannot be written.
-    pub fn propose(
+    pub fn propose_components(
         &mut self,
         options: &ProposeOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Proposed> {
-        let mut wanted: BTreeMap<i64, (Hit, BTreeSet<Component>)> = BTreeMap::new();
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<ProposalResult> {
+        let mut wanted: BTreeMap<i64, (SearchHit, BTreeSet<SignComponent>)> = BTreeMap::new();
         for &component in &options.components {
-            for hit in self.without(component, &options.scope, progress)? {
+            for hit in self.tokens_without_component(component, &options.scope, progress)? {
                 let entry = wanted.entry(hit.token);
                 let (_, components) = entry.or_insert_with(|| (hit, BTreeSet::new()));
                 components.insert(component);
             }
         }
-        let mut report = Proposed::default();
-        let mut values = Values::new();
+        let mut report = ProposalResult::default();
+        let mut values = ProposedTierValues::new();
         let mut unseen: BTreeSet<String> = BTreeSet::new();
         let mut still: BTreeSet<String> = BTreeSet::new();
         let total = Some(wanted.len() as u64);
         for (done, (hit, components)) in wanted.values().enumerate() {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: &hit.gloss,
                 done: done as u64,
                 total,
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             if let Some(recording) = self.still_take(hit)? {
                 still.insert(recording);
                 report.unread += 1;
                 continue;
             }
-            match self.read(components, hit, &mut unseen, progress) {
+            match self.read_token_components(components, hit, &mut unseen, progress) {
                 Ok(Some(read)) => {
                     report.tokens += 1;
                     let recording = hit.recording.clone().unwrap_or_default();
@@ -209,7 +211,7 @@ impl Corpus {
                         values.entry(key).or_default().push(value);
                     }
                 }
-                Err(Error::Stopped) => return Err(Error::Stopped),
+                Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
                 Ok(None) | Err(_) => report.unread += 1,
             }
         }
@@ -228,7 +230,7 @@ impl Corpus {
                 report.findings.push(format!("{why}: {}", names.join(", ")));
             }
         }
-        let (new, changes) = self.changes(values)?;
+        let (new, changes) = self.proposal_changes(values)?;
         report.annotations = changes.len() as u64;
         if !changes.is_empty() {
             let options = AnnotateOptions {
@@ -244,20 +246,22 @@ impl Corpus {
     }
 
     /// Returns the tokens of a scope that have no value for a component.
-    fn without(
+    fn tokens_without_component(
         &mut self,
-        component: Component,
+        component: SignComponent,
         scope: &ProposeScope,
-        progress: &mut Progress<'_>,
-    ) -> Result<Vec<Hit>> {
-        if !Proposed::COMPONENTS.contains(&component) {
-            let text = format!("{} is not read from movement yet", component.name());
-            let readable = Proposed::COMPONENTS.map(Component::name).join(", ");
-            return Err(Error::wrong(text).advise(format!("what can be proposed: {readable}")));
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<Vec<SearchHit>> {
+        if !ProposalResult::READABLE_COMPONENTS.contains(&component) {
+            let text = format!("{} is not read from movement yet", component.component_name());
+            let readable = ProposalResult::READABLE_COMPONENTS
+                .map(SignComponent::component_name)
+                .join(", ");
+            return Err(CorpusError::from_wrong_message(text).with_advice(format!("what can be proposed: {readable}")));
         }
         let name = match scope {
             ProposeScope::Recording(name) | ProposeScope::Span(name, _) => {
-                Some(crate::address::recording(self.store.read(), name)?.name)
+                Some(crate::address::find_recording_by_name(self.store.read_connection(), name)?.name)
             }
             ProposeScope::All | ProposeScope::Token(_) => None,
         };
@@ -266,9 +270,9 @@ impl Corpus {
             facets: false,
             ..SearchOptions::default()
         };
-        let query = format!("not {}=*", component.name());
-        let found = self.search_until(&query, &options, progress)?;
-        let is_in = |hit: &Hit| match scope {
+        let query = format!("not {}=*", component.component_name());
+        let answer = self.search_until(&query, &options, progress)?;
+        let is_in = |hit: &SearchHit| match scope {
             ProposeScope::All => true,
             ProposeScope::Token(token) => hit.token == *token,
             ProposeScope::Recording(_) => hit.recording == name,
@@ -276,21 +280,22 @@ impl Corpus {
                 let (Some(start), Some(end)) = (hit.start_us, hit.end_us) else {
                     return false;
                 };
-                let shares = start < span.end().micros() && end > span.start().micros();
+                let shares = start < span.span_end_instant().instant_micros()
+                    && end > span.span_start_instant().instant_micros();
                 hit.recording == name && shares
             }
         };
-        Ok(found.hits.into_iter().filter(is_in).collect())
+        Ok(answer.hits.into_iter().filter(is_in).collect())
     }
 
     /// Returns the recording of a token if no joint of its body turns.
-    fn still_take(&self, hit: &Hit) -> Result<Option<String>> {
-        let connection = self.store.read();
-        let Ok(stretch) = crate::address::stretch(connection, &Address::Token(hit.token)) else {
+    fn still_take(&self, hit: &SearchHit) -> CorpusResult<Option<String>> {
+        let connection = self.store.read_connection();
+        let Ok(stretch) = crate::address::find_addressed_stretch(connection, &CorpusAddress::Token(hit.token)) else {
             return Ok(None);
         };
         let recording = stretch.recording;
-        if recordings::body_track(connection, recording.id)?.is_none() {
+        if stored_recordings::body_track(connection, recording.id)?.is_none() {
             return Ok(None);
         }
         let take = crate::hands::usable_take(connection, &self.hands, &recording)?;
@@ -299,75 +304,71 @@ impl Corpus {
 
     /// Returns the values of components read from a token's movement, for each hand in order of time. A recording whose
     /// handshapes were not captured is added to `unseen`.
-    fn read(
+    fn read_token_components(
         &self,
-        components: &BTreeSet<Component>,
-        hit: &Hit,
+        components: &BTreeSet<SignComponent>,
+        hit: &SearchHit,
         unseen: &mut BTreeSet<String>,
-        progress: &mut Progress<'_>,
-    ) -> Result<Option<Vec<(Subject, Value)>>> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<Option<Vec<(ProposalSubject, ProposedValue)>>> {
         let Some((start, end)) = hit.start_us.zip(hit.end_us) else {
             return Ok(None);
         };
         let Some(recording) = &hit.recording else {
             return Ok(None);
         };
-        let address = Address::Token(hit.token);
-        let written = self.transcribe(&address, progress)?;
+        let address = CorpusAddress::Token(hit.token);
+        let written = self.transcribe_movement(&address, progress)?;
         let features = written.features;
         let inventories = self.inventories_now()?;
-        let stretch = crate::address::stretch(self.store.read(), &address)?;
-        let dominant = self.dominant(&stretch)?;
-        let left_handed = dominant == Side::Left;
-        let mapper = Mapper::new(inventories.iter().map(|stored| &stored.inventory))
-            .of_left_handed(left_handed);
-        let sign = Notated {
+        let stretch = crate::address::find_addressed_stretch(self.store.read_connection(), &address)?;
+        let dominant = self.dominant_side(&stretch)?;
+        let left_handed = dominant == BodySide::Left;
+        let mapper = SignMapper::new(inventories.iter().map(|stored| &stored.inventory)).of_left_handed(left_handed);
+        let sign = NotatedSign {
             gloss: written.gloss,
             text: Some(written.hamnosys),
             sign: written.sign,
-            ..Notated::default()
+            ..NotatedSign::default()
         };
-        let mut subjects: BTreeMap<Subject, Vec<(u32, String)>> = BTreeMap::new();
-        for value in mapper.map(&sign).values {
+        let mut subjects: BTreeMap<ProposalSubject, Vec<(u32, String)>> = BTreeMap::new();
+        for value in mapper.map_sign_components(&sign).values {
             let field = value.field;
-            let whole = field.feature.is_none() || field.component == Component::Orientation;
-            if !components.contains(&field.component) || !whole {
+            let is_covered = field.feature.is_none() || field.component == SignComponent::Orientation;
+            if !components.contains(&field.component) || !is_covered {
                 continue;
             }
             let hand = field.hand.unwrap_or(HandRef::Dominant);
             let side = match hand {
-                HandRef::Right => Side::Right,
-                HandRef::Left => Side::Left,
+                HandRef::Right => BodySide::Right,
+                HandRef::Left => BodySide::Left,
                 HandRef::Dominant => dominant,
-                HandRef::Weak => dominant.other(),
+                HandRef::Weak => dominant.opposite_side(),
             };
-            if field.component == Component::Configuration && written.assumed.contains(&side) {
+            if field.component == SignComponent::Configuration && written.assumed.contains(&side) {
                 unseen.insert(recording.clone());
                 continue;
             }
             let order = match field.phase {
-                None | Some(Phase::Initial) => 0,
-                Some(Phase::Middle(place)) => 1 + u32::from(place),
-                Some(Phase::Final) => u32::MAX,
+                None | Some(SignPhase::Initial) => 0,
+                Some(SignPhase::Middle(place)) => 1 + u32::from(place),
+                Some(SignPhase::Final) => u32::MAX,
             };
             let subject = (field.component, field.feature, hand);
-            subjects
-                .entry(subject)
-                .or_default()
-                .push((order, value.value));
+            subjects.entry(subject).or_default().push((order, value.value));
         }
         let mut read = Vec::new();
         for (subject, mut values) in subjects {
             values.sort_by_key(|(order, _)| *order);
             values.dedup_by(|a, b| a.1 == b.1);
             let count = values.len() as i64;
-            let at = |part: i64| start + (end - start) * part / count;
+            let part_time = |part: i64| start + (end - start) * part / count;
             for (nth, (_, value)) in (0..).zip(values) {
-                let (start, end) = (at(nth), at(nth + 1));
-                let confidence = confidence(&features, &subject, count > 1, (start, end));
+                let (start, end) = (part_time(nth), part_time(nth + 1));
+                let confidence = proposal_confidence(&features, &subject, count > 1, (start, end));
                 read.push((
                     subject.clone(),
-                    Value {
+                    ProposedValue {
                         start,
                         end,
                         value,
@@ -387,42 +388,39 @@ impl Corpus {
     pub fn accept_proposals(
         &mut self,
         annotations: &[i64],
-        progress: &mut Progress<'_>,
-    ) -> Result<AnnotateReport> {
-        let connection = self.store.read();
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
+        let connection = self.store.read_connection();
         let (mut new, mut changes): (Vec<NewTier>, Vec<AnnotationChange>) = Default::default();
         for &id in annotations {
-            let row = tiers::annotation(connection, id)?;
-            let tier = tiers::tier(connection, row.tier_id)?;
+            let row = stored_tiers::load_annotation_row(connection, id)?;
+            let tier = stored_tiers::load_tier_row(connection, row.tier_id)?;
             let Some(name) = proposed_for(&tier.name) else {
                 let text = format!("annotation:{id} on \"{}\" is no proposal", tier.name);
-                return Err(Error::wrong(text)
-                    .advise("proposals lie on tiers whose names end in \"(proposed)\""));
+                return Err(CorpusError::from_wrong_message(text)
+                    .with_advice("proposals lie on tiers whose names end in \"(proposed)\""));
             };
-            let recording = Name::Number(tier.recording_id);
-            let all = tiers::tiers(connection, tier.recording_id)?;
-            let known = accepting_tier(&tier, all.iter());
-            let to = match known {
+            let recording = RowName::Number(tier.recording_id);
+            let all = stored_tiers::load_tier_rows(connection, tier.recording_id)?;
+            let known_tier = accepting_tier(&tier, all.iter());
+            let to = match known_tier {
                 Some(known) => known.name.clone(),
-                None if all.iter().any(|it| it.name == name) => format!("{name} (accepted)"),
+                None if all.iter().any(|row| row.name == name) => format!("{name} (accepted)"),
                 None => name.to_owned(),
             };
-            if known.is_none()
+            if known_tier.is_none()
                 && new
                     .iter()
-                    .all(|it| (&it.recording, &it.name) != (&recording, &to))
+                    .all(|new_tier| (&new_tier.recording, &new_tier.name) != (&recording, &to))
             {
                 let mut added = NewTier::new(recording.clone(), to.clone(), tier.role.clone());
                 added.hand = tier.hand;
                 new.push(added);
             }
-            let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+            let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
             changes.push(
                 AnnotationAction::Add {
-                    tier: TierName::Of {
-                        recording,
-                        tier: to,
-                    },
+                    tier: TierRequestName::Of { recording, tier: to },
                     start: time(row.start_us),
                     end: time(row.end_us),
                     parent: None,
@@ -448,14 +446,14 @@ impl Corpus {
     }
 
     /// Returns the annotations to add, and the tiers for them that recordings lack.
-    fn changes(&self, all: Values) -> Result<(Vec<NewTier>, Vec<AnnotationChange>)> {
+    fn proposal_changes(&self, all: ProposedTierValues) -> CorpusResult<(Vec<NewTier>, Vec<AnnotationChange>)> {
         let (mut tiers, mut changes) = (Vec::new(), Vec::new());
         for ((recording, (component, feature, hand)), mut values) in all {
-            let recording = Name::Text(recording);
-            let mut field = Field::new(component).on(hand);
+            let recording = RowName::Text(recording);
+            let mut field = ComponentField::new(component).with_field_hand(hand);
             field.feature.clone_from(&feature);
             let name = proposal_tier(&field);
-            let tier = TierName::Of {
+            let tier = TierRequestName::Of {
                 recording: recording.clone(),
                 tier: name.clone(),
             };
@@ -463,7 +461,7 @@ impl Corpus {
             if end.is_none() {
                 let role = TierRole::Component { component, feature };
                 let mut new = NewTier::new(recording, name, role);
-                new.hand = Some(Hands::One(hand));
+                new.hand = Some(AnnotatedHands::One(hand));
                 tiers.push(new);
             }
             values.sort_by_key(|value| value.start);
@@ -474,7 +472,7 @@ impl Corpus {
                     continue;
                 }
                 end = Some(value.end);
-                let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+                let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
                 changes.push(
                     AnnotationAction::Add {
                         tier: tier.clone(),
@@ -494,79 +492,69 @@ impl Corpus {
 
     /// Returns the end of the last annotation on a recording's tier, 0 if it has none; nothing if there is no such
     /// tier.
-    fn tier_end(&self, recording: &Name, tier: &str) -> Result<Option<i64>> {
-        let connection = self.store.read();
-        let recording = crate::address::recording(connection, recording)?;
-        let all = tiers::tiers(connection, recording.id)?;
-        let Some(tier) = all.into_iter().find(|it| it.name == tier) else {
+    fn tier_end(&self, recording: &RowName, tier: &str) -> CorpusResult<Option<i64>> {
+        let connection = self.store.read_connection();
+        let recording = crate::address::find_recording_by_name(connection, recording)?;
+        let all = stored_tiers::load_tier_rows(connection, recording.id)?;
+        let Some(tier) = all.into_iter().find(|row| row.name == tier) else {
             return Ok(None);
         };
-        let rows = tiers::annotations(connection, tier.id)?;
+        let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?;
         Ok(Some(rows.iter().map(|row| row.end_us).max().unwrap_or(0)))
     }
 }
 
 /// Returns the confidence of a value, from 0.5 to 1: the residual of the second best reading as a share of both. `None`
 /// if no feature of notation belongs to the value.
-fn confidence(
+fn proposal_confidence(
     features: &[TranscribedFeature],
-    (component, feature, _): &Subject,
+    (component, feature, _): &ProposalSubject,
     timed: bool,
     (start, end): (i64, i64),
 ) -> Option<f64> {
     let kinds: &[FeatureKind] = match (component, feature.as_deref()) {
-        (Component::Configuration, _) => &[FeatureKind::Handshape],
-        (Component::Placement, _) => &[FeatureKind::Location, FeatureKind::Contact],
-        (Component::Movement, _) => &[FeatureKind::Movement, FeatureKind::Course],
-        (Component::Orientation, Some("fingers")) => &[FeatureKind::Direction],
-        (Component::Orientation, _) => &[FeatureKind::Palm],
+        (SignComponent::Configuration, _) => &[FeatureKind::Handshape],
+        (SignComponent::Placement, _) => &[FeatureKind::Location, FeatureKind::Contact],
+        (SignComponent::Movement, _) => &[FeatureKind::Movement, FeatureKind::Course],
+        (SignComponent::Orientation, Some("fingers")) => &[FeatureKind::Direction],
+        (SignComponent::Orientation, _) => &[FeatureKind::Palm],
         _ => &[],
     };
-    let sure = |it: &TranscribedFeature| {
-        let (first, second) = (it.value.residual, it.runner_up.as_ref()?.residual);
+    let sure = |reading: &TranscribedFeature| {
+        let (first, second) = (reading.value.residual, reading.runner_up.as_ref()?.residual);
         let share = second / (first + second);
         share.is_finite().then_some(share.clamp(0.5, 1.0))
     };
-    let within = |it: &&TranscribedFeature| !timed || (it.at_us >= start && it.at_us < end);
-    let of_kind = features.iter().filter(|it| kinds.contains(&it.feature));
+    let within = |reading: &&TranscribedFeature| !timed || (reading.at_us >= start && reading.at_us < end);
+    let of_kind = features.iter().filter(|reading| kinds.contains(&reading.feature));
     let least = of_kind.filter(within).filter_map(sure).reduce(f64::min);
-    least.map(|it| (it * 1000.0).round() / 1000.0)
+    least.map(|value| (value * 1000.0).round() / 1000.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ImportOptions, unheard};
+    use crate::{ImportOptions, ignore_progress_step};
 
     #[test]
     fn a_scope_is_named_by_address_or_by_name_alone() {
         let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let files = ["bol.bvh", "bol.eaf", "phrase.bvh"].map(|name| own.join(name));
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
-                &files,
-                &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
-            )
+            .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
             .expect("taken in");
-        let phrase = corpus.movement(&"phrase".parse().expect("an address"));
+        let phrase = corpus.movement_at_address(&"phrase".parse().expect("an address"));
         let phrase = phrase.expect("movement").stretch.recording.id;
-        let text = |name: &str| Name::Text(name.to_owned());
+        let text = |name: &str| RowName::Text(name.to_owned());
         for (address, want) in [
             ("token:1", Some(ProposeScope::Token(1))),
             ("BOL", Some(ProposeScope::Token(1))),
             ("sign:BOL", Some(ProposeScope::Token(1))),
-            (
-                "phrase",
-                Some(ProposeScope::Recording(Name::Number(phrase))),
-            ),
-            (
-                "recording:phrase",
-                Some(ProposeScope::Recording(text("phrase"))),
-            ),
+            ("phrase", Some(ProposeScope::Recording(RowName::Number(phrase)))),
+            ("recording:phrase", Some(ProposeScope::Recording(text("phrase")))),
             ("nobody", None),
             ("tier:1", None),
         ] {

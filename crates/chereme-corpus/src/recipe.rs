@@ -3,6 +3,6 @@
 pub use chereme_compose::recipe::*;
 pub use chereme_compose::units::*;
 pub use chereme_compose::{
-    ChannelReport, JoinReport, PhaseRule, Problem, RecipeError, Report, Spline, StepReport,
+    ChannelReport, GenerationReport, JoinReport, MeasuredSpline, PhaseRule, RecipeError, RecipeTextProblem, StepReport,
     TextError,
 };

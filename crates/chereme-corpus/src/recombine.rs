@@ -1,55 +1,56 @@
 //! New signs from stored ones: evaluates a recipe, and stores the result with its movement, tiers and sources.
 
-mod again;
-mod draft;
-mod parts;
-mod phases;
+mod recombine_again;
+mod recombine_draft;
+mod recombine_parts;
+mod recombine_phases;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_compose::{
-    About, CueTier, ENGINE, Generated, Input, Note, Recipe, Report, Resolved, brief,
+    CueTier, ENGINE_VERSION, GeneratedMovement, GeneratedNote, GenerationReport, NoteSubject, Recipe, RecipeInput,
+    ResolvedRecipe, shorten_step_text,
 };
-use chereme_formats::bvh::convert;
-use chereme_formats::bvh::raw::{Column, Hierarchy};
-use chereme_motion::anatomy::Anatomy;
-use chereme_motion::{Clip, Convention, Face, Side};
-use chereme_sign::Remedy;
+use chereme_formats::bvh::bvh_convert;
+use chereme_formats::bvh::raw::{BvhHierarchy, Column};
+use chereme_motion::anatomy::BodyAnatomy;
+use chereme_motion::{BodySide, Clip, FacePosture, SpaceConvention};
+use chereme_sign::ErrorRemedy;
 use chereme_sign::inventory;
-use chereme_sign::tier::Hands;
-use chereme_sign::{Component, Field, Handedness, Reading, TierRole};
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{ComponentField, ComponentReading, SignComponent, SignerHandedness, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
+use crate::address::{self, CorpusAddress, RowName};
 use crate::curves;
-use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
-use crate::db::motion::hex;
 use crate::db::recipes::{self, RecipeRow};
-use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
 use crate::db::signs;
-use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::error::{Error, FailedStep, Result};
+use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
+use crate::db::stored_motion::to_hex_text;
+use crate::db::stored_recordings::{self, MotionTrackRow, RecordingRow};
+use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult, FailedStep};
 use crate::inventories::{self, StoredInventory};
 use crate::movement::{self, BLOCK_FRAMES, MotionTrack};
 use crate::sources::CorpusSources;
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
-pub(crate) use draft::Drafted;
-pub use parts::MadePart;
-pub(crate) use phases::{measured as measured_phases, store as store_phases};
+pub(crate) use recombine_draft::DraftedRecipe;
+pub use recombine_parts::MadePart;
+pub(crate) use recombine_phases::{measured_cue_phases as measured_phases, store_cue_phases as store_phases};
 
 /// The number of decimals of generated movement: a millionth of a degree, or of the file's unit.
-const DECIMALS: u8 = 6;
+const GENERATED_DECIMALS: u8 = 6;
 
 /// The result of evaluating a recipe, stored or not.
 #[derive(Debug, Clone, Serialize)]
-pub struct Recombination {
+pub struct RecombinationResult {
     /// The recipe as the corpus spells it.
     pub recipe: String,
     /// The gloss of the new sign.
@@ -70,7 +71,7 @@ pub struct Recombination {
     /// Findings about the notation from which it was generated.
     pub findings: Vec<NotationFinding>,
     /// The report of the evaluation.
-    pub report: Report,
+    pub report: GenerationReport,
     /// The report in words.
     #[serde(skip)]
     pub explanation: String,
@@ -79,13 +80,13 @@ pub struct Recombination {
     pub clip: Clip,
     /// The face in each frame, if non-manuals give it; otherwise empty.
     #[serde(skip)]
-    pub faces: Vec<Face>,
+    pub faces: Vec<FacePosture>,
     /// The body parts of the movement's joints.
     #[serde(skip)]
-    pub anatomy: std::sync::Arc<Anatomy>,
+    pub anatomy: std::sync::Arc<BodyAnatomy>,
     /// The signer's handedness.
     #[serde(skip)]
-    pub handedness: Handedness,
+    pub handedness: SignerHandedness,
     /// The pieces from which it was composed, in order, with their times in it.
     #[serde(skip)]
     pub parts: Vec<MadePart>,
@@ -99,7 +100,7 @@ pub struct TimedNote {
     /// The part of the component: `phase` of movement distinguishes strokes and holds.
     pub feature: Option<String>,
     /// The hand; nothing for signs and non-manuals.
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The gloss, or the component's value; `None` if it is unknown.
     pub value: Option<String>,
     /// Its start, in microseconds from the first frame.
@@ -122,7 +123,7 @@ pub struct NotationFinding {
     /// The oddity.
     pub message: String,
     /// The remedy, if there is one.
-    pub remedy: Option<Remedy>,
+    pub remedy: Option<ErrorRemedy>,
 }
 
 impl std::fmt::Display for NotationFinding {
@@ -146,24 +147,24 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the recipe is invalid or cannot be evaluated; the error names the step, the reason and the remedy.
-    pub fn preview(&mut self, recipe: &str) -> Result<Recombination> {
-        let (_, made, recipe) = self.make(recipe)?;
+    pub fn preview_recipe(&mut self, recipe: &str) -> CorpusResult<RecombinationResult> {
+        let (_, made, recipe) = self.evaluate_recipe_text(recipe)?;
         Ok(recombination(&recipe, String::new(), made))
     }
 
     /// Evaluates a recipe and stores its movement as a sign with this gloss, with its tiers and its sources.
     ///
     /// # Errors
-    /// As [`preview`](Self::preview); nothing incomplete is stored.
-    pub fn recombine(&mut self, recipe: &str, gloss: &str) -> Result<Recombination> {
+    /// As [`preview_recipe`](Self::preview_recipe); nothing incomplete is stored.
+    pub fn recombine_recipe(&mut self, recipe: &str, gloss: &str) -> CorpusResult<RecombinationResult> {
         let gloss = gloss.trim();
         if gloss.is_empty() {
-            return Err(Error::wrong("a new sign needs a gloss")
-                .advise(Remedy::command("write --as GLOSS")));
+            return Err(CorpusError::from_wrong_message("a new sign needs a gloss")
+                .with_advice(ErrorRemedy::command_remedy("write --as GLOSS")));
         }
-        let (resolved, made, recipe) = self.make(recipe)?;
-        let (recording, token, name) = self.store.operation(|connection| {
-            let stored = store(connection, &recipe, &resolved, &made, gloss)?;
+        let (resolved, made, recipe) = self.evaluate_recipe_text(recipe)?;
+        let (recording, token, name) = self.store.run_store_operation(|connection| {
+            let stored = store_generated_sign(connection, &recipe, &resolved, &made, gloss)?;
             let (gloss, recipe) = (gloss.to_owned(), recipe.to_string());
             Ok((stored, OperationEffect::Recombine { gloss, recipe }))
         })?;
@@ -173,75 +174,76 @@ impl Corpus {
     }
 
     /// Returns the inventories, which are read again only if the corpus has changed: previews follow each other fast.
-    pub(crate) fn inventories_now(&self) -> Result<Arc<Vec<StoredInventory>>> {
-        let now = self.generation()?;
+    pub(crate) fn inventories_now(&self) -> CorpusResult<Arc<Vec<StoredInventory>>> {
+        let now = self.corpus_generation()?;
         let mut kept = self.inventories.borrow_mut();
         if let Some((generation, inventories)) = &*kept
             && *generation == now
         {
             return Ok(inventories.clone());
         }
-        let inventories = Arc::new(inventories::load(self.store.read())?);
+        let inventories = Arc::new(inventories::load_all_inventories(self.store.read_connection())?);
         *kept = Some((now, inventories.clone()));
         Ok(inventories)
     }
 
-    pub(crate) fn make(&mut self, recipe: &str) -> Result<(Resolved, Generated, Recipe)> {
-        let recipe = read(recipe)?;
+    pub(crate) fn evaluate_recipe_text(
+        &mut self,
+        recipe: &str,
+    ) -> CorpusResult<(ResolvedRecipe, GeneratedMovement, Recipe)> {
+        let recipe = read_recipe_text(recipe)?;
         let inventories = self.inventories_now()?;
-        let sources = CorpusSources::open(&mut self.store, &inventories, &self.learned)?;
-        let resolved = chereme_compose::resolve(&recipe, &sources).map_err(cannot)?;
-        let made = chereme_compose::evaluate(&resolved).map_err(cannot)?;
+        let sources = CorpusSources::open_corpus_sources(&mut self.store, &inventories, &self.learned)?;
+        let resolved = chereme_compose::resolve_recipe(&recipe, &sources).map_err(cannot)?;
+        let made = chereme_compose::evaluate_recipe(&resolved).map_err(cannot)?;
         Ok((resolved, made, recipe))
     }
 }
 
 /// Reads a recipe as text, or as JSON if it begins with a brace.
-fn read(text: &str) -> Result<Recipe> {
+fn read_recipe_text(text: &str) -> CorpusResult<Recipe> {
     if text.trim_start().starts_with('{') {
         return serde_json::from_str(text).map_err(|error| {
-            Error::wrong(format!("the recipe cannot be read: {error}"))
-                .at(brief(text))
-                .advise("a recipe in JSON is, for example, {\"version\": 1, \"make\": {\"sign\": \"BOL\"}}")
+            CorpusError::from_wrong_message(format!("the recipe cannot be read: {error}"))
+                .with_error_place(shorten_step_text(text))
+                .with_advice("a recipe in JSON is, for example, {\"version\": 1, \"make\": {\"sign\": \"BOL\"}}")
         });
     }
     text.parse().map_err(|error: chereme_compose::RecipeError| {
         let pointed = match &error {
             chereme_compose::RecipeError::Text(text) if !text.text.is_empty() => {
-                format!("\n{}", text.pointed())
+                format!("\n{}", text.mark_fault_character())
             }
             _ => String::new(),
         };
-        Error::wrong(format!("the recipe cannot be read: {error}{pointed}"))
-            .at(brief(text))
-            .advise(
-                "a recipe is a sign and the changes to it, such as: ESCARGOT | configure right U",
-            )
+        CorpusError::from_wrong_message(format!("the recipe cannot be read: {error}{pointed}"))
+            .with_error_place(shorten_step_text(text))
+            .with_advice("a recipe is a sign and the changes to it, such as: ESCARGOT | configure right U")
     })
 }
 
 /// Returns the failure of a step of a recipe.
-fn cannot(error: chereme_compose::MakeError) -> Error {
-    let known = || Remedy::command("`chereme list CORPUS signs` and `… values` list what there is");
-    Error::Step(Box::new(FailedStep {
-        remedy: error.cause.remedy().unwrap_or_else(known),
-        meant: error.cause.meant(),
+fn cannot(error: chereme_compose::MakeError) -> CorpusError {
+    let list_remedy = || ErrorRemedy::command_remedy("`chereme list CORPUS signs` and `… values` list what there is");
+    CorpusError::Step(Box::new(FailedStep {
+        remedy: error.cause.step_remedy().unwrap_or_else(list_remedy),
+        meant: error.cause.step_meant_name(),
         cause: error.cause.to_string(),
-        step: brief(&error.step),
+        step: shorten_step_text(&error.step),
         path: error.path,
     }))
 }
 
-fn recombination(recipe: &Recipe, gloss: String, made: Generated) -> Recombination {
-    Recombination {
+fn recombination(recipe: &Recipe, gloss: String, made: GeneratedMovement) -> RecombinationResult {
+    RecombinationResult {
         recipe: recipe.to_string(),
         gloss,
         token: None,
         recording: None,
         name: None,
-        duration_us: made.clip.span().micros(),
-        notes: made.notes.iter().map(timed).collect(),
-        faces: chereme_compose::faces(&made.curves),
+        duration_us: made.clip.clip_span().span_micros(),
+        notes: made.notes.iter().map(timed_note).collect(),
+        faces: chereme_compose::faces_from_curves(&made.curves),
         curves: made.curves.into_iter().map(|curve| curve.name).collect(),
         findings: Vec::new(),
         explanation: made.report.to_string(),
@@ -249,71 +251,71 @@ fn recombination(recipe: &Recipe, gloss: String, made: Generated) -> Recombinati
         clip: made.clip,
         anatomy: made.anatomy,
         handedness: made.handedness,
-        parts: parts::of(&made.notes),
+        parts: recombine_parts::made_parts_from_notes(&made.notes),
     }
 }
 
-fn timed(note: &Note) -> TimedNote {
+fn timed_note(note: &GeneratedNote) -> TimedNote {
     let (about, feature) = match &note.about {
-        About::Gloss => ("sign", None),
-        About::Transition => ("transition", None),
-        About::Cue(tier) => ("cue", Some(tier.name().to_owned())),
-        About::Component(component, feature) => (component.name(), feature.clone()),
+        NoteSubject::Gloss => ("sign", None),
+        NoteSubject::Transition => ("transition", None),
+        NoteSubject::Cue(tier) => ("cue", Some(tier.cue_tier_name().to_owned())),
+        NoteSubject::Component(component, feature) => (component.component_name(), feature.clone()),
     };
     TimedNote {
         about,
         feature,
         hand: note.hand,
-        value: note.value.value().map(str::to_owned),
-        start_us: note.span.start().micros(),
-        end_us: note.span.end().micros(),
+        value: note.value.reading_value().map(str::to_owned),
+        start_us: note.span.span_start_instant().instant_micros(),
+        end_us: note.span.span_end_instant().instant_micros(),
         from: note.origin.clone(),
     }
 }
 
-fn store(
+fn store_generated_sign(
     connection: &Connection,
     recipe: &Recipe,
-    resolved: &Resolved,
-    made: &Generated,
+    resolved: &ResolvedRecipe,
+    made: &GeneratedMovement,
     gloss: &str,
-) -> Result<(i64, i64, String)> {
-    if made.clip.frames() == 0 {
-        return Err(Error::wrong("the recipe generates no movement"));
+) -> CorpusResult<(i64, i64, String)> {
+    if made.clip.clip_frame_count() == 0 {
+        return Err(CorpusError::from_wrong_message("the recipe generates no movement"));
     }
     let signer_id = signer_of(connection, made)?;
-    let name = recordings::free_name(connection, gloss)?;
-    let recording = recordings::insert_recording(
+    let name = stored_recordings::free_recording_name(connection, gloss)?;
+    let recording = stored_recordings::insert_recording(
         connection,
         &RecordingRow {
             id: 0,
             name: name.clone(),
             signer_id,
             signer: None,
-            origin: Origin::Made,
-            duration_us: made.clip.span().micros(),
+            origin: RecordOrigin::Made,
+            duration_us: made.clip.clip_span().span_micros(),
             licence: None,
             notes: None,
         },
     )?;
     store_movement(connection, recording, resolved, made)?;
-    let inventories = inventories::load(connection)?;
+    let inventories = inventories::load_all_inventories(connection)?;
     store_tiers(connection, recording, made, gloss, &inventories)?;
-    tokens::derive(connection, recording, None, &inventories)?;
-    phases::store(connection, recording)?;
+    tokens::update_recording_tokens(connection, recording, None, &inventories)?;
+    recombine_phases::store_cue_phases(connection, recording)?;
     store_recipe(connection, recording, recipe, resolved, made)?;
-    let token = signs::tokens_of_recording(connection, recording)?;
-    let token = token
+    let recording_tokens = signs::tokens_of_recording(connection, recording)?;
+    let token = recording_tokens
         .first()
-        .ok_or_else(|| Error::wrong("the new sign got no token"))?
+        .ok_or_else(|| CorpusError::from_wrong_message("the new sign got no token"))?
         .id;
     Ok((recording, token, name))
 }
 
 /// Returns the signer whose body moves, if known.
-fn signer_of(connection: &Connection, made: &Generated) -> Result<Option<i64>> {
+fn signer_of(connection: &Connection, made: &GeneratedMovement) -> CorpusResult<Option<i64>> {
     Ok(match made.signer.as_deref().map(str::parse) {
-        Some(Ok(Address::Signer(name))) => Some(address::signer(connection, &name)?.id),
+        Some(Ok(CorpusAddress::Signer(name))) => Some(address::find_signer_by_name(connection, &name)?.id),
         _ => None,
     })
 }
@@ -322,21 +324,21 @@ fn signer_of(connection: &Connection, made: &Generated) -> Result<Option<i64>> {
 /// form.
 fn source_of(
     connection: &Connection,
-    resolved: &Resolved,
-    made: &Generated,
-) -> Result<Option<(Hierarchy, Convention)>> {
+    resolved: &ResolvedRecipe,
+    made: &GeneratedMovement,
+) -> CorpusResult<Option<(BvhHierarchy, SpaceConvention)>> {
     for (address, _) in moving_inputs(resolved) {
-        let Ok(stretch) = address::stretch(connection, &address.parse()?) else {
+        let Ok(stretch) = address::find_addressed_stretch(connection, &address.parse()?) else {
             continue;
         };
         // A recording that has only a face is performed by the program's own body.
-        if recordings::body_track(connection, stretch.recording.id)?.is_none() {
+        if stored_recordings::body_track(connection, stretch.recording.id)?.is_none() {
             continue;
         }
-        let track = MotionTrack::of(connection, stretch.recording.id)?;
-        let skeleton = convert::skeleton(&track.hierarchy).ok();
-        let same =
-            skeleton.is_some_and(|it| track.convention.skeleton(&it) == **made.clip.skeleton());
+        let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+        let skeleton = bvh_convert::skeleton_from_hierarchy(&track.hierarchy).ok();
+        let same = skeleton
+            .is_some_and(|stored| track.convention.file_skeleton_to_model(&stored) == **made.clip.clip_skeleton());
         if same {
             return Ok(Some((track.hierarchy, track.convention)));
         }
@@ -347,44 +349,44 @@ fn source_of(
 fn store_movement(
     connection: &Connection,
     recording: i64,
-    resolved: &Resolved,
-    made: &Generated,
-) -> Result<()> {
+    resolved: &ResolvedRecipe,
+    made: &GeneratedMovement,
+) -> CorpusResult<()> {
     let (hierarchy, convention) = match source_of(connection, resolved, made)? {
         Some(source) => source,
         None => (
-            convert::hierarchy(made.clip.skeleton(), DECIMALS),
-            Convention::MODEL,
+            bvh_convert::hierarchy_from_skeleton(made.clip.clip_skeleton(), GENERATED_DECIMALS),
+            SpaceConvention::MODEL_CONVENTION,
         ),
     };
     let clip = convention.clip_back(&made.clip);
-    let hierarchy = convert::widened(&hierarchy, &clip);
-    let fault = |error: convert::BackError| Error::wrong(error.to_string());
-    let columns = convert::columns(&clip, &hierarchy, DECIMALS).map_err(fault)?;
-    let groups = movement::channel_groups(made.clip.skeleton(), &made.anatomy);
+    let hierarchy = bvh_convert::widen_hierarchy(&hierarchy, &clip);
+    let fault = |error: bvh_convert::BackError| CorpusError::from_wrong_message(error.to_string());
+    let columns = bvh_convert::columns_from_clip(&clip, &hierarchy, GENERATED_DECIMALS).map_err(fault)?;
+    let groups = movement::channel_groups(made.clip.clip_skeleton(), &made.anatomy);
     let named: BTreeMap<&str, &Vec<usize>> = groups
         .iter()
-        .map(|(group, joints)| (group.name(), joints))
+        .map(|(group, joints)| (group.channel_group_name(), joints))
         .collect();
     let roles: BTreeMap<String, String> = made
         .anatomy
-        .found()
-        .map(|(part, joint, _)| (part.to_string(), clip.skeleton().joint(joint).name.clone()))
+        .found_parts()
+        .map(|(part, joint, _)| (part.to_string(), clip.clip_skeleton().joint_at(joint).name.clone()))
         .collect();
-    let document = serde_json::to_string(&hierarchy).map_err(|e| Error::wrong(e.to_string()))?;
-    let hash = hex(&Sha256::digest(document.as_bytes()));
+    let document = serde_json::to_string(&hierarchy).map_err(|e| CorpusError::from_wrong_message(e.to_string()))?;
+    let hash = to_hex_text(&Sha256::digest(document.as_bytes()));
     let joints = hierarchy.joints.len();
-    let rate = clip.rate();
-    let track = recordings::insert_motion_track(
+    let rate = clip.clip_frame_rate();
+    let track = stored_recordings::insert_motion_track(
         connection,
         &MotionTrackRow {
             id: 0,
             recording_id: recording,
             name: "body".to_owned(),
             offset_us: 0,
-            skeleton_id: recordings::skeleton_stored(connection, &hash, joints, &document)?,
-            frames: clip.frames() as i64,
-            rate_frames: rate.frames(),
+            skeleton_id: stored_recordings::skeleton_stored(connection, &hash, joints, &document)?,
+            frames: clip.clip_frame_count() as i64,
+            rate_frames: rate.rate_numerator(),
             rate_seconds: rate.per_seconds(),
             frame_time: Some(format!("{:.9}", rate.frame_time())),
             metres_per_unit: convention.metres_per_unit,
@@ -399,8 +401,8 @@ fn store_movement(
         .iter()
         .map(|(group, joints)| (*group, movement::columns_of(&hierarchy, joints)))
         .collect();
-    for first in (0..clip.frames()).step_by(BLOCK_FRAMES) {
-        let rows = first..clip.frames().min(first + BLOCK_FRAMES);
+    for first in (0..clip.clip_frame_count()).step_by(BLOCK_FRAMES) {
+        let rows = first..clip.clip_frame_count().min(first + BLOCK_FRAMES);
         let part: Vec<Column> = columns
             .iter()
             .map(|column| Column {
@@ -411,33 +413,33 @@ fn store_movement(
             .collect();
         movement::store_block(connection, track, &numbers, first, rows.len(), &part)?;
     }
-    curves::store(connection, recording, &made.curves, (rate, clip.frames()))?;
+    curves::store_generated_curves(connection, recording, &made.curves, (rate, clip.clip_frame_count()))?;
     Ok(())
 }
 
 fn store_tiers(
     connection: &Connection,
     recording: i64,
-    made: &Generated,
+    made: &GeneratedMovement,
     gloss: &str,
     inventories: &[StoredInventory],
-) -> Result<()> {
-    let whole = made.clip.span();
-    let root = TierRow {
+) -> CorpusResult<()> {
+    let full_span = made.clip.clip_span();
+    let root_row = TierRow {
         role: TierRole::Gloss,
         ..new_tier(recording, "Gloss", 0)
     };
-    let root = tiers::insert_tier(connection, &root)?;
+    let root = stored_tiers::insert_tier(connection, &root_row)?;
     let row = AnnotationRow {
         tier_id: root,
-        start_us: whole.start().micros(),
-        end_us: whole.end().micros(),
+        start_us: full_span.span_start_instant().instant_micros(),
+        end_us: full_span.span_end_instant().instant_micros(),
         state: ValueState::Value,
         value: gloss.to_owned(),
         origin: AnnotationOrigin::Made,
         ..AnnotationRow::default()
     };
-    tiers::insert_annotation(connection, &row)?;
+    stored_tiers::insert_annotation(connection, &row)?;
     store_notes(connection, recording, made, inventories)
 }
 
@@ -446,48 +448,50 @@ fn store_tiers(
 fn store_notes(
     connection: &Connection,
     recording: i64,
-    made: &Generated,
+    made: &GeneratedMovement,
     inventories: &[StoredInventory],
-) -> Result<()> {
-    let whole = made.clip.span();
-    let mut by_tier: BTreeMap<String, Vec<&Note>> = BTreeMap::new();
+) -> CorpusResult<()> {
+    let full_span = made.clip.clip_span();
+    let mut by_tier: BTreeMap<String, Vec<&GeneratedNote>> = BTreeMap::new();
     for note in &made.notes {
         by_tier.entry(tier_name(note)).or_default().push(note);
     }
-    let standing = tiers::tiers(connection, recording)?;
-    let next = 1 + standing.iter().map(|it| it.position).max().unwrap_or(-1);
+    let standing = stored_tiers::load_tier_rows(connection, recording)?;
+    let next = 1 + standing.iter().map(|tier_row| tier_row.position).max().unwrap_or(-1);
     for (position, (name, notes)) in by_tier.into_iter().enumerate() {
-        let (tier, said) = match standing.iter().find(|it| it.name == name) {
-            Some(tier) => (tier.id, tiers::annotations(connection, tier.id)?),
+        let (tier, said) = match standing.iter().find(|tier_row| tier_row.name == name) {
+            Some(tier) => (tier.id, stored_tiers::load_tier_annotation_rows(connection, tier.id)?),
             None => {
                 let place = next + position as i64;
                 let tier = note_tier(recording, &name, place, notes[0], inventories);
-                (tiers::insert_tier(connection, &tier)?, Vec::new())
+                (stored_tiers::insert_tier(connection, &tier)?, Vec::new())
             }
         };
-        let taken =
-            |start: i64, end: i64| said.iter().any(|it| it.start_us < end && it.end_us > start);
-        let mut free_from = whole.start();
+        let taken = |start: i64, end: i64| {
+            said.iter()
+                .any(|annotation| annotation.start_us < end && annotation.end_us > start)
+        };
+        let mut free_from = full_span.span_start_instant();
         for note in notes {
             let (start, end) = (
-                note.span.start().max(free_from),
-                note.span.end().min(whole.end()),
+                note.span.span_start_instant().max(free_from),
+                note.span.span_end_instant().min(full_span.span_end_instant()),
             );
-            if start >= end || taken(start.micros(), end.micros()) {
+            if start >= end || taken(start.instant_micros(), end.instant_micros()) {
                 continue;
             }
             free_from = end;
             let row = AnnotationRow {
                 tier_id: tier,
-                start_us: start.micros(),
-                end_us: end.micros(),
-                state: ValueState::of(&note.value),
-                value: note.value.value().unwrap_or_default().to_owned(),
+                start_us: start.instant_micros(),
+                end_us: end.instant_micros(),
+                state: ValueState::state_of_reading(&note.value),
+                value: note.value.reading_value().unwrap_or_default().to_owned(),
                 origin: AnnotationOrigin::Made,
                 source: Some(json!({ "from": note.origin }).to_string()),
                 ..AnnotationRow::default()
             };
-            tiers::insert_annotation(connection, &row)?;
+            stored_tiers::insert_annotation(connection, &row)?;
         }
     }
     Ok(())
@@ -502,18 +506,18 @@ fn new_tier(recording_id: i64, name: &str, position: i64) -> TierRow {
     }
 }
 
-fn tier_name(note: &Note) -> String {
+fn tier_name(note: &GeneratedNote) -> String {
     let hand = match note.hand {
-        Some(Side::Right) => " RH",
-        Some(Side::Left) => " LH",
+        Some(BodySide::Right) => " RH",
+        Some(BodySide::Left) => " LH",
         None => "",
     };
     match &note.about {
-        About::Gloss => SOURCE.to_owned(),
-        About::Transition => format!("Transition{hand}"),
-        About::Cue(tier) => tier.name().to_owned(),
-        About::Component(component, feature) => {
-            let name = feature.as_deref().unwrap_or(component.name());
+        NoteSubject::Gloss => SOURCE_TIER_NAME.to_owned(),
+        NoteSubject::Transition => format!("Transition{hand}"),
+        NoteSubject::Cue(tier) => tier.cue_tier_name().to_owned(),
+        NoteSubject::Component(component, feature) => {
+            let name = feature.as_deref().unwrap_or(component.component_name());
             let mut letters = name.chars();
             let first = letters.next().map(char::to_uppercase);
             format!(
@@ -529,33 +533,33 @@ fn note_tier(
     recording: i64,
     name: &str,
     position: i64,
-    note: &Note,
+    note: &GeneratedNote,
     inventories: &[StoredInventory],
 ) -> TierRow {
     let mut tier = new_tier(recording, name, position);
-    let About::Component(component, feature) = &note.about else {
-        let is_key = note.about == About::Cue(CueTier::Keys);
+    let NoteSubject::Component(component, feature) = &note.about else {
+        let is_key = note.about == NoteSubject::Cue(CueTier::Keys);
         tier.role = match is_key {
             true => TierRole::Gloss,
             false => TierRole::Free,
         };
         return tier;
     };
-    let mut field = Field::new(*component);
+    let mut field = ComponentField::new(*component);
     field.feature.clone_from(feature);
-    let manual = *component != Component::NonManual;
-    let builtin = inventory::builtin_for(&field).map(|it| it.id.as_str());
-    let known = matches!(&note.value, Reading::Value(_));
+    let manual = *component != SignComponent::NonManual;
+    let builtin = inventory::builtin_for(&field).map(|inventory| inventory.id.as_str());
+    let is_value = matches!(&note.value, ComponentReading::Value(_));
     tier.role = TierRole::Component {
         component: *component,
         feature: feature.clone(),
     };
     let hand = note.hand.filter(|_| manual);
-    tier.hand = hand.map(|side| Hands::One(side.into()));
+    tier.hand = hand.map(|side| AnnotatedHands::One(side.into()));
     tier.inventory_id = inventories
         .iter()
-        .find(|it| known && Some(it.inventory.id.as_str()) == builtin)
-        .map(|it| it.id);
+        .find(|stored| is_value && Some(stored.inventory.id.as_str()) == builtin)
+        .map(|stored| stored.id);
     tier
 }
 
@@ -563,24 +567,24 @@ fn store_recipe(
     connection: &Connection,
     recording: i64,
     recipe: &Recipe,
-    resolved: &Resolved,
-    made: &Generated,
-) -> Result<()> {
+    resolved: &ResolvedRecipe,
+    made: &GeneratedMovement,
+) -> CorpusResult<()> {
     let row = recipe_row(recording, recipe, resolved, made)?;
-    let id = recipes::insert(connection, &row)?;
+    let id = recipes::insert_recipe_row(connection, &row)?;
     store_inputs(connection, id, resolved)
 }
 
 fn recipe_row(
     recording: i64,
     recipe: &Recipe,
-    resolved: &Resolved,
-    made: &Generated,
-) -> Result<RecipeRow> {
-    let fault = |error: serde_json::Error| Error::wrong(error.to_string());
+    resolved: &ResolvedRecipe,
+    made: &GeneratedMovement,
+) -> CorpusResult<RecipeRow> {
+    let fault = |error: serde_json::Error| CorpusError::from_wrong_message(error.to_string());
     let document = json!({
         "recipe": serde_json::to_value(recipe).map_err(fault)?,
-        "inputs": serde_json::to_value(resolved.inputs()).map_err(fault)?,
+        "inputs": serde_json::to_value(resolved.resolved_inputs()).map_err(fault)?,
     });
     Ok(RecipeRow {
         id: 0,
@@ -588,21 +592,25 @@ fn recipe_row(
         text: recipe.to_string(),
         document: document.to_string(),
         report: serde_json::to_string(&made.report).map_err(fault)?,
-        engine: engine(),
+        engine: engine_version(),
     })
 }
 
 /// The tier that names the source of each stretch of a generated sign.
-pub(crate) const SOURCE: &str = "Source";
+pub(crate) const SOURCE_TIER_NAME: &str = "Source";
 
 /// Returns the version of the program and of its movement generators.
-pub(crate) fn engine() -> String {
-    format!("{}+{ENGINE}", env!("CARGO_PKG_VERSION"))
+pub(crate) fn engine_version() -> String {
+    format!("{}+{ENGINE_VERSION}", env!("CARGO_PKG_VERSION"))
 }
 
-fn store_inputs(connection: &Connection, recipe: i64, resolved: &Resolved) -> Result<()> {
+fn store_inputs(connection: &Connection, recipe: i64, resolved: &ResolvedRecipe) -> CorpusResult<()> {
     let moving = moving_inputs(resolved).map(|(address, hash)| (address.as_str(), hash.as_str()));
-    let given = resolved.inputs().0.values().flat_map(Input::givers);
+    let given = resolved
+        .resolved_inputs()
+        .0
+        .values()
+        .flat_map(RecipeInput::input_giver_addresses);
     for (address, hash) in moving.chain(given.map(|address| (address, ""))) {
         let (source, token) = source_rows(connection, address)?;
         recipes::insert_input(connection, recipe, address, source, token, hash)?;
@@ -612,26 +620,23 @@ fn store_inputs(connection: &Connection, recipe: i64, resolved: &Resolved) -> Re
 
 /// Returns the addresses and hashes of all movement that a recipe uses: its sources, and the bodies that perform
 /// notations.
-fn moving_inputs(resolved: &Resolved) -> impl Iterator<Item = (&String, &String)> {
-    let inputs = resolved.inputs().0.values();
+fn moving_inputs(resolved: &ResolvedRecipe) -> impl Iterator<Item = (&String, &String)> {
+    let inputs = resolved.resolved_inputs().0.values();
     let materials = inputs.filter_map(|input| match input {
-        Input::Material(material) => Some(material),
+        RecipeInput::Material(material) => Some(material),
         _ => None,
     });
-    materials.flat_map(|it| {
-        let body = it.body.as_ref().map(|body| (&body.address, &body.hash));
-        std::iter::once((&it.address, &it.hash)).chain(body)
+    materials.flat_map(|material| {
+        let body = material.body.as_ref().map(|body| (&body.address, &body.hash));
+        std::iter::once((&material.address, &material.hash)).chain(body)
     })
 }
 
 /// Returns the recording and the token at an input's address.
-pub(crate) fn source_rows(
-    connection: &Connection,
-    address: &str,
-) -> Result<(Option<i64>, Option<i64>)> {
+pub(crate) fn source_rows(connection: &Connection, address: &str) -> CorpusResult<(Option<i64>, Option<i64>)> {
     Ok(match address.parse()? {
-        Address::Token(token) => (signs::token(connection, token)?.recording_id, Some(token)),
-        Address::Recording(Name::Number(recording)) => (Some(recording), None),
+        CorpusAddress::Token(token) => (signs::load_token_row(connection, token)?.recording_id, Some(token)),
+        CorpusAddress::Recording(RowName::Number(recording)) => (Some(recording), None),
         _ => (None, None),
     })
 }

@@ -2,16 +2,16 @@
 //!
 //! In every query, `@NAME` stands for the search saved under that name.
 
-use chereme_sign::Remedy;
-use chereme_sign::query::Query;
-use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::query::TokenQuery;
+use chereme_sign::text::{did_you_mean, edit_distance, fold_text, nearest_candidate};
 use rusqlite::Connection;
 
 use crate::Corpus;
-pub use crate::db::rows::KeptSearch;
 use crate::db::saved_searches as rows;
-use crate::error::{Error, Result};
-use crate::search::wrong;
+pub use crate::db::stored_rows::KeptSearch;
+use crate::error::{CorpusError, CorpusResult};
+use crate::search::wrong_query_error;
 use crate::words::effect::OperationEffect;
 
 impl Corpus {
@@ -19,8 +19,8 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn kept_searches(&self) -> Result<Vec<KeptSearch>> {
-        searches(self.store.read())
+    pub fn kept_searches(&self) -> CorpusResult<Vec<KeptSearch>> {
+        list_saved_searches(self.store.read_connection())
     }
 
     /// Saves searches under their names, as they are written; a search replaces the one that had its name.
@@ -28,20 +28,20 @@ impl Corpus {
     /// # Errors
     /// Fails if a name is empty, a query cannot be understood, or searches would use each other in a circle; nothing is
     /// saved then.
-    pub fn keep_searches(&mut self, searches: &[KeptSearch]) -> Result<()> {
-        self.store.operation(|connection| {
+    pub fn keep_searches(&mut self, searches: &[KeptSearch]) -> CorpusResult<()> {
+        self.store.run_store_operation(|connection| {
             let mut names = Vec::with_capacity(searches.len());
             for search in searches {
                 let search = KeptSearch {
-                    name: named(&search.name)?,
+                    name: require_search_name(&search.name)?,
                     query: search.query.clone(),
                 };
-                match found(connection, &search.name)? {
+                match find_saved_search(connection, &search.name)? {
                     Some((_, old)) if old == search => {}
-                    Some((id, _)) => rows::update(connection, id, &search)?,
-                    None => rows::insert(connection, &search)?,
+                    Some((id, _)) => rows::update_saved_search(connection, id, &search)?,
+                    None => rows::insert_saved_search(connection, &search)?,
                 }
-                parsed(connection, &format!("@{}", search.name))?;
+                parse_saved_query(connection, &format!("@{}", search.name))?;
                 names.push(search.name);
             }
             Ok(((), OperationEffect::KeepSearch { names }))
@@ -52,14 +52,16 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if another search is saved under the name, and as [`keep_searches`](Self::keep_searches) does.
-    pub fn keep_new_search(&mut self, search: &KeptSearch) -> Result<()> {
-        match found(self.store.read(), &named(&search.name)?)? {
+    pub fn keep_new_search(&mut self, search: &KeptSearch) -> CorpusResult<()> {
+        match find_saved_search(self.store.read_connection(), &require_search_name(&search.name)?)? {
             Some((_, old)) if old.query != search.query => {
                 let text = format!("another search is saved as {:?}", old.name);
-                let remedy = Remedy::command(
+                let remedy = ErrorRemedy::command_remedy(
                     "give it another name, or replace that one: `chereme search CORPUS --keep NAME QUERY --replace`",
                 );
-                Err(Error::wrong(text).at(old.query).advise(remedy))
+                Err(CorpusError::from_wrong_message(text)
+                    .with_error_place(old.query)
+                    .with_advice(remedy))
             }
             _ => self.keep_searches(std::slice::from_ref(search)),
         }
@@ -69,23 +71,23 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if no search has that name, if another one uses it, or if the new name is empty or taken.
-    pub fn rename_search(&mut self, from: &str, to: &str) -> Result<()> {
-        self.store.operation(|connection| {
-            let (id, old) = there(connection, from)?;
+    pub fn rename_search(&mut self, from: &str, to: &str) -> CorpusResult<()> {
+        self.store.run_store_operation(|connection| {
+            let (id, old) = existing_saved_search(connection, from)?;
             let new = KeptSearch {
-                name: named(to)?,
+                name: require_search_name(to)?,
                 query: old.query.clone(),
             };
-            if found(connection, &new.name)?.is_some_and(|(other, _)| other != id) {
+            if find_saved_search(connection, &new.name)?.is_some_and(|(other, _)| other != id) {
                 let text = format!("another search is saved as {:?}", new.name);
-                let error = Error::wrong(text).at(new.name);
-                return Err(error.advise("give it another name"));
+                let error = CorpusError::from_wrong_message(text).with_error_place(new.name);
+                return Err(error.with_advice("give it another name"));
             }
-            if fold(&new.name) != fold(&old.name) {
+            if fold_text(&new.name) != fold_text(&old.name) {
                 check_unused(connection, &old)?;
             }
             if new != old {
-                rows::update(connection, id, &new)?;
+                rows::update_saved_search(connection, id, &new)?;
             }
             let (from, to) = (old.name, new.name);
             Ok(((), OperationEffect::RenameSearch { from, to }))
@@ -96,11 +98,11 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if no search has that name, or if another one uses it.
-    pub fn forget_search(&mut self, name: &str) -> Result<KeptSearch> {
-        self.store.operation(|connection| {
-            let (id, search) = there(connection, name)?;
+    pub fn forget_search(&mut self, name: &str) -> CorpusResult<KeptSearch> {
+        self.store.run_store_operation(|connection| {
+            let (id, search) = existing_saved_search(connection, name)?;
             check_unused(connection, &search)?;
-            rows::delete(connection, id)?;
+            rows::delete_saved_search(connection, id)?;
             let name = search.name.clone();
             Ok((search, OperationEffect::ForgetSearch { name }))
         })
@@ -108,8 +110,8 @@ impl Corpus {
 }
 
 /// Returns the saved searches, by name.
-pub(crate) fn searches(connection: &Connection) -> Result<Vec<KeptSearch>> {
-    let all = rows::searches(connection)?.into_iter();
+pub(crate) fn list_saved_searches(connection: &Connection) -> CorpusResult<Vec<KeptSearch>> {
+    let all = rows::load_saved_searches(connection)?.into_iter();
     Ok(all.map(|(_, search)| search).collect())
 }
 
@@ -132,51 +134,49 @@ struct SearchesInUse {
 /// # Errors
 /// Fails if it cannot be understood, also with the saved searches written out, or a saved search does not exist or names
 /// itself.
-pub(crate) fn parsed(connection: &Connection, query: &str) -> Result<Query> {
+pub(crate) fn parse_saved_query(connection: &Connection, query: &str) -> CorpusResult<TokenQuery> {
     let mut used = SearchesInUse::default();
     let parsed = parsed_inside(connection, query, &mut used)?;
     if used.count > 0 {
         let text = parsed.to_string();
-        Query::parse(&text).map_err(|error| wrong(&text, &error))?;
+        TokenQuery::parse_query(&text).map_err(|error| wrong_query_error(&text, &error))?;
     }
     Ok(parsed)
 }
 
-fn parsed_inside(connection: &Connection, query: &str, used: &mut SearchesInUse) -> Result<Query> {
+fn parsed_inside(connection: &Connection, query: &str, used: &mut SearchesInUse) -> CorpusResult<TokenQuery> {
     // A name with blanks needs no quotes if it is the whole query.
     if let Some(name) = query.trim().strip_prefix('@')
-        && let Some((_, search)) = found(connection, name)?
+        && let Some((_, search)) = find_saved_search(connection, name)?
     {
         return expanded(connection, search, used);
     }
-    let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+    let parsed = TokenQuery::parse_query(query).map_err(|error| wrong_query_error(query, &error))?;
     parsed.with_saved(&mut |saved| {
-        let (_, search) = there(connection, &saved.name)?;
+        let (_, search) = existing_saved_search(connection, &saved.name)?;
         expanded(connection, search, used)
     })
 }
 
 /// Returns the query that a saved search stands for.
-fn expanded(
-    connection: &Connection,
-    search: KeptSearch,
-    used: &mut SearchesInUse,
-) -> Result<Query> {
+fn expanded(connection: &Connection, search: KeptSearch, used: &mut SearchesInUse) -> CorpusResult<TokenQuery> {
     let is_circle = used.around.contains(&search);
     let text = search.query.clone();
     used.around.push(search);
     used.count += 1;
     if is_circle || used.around.len() > MOST_INSIDE {
-        let names = used.around.iter().map(|it| format!("@{}", it.name));
-        let names: Vec<String> = names.collect();
+        let search_names = used.around.iter().map(|other| format!("@{}", other.name));
+        let names: Vec<String> = search_names.collect();
         let message = format!("saved searches use each other: {}", names.join(" > "));
-        return Err(Error::wrong(message)
-            .at(text)
-            .advise("keep searches that do not name each other in a circle"));
+        return Err(CorpusError::from_wrong_message(message)
+            .with_error_place(text)
+            .with_advice("keep searches that do not name each other in a circle"));
     }
     if used.count > MOST_USES {
         let message = format!("the query uses more than {MOST_USES} saved searches");
-        return Err(Error::wrong(message).at(text).advise("use fewer of them"));
+        return Err(CorpusError::from_wrong_message(message)
+            .with_error_place(text)
+            .with_advice("use fewer of them"));
     }
     let query = parsed_inside(connection, &text, used)?;
     used.around.pop();
@@ -184,94 +184,96 @@ fn expanded(
 }
 
 /// Fails if another saved search uses this one.
-fn check_unused(connection: &Connection, search: &KeptSearch) -> Result<()> {
-    let own = fold(&search.name);
-    for other in searches(connection)? {
+fn check_unused(connection: &Connection, search: &KeptSearch) -> CorpusResult<()> {
+    let folded_name = fold_text(&search.name);
+    for other in list_saved_searches(connection)? {
         let mut uses = other
             .query
             .trim()
             .strip_prefix('@')
-            .is_some_and(|name| fold(name.trim()) == own);
-        if let Ok(query) = Query::parse(&other.query) {
-            let whole = query.clone();
+            .is_some_and(|name| fold_text(name.trim()) == folded_name);
+        if let Ok(query) = TokenQuery::parse_query(&other.query) {
+            let query_copy = query.clone();
             _ = query.with_saved(&mut |saved| {
-                uses |= fold(&saved.name) == own;
-                Ok::<_, std::convert::Infallible>(whole.clone())
+                uses |= fold_text(&saved.name) == folded_name;
+                Ok::<_, std::convert::Infallible>(query_copy.clone())
             });
         }
         if uses {
             let text = format!("the saved search {:?} uses @{}", other.name, search.name);
             let remedy = "change or delete that one first";
-            return Err(Error::wrong(text).at(other.query).advise(remedy));
+            return Err(CorpusError::from_wrong_message(text)
+                .with_error_place(other.query)
+                .with_advice(remedy));
         }
     }
     Ok(())
 }
 
-fn named(name: &str) -> Result<String> {
+fn require_search_name(name: &str) -> CorpusResult<String> {
     let name = name.trim();
     if name.is_empty() || name.contains(char::is_control) {
         return Err(
-            Error::wrong("a saved search needs a name of one line").advise("give it a name")
+            CorpusError::from_wrong_message("a saved search needs a name of one line").with_advice("give it a name"),
         );
     }
     Ok(name.strip_prefix('@').unwrap_or(name).to_owned())
 }
 
-fn found(connection: &Connection, name: &str) -> Result<Option<(i64, KeptSearch)>> {
-    let wanted = fold(name.trim());
-    let mut all = rows::searches(connection)?.into_iter();
-    Ok(all.find(|(_, search)| fold(&search.name) == wanted))
+fn find_saved_search(connection: &Connection, name: &str) -> CorpusResult<Option<(i64, KeptSearch)>> {
+    let wanted = fold_text(name.trim());
+    let mut all = rows::load_saved_searches(connection)?.into_iter();
+    Ok(all.find(|(_, search)| fold_text(&search.name) == wanted))
 }
 
-fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
-    let name = name.trim();
-    let name = name.strip_prefix('@').unwrap_or(name);
-    if let Some(found) = found(connection, name)? {
+fn existing_saved_search(connection: &Connection, name: &str) -> CorpusResult<(i64, KeptSearch)> {
+    let trimmed = name.trim();
+    let name = trimmed.strip_prefix('@').unwrap_or(trimmed);
+    if let Some(found) = find_saved_search(connection, name)? {
         return Ok(found);
     }
-    let all = searches(connection)?;
-    let meant = did_you_mean(kept_like(name, &all).map(|it| it.name.as_str()));
-    let names: Vec<String> = all.iter().map(|it| format!("@{}", it.name)).collect();
+    let all = list_saved_searches(connection)?;
+    let suggestion = did_you_mean(kept_like(name, &all).map(|search| search.name.as_str()));
+    let names: Vec<String> = all.iter().map(|search| format!("@{}", search.name)).collect();
     let remedy = match names.len() {
-        0 => Remedy::command(
+        0 => ErrorRemedy::command_remedy(
             "there is no saved search yet: `chereme search CORPUS --keep NAME QUERY` saves one",
         ),
-        count if count <= LISTED => format!("there are: {}", names.join(", ")).into(),
-        count => Remedy::command(format!("`chereme list CORPUS searches` lists all {count}")),
+        count if count <= MAX_LISTED_SEARCHES => format!("there are: {}", names.join(", ")).into(),
+        count => ErrorRemedy::command_remedy(format!("`chereme list CORPUS searches` lists all {count}")),
     };
     Err(
-        Error::wrong(format!("no search is saved as {name:?}{meant}"))
-            .at(format!("@{name}"))
-            .advise(remedy),
+        CorpusError::from_wrong_message(format!("no search is saved as {name:?}{suggestion}"))
+            .with_error_place(format!("@{name}"))
+            .with_advice(remedy),
     )
 }
 
 /// The number of saved searches that are listed if the wanted one does not exist.
-const LISTED: usize = 8;
+const MAX_LISTED_SEARCHES: usize = 8;
 
 /// Returns the saved search that the user most likely meant by `name`: one whose name differs by a slip or two,
 /// contains `name`, or shares half of its letters.
 #[must_use]
 pub fn kept_like<'a>(name: &str, searches: &'a [KeptSearch]) -> Option<&'a KeptSearch> {
     let name = name.trim().trim_start_matches('@');
-    let wanted = fold(name);
-    let near = nearest(name, searches.iter().map(|it| it.name.as_str()));
+    let wanted = fold_text(name);
+    let near = nearest_candidate(name, searches.iter().map(|search| search.name.as_str()));
     if let Some(near) = near {
-        return searches.iter().find(|it| it.name == near);
+        return searches.iter().find(|search| search.name == near);
     }
     let length = wanted.chars().count();
     if length < 2 {
         return None;
     }
-    let holds = |it: &&KeptSearch| {
-        let other = fold(&it.name);
+    let holds = |search: &&KeptSearch| {
+        let other = fold_text(&search.name);
         other.contains(&wanted) || (other.chars().count() > 1 && wanted.contains(&other))
     };
-    let far = |it: &KeptSearch| edit_distance(&wanted, &fold(&it.name), length / 2);
-    let held = searches.iter().find(holds);
-    held.or_else(|| {
-        let all = searches.iter().filter_map(|it| Some((far(it)?, it)));
+    let far = |search: &KeptSearch| edit_distance(&wanted, &fold_text(&search.name), length / 2);
+    let containing = searches.iter().find(holds);
+    containing.or_else(|| {
+        let all = searches.iter().filter_map(|search| Some((far(search)?, search)));
         all.min_by_key(|(far, _)| *far).map(|(_, it)| it)
     })
 }
@@ -291,26 +293,23 @@ mod tests {
     #[test]
     fn searches_are_saved_renamed_deleted_and_undone() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let keep = |corpus: &mut Corpus, one| corpus.keep_searches(&[one]);
         keep(&mut corpus, kept(" Menton ", "placement=chin")).expect("kept");
         keep(&mut corpus, kept("brefs", "duration<0.8s")).expect("kept");
         keep(&mut corpus, kept("MENTON", "placement=head")).expect("in its place");
         let now = |corpus: &Corpus| corpus.kept_searches().expect("read");
-        let (menton, brefs) = (
-            kept("MENTON", "placement=head"),
-            kept("brefs", "duration<0.8s"),
-        );
+        let (menton, brefs) = (kept("MENTON", "placement=head"), kept("brefs", "duration<0.8s"));
         assert_eq!(now(&corpus), [menton.clone(), brefs.clone()]);
-        assert_eq!(corpus.overview(1).expect("read").searches, now(&corpus));
+        assert_eq!(corpus.load_corpus_overview(1).expect("read").searches, now(&corpus));
         assert!(corpus.rename_search("brefs", "menton").is_err());
         corpus.rename_search("brefs", "courts").expect("renamed");
         assert_eq!(corpus.forget_search("@menton").expect("forgotten"), menton);
         assert_eq!(now(&corpus), [kept("courts", "duration<0.8s")]);
-        corpus.undo().expect("undone");
-        corpus.undo().expect("undone");
+        corpus.undo_operation().expect("undone");
+        corpus.undo_operation().expect("undone");
         assert_eq!(now(&corpus), [menton, brefs]);
-        let log = corpus.log(5).expect("read");
+        let log = corpus.operation_log(5).expect("read");
         assert_eq!(
             (log[2].name.as_str(), log[2].summary.as_str()),
             ("forget search", "MENTON")
@@ -336,39 +335,31 @@ mod tests {
     #[test]
     fn a_saved_search_is_run_by_its_name() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let short = kept("petits gestes", "duration<0.8s");
         corpus.keep_searches(&[short]).expect("kept");
         let options = SearchOptions::default();
-        let answer = corpus.search(" @Petits Gestes", &options).expect("found");
+        let answer = corpus.search_tokens(" @Petits Gestes", &options).expect("found");
         assert_eq!((answer.query.as_str(), answer.total), ("duration<0.8s", 0));
-        corpus
-            .keep_searches(&[kept("same", "@petits gestes")])
-            .expect("kept");
+        corpus.keep_searches(&[kept("same", "@petits gestes")]).expect("kept");
         assert_eq!(
             corpus.kept_searches().expect("read")[1].query,
             "@petits gestes",
             "as it was written"
         );
-        let answer = corpus.search("@same", &options).expect("found");
+        let answer = corpus.search_tokens("@same", &options).expect("found");
         assert_eq!(answer.query, "duration<0.8s");
-        let error = corpus.search("@petit gestes", &options).expect_err("none");
-        assert!(
-            error.to_string().contains("did you mean \"petits gestes\""),
-            "{error}"
-        );
+        let error = corpus.search_tokens("@petit gestes", &options).expect_err("none");
+        assert!(error.to_string().contains("did you mean \"petits gestes\""), "{error}");
         for (name, query) in [("", "gloss=A"), (" ", ""), ("a", "gloss=("), ("b", "@none")] {
-            assert!(
-                corpus.keep_searches(&[kept(name, query)]).is_err(),
-                "{name} {query}"
-            );
+            assert!(corpus.keep_searches(&[kept(name, query)]).is_err(), "{name} {query}");
         }
     }
 
     #[test]
     fn saved_searches_are_usable_anywhere_in_a_query() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let all = [
             kept("chin", "placement=chin or placement=cheek"),
             kept("my chin", "placement=chin"),
@@ -377,10 +368,7 @@ mod tests {
         for (asked, meant) in [
             ("@chin", "placement=chin or placement=cheek"),
             ("not @CHIN", "not (placement=chin or placement=cheek)"),
-            (
-                "@chin gloss=A",
-                "(placement=chin or placement=cheek) gloss=A",
-            ),
+            ("@chin gloss=A", "(placement=chin or placement=cheek) gloss=A"),
             (
                 "@chin or @\"my chin\" gloss=A",
                 "placement=chin or placement=cheek or placement=chin gloss=A",
@@ -388,10 +376,10 @@ mod tests {
             ("@my chin", "placement=chin"),
             ("\"@chin\"", "\"@chin\""),
         ] {
-            let answer = corpus.search(asked, &SearchOptions::default());
+            let answer = corpus.search_tokens(asked, &SearchOptions::default());
             assert_eq!(answer.expect(asked).query, meant, "{asked}");
         }
-        let error = corpus.search("not @chim", &SearchOptions::default());
+        let error = corpus.search_tokens("not @chim", &SearchOptions::default());
         let error = error.expect_err("not there");
         assert!(error.to_string().contains("did you mean"), "{error}");
         assert!(corpus.keep_searches(&[kept("x", "@x")]).is_err());
@@ -400,9 +388,9 @@ mod tests {
     #[test]
     fn a_saved_search_follows_those_that_it_uses() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let meant = |corpus: &mut Corpus, query: &str| {
-            let answer = corpus.search(query, &SearchOptions::default());
+            let answer = corpus.search_tokens(query, &SearchOptions::default());
             answer.expect(query).query
         };
         let chin = kept("chin", "placement=chin");
@@ -412,10 +400,7 @@ mod tests {
         assert_eq!(meant(&mut corpus, "@both"), "placement=chin gloss=A");
         let wider = kept("chin", "placement=chin or placement=cheek");
         let taken = corpus.keep_new_search(&wider).expect_err("taken");
-        assert!(
-            taken.to_string().contains("another search is saved"),
-            "{taken}"
-        );
+        assert!(taken.to_string().contains("another search is saved"), "{taken}");
         corpus.keep_new_search(&chin).expect("the same query again");
         corpus.keep_searches(&[wider]).expect("replaced");
         for query in ["@both", "@my both"] {
@@ -430,10 +415,7 @@ mod tests {
         corpus.rename_search("chin", "Chin").expect("the same name");
         let circle = corpus.keep_searches(&[kept("chin", "not @\"my both\"")]);
         let circle = circle.expect_err("a circle").to_string();
-        assert!(
-            circle.contains("@chin > @my both > @both > @chin"),
-            "{circle}"
-        );
+        assert!(circle.contains("@chin > @my both > @both > @chin"), "{circle}");
         assert_eq!(
             corpus.kept_searches().expect("read")[0].query,
             "placement=chin or placement=cheek",
@@ -446,15 +428,8 @@ mod tests {
             let query = [last.as_str(); 10].join(" or ");
             last.push('x');
             let done = corpus.keep_searches(&[kept(&last, &query)]);
-            let message = done
-                .err()
-                .map(|error| error.to_string())
-                .unwrap_or_default();
-            assert_eq!(
-                message.contains("more than 1000 saved searches"),
-                refused,
-                "{message}"
-            );
+            let message = done.err().map(|error| error.to_string()).unwrap_or_default();
+            assert_eq!(message.contains("more than 1000 saved searches"), refused, "{message}");
             assert_eq!(message.is_empty(), !refused, "{message}");
         }
     }

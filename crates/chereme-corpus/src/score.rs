@@ -2,33 +2,33 @@
 
 use std::path::Path;
 
-use chereme_analysis::score::{Performed, Score, ScoreError, ScoreOptions, score_as};
+use chereme_analysis::score::{ClipSimilarityScore, PerformedClip, ScoreError, ScoreOptions, score_as};
 use chereme_figure::{ChartOptions, alignment_picture, write_png};
-use chereme_motion::Side;
-use chereme_sign::Remedy;
+use chereme_motion::BodySide;
+use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::Address;
-use crate::db::recordings;
-use crate::error::{Error, Result};
+use crate::address::CorpusAddress;
+use crate::db::stored_recordings;
+use crate::error::{CorpusError, CorpusResult};
 use crate::hands;
-use crate::picture::{Moving, write};
+use crate::picture::{DisplayedMovement, write_atomically};
 
 /// The similarity of two pieces of movement of a corpus.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Scored {
+pub struct MovementScore {
     /// The distances and the alignment.
     #[serde(flatten)]
-    pub score: Score,
+    pub score: ClipSimilarityScore,
     /// Notes on what is not compared.
     pub findings: Vec<String>,
 }
 
 /// A piece of movement with the hands whose fingers nobody captured.
-struct Piece {
-    moving: Moving,
-    uncaptured: Vec<Side>,
+struct ScoredPiece {
+    moving: DisplayedMovement,
+    uncaptured: Vec<BodySide>,
 }
 
 impl Corpus {
@@ -37,82 +37,86 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if an address has no movement or only a face, or the two have nothing in common that can be compared.
-    pub fn score(&self, a: &Address, b: &Address, options: &ScoreOptions) -> Result<Scored> {
-        score(&self.piece(a)?, &self.piece(b)?, options)
+    pub fn score_movements(
+        &self,
+        a: &CorpusAddress,
+        b: &CorpusAddress,
+        options: &ScoreOptions,
+    ) -> CorpusResult<MovementScore> {
+        score_two_pieces(&self.scored_piece(a)?, &self.scored_piece(b)?, options)
     }
 
-    /// Compares as [`score`](Self::score) does, and draws the alignment to a PNG.
+    /// Compares as [`score`](Self::score_movements) does, and draws the alignment to a PNG.
     ///
     /// # Errors
-    /// As [`score`](Self::score), or if the picture cannot be written.
+    /// As [`score`](Self::score_movements), or if the picture cannot be written.
     pub fn draw_alignment(
         &self,
-        [a, b]: [&Address; 2],
+        [a, b]: [&CorpusAddress; 2],
         options: &ScoreOptions,
         to: &Path,
         force: bool,
-    ) -> Result<Scored> {
+    ) -> CorpusResult<MovementScore> {
         let names = [a.to_string(), b.to_string()];
-        let (a, b) = (self.piece(a)?, self.piece(b)?);
-        let scored = score(&a, &b, options)?;
+        let (a, b) = (self.scored_piece(a)?, self.scored_piece(b)?);
+        let scored = score_two_pieces(&a, &b, options)?;
         let chart = ChartOptions {
             names,
             ..ChartOptions::default()
         };
-        let lengths = [a.moving.clip.frames(), b.moving.clip.frames()];
-        let fault = |error: chereme_figure::FigureError| Error::wrong(error.to_string());
+        let lengths = [a.moving.clip.clip_frame_count(), b.moving.clip.clip_frame_count()];
+        let fault = |error: chereme_figure::FigureError| CorpusError::from_wrong_message(error.to_string());
         let image = alignment_picture(&scored.score.alignment, lengths, &chart).map_err(fault)?;
-        write(to, force, |out| write_png(&image, out).map_err(fault))?;
+        write_atomically(to, force, |out| write_png(&image, out).map_err(fault))?;
         Ok(scored)
     }
 
     /// Returns the movement at an address, which has a captured or made body.
-    fn piece(&self, address: &Address) -> Result<Piece> {
+    fn scored_piece(&self, address: &CorpusAddress) -> CorpusResult<ScoredPiece> {
         let moving = self.usable_movement(address)?;
-        let connection = self.store.read();
+        let connection = self.store.read_connection();
         let recording = &moving.stretch.recording;
-        if recordings::body_track(connection, recording.id)?.is_none() {
+        if stored_recordings::body_track(connection, recording.id)?.is_none() {
             let text = format!("{:?} has a face but no body to compare", recording.name);
-            return Err(Error::wrong(text)
-                .at(&recording.name)
-                .advise(Remedy::command(
+            return Err(CorpusError::from_wrong_message(text)
+                .with_error_place(&recording.name)
+                .with_advice(ErrorRemedy::command_remedy(
                     "`chereme score CORPUS A B --face` compares expressions of the face",
                 )));
         }
-        let uncaptured = hands::resting(connection, &self.hands, recording)?;
-        Ok(Piece { moving, uncaptured })
+        let uncaptured = hands::find_resting_hands(connection, &self.hands, recording)?;
+        Ok(ScoredPiece { moving, uncaptured })
     }
 }
 
-fn score(a: &Piece, b: &Piece, options: &ScoreOptions) -> Result<Scored> {
-    let score =
-        score_as(a.performed(), b.performed(), options).map_err(|error| match error {
-            ScoreError::NothingCaptured => Error::wrong(
-                "the two have only handshapes in common, and nobody captured them, as the fingers rest throughout",
-            )
-            .advise("compare recordings whose fingers move, or that have joints of the arms"),
-            error => Error::wrong(format!("the two cannot be compared: {error}")),
-        })?;
-    let findings = findings(&score, [a, b].map(Piece::recording));
-    Ok(Scored { score, findings })
+fn score_two_pieces(a: &ScoredPiece, b: &ScoredPiece, options: &ScoreOptions) -> CorpusResult<MovementScore> {
+    let score = score_as(a.performed(), b.performed(), options).map_err(|error| match error {
+        ScoreError::NothingCaptured => CorpusError::from_wrong_message(
+            "the two have only handshapes in common, and nobody captured them, as the fingers rest throughout",
+        )
+        .with_advice("compare recordings whose fingers move, or that have joints of the arms"),
+        error => CorpusError::from_wrong_message(format!("the two cannot be compared: {error}")),
+    })?;
+    let findings = score_findings(&score, [a, b].map(ScoredPiece::piece_recording_name));
+    Ok(MovementScore { score, findings })
 }
 
-impl Piece {
-    fn performed(&self) -> Performed<'_> {
-        Performed {
+impl ScoredPiece {
+    fn performed(&self) -> PerformedClip<'_> {
+        PerformedClip {
             clip: &self.moving.clip,
             anatomy: &self.moving.anatomy,
             uncaptured: &self.uncaptured,
         }
     }
 
-    fn recording(&self) -> &str {
+    fn piece_recording_name(&self) -> &str {
         &self.moving.stretch.recording.name
     }
 }
 
 /// Returns the findings about components that are left out of a score of pieces of two recordings.
-fn findings(score: &Score, [first, second]: [&str; 2]) -> Vec<String> {
+fn score_findings(score: &ClipSimilarityScore, [first, second]: [&str; 2]) -> Vec<String> {
     let mut findings = Vec::new();
     let mut without_joints = Vec::new();
     for left in &score.left_out {
@@ -121,13 +125,13 @@ fn findings(score: &Score, [first, second]: [&str; 2]) -> Vec<String> {
             (true, _) => first.to_owned(),
             (_, true) => second.to_owned(),
             _ => {
-                without_joints.push(format!("{} {}", left.component, left.side.name()));
+                without_joints.push(format!("{} {}", left.component, left.side.body_side_name()));
                 continue;
             }
         };
         findings.push(format!(
             "handshapes of the {} hand are not compared, as its fingers rest throughout and nobody captured them: {names}",
-            left.side.name()
+            left.side.body_side_name()
         ));
     }
     if !without_joints.is_empty() {

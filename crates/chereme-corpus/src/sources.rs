@@ -4,39 +4,39 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use chereme_compose::{
-    BodyInput, CuePhases, Example, ExpressionSource, HeldValue, Language, LearnedProfile, Letter,
-    Material, SourceError, Sources, SpellingTimes, Value,
+    AlphabetLetter, BodyInput, BodyLanguageChanges, ComponentValue, CuePhases, ExpressionSource, HeldValue,
+    LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes, TokenExample,
 };
-use chereme_motion::{Instant, Side, Span};
-use chereme_sign::Inventory;
-use chereme_sign::hamnosys::Notated;
-use chereme_sign::milestones::Function;
-use chereme_sign::text::nearest;
-use chereme_sign::tier::Hands;
-use chereme_sign::{Component, Handedness, Reading};
+use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
+use chereme_sign::ComponentInventory;
+use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::milestones::ExpressionFunction;
+use chereme_sign::text::nearest_candidate;
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
-use crate::Store;
-use crate::address::{self, Address, Name, Stretch};
+use crate::IndexedStore;
+use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
 use crate::curves;
-use crate::db::columns::Origin;
-use crate::db::history;
-use crate::db::motion;
-use crate::db::recordings::{self, RecordingRow};
 use crate::db::signs;
-use crate::db::tiers;
-use crate::error::{Error, Result};
+use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_history;
+use crate::db::stored_motion;
+use crate::db::stored_recordings::{self, RecordingRow};
+use crate::db::stored_tiers;
+use crate::error::{CorpusError, CorpusResult};
 use crate::face;
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::search::index::SearchIndex;
-use learned::language::Samples;
+use learned::learned_language::MovementSamples;
 
 pub(crate) mod floor;
-mod language;
 mod learned;
-pub(crate) mod notation;
+mod sources_language;
+pub(crate) mod sources_notation;
 
 /// What recipes want by a name, in messages.
 const WANTED_BODY: &str = "a body is written signer:NAME or recording:NAME";
@@ -45,33 +45,33 @@ const WANTED_NOTATION: &str = "notation is wanted";
 const WANTED_SKELETON: &str = "the movement of a skeleton is wanted";
 
 /// The longest stretch that a recipe accepts as a source, in microseconds.
-const LONGEST: i64 = 600_000_000;
+const MAX_SOURCE_STRETCH_US: i64 = 600_000_000;
 
 /// The corpus from the point of view of recipes.
 pub(crate) struct CorpusSources<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
     pub(crate) inventories: &'a [StoredInventory],
-    pub(crate) learned: &'a RefCell<Learned>,
+    pub(crate) learned: &'a RefCell<LearnedCache>,
 }
 
 /// Cache of the numbers learned from a corpus, valid until something in it changes.
 #[derive(Default)]
-pub(crate) struct Learned {
+pub(crate) struct LearnedCache {
     /// The newest operation when the profile was learned, and the profile.
     profile: Option<(Option<i64>, Option<LearnedProfile>)>,
     /// The newest operation when body language was measured, and the samples.
-    samples: Option<(Option<i64>, Samples)>,
+    samples: Option<(Option<i64>, MovementSamples)>,
 }
 
 impl<'a> CorpusSources<'a> {
     /// Opens a corpus for recipes, with its search index brought up to date.
-    pub(crate) fn open(
-        store: &'a mut Store,
+    pub(crate) fn open_corpus_sources(
+        store: &'a mut IndexedStore,
         inventories: &'a [StoredInventory],
-        learned: &'a RefCell<Learned>,
-    ) -> Result<Self> {
-        let (connection, index) = store.searchable()?;
+        learned: &'a RefCell<LearnedCache>,
+    ) -> CorpusResult<Self> {
+        let (connection, index) = store.searchable_connection()?;
         Ok(Self {
             connection,
             index,
@@ -80,100 +80,107 @@ impl<'a> CorpusSources<'a> {
         })
     }
 
-    fn stretch(&self, text: &str) -> Result<Stretch> {
-        address::stretch(self.connection, &text.parse()?)
+    fn parse_source_stretch(&self, text: &str) -> CorpusResult<RecordingStretch> {
+        address::find_addressed_stretch(self.connection, &text.parse()?)
     }
 
-    fn load(&self, stretch: &Stretch) -> Result<Material> {
-        if stretch.span.micros() > LONGEST {
-            let seconds = stretch.span.seconds();
-            return Err(Error::wrong(format!(
+    fn load_stretch_material(&self, stretch: &RecordingStretch) -> CorpusResult<MovementMaterial> {
+        if stretch.span.span_micros() > MAX_SOURCE_STRETCH_US {
+            let seconds = stretch.span.span_seconds();
+            return Err(CorpusError::from_wrong_message(format!(
                 "{:?} is {:.0} min long, and a recipe takes {} min at most; annotate the part on a gloss tier and name \
                  its token",
                 stretch.recording.name,
                 seconds / 60.0,
-                LONGEST / 60_000_000
+                MAX_SOURCE_STRETCH_US / 60_000_000
             ))
-            .advise("annotate the part on a gloss tier and name its token"));
+            .with_advice("annotate the part on a gloss tier and name its token"));
         }
-        if recordings::body_track(self.connection, stretch.recording.id)?.is_none()
-            && let Some(mut material) = face::stage::material(self.connection, stretch)?
+        if stored_recordings::body_track(self.connection, stretch.recording.id)?.is_none()
+            && let Some(mut material) = face::face_stage::load_face_material(self.connection, stretch)?
         {
-            material.held = self.held(stretch, material.handedness)?;
+            material.held = self.held_component_values(stretch, material.handedness)?;
             return Ok(material);
         }
-        let track = MotionTrack::of(self.connection, stretch.recording.id)?;
-        let mut material = movement(self.connection, &track, stretch)?;
-        material.held = self.held(stretch, material.handedness)?;
+        let track = MotionTrack::open_motion_track(self.connection, stretch.recording.id)?;
+        let mut material = stretch_movement_material(self.connection, &track, stretch)?;
+        material.held = self.held_component_values(stretch, material.handedness)?;
         material.curves = curves::of_track(self.connection, &track, track.frames_in(stretch.span))?;
         Ok(material)
     }
 
     /// Returns the values on the component tiers over a stretch, with times counted from its first frame.
-    fn held(&self, stretch: &Stretch, handedness: Handedness) -> Result<Vec<HeldValue>> {
-        let mut held = Vec::new();
-        let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
-        for tier in tiers::tiers(self.connection, stretch.recording.id)? {
-            let Some((component, feature)) = tier.role.component() else {
+    fn held_component_values(
+        &self,
+        stretch: &RecordingStretch,
+        handedness: SignerHandedness,
+    ) -> CorpusResult<Vec<HeldValue>> {
+        let mut held_values = Vec::new();
+        let (start, end) = (
+            stretch.span.span_start_instant().instant_micros(),
+            stretch.span.span_end_instant().instant_micros(),
+        );
+        for tier in stored_tiers::load_tier_rows(self.connection, stretch.recording.id)? {
+            let Some((component, feature)) = tier.role.role_component() else {
                 continue;
             };
             let inventory = self
                 .inventories
                 .iter()
-                .find(|it| Some(it.id) == tier.inventory_id);
-            for row in tiers::annotations_near(self.connection, tier.id, start, end)? {
-                let own = Span::between(
-                    Instant::from_micros(row.start_us),
-                    Instant::from_micros(row.end_us),
+                .find(|stored| Some(stored.id) == tier.inventory_id);
+            for row in stored_tiers::annotations_near(self.connection, tier.id, start, end)? {
+                let row_span = TimeSpan::span_between(
+                    RecordingInstant::from_micros(row.start_us),
+                    RecordingInstant::from_micros(row.end_us),
                 );
-                let Some(span) = own.intersection(stretch.span) else {
+                let Some(span) = row_span.span_intersection(stretch.span) else {
                     continue;
                 };
                 if !row.is_filled() {
                     continue;
                 }
-                let known = inventory.and_then(|it| it.inventory.find(row.value.trim()));
-                let value = known.map_or(row.value.trim(), |value| value.id.as_str());
-                for hand in sides(tier.hand, handedness) {
-                    held.push(HeldValue {
+                let known_value = inventory.and_then(|stored| stored.inventory.find_inventory_value(row.value.trim()));
+                let value = known_value.map_or(row.value.trim(), |value| value.id.as_str());
+                for hand in resolve_hand_sides(tier.hand, handedness) {
+                    held_values.push(HeldValue {
                         hand,
                         component,
                         feature: feature.map(str::to_owned),
-                        value: Reading::from(value),
-                        span: span.shifted(-start),
+                        value: ComponentReading::from(value),
+                        span: span.shifted_span(-start),
                     });
                 }
             }
         }
-        Ok(held)
+        Ok(held_values)
     }
 
     /// Returns the error for a name that belongs to something else than a recipe wants; `None` if nothing has it.
     fn other_kind(&self, address: &str, wanted: &'static str) -> Option<SourceError> {
-        let text = |name: &Name| match name {
-            Name::Text(text) if text.parse::<i64>().is_err() => text.clone(),
-            Name::Text(text) => format!("{text:?}"),
-            Name::Number(number) => number.to_string(),
+        let text = |name: &RowName| match name {
+            RowName::Text(text) if text.parse::<i64>().is_err() => text.clone(),
+            RowName::Text(text) => format!("{text:?}"),
+            RowName::Number(number) => number.to_string(),
         };
-        let signer = |name: &Name| {
-            address::signer(self.connection, name).ok()?;
+        let signer = |name: &RowName| {
+            address::find_signer_by_name(self.connection, name).ok()?;
             Some(("a signer", format!("signer:{}", text(name))))
         };
-        let recording = |name: &Name| {
-            address::recording(self.connection, name).ok()?;
+        let recording = |name: &RowName| {
+            address::find_recording_by_name(self.connection, name).ok()?;
             Some(("a recording", format!("recording:{}", text(name))))
         };
         let (kind, named) = match address.parse().ok()? {
-            Address::Signer(name) => signer(&name)?,
-            Address::Recording(name) => recording(&name)?,
-            Address::Gloss(name) => {
-                let name = Name::Text(name);
+            CorpusAddress::Signer(name) => signer(&name)?,
+            CorpusAddress::Recording(name) => recording(&name)?,
+            CorpusAddress::Gloss(name) => {
+                let name = RowName::Text(name);
                 signer(&name).or_else(|| recording(&name)).or_else(|| {
-                    let sign = self.has(address).then(|| address.to_owned());
+                    let sign = self.has_notated_name(address).then(|| address.to_owned());
                     sign.map(|sign| ("a sign", sign))
                 })?
             }
-            sign => ("a sign", self.has(address).then(|| sign.to_string())?),
+            sign => ("a sign", self.has_notated_name(address).then(|| sign.to_string())?),
         };
         Some(SourceError::OtherKind {
             address: address.into(),
@@ -188,76 +195,83 @@ impl<'a> CorpusSources<'a> {
         if let Some(error) = address.and_then(|address| self.other_kind(address, WANTED_BODY)) {
             return error;
         }
-        let signers = recordings::signers(self.connection).unwrap_or_default();
-        let known = signers
+        let signers = stored_recordings::load_signer_rows(self.connection).unwrap_or_default();
+        let signer_addresses = signers
             .into_iter()
-            .map(|it| Address::Signer(Name::Text(it.name)).to_string());
-        let (address, known) = (address.unwrap_or_default(), known.collect::<Vec<_>>());
+            .map(|signer| CorpusAddress::Signer(RowName::Text(signer.name)).to_string());
+        let (address, known) = (address.unwrap_or_default(), signer_addresses.collect::<Vec<_>>());
         SourceError::Missing {
             address: address.to_owned(),
-            nearest: nearest(address, known.iter().map(String::as_str)).map(str::to_owned),
+            nearest: nearest_candidate(address, known.iter().map(String::as_str)).map(str::to_owned),
         }
     }
 
-    fn all(&self) -> impl Iterator<Item = &Inventory> {
+    fn all_source_inventories(&self) -> impl Iterator<Item = &ComponentInventory> {
         self.inventories.iter().map(|stored| &stored.inventory)
     }
 
-    fn example(
+    fn token_example(
         &self,
         token: i64,
-        hand: Option<Side>,
-        span: Option<Span>,
-    ) -> Result<Option<Example>> {
-        let token = signs::token(self.connection, token)?;
+        hand: Option<BodySide>,
+        span: Option<TimeSpan>,
+    ) -> CorpusResult<Option<TokenExample>> {
+        let token = signs::load_token_row(self.connection, token)?;
         let (Some(recording), Some(start)) = (token.recording_id, token.start_us) else {
             return Ok(None);
         };
-        if recordings::body_track(self.connection, recording)?.is_none() {
+        if stored_recordings::body_track(self.connection, recording)?.is_none() {
             return Ok(None);
         }
-        let signer = recordings::recording(self.connection, recording)?.signer;
-        Ok(Some(Example {
+        let signer = stored_recordings::load_recording_row(self.connection, recording)?.signer;
+        Ok(Some(TokenExample {
             address: format!("token:{}", token.id),
-            signer: signer.map(|name| Address::Signer(Name::Text(name)).to_string()),
+            signer: signer.map(|name| CorpusAddress::Signer(RowName::Text(name)).to_string()),
             hand,
-            span: span.map(|span| span.shifted(-start)),
+            span: span.map(|span| span.shifted_span(-start)),
         }))
     }
 }
 
 /// Returns the body of a recording in its first frame.
-pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Result<Material> {
-    let track = MotionTrack::of(connection, recording.id)?;
-    let stretch = Stretch {
-        span: track.rate.span(0..1),
+pub(crate) fn standing_body_material(
+    connection: &Connection,
+    recording: RecordingRow,
+) -> CorpusResult<MovementMaterial> {
+    let track = MotionTrack::open_motion_track(connection, recording.id)?;
+    let stretch = RecordingStretch {
+        span: track.rate.frame_range_span(0..1),
         recording,
         token: None,
     };
-    movement(connection, &track, &stretch)
+    stretch_movement_material(connection, &track, &stretch)
 }
 
 /// Returns the movement of a stretch, without its annotations.
-fn movement(connection: &Connection, track: &MotionTrack, stretch: &Stretch) -> Result<Material> {
+fn stretch_movement_material(
+    connection: &Connection,
+    track: &MotionTrack,
+    stretch: &RecordingStretch,
+) -> CorpusResult<MovementMaterial> {
     let frames = track.frames_in(stretch.span);
-    let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
+    let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
     let name = format!(
         "{} {:?} {:?}",
-        motion::content_hash(connection, track.row.id)?,
+        stored_motion::content_hash(connection, track.row.id)?,
         frames,
         track.row
     );
     let signer = match stretch.recording.signer_id {
-        Some(id) => recordings::signer(connection, id)?,
+        Some(id) => stored_recordings::find_signer_row(connection, id)?,
         None => None,
     };
     let left = signer
         .as_ref()
-        .is_some_and(|it| it.handedness.as_deref() == Some("left"));
+        .is_some_and(|row| row.handedness.as_deref() == Some("left"));
     let handedness = if left {
-        Handedness::Left
+        SignerHandedness::Left
     } else {
-        Handedness::Right
+        SignerHandedness::Right
     };
     let (address, gloss) = match &stretch.token {
         Some(token) => (format!("token:{}", token.id), token.gloss.clone()),
@@ -266,26 +280,26 @@ fn movement(connection: &Connection, track: &MotionTrack, stretch: &Stretch) -> 
             stretch.recording.name.clone(),
         ),
     };
-    Ok(Material {
+    Ok(MovementMaterial {
         address,
-        hash: motion::hex(&Sha256::digest(name.as_bytes())),
+        hash: stored_motion::to_hex_text(&Sha256::digest(name.as_bytes())),
         gloss,
-        signer: signer.map(|it| Address::Signer(Name::Text(it.name)).to_string()),
+        signer: signer.map(|row| CorpusAddress::Signer(RowName::Text(row.name)).to_string()),
         handedness,
         clip,
-        anatomy: Arc::new(track.anatomy(connection)?),
+        anatomy: Arc::new(track.track_anatomy(connection)?),
         held: Vec::new(),
         curves: Vec::new(),
     })
 }
 
-impl Sources for CorpusSources<'_> {
-    fn material(&self, address: &str) -> std::result::Result<Material, SourceError> {
-        if address == notation::OWN_BODY {
-            return notation::own_body().map_err(|error| unreadable(&error));
+impl RecipeSources for CorpusSources<'_> {
+    fn find_material(&self, address: &str) -> std::result::Result<MovementMaterial, SourceError> {
+        if address == sources_notation::OWN_BODY {
+            return sources_notation::own_body().map_err(|error| unreadable(&error));
         }
-        match self.stretch(address) {
-            Ok(stretch) => match self.load(&stretch) {
+        match self.parse_source_stretch(address) {
+            Ok(stretch) => match self.load_stretch_material(&stretch) {
                 Err(error) if error.is_lack() => Err(SourceError::OtherKind {
                     address: address.into(),
                     kind: "in a recording without a skeleton",
@@ -295,13 +309,13 @@ impl Sources for CorpusSources<'_> {
                 loaded => loaded.map_err(|error| unreadable(&error)),
             },
             Err(error) => self
-                .animated(address)?
-                .ok_or_else(|| missing(self, address, WANTED_MOVEMENT, &error)),
+                .animate_notated_sign(address)?
+                .ok_or_else(|| missing_source_error(self, address, WANTED_MOVEMENT, &error)),
         }
     }
 
     fn performer(&self, address: &str) -> std::result::Result<Option<BodyInput>, SourceError> {
-        if self.stretch(address).is_ok() || self.notation_of(address).is_err() {
+        if self.parse_source_stretch(address).is_ok() || self.notation_of(address).is_err() {
             return Ok(None);
         }
         let body = self.stage(None)?;
@@ -311,25 +325,24 @@ impl Sources for CorpusSources<'_> {
         }))
     }
 
-    fn notation(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
-        self.notated(name)
+    fn find_named_notation(&self, name: &str) -> std::result::Result<Vec<NotatedSign>, SourceError> {
+        self.find_notated_signs(name)
     }
 
-    fn stage(&self, signer: Option<&str>) -> std::result::Result<Material, SourceError> {
+    fn stage(&self, signer: Option<&str>) -> std::result::Result<MovementMaterial, SourceError> {
         let wanted = match signer.map(str::parse) {
-            _ if signer == Some(notation::OWN_BODY) => {
-                return notation::own_body().map_err(|error| unreadable(&error));
+            _ if signer == Some(sources_notation::OWN_BODY) => {
+                return sources_notation::own_body().map_err(|error| unreadable(&error));
             }
-            Some(Ok(Address::Recording(name))) => {
-                let recording = address::recording(self.connection, &name).map_err(|error| {
-                    missing(self, signer.unwrap_or_default(), WANTED_BODY, &error)
-                })?;
-                return standing(self.connection, recording)
-                    .and_then(floor::grounded)
+            Some(Ok(CorpusAddress::Recording(name))) => {
+                let recording = address::find_recording_by_name(self.connection, &name)
+                    .map_err(|error| missing_source_error(self, signer.unwrap_or_default(), WANTED_BODY, &error))?;
+                return standing_body_material(self.connection, recording)
+                    .and_then(floor::ground_body)
                     .map_err(|error| unreadable(&error));
             }
-            Some(Ok(Address::Signer(name))) => {
-                let row = address::signer(self.connection, &name);
+            Some(Ok(CorpusAddress::Signer(name))) => {
+                let row = address::find_signer_by_name(self.connection, &name);
                 Some(row.map_err(|_| self.no_signer(signer))?.id)
             }
             Some(_) => {
@@ -337,30 +350,30 @@ impl Sources for CorpusSources<'_> {
             }
             None => None,
         };
-        let find = || -> Result<Option<Material>> {
-            let mut recordings = recordings::recordings(self.connection)?;
+        let find = || -> CorpusResult<Option<MovementMaterial>> {
+            let mut recordings = stored_recordings::load_recording_rows(self.connection)?;
             // Generated movement has its body from elsewhere, and may be generated again on another.
             recordings.retain(|row| match wanted {
                 Some(signer) => row.signer_id == Some(signer),
-                None => row.origin != Origin::Made,
+                None => row.origin != RecordOrigin::Made,
             });
-            let rank = |origin: Origin| {
-                [Origin::Captured, Origin::Generated, Origin::Made]
+            let rank = |origin: RecordOrigin| {
+                [RecordOrigin::Captured, RecordOrigin::Generated, RecordOrigin::Made]
                     .iter()
-                    .position(|it| *it == origin)
+                    .position(|candidate| *candidate == origin)
             };
             recordings.sort_by_key(|row| (rank(row.origin), row.id));
             // Bodies with fingers come before others, and those that stand before those that hang in the air.
-            let mut spare: Option<((bool, bool), Material)> = None;
+            let mut spare: Option<((bool, bool), MovementMaterial)> = None;
             for recording in recordings {
-                if recordings::body_track(self.connection, recording.id)?.is_none() {
+                if stored_recordings::body_track(self.connection, recording.id)?.is_none() {
                     continue;
                 }
-                let material = standing(self.connection, recording)?;
-                let has_fingers = Side::BOTH
+                let material = standing_body_material(self.connection, recording)?;
+                let has_fingers = BodySide::BOTH_SIDES
                     .iter()
                     .all(|&side| material.anatomy.has_fingers(side));
-                let fit = (has_fingers, floor::hanging(&material).is_none());
+                let fit = (has_fingers, floor::hanging_height(&material).is_none());
                 if fit == (true, true) {
                     return Ok(Some(material));
                 }
@@ -369,8 +382,8 @@ impl Sources for CorpusSources<'_> {
                 }
             }
             match spare {
-                None if wanted.is_none() => notation::own_body().map(Some),
-                spare => spare.map(|(_, body)| floor::grounded(body)).transpose(),
+                None if wanted.is_none() => sources_notation::own_body().map(Some),
+                spare => spare.map(|(_, body)| floor::ground_body(body)).transpose(),
             }
         };
         find()
@@ -383,106 +396,108 @@ impl Sources for CorpusSources<'_> {
             })
     }
 
-    fn value(&self, component: Component, text: &str) -> std::result::Result<Value, SourceError> {
-        chereme_compose::value_in(self.all(), component, text)
+    fn find_component_value(
+        &self,
+        component: SignComponent,
+        text: &str,
+    ) -> std::result::Result<ComponentValue, SourceError> {
+        chereme_compose::value_in(self.all_source_inventories(), component, text)
     }
 
-    fn values(&self, component: Component) -> Vec<Value> {
-        self.all()
-            .filter(|it| it.component == component && it.feature.is_none())
-            .flat_map(|it| it.values.iter().map(move |value| Value::of(it, value)))
+    fn list_component_values(&self, component: SignComponent) -> Vec<ComponentValue> {
+        self.all_source_inventories()
+            .filter(|inventory| inventory.component == component && inventory.feature.is_none())
+            .flat_map(|inventory| {
+                inventory
+                    .values
+                    .iter()
+                    .map(move |value| ComponentValue::value_from_inventory(inventory, value))
+            })
             .collect()
     }
 
-    fn holding(
-        &self,
-        component: Component,
-        value: &str,
-    ) -> std::result::Result<Vec<Example>, SourceError> {
-        let find = || -> Result<Vec<Example>> {
+    fn holding(&self, component: SignComponent, value: &str) -> std::result::Result<Vec<TokenExample>, SourceError> {
+        let find = || -> CorpusResult<Vec<TokenExample>> {
             let mut examples = Vec::new();
-            for found in signs::tokens_holding(self.connection, component.name(), value)? {
+            for found in signs::tokens_holding(self.connection, component.component_name(), value)? {
                 let span = found.span_us.map(|(start, end)| {
-                    Span::between(Instant::from_micros(start), Instant::from_micros(end))
+                    TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
                 });
-                let hand = found.hand.and_then(Hands::one);
+                let hand = found.hand.and_then(AnnotatedHands::single_hand);
                 let handedness = if found.left_handed {
-                    Handedness::Left
+                    SignerHandedness::Left
                 } else {
-                    Handedness::Right
+                    SignerHandedness::Right
                 };
-                let hand = hand.map(|hand| hand.resolve(handedness));
-                examples.extend(self.example(found.token, hand, span)?);
+                let hand = hand.map(|hand| hand.resolve_hand_ref(handedness));
+                examples.extend(self.token_example(found.token, hand, span)?);
             }
             Ok(examples)
         };
         find().map_err(|error| unreadable(&error))
     }
 
-    fn best(
+    fn find_best_examples(
         &self,
         query: &str,
         signer: Option<&str>,
-    ) -> std::result::Result<Vec<Example>, SourceError> {
+    ) -> std::result::Result<Vec<TokenExample>, SourceError> {
         let same = signer.unwrap_or("signer:*");
         let query = query.replace("signer=same", same);
-        let fault = |error: &Error| SourceError::Query {
+        let fault = |error: &CorpusError| SourceError::Query {
             query: query.clone(),
             message: error.to_string(),
         };
-        let tokens = crate::search::tokens(self.connection, self.index, &query);
-        let tokens = tokens.map_err(|error| fault(&error))?;
+        let search_result = crate::search::find_query_tokens(self.connection, self.index, &query);
+        let tokens = search_result.map_err(|error| fault(&error))?;
         let mut examples = Vec::new();
         for token in tokens {
-            examples.extend(
-                self.example(token, None, None)
-                    .map_err(|error| fault(&error))?,
-            );
+            examples.extend(self.token_example(token, None, None).map_err(|error| fault(&error))?);
         }
         Ok(examples)
     }
 
-    fn expression(
+    fn find_face_expression(
         &self,
         address: &str,
         function: Option<&str>,
     ) -> std::result::Result<ExpressionSource, SourceError> {
-        let function = function.map(Function::of);
-        let fault = |error: &Error| SourceError::Expression {
+        let function = function.map(ExpressionFunction::from_function_name);
+        let fault = |error: &CorpusError| SourceError::Expression {
             address: address.to_owned(),
             why: error.to_string(),
-            remedy: error.remedy().map(Box::new),
+            remedy: error.error_remedy().map(Box::new),
         };
-        let named: Address = address.parse().map_err(|error| fault(&error))?;
-        let found = face::expression_at(self.connection, &named, function.as_ref());
-        let found = found.map_err(|error| fault(&error))?;
-        let recording = Address::Recording(Name::Number(found.recording)).to_string();
-        let stretch = self.stretch(&recording).map_err(|error| fault(&error))?;
-        let material = self.load(&stretch).map_err(|error| fault(&error))?;
-        let start = face::stage::first_frame(self.connection, found.recording, stretch.span);
-        let start = start.map_err(|error| fault(&error))?;
+        let named: CorpusAddress = address.parse().map_err(|error| fault(&error))?;
+        let expression_result = face::expression_at(self.connection, &named, function.as_ref());
+        let expression = expression_result.map_err(|error| fault(&error))?;
+        let recording = CorpusAddress::Recording(RowName::Number(expression.recording)).to_string();
+        let stretch = self.parse_source_stretch(&recording).map_err(|error| fault(&error))?;
+        let material = self.load_stretch_material(&stretch).map_err(|error| fault(&error))?;
+        let start_result = face::face_stage::first_frame(self.connection, expression.recording, stretch.span);
+        let start = start_result.map_err(|error| fault(&error))?;
         Ok(ExpressionSource {
             material,
-            function: found.function,
-            milestones: found.milestones.shifted(-start),
+            function: expression.function,
+            milestones: expression.milestones.shift_milestones(-start),
         })
     }
 
-    fn letters(
+    fn find_alphabet_letters(
         &self,
         alphabet: Option<&str>,
         word: &str,
-    ) -> std::result::Result<Vec<Letter>, SourceError> {
-        chereme_compose::letters_in(self.all(), alphabet, word)
+    ) -> std::result::Result<Vec<AlphabetLetter>, SourceError> {
+        chereme_compose::letters_in(self.all_source_inventories(), alphabet, word)
     }
 
     fn learned_profile(&self) -> std::result::Result<Option<LearnedProfile>, SourceError> {
-        let newest = history::newest(self.connection).map_err(|error| unreadable(&error))?;
+        let newest = stored_history::find_newest_operation(self.connection).map_err(|error| unreadable(&error))?;
         let mut learned = self.learned.borrow_mut();
         if let Some((_, profile)) = learned.profile.as_ref().filter(|(at, _)| *at == newest) {
             return Ok(profile.clone());
         }
-        let profile = learned::profile(self.connection).map_err(|error| unreadable(&error))?;
+        let profile = learned::learn_transition_profile(self.connection).map_err(|error| unreadable(&error))?;
         learned.profile = Some((newest, profile.clone()));
         Ok(profile)
     }
@@ -491,8 +506,8 @@ impl Sources for CorpusSources<'_> {
         &self,
         named: Option<&str>,
         signer: Option<&str>,
-    ) -> std::result::Result<Language, SourceError> {
-        self.spoken(named, signer)
+    ) -> std::result::Result<BodyLanguageChanges, SourceError> {
+        self.find_body_language(named, signer)
     }
 
     fn cue_phases(&self) -> std::result::Result<Option<CuePhases>, SourceError> {
@@ -500,62 +515,58 @@ impl Sources for CorpusSources<'_> {
     }
 
     fn spelling_times(&self) -> std::result::Result<SpellingTimes, SourceError> {
-        learned::spelling_times(self.connection, self.inventories)
-            .map_err(|error| unreadable(&error))
+        learned::spelling_times(self.connection, self.inventories).map_err(|error| unreadable(&error))
     }
 }
 
-fn sides(hand: Option<Hands>, handedness: Handedness) -> Vec<Option<Side>> {
+fn resolve_hand_sides(hand: Option<AnnotatedHands>, handedness: SignerHandedness) -> Vec<Option<BodySide>> {
     match hand {
-        Some(Hands::Both) => vec![Some(Side::Right), Some(Side::Left)],
-        Some(Hands::One(hand)) => vec![Some(hand.resolve(handedness))],
+        Some(AnnotatedHands::Both) => vec![Some(BodySide::Right), Some(BodySide::Left)],
+        Some(AnnotatedHands::One(hand)) => vec![Some(hand.resolve_hand_ref(handedness))],
         None => vec![None],
     }
 }
 
-fn unreadable(error: &Error) -> SourceError {
+fn unreadable(error: &CorpusError) -> SourceError {
     SourceError::Unreadable(error.to_string())
 }
 
 /// Returns the error for an address without what is wanted, which depends on what the address names instead.
-fn missing(
+fn missing_source_error(
     sources: &CorpusSources<'_>,
     address: &str,
     wanted: &'static str,
-    error: &Error,
+    error: &CorpusError,
 ) -> SourceError {
-    let own = address.to_owned();
-    let parsed: Option<Address> = address.parse().ok();
+    let address_text = address.to_owned();
+    let parsed: Option<CorpusAddress> = address.parse().ok();
     let sign = match &parsed {
-        Some(Address::Gloss(gloss) | Address::Sign(Name::Text(gloss))) => {
-            address::sign(sources.connection, gloss).ok()
+        Some(CorpusAddress::Gloss(gloss) | CorpusAddress::Sign(RowName::Text(gloss))) => {
+            address::find_sign_by_gloss(sources.connection, gloss).ok()
         }
         _ => None,
     };
     let tokens = sign.and_then(|sign| signs::tokens_of_sign(sources.connection, sign).ok());
     match tokens {
         Some(tokens) if tokens.iter().all(|token| token.recording_id.is_none()) => {
-            SourceError::NoMovement { address: own }
+            SourceError::NoMovement { address: address_text }
         }
         Some(tokens) => SourceError::Ambiguous {
-            address: own,
-            candidates: tokens
-                .iter()
-                .map(|token| format!("token:{}", token.id))
-                .collect(),
+            address: address_text,
+            candidates: tokens.iter().map(|token| format!("token:{}", token.id)).collect(),
         },
         None if parsed.is_none() => unreadable(error),
-        None if error.is_lack() => SourceError::NoMovement { address: own },
+        None if error.is_lack() => SourceError::NoMovement { address: address_text },
         None => {
             if let Some(other) = sources.other_kind(address, wanted) {
                 return other;
             }
-            let glosses = signs::glosses(sources.connection).unwrap_or_default();
-            let recordings = recordings::recordings(sources.connection).unwrap_or_default();
+            let glosses = signs::list_all_glosses(sources.connection).unwrap_or_default();
+            let recordings = stored_recordings::load_recording_rows(sources.connection).unwrap_or_default();
             let names = recordings.iter().map(|row| row.name.as_str());
-            let near = nearest(address, glosses.iter().map(String::as_str).chain(names));
+            let near = nearest_candidate(address, glosses.iter().map(String::as_str).chain(names));
             SourceError::Missing {
-                address: own,
+                address: address_text,
                 nearest: near.map(str::to_owned),
             }
         }
@@ -581,35 +592,19 @@ mod tests {
                 "\"Ada\" is a signer, and a body is written",
                 "write signer:Ada instead",
             ),
-            (
-                "spell OR on token:1",
-                "\"token:1\" is a sign, and a body",
-                "",
-            ),
+            ("spell OR on token:1", "\"token:1\" is a sign, and a body", ""),
             ("Ada | reverse", "\"Ada\" is a signer, and the movement", ""),
-            (
-                "BOL then signer:Ada",
-                "is a signer, and the movement of a sign",
-                "",
-            ),
-            (
-                "sigml Ada",
-                "\"Ada\" is a signer, and notation is wanted",
-                "",
-            ),
-            (
-                "point right at left on nobody",
-                "\"nobody\" is not in the corpus",
-                "",
-            ),
+            ("BOL then signer:Ada", "is a signer, and the movement of a sign", ""),
+            ("sigml Ada", "\"Ada\" is a signer, and notation is wanted", ""),
+            ("point right at left on nobody", "\"nobody\" is not in the corpus", ""),
             ("MOON | reverse", "\"MOON\" is not in the corpus", ""),
         ] {
-            let error = corpus.preview(recipe).expect_err(recipe);
+            let error = corpus.preview_recipe(recipe).expect_err(recipe);
             assert!(error.to_string().contains(kind), "{recipe}: {error}");
-            let remedy = error.remedy().map(|it| it.text().to_owned());
+            let remedy = error.error_remedy().map(|it| it.remedy_text().to_owned());
             let remedy = remedy.unwrap_or_default();
             assert!(remedy.contains(right), "{recipe}: {remedy}");
-            let french = crate::words::message(&error.to_string(), crate::words::Language::French);
+            let french = crate::words::localized_message(&error.to_string(), crate::words::InterfaceLanguage::French);
             let french = french.expect(recipe);
             assert!(!french.contains(" is "), "{recipe}: {french}");
         }

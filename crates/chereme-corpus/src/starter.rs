@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chereme_figure::signed;
-use chereme_motion::{Anatomy, Clip};
+use chereme_figure::active_signing_frames;
+use chereme_motion::{BodyAnatomy, Clip};
 
-use crate::error::{Error, Result};
-use crate::sources::notation::own_movement;
+use crate::error::{CorpusError, CorpusResult};
+use crate::sources::sources_notation::own_movement;
 
 /// Returns the names and bytes of the starter corpus's files.
 pub fn starter_files() -> impl Iterator<Item = (&'static Path, &'static [u8])> {
@@ -22,11 +22,11 @@ pub struct StarterSign {
     /// Its movement, from the first to the last frame with a raised hand.
     pub clip: Clip,
     /// The body part of each joint.
-    pub anatomy: Anatomy,
+    pub anatomy: BodyAnatomy,
 }
 
 /// Recordings of the starter corpus with a single sign, and its gloss.
-const SINGLE: [(&str, &str); 10] = [
+const SINGLE_SIGN_RECORDINGS: [(&str, &str); 10] = [
     ("escargot.bvh", "ESCARGOT"),
     ("aimer.bvh", "AIMER"),
     ("chat.bvh", "CHAT"),
@@ -43,10 +43,10 @@ const SINGLE: [(&str, &str); 10] = [
 ///
 /// # Errors
 /// Fails if one of the program's own files is damaged.
-pub fn starter_signs() -> impl Iterator<Item = Result<StarterSign>> {
-    SINGLE.into_iter().map(|(file, gloss)| {
+pub fn starter_signs() -> impl Iterator<Item = CorpusResult<StarterSign>> {
+    SINGLE_SIGN_RECORDINGS.into_iter().map(|(file, gloss)| {
         let (clip, anatomy, _) = own_movement(file, usize::MAX)?;
-        let clip = clip.slice(signed(&clip, &anatomy));
+        let clip = clip.slice_clip_frames(active_signing_frames(&clip, &anatomy));
         Ok(StarterSign {
             gloss: gloss.to_owned(),
             clip,
@@ -58,17 +58,20 @@ pub fn starter_signs() -> impl Iterator<Item = Result<StarterSign>> {
 /// Writes the starter corpus's files into `folder`, which is created, and returns their paths.
 ///
 /// # Errors
-/// [`Error::File`] if a file cannot be written, or exists already with other bytes.
-pub fn unpack_starter(folder: &Path) -> Result<Vec<PathBuf>> {
-    fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+/// [`CorpusError::File`] if a file cannot be written, or exists already with other bytes.
+pub fn unpack_starter(folder: &Path) -> CorpusResult<Vec<PathBuf>> {
+    fs::create_dir_all(folder).map_err(|error| CorpusError::from_file_failure(folder, error))?;
     let mut paths = Vec::new();
     for (name, bytes) in starter_files() {
         let path = folder.join(name);
         let same = fs::read(&path).is_ok_and(|there| there == bytes);
         if path.exists() && !same {
-            return Err(Error::file(path, std::io::ErrorKind::AlreadyExists.into()));
+            return Err(CorpusError::from_file_failure(
+                path,
+                std::io::ErrorKind::AlreadyExists.into(),
+            ));
         }
-        fs::write(&path, bytes).map_err(|error| Error::file(&path, error))?;
+        fs::write(&path, bytes).map_err(|error| CorpusError::from_file_failure(&path, error))?;
         paths.push(path);
     }
     paths.sort();
@@ -82,11 +85,11 @@ mod tests {
     #[test]
     fn single_signs_of_the_starter_corpus_move_and_have_hands() {
         let signs: Vec<StarterSign> = starter_signs().map(|it| it.expect("a sign")).collect();
-        assert_eq!(signs.len(), SINGLE.len());
+        assert_eq!(signs.len(), SINGLE_SIGN_RECORDINGS.len());
         for sign in &signs {
-            let seconds = sign.clip.span().seconds();
+            let seconds = sign.clip.clip_span().span_seconds();
             assert!((0.3..8.0).contains(&seconds), "{}: {seconds}", sign.gloss);
-            let sides = chereme_motion::Side::BOTH;
+            let sides = chereme_motion::BodySide::BOTH_SIDES;
             assert!(sides.iter().all(|&side| sign.anatomy.has_fingers(side)));
         }
     }

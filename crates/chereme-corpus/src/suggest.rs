@@ -2,23 +2,23 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::Remedy;
-use chereme_sign::tier::Hands;
-use chereme_sign::{Component, Field, HandRef, Handedness, Phase};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, SignerHandedness};
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, Address};
-use crate::db::columns::{Origin, ValueState};
-use crate::db::recordings;
+use crate::address::{self, CorpusAddress};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::error::{Error, Result};
-use crate::export::compound;
+use crate::db::stored_columns::{RecordOrigin, ValueState};
+use crate::db::stored_recordings;
+use crate::error::{CorpusError, CorpusResult};
+use crate::export::join_phase_values;
 use crate::inventories;
 
 /// Suggestions from a sign.
 #[derive(Debug, Clone, Serialize)]
-pub struct Suggestions {
+pub struct SignSuggestions {
     /// The row of the token.
     pub token: i64,
     /// Its gloss.
@@ -26,23 +26,23 @@ pub struct Suggestions {
     /// Its coding, by field.
     pub coding: BTreeMap<String, String>,
     /// Minimal pairs: signs coded for the same fields, and alike in all but one of them.
-    pub partners: Vec<Partner>,
+    pub partners: Vec<MinimalPairPartner>,
     /// Signs that agree in all but one of the fields that both are coded for, if one of the two is coded for further
     /// fields: whether they differ in these is unknown.
-    pub possible: Vec<Partner>,
+    pub possible: Vec<MinimalPairPartner>,
     /// Values that no sign of the corpus combines with the rest of this coding, by field.
     pub unused: BTreeMap<String, Vec<String>>,
 }
 
 /// A sign that differs from another in one component.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Partner {
+pub struct MinimalPairPartner {
     /// The row of its token.
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
     /// Its origin.
-    pub origin: Origin,
+    pub origin: RecordOrigin,
     /// The field in which they differ.
     pub field: String,
     /// The value of the first sign.
@@ -63,7 +63,7 @@ const LEAST_EQUAL: usize = 2;
 
 /// The values of a token by field, hands by their part in signing: `beak > 5` for successive values, `down + in` for
 /// simultaneous ones.
-type Coding = BTreeMap<String, String>;
+type TokenCoding = BTreeMap<String, String>;
 
 impl Corpus {
     /// Returns suggestions for new signs from a token: signs of the corpus whose codings differ in one component, with
@@ -74,48 +74,50 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if nothing has that address, or if the token has no coding.
-    pub fn suggest(&self, address: &Address) -> Result<Suggestions> {
-        let connection = self.store.read();
-        let token = address::token(connection, address)?;
-        let own = coding(
-            &signs::values(connection, token.id)?,
-            self.handedness(&token)?,
+    pub fn suggest_new_signs(&self, address: &CorpusAddress) -> CorpusResult<SignSuggestions> {
+        let connection = self.store.read_connection();
+        let token = address::find_addressed_token(connection, address)?;
+        let token_coding = coding_from_rows(
+            &signs::load_token_values(connection, token.id)?,
+            self.token_handedness(&token)?,
         );
-        if own.len() < LEAST_EQUAL {
-            return Err(Error::wrong(format!(
+        if token_coding.len() < LEAST_EQUAL {
+            return Err(CorpusError::from_wrong_message(format!(
                 "{} is coded for too few components to compare it with other signs: {}, and {LEAST_EQUAL} are needed",
                 token.gloss,
-                own.len()
+                token_coding.len()
             ))
-            .at(address.to_string())
-            .advise(Remedy::command("code its handshape, placement and movement, or have them proposed with `chereme propose`")));
+            .with_error_place(address.to_string())
+            .with_advice(ErrorRemedy::command_remedy(
+                "code its handshape, placement and movement, or have them proposed with `chereme propose`",
+            )));
         }
         let (mut partners, mut possible) = (Vec::new(), Vec::new());
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-        for other in signs::citations(connection)? {
+        for other in signs::load_citation_tokens(connection)? {
             if other.sign_id == token.sign_id {
                 continue;
             }
-            let theirs = coding(
-                &signs::values(connection, other.id)?,
-                self.handedness(&other)?,
+            let theirs = coding_from_rows(
+                &signs::load_token_values(connection, other.id)?,
+                self.token_handedness(&other)?,
             );
-            let (equal, different) = compare(&own, &theirs);
+            let (equal, different) = compare_codings(&token_coding, &theirs);
             if equal < LEAST_EQUAL || different.len() != 1 {
                 continue;
             }
             let field = different[0].clone();
-            let (from, to) = (own[&field].clone(), theirs[&field].clone());
+            let (from, to) = (token_coding[&field].clone(), theirs[&field].clone());
             used.entry(field.clone()).or_default().insert(to.clone());
-            let one_sided = own.len() + theirs.len() - 2 * (equal + 1);
+            let one_sided = token_coding.len() + theirs.len() - 2 * (equal + 1);
             let list = match one_sided {
                 0 => &mut partners,
                 _ => &mut possible,
             };
-            list.push(Partner {
+            list.push(MinimalPairPartner {
                 one_sided,
                 token: other.id,
-                recipe: recipe(&token, &field, &to),
+                recipe: field_change_recipe(&token, &field, &to),
                 gloss: other.gloss,
                 origin: other.origin,
                 field,
@@ -125,13 +127,13 @@ impl Corpus {
             });
         }
         partners.sort_by(|a, b| (b.equal, &a.field, &a.gloss).cmp(&(a.equal, &b.field, &b.gloss)));
-        let rank = |it: &Partner| (it.one_sided, usize::MAX - it.equal);
+        let rank = |partner: &MinimalPairPartner| (partner.one_sided, usize::MAX - partner.equal);
         possible.sort_by(|a, b| (rank(a), &a.field, &a.gloss).cmp(&(rank(b), &b.field, &b.gloss)));
-        let unused = self.unused(&own, &used)?;
-        Ok(Suggestions {
+        let unused = self.unused_field_values(&token_coding, &used)?;
+        Ok(SignSuggestions {
             token: token.id,
             gloss: token.gloss,
-            coding: own,
+            coding: token_coding,
             partners,
             possible,
             unused,
@@ -139,43 +141,45 @@ impl Corpus {
     }
 
     /// Returns the values of a token by field.
-    pub(crate) fn coding_of(&self, token: &TokenRow) -> Result<BTreeMap<String, String>> {
-        let values = signs::values(self.store.read(), token.id)?;
-        Ok(coding(&values, self.handedness(token)?))
+    pub(crate) fn coding_of(&self, token: &TokenRow) -> CorpusResult<BTreeMap<String, String>> {
+        let values = signs::load_token_values(self.store.read_connection(), token.id)?;
+        Ok(coding_from_rows(&values, self.token_handedness(token)?))
     }
 
-    fn handedness(&self, token: &TokenRow) -> Result<Handedness> {
-        let connection = self.store.read();
+    fn token_handedness(&self, token: &TokenRow) -> CorpusResult<SignerHandedness> {
+        let connection = self.store.read_connection();
         let Some(recording) = token.recording_id else {
-            return Ok(Handedness::Right);
+            return Ok(SignerHandedness::Right);
         };
-        let signer = recordings::recording(connection, recording)?.signer_id;
-        let signer = signer
-            .map(|id| recordings::signer(connection, id))
+        let signer_id = stored_recordings::load_recording_row(connection, recording)?.signer_id;
+        let signer = signer_id
+            .map(|id| stored_recordings::find_signer_row(connection, id))
             .transpose()?
             .flatten();
-        let left = signer.and_then(|it| it.handedness).as_deref() == Some("left");
+        let left = signer.and_then(|signer| signer.handedness).as_deref() == Some("left");
         Ok(if left {
-            Handedness::Left
+            SignerHandedness::Left
         } else {
-            Handedness::Right
+            SignerHandedness::Right
         })
     }
 
-    fn unused(
+    fn unused_field_values(
         &self,
-        own: &Coding,
+        own: &TokenCoding,
         used: &BTreeMap<String, BTreeSet<String>>,
-    ) -> Result<BTreeMap<String, Vec<String>>> {
-        let all = inventories::load(self.store.read())?;
+    ) -> CorpusResult<BTreeMap<String, Vec<String>>> {
+        let all = inventories::load_all_inventories(self.store.read_connection())?;
         let mut unused = BTreeMap::new();
         for (name, component) in [
-            ("dominant.configuration", Component::Configuration),
-            ("placement", Component::Placement),
+            ("dominant.configuration", SignComponent::Configuration),
+            ("placement", SignComponent::Placement),
         ] {
             let Some(value) = own.get(name) else { continue };
-            let inventory = all.iter().map(|it| &it.inventory).find(|it| {
-                it.component == component && it.feature.is_none() && it.find(value).is_some()
+            let inventory = all.iter().map(|stored| &stored.inventory).find(|inventory| {
+                inventory.component == component
+                    && inventory.feature.is_none()
+                    && inventory.find_inventory_value(value).is_some()
             });
             let Some(inventory) = inventory else { continue };
             let taken = used.get(name);
@@ -191,48 +195,43 @@ impl Corpus {
 }
 
 /// Returns the name of a field in the coding of a token.
-pub(crate) fn coding_name(field: &Field) -> String {
-    let part = field.feature.as_ref();
-    let part = part.map_or(String::new(), |part| format!(".{part}"));
+pub(crate) fn coding_name(field: &ComponentField) -> String {
+    let feature = field.feature.as_ref();
+    let part = feature.map_or(String::new(), |part| format!(".{part}"));
     let hand = match field.hand {
         Some(HandRef::Weak | HandRef::Left) => "weak.",
-        _ if field.component == Component::Configuration => "dominant.",
+        _ if field.component == SignComponent::Configuration => "dominant.",
         _ => "",
     };
     format!("{hand}{}{part}", field.component)
 }
 
-fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
-    let mut values: BTreeMap<String, BTreeMap<Option<Phase>, Vec<&str>>> = BTreeMap::new();
+fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness) -> TokenCoding {
+    let mut values: BTreeMap<String, BTreeMap<Option<SignPhase>, Vec<&str>>> = BTreeMap::new();
     // An initial value that no final one follows is the only one.
     let ends_never = |row: &TokenValueRow| {
-        let field = (row.hand, row.component, &row.feature, Some(Phase::Final));
-        rows.iter().any(|it| {
-            it.state == ValueState::NotApplicable
-                && (it.hand, it.component, &it.feature, it.phase) == field
+        let field = (row.hand, row.component, &row.feature, Some(SignPhase::Final));
+        rows.iter().any(|row| {
+            row.state == ValueState::NotApplicable && (row.hand, row.component, &row.feature, row.phase) == field
         })
     };
     for row in rows {
-        let Some(value) = row
-            .value
-            .as_deref()
-            .filter(|_| row.state == ValueState::Value)
-        else {
+        let Some(value) = row.value.as_deref().filter(|_| row.state == ValueState::Value) else {
             continue;
         };
-        if row.component == Component::NonManual || row.feature.as_deref() == Some("phase") {
+        if row.component == SignComponent::NonManual || row.feature.as_deref() == Some("phase") {
             continue;
         }
-        let hand = row.hand.and_then(Hands::one);
-        let weak = hand.is_some_and(|hand| hand.resolve(handedness) != handedness.dominant());
-        let both = row.hand == Some(Hands::Both);
-        let is_only = row.phase == Some(Phase::Initial) && ends_never(row);
+        let hand = row.hand.and_then(AnnotatedHands::single_hand);
+        let weak = hand.is_some_and(|hand| hand.resolve_hand_ref(handedness) != handedness.signer_dominant_side());
+        let both = row.hand == Some(AnnotatedHands::Both);
+        let is_only = row.phase == Some(SignPhase::Initial) && ends_never(row);
         let phase = row.phase.filter(|_| !is_only);
         let feature = row
             .feature
             .as_ref()
-            .map_or(String::new(), |it| format!(".{it}"));
-        let manner = if row.component == Component::Configuration {
+            .map_or(String::new(), |feature| format!(".{feature}"));
+        let manner = if row.component == SignComponent::Configuration {
             "dominant."
         } else {
             ""
@@ -251,12 +250,12 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
             add("weak.");
         }
     }
-    let written = |(field, mut phases): (String, BTreeMap<Option<Phase>, Vec<&str>>)| {
+    let written = |(field, mut phases): (String, BTreeMap<Option<SignPhase>, Vec<&str>>)| {
         phases.values_mut().for_each(|texts| texts.sort_unstable());
         // A value of the whole sign may stand beside successive ones.
-        let whole = phases.remove(&None).map(|texts| texts.join(" + "));
-        let successive = (!phases.is_empty()).then(|| compound(&phases));
-        let texts: Vec<String> = whole.into_iter().chain(successive).collect();
+        let unphased = phases.remove(&None).map(|texts| texts.join(" + "));
+        let successive = (!phases.is_empty()).then(|| join_phase_values(&phases));
+        let texts: Vec<String> = unphased.into_iter().chain(successive).collect();
         (field, texts.join(" + "))
     };
     values.into_iter().map(written).collect()
@@ -269,7 +268,7 @@ pub(crate) fn single_values(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Returns the number of equal fields, and the fields that differ, among those that both have.
-fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
+fn compare_codings(a: &TokenCoding, b: &TokenCoding) -> (usize, Vec<String>) {
     let both = a
         .iter()
         .filter_map(|(field, value)| Some((field, value, b.get(field)?)));
@@ -285,7 +284,7 @@ fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
 }
 
 /// Returns a recipe that changes one field of a token with movement.
-fn recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
+fn field_change_recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
     token.recording_id?;
     if single_values(to).ne([to]) {
         return None;

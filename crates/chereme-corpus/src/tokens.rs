@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use chereme_motion::{Instant, Span};
-use chereme_sign::tier::Hands;
-use chereme_sign::token::{ComponentSpan, owner, readings};
-use chereme_sign::{Component, Field, HandRef, Handedness, Reading, TierRole};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::token::{ComponentSpan, component_readings, owning_token_index};
+use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignerHandedness, TierRole};
 use rusqlite::Connection;
 
-use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::error::Result;
+use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
+use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
+use crate::error::CorpusResult;
 use crate::inventories::StoredInventory;
-use crate::progress::{Progress, Step, Unit, unheard};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 
 /// Updates the tokens of a recording from its tiers; tokens that remain keep their rows.
 ///
@@ -21,30 +21,33 @@ use crate::progress::{Progress, Step, Unit, unheard};
 /// except the phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens near
 /// that time are derived, which suffices after a change within it. Values are converted to the ids of the tiers'
 /// inventories.
-pub(crate) fn derive(
+pub(crate) fn update_recording_tokens(
     connection: &Connection,
     recording: i64,
-    window: Option<Span>,
+    window: Option<TimeSpan>,
     inventories: &[StoredInventory],
-) -> Result<()> {
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+) -> CorpusResult<()> {
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     derive_with_progress(connection, recording, window, inventories, progress)
 }
 
-/// Derives tokens as [`derive()`] does, and can be stopped.
+/// Derives tokens as [`update_recording_tokens()`] does, and can be stopped.
 pub(crate) fn derive_with_progress(
     connection: &Connection,
     recording: i64,
-    window: Option<Span>,
+    window: Option<TimeSpan>,
     inventories: &[StoredInventory],
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    let recording = recordings::recording(connection, recording)?;
-    let by_time = AnnotationsByTime::read(connection, &recording, window, inventories, progress)?;
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
+    let recording = stored_recordings::load_recording_row(connection, recording)?;
+    let by_time = AnnotationsByTime::read_recording_annotations(connection, &recording, window, inventories, progress)?;
     let tokens = match by_time.within {
         Some(within) => {
-            let (start, end) = (within.start().micros(), within.end().micros());
+            let (start, end) = (
+                within.span_start_instant().instant_micros(),
+                within.span_end_instant().instant_micros(),
+            );
             signs::tokens_near(connection, recording.id, start, end)?
         }
         None => signs::tokens_of_recording(connection, recording.id)?,
@@ -53,15 +56,12 @@ pub(crate) fn derive_with_progress(
         .into_iter()
         .filter_map(|token| Some((token.annotation_id?, token)))
         .collect();
-    let glosses = by_time
-        .glosses
-        .iter()
-        .filter(|gloss| by_time.is_within(gloss));
+    let glosses = by_time.glosses.iter().filter(|gloss| by_time.is_gloss_within(gloss));
     for (done, gloss) in glosses.enumerate() {
-        step(progress, done)?;
+        report_token_step(progress, done)?;
         let old = standing.remove(&gloss.row.id);
         let token = write_token(connection, &recording, gloss, old)?;
-        signs::set_values(connection, token, &by_time.values(gloss))?;
+        signs::set_values(connection, token, &by_time.gloss_token_values(gloss))?;
     }
     for token in standing.into_values() {
         signs::delete_token(connection, token.id)?;
@@ -71,24 +71,24 @@ pub(crate) fn derive_with_progress(
 }
 
 /// Reports every 256th step.
-fn step(progress: &mut Progress<'_>, done: usize) -> Result<()> {
+fn report_token_step(progress: &mut ProgressReceiver<'_>, done: usize) -> CorpusResult<()> {
     if done % 256 != 255 {
         return Ok(());
     }
-    progress.report(Step {
+    progress.report_step(ProgressStep {
         task: "tokens",
         done: done as u64,
         total: None,
-        unit: Unit::Items,
+        unit: ProgressUnit::Items,
     })
 }
 
 fn write_token(
     connection: &Connection,
     recording: &RecordingRow,
-    gloss: &Gloss,
+    gloss: &GlossAnnotation,
     old: Option<TokenRow>,
-) -> Result<i64> {
+) -> CorpusResult<i64> {
     let sign_id = signs::sign_glossed(connection, gloss.row.value.trim())?;
     let mut token = old.clone().unwrap_or_else(|| TokenRow {
         recording_id: Some(recording.id),
@@ -117,27 +117,27 @@ fn write_token(
     }
 }
 
-struct Gloss {
+struct GlossAnnotation {
     row: AnnotationRow,
-    hand: Option<Hands>,
+    hand: Option<AnnotatedHands>,
     participant: Option<String>,
 }
 
 /// The annotations on the tiers of a recording, by time.
 struct AnnotationsByTime {
-    handedness: Handedness,
+    handedness: SignerHandedness,
     /// The handedness of participants of tiers who are signers.
-    of_participants: BTreeMap<String, Handedness>,
-    glosses: Vec<Gloss>,
-    components: Vec<Coded>,
+    of_participants: BTreeMap<String, SignerHandedness>,
+    glosses: Vec<GlossAnnotation>,
+    components: Vec<CodedAnnotation>,
     /// The components of each gloss, by the row of its annotation.
     owned: BTreeMap<i64, Vec<usize>>,
     /// If given, only the glosses that touch this span are derived; the others only take part in the assignment of
     /// components.
-    within: Option<Span>,
+    within: Option<TimeSpan>,
 }
 
-struct Coded {
+struct CodedAnnotation {
     span: ComponentSpan,
     annotation: i64,
     inventory: Option<i64>,
@@ -145,22 +145,22 @@ struct Coded {
 }
 
 impl AnnotationsByTime {
-    fn read(
+    fn read_recording_annotations(
         connection: &Connection,
         recording: &RecordingRow,
-        window: Option<Span>,
+        window: Option<TimeSpan>,
         inventories: &[StoredInventory],
-        progress: &mut Progress<'_>,
-    ) -> Result<Self> {
-        let all = tiers::tiers(connection, recording.id)?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<Self> {
+        let all = stored_tiers::load_tier_rows(connection, recording.id)?;
         let is_coding = |tier: &&TierRow| !tier.is_of_phases();
-        let of_glosses = || all.iter().filter(|it| it.role == TierRole::Gloss);
+        let of_glosses = || all.iter().filter(|tier| tier.role == TierRole::Gloss);
         let of_components = || {
-            let coded = |it: &&TierRow| it.role.component().is_some();
+            let coded = |tier: &&TierRow| tier.role.role_component().is_some();
             all.iter().filter(coded).filter(is_coding)
         };
         let mut by_time = Self {
-            handedness: handedness(connection, recording)?,
+            handedness: recording_handedness(connection, recording)?,
             of_participants: of_participants(connection, &all)?,
             glosses: Vec::new(),
             components: Vec::new(),
@@ -170,77 +170,75 @@ impl AnnotationsByTime {
         if let Some(window) = window {
             let mut within = window;
             for tier in of_components() {
-                for row in annotations(connection, tier, Some(window))? {
-                    within = hull(within, span(&row));
+                for row in tier_annotations_within(connection, tier, Some(window))? {
+                    within = hull_of_two_spans(within, annotation_row_span(&row));
                 }
             }
             by_time.within = Some(within);
         }
-        by_time.glosses = glosses(connection, of_glosses(), by_time.within)?;
-        let Some(reach) = by_time.glosses.iter().map(|it| span(&it.row)).reduce(hull) else {
+        by_time.glosses = glosses_touching_span(connection, of_glosses(), by_time.within)?;
+        let Some(reach) = by_time
+            .glosses
+            .iter()
+            .map(|gloss| annotation_row_span(&gloss.row))
+            .reduce(hull_of_two_spans)
+        else {
             return Ok(by_time);
         };
         let mut context = reach;
         for tier in of_components() {
-            let inventory = inventories
-                .iter()
-                .find(|it| Some(it.id) == tier.inventory_id);
-            let rows = annotations(connection, tier, by_time.within.and(Some(reach)))?;
+            let inventory = inventories.iter().find(|stored| Some(stored.id) == tier.inventory_id);
+            let rows = tier_annotations_within(connection, tier, by_time.within.and(Some(reach)))?;
             for (done, row) in rows.into_iter().enumerate() {
-                step(progress, done)?;
-                context = hull(context, span(&row));
+                report_token_step(progress, done)?;
+                context = hull_of_two_spans(context, annotation_row_span(&row));
                 by_time.add_component(tier, &row, inventory);
             }
         }
         if by_time.within.is_some() {
-            by_time.glosses = glosses(connection, of_glosses(), Some(context))?;
+            by_time.glosses = glosses_touching_span(connection, of_glosses(), Some(context))?;
         }
         by_time
             .components
-            .sort_by_key(|coded| (coded.span.span.start(), coded.annotation));
-        by_time.give(progress)?;
+            .sort_by_key(|coded| (coded.span.span.span_start_instant(), coded.annotation));
+        by_time.assign_components(progress)?;
         Ok(by_time)
     }
 
-    fn is_within(&self, gloss: &Gloss) -> bool {
+    fn is_gloss_within(&self, gloss: &GlossAnnotation) -> bool {
         self.within
-            .is_none_or(|within| touches(span(&gloss.row), within))
+            .is_none_or(|within| are_spans_touching(annotation_row_span(&gloss.row), within))
     }
 
-    fn add_component(
-        &mut self,
-        tier: &TierRow,
-        row: &AnnotationRow,
-        inventory: Option<&StoredInventory>,
-    ) {
-        let Some((component, feature)) = tier.role.component() else {
+    fn add_component(&mut self, tier: &TierRow, row: &AnnotationRow, inventory: Option<&StoredInventory>) {
+        let Some((component, feature)) = tier.role.role_component() else {
             return;
         };
-        let reading = match row.reading() {
-            Reading::Value(value) => {
-                let known = inventory.and_then(|it| it.inventory.find(value.trim()));
-                Reading::from(known.map_or(value.trim(), |value| value.id.as_str()))
+        let reading = match row.annotation_reading() {
+            ComponentReading::Value(value) => {
+                let listed_value = inventory.and_then(|stored| stored.inventory.find_inventory_value(value.trim()));
+                ComponentReading::from(listed_value.map_or(value.trim(), |value| value.id.as_str()))
             }
             missing => missing,
         };
-        if reading == Reading::Unset {
+        if reading == ComponentReading::Unset {
             return;
         }
         let hands: Vec<Option<HandRef>> = match tier.hand {
-            Some(Hands::Both) => vec![Some(HandRef::Right), Some(HandRef::Left)],
-            hand => vec![hand.and_then(Hands::one)],
+            Some(AnnotatedHands::Both) => vec![Some(HandRef::Right), Some(HandRef::Left)],
+            hand => vec![hand.and_then(AnnotatedHands::single_hand)],
         };
         for hand in hands {
-            let field = Field {
+            let field = ComponentField {
                 hand,
                 component,
                 feature: feature.map(str::to_owned),
                 phase: None,
             };
-            self.components.push(Coded {
+            self.components.push(CodedAnnotation {
                 span: ComponentSpan {
-                    field: resolved(field, self.handedness_of(tier.participant.as_deref())),
-                    span: span(row),
+                    field: resolve_field_hands(field, self.handedness_of(tier.participant.as_deref())),
+                    span: annotation_row_span(row),
                     reading: reading.clone(),
                 },
                 annotation: row.id,
@@ -250,17 +248,17 @@ impl AnnotationsByTime {
         }
     }
 
-    fn handedness_of(&self, participant: Option<&str>) -> Handedness {
-        let own = participant.and_then(|name| self.of_participants.get(name));
-        own.copied().unwrap_or(self.handedness)
+    fn handedness_of(&self, participant: Option<&str>) -> SignerHandedness {
+        let own_handedness = participant.and_then(|name| self.of_participants.get(name));
+        own_handedness.copied().unwrap_or(self.handedness)
     }
 
-    fn values(&self, gloss: &Gloss) -> Vec<TokenValueRow> {
-        let own = span(&gloss.row);
-        let hand = gloss.hand.and_then(Hands::one);
+    fn gloss_token_values(&self, gloss: &GlossAnnotation) -> Vec<TokenValueRow> {
+        let gloss_span = annotation_row_span(&gloss.row);
+        let hand = gloss.hand.and_then(AnnotatedHands::single_hand);
         let handedness = self.handedness_of(gloss.participant.as_deref());
-        let hand = hand.map(|hand| HandRef::from(hand.resolve(handedness)));
-        let owned: Vec<&Coded> = self
+        let hand = hand.map(|hand| HandRef::from(hand.resolve_hand_ref(handedness)));
+        let owned: Vec<&CodedAnnotation> = self
             .owned
             .get(&gloss.row.id)
             .into_iter()
@@ -268,7 +266,7 @@ impl AnnotationsByTime {
             .map(|at| &self.components[*at])
             .collect();
         let around: Vec<ComponentSpan> = owned.iter().map(|coded| coded.span.clone()).collect();
-        readings(own, &[], hand, &around)
+        component_readings(gloss_span, &[], hand, &around)
             .into_iter()
             .map(|(field, place)| row_of(&field, owned[place]))
             .collect()
@@ -276,29 +274,32 @@ impl AnnotationsByTime {
 
     /// Assigns each component to the gloss that it belongs to, among those for each hand of each participant;
     /// components of one participant never belong to a gloss of another.
-    fn give(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+    fn assign_components(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         type Whose<'g> = (Option<&'g str>, Option<&'static str>);
-        let mut hands: BTreeMap<Whose<'_>, Vec<&Gloss>> = BTreeMap::new();
+        let mut hands: BTreeMap<Whose<'_>, Vec<&GlossAnnotation>> = BTreeMap::new();
         for gloss in &self.glosses {
-            let whose = (gloss.participant.as_deref(), gloss.hand.map(Hands::name));
+            let whose = (
+                gloss.participant.as_deref(),
+                gloss.hand.map(AnnotatedHands::annotated_hands_name),
+            );
             hands.entry(whose).or_default().push(gloss);
         }
         let mut owned: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
         for ((participant, _), glosses) in &hands {
-            let spans: Vec<Span> = glosses.iter().map(|gloss| span(&gloss.row)).collect();
-            let longest = spans.iter().map(|span| span.micros()).max().unwrap_or(0);
+            let spans: Vec<TimeSpan> = glosses.iter().map(|gloss| annotation_row_span(&gloss.row)).collect();
+            let longest = spans.iter().map(|span| span.span_micros()).max().unwrap_or(0);
             for (at, coded) in self.components.iter().enumerate() {
-                step(progress, at)?;
+                report_token_step(progress, at)?;
                 let other = coded.participant.as_deref().zip(*participant);
                 if other.is_some_and(|(one, other)| one != other) {
                     continue;
                 }
                 let own_span = coded.span.span;
-                let from = own_span.start().shifted(-longest);
-                let first = spans.partition_point(|span| span.start() < from);
-                let last = spans.partition_point(|span| span.start() < own_span.end());
+                let from = own_span.span_start_instant().shifted_instant(-longest);
+                let first = spans.partition_point(|span| span.span_start_instant() < from);
+                let last = spans.partition_point(|span| span.span_start_instant() < own_span.span_end_instant());
                 let near = spans.get(first..last).unwrap_or_default();
-                if let Some(place) = owner(own_span, near) {
+                if let Some(place) = owning_token_index(own_span, near) {
                     let gloss = glosses[first + place].row.id;
                     owned.entry(gloss).or_default().push(at);
                 }
@@ -309,93 +310,92 @@ impl AnnotationsByTime {
     }
 }
 
-fn row_of(field: &Field, source: &Coded) -> TokenValueRow {
+fn row_of(field: &ComponentField, source: &CodedAnnotation) -> TokenValueRow {
     let reading = &source.span.reading;
     TokenValueRow {
         inventory_id: source.inventory,
         annotation_id: Some(source.annotation),
-        ..TokenValueRow::of(field, reading)
+        ..TokenValueRow::from_field_reading(field, reading)
     }
 }
 
-fn resolved(field: Field, handedness: Handedness) -> Field {
-    if field.component == Component::NonManual {
+fn resolve_field_hands(field: ComponentField, handedness: SignerHandedness) -> ComponentField {
+    if field.component == SignComponent::NonManual {
         field
     } else {
-        field.resolved(handedness)
+        field.resolve_field_hand(handedness)
     }
 }
 
 /// Returns the handedness of a recording's signer.
-pub(crate) fn handedness(connection: &Connection, recording: &RecordingRow) -> Result<Handedness> {
+pub(crate) fn recording_handedness(
+    connection: &Connection,
+    recording: &RecordingRow,
+) -> CorpusResult<SignerHandedness> {
     let signer = match recording.signer_id {
-        Some(id) => recordings::signer(connection, id)?,
+        Some(id) => stored_recordings::find_signer_row(connection, id)?,
         None => None,
     };
-    Ok(dominant(signer.as_ref()))
+    Ok(signer_handedness(signer.as_ref()))
 }
 
-fn dominant(signer: Option<&SignerRow>) -> Handedness {
+fn signer_handedness(signer: Option<&SignerRow>) -> SignerHandedness {
     match signer.and_then(|signer| signer.handedness.as_deref()) {
-        Some("left") => Handedness::Left,
-        _ => Handedness::Right,
+        Some("left") => SignerHandedness::Left,
+        _ => SignerHandedness::Right,
     }
 }
 
 /// Returns the handedness of the participants of tiers who are signers of the corpus.
-fn of_participants(
-    connection: &Connection,
-    tiers: &[TierRow],
-) -> Result<BTreeMap<String, Handedness>> {
-    let mut found = BTreeMap::new();
+fn of_participants(connection: &Connection, tiers: &[TierRow]) -> CorpusResult<BTreeMap<String, SignerHandedness>> {
+    let mut handedness_by_name = BTreeMap::new();
     for name in tiers.iter().filter_map(|tier| tier.participant.as_ref()) {
-        if !found.contains_key(name)
-            && let Some(signer) = recordings::find_signer(connection, name)?
+        if !handedness_by_name.contains_key(name)
+            && let Some(signer) = stored_recordings::find_signer(connection, name)?
         {
-            found.insert(name.clone(), dominant(Some(&signer)));
+            handedness_by_name.insert(name.clone(), signer_handedness(Some(&signer)));
         }
     }
-    Ok(found)
+    Ok(handedness_by_name)
 }
 
-fn annotations(
+fn tier_annotations_within(
     connection: &Connection,
     tier: &TierRow,
-    window: Option<Span>,
-) -> Result<Vec<AnnotationRow>> {
+    window: Option<TimeSpan>,
+) -> CorpusResult<Vec<AnnotationRow>> {
     match window {
-        None => tiers::annotations(connection, tier.id),
+        None => stored_tiers::load_tier_annotation_rows(connection, tier.id),
         Some(window) => {
-            let (start, end) = (window.start().micros(), window.end().micros());
-            tiers::annotations_near(connection, tier.id, start, end)
+            let (start, end) = (
+                window.span_start_instant().instant_micros(),
+                window.span_end_instant().instant_micros(),
+            );
+            stored_tiers::annotations_near(connection, tier.id, start, end)
         }
     }
 }
 
-fn span(row: &AnnotationRow) -> Span {
-    Span::between(
-        Instant::from_micros(row.start_us),
-        Instant::from_micros(row.end_us),
+fn annotation_row_span(row: &AnnotationRow) -> TimeSpan {
+    TimeSpan::span_between(
+        RecordingInstant::from_micros(row.start_us),
+        RecordingInstant::from_micros(row.end_us),
     )
 }
 
 /// Returns the glosses that touch `within`, by time.
-fn glosses<'t>(
+fn glosses_touching_span<'t>(
     connection: &Connection,
     tiers: impl Iterator<Item = &'t TierRow>,
-    within: Option<Span>,
-) -> Result<Vec<Gloss>> {
+    within: Option<TimeSpan>,
+) -> CorpusResult<Vec<GlossAnnotation>> {
     let mut glosses = Vec::new();
     for tier in tiers {
-        for row in annotations(connection, tier, within)? {
+        for row in tier_annotations_within(connection, tier, within)? {
             if row.is_filled() {
                 let hand = tier.hand;
                 let participant = tier.participant.clone();
-                glosses.push(Gloss {
-                    row,
-                    hand,
-                    participant,
-                });
+                glosses.push(GlossAnnotation { row, hand, participant });
             }
         }
     }
@@ -403,10 +403,13 @@ fn glosses<'t>(
     Ok(glosses)
 }
 
-fn hull(a: Span, b: Span) -> Span {
-    Span::between(a.start().min(b.start()), a.end().max(b.end()))
+fn hull_of_two_spans(a: TimeSpan, b: TimeSpan) -> TimeSpan {
+    TimeSpan::span_between(
+        a.span_start_instant().min(b.span_start_instant()),
+        a.span_end_instant().max(b.span_end_instant()),
+    )
 }
 
-fn touches(a: Span, b: Span) -> bool {
-    a.start() <= b.end() && b.start() <= a.end()
+fn are_spans_touching(a: TimeSpan, b: TimeSpan) -> bool {
+    a.span_start_instant() <= b.span_end_instant() && b.span_start_instant() <= a.span_end_instant()
 }

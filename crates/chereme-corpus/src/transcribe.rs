@@ -1,35 +1,35 @@
 //! Transcription of stored movement to notation.
 
-mod again;
+mod transcribe_again;
 
 use chereme_analysis::transcribe::{
-    Feature, FeatureKind, Options, Stage, transcribe, transcribe_proven,
+    FeatureKind, NotationFeature, TranscribeOptions, TranscriptionStage, transcribe_clip, transcribe_proven,
 };
-use chereme_motion::{HandCorrection, Side, Span};
-use chereme_sign::Remedy;
-use chereme_sign::hamnosys::{Nonmanual, Notated, Sign, print, to_names};
+use chereme_motion::{BodySide, HandCorrection, TimeSpan};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::hamnosys::{HamnosysSign, NonmanualActs, NotatedSign, print_hamnosys, to_names};
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{Address, Stretch};
-use crate::db::columns::Origin;
+use crate::address::{CorpusAddress, RecordingStretch};
 use crate::db::notations::{self, NotationRow};
-use crate::db::recordings;
-use crate::error::{Error, Result};
+use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_recordings;
+use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
-use crate::progress::Progress;
+use crate::progress::ProgressReceiver;
 use crate::words::effect::OperationEffect;
-use again::Again;
+use transcribe_again::ResynthesisBody;
 
 /// The longest stretch that is transcribed as one sign, in seconds.
-const LONGEST: f64 = 60.0;
+const MAX_TRANSCRIBED_SECONDS: f64 = 60.0;
 /// The correction of finger angles above which a finding reports it, in radians.
-const MUCH: f64 = 0.15;
+const REPORTED_CORRECTION_RADIANS: f64 = 0.15;
 
 /// The HamNoSys transcription of a piece of movement, with the residual of each feature.
 #[derive(Debug, Clone, Serialize)]
-pub struct Transcribed {
+pub struct SignTranscription {
     /// The row of the token, if the address names one.
     pub token: Option<i64>,
     /// Its gloss, otherwise the recording's name.
@@ -46,10 +46,10 @@ pub struct Transcribed {
     /// The names of its symbols.
     pub symbols: Vec<&'static str>,
     /// The notation's tree.
-    pub sign: Sign,
+    pub sign: HamnosysSign,
     /// The acts of trunk, head and shoulders, if the program read them by animating the notation.
-    #[serde(skip_serializing_if = "Nonmanual::is_empty")]
-    pub nonmanual: Nonmanual,
+    #[serde(skip_serializing_if = "NonmanualActs::is_empty")]
+    pub nonmanual: NonmanualActs,
     /// The posture at the beginning and the actions after it, each with its time.
     pub stages: Vec<TranscribedStage>,
     /// The features found, in the order of the notation.
@@ -57,7 +57,7 @@ pub struct Transcribed {
     /// The hands whose handshape was not captured, as their fingers rest throughout the recording: the notation has one
     /// because it needs one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub assumed: Vec<Side>,
+    pub assumed: Vec<BodySide>,
     /// Findings: features without a reading, and those that HamNoSys has no symbols for.
     pub findings: Vec<String>,
 }
@@ -68,7 +68,7 @@ pub struct TranscribedStage {
     /// The number of the action, from 1; nothing for the initial posture.
     pub action: Option<usize>,
     /// The hand, if each hand does something of its own.
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The start, in microseconds from the start of the recording.
     pub start_us: i64,
     /// The end, including all repetitions.
@@ -85,7 +85,7 @@ pub struct TranscribedFeature {
     /// Its kind: `handshape`, `palm`, `location`...
     pub feature: FeatureKind,
     /// The hand, if the feature has one.
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The number of the action it belongs to, from 1; nothing for the initial posture.
     pub action: Option<usize>,
     /// The moment at which it is observed, in microseconds from the start of the recording.
@@ -98,7 +98,7 @@ pub struct TranscribedFeature {
     #[serde(flatten)]
     pub value: TranscribedValue,
     /// `deg`, `cm` or `share`.
-    pub unit: chereme_analysis::transcribe::Unit,
+    pub unit: chereme_analysis::transcribe::ResidualUnit,
     /// The second best reading, with its residual in the same unit.
     pub runner_up: Option<TranscribedValue>,
 }
@@ -125,89 +125,95 @@ impl Corpus {
     /// # Errors
     /// Fails if the address names no movement, a stretch longer than a minute, or a skeleton without arms, or if
     /// `progress` asks to stop.
-    pub fn transcribe(
+    pub fn transcribe_movement(
         &self,
-        address: &Address,
-        progress: &mut Progress<'_>,
-    ) -> Result<Transcribed> {
-        let connection = self.store.read();
-        let stretch = crate::address::stretch(connection, address)?;
-        let seconds = stretch.span.seconds();
-        if seconds > LONGEST {
-            return Err(Error::wrong(format!(
-                "{address} lasts {seconds:.0} s; at most one sign of {LONGEST:.0} s is transcribed at once"
+        address: &CorpusAddress,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<SignTranscription> {
+        let connection = self.store.read_connection();
+        let stretch = crate::address::find_addressed_stretch(connection, address)?;
+        let seconds = stretch.span.span_seconds();
+        if seconds > MAX_TRANSCRIBED_SECONDS {
+            return Err(CorpusError::from_wrong_message(format!(
+                "{address} lasts {seconds:.0} s; at most one sign of {MAX_TRANSCRIBED_SECONDS:.0} s is transcribed at once"
             ))
-            .at(address.to_string())
-            .advise("name a token in it: token:41"));
+            .with_error_place(address.to_string())
+            .with_advice("name a token in it: token:41"));
         }
-        let track = MotionTrack::of(connection, stretch.recording.id)?;
-        let anatomy = track.anatomy(connection)?;
-        let frames = match again::signed(connection, &track, &stretch)? {
+        let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+        let anatomy = track.track_anatomy(connection)?;
+        let frames = match transcribe_again::generated_sign_frames(connection, &track, &stretch)? {
             Some(frames) => frames,
             None => self.signed_frames((&track, &anatomy), &stretch)?,
         };
-        let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
+        let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
         let usual = match stretch.recording.origin {
-            Origin::Made => Options::made(),
-            _ => Options::default(),
+            RecordOrigin::Made => TranscribeOptions::synthesised_options(),
+            _ => TranscribeOptions::default(),
         };
-        let dominant = self.dominant(&stretch)?;
-        let again = Again::of(connection, &stretch)?;
-        let hands = crate::hands::corrections(connection, &self.hands, &stretch.recording)?;
-        let options = Options {
+        let dominant = self.dominant_side(&stretch)?;
+        let rerun = ResynthesisBody::resynthesis_body_of(connection, &stretch)?;
+        let hands = crate::hands::load_hand_corrections(connection, &self.hands, &stretch.recording)?;
+        let options = TranscribeOptions {
             dominant,
             hands,
-            longest: LONGEST + 1.0,
-            language: again.as_ref().map_or(usual.language, Again::language),
+            longest: MAX_TRANSCRIBED_SECONDS + 1.0,
+            language: rerun
+                .as_ref()
+                .map_or(usual.language, ResynthesisBody::recording_body_language),
             ..usual
         };
-        let written = match &again {
+        let outcome = match &rerun {
             Some(again) => {
-                let proving = again.proving(progress);
+                let proving = again.start_resynthesis(progress);
                 let written = transcribe_proven(&clip, &anatomy, &options, &proving);
-                if proving.stopped() {
-                    return Err(Error::Stopped);
+                if proving.is_resynthesis_stopped() {
+                    return Err(CorpusError::Stopped);
                 }
                 written
             }
-            None => transcribe(&clip, &anatomy, &options),
+            None => transcribe_clip(&clip, &anatomy, &options),
         };
-        let written =
-            written.map_err(|error| Error::wrong(error.to_string()).at(address.to_string()))?;
-        let printed = print(&written.sign);
+        let written = outcome.map_err(|error| {
+            CorpusError::from_wrong_message(error.to_string()).with_error_place(address.to_string())
+        })?;
+        let printed = print_hamnosys(&written.sign);
         let mut findings = written.findings;
         findings.extend(printed.losses.iter().map(|loss| loss.message.clone()));
-        findings.extend(corrected(&hands));
-        let assumed = crate::hands::resting(connection, &self.hands, &stretch.recording)?;
+        findings.extend(correction_finding(&hands));
+        let assumed = crate::hands::find_resting_hands(connection, &self.hands, &stretch.recording)?;
         findings.extend(assumed.iter().map(|side| assumption(*side)));
-        let is_seen = |feature: &Feature| {
-            feature.kind != FeatureKind::Handshape
-                || !assumed.contains(&feature.hand.unwrap_or(dominant))
+        let is_seen = |feature: &NotationFeature| {
+            feature.kind != FeatureKind::Handshape || !assumed.contains(&feature.hand.unwrap_or(dominant))
         };
-        let at = |frame: usize| clip.rate().instant(frames.start + frame).micros();
+        let frame_micros = |frame: usize| {
+            clip.clip_frame_rate()
+                .frame_start_instant(frames.start + frame)
+                .instant_micros()
+        };
         let (first, end) = written.frames;
-        Ok(Transcribed {
+        Ok(SignTranscription {
             token: stretch.token.as_ref().map(|token| token.id),
             gloss: match &stretch.token {
                 Some(token) => token.gloss.clone(),
                 None => stretch.recording.name.clone(),
             },
             recording: stretch.recording.id,
-            start_us: at(first),
-            end_us: at(end).min(span_end(stretch.span, at(first))),
-            symbols: names(&printed.text)?,
+            start_us: frame_micros(first),
+            end_us: frame_micros(end).min(span_end(stretch.span, frame_micros(first))),
+            symbols: notation_symbol_names(&printed.text)?,
             hamnosys: printed.text,
             stages: written
                 .stages
                 .into_iter()
-                .map(|stage| staged(stage, &at))
-                .collect::<Result<_>>()?,
+                .map(|stage| transcribed_stage(stage, &frame_micros))
+                .collect::<CorpusResult<_>>()?,
             features: written
                 .features
                 .into_iter()
                 .filter(is_seen)
-                .map(|feature| placed(feature, &at))
-                .collect::<Result<_>>()?,
+                .map(|feature| transcribed_feature(feature, &frame_micros))
+                .collect::<CorpusResult<_>>()?,
             sign: written.sign,
             nonmanual: written.nonmanual,
             assumed,
@@ -215,34 +221,34 @@ impl Corpus {
         })
     }
 
-    /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation. Keeps the
+    /// Transcribes a token as [`transcribe`](Self::transcribe_movement) does, and stores the result as its notation. Keeps the
     /// non-manual tiers of its present notation, or of the notation that generated it, unless the transcription has others.
     ///
     /// # Errors
-    /// As [`transcribe`](Self::transcribe). Also fails if the address names no token, or if the token has another
+    /// As [`transcribe`](Self::transcribe_movement). Also fails if the address names no token, or if the token has another
     /// notation already and `force` is not set.
     pub fn store_transcription(
         &mut self,
-        address: &Address,
+        address: &CorpusAddress,
         force: bool,
-        progress: &mut Progress<'_>,
-    ) -> Result<Transcribed> {
-        let written = self.transcribe(address, progress)?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<SignTranscription> {
+        let written = self.transcribe_movement(address, progress)?;
         let Some(token) = written.token else {
-            return Err(Error::wrong(format!("{address} is no token"))
-                .at(address.to_string())
-                .advise("write token:41 or a gloss"));
+            return Err(CorpusError::from_wrong_message(format!("{address} is no token"))
+                .with_error_place(address.to_string())
+                .with_advice("write token:41 or a gloss"));
         };
-        let connection = self.store.read();
-        let old = notation::of_token(connection, token)?;
+        let connection = self.store.read_connection();
+        let old = notation::notation_of_token(connection, token)?;
         let other = old
             .as_ref()
             .is_some_and(|old| old.text.as_ref() != Some(&written.hamnosys));
         if other && !force {
             return Err(
-                Error::wrong(format!("{address} has another notation already"))
-                    .at(address.to_string())
-                    .advise(Remedy::command(
+                CorpusError::from_wrong_message(format!("{address} has another notation already"))
+                    .with_error_place(address.to_string())
+                    .with_advice(ErrorRemedy::command_remedy(
                         "add --force to replace it; undo brings it back",
                     )),
             );
@@ -253,17 +259,17 @@ impl Corpus {
         };
         let mut nonmanual = old.map(|old| old.document.nonmanual).unwrap_or_default();
         nonmanual.tiers.extend(written.nonmanual.tiers.clone());
-        let document = Notated {
+        let notated = NotatedSign {
             gloss: written.gloss.clone(),
             text: Some(written.hamnosys.clone()),
             sign: written.sign.clone(),
             nonmanual,
-            ..Notated::default()
+            ..NotatedSign::default()
         };
-        let document = serde_json::to_string(&document)
-            .map_err(|error| Error::wrong(format!("the notation cannot be kept: {error}")))?;
-        self.store.operation(|connection| {
-            notations::set(
+        let document = serde_json::to_string(&notated)
+            .map_err(|error| CorpusError::from_wrong_message(format!("the notation cannot be kept: {error}")))?;
+        self.store.run_store_operation(|connection| {
+            notations::set_token_notation(
                 connection,
                 &NotationRow {
                     token_id: token,
@@ -280,32 +286,32 @@ impl Corpus {
     }
 
     /// Returns the signer's dominant hand: the right one if it is unknown.
-    pub(crate) fn dominant(&self, stretch: &Stretch) -> Result<Side> {
+    pub(crate) fn dominant_side(&self, stretch: &RecordingStretch) -> CorpusResult<BodySide> {
         let signer = match stretch.recording.signer_id {
-            Some(id) => recordings::signer(self.store.read(), id)?,
+            Some(id) => stored_recordings::find_signer_row(self.store.read_connection(), id)?,
             None => None,
         };
-        let left = signer.is_some_and(|it| it.handedness.as_deref() == Some("left"));
-        Ok(if left { Side::Left } else { Side::Right })
+        let left = signer.is_some_and(|signer| signer.handedness.as_deref() == Some("left"));
+        Ok(if left { BodySide::Left } else { BodySide::Right })
     }
 }
 
 /// Returns the finding about a hand whose fingers nobody captured.
-fn assumption(side: Side) -> String {
+fn assumption(side: BodySide) -> String {
     format!(
         "the fingers of the {} hand rest throughout the recording, so its handshape was not captured: the notated one is \
          an assumption",
-        side.name()
+        side.body_side_name()
     )
 }
 
 /// Returns a finding about the correction of finger angles, if it is large.
-fn corrected(hands: &[HandCorrection; 2]) -> Option<String> {
+fn correction_finding(hands: &[HandCorrection; 2]) -> Option<String> {
     let most = hands
         .iter()
-        .map(HandCorrection::largest)
+        .map(HandCorrection::largest_zero_correction)
         .fold(0.0, f64::max);
-    (most > MUCH).then(|| {
+    (most > REPORTED_CORRECTION_RADIANS).then(|| {
         format!(
             "finger angles count from the straightest posture in this signer's takes, which is up to {:.0} degrees bent",
             most.to_degrees()
@@ -313,30 +319,30 @@ fn corrected(hands: &[HandCorrection; 2]) -> Option<String> {
     })
 }
 
-fn span_end(span: Span, least: i64) -> i64 {
-    span.end().micros().max(least)
+fn span_end(span: TimeSpan, least: i64) -> i64 {
+    span.span_end_instant().instant_micros().max(least)
 }
 
-fn names(text: &str) -> Result<Vec<&'static str>> {
-    to_names(text).map_err(|error| Error::wrong(format!("the notation is odd: {error}")))
+fn notation_symbol_names(text: &str) -> CorpusResult<Vec<&'static str>> {
+    to_names(text).map_err(|error| CorpusError::from_wrong_message(format!("the notation is odd: {error}")))
 }
 
-fn staged(stage: Stage, at: &impl Fn(usize) -> i64) -> Result<TranscribedStage> {
+fn transcribed_stage(stage: TranscriptionStage, at: &impl Fn(usize) -> i64) -> CorpusResult<TranscribedStage> {
     Ok(TranscribedStage {
         action: stage.action,
         hand: stage.hand,
         start_us: at(stage.frames.0),
         end_us: at(stage.frames.1),
-        symbols: names(&stage.text)?,
+        symbols: notation_symbol_names(&stage.text)?,
         hamnosys: stage.text,
     })
 }
 
-fn placed(feature: Feature, at: &impl Fn(usize) -> i64) -> Result<TranscribedFeature> {
-    let value = |value: String, text: String, residual: f64| -> Result<TranscribedValue> {
+fn transcribed_feature(feature: NotationFeature, at: &impl Fn(usize) -> i64) -> CorpusResult<TranscribedFeature> {
+    let value = |value: String, text: String, residual: f64| -> CorpusResult<TranscribedValue> {
         Ok(TranscribedValue {
             value,
-            symbols: names(&text)?,
+            symbols: notation_symbol_names(&text)?,
             hamnosys: text,
             residual,
         })

@@ -1,14 +1,14 @@
 //! Adding and merging values of inventories.
 
-use chereme_sign::Remedy;
-use chereme_sign::text::{did_you_mean, fold, nearest};
-use chereme_sign::{Inventory, InventoryValue};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
+use chereme_sign::{ComponentInventory, InventoryValue};
 use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::db::inventories as rows;
-use crate::error::{Error, Result};
+use crate::db::stored_inventories as rows;
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
@@ -29,8 +29,8 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such inventory, or several have this name and none the key.
-    pub fn inventory_key(&self, name: &str) -> Result<String> {
-        Ok(named(self.store.read(), name)?.inventory.id)
+    pub fn inventory_key(&self, name: &str) -> CorpusResult<String> {
+        Ok(find_stored_inventory(self.store.read_connection(), name)?.inventory.id)
     }
 
     /// Adds a value to an inventory, as one operation; tokens whose tiers use the value are derived again.
@@ -38,37 +38,36 @@ impl Corpus {
     /// # Errors
     /// Fails if the inventory does not exist or has the value already, or if one of the value's spellings means another
     /// value.
-    pub fn add_value(&mut self, inventory: &str, value: &InventoryValue) -> Result<()> {
-        self.store.operation(|connection| {
-            let stored = named(connection, inventory)?;
+    pub fn add_value(&mut self, inventory: &str, value: &InventoryValue) -> CorpusResult<()> {
+        self.store.run_store_operation(|connection| {
+            let stored = find_stored_inventory(connection, inventory)?;
             let value = InventoryValue {
                 id: value.id.trim().to_owned(),
                 ..value.clone()
             };
             if value.id.is_empty() {
-                return Err(Error::wrong("a value needs a name"));
+                return Err(CorpusError::from_wrong_message("a value needs a name"));
             }
-            if stored.inventory.get(&value.id).is_some() {
-                let wrong = format!(
-                    "{:?} has the value {:?} already",
-                    stored.inventory.id, value.id
-                );
-                return Err(Error::wrong(wrong).at(&value.id).advise(Remedy::command(
-                    "`chereme list CORPUS values` lists the values",
-                )));
+            if stored.inventory.value_by_id(&value.id).is_some() {
+                let wrong = format!("{:?} has the value {:?} already", stored.inventory.id, value.id);
+                return Err(CorpusError::from_wrong_message(wrong)
+                    .with_error_place(&value.id)
+                    .with_advice(ErrorRemedy::command_remedy(
+                        "`chereme list CORPUS values` lists the values",
+                    )));
             }
             let effect = OperationEffect::AddValue {
                 value: value.id.clone(),
                 inventory: stored.inventory.id.clone(),
             };
-            let mut whole = stored.inventory;
-            whole.values.push(value);
-            whole.check().map_err(|error| {
-                Error::wrong(error.to_string())
-                    .advise("give the value spellings that no other one has")
+            let mut changed_inventory = stored.inventory;
+            changed_inventory.values.push(value);
+            changed_inventory.check_inventory().map_err(|error| {
+                CorpusError::from_wrong_message(error.to_string())
+                    .with_advice("give the value spellings that no other one has")
             })?;
-            inventories::store(connection, &whole)?;
-            derive(connection, stored.id)?;
+            inventories::store_inventory(connection, &changed_inventory)?;
+            rederive_inventory_tokens(connection, stored.id)?;
             Ok(((), effect))
         })
     }
@@ -78,31 +77,26 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the inventory or a value does not exist.
-    pub fn merge_values(
-        &mut self,
-        inventory: &str,
-        from: &str,
-        into: &str,
-    ) -> Result<MergedValues> {
-        self.store.operation(|connection| {
-            let stored = named(connection, inventory)?;
-            let gone = value(&stored.inventory, from)?.clone();
-            let left = value(&stored.inventory, into)?.id.clone();
+    pub fn merge_values(&mut self, inventory: &str, from: &str, into: &str) -> CorpusResult<MergedValues> {
+        self.store.run_store_operation(|connection| {
+            let stored = find_stored_inventory(connection, inventory)?;
+            let gone = require_inventory_value(&stored.inventory, from)?.clone();
+            let left = require_inventory_value(&stored.inventory, into)?.id.clone();
             if gone.id == left {
                 let wrong = format!("{from:?} and {into:?} are one value already, {left:?}");
-                return Err(Error::wrong(wrong).at(from));
+                return Err(CorpusError::from_wrong_message(wrong).with_error_place(from));
             }
             let mut annotations = 0;
-            for text in rows::texts(connection, stored.id)? {
-                let meant = stored.inventory.find(text.trim());
-                if meant.is_some_and(|value| value.id == gone.id) {
-                    annotations += rows::say(connection, stored.id, &text, &left)?;
+            for text in rows::list_inventory_tier_values(connection, stored.id)? {
+                let matched_value = stored.inventory.find_inventory_value(text.trim());
+                if matched_value.is_some_and(|value| value.id == gone.id) {
+                    annotations += rows::replace_inventory_tier_value(connection, stored.id, &text, &left)?;
                 }
             }
-            let entries = rows::revalue(connection, stored.id, &gone.id, &left)?;
+            let entries = rows::replace_lexicon_value(connection, stored.id, &gone.id, &left)?;
             rows::delete_value(connection, stored.id, &gone.id)?;
-            inventories::store(connection, &merged(&stored.inventory, &gone, &left))?;
-            derive(connection, stored.id)?;
+            inventories::store_inventory(connection, &merge_inventory_value(&stored.inventory, &gone, &left))?;
+            rederive_inventory_tokens(connection, stored.id)?;
             let effect = OperationEffect::MergeValues {
                 value: gone.id,
                 into: left.clone(),
@@ -119,10 +113,10 @@ impl Corpus {
 }
 
 /// Returns an inventory without the value `gone`; its spellings and narrower values pass to the value `left`.
-fn merged(inventory: &Inventory, gone: &InventoryValue, left: &str) -> Inventory {
-    let mut whole = inventory.clone();
-    whole.values.retain(|value| value.id != gone.id);
-    for value in &mut whole.values {
+fn merge_inventory_value(inventory: &ComponentInventory, gone: &InventoryValue, left: &str) -> ComponentInventory {
+    let mut merged_inventory = inventory.clone();
+    merged_inventory.values.retain(|value| value.id != gone.id);
+    for value in &mut merged_inventory.values {
         if value.broader.as_deref() == Some(&gone.id) {
             value.broader = match value.id == left {
                 true => gone.broader.clone().filter(|broader| broader != left),
@@ -130,66 +124,63 @@ fn merged(inventory: &Inventory, gone: &InventoryValue, left: &str) -> Inventory
             };
         }
         if value.id == left {
-            let spelt: Vec<String> = value.spellings().map(str::to_owned).collect();
+            let spelt: Vec<String> = value.value_spellings().map(str::to_owned).collect();
             let new = gone
-                .spellings()
+                .value_spellings()
                 .filter(|text| !spelt.iter().any(|own| own == text));
             value.aliases.extend(new.map(str::to_owned));
         }
     }
-    whole
+    merged_inventory
 }
 
 /// Returns the inventory of that name.
-pub(crate) fn named(connection: &Connection, name: &str) -> Result<StoredInventory> {
-    let all = inventories::load(connection)?;
-    let ids: Vec<String> = all
-        .iter()
-        .map(|stored| stored.inventory.id.clone())
-        .collect();
+pub(crate) fn find_stored_inventory(connection: &Connection, name: &str) -> CorpusResult<StoredInventory> {
+    let all = inventories::load_all_inventories(connection)?;
+    let ids: Vec<String> = all.iter().map(|stored| stored.inventory.id.clone()).collect();
     let name = name.trim();
     let keyed = all.iter().position(|stored| stored.inventory.id == name);
     let called = || {
         let is = |stored: &StoredInventory| {
             let mut names = stored.inventory.names.values();
-            names.any(|own| fold(own) == fold(name))
+            names.any(|own| fold_text(own) == fold_text(name))
         };
-        let mut found = all.iter().enumerate().filter(|(_, it)| is(it));
-        let (at, _) = found.next()?;
-        found.next().is_none().then_some(at)
+        let mut matching = all.iter().enumerate().filter(|(_, it)| is(it));
+        let (at, _) = matching.next()?;
+        matching.next().is_none().then_some(at)
     };
-    let found = keyed.or_else(called);
-    let found = found.and_then(|at| all.into_iter().nth(at));
-    found.ok_or_else(|| {
-        let meant = did_you_mean(nearest(name, ids.iter().map(String::as_str)));
-        Error::wrong(format!("there is no inventory {name:?}{meant}"))
-            .at(name)
-            .advise(Remedy::command(
+    let inventory_index = keyed.or_else(called);
+    let matched_inventory = inventory_index.and_then(|at| all.into_iter().nth(at));
+    matched_inventory.ok_or_else(|| {
+        let suggestion = did_you_mean(nearest_candidate(name, ids.iter().map(String::as_str)));
+        CorpusError::from_wrong_message(format!("there is no inventory {name:?}{suggestion}"))
+            .with_error_place(name)
+            .with_advice(ErrorRemedy::command_remedy(
                 "`chereme list CORPUS inventories` lists them",
             ))
     })
 }
 
-fn value<'i>(inventory: &'i Inventory, name: &str) -> Result<&'i InventoryValue> {
-    inventory.find(name).ok_or_else(|| {
-        let near = inventory.suggest(name);
-        let meant = did_you_mean(near.first().copied());
-        Error::wrong(format!(
-            "the inventory {:?} has no value {name:?}{meant}",
+fn require_inventory_value<'i>(inventory: &'i ComponentInventory, name: &str) -> CorpusResult<&'i InventoryValue> {
+    inventory.find_inventory_value(name).ok_or_else(|| {
+        let near = inventory.suggest_value_ids(name);
+        let suggestion = did_you_mean(near.first().copied());
+        CorpusError::from_wrong_message(format!(
+            "the inventory {:?} has no value {name:?}{suggestion}",
             inventory.id
         ))
-        .at(name)
-        .advise(Remedy::command(
+        .with_error_place(name)
+        .with_advice(ErrorRemedy::command_remedy(
             "`chereme list CORPUS values` lists the values",
         ))
     })
 }
 
 /// Derives the tokens of recordings again whose tiers take their values from an inventory.
-fn derive(connection: &Connection, inventory: i64) -> Result<()> {
+fn rederive_inventory_tokens(connection: &Connection, inventory: i64) -> CorpusResult<()> {
     for recording in rows::recordings_with(connection, inventory)? {
         let of_tiers = inventories::load_of(connection, recording)?;
-        tokens::derive(connection, recording, None, &of_tiers)?;
+        tokens::update_recording_tokens(connection, recording, None, &of_tiers)?;
     }
     Ok(())
 }
@@ -199,20 +190,20 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::progress::unheard;
+    use crate::progress::ignore_progress_step;
     use crate::{
-        Address, ExportOptions, ExportWhat, ImportOptions, Name, NewTier, Progress, SearchOptions,
+        CorpusAddress, ExportOptions, ExportWhat, ImportOptions, NewTier, ProgressReceiver, RowName, SearchOptions,
         TierRole,
     };
 
     fn import(corpus: &mut Corpus, path: &std::path::Path, text: &str) {
         fs::write(path, text).expect("written");
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
+            .import_paths(
                 &[path.to_owned()],
                 &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("imported");
     }
@@ -220,13 +211,13 @@ mod tests {
     #[test]
     fn values_are_added_merged_exported_and_undone() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let table = folder.path().join("lex.tsv");
         let text = "gloss\tHandedness\nA\t2s\nB\t2S\nC\t1\n";
         import(&mut corpus, &table, text);
         let total = |corpus: &mut Corpus, query: &str| {
             corpus
-                .search(query, &SearchOptions::default())
+                .search_tokens(query, &SearchOptions::default())
                 .expect(query)
                 .total
         };
@@ -235,15 +226,8 @@ mod tests {
         assert_eq!((&*done.value, done.entries), ("2s", 1));
         assert_eq!(total(&mut corpus, "configuration.handedness==2s"), 2);
         import(&mut corpus, &table, &format!("{text}D\t2S\n"));
-        assert_eq!(
-            total(&mut corpus, "configuration.handedness==2s"),
-            3,
-            "it stays merged"
-        );
-        for (from, into, message) in [
-            ("2s", "2s", "one value already"),
-            ("2x", "2s", "has no value \"2x\""),
-        ] {
+        assert_eq!(total(&mut corpus, "configuration.handedness==2s"), 3, "it stays merged");
+        for (from, into, message) in [("2s", "2s", "one value already"), ("2x", "2s", "has no value \"2x\"")] {
             let error = corpus.merge_values(key, from, into).expect_err(from);
             assert!(error.to_string().contains(message), "{error}");
         }
@@ -262,7 +246,7 @@ mod tests {
             assert_eq!(key.as_deref(), found, "{name}");
         }
 
-        let before = corpus.info().expect("info").counts["values"];
+        let before = corpus.load_corpus_info().expect("info").counts["values"];
         let bent = InventoryValue {
             id: "bent-Q".into(),
             aliases: vec!["Q-hook".into()],
@@ -270,7 +254,7 @@ mod tests {
             ..InventoryValue::default()
         };
         corpus.add_value("configurations", &bent).expect("added");
-        assert_eq!(corpus.info().expect("info").counts["values"], before + 1);
+        assert_eq!(corpus.load_corpus_info().expect("info").counts["values"], before + 1);
         for (value, message) in [
             (bent.clone(), "has the value"),
             (
@@ -282,71 +266,64 @@ mod tests {
                 "bent-Q",
             ),
         ] {
-            let error = corpus
-                .add_value("configurations", &value)
-                .expect_err(message);
+            let error = corpus.add_value("configurations", &value).expect_err(message);
             assert!(error.to_string().contains(message), "{error}");
         }
         let to = folder.path().join("x.json");
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let what = ExportWhat::Inventory("configurations".into());
         corpus
-            .export(
+            .export_corpus(
                 &what,
                 &to,
                 &ExportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("exported");
-        let read =
-            Inventory::from_json(&fs::read_to_string(&to).expect("read")).expect("an inventory");
-        assert_eq!(read.find("Q-hook").map(|value| &*value.id), Some("bent-Q"));
+        let read = ComponentInventory::from_json(&fs::read_to_string(&to).expect("read")).expect("an inventory");
+        assert_eq!(
+            read.find_inventory_value("Q-hook").map(|value| &*value.id),
+            Some("bent-Q")
+        );
         for (what, name) in [
             (ExportWhat::Inventory("configurations".into()), "x.csv"),
             (ExportWhat::All, "y.json"),
             (ExportWhat::Inventory("none".into()), "z.json"),
         ] {
-            let mut hear = unheard;
+            let mut hear = ignore_progress_step;
             let to = folder.path().join(name);
-            let refused = corpus.export(
+            let refused = corpus.export_corpus(
                 &what,
                 &to,
                 &ExportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             );
-            assert!(
-                refused.is_err_and(|error| error.remedy().is_some()),
-                "{name}"
-            );
+            assert!(refused.is_err_and(|error| error.error_remedy().is_some()), "{name}");
         }
-        corpus.undo().expect("undone");
-        assert_eq!(corpus.info().expect("info").counts["values"], before);
+        corpus.undo_operation().expect("undone");
+        assert_eq!(corpus.load_corpus_info().expect("info").counts["values"], before);
     }
 
     #[test]
     fn annotations_and_tokens_follow_a_merge() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         let eaf = folder.path().join("take.eaf");
         fs::write(&eaf, include_str!("export/tests.eaf")).expect("written");
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
-                &[eaf],
-                &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
-            )
+            .import_paths(&[eaf], &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
             .expect("imported");
-        let recording = Name::Number(1);
+        let recording = RowName::Number(1);
         let role = TierRole::Component {
-            component: chereme_sign::Component::Configuration,
+            component: chereme_sign::SignComponent::Configuration,
             feature: None,
         };
         let mut tier = NewTier::new(recording.clone(), "mine", role);
-        tier.values = crate::Values::Inventory("configurations".into());
+        tier.values = crate::TierValueSource::Inventory("configurations".into());
         let tier = corpus.add_tier(&tier).expect("added");
         let add = |value: &str, start: i64| crate::AnnotationAction::Add {
-            tier: crate::TierName::Number(tier.id),
+            tier: crate::TierRequestName::Number(tier.id),
             start: format!("{start}ms").parse().ok(),
             end: format!("{}ms", start + 10).parse().ok(),
             parent: None,
@@ -355,23 +332,21 @@ mod tests {
             confidence: None,
         };
         let changes = [add("U", 0).into(), add("V", 20).into()];
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .annotate(&changes, &Default::default(), &mut Progress::new(&mut hear))
+            .annotate_corpus(&changes, &Default::default(), &mut ProgressReceiver::new(&mut hear))
             .expect("annotated");
-        let done = corpus
-            .merge_values("configurations", "V", "U")
-            .expect("merged");
+        let done = corpus.merge_values("configurations", "V", "U").expect("merged");
         assert_eq!(done.annotations, 1);
-        let address = Address::Tier(tier.id);
+        let address = CorpusAddress::Tier(tier.id);
         let to = folder.path().join("t.csv");
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .export(
+            .export_corpus(
                 &ExportWhat::Address(address),
                 &to,
                 &ExportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("exported");
         let text = fs::read_to_string(to).expect("read");

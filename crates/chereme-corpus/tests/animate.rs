@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, SearchOptions, Staging, unheard};
+use chereme_corpus::{Corpus, ImportOptions, NotationStaging, ProgressReceiver, SearchOptions, ignore_progress_step};
 
 const CHIN: &str = r#"<sigml><hamgestural_sign gloss="MERCI"><sign_manual>
   <handconfig handshape="flat"/><handconfig extfidir="u"/><handconfig palmor="u"/>
@@ -11,7 +11,7 @@ const CHIN: &str = r#"<sigml><hamgestural_sign gloss="MERCI"><sign_manual>
 </sign_manual></hamgestural_sign></sigml>"#;
 
 fn glosses(corpus: &mut Corpus, query: &str) -> Vec<String> {
-    let answer = corpus.search(query, &SearchOptions::default());
+    let answer = corpus.search_tokens(query, &SearchOptions::default());
     let hits = answer.expect(query).hits;
     hits.into_iter().map(|hit| hit.gloss).collect()
 }
@@ -19,55 +19,47 @@ fn glosses(corpus: &mut Corpus, query: &str) -> Vec<String> {
 #[test]
 fn a_notated_sign_is_animated_found_by_its_components_and_undone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("merci.sigml");
     fs::write(&file, CHIN).expect("written");
-    let preview = corpus.animate(&[&file.display().to_string()], &Staging::default(), None);
-    assert!(
-        preview
-            .expect("a file that no corpus holds")
-            .token
-            .is_none()
-    );
-    let mut hear = unheard;
+    let preview = corpus.animate_notation(&[&file.display().to_string()], &NotationStaging::default(), None);
+    assert!(preview.expect("a file that no corpus holds").token.is_none());
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
+        .import_paths(
             std::slice::from_ref(&file),
             &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("taken in");
 
-    let done = corpus.animate(&["MERCI"], &Staging::default(), Some("THANKS"));
+    let done = corpus.animate_notation(&["MERCI"], &NotationStaging::default(), Some("THANKS"));
     let done = done.expect("the corpus has it, and the program a body");
     assert!(done.duration_us > 500_000, "{}", done.duration_us);
     let found = glosses(&mut corpus, "configuration=flat placement=chin origin=made");
     assert_eq!(found, ["THANKS"]);
 
-    let twice = corpus.animate(&["MERCI", "MERCI"], &Staging::default(), None);
+    let twice = corpus.animate_notation(&["MERCI", "MERCI"], &NotationStaging::default(), None);
     assert!(twice.expect("one after the other").duration_us > done.duration_us);
-    let near = corpus.preview("THANKS | reverse | place right near MERCI");
+    let near = corpus.preview_recipe("THANKS | reverse | place right near MERCI");
     assert!(near.is_ok(), "{:?}", near.err());
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     assert!(glosses(&mut corpus, "origin=made").is_empty());
 }
 
 #[test]
 fn unreadable_notation_is_reported_and_nothing_is_stored() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     for (notation, signer, said) in [
         ("NONE", None, "NONE"),
         ("hamflathand hamparbegin", None, "symbol"),
         ("hamflathand hamextfingeru", Some("signer:nobody"), "nobody"),
         ("hamflathand hamextfingeru", Some("nobody"), "nobody"),
     ] {
-        let staging = Staging {
-            signer,
-            language: None,
-        };
+        let staging = NotationStaging { signer, language: None };
         let error = corpus
-            .animate(&[notation], &staging, Some("X"))
+            .animate_notation(&[notation], &staging, Some("X"))
             .map(|done| done.recipe)
             .expect_err(notation);
         assert!(error.to_string().contains(said), "{notation}: {error}");

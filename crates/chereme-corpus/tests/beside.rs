@@ -5,10 +5,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use chereme_corpus::{
-    Address, Corpus, ExportOptions, ExportWhat, ImportOptions, ImportReport, ListFilter, ListKind,
-    Name, Progress, SearchOptions, TrackKind, time_of_day, unheard,
+    Corpus, CorpusAddress, ExportOptions, ExportWhat, ImportOptions, ImportReport, ListFilter, ListKind,
+    ProgressReceiver, RowName, SearchOptions, TrackKind, ignore_progress_step, time_of_day,
 };
-use chereme_motion::Rate;
+use chereme_motion::FrameRate;
 
 /// A BVH file of one joint and two frames, 0.2 s long.
 const MOVEMENT: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n\
@@ -46,15 +46,15 @@ impl Desk {
     }
 
     fn corpus(&self, name: &str) -> Corpus {
-        Corpus::create(&self.folder.path().join(name), "A").expect("made")
+        Corpus::create_corpus(&self.folder.path().join(name), "A").expect("made")
     }
 }
 
 fn assert_whole(corpus: &mut Corpus) {
-    let mut hear = unheard;
-    let report = corpus.check(false, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let report = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut hear));
     let report = report.expect("checked");
-    assert_eq!(report.findings().next(), None);
+    assert_eq!(report.all_findings().next(), None);
 }
 
 const TEMPLATE: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2024-01-01T00:00:00Z\" \
@@ -73,8 +73,8 @@ const SETTINGS: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?><preferences v
 <String>B</String><String>A</String></prefList></preferences>";
 
 fn import_all(corpus: &mut Corpus, paths: &[PathBuf], options: &ImportOptions) -> ImportReport {
-    let mut hear = unheard;
-    let report = corpus.import(paths, options, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let report = corpus.import_paths(paths, options, &mut ProgressReceiver::new(&mut hear));
     let report = report.expect("imported");
     assert!(!report.has_refusals(), "{:?}", report.files);
     report
@@ -91,7 +91,7 @@ fn folder(desk: &Desk, files: &[(&str, &str)]) -> PathBuf {
 }
 
 fn recordings(corpus: &Corpus) -> Vec<String> {
-    let listing = corpus.list(ListKind::Recordings, &ListFilter::default());
+    let listing = corpus.list_rows(ListKind::Recordings, &ListFilter::default());
     let rows = listing.expect("listed").rows;
     rows.iter()
         .map(|row| row["name"].as_str().unwrap_or_default().to_owned())
@@ -99,13 +99,14 @@ fn recordings(corpus: &Corpus) -> Vec<String> {
 }
 
 fn kinds(corpus: &Corpus, name: &str) -> Vec<(TrackKind, i64)> {
-    let tracks = corpus.tracks(&Name::Text(name.to_owned())).expect("tracks");
+    let tracks = corpus
+        .recording_tracks(&RowName::Text(name.to_owned()))
+        .expect("tracks");
     tracks.iter().map(|it| (it.kind, it.offset_us)).collect()
 }
 
 #[test]
-fn a_template_gives_its_tiers_to_recordings_without_tiers_and_its_vocabulary_comes_from_its_own_file()
- {
+fn a_template_gives_its_tiers_to_recordings_without_tiers_and_its_vocabulary_comes_from_its_own_file() {
     let desk = Desk::new();
     let other = MOVEMENT.replace("0 0 1", "0 0 2");
     let inbox = folder(
@@ -119,14 +120,10 @@ fn a_template_gives_its_tiers_to_recordings_without_tiers_and_its_vocabulary_com
         ],
     );
     let mut corpus = desk.corpus("c.chereme");
-    import_all(
-        &mut corpus,
-        std::slice::from_ref(&inbox),
-        &ImportOptions::default(),
-    );
+    import_all(&mut corpus, std::slice::from_ref(&inbox), &ImportOptions::default());
     let tiers = |corpus: &Corpus| {
         let listing = corpus
-            .list(ListKind::Tiers, &ListFilter::default())
+            .list_rows(ListKind::Tiers, &ListFilter::default())
             .expect("listed");
         let text = |row: &serde_json::Map<String, serde_json::Value>| {
             format!(
@@ -139,7 +136,7 @@ fn a_template_gives_its_tiers_to_recordings_without_tiers_and_its_vocabulary_com
     };
     assert_eq!(tiers(&corpus), ["a Gloss RH", "a Handshape RH", "b Gloss"]);
     let shapes = corpus
-        .list(ListKind::Inventories, &ListFilter::default())
+        .list_rows(ListKind::Inventories, &ListFilter::default())
         .expect("listed")
         .rows;
     let shapes = shapes
@@ -153,7 +150,7 @@ fn a_template_gives_its_tiers_to_recordings_without_tiers_and_its_vocabulary_com
     assert_whole(&mut corpus);
     let again = import_all(&mut corpus, &[inbox], &ImportOptions::default());
     assert!(again.created.is_empty(), "{:?}", again.created);
-    corpus.undo().expect("taken back");
+    corpus.undo_operation().expect("taken back");
     assert_eq!(tiers(&corpus), Vec::<String>::new());
 }
 
@@ -163,27 +160,23 @@ fn settings_of_elan_show_tiers_in_their_order_and_leave_the_file_as_it_was() {
     let text = eaf(&[("A", 0, 100, "x"), ("B", 0, 100, "y")]);
     let inbox = folder(
         &desk,
-        &[
-            ("a.eaf", &text),
-            ("a.pfsx", SETTINGS),
-            ("lone.pfsx", SETTINGS),
-        ],
+        &[("a.eaf", &text), ("a.pfsx", SETTINGS), ("lone.pfsx", SETTINGS)],
     );
     let mut corpus = desk.corpus("c.chereme");
     let report = import_all(&mut corpus, &[inbox], &ImportOptions::default());
-    assert_eq!(report.unread().len(), 1, "{:?}", report.unread());
-    let contents = corpus.contents(1).expect("contents");
-    let shown: Vec<_> = contents.tiers.iter().map(|it| it.row.shown()).collect();
+    assert_eq!(report.unread_file_kinds().len(), 1, "{:?}", report.unread_file_kinds());
+    let contents = corpus.load_recording_contents(1).expect("contents");
+    let shown: Vec<_> = contents.tiers.iter().map(|it| it.row.elan_display_settings()).collect();
     assert_eq!([shown[0].order, shown[1].order], [Some(1), Some(0)]);
     assert_eq!(shown[1].colour.as_deref(), Some("#00a0ff"));
     let to = desk.folder.path().join("out.eaf");
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .export(
-            &ExportWhat::Address(Address::Recording(Name::Number(1))),
+        .export_corpus(
+            &ExportWhat::Address(CorpusAddress::Recording(RowName::Number(1))),
             &to,
             &ExportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("exported");
     assert_eq!(fs::read_to_string(to).expect("read"), text);
@@ -207,21 +200,15 @@ fn files_of_single_frames_become_one_track_next_to_the_movement_of_their_name() 
     let inbox = folder(&desk, &files);
     let mut corpus = desk.corpus("c.chereme");
     let options = ImportOptions {
-        rate: Rate::new(50, 1).ok(),
+        rate: FrameRate::new(50, 1).ok(),
         ..ImportOptions::default()
     };
     let report = import_all(&mut corpus, std::slice::from_ref(&inbox), &options);
     assert_eq!(report.files.len(), 2, "{:?}", report.files);
     assert_eq!(recordings(&corpus), ["take"]);
-    let tracks = corpus.tracks(&Name::Number(1)).expect("tracks");
-    let points = tracks
-        .iter()
-        .find(|it| it.kind == TrackKind::Markers)
-        .expect("points");
-    assert_eq!(
-        (points.frames, points.duration_us),
-        (Some(5), Some(100_000))
-    );
+    let tracks = corpus.recording_tracks(&RowName::Number(1)).expect("tracks");
+    let points = tracks.iter().find(|it| it.kind == TrackKind::Markers).expect("points");
+    assert_eq!((points.frames, points.duration_us), (Some(5), Some(100_000)));
     let again = import_all(&mut corpus, &[inbox], &options);
     assert_eq!(again.created.get("tracks"), None, "{:?}", again.created);
 }
@@ -234,11 +221,12 @@ fn an_export_of_signs_is_a_lexicon_despite_its_text_extension() {
     let inbox = folder(&desk, &[("export.txt", text), ("notes.txt", "buy milk")]);
     let mut corpus = desk.corpus("c.chereme");
     import_all(&mut corpus, &[inbox], &ImportOptions::default());
-    let answer = corpus.search("gloss:DOG", &SearchOptions::default());
+    let answer = corpus.search_tokens("gloss:DOG", &SearchOptions::default());
     assert_eq!(answer.expect("an answer").total, 1);
 }
 
-const FACE: &str = "Timecode,BlendShapeCount,JawOpen\n10:00:02:00.0,61,0.25\n10:00:02:01.0,61,0.5\n10:00:02:02.0,61,0.5\n";
+const FACE: &str =
+    "Timecode,BlendShapeCount,JawOpen\n10:00:02:00.0,61,0.25\n10:00:02:01.0,61,0.5\n10:00:02:02.0,61,0.5\n";
 
 #[test]
 fn tracks_with_overlapping_timecodes_are_one_take_aligned_by_timecode() {
@@ -259,7 +247,7 @@ fn tracks_with_overlapping_timecodes_are_one_take_aligned_by_timecode() {
         kinds(&corpus, "body"),
         [(TrackKind::Skeleton, 0), (TrackKind::Curves, 2_000_000)]
     );
-    corpus.undo().expect("taken back");
+    corpus.undo_operation().expect("taken back");
     assert_eq!(kinds(&corpus, "body").len(), 1);
     let far = FACE.replace("10:00", "17:00");
     fs::write(inbox.join("b/phone_7.csv"), far).expect("written");
@@ -287,10 +275,7 @@ fn a_folder_with_one_file_of_movement_and_one_of_a_face_is_one_take() {
             ),
             ("two/x.bvh", &other),
             ("two/y.bvh", &MOVEMENT.replace("0 0 1", "0 0 3")),
-            (
-                "two/z.csv",
-                &FACE.replace("0.25", "0.75").replace("10:00", "15:00"),
-            ),
+            ("two/z.csv", &FACE.replace("0.25", "0.75").replace("10:00", "15:00")),
         ],
     );
     let mut corpus = desk.corpus("c.chereme");

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use chereme_corpus::words::{Language, message};
+use chereme_corpus::words::{InterfaceLanguage, localized_message};
 use chereme_corpus::{
-    AnnotateOptions, AnnotationAction, AnnotationOrigin, Corpus, DETECTORS, DetectOptions,
-    Detected, Error, ImportOptions, ListFilter, ListKind, Moment, Name, NewTier, Progress,
-    ProposeScope, TierName, TierRole, starter_files, unheard,
+    ALL_DETECTORS, AnnotateOptions, AnnotationAction, AnnotationOrigin, Corpus, CorpusError, DetectOptions,
+    DetectionReport, ImportOptions, ListFilter, ListKind, NewTier, ProgressReceiver, ProposeScope, RowName,
+    TableMoment, TierRequestName, TierRole, ignore_progress_step, starter_files,
 };
-use chereme_motion::{Instant, Span};
-use chereme_sign::Component;
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::SignComponent;
 
 /// Returns a corpus with one recording without annotations.
 fn bowl(folder: &Path) -> Corpus {
@@ -29,34 +29,30 @@ fn bowl_file() -> String {
 fn recorded(folder: &Path, bvh: &str) -> Corpus {
     let path = folder.join("bol.bvh");
     std::fs::write(&path, bvh).expect("written");
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
+        .import_paths(
             &[path],
             &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("imported");
     corpus
 }
 
-fn detect(
-    corpus: &mut Corpus,
-    detector: &str,
-    scope: ProposeScope,
-) -> chereme_corpus::Result<Detected> {
+fn detect(corpus: &mut Corpus, detector: &str, scope: ProposeScope) -> chereme_corpus::CorpusResult<DetectionReport> {
     let options = DetectOptions {
         detector: detector.to_owned(),
         scope,
     };
-    let mut hear = unheard;
-    corpus.detect(&options, &mut Progress::new(&mut hear))
+    let mut hear = ignore_progress_step;
+    corpus.run_detection(&options, &mut ProgressReceiver::new(&mut hear))
 }
 
 /// Returns the value of a column for each row of a listing.
 fn column(corpus: &Corpus, kind: ListKind, name: &str) -> Vec<String> {
-    let listing = corpus.list(kind, &ListFilter::default()).expect("listed");
+    let listing = corpus.list_rows(kind, &ListFilter::default()).expect("listed");
     let rows = listing.rows.iter();
     rows.map(|row| row[name].as_str().unwrap_or_default().to_owned())
         .collect()
@@ -80,16 +76,16 @@ fn strokes_become_proposals_that_another_run_replaces_and_undo_removes() {
     assert_eq!(origins.len(), proposals.len());
     assert!(origins.iter().all(|it| it == "detector"), "{origins:?}");
     let faults = corpus
-        .check(false, &mut Progress::new(&mut unheard))
+        .check_corpus(false, &mut ProgressReceiver::new(&mut ignore_progress_step))
         .expect("checked");
-    assert_eq!(faults.findings().next(), None);
+    assert_eq!(faults.all_findings().next(), None);
 
     let again = detect(&mut corpus, "strokes", ProposeScope::All).expect("detected");
     assert_eq!(again.found, found.found);
     let after = column(&corpus, ListKind::Annotations, "origin").len();
     assert_eq!(after, proposals.len(), "earlier ones are replaced");
-    corpus.undo().expect("undone");
-    assert_eq!(corpus.undo().expect("undone").name, "propose");
+    corpus.undo_operation().expect("undone");
+    assert_eq!(corpus.undo_operation().expect("undone").name, "propose");
     assert!(column(&corpus, ListKind::Tiers, "name").is_empty());
 }
 
@@ -103,14 +99,11 @@ fn a_run_that_finds_nothing_removes_earlier_proposals_of_its_own_fields_only() {
     let still = lines[first];
     lines[first..].fill(still);
     let mut corpus = recorded(folder.path(), &lines.join("\n"));
-    let recording = || Name::Text("bol".into());
-    let (phase, brows) = (
-        "movement.phase right (proposed)",
-        "nonmanual.brows (proposed)",
-    );
+    let recording = || RowName::Text("bol".into());
+    let (phase, brows) = ("movement.phase right (proposed)", "nonmanual.brows (proposed)");
     for (tier, component, feature) in [
-        (phase, Component::Movement, "phase"),
-        (brows, Component::NonManual, "brows"),
+        (phase, SignComponent::Movement, "phase"),
+        (brows, SignComponent::NonManual, "brows"),
     ] {
         let feature = Some(feature.to_owned());
         let role = TierRole::Component { component, feature };
@@ -118,9 +111,9 @@ fn a_run_that_finds_nothing_removes_earlier_proposals_of_its_own_fields_only() {
         corpus.add_tier(&tier).expect("added");
     }
     let mut add = |tier: &str, start: f64, value: &str, origin| {
-        let time = |seconds| Some(Moment::Time(Instant::from_seconds(seconds)));
+        let time = |seconds| Some(TableMoment::Time(RecordingInstant::from_seconds(seconds)));
         let change = AnnotationAction::Add {
-            tier: TierName::Of {
+            tier: TierRequestName::Of {
                 recording: recording(),
                 tier: tier.to_owned(),
             },
@@ -135,10 +128,10 @@ fn a_run_that_finds_nothing_removes_earlier_proposals_of_its_own_fields_only() {
             origin,
             ..AnnotateOptions::default()
         };
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         corpus
-            .annotate(&[change.into()], &options, progress)
+            .annotate_corpus(&[change.into()], &options, progress)
             .expect("added");
     };
     add(phase, 0.1, "stroke", AnnotationOrigin::Detector);
@@ -153,7 +146,7 @@ fn a_run_that_finds_nothing_removes_earlier_proposals_of_its_own_fields_only() {
     let mut origins = column(&corpus, ListKind::Annotations, "origin");
     origins.sort_unstable();
     assert_eq!(origins, ["detector", "human"]);
-    assert_eq!(corpus.undo().expect("undone").name, "propose");
+    assert_eq!(corpus.undo_operation().expect("undone").name, "propose");
     assert_eq!(column(&corpus, ListKind::Annotations, "value").len(), 3);
 }
 
@@ -163,11 +156,11 @@ fn a_span_gets_only_the_detections_that_overlap_it() {
     let mut corpus = bowl(folder.path());
     let all = detect(&mut corpus, "strokes", ProposeScope::All).expect("detected");
     let all = &all.found[0].proposals;
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     let first = &all[0];
-    let at = Instant::from_micros(first.start_us);
-    let span = Span::between(at, Instant::from_micros(first.start_us + 1));
-    let scope = ProposeScope::Span(Name::Text("bol".into()), span);
+    let at = RecordingInstant::from_micros(first.start_us);
+    let span = TimeSpan::span_between(at, RecordingInstant::from_micros(first.start_us + 1));
+    let scope = ProposeScope::Span(RowName::Text("bol".into()), span);
     let found = detect(&mut corpus, "strokes", scope).expect("detected");
     let overlapping = all
         .iter()
@@ -182,15 +175,12 @@ fn an_unknown_detector_is_refused_with_the_names_of_all_in_both_languages() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = bowl(folder.path());
     let error = detect(&mut corpus, "waves", ProposeScope::All).expect_err("refused");
-    let remedy = error.remedy().expect("a remedy").text().to_owned();
-    for detector in DETECTORS {
-        assert!(remedy.contains(detector.name()), "{remedy}");
+    let remedy = error.error_remedy().expect("a remedy").remedy_text().to_owned();
+    for detector in ALL_DETECTORS {
+        assert!(remedy.contains(detector.detector_name()), "{remedy}");
     }
-    let french = |text: &str| message(text, Language::French).expect("French");
-    assert_eq!(
-        french(&error.to_string()),
-        "aucun détecteur ne s’appelle \"waves\""
-    );
+    let french = |text: &str| localized_message(text, InterfaceLanguage::French).expect("French");
+    assert_eq!(french(&error.to_string()), "aucun détecteur ne s’appelle \"waves\"");
     assert!(french(&remedy).starts_with("les détecteurs sont"));
 }
 
@@ -198,19 +188,19 @@ fn an_unknown_detector_is_refused_with_the_names_of_all_in_both_languages() {
 fn a_stop_leaves_the_corpus_and_evidence_has_french_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = bowl(folder.path());
-    let before = corpus.generation().expect("a generation");
-    let mut stop = |_: chereme_corpus::Step<'_>| std::ops::ControlFlow::Break(());
+    let before = corpus.corpus_generation().expect("a generation");
+    let mut stop = |_: chereme_corpus::ProgressStep<'_>| std::ops::ControlFlow::Break(());
     let options = DetectOptions {
         detector: "strokes".to_owned(),
         scope: ProposeScope::All,
     };
-    let stopped = corpus.detect(&options, &mut Progress::new(&mut stop));
-    assert!(matches!(stopped, Err(Error::Stopped)));
-    assert_eq!(corpus.generation().expect("a generation"), before);
-    let scope = ProposeScope::Recording(Name::Text("bol".into()));
+    let stopped = corpus.run_detection(&options, &mut ProgressReceiver::new(&mut stop));
+    assert!(matches!(stopped, Err(CorpusError::Stopped)));
+    assert_eq!(corpus.corpus_generation().expect("a generation"), before);
+    let scope = ProposeScope::Recording(RowName::Text("bol".into()));
     let found = detect(&mut corpus, "strokes", scope).expect("detected");
     for it in &found.found[0].proposals {
-        let french = message(&it.why, Language::French);
+        let french = localized_message(&it.why, InterfaceLanguage::French);
         assert!(french.is_some_and(|french| french != it.why), "{}", it.why);
     }
 }

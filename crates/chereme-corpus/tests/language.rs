@@ -5,9 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, ImportOptions, Progress, Recombination, Staging, unheard,
+    Corpus, ExportOptions, ExportWhat, ImportOptions, NotationStaging, ProgressReceiver, RecombinationResult,
+    ignore_progress_step,
 };
-use chereme_motion::{Part, Side};
+use chereme_motion::{BodyPart, BodySide};
 
 /// Two signs as a transcriber would write them, with their measurements in this signer's body language.
 const SIGNS: &str = r#"<sigml>
@@ -28,8 +29,8 @@ const SPOKEN: &str = r#"{"version": 1, "values": {
     "circle.normal": [0.21, "arm", "known"], "time.circle": [0.9, "s", "known"]}}"#;
 
 fn import(corpus: &mut Corpus, path: &Path, options: &ImportOptions) {
-    let mut hear = unheard;
-    let done = corpus.import(&[path.to_owned()], options, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let done = corpus.import_paths(&[path.to_owned()], options, &mut ProgressReceiver::new(&mut hear));
     let done = done.expect("imported");
     assert!(
         done.files
@@ -43,28 +44,28 @@ fn captured(folder: &Path, origin: &str) -> Corpus {
     let (signs, spoken) = (folder.join("signs.sigml"), folder.join("spoken.json"));
     fs::write(&signs, SIGNS).expect("written");
     fs::write(&spoken, SPOKEN).expect("written");
-    let mut studio = Corpus::create(&folder.join("studio.chereme"), "A").expect("made");
+    let mut studio = Corpus::create_corpus(&folder.join("studio.chereme"), "A").expect("made");
     import(&mut studio, &signs, &ImportOptions::default());
     let spoken = spoken.display().to_string();
-    let staging = Staging {
+    let staging = NotationStaging {
         signer: None,
         language: Some(&spoken),
     };
     for gloss in ["AWAY", "ROUND"] {
-        let done = studio.animate(&[gloss; 9], &staging, Some(&format!("NINE-{gloss}")));
+        let done = studio.animate_notation(&[gloss; 9], &staging, Some(&format!("NINE-{gloss}")));
         let done = done.expect("made");
         assert!(done.report.steps[0].language.is_some());
     }
     let out = folder.join("takes");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     studio
-        .export(&ExportWhat::All, &out, &ExportOptions::default(), progress)
+        .export_corpus(&ExportWhat::All, &out, &ExportOptions::default(), progress)
         .expect("exported");
-    let mut corpus = Corpus::create(&folder.join("corpus.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.join("corpus.chereme"), "A").expect("made");
     import(&mut corpus, &signs, &ImportOptions::default());
     let options = ImportOptions {
-        origin: chereme_corpus::Origin::of_name(origin),
+        origin: chereme_corpus::RecordOrigin::of_name(origin),
         signer: Some("Anna".to_owned()),
         ..ImportOptions::default()
     };
@@ -72,12 +73,12 @@ fn captured(folder: &Path, origin: &str) -> Corpus {
     corpus
 }
 
-fn animate(corpus: &mut Corpus, language: Option<&str>) -> Recombination {
-    let staging = Staging {
+fn animate(corpus: &mut Corpus, language: Option<&str>) -> RecombinationResult {
+    let staging = NotationStaging {
         signer: Some("signer:Anna"),
         language,
     };
-    corpus.animate(&["AWAY"], &staging, None).expect("made")
+    corpus.animate_notation(&["AWAY"], &staging, None).expect("made")
 }
 
 #[test]
@@ -98,11 +99,7 @@ fn sizes_and_times_of_captured_signs_replace_the_default_ones() {
             (value.value - known).abs() < tolerance,
             "{name} is {known}, measured {value:?}"
         );
-        assert_eq!(
-            (value.count, value.of.as_str()),
-            (9, "signer:\"Anna\""),
-            "{name}"
-        );
+        assert_eq!((value.count, value.of.as_str()), (9, "signer:\"Anna\""), "{name}");
         let [low, high] = value.quartiles.expect("a spread");
         assert!(low <= value.value && value.value <= high);
     }
@@ -118,7 +115,7 @@ fn sizes_and_times_of_captured_signs_replace_the_default_ones() {
     assert!(usual.report.steps[0].language.is_none());
     assert!(usual.duration_us < measured.duration_us);
     assert!(usual.recipe.contains("with default"), "{}", usual.recipe);
-    let stored = corpus.preview(&measured.recipe).expect("made again");
+    let stored = corpus.preview_recipe(&measured.recipe).expect("made again");
     assert_eq!(stored.duration_us, measured.duration_us);
 }
 
@@ -136,30 +133,30 @@ fn generated_signs_are_not_measured() {
 #[test]
 fn a_language_file_moves_places() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("mine.json");
     fs::write(&file, r#"{"version": 1, "places": {"chin": [0, 0.4, 0]}}"#).expect("written");
     let file = file.display().to_string();
     let text = "hamfinger2 hamextfingeru hampalml hamchin hamtouch";
     let mut highest = |language: Option<&str>| {
-        let staging = Staging {
-            signer: None,
-            language,
-        };
-        let done = corpus.animate(&[text], &staging, None).expect("made");
-        let hand = done.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
-        let heights = (0..done.clip.frames()).map(|n| done.clip.model_pose(n).position(hand).y);
+        let staging = NotationStaging { signer: None, language };
+        let done = corpus.animate_notation(&[text], &staging, None).expect("made");
+        let hand = done
+            .anatomy
+            .part_joint(BodyPart::Hand(BodySide::Right))
+            .expect("a hand");
+        let heights = (0..done.clip.clip_frame_count()).map(|n| done.clip.model_pose(n).model_joint_position(hand).y);
         heights.fold(0.0, f64::max)
     };
     let (usual, moved) = (highest(None), highest(Some(&file)));
     assert!(moved > usual + 0.08, "{usual} {moved}");
     for (language, said) in [("mesured", "measured"), ("no such.json", "no such file")] {
-        let staging = Staging {
+        let staging = NotationStaging {
             signer: None,
             language: Some(language),
         };
         let error = corpus
-            .animate(&[text], &staging, None)
+            .animate_notation(&[text], &staging, None)
             .map(|_| ())
             .expect_err(language);
         assert!(error.to_string().contains(said), "{error}");

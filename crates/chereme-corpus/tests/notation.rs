@@ -4,10 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, FileStatus, ImportOptions, ImportReport, ListFilter,
-    ListKind, PictureOptions, Progress, SearchOptions, Staging, read_notation, unheard,
+    Corpus, ExportOptions, ExportWhat, FileStatus, ImportOptions, ImportReport, ListFilter, ListKind, NotationStaging,
+    PictureOptions, ProgressReceiver, SearchOptions, ignore_progress_step, read_notation,
 };
-use chereme_motion::Side;
+use chereme_motion::BodySide;
 use chereme_sign::hamnosys::{MotionKind, from_names};
 
 const TWO: &str = r#"<sigml>
@@ -33,7 +33,7 @@ struct Desk {
 impl Desk {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
         Self { folder, corpus }
     }
 
@@ -46,47 +46,49 @@ impl Desk {
     fn import(&mut self, name: &str, text: &str) -> ImportReport {
         let path = self.write(name, text);
         let options = ImportOptions::default();
-        let mut progress = unheard;
+        let mut progress = ignore_progress_step;
         let report = self
             .corpus
-            .import(&[path], &options, &mut Progress::new(&mut progress))
+            .import_paths(&[path], &options, &mut ProgressReceiver::new(&mut progress))
             .expect("taken in");
         assert!(!report.has_refusals(), "{report:?}");
         report
     }
 
     fn glosses(&mut self, query: &str) -> Vec<String> {
-        let answer = self.corpus.search(query, &SearchOptions::default());
+        let answer = self.corpus.search_tokens(query, &SearchOptions::default());
         let hits = answer.expect(query).hits;
         hits.into_iter().map(|hit| hit.gloss).collect()
     }
 
     fn export(&self, what: &ExportWhat, name: &str) -> (Vec<u8>, Vec<String>) {
         let path = self.folder.path().join(name);
-        let mut progress = unheard;
+        let mut progress = ignore_progress_step;
         let report = self
             .corpus
-            .export(
+            .export_corpus(
                 what,
                 &path,
                 &ExportOptions {
                     force: true,
                     ..ExportOptions::default()
                 },
-                &mut Progress::new(&mut progress),
+                &mut ProgressReceiver::new(&mut progress),
             )
             .expect("written");
         (fs::read(path).expect("there"), report.notes)
     }
 
     fn check(&mut self) {
-        let report = self.corpus.check(false, &mut Progress::new(&mut unheard));
+        let report = self
+            .corpus
+            .check_corpus(false, &mut ProgressReceiver::new(&mut ignore_progress_step));
         let report = report.expect("checked");
-        assert_eq!(report.findings().next(), None);
+        assert_eq!(report.all_findings().next(), None);
     }
 
     fn notations(&self) -> u64 {
-        self.corpus.info().expect("told").counts["notations"]
+        self.corpus.load_corpus_info().expect("told").counts["notations"]
     }
 }
 
@@ -124,7 +126,7 @@ fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
     }
     let thanks = desk
         .corpus
-        .notation(&"MERCI".parse().expect("an address"))
+        .notation_at(&"MERCI".parse().expect("an address"))
         .expect("notated");
     assert_eq!(
         (thanks.system.as_str(), thanks.file.as_deref(), thanks.line),
@@ -134,15 +136,15 @@ fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
     assert!(matches!(motion, MotionKind::Directed(directed) if directed.curve.is_some()));
     assert!(!thanks.document.nonmanual.is_empty());
     for (name, count) in [("two.sigml", 2), ("two", 2), ("OUI", 1)] {
-        let found = desk.corpus.notations(name).expect(name);
+        let found = desk.corpus.notations_named(name).expect(name);
         assert_eq!(found.len(), count, "{name}");
     }
-    assert!(desk.corpus.notations("three.sigml").is_err());
+    assert!(desk.corpus.notations_named("three.sigml").is_err());
     let (outside, _) = read_notation(&desk.folder.path().join("two.sigml")).expect("read");
     assert_eq!(outside[0], thanks.document);
     let listed = desk
         .corpus
-        .list(ListKind::Signs, &ListFilter::default())
+        .list_rows(ListKind::Signs, &ListFilter::default())
         .expect("listed");
     assert_eq!(listed.rows[0]["notation"]["document"]["gloss"], "MERCI");
     assert_eq!(
@@ -159,7 +161,7 @@ fn a_name_means_the_sign_if_a_file_with_several_signs_has_the_same_name() {
     let mut desk = Desk::new();
     desk.import("MERCI.sigml", TWO);
     for (name, count) in [("MERCI", 1), ("MERCI.sigml", 2), ("OUI", 1)] {
-        let found = desk.corpus.notations(name).expect(name);
+        let found = desk.corpus.notations_named(name).expect(name);
         assert_eq!(found.len(), count, "{name}");
     }
 }
@@ -168,11 +170,11 @@ fn a_name_means_the_sign_if_a_file_with_several_signs_has_the_same_name() {
 fn notation_is_undone_and_done_again() {
     let mut desk = Desk::new();
     desk.import("two.sigml", TWO);
-    desk.corpus.undo().expect("taken back");
+    desk.corpus.undo_operation().expect("taken back");
     assert_eq!(desk.notations(), 0);
     assert!(desk.glosses("configuration=flat").is_empty());
     desk.check();
-    desk.corpus.redo().expect("done again");
+    desk.corpus.redo_operation().expect("done again");
     assert_eq!(desk.notations(), 2);
     assert_eq!(desk.glosses("configuration=flat"), ["MERCI"]);
     desk.check();
@@ -198,12 +200,9 @@ fn a_file_imported_again_updates_its_signs() {
     desk.import("other.sigml", &TWO.replace("chin", "nose"));
     let all = desk
         .corpus
-        .list(ListKind::Tokens, &ListFilter::default())
+        .list_rows(ListKind::Tokens, &ListFilter::default())
         .expect("listed");
-    assert_eq!(
-        all.total, 5,
-        "the signs of another file are entries of their own"
-    );
+    assert_eq!(all.total, 5, "the signs of another file are entries of their own");
     desk.check();
 }
 
@@ -221,27 +220,15 @@ fn notation_is_exported_in_each_of_its_forms() {
         let (signs, findings) = read_notation(&path).expect("we wrote it");
         assert!(findings.is_empty(), "{findings:?}");
         for sign in signs {
-            let own = desk
-                .corpus
-                .notation(&sign.gloss.parse().expect("an address"));
+            let own = desk.corpus.notation_at(&sign.gloss.parse().expect("an address"));
             let own = own.expect("notated").document;
-            assert_eq!(
-                (&sign.sign, &sign.nonmanual),
-                (&own.sign, &own.nonmanual),
-                "{name}"
-            );
+            assert_eq!((&sign.sign, &sign.nonmanual), (&own.sign, &own.nonmanual), "{name}");
         }
     }
     let (text, notes) = desk.export(&ExportWhat::All, "all.hns");
-    assert_eq!(
-        notes,
-        ["left out of 1 sign, the first MERCI: what face and body do"]
-    );
+    assert_eq!(notes, ["left out of 1 sign, the first MERCI: what face and body do"]);
     let text = String::from_utf8(text).expect("text");
-    let glosses: Vec<_> = text
-        .lines()
-        .filter_map(|line| line.split('\t').next())
-        .collect();
+    let glosses: Vec<_> = text.lines().filter_map(|line| line.split('\t').next()).collect();
     assert_eq!(glosses, ["MERCI", "OUI"]);
     for name in ["all.hns", "all.txt"] {
         let mut other = Desk::new();
@@ -253,11 +240,11 @@ fn notation_is_exported_in_each_of_its_forms() {
         let path = other.folder.path().join(name);
         let both = other
             .corpus
-            .animate(&[&path.to_string_lossy()], &Staging::default(), None)
+            .animate_notation(&[&path.to_string_lossy()], &NotationStaging::default(), None)
             .expect("both signs in a row");
         let one = other
             .corpus
-            .animate(&["MERCI"], &Staging::default(), None)
+            .animate_notation(&["MERCI"], &NotationStaging::default(), None)
             .expect("one");
         assert!(both.duration_us > one.duration_us);
     }
@@ -265,10 +252,7 @@ fn notation_is_exported_in_each_of_its_forms() {
     let mut other = Desk::new();
     other.import("all.csv", &String::from_utf8(table).expect("text"));
     assert_eq!(other.notations(), 2);
-    assert_eq!(
-        other.glosses("configuration=flat placement=chin"),
-        ["MERCI"]
-    );
+    assert_eq!(other.glosses("configuration=flat placement=chin"), ["MERCI"]);
 }
 
 #[test]
@@ -279,7 +263,7 @@ fn symbols_are_exported_however_their_notation_is_stored() {
     desk.import("own.hns", &format!("A\t{names}\nB\t{tabs}\n"));
     let made = desk
         .corpus
-        .animate(&[names], &Staging::default(), Some("C"));
+        .animate_notation(&[names], &NotationStaging::default(), Some("C"));
     made.expect("stored");
     let (symbols, notes) = desk.export(&ExportWhat::All, "all.hsigml");
     assert!(notes.is_empty(), "{notes:?}");
@@ -295,19 +279,19 @@ fn a_notation_is_drawn_symbol_by_symbol() {
     desk.import("two.sigml", TWO);
     let path = desk.folder.path().join("oui.svg");
     let address = "OUI".parse().expect("an address");
-    let mut progress = unheard;
-    let mut progress = Progress::new(&mut progress);
+    let mut progress = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut progress);
     let options = PictureOptions::default();
-    let picture = desk.corpus.draw(&address, &path, &options, &mut progress);
+    let picture = desk.corpus.draw_movement_file(&address, &path, &options, &mut progress);
     assert_eq!(picture.expect("drawn").frames, 5);
     let text = fs::read_to_string(&path).expect("there");
     assert!(text.contains("<title>hamnodding</title>"), "{text}");
-    let again = desk.corpus.draw(&address, &path, &options, &mut progress);
+    let again = desk.corpus.draw_movement_file(&address, &path, &options, &mut progress);
     assert!(again.is_err(), "it is not written over");
     let all = desk.folder.path().join("all.svg");
     let drawn = desk
         .corpus
-        .draw_handshapes("hamnosys", None, Side::Right, &all, &options);
+        .draw_handshapes("hamnosys", None, BodySide::Right, &all, &options);
     assert_eq!(drawn.expect("drawn").frames, 209);
 }
 
@@ -321,13 +305,13 @@ fn files_are_recognised_as_notation_by_their_contents() {
         "own.txt",
         "hamflathand hamextfingeru hampalml\nhamfist hamextfingeru hampalml",
     );
-    let mut progress = unheard;
+    let mut progress = ignore_progress_step;
     let report = desk
         .corpus
-        .import(
+        .import_paths(
             &[desk.folder.path().to_path_buf()],
             &ImportOptions::default(),
-            &mut Progress::new(&mut progress),
+            &mut ProgressReceiver::new(&mut progress),
         )
         .expect("taken in");
     assert_eq!(report.created["notations"], 4, "{report:?}");
@@ -340,19 +324,14 @@ fn a_column_of_hamnosys_is_recognised_by_its_title_or_its_characters() {
     let end = from_names(["hamparend"]).expect("a name");
     for title in ["HamNoSys", "x1"] {
         let mut desk = Desk::new();
-        let table = format!(
-            "gloss\t{title}\tHandshape strong\nOUI\t{yes}\tS\nPEUT\t{yes}{end}\t\nRIEN\t\t\n"
-        );
+        let table = format!("gloss\t{title}\tHandshape strong\nOUI\t{yes}\tS\nPEUT\t{yes}{end}\t\nRIEN\t\t\n");
         let report = desk.import("words.tsv", &table);
         assert_eq!(report.created["notations"], 2, "{title}");
-        let odd = report.files[0]
-            .findings
-            .iter()
-            .any(|finding| finding.line == Some(3));
+        let odd = report.files[0].findings.iter().any(|finding| finding.line == Some(3));
         assert!(odd, "what cannot be read is told with its line: {report:?}");
         let oui = desk
             .corpus
-            .notation(&"OUI".parse().expect("an address"))
+            .notation_at(&"OUI".parse().expect("an address"))
             .expect("notated");
         assert_eq!(
             (oui.system.as_str(), oui.text.as_deref()),
@@ -364,11 +343,7 @@ fn a_column_of_hamnosys_is_recognised_by_its_title_or_its_characters() {
             "the table's own coding counts"
         );
         assert_eq!(desk.glosses("movement=nodding"), ["OUI", "PEUT"]);
-        assert!(
-            desk.corpus
-                .notation(&"RIEN".parse().expect("an address"))
-                .is_err()
-        );
+        assert!(desk.corpus.notation_at(&"RIEN".parse().expect("an address")).is_err());
         let again = desk.import("words.tsv", &table.replace("PEUT", "PEUX"));
         assert_eq!(again.created["notations"], 1);
         desk.check();

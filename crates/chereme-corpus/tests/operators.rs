@@ -1,8 +1,8 @@
 //! The examples that operators give of themselves: they work on the starter corpus, and their reports are in French, too.
 
 use chereme_corpus::recipe::Step;
-use chereme_corpus::words::{Language, message};
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_corpus::words::{InterfaceLanguage, localized_message};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
 
 /// Returns a sentence in French; itself if it has no words.
 fn in_french(text: &str) -> Option<String> {
@@ -10,25 +10,21 @@ fn in_french(text: &str) -> Option<String> {
     if !has_words {
         return Some(text.to_owned());
     }
-    message(text, Language::French)
+    localized_message(text, InterfaceLanguage::French)
 }
 
 #[test]
 fn the_reports_of_examples_are_french_if_french_is_requested() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = unpack_starter(&folder.path().join("files")).expect("unpacked");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
-            &files,
-            &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
     let (mut done, mut refused, mut english) = (0, Vec::new(), Vec::new());
     for (example, _) in Step::DESCRIPTIONS.iter().flat_map(|it| it.examples) {
-        let made = match corpus.preview(&format!("BOL | {example}")) {
+        let made = match corpus.preview_recipe(&format!("BOL | {example}")) {
             Ok(made) => made,
             Err(error) => {
                 refused.push(format!("{example}: {error}"));

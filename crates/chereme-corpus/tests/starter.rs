@@ -10,16 +10,16 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use all::Take;
-use chereme_compose::Generated;
-use chereme_formats::bvh::raw::{Block, Reader};
-use chereme_formats::roles::{Mapping, guess_tiers};
+use chereme_compose::GeneratedMovement;
+use chereme_formats::bvh::raw::{BvhReader, MotionBlock};
+use chereme_formats::roles::{TierMapping, guess_tiers};
 use chereme_formats::{eaf, lexicon};
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, Clip, ModelPose, Side};
+use chereme_motion::{BodyAnatomy, BodySide, Clip, ModelPose};
 use chereme_sign::TierRole;
 use chereme_sign::inventory::builtin_by_id;
 
-static MADE: LazyLock<Vec<(Take, Generated)>> = LazyLock::new(all::performances);
+static MADE: LazyLock<Vec<(Take, GeneratedMovement)>> = LazyLock::new(all::performances);
 
 fn committed(name: &str) -> Vec<u8> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
@@ -55,10 +55,7 @@ fn the_files_equal_those_that_the_program_generates() {
         } else {
             there == *bytes
         };
-        assert!(
-            equal,
-            "corpus/{name} is not what the program makes; {remedy}"
-        );
+        assert!(equal, "corpus/{name} is not what the program makes; {remedy}");
     }
     let whole: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
     assert!(whole < 3_600_000, "{whole} bytes are much to embed");
@@ -68,18 +65,13 @@ fn the_files_equal_those_that_the_program_generates() {
 fn recordings_read_without_a_finding() {
     for (take, made) in MADE.iter() {
         let bytes = committed(&format!("{}.bvh", take.stem));
-        let mut reader = Reader::open(&bytes[..]).expect("a hierarchy");
-        assert_eq!(reader.hierarchy().joints.len(), 61);
-        let mut block = Block::default();
+        let mut reader = BvhReader::open_bvh(&bytes[..]).expect("a hierarchy");
+        assert_eq!(reader.bvh_hierarchy().joints.len(), 61);
+        let mut block = MotionBlock::default();
         while reader.next_block(&mut block).expect("rows of numbers") {}
-        let summary = reader.finish();
-        assert_eq!(summary.frames as usize, made.clip.frames());
-        assert!(
-            summary.findings.is_empty(),
-            "{}: {:?}",
-            take.stem,
-            summary.findings
-        );
+        let summary = reader.finish_bvh_reading();
+        assert_eq!(summary.frames as usize, made.clip.clip_frame_count());
+        assert!(summary.findings.is_empty(), "{}: {:?}", take.stem, summary.findings);
     }
 }
 
@@ -87,10 +79,10 @@ fn recordings_read_without_a_finding() {
 fn annotations_read_without_a_finding_and_every_value_is_known() {
     for (take, made) in MADE.iter() {
         let bytes = committed(&format!("{}.eaf", take.stem));
-        let (transcript, findings) = eaf::read(&bytes).expect("an annotation document");
+        let (transcript, findings) = eaf::read_eaf(&bytes).expect("an annotation document");
         assert!(findings.is_empty(), "{}: {findings:?}", take.stem);
-        assert!(transcript.end() <= made.clip.span().end());
-        let guesses = guess_tiers(&transcript, &Mapping::default());
+        assert!(transcript.transcript_end() <= made.clip.clip_span().span_end_instant());
+        let guesses = guess_tiers(&transcript, &TierMapping::default());
         let mut fields = BTreeSet::new();
         for (tier, guess) in transcript.tiers.iter().zip(guesses) {
             let role = guess
@@ -102,7 +94,7 @@ fn annotations_read_without_a_finding_and_every_value_is_known() {
             let known = fields.insert((
                 component,
                 feature.clone(),
-                guess.hand.map(|hand| hand.name()),
+                guess.hand.map(|hand| hand.annotated_hands_name()),
             ));
             assert!(known, "{:?} says what another tier says", tier.name);
             let named = tier.vocabulary.as_deref().expect("a vocabulary");
@@ -118,7 +110,7 @@ fn annotations_read_without_a_finding_and_every_value_is_known() {
             );
             for annotation in &tier.annotations {
                 assert!(
-                    inventory.get(&annotation.value).is_some(),
+                    inventory.value_by_id(&annotation.value).is_some(),
                     "{} on {:?}",
                     annotation.value,
                     tier.name
@@ -132,10 +124,10 @@ fn annotations_read_without_a_finding_and_every_value_is_known() {
 #[test]
 fn the_lexicon_reads_and_uses_the_inventories() {
     let (lexicon, findings) =
-        lexicon::read(&committed("lexicon.csv"), &Mapping::default()).expect("a table");
+        lexicon::read_lexicon(&committed("lexicon.csv"), &TierMapping::default()).expect("a table");
     assert!(findings.is_empty(), "{findings:?}");
     assert_eq!(lexicon.entries.len(), 14);
-    let known = |id: &str, value: &str| builtin_by_id(id).is_some_and(|it| it.get(value).is_some());
+    let known = |id: &str, value: &str| builtin_by_id(id).is_some_and(|it| it.value_by_id(value).is_some());
     let recorded: BTreeSet<&str> = ["LION", "POULE", "VACHE"].into();
     for entry in &lexicon.entries {
         assert_eq!(entry.translations.len(), 2, "{}", entry.gloss);
@@ -144,8 +136,8 @@ fn the_lexicon_reads_and_uses_the_inventories() {
             .any(|(take, _)| take.signs.iter().any(|sign| sign.gloss == entry.gloss));
         assert_eq!(taken, recorded.contains(&*entry.gloss), "{}", entry.gloss);
         for coding in &entry.codings {
-            let value = coding.reading.value().expect("a value");
-            let inventories: &[&str] = match coding.component.name() {
+            let value = coding.reading.reading_value().expect("a value");
+            let inventories: &[&str] = match coding.component.component_name() {
                 "configuration" => &["configurations"],
                 "placement" => &["placements"],
                 "movement" => &["movements", "directions", "repetitions"],
@@ -173,9 +165,9 @@ fn the_animator_performs_the_notation_and_nothing_jumps() {
         };
         let warnings: Vec<&String> = made.report.warnings.iter().filter(missed).collect();
         assert!(warnings.is_empty(), "{}: {warnings:?}", take.stem);
-        for (joint, channel) in clip.skeleton().joints().iter().zip(clip.channels()) {
+        for (joint, channel) in clip.clip_skeleton().skeleton_joints().iter().zip(clip.joint_channels()) {
             for (frame, pair) in channel.rotations.windows(2).enumerate() {
-                let speed = pair[0].angle_between(pair[1]).to_degrees() * clip.rate().per_second();
+                let speed = pair[0].angle_between(pair[1]).to_degrees() * clip.clip_frame_rate().per_second();
                 if speed >= 1100.0 {
                     pulled.push(format!(
                         "{} {} frame {frame}: {speed:.0} degrees a second",
@@ -184,23 +176,21 @@ fn the_animator_performs_the_notation_and_nothing_jumps() {
                 }
             }
         }
-        for side in Side::BOTH {
-            let arm = Anatomy::detect(clip.skeleton()).arm(side).expect("an arm");
+        for side in BodySide::BOTH_SIDES {
+            let arm = BodyAnatomy::detect_anatomy(clip.clip_skeleton())
+                .arm_chain(side)
+                .expect("an arm");
             for (name, joint) in [("elbow", arm.forearm), ("wrist", arm.hand)] {
-                let path = clip.path(joint);
-                let pull = path
-                    .windows(3)
-                    .map(|p| (p[2] - p[1] * 2.0 + p[0]).length() * 3600.0);
-                let (frame, most) =
-                    pull.enumerate().fold(
-                        (0, 0.0),
-                        |most, now| if now.1 > most.1 { now } else { most },
-                    );
+                let path = clip.joint_path(joint);
+                let pull = path.windows(3).map(|p| (p[2] - p[1] * 2.0 + p[0]).length() * 3600.0);
+                let (frame, most) = pull
+                    .enumerate()
+                    .fold((0, 0.0), |most, now| if now.1 > most.1 { now } else { most });
                 if most >= 100.0 {
                     pulled.push(format!(
                         "{} {} {name} frame {frame}: {most:.0} m/s2",
                         take.stem,
-                        side.name()
+                        side.body_side_name()
                     ));
                 }
             }
@@ -213,26 +203,21 @@ fn the_animator_performs_the_notation_and_nothing_jumps() {
 fn hands_stay_out_of_the_trunk_and_of_each_other() {
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
-        let anatomy = Anatomy::detect(clip.skeleton());
+        let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
         // Skin is soft: in these takes hands lie on each other or hit.
         let deepest = match take.stem {
             "escargot" | "punir" => -0.021,
             _ => 0.0,
         };
-        for frame in (0..clip.frames()).step_by(3) {
+        for frame in (0..clip.clip_frame_count()).step_by(3) {
             let model = clip.model_pose(frame);
             let body = anatomy.body_frame(&model).expect("a trunk");
-            let hands = Side::BOTH.map(|side| bones(clip, &anatomy, &model, side));
+            let hands = BodySide::BOTH_SIDES.map(|side| bones(clip, &anatomy, &model, side));
             for (_, end, radius) in hands.iter().flatten() {
                 let at = body.direction_to_body(*end - body.origin);
                 let inside = DVec3::new(at.x / 0.155, 0.0, at.z / 0.105).length();
-                let beside =
-                    !(-0.42..0.0).contains(&at.y) || (inside - 1.0) * 0.105 > radius - 0.02;
-                assert!(
-                    beside,
-                    "{} frame {frame}: a hand is in the trunk",
-                    take.stem
-                );
+                let beside = !(-0.42..0.0).contains(&at.y) || (inside - 1.0) * 0.105 > radius - 0.02;
+                assert!(beside, "{} frame {frame}: a hand is in the trunk", take.stem);
             }
             for a in &hands[0] {
                 for b in &hands[1] {
@@ -251,26 +236,22 @@ fn hands_stay_out_of_the_trunk_and_of_each_other() {
 type Bone = (DVec3, DVec3, f64);
 
 /// Returns the bones below a wrist with their radius in metres.
-fn bones(clip: &Clip, anatomy: &Anatomy, model: &ModelPose, side: Side) -> Vec<Bone> {
-    let skeleton = clip.skeleton();
+fn bones(clip: &Clip, anatomy: &BodyAnatomy, model: &ModelPose, side: BodySide) -> Vec<Bone> {
+    let skeleton = clip.clip_skeleton();
     let bone = |joint: usize| {
-        let name = &skeleton.joint(joint).name;
-        let radius = if name.contains("InHand") {
-            0.013
-        } else {
-            0.008
-        };
+        let name = &skeleton.joint_at(joint).name;
+        let radius = if name.contains("InHand") { 0.013 } else { 0.008 };
         let child = skeleton
-            .children(joint)
+            .joint_children(joint)
             .first()
-            .map(|&child| model.position(child));
+            .map(|&child| model.model_joint_position(child));
         let end = model
-            .tip(skeleton, joint)
+            .bone_tip_position(skeleton, joint)
             .or(child)
-            .unwrap_or(model.position(joint));
-        (model.position(joint), end, radius)
+            .unwrap_or(model.model_joint_position(joint));
+        (model.model_joint_position(joint), end, radius)
     };
-    anatomy.fingers(side).into_iter().map(bone).collect()
+    anatomy.finger_joints(side).into_iter().map(bone).collect()
 }
 
 /// Returns the distance of two bones from surface to surface, to a few millimetres.
@@ -308,10 +289,7 @@ fn hands_touch_the_annotated_contacts() {
 #[test]
 fn paws_of_a_walking_cat_are_in_front_in_turn() {
     let places = places("chat", [0.0, 1.0], ["right-wrist", "left-wrist"]);
-    let ahead: Vec<f64> = places
-        .iter()
-        .map(|[right, left]| right.z - left.z)
-        .collect();
+    let ahead: Vec<f64> = places.iter().map(|[right, left]| right.z - left.z).collect();
     let far = ahead.iter().filter(|ahead| ahead.abs() > 0.05);
     let sides: Vec<bool> = far.map(|ahead| *ahead > 0.0).collect();
     let turns = sides.windows(2).filter(|pair| pair[0] != pair[1]).count();
@@ -320,22 +298,19 @@ fn paws_of_a_walking_cat_are_in_front_in_turn() {
 
 /// Returns the positions of landmarks in every frame of a recording's only sign, between two shares of its length.
 fn places<const N: usize>(stem: &str, [from, to]: [f64; 2], names: [&str; N]) -> Vec<[DVec3; N]> {
-    let (_, made) = MADE
-        .iter()
-        .find(|(take, _)| take.stem == stem)
-        .expect("a recording");
+    let (_, made) = MADE.iter().find(|(take, _)| take.stem == stem).expect("a recording");
     let clip = &made.clip;
-    let anatomy = Anatomy::detect(clip.skeleton());
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
     let sign = all::glosses(made)[0];
-    let seconds = sign.end().seconds() - sign.start().seconds();
+    let seconds = sign.span_end_instant().instant_seconds() - sign.span_start_instant().instant_seconds();
     let frame = |share: f64| {
-        let time = sign.start().seconds() + share * seconds;
-        (time * clip.rate().per_second()) as usize
+        let time = sign.span_start_instant().instant_seconds() + share * seconds;
+        (time * clip.clip_frame_rate().per_second()) as usize
     };
     let at = |frame: usize| {
         let model = clip.model_pose(frame);
         names.map(|name| {
-            let place = anatomy.landmark(clip.skeleton(), &model, name);
+            let place = anatomy.landmark_place_position(clip.clip_skeleton(), &model, name);
             place.expect("a landmark")
         })
     };

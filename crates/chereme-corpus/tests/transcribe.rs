@@ -3,10 +3,10 @@
 use std::ops::ControlFlow::Break;
 
 use chereme_corpus::{
-    Address, Corpus, Error, ImportOptions, PictureOptions, Progress, Staging, Transcribed,
-    starter_files, unheard,
+    Corpus, CorpusAddress, CorpusError, ImportOptions, NotationStaging, PictureOptions, ProgressReceiver,
+    SignTranscription, ignore_progress_step, starter_files,
 };
-use chereme_sign::hamnosys::{BodyLocation, Nonmanual, Place, Sign, from_names, parse};
+use chereme_sign::hamnosys::{BodyLocation, HamnosysSign, HandPlace, NonmanualActs, from_names, parse_hamnosys};
 
 #[test]
 fn a_transcription_is_stored_and_undone() {
@@ -19,21 +19,15 @@ fn a_transcription_is_stored_and_undone() {
             paths.push(path);
         }
     }
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-    let (options, mut unheard) = (ImportOptions::default(), unheard);
-    let mut progress = Progress::new(&mut unheard);
-    corpus
-        .import(&paths, &options, &mut progress)
-        .expect("taken in");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+    let (options, mut unheard) = (ImportOptions::default(), ignore_progress_step);
+    let mut progress = ProgressReceiver::new(&mut unheard);
+    corpus.import_paths(&paths, &options, &mut progress).expect("taken in");
 
-    let sign: Address = "BOL".parse().expect("an address");
-    let transcribed = corpus.transcribe(&sign, &mut progress).expect("told");
+    let sign: CorpusAddress = "BOL".parse().expect("an address");
+    let transcribed = corpus.transcribe_movement(&sign, &mut progress).expect("told");
     assert!(!transcribed.features.is_empty() && transcribed.start_us < transcribed.end_us);
-    let text: String = transcribed
-        .stages
-        .iter()
-        .map(|it| it.hamnosys.as_str())
-        .collect();
+    let text: String = transcribed.stages.iter().map(|it| it.hamnosys.as_str()).collect();
     if transcribed.stages.iter().all(|stage| stage.hand.is_none()) {
         assert_eq!(transcribed.hamnosys, text, "stages in order are the whole");
     }
@@ -45,26 +39,24 @@ fn a_transcription_is_stored_and_undone() {
         assert_eq!(value.symbols.len(), value.hamnosys.chars().count());
         assert!(feature.start_us <= feature.at_us && feature.at_us <= feature.end_us);
     }
-    let read = parse(&transcribed.hamnosys).expect("HamNoSys that reads");
+    let read = parse_hamnosys(&transcribed.hamnosys).expect("HamNoSys that reads");
     assert_eq!(read.sign, transcribed.sign, "{:?}", transcribed.findings);
 
-    assert!(corpus.notation(&sign).is_err());
+    assert!(corpus.notation_at(&sign).is_err());
     let picture = folder.path().join("bol.svg");
-    let drawn = corpus.draw(&sign, &picture, &PictureOptions::default(), &mut progress);
+    let drawn = corpus.draw_movement_file(&sign, &picture, &PictureOptions::default(), &mut progress);
     let drawn = drawn.expect("drawn");
     assert!(drawn.transcribed && drawn.frames == transcribed.symbols.len());
-    corpus
-        .store_transcription(&sign, false, &mut progress)
-        .expect("kept");
-    let kept = corpus.notation(&sign).expect("a notation");
+    corpus.store_transcription(&sign, false, &mut progress).expect("kept");
+    let kept = corpus.notation_at(&sign).expect("a notation");
     assert_eq!(kept.text.as_ref(), Some(&transcribed.hamnosys));
     assert_eq!(kept.document.sign, transcribed.sign);
     corpus
         .store_transcription(&sign, false, &mut progress)
         .expect("the same again");
-    assert_eq!(corpus.log(1).expect("a log")[0].name, "transcribe");
-    corpus.undo().expect("taken back");
-    assert!(corpus.notation(&sign).is_err());
+    assert_eq!(corpus.operation_log(1).expect("a log")[0].name, "transcribe");
+    corpus.undo_operation().expect("taken back");
+    assert!(corpus.notation_at(&sign).is_err());
 }
 
 /// Signs whose hands miss their place: they are pushed out of the trunk, or refer to a part that faces away from it.
@@ -76,7 +68,7 @@ const LED_AWAY: [&str; 2] = [
 #[test]
 fn animated_notation_is_transcribed_with_its_written_locations() {
     let folder = tempfile::tempdir().expect("a folder");
-    let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     check_transcribed_locations(corpus);
 }
 
@@ -89,29 +81,29 @@ fn locations_are_transcribed_on_a_body_with_an_impossible_rest_pose() {
     let (_, bytes) = bol.expect("a recording");
     let text = std::str::from_utf8(bytes).expect("text");
     std::fs::write(&path, arm_turned_round(text)).expect("written");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-    let (options, mut unheard) = (ImportOptions::default(), unheard);
-    let mut progress = Progress::new(&mut unheard);
-    let done = corpus.import(&[path], &options, &mut progress);
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+    let (options, mut unheard) = (ImportOptions::default(), ignore_progress_step);
+    let mut progress = ProgressReceiver::new(&mut unheard);
+    let done = corpus.import_paths(&[path], &options, &mut progress);
     done.expect("taken in");
     check_transcribed_locations(corpus);
 }
 
 /// Generates a sign, stores it as S and its number, and returns its notation and its transcription.
-fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcribed) {
+fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (HamnosysSign, SignTranscription) {
     let text = from_names(names.split(' ')).expect("names of symbols");
-    let written = parse(&text).expect("HamNoSys").sign;
+    let written = parse_hamnosys(&text).expect("HamNoSys").sign;
     let gloss = format!("S{n}");
     // A body that sways shifts the hand by millimetres, as much as the distance between the neck and the underside of
     // the chin.
-    let staging = Staging {
+    let staging = NotationStaging {
         language: Some("quiet"),
-        ..Staging::default()
+        ..NotationStaging::default()
     };
-    let done = corpus.animate(&[names], &staging, Some(&gloss));
+    let done = corpus.animate_notation(&[names], &staging, Some(&gloss));
     done.expect("made");
     let address = gloss.parse().expect("an address");
-    let transcribed = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
+    let transcribed = corpus.transcribe_movement(&address, &mut ProgressReceiver::new(&mut { ignore_progress_step }));
     (written, transcribed.expect("told"))
 }
 
@@ -120,10 +112,10 @@ fn check_transcribed_locations(mut corpus: Corpus) {
     for (n, names) in LED_AWAY.into_iter().enumerate() {
         let (written, transcribed) = there_and_back(&mut corpus, n, names);
         let address = format!("S{n}").parse().expect("an address");
-        let stopped = corpus.transcribe(&address, &mut Progress::new(&mut |_| Break(())));
-        assert!(matches!(stopped, Err(Error::Stopped)), "{names}");
-        let sites = |sign: &Sign| match &sign.parts[0].posture.place {
-            Some(Place::Body(place)) => (place.site, place.second, place.contact),
+        let stopped = corpus.transcribe_movement(&address, &mut ProgressReceiver::new(&mut |_| Break(())));
+        assert!(matches!(stopped, Err(CorpusError::Stopped)), "{names}");
+        let sites = |sign: &HamnosysSign| match &sign.parts[0].posture.place {
+            Some(HandPlace::Body(place)) => (place.site, place.second, place.contact),
             other => panic!("{names}: {other:?}"),
         };
         assert_eq!(sites(&transcribed.sign), sites(&written), "{names}");
@@ -150,20 +142,15 @@ const CLOSE: [&str; 2] = [
 #[test]
 fn constellations_of_hands_that_are_kept_clear_are_transcribed_as_written() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     for (n, names) in CLOSE.into_iter().enumerate() {
         let (written, transcribed) = there_and_back(&mut corpus, n, names);
-        let hands = |sign: &Sign| match &sign.parts[0].posture.place {
-            Some(Place::Hands(hands)) => {
+        let hands = |sign: &HamnosysSign| match &sign.parts[0].posture.place {
+            Some(HandPlace::Hands(hands)) => {
                 let at = hands.at.iter().flat_map(|at| [at.site, at.second]);
                 let mut at: Vec<_> = at.flatten().map(|site| site.at).collect();
                 at.sort();
-                (
-                    hands.dominant.clone(),
-                    hands.other.clone(),
-                    hands.contact,
-                    at,
-                )
+                (hands.dominant.clone(), hands.other.clone(), hands.contact, at)
             }
             other => panic!("{names}: {other:?}"),
         };
@@ -181,11 +168,10 @@ const BEGINNINGS: [&str; 2] = [
 #[test]
 fn initial_postures_are_transcribed_as_written() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     for (n, names) in BEGINNINGS.into_iter().enumerate() {
         let (written, transcribed) = there_and_back(&mut corpus, n, names);
-        let [transcribed, written] =
-            [transcribed.sign, written].map(|mut sign| sign.parts.remove(0));
+        let [transcribed, written] = [transcribed.sign, written].map(|mut sign| sign.parts.remove(0));
         assert_eq!(transcribed.hands, written.hands, "{names}");
         assert_eq!(transcribed.posture.place, written.posture.place, "{names}");
         assert_eq!(transcribed.actions, written.actions, "{names}");
@@ -217,7 +203,7 @@ const LEANING: [(&str, &[&str], &[&str]); 4] = [
 #[test]
 fn acts_of_trunk_head_and_shoulders_are_read_and_stored() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("s.sigml");
     for (n, (tiers, acts, kept)) in LEANING.into_iter().enumerate() {
         let sigml = format!(
@@ -229,25 +215,21 @@ fn acts_of_trunk_head_and_shoulders_are_read_and_stored() {
         std::fs::write(&file, sigml).expect("written");
         let gloss = format!("S{n}");
         let path = file.to_str().expect("a path");
-        let made = corpus.animate(&[path], &Staging::default(), Some(&gloss));
+        let made = corpus.animate_notation(&[path], &NotationStaging::default(), Some(&gloss));
         made.expect("made");
         let address = gloss.parse().expect("an address");
-        let mut unheard = unheard;
-        let mut progress = Progress::new(&mut unheard);
+        let mut unheard = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut unheard);
         let transcribed = corpus.store_transcription(&address, true, &mut progress);
         let transcribed = transcribed.expect("stored");
         let names =
-            |sign: &Nonmanual| -> Vec<String> { sign.acts().map(|it| it.1.name()).collect() };
+            |sign: &NonmanualActs| -> Vec<String> { sign.acts_by_tier().map(|it| it.1.act_curve_name()).collect() };
         assert_eq!(names(&transcribed.nonmanual), acts, "{tiers}");
-        let Some(Place::Body(place)) = &transcribed.sign.parts[0].posture.place else {
+        let Some(HandPlace::Body(place)) = &transcribed.sign.parts[0].posture.place else {
             panic!("{tiers}: {:?}", transcribed.symbols);
         };
-        assert_eq!(
-            place.site.map(|it| it.at),
-            Some(BodyLocation::Chin),
-            "{tiers}"
-        );
-        let stored = corpus.notation(&address).expect("a notation").document;
+        assert_eq!(place.site.map(|it| it.at), Some(BodyLocation::Chin), "{tiers}");
+        let stored = corpus.notation_at(&address).expect("a notation").document;
         assert_eq!(names(&stored.nonmanual), [acts, kept].concat(), "{tiers}");
     }
 }
@@ -295,26 +277,26 @@ fn arm_turned_round(bvh: &str) -> String {
 #[test]
 fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the_corpus() {
     use chereme_corpus::SearchOptions;
-    use chereme_sign::Component;
+    use chereme_sign::SignComponent;
     let folder = tempfile::tempdir().expect("a folder");
-    let mut unheard = unheard;
-    let mut progress = Progress::new(&mut unheard);
+    let mut unheard = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut unheard);
     let mut corpus = uncoded(folder.path(), "bol", (0.0, 1.0), None);
     let count = |corpus: &mut Corpus| {
         let options = SearchOptions::default();
-        let found = corpus.search("configuration=*", &options).expect("found");
+        let found = corpus.search_tokens("configuration=*", &options).expect("found");
         found.total
     };
     assert_eq!(count(&mut corpus), 0);
 
-    let before = corpus.generation().expect("a moment");
-    let mut stop = |_: chereme_corpus::Step<'_>| Break(());
-    let stopped = corpus.propose_coding(Component::Configuration, &mut Progress::new(&mut stop));
-    assert!(matches!(stopped, Err(Error::Stopped)));
-    assert_eq!(corpus.generation().expect("a moment"), before);
+    let before = corpus.corpus_generation().expect("a moment");
+    let mut stop = |_: chereme_corpus::ProgressStep<'_>| Break(());
+    let stopped = corpus.propose_coding(SignComponent::Configuration, &mut ProgressReceiver::new(&mut stop));
+    assert!(matches!(stopped, Err(CorpusError::Stopped)));
+    assert_eq!(corpus.corpus_generation().expect("a moment"), before);
 
     let proposed = corpus
-        .propose_coding(Component::Configuration, &mut progress)
+        .propose_coding(SignComponent::Configuration, &mut progress)
         .expect("proposed");
     assert_eq!((proposed.tokens, proposed.unread), (1, 0));
     assert!(proposed.annotations >= 1);
@@ -322,27 +304,22 @@ fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the
     assert_eq!(count(&mut corpus), 1);
     // A field with a value is not read again.
     let again = corpus
-        .propose_coding(Component::Configuration, &mut progress)
+        .propose_coding(SignComponent::Configuration, &mut progress)
         .expect("proposed");
     assert_eq!(again.tokens, 0);
     // The tiers and their values are one operation.
-    let undone = corpus.undo().expect("undone");
+    let undone = corpus.undo_operation().expect("undone");
     assert_eq!(undone.name, "propose");
     assert_eq!(count(&mut corpus), 0);
-    let tiers = corpus.list(chereme_corpus::ListKind::Tiers, &Default::default());
+    let tiers = corpus.list_rows(chereme_corpus::ListKind::Tiers, &Default::default());
     let tiers = tiers.expect("tiers").total;
     assert_eq!(tiers, 1, "the proposed tiers go with their values");
-    let refused = corpus.propose_coding(Component::NonManual, &mut progress);
-    assert!(refused.expect_err("refused").remedy().is_some());
+    let refused = corpus.propose_coding(SignComponent::NonManual, &mut progress);
+    assert!(refused.expect_err("refused").error_remedy().is_some());
 }
 
 /// Returns a corpus with a starter recording and a gloss on it, without codings.
-fn uncoded(
-    folder: &std::path::Path,
-    name: &str,
-    (start, end): (f64, f64),
-    handedness: Option<&str>,
-) -> Corpus {
+fn uncoded(folder: &std::path::Path, name: &str, (start, end): (f64, f64), handedness: Option<&str>) -> Corpus {
     let mut paths = Vec::new();
     for (file, bytes) in starter_files() {
         if file.to_string_lossy().ends_with(&format!("{name}.bvh")) {
@@ -352,30 +329,28 @@ fn uncoded(
         }
     }
     let file = format!("{}.chereme", handedness.unwrap_or("c"));
-    let mut corpus = Corpus::create(&folder.join(file), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.join(file), "A").expect("made");
     let options = ImportOptions {
         signer: handedness.map(|_| "Ada".to_owned()),
         handedness: handedness.map(str::to_owned),
         ..ImportOptions::default()
     };
-    let mut unheard = unheard;
-    let mut progress = Progress::new(&mut unheard);
-    corpus
-        .import(&paths, &options, &mut progress)
-        .expect("taken in");
+    let mut unheard = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut unheard);
+    corpus.import_paths(&paths, &options, &mut progress).expect("taken in");
     let gloss = chereme_corpus::NewTier::new(
-        chereme_corpus::Name::Text(name.into()),
+        chereme_corpus::RowName::Text(name.into()),
         "gloss",
         chereme_corpus::TierRole::Gloss,
     );
     let tier = corpus.add_tier(&gloss).expect("a tier");
     let seconds = |at: f64| {
-        Some(chereme_corpus::Moment::Time(
-            chereme_motion::Instant::from_micros((at * 1e6) as i64),
+        Some(chereme_corpus::TableMoment::Time(
+            chereme_motion::RecordingInstant::from_micros((at * 1e6) as i64),
         ))
     };
     let add = chereme_corpus::AnnotationAction::Add {
-        tier: chereme_corpus::TierName::Number(tier.id),
+        tier: chereme_corpus::TierRequestName::Number(tier.id),
         start: seconds(start),
         end: seconds(end),
         parent: None,
@@ -384,7 +359,7 @@ fn uncoded(
         confidence: None,
     };
     corpus
-        .annotate(&[add.into()], &Default::default(), &mut progress)
+        .annotate_corpus(&[add.into()], &Default::default(), &mut progress)
         .expect("annotated");
     corpus
 }
@@ -392,19 +367,19 @@ fn uncoded(
 #[test]
 fn directions_and_sides_of_proposals_do_not_depend_on_the_signers_handedness() {
     use chereme_corpus::{ProposeOptions, ProposeScope, SearchOptions};
-    use chereme_sign::Component;
+    use chereme_sign::SignComponent;
     let folder = tempfile::tempdir().expect("a folder");
-    let mut unheard = unheard;
-    let mut progress = Progress::new(&mut unheard);
+    let mut unheard = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut unheard);
     let mut read = |handedness: Option<&str>| {
         let mut corpus = uncoded(folder.path(), "chat", (1.05, 2.97), handedness);
         let options = ProposeOptions {
-            components: vec![Component::Placement, Component::Orientation],
+            components: vec![SignComponent::Placement, SignComponent::Orientation],
             scope: ProposeScope::All,
         };
-        let proposed = corpus.propose(&options, &mut progress).expect("proposed");
+        let proposed = corpus.propose_components(&options, &mut progress).expect("proposed");
         assert_eq!((proposed.tokens, proposed.unread), (1, 0));
-        let found = corpus.search("CHAT", &SearchOptions::default());
+        let found = corpus.search_tokens("CHAT", &SearchOptions::default());
         found.expect("found").hits.remove(0).components
     };
     let right_handed = read(Some("right"));

@@ -8,10 +8,10 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use chereme_figure::mesh::Mesh;
-use chereme_figure::raster::{Layer, Raster, Style};
-use chereme_figure::{Body, Framing, Image, View};
-use chereme_motion::Anatomy;
+use chereme_figure::mesh::TriangleMesh;
+use chereme_figure::raster::{FigureRaster, FigureStyle, RasterLayer};
+use chereme_figure::{ClipFraming, FigureView, RasterImage, SignerBody};
+use chereme_motion::BodyAnatomy;
 
 #[path = "common/signer.rs"]
 mod signer;
@@ -27,41 +27,38 @@ fn now(begun: Instant) -> Duration {
 #[allow(clippy::print_stdout, reason = "a program prints its figures")]
 fn main() -> Result<(), Box<dyn Error>> {
     let clip = signer::handshapes()?;
-    let anatomy = Anatomy::detect(clip.skeleton());
-    let body = Body::new(clip.skeleton(), &anatomy);
-    let framing = Framing::of(&clip, &anatomy).ok_or("an empty clip")?;
-    let (mut mesh, mut raster) = (Mesh::default(), Raster::default());
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
+    let body = SignerBody::new(clip.clip_skeleton(), &anatomy);
+    let framing = ClipFraming::framing_from_clip(&clip, &anatomy).ok_or("an empty clip")?;
+    let (mut mesh, mut raster) = (TriangleMesh::default(), FigureRaster::default());
     let frames = std::env::args().nth(1).map(|text| text.parse());
     let frames = frames
         .transpose()?
-        .unwrap_or(clip.frames())
-        .min(clip.frames());
+        .unwrap_or(clip.clip_frame_count())
+        .min(clip.clip_frame_count());
     let begun = Instant::now();
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..10 * frames {
         let pose = clip.model_pose(round % frames);
         let start = now(begun);
-        body.shape(&pose, &mut mesh);
+        body.shape_body_mesh(&pose, &mut mesh);
         times[0].push(now(begun) - start);
-        let camera = framing.camera(View::Addressee, 0.8, &pose, &anatomy);
-        black_box(raster.draw(&mesh, &camera, [400, 500], &Style::default()));
+        let camera = framing.framing_camera(FigureView::Addressee, 0.8, &pose, &anatomy);
+        black_box(raster.draw_mesh_picture(&mesh, &camera, [400, 500], &FigureStyle::default()));
         times[1].push(now(begun) - start);
     }
-    println!(
-        "{} triangles",
-        body.mesh(&clip.model_pose(0)).triangles.len()
-    );
-    let mut measure = |size: [usize; 2], count: usize, style: &Style| {
+    println!("{} triangles", body.posed_mesh(&clip.model_pose(0)).triangles.len());
+    let mut measure = |size: [usize; 2], count: usize, style: &FigureStyle| {
         let mut times = Vec::new();
         for frame in 0..frames {
             let pose = clip.model_pose(frame);
             let start = now(begun);
             let aspect = size[0] as f32 / size[1] as f32;
-            let camera = framing.camera(View::Addressee, aspect, &pose, &anatomy);
-            let mut image = Image::new(size[0], size[1], style.theme.background());
+            let camera = framing.framing_camera(FigureView::Addressee, aspect, &pose, &anatomy);
+            let mut image = RasterImage::new(size[0], size[1], style.theme.theme_paper_colour());
             for _ in 0..count {
-                body.shape(&pose, &mut mesh);
-                let layer = Layer {
+                body.shape_body_mesh(&pose, &mut mesh);
+                let layer = RasterLayer {
                     mesh: &mesh,
                     opacity: 0.6,
                     veiled: false,
@@ -73,10 +70,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         times
     };
-    let style = |samples, threads| Style {
+    let style = |samples, threads| FigureStyle {
         samples,
         threads,
-        ..Style::default()
+        ..FigureStyle::default()
     };
     let more = [
         measure([1280, 800], 2, &style(1, 1)),
@@ -94,11 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     for (name, mut times) in names.into_iter().zip(times.into_iter().chain(more)) {
         times.sort_unstable();
-        println!(
-            "{name}: median {:?}, least {:?}",
-            times[times.len() / 2],
-            times[0]
-        );
+        println!("{name}: median {:?}, least {:?}", times[times.len() / 2], times[0]);
     }
     Ok(())
 }

@@ -10,7 +10,7 @@
 
 use std::error::Error;
 
-use chereme_figure::{HandView, HandshapeOptions, Image, handshape_picture};
+use chereme_figure::{HandView, HandshapeOptions, RasterImage, handshape_picture};
 use chereme_motion::{FingerAngles, HandAngles, ThumbAngles};
 use serde_json::Value;
 
@@ -20,17 +20,13 @@ mod likeness;
 use likeness::{Random, Tones, nearest, summary, tones};
 
 /// The shapes of the noise test among the twelve that differ most.
-const CLEAR: [&str; 12] = [
-    "flat", "S", "1", "V", "Y", "claw", "F", "O", "L", "C", "5", "pinch",
-];
+const CLEAR: [&str; 12] = ["flat", "S", "1", "V", "Y", "claw", "F", "O", "L", "C", "5", "pinch"];
 /// The number of noisy pictures of each shape.
 const TRIES: usize = 3;
 
 #[allow(clippy::print_stdout, reason = "the table is the program's result")]
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = std::env::args()
-        .nth(1)
-        .ok_or("name an inventory of handshapes")?;
+    let file = std::env::args().nth(1).ok_or("name an inventory of handshapes")?;
     let view = std::env::args().nth(2).unwrap_or_default();
     let views: &[HandView] = match view.as_str() {
         "palm" => &[HandView::Palm],
@@ -66,18 +62,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn picture(
-    angles: &HandAngles,
-    (size, views): (usize, &[HandView]),
-) -> Result<Tones, Box<dyn Error>> {
-    let usual = HandshapeOptions::small(size);
-    let mut all = Image::new(size * views.len(), size, usual.style.theme.background());
+fn picture(angles: &HandAngles, (size, views): (usize, &[HandView])) -> Result<Tones, Box<dyn Error>> {
+    let usual = HandshapeOptions::with_small_size(size);
+    let mut all = RasterImage::new(size * views.len(), size, usual.style.theme.theme_paper_colour());
     for (at, view) in views.iter().enumerate() {
         let options = HandshapeOptions {
             view: *view,
             ..usual.clone()
         };
-        all.paste(&handshape_picture(angles, &options)?, [at * size, 0]);
+        all.paste_image(&handshape_picture(angles, &options)?, [at * size, 0]);
     }
     Ok(tones(&all))
 }
@@ -136,11 +129,6 @@ fn angles(pose: &Value) -> Option<HandAngles> {
             opposition: number(&thumb["opposition"])?,
             flexion: [number(&thumb["flexion"][0])?, number(&thumb["flexion"][1])?],
         },
-        fingers: [
-            finger("index")?,
-            finger("middle")?,
-            finger("ring")?,
-            finger("little")?,
-        ],
+        fingers: [finger("index")?, finger("middle")?, finger("ring")?, finger("little")?],
     })
 }

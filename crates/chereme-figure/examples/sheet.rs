@@ -6,56 +6,57 @@ use std::io::BufWriter;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use chereme_figure::raster::Style;
+use chereme_figure::raster::FigureStyle;
 use chereme_figure::{
-    Animation, AnimationOptions, ChartOptions, Frames, HandshapeOptions, Image, SheetOptions,
-    Theme, View, alignment_picture, contact_sheet, handshape_sheet, thumbnail, write_gif,
-    write_png,
+    AnimationOptions, ChartOptions, ClipAnimation, FigureView, HandshapeOptions, PaperTheme, RasterImage, SheetFrames,
+    SheetOptions, alignment_picture, clip_thumbnail, contact_sheet, handshape_sheet, write_gif, write_png,
 };
-use chereme_motion::{Anatomy, HandAngles, Side};
+use chereme_motion::{BodyAnatomy, BodySide, HandAngles};
 
 #[path = "common/signer.rs"]
 mod signer;
 
 #[allow(clippy::print_stdout, reason = "a program prints its figures")]
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args()
-        .nth(1)
-        .ok_or("name a folder for the pictures")?;
+    let folder = std::env::args().nth(1).ok_or("name a folder for the pictures")?;
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder)?;
     let clip = signer::handshapes()?;
-    let anatomy = Anatomy::detect(clip.skeleton());
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
     let options = SheetOptions {
         title: "Handshapes: 5 B U V Y S O 1".into(),
-        frames: Frames::Spaced(8),
+        frames: SheetFrames::Spaced(8),
         ..SheetOptions::default()
     };
     let mut go = |_, _| ControlFlow::Continue(());
     let sheet = contact_sheet(&clip, &anatomy, &options.with_hands(), &mut go)?;
     save(&sheet, &folder.join("sheet.png"))?;
-    let mut animation = Animation::new(&clip, &anatomy, AnimationOptions::default())?;
+    let mut animation = ClipAnimation::new(&clip, &anatomy, AnimationOptions::default())?;
     let start = std::time::Instant::now();
     let out = BufWriter::new(File::create(folder.join("animation.gif"))?);
     write_gif(&mut animation, out, &mut go)?;
-    println!("{} pictures in {:?}", animation.frames(), start.elapsed());
-    save(&animation.draw(20), &folder.join("frame.png"))?;
+    println!(
+        "{} pictures in {:?}",
+        animation.animation_frame_count(),
+        start.elapsed()
+    );
+    save(&animation.draw_animation_frame(20), &folder.join("frame.png"))?;
     let mut dark = SheetOptions {
-        frames: Frames::At(vec![2, 20, 36]),
-        views: View::ALL.to_vec(),
+        frames: SheetFrames::At(vec![2, 20, 36]),
+        views: FigureView::ALL_FIGURE_VIEWS.to_vec(),
         ..SheetOptions::default()
     };
-    dark.style.theme = Theme::Dark;
+    dark.style.theme = PaperTheme::Dark;
     let views = contact_sheet(&clip, &anatomy, &dark, &mut go)?;
     save(&views, &folder.join("views.png"))?;
-    let small = thumbnail(&clip, &anatomy, [120, 120], &Style::default())?;
+    let small = clip_thumbnail(&clip, &anatomy, [120, 120], &FigureStyle::default())?;
     save(&small, &folder.join("thumbnail.png"))?;
-    let shapes: Vec<(String, HandAngles)> = (0..clip.frames())
+    let shapes: Vec<(String, HandAngles)> = (0..clip.clip_frame_count())
         .step_by(8)
         .zip("5 B U V Y S O 1".split(' '))
         .filter_map(|(frame, name)| {
-            let pose = clip.pose(frame);
-            let angles = anatomy.hand_angles(clip.skeleton(), Side::Right, &pose)?;
+            let pose = clip.clip_pose_at(frame);
+            let angles = anatomy.hand_angles(clip.clip_skeleton(), BodySide::Right, &pose)?;
             Some((name.to_owned(), angles))
         })
         .collect();
@@ -67,7 +68,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn save(image: &Image, path: &Path) -> Result<(), Box<dyn Error>> {
+fn save(image: &RasterImage, path: &Path) -> Result<(), Box<dyn Error>> {
     write_png(image, BufWriter::new(File::create(path)?))?;
     Ok(())
 }

@@ -8,17 +8,15 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::ops::ControlFlow;
 
-use chereme_figure::{Frames, Image, SheetOptions, View, contact_sheet, write_png};
+use chereme_figure::{FigureView, RasterImage, SheetFrames, SheetOptions, contact_sheet, write_png};
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, Clip, Joint, Pose, Side, Skeleton};
+use chereme_motion::{BodyAnatomy, BodySide, Clip, LocalPose, Skeleton, SkeletonJoint};
 
 #[path = "common/signer.rs"]
 mod signer;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args()
-        .nth(1)
-        .ok_or("name a file for the picture")?;
+    let path = std::env::args().nth(1).ok_or("name a file for the picture")?;
     let whole = signer::handshapes()?;
     let kinds: [(&str, Clip); 7] = [
         ("whole", whole.clone()),
@@ -36,22 +34,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (title, clip) in kinds {
         let options = SheetOptions {
             title: title.to_owned(),
-            frames: Frames::At(vec![2, 12, 26, 44, 60]),
-            views: vec![View::Addressee],
+            frames: SheetFrames::At(vec![2, 12, 26, 44, 60]),
+            views: vec![FigureView::Addressee],
             ..SheetOptions::default()
         };
-        let anatomy = Anatomy::detect(clip.skeleton());
+        let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
         let mut go = |_, _| ControlFlow::Continue(());
         sheets.push(contact_sheet(&clip, &anatomy, &options, &mut go)?);
     }
-    let wide = sheets.iter().map(Image::width).max().unwrap_or(1);
-    let high = sheets.iter().map(Image::height).sum();
-    let background = SheetOptions::default().style.theme.background();
-    let mut all = Image::new(wide, high, background);
+    let wide = sheets.iter().map(RasterImage::image_width).max().unwrap_or(1);
+    let high = sheets.iter().map(RasterImage::image_height).sum();
+    let background = SheetOptions::default().style.theme.theme_paper_colour();
+    let mut all = RasterImage::new(wide, high, background);
     let mut top = 0;
     for sheet in &sheets {
-        all.paste(sheet, [0, top]);
-        top += sheet.height();
+        all.paste_image(sheet, [0, top]);
+        top += sheet.image_height();
     }
     write_png(&all, BufWriter::new(File::create(path)?))?;
     Ok(())
@@ -65,17 +63,17 @@ fn is_finger(name: &str) -> bool {
 
 /// Returns the clip without the joints for which `stays` is false; none of them may have a child that stays.
 fn kept(clip: &Clip, stays: impl Fn(&str) -> bool) -> Result<Clip, Box<dyn Error>> {
-    let skeleton = clip.skeleton();
+    let skeleton = clip.clip_skeleton();
     let all: Vec<usize> = (0..skeleton.len())
-        .filter(|&joint| stays(&skeleton.joint(joint).name))
+        .filter(|&joint| stays(&skeleton.joint_at(joint).name))
         .collect();
     let place = |joint: usize| all.iter().position(|&it| it == joint);
-    let joints = all.iter().map(|&joint| Joint {
-        parent: skeleton.joint(joint).parent.and_then(place),
-        ..skeleton.joint(joint).clone()
+    let joints = all.iter().map(|&joint| SkeletonJoint {
+        parent: skeleton.joint_at(joint).parent.and_then(place),
+        ..skeleton.joint_at(joint).clone()
     });
     let fewer = Skeleton::new(joints.collect())?;
-    of(fewer, clip, |pose| Pose {
+    of(fewer, clip, |pose| LocalPose {
         rotations: all.iter().map(|&joint| pose.rotations[joint]).collect(),
         translations: all.iter().map(|&joint| pose.translations[joint]).collect(),
     })
@@ -83,11 +81,11 @@ fn kept(clip: &Clip, stays: impl Fn(&str) -> bool) -> Result<Clip, Box<dyn Error
 
 /// Returns the same movement on a skeleton whose joints are turned at rest.
 fn rested(clip: &Clip, turn: impl Fn(&str) -> DQuat) -> Result<Clip, Box<dyn Error>> {
-    let skeleton = clip.skeleton();
-    let joints: Vec<Joint> = (0..skeleton.len())
+    let skeleton = clip.clip_skeleton();
+    let joints: Vec<SkeletonJoint> = (0..skeleton.len())
         .map(|joint| {
-            let joint = skeleton.joint(joint);
-            Joint {
+            let joint = skeleton.joint_at(joint);
+            SkeletonJoint {
                 rest: turn(&joint.name),
                 ..joint.clone()
             }
@@ -113,11 +111,11 @@ fn bow(name: &str, angle: f64) -> DQuat {
 
 /// Returns the same movement on a skeleton whose bones are longer or shorter.
 fn sized(clip: &Clip, size: impl Fn(&str) -> f64) -> Result<Clip, Box<dyn Error>> {
-    let skeleton = clip.skeleton();
-    let joints: Vec<Joint> = (0..skeleton.len())
+    let skeleton = clip.clip_skeleton();
+    let joints: Vec<SkeletonJoint> = (0..skeleton.len())
         .map(|joint| {
-            let joint = skeleton.joint(joint);
-            Joint {
+            let joint = skeleton.joint_at(joint);
+            SkeletonJoint {
                 offset: joint.offset * size(&joint.name),
                 ..joint.clone()
             }
@@ -144,20 +142,20 @@ fn child(name: &str) -> f64 {
 }
 
 fn raised(clip: &Clip) -> Result<Clip, Box<dyn Error>> {
-    let skeleton = clip.skeleton();
+    let skeleton = clip.clip_skeleton();
     of((**skeleton).clone(), clip, |pose| {
         let mut own = pose.clone();
-        for side in Side::BOTH {
-            let name = if side == Side::Right { "Right" } else { "Left" };
-            let out = DVec3::X * side.sign();
+        for side in BodySide::BOTH_SIDES {
+            let name = if side == BodySide::Right { "Right" } else { "Left" };
+            let out = DVec3::X * side.side_sign();
             let direction = |to: [f64; 3]| {
                 let [aside, up, front] = to;
-                DVec3::new(aside * side.sign(), up, front).normalize()
+                DVec3::new(aside * side.side_sign(), up, front).normalize()
             };
             let upper = DQuat::from_rotation_arc(out, direction([0.75, 0.5, 0.35]));
             let lower = DQuat::from_rotation_arc(out, direction([-0.75, 0.35, 0.45]));
             let mut set = |part: &str, turn: DQuat| {
-                if let Some(joint) = skeleton.find(&format!("{name}{part}")) {
+                if let Some(joint) = skeleton.find_joint(&format!("{name}{part}")) {
                     own.rotations[joint] = turn;
                 }
             };
@@ -169,13 +167,9 @@ fn raised(clip: &Clip) -> Result<Clip, Box<dyn Error>> {
     })
 }
 
-fn of(
-    skeleton: Skeleton,
-    clip: &Clip,
-    change: impl Fn(&Pose) -> Pose,
-) -> Result<Clip, Box<dyn Error>> {
-    let poses: Vec<Pose> = (0..clip.frames())
-        .map(|frame| change(&clip.pose(frame)))
+fn of(skeleton: Skeleton, clip: &Clip, change: impl Fn(&LocalPose) -> LocalPose) -> Result<Clip, Box<dyn Error>> {
+    let poses: Vec<LocalPose> = (0..clip.clip_frame_count())
+        .map(|frame| change(&clip.clip_pose_at(frame)))
         .collect();
-    Ok(Clip::from_poses(skeleton.into(), clip.rate(), &poses)?)
+    Ok(Clip::from_poses(skeleton.into(), clip.clip_frame_rate(), &poses)?)
 }

@@ -6,40 +6,40 @@ use std::borrow::Cow;
 use std::io::Write;
 use std::ops::ControlFlow;
 
-use chereme_motion::ends::Ends;
-use chereme_motion::{Anatomy, Clip, Face, Instant, ModelPose};
+use chereme_motion::ends::ClipEnds;
+use chereme_motion::{BodyAnatomy, Clip, FacePosture, ModelPose, RecordingInstant};
 
-use crate::body::Body;
-use crate::error::{FigureError, MAX_FRAMES, SPEEDS, checked_size, checked_view};
-use crate::image::Image;
-use crate::mesh::Mesh;
-use crate::palette::Palette;
-use crate::quantize::Quantizer;
-use crate::raster::{Raster, Style};
-use crate::sheet::Progress;
-use crate::view::{Framing, View};
+use crate::body::SignerBody;
+use crate::error::{ANIMATION_SPEEDS, FigureError, MAX_FRAMES, checked_size, checked_view};
+use crate::image::RasterImage;
+use crate::mesh::TriangleMesh;
+use crate::palette::FigurePalette;
+use crate::quantize::ColourQuantizer;
+use crate::raster::{FigureRaster, FigureStyle};
+use crate::sheet::PictureProgress;
+use crate::view::{ClipFraming, FigureView};
 
 /// Options of an animation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnimationOptions {
     /// The views, side by side from the left.
-    pub views: Vec<View>,
+    pub views: Vec<FigureView>,
     /// The face of each frame of the clip; on later frames it is at rest.
-    pub faces: Vec<Face>,
+    pub faces: Vec<FacePosture>,
     /// The height in pixels.
     pub height: usize,
     /// Duration of each picture in hundredths of a second, 1 to 100; 4 gives 25 pictures per second.
     pub centiseconds: u16,
     /// Pictures per second, for films; it overrides `centiseconds`, the unit of GIFs.
     pub rate: Option<u32>,
-    /// Playback speed, one of [`SPEEDS`]; 0.5 is half the original speed.
+    /// Playback speed, one of [`ANIMATION_SPEEDS`]; 0.5 is half the original speed.
     pub speed: f64,
     /// The colours of the body.
-    pub palette: Palette,
+    pub palette: FigurePalette,
     /// Paper, light and lines.
-    pub style: Style,
+    pub style: FigureStyle,
     /// The space that the pictures show; by default that of the clip's own signing.
-    pub framing: Option<Framing>,
+    pub framing: Option<ClipFraming>,
     /// Whether a bar at the lower edge shows how much was played.
     pub bar: bool,
 }
@@ -47,14 +47,14 @@ pub struct AnimationOptions {
 impl Default for AnimationOptions {
     fn default() -> Self {
         Self {
-            views: vec![View::Addressee, View::Right],
+            views: vec![FigureView::Addressee, FigureView::Right],
             faces: Vec::new(),
             height: 360,
             centiseconds: 4,
             rate: None,
             speed: 1.0,
-            palette: Palette::default(),
-            style: Style::default(),
+            palette: FigurePalette::default(),
+            style: FigureStyle::default(),
             framing: None,
             bar: true,
         }
@@ -63,12 +63,12 @@ impl Default for AnimationOptions {
 
 impl AnimationOptions {
     /// Returns the height of the progress bar in pixels.
-    fn bar(&self) -> usize {
-        if self.bar { BAR } else { 0 }
+    fn progress_bar_height(&self) -> usize {
+        if self.bar { PROGRESS_BAR_HEIGHT_PX } else { 0 }
     }
 
     /// Returns the time for which a picture is shown, in seconds.
-    fn seconds(&self) -> f64 {
+    fn picture_seconds(&self) -> f64 {
         match self.rate {
             Some(rate) => 1.0 / f64::from(rate.clamp(1, 240)),
             None => f64::from(self.centiseconds.clamp(1, 100)) / 100.0,
@@ -77,101 +77,97 @@ impl AnimationOptions {
 }
 
 /// A sequence of pictures that are drawn one at a time.
-pub trait Pictures {
+pub trait PictureSequence {
     /// Returns the number of pictures.
-    fn frames(&self) -> usize;
+    fn picture_count(&self) -> usize;
 
     /// Returns width and height of each picture in pixels.
-    fn size(&self) -> [usize; 2];
+    fn picture_size(&self) -> [usize; 2];
 
     /// Returns the time for which each picture is shown in a GIF, in hundredths of a second.
     fn centiseconds(&self) -> u16;
 
     /// Draws one picture.
-    fn draw(&mut self, frame: usize) -> Image;
+    fn draw_sequence_picture(&mut self, frame: usize) -> RasterImage;
 }
 
-impl Pictures for Animation<'_> {
-    fn frames(&self) -> usize {
-        self.frames()
+impl PictureSequence for ClipAnimation<'_> {
+    fn picture_count(&self) -> usize {
+        self.animation_frame_count()
     }
 
-    fn size(&self) -> [usize; 2] {
-        self.size()
+    fn picture_size(&self) -> [usize; 2] {
+        self.animation_size()
     }
 
     fn centiseconds(&self) -> u16 {
         self.options.centiseconds.clamp(1, 100)
     }
 
-    fn draw(&mut self, frame: usize) -> Image {
-        self.draw(frame)
+    fn draw_sequence_picture(&mut self, frame: usize) -> RasterImage {
+        self.draw_animation_frame(frame)
     }
 }
 
 /// An animation whose pictures are drawn on demand, in any order.
-pub struct Animation<'a> {
+pub struct ClipAnimation<'a> {
     clip: &'a Clip,
-    anatomy: &'a Anatomy,
-    framing: Framing,
-    body: Body,
+    anatomy: &'a BodyAnatomy,
+    framing: ClipFraming,
+    body: SignerBody,
     options: AnimationOptions,
     /// The width of each view's column in pixels.
     columns: Vec<usize>,
     size: [usize; 2],
     frames: usize,
-    start: Instant,
-    mesh: Mesh,
-    raster: Raster,
+    start: RecordingInstant,
+    mesh: TriangleMesh,
+    raster: FigureRaster,
     pose: Option<ModelPose>,
 }
 
 /// Height of the progress bar, in pixels.
-const BAR: usize = 4;
+const PROGRESS_BAR_HEIGHT_PX: usize = 4;
 
-impl<'a> Animation<'a> {
+impl<'a> ClipAnimation<'a> {
     /// Returns the animation of `clip`, without odd frames at its ends.
     ///
     /// # Errors
     /// [`FigureError`] if the clip is empty, no view is requested, pictures would be too large or too
-    /// many, or the speed is not one of [`SPEEDS`].
-    pub fn new(
-        clip: &'a Clip,
-        anatomy: &'a Anatomy,
-        options: AnimationOptions,
-    ) -> Result<Self, FigureError> {
-        let own = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
-        let framing = options.framing.unwrap_or(own);
+    /// many, or the speed is not one of [`ANIMATION_SPEEDS`].
+    pub fn new(clip: &'a Clip, anatomy: &'a BodyAnatomy, options: AnimationOptions) -> Result<Self, FigureError> {
+        let clip_framing = ClipFraming::framing_from_clip(clip, anatomy).ok_or(FigureError::Empty)?;
+        let framing = options.framing.unwrap_or(clip_framing);
         if options.views.is_empty() {
             return Err(FigureError::Nothing { what: "view" });
         }
-        let room = options.height.saturating_sub(options.bar());
-        let width = |&view: &View| (framing.aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
+        let room = options.height.saturating_sub(options.progress_bar_height());
+        let width = |&view: &FigureView| (framing.framing_view_aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
         let columns: Vec<usize> = options.views.iter().map(width).collect();
         for &column in &columns {
             checked_view(column, options.height)?;
         }
         let size = checked_size(columns.iter().sum(), options.height)?;
-        if !SPEEDS.contains(&options.speed) {
-            return Err(FigureError::Speed {
-                speed: options.speed,
-            });
+        if !ANIMATION_SPEEDS.contains(&options.speed) {
+            return Err(FigureError::Speed { speed: options.speed });
         }
-        let sound = clip.rate().span(Ends::of(clip, anatomy).sound);
-        let step = options.seconds() * options.speed;
-        let frames = ((sound.seconds() / step).ceil() as usize).max(1);
+        let sound = clip
+            .clip_frame_rate()
+            .frame_range_span(ClipEnds::examine_clip_ends(clip, anatomy).sound);
+        let step = options.picture_seconds() * options.speed;
+        let frames = ((sound.span_seconds() / step).ceil() as usize).max(1);
         if frames > MAX_FRAMES {
             return Err(FigureError::Long { frames });
         }
         Ok(Self {
-            body: Body::with_palette(clip.skeleton(), anatomy, &options.palette),
-            mesh: Mesh::default(),
-            raster: Raster::default(),
+            body: SignerBody::with_palette(clip.clip_skeleton(), anatomy, &options.palette),
+            mesh: TriangleMesh::default(),
+            raster: FigureRaster::default(),
             pose: None,
             clip,
             anatomy,
             framing,
-            start: sound.start(),
+            start: sound.span_start_instant(),
             options,
             columns,
             size,
@@ -181,70 +177,70 @@ impl<'a> Animation<'a> {
 
     /// Returns the number of pictures, at least one.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn animation_frame_count(&self) -> usize {
         self.frames
     }
 
     /// Returns width and height in pixels.
     #[must_use]
-    pub fn size(&self) -> [usize; 2] {
+    pub fn animation_size(&self) -> [usize; 2] {
         self.size
     }
 
     /// Returns the time in the clip that picture `frame` shows.
     #[must_use]
-    pub fn instant(&self, frame: usize) -> Instant {
-        let step = self.options.seconds() * self.options.speed;
-        let from = Instant::from_seconds(frame as f64 * step);
-        from.shifted(self.start.micros())
+    pub fn frame_clip_instant(&self, frame: usize) -> RecordingInstant {
+        let step = self.options.picture_seconds() * self.options.speed;
+        let from = RecordingInstant::from_seconds(frame as f64 * step);
+        from.shifted_instant(self.start.instant_micros())
     }
 
     /// Draws picture `frame`.
     #[must_use]
-    pub fn draw(&mut self, frame: usize) -> Image {
-        let instant = self.instant(frame);
-        let local = self.clip.sample(instant);
-        let skeleton = self.clip.skeleton();
+    pub fn draw_animation_frame(&mut self, frame: usize) -> RasterImage {
+        let instant = self.frame_clip_instant(frame);
+        let local = self.clip.sample_pose(instant);
+        let skeleton = self.clip.clip_skeleton();
         match &mut self.pose {
-            Some(pose) => pose.set(skeleton, &local),
-            none => *none = Some(ModelPose::of(skeleton, &local)),
+            Some(pose) => pose.set_local_pose(skeleton, &local),
+            none => *none = Some(ModelPose::from_local_pose(skeleton, &local)),
         }
         let theme = self.options.style.theme;
-        let mut image = Image::new(self.size[0], self.size[1], theme.background());
+        let mut image = RasterImage::new(self.size[0], self.size[1], theme.theme_paper_colour());
         let Some(pose) = &self.pose else {
             return image;
         };
-        self.body.shape(pose, &mut self.mesh);
-        if let Some(face) = Face::at(&self.options.faces, self.clip.rate(), instant) {
-            self.body.express(pose, &face, &mut self.mesh);
+        self.body.shape_body_mesh(pose, &mut self.mesh);
+        if let Some(face) = FacePosture::face_at_moment(&self.options.faces, self.clip.clip_frame_rate(), instant) {
+            self.body.apply_face_expression(pose, &face, &mut self.mesh);
         }
-        let room = self.size[1] - self.options.bar();
+        let room = self.size[1] - self.options.progress_bar_height();
         let mut x = 0;
         for (&view, &width) in self.options.views.iter().zip(&self.columns) {
             let camera = self
                 .framing
-                .camera(view, width as f32 / room as f32, pose, self.anatomy);
+                .framing_camera(view, width as f32 / room as f32, pose, self.anatomy);
             let picture = self
                 .raster
-                .draw(&self.mesh, &camera, [width, room], &self.options.style);
-            image.paste(&picture, [x, 0]);
+                .draw_mesh_picture(&self.mesh, &camera, [width, room], &self.options.style);
+            image.paste_image(&picture, [x, 0]);
             if x > 0 {
-                image.fill([x as i64, 0], [1, room as i64], theme.rule());
+                image.fill_image_rectangle([x as i64, 0], [1, room as i64], theme.rule_colour());
             }
             x += width;
         }
         if self.options.bar {
             let played = self.size[0] * (frame + 1) / self.frames;
-            let bar = |width: usize| [width as i64, BAR as i64];
-            image.fill([0, room as i64], bar(self.size[0]), theme.rule());
-            image.fill([0, room as i64], bar(played), theme.text());
+            let bar = |width: usize| [width as i64, PROGRESS_BAR_HEIGHT_PX as i64];
+            image.fill_image_rectangle([0, room as i64], bar(self.size[0]), theme.rule_colour());
+            image.fill_image_rectangle([0, room as i64], bar(played), theme.theme_text_colour());
         }
         image
     }
 }
 
 /// The number of pictures from which the colours of a GIF are chosen.
-const SAMPLED: usize = 12;
+const GIF_SAMPLED_PICTURES: usize = 12;
 
 /// Writes an animation as a GIF that repeats for ever, in colours chosen from pictures all over it; each
 /// picture stores only its changes.
@@ -252,19 +248,19 @@ const SAMPLED: usize = 12;
 /// # Errors
 /// [`FigureError`] if `out` cannot be written or `progress` stops it; the file is incomplete then.
 pub fn write_gif(
-    animation: &mut impl Pictures,
+    animation: &mut impl PictureSequence,
     out: impl Write,
-    progress: Progress<'_>,
+    progress: PictureProgress<'_>,
 ) -> Result<(), FigureError> {
-    let total = animation.frames();
-    let sampled = total.min(SAMPLED);
-    let mut quantizer = Quantizer::default();
+    let total = animation.picture_count();
+    let sampled = total.min(GIF_SAMPLED_PICTURES);
+    let mut quantizer = ColourQuantizer::default();
     for i in 0..sampled {
-        let picture = animation.draw((total - 1) * i / (sampled - 1).max(1));
-        quantizer.add(picture.pixels());
+        let picture = animation.draw_sequence_picture((total - 1) * i / (sampled - 1).max(1));
+        quantizer.count_picture_colours(picture.image_pixels());
     }
-    quantizer.choose(usize::from(CLEAR));
-    let [width, height] = animation.size().map(|side| side as u16);
+    quantizer.choose_palette_colours(usize::from(CLEAR_COLOUR_INDEX));
+    let [width, height] = animation.picture_size().map(|side| side as u16);
     let delay = animation.centiseconds();
     let mut encoder = gif::Encoder::new(out, width, height, &quantizer.palette_bytes())?;
     encoder.set_repeat(gif::Repeat::Infinite)?;
@@ -273,16 +269,12 @@ pub fn write_gif(
         if progress(done, total) == ControlFlow::Break(()) {
             return Err(FigureError::Stopped { done, total });
         }
-        let picture = animation.draw(done);
-        let indices: Vec<u8> = picture
-            .pixels()
-            .iter()
-            .map(|&c| quantizer.index(c))
-            .collect();
+        let picture = animation.draw_sequence_picture(done);
+        let indices: Vec<u8> = picture.image_pixels().iter().map(|&c| quantizer.index(c)).collect();
         let frame = gif::Frame {
             delay,
             dispose: gif::DisposalMethod::Keep,
-            ..changed(&shown, &indices, usize::from(width))
+            ..changed_gif_frame(&shown, &indices, usize::from(width))
         };
         encoder.write_frame(&frame)?;
         shown = indices;
@@ -291,10 +283,10 @@ pub fn write_gif(
 }
 
 /// The index for pixels that stay unchanged.
-const CLEAR: u8 = 255;
+const CLEAR_COLOUR_INDEX: u8 = 255;
 
 /// Returns the smallest rectangle in which `next` differs from `shown`, with unchanged pixels left clear.
-fn changed(shown: &[u8], next: &[u8], width: usize) -> gif::Frame<'static> {
+fn changed_gif_frame(shown: &[u8], next: &[u8], width: usize) -> gif::Frame<'static> {
     let height = next.len() / width;
     if shown.is_empty() {
         return gif::Frame {
@@ -317,13 +309,19 @@ fn changed(shown: &[u8], next: &[u8], width: usize) -> gif::Frame<'static> {
         (low, high) = ([0, 0], [1, 1]);
     }
     let rows = (low[1]..high[1]).flat_map(|y| (low[0]..high[0]).map(move |x| y * width + x));
-    let kept = |i: usize| if shown[i] == next[i] { CLEAR } else { next[i] };
+    let kept = |i: usize| {
+        if shown[i] == next[i] {
+            CLEAR_COLOUR_INDEX
+        } else {
+            next[i]
+        }
+    };
     gif::Frame {
         left: low[0] as u16,
         top: low[1] as u16,
         width: (high[0] - low[0]) as u16,
         height: (high[1] - low[1]) as u16,
-        transparent: Some(CLEAR),
+        transparent: Some(CLEAR_COLOUR_INDEX),
         buffer: Cow::Owned(rows.map(kept).collect()),
         ..gif::Frame::default()
     }

@@ -2,8 +2,8 @@
 
 use crate::error::{FigureError, checked_size};
 use crate::font;
-use crate::image::Image;
-use crate::palette::{Colour, Theme};
+use crate::image::RasterImage;
+use crate::palette::{PaperTheme, RgbColour};
 
 /// Options of the chart of an alignment.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub struct ChartOptions {
     /// The largest side of the grid's square, in pixels.
     pub size: usize,
     /// The paper.
-    pub theme: Theme,
+    pub theme: PaperTheme,
 }
 
 impl Default for ChartOptions {
@@ -21,15 +21,18 @@ impl Default for ChartOptions {
         Self {
             names: ["A".into(), "B".into()],
             size: 280,
-            theme: Theme::Light,
+            theme: PaperTheme::Light,
         }
     }
 }
 
 /// Space around the grid for names and numbers, in pixels.
-const MARGIN: usize = 34;
+const CHART_MARGIN_PIXELS: usize = 34;
 /// The colour of the path on a light and on a dark background.
-const PATH: [Colour; 2] = [Colour::hex(0x00_5F_9E), Colour::hex(0x6F_C3_FF)];
+const CHART_PATH_COLOURS: [RgbColour; 2] = [
+    RgbColour::from_hex_colour(0x00_5F_9E),
+    RgbColour::from_hex_colour(0x6F_C3_FF),
+];
 
 /// Draws the alignment of two clips of `lengths` frames: the first runs to the right, the second up, and
 /// `path` goes through the corresponding pairs of frames; a thin diagonal shows the path of an even
@@ -41,11 +44,9 @@ pub fn alignment_picture(
     path: &[(usize, usize)],
     lengths: [usize; 2],
     options: &ChartOptions,
-) -> Result<Image, FigureError> {
+) -> Result<RasterImage, FigureError> {
     if path.is_empty() {
-        return Err(FigureError::Nothing {
-            what: "pair of frames",
-        });
+        return Err(FigureError::Nothing { what: "pair of frames" });
     }
     for &(a, b) in path {
         for (frame, length) in [a, b].into_iter().zip(lengths) {
@@ -55,12 +56,14 @@ pub fn alignment_picture(
             }
         }
     }
-    let side = options.size.saturating_add(MARGIN + font::WIDTH * 2);
+    let side = options
+        .size
+        .saturating_add(CHART_MARGIN_PIXELS + font::CELL_WIDTH_DOTS * 2);
     let [width, height] = checked_size(side, side)?;
     let theme = options.theme;
-    let mut chart = Image::new(width, height, theme.background());
+    let mut chart = RasterImage::new(width, height, theme.theme_paper_colour());
     let inner = options.size as i64;
-    let (left, top) = (MARGIN as i64, font::WIDTH as i64);
+    let (left, top) = (CHART_MARGIN_PIXELS as i64, font::CELL_WIDTH_DOTS as i64);
     let longest = lengths[0].max(lengths[1]).max(2) as i64 - 1;
     let extent = lengths.map(|length| (length as i64 - 1) * (inner - 1) / longest);
     let place = |a: i64, b: i64| {
@@ -68,44 +71,41 @@ pub fn alignment_picture(
         let y = top + inner - 1 - (2 * b * (inner - 1) + longest) / (2 * longest);
         [x, y]
     };
-    grid(&mut chart, place, lengths, theme);
-    chart.line(
+    draw_chart_grid(&mut chart, place, lengths, theme);
+    chart.draw_image_line(
         place(0, 0),
         [left + extent[0], top + inner - 1 - extent[1]],
-        theme.rule(),
+        theme.rule_colour(),
     );
-    let colour = PATH[usize::from(theme == Theme::Dark)];
-    let points: Vec<[i64; 2]> = path
-        .iter()
-        .map(|&(a, b)| place(a as i64, b as i64))
-        .collect();
+    let colour = CHART_PATH_COLOURS[usize::from(theme == PaperTheme::Dark)];
+    let points: Vec<[i64; 2]> = path.iter().map(|&(a, b)| place(a as i64, b as i64)).collect();
     for pair in points.windows(2) {
         for [dx, dy] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
             let moved = |at: [i64; 2]| [at[0] + dx, at[1] - dy];
-            chart.line(moved(pair[0]), moved(pair[1]), colour);
+            chart.draw_image_line(moved(pair[0]), moved(pair[1]), colour);
         }
     }
     for &at in [points[0], points[points.len() - 1]].iter() {
-        chart.fill([at[0] - 1, at[1] - 2], [4, 4], colour);
+        chart.fill_image_rectangle([at[0] - 1, at[1] - 2], [4, 4], colour);
     }
-    labels(&mut chart, options, lengths, top + inner);
+    draw_chart_labels(&mut chart, options, lengths, top + inner);
     Ok(chart)
 }
 
 /// Draws rules at round numbers of frames, at most ten in each direction.
-fn grid(
-    chart: &mut Image,
+fn draw_chart_grid(
+    chart: &mut RasterImage,
     place: impl Fn(i64, i64) -> [i64; 2],
     lengths: [usize; 2],
-    theme: Theme,
+    theme: PaperTheme,
 ) {
     let [wide, tall] = lengths.map(|length| length as i64 - 1);
     let step = round_step(wide.max(tall));
     for at in (0..=wide / step).map(|i| i * step).chain([wide]) {
-        chart.line(place(at, 0), place(at, tall), theme.rule());
+        chart.draw_image_line(place(at, 0), place(at, tall), theme.rule_colour());
     }
     for at in (0..=tall / step).map(|i| i * step).chain([tall]) {
-        chart.line(place(0, at), place(wide, at), theme.rule());
+        chart.draw_image_line(place(0, at), place(wide, at), theme.rule_colour());
     }
 }
 
@@ -122,20 +122,20 @@ fn round_step(length: i64) -> i64 {
     }
 }
 
-fn labels(chart: &mut Image, options: &ChartOptions, lengths: [usize; 2], below: i64) {
-    let text = options.theme.text();
-    let across = format!("{} ({})", options.names[0], lengths[0]);
-    let across = font::fitted(&across, options.size);
-    chart.text(&across, [MARGIN as i64, below + 4], 1, text);
+fn draw_chart_labels(chart: &mut RasterImage, options: &ChartOptions, lengths: [usize; 2], below: i64) {
+    let text = options.theme.theme_text_colour();
+    let across_label = format!("{} ({})", options.names[0], lengths[0]);
+    let across = font::fit_text_width(&across_label, options.size);
+    chart.draw_image_text(&across, [CHART_MARGIN_PIXELS as i64, below + 4], 1, text);
     // Letters below one another, as many as fit.
     let up = format!("{} ({})", options.names[1], lengths[1]);
-    let room = options.size / font::HEIGHT;
+    let room = options.size / font::CELL_HEIGHT_DOTS;
     for (row, letter) in up.chars().take(room).enumerate() {
-        let at = [
-            (MARGIN / 2) as i64,
-            (font::WIDTH + row * font::HEIGHT) as i64,
+        let label_place = [
+            (CHART_MARGIN_PIXELS / 2) as i64,
+            (font::CELL_WIDTH_DOTS + row * font::CELL_HEIGHT_DOTS) as i64,
         ];
-        chart.text(&letter.to_string(), at, 1, text);
+        chart.draw_image_text(&letter.to_string(), label_place, 1, text);
     }
 }
 
@@ -148,10 +148,13 @@ mod tests {
         let path: Vec<(usize, usize)> = (0..40).map(|i| (i, i / 2)).collect();
         let options = ChartOptions::default();
         let chart = alignment_picture(&path, [40, 20], &options).expect("a chart");
-        assert_eq!(chart.pixel(MARGIN, font::WIDTH + 279), PATH[0]);
         assert_eq!(
-            chart.pixel(MARGIN + 279, font::WIDTH + 279 - 19 * 279 / 39),
-            PATH[0]
+            chart.image_pixel_at(CHART_MARGIN_PIXELS, font::CELL_WIDTH_DOTS + 279),
+            CHART_PATH_COLOURS[0]
+        );
+        assert_eq!(
+            chart.image_pixel_at(CHART_MARGIN_PIXELS + 279, font::CELL_WIDTH_DOTS + 279 - 19 * 279 / 39),
+            CHART_PATH_COLOURS[0]
         );
     }
 

@@ -11,7 +11,7 @@ pub const MAX_PIXELS: usize = 64_000_000;
 pub const MAX_VIEW_PIXELS: usize = 4_000_000;
 
 /// The allowed speeds of animations; 1 is the speed of the movement.
-pub const SPEEDS: RangeInclusive<f64> = 0.05..=20.0;
+pub const ANIMATION_SPEEDS: RangeInclusive<f64> = 0.05..=20.0;
 /// The most pictures of an animation.
 pub const MAX_FRAMES: usize = 12_000;
 
@@ -48,7 +48,7 @@ pub enum FigureError {
         height: usize,
     },
     /// The animation's speed is outside the allowed range.
-    #[error("an animation cannot run at the speed {speed}; give a number from {} to {}", SPEEDS.start(), SPEEDS.end())]
+    #[error("an animation cannot run at the speed {speed}; give a number from {} to {}", ANIMATION_SPEEDS.start(), ANIMATION_SPEEDS.end())]
     Speed {
         /// The speed.
         speed: f64,

@@ -9,14 +9,14 @@ use std::ops::Range;
 
 use pulp::{Arch, NullaryFnOnce};
 
-use crate::body::group::FLAT;
-use crate::buffers::{Buffers, unpacked, whole};
-use crate::image::Image;
-use crate::palette::Colour;
-use crate::raster::Style;
+use crate::body::group::FIRST_FLAT_GROUP;
+use crate::buffers::{SampleBuffers, round_to_byte, unpack_paint};
+use crate::image::RasterImage;
+use crate::palette::RgbColour;
+use crate::raster::FigureStyle;
 
 /// Reach of a shade, in pixels of the finished picture.
-const SHADE: f32 = 2.5;
+const SHADE_REACH_PIXELS: f32 = 2.5;
 /// Strength of the darkest shade.
 const SHADE_STRENGTH: f32 = 0.38;
 /// The depth steps at which a shade begins and at which it is full, in metres.
@@ -26,32 +26,32 @@ const CLEAR_STEP: f32 = 0.004;
 /// The depth step from which a line between two parts that touch is drawn, in metres; continuous skin has no such step.
 const TOUCH_STEP: f32 = 0.0018;
 /// Strengths of lines: within a part, between parts that touch, between parts apart.
-const STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];
+const LINE_STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];
 /// The colour of lines within the figure.
 const INNER_LINE: [f32; 3] = [34.0, 30.0, 34.0];
 
 /// The bits of packed colours that identify the part.
-const PART: u32 = 0xFF << 24;
+const PAINT_PART_MASK: u32 = 0xFF << 24;
 /// Values of these bits from here on are marks.
-const MARKS: u32 = (FLAT as u32) << 24;
+const FIRST_MARK_PAINT: u32 = (FIRST_FLAT_GROUP as u32) << 24;
 
-fn reach(samples: usize, pixels: f32) -> usize {
+fn reach_in_samples(samples: usize, pixels: f32) -> usize {
     (samples as f32 * pixels).round().max(1.0) as usize
 }
 
 /// Returns half the width of a line, in samples; not wider than the margin allows.
-fn line(samples: usize, style: &Style) -> usize {
-    reach(samples, style.line.clamp(0.0, SHADE))
+fn half_line_width(samples: usize, style: &FigureStyle) -> usize {
+    reach_in_samples(samples, style.line.clamp(0.0, SHADE_REACH_PIXELS))
 }
 
 /// Returns the width of the paper margin around the picture, in samples.
-pub(crate) fn margin(samples: usize) -> usize {
-    reach(samples, SHADE) + 1
+pub(crate) fn paper_margin(samples: usize) -> usize {
+    reach_in_samples(samples, SHADE_REACH_PIXELS) + 1
 }
 
 /// Settings for lines and shades; steps are distances between places in the buffers.
 #[derive(Clone, Copy)]
-struct Ink {
+struct InkSettings {
     outline: [f32; 3],
     near: [isize; 8],
     far: [isize; 8],
@@ -62,44 +62,44 @@ struct Ink {
 
 /// The number of samples in a row that are processed at once. Large enough for the compiler to vectorise
 /// the loops, and a multiple of every number of samples that a pixel may have.
-const LANES: usize = 48;
+const INK_LANE_SAMPLES: usize = 48;
 
 /// Red, green and blue of some samples or pixels in a row.
-type Colours = [[f32; LANES]; 3];
+type InkLaneColours = [[f32; INK_LANE_SAMPLES]; 3];
 
 /// Draws lines and shades, and averages the samples of each pixel over the background in `image`.
-pub(crate) fn finish(
-    buffers: &Buffers,
-    image: &mut Image,
+pub(crate) fn ink_picture(
+    buffers: &SampleBuffers,
+    image: &mut RasterImage,
     samples: usize,
-    style: &Style,
+    style: &FigureStyle,
     opacity: f32,
 ) {
-    let ink = Ink {
-        outline: style.theme.outline().0.map(f32::from),
-        near: around(line(samples, style), buffers.stride),
-        far: around(reach(samples, SHADE), buffers.stride),
+    let ink = InkSettings {
+        outline: style.theme.outline_colour().0.map(f32::from),
+        near: neighbour_sample_steps(half_line_width(samples, style), buffers.stride),
+        far: neighbour_sample_steps(reach_in_samples(samples, SHADE_REACH_PIXELS), buffers.stride),
         step: style.step,
         touch: TOUCH_STEP,
         opacity: opacity.clamp(0.0, 1.0),
     };
     // Everything beyond the used area and the reach of a line is paper.
-    let beside = line(samples, style);
+    let ink_reach = half_line_width(samples, style);
     let touched = |axis: usize, size: usize| {
         let used = &buffers.used[axis];
-        let first = used.start.saturating_sub(beside) / samples;
-        first..(used.end + beside).div_ceil(samples).min(size)
+        let first = used.start.saturating_sub(ink_reach) / samples;
+        first..(used.end + ink_reach).div_ceil(samples).min(size)
     };
-    let width = image.width();
-    let (columns, rows) = (touched(0, width), touched(1, image.height()));
+    let width = image.image_width();
+    let (columns, rows) = (touched(0, width), touched(1, image.image_height()));
     if columns.is_empty() || rows.is_empty() || buffers.used[1].is_empty() {
         return;
     }
     let each = rows.len().div_ceil(style.threads.max(1));
     let pixels = &mut image.pixels_mut()[rows.start * width..rows.end * width];
-    let bands = pixels.chunks_mut(each * width).enumerate();
-    let mut bands: Vec<_> = bands
-        .map(|(band, pixels)| Inking {
+    let band_iterator = pixels.chunks_mut(each * width).enumerate();
+    let mut bands: Vec<_> = band_iterator
+        .map(|(band, pixels)| InkingTask {
             ink,
             buffers,
             samples,
@@ -121,82 +121,88 @@ pub(crate) fn finish(
 }
 
 /// A call that is compiled for each instruction set and selected at run time: some rows of the picture.
-struct Inking<'a> {
-    ink: Ink,
-    buffers: &'a Buffers,
+struct InkingTask<'a> {
+    ink: InkSettings,
+    buffers: &'a SampleBuffers,
     samples: usize,
     /// The first row.
     first: usize,
     columns: Range<usize>,
     width: usize,
-    pixels: &'a mut [Colour],
+    pixels: &'a mut [RgbColour],
 }
 
-impl NullaryFnOnce for Inking<'_> {
+impl NullaryFnOnce for InkingTask<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
         match (self.samples, self.buffers.marked) {
-            (1, false) => self.rows::<1, false>(),
-            (2, false) => self.rows::<2, false>(),
-            (1, true) => self.rows::<1, true>(),
-            (2, true) => self.rows::<2, true>(),
-            (3, _) => self.rows::<3, true>(),
-            (_, _) => self.rows::<4, true>(),
+            (1, false) => self.ink_picture_rows::<1, false>(),
+            (2, false) => self.ink_picture_rows::<2, false>(),
+            (1, true) => self.ink_picture_rows::<1, true>(),
+            (2, true) => self.ink_picture_rows::<2, true>(),
+            (3, _) => self.ink_picture_rows::<3, true>(),
+            (_, _) => self.ink_picture_rows::<4, true>(),
         }
     }
 }
 
-impl Inking<'_> {
+impl InkingTask<'_> {
     #[inline(always)]
-    fn rows<const SAMPLES: usize, const MARKED: bool>(self) {
+    fn ink_picture_rows<const ROW_PIXEL_SAMPLES: usize, const HAS_MARKED_ROWS: bool>(self) {
         for (y, row) in self.pixels.chunks_mut(self.width).enumerate() {
             let row = &mut row[..self.columns.end];
-            for left in self.columns.clone().step_by(LANES) {
-                let at = self
+            for left in self.columns.clone().step_by(INK_LANE_SAMPLES) {
+                let pixel_index = self
                     .buffers
-                    .index(left * SAMPLES, (self.first + y) * SAMPLES);
-                let end = row.len().min(left + LANES);
-                self.ink
-                    .strip::<SAMPLES, MARKED>(self.buffers, at, &mut row[left..end]);
+                    .index(left * ROW_PIXEL_SAMPLES, (self.first + y) * ROW_PIXEL_SAMPLES);
+                let end = row.len().min(left + INK_LANE_SAMPLES);
+                self.ink.ink_picture_strip::<ROW_PIXEL_SAMPLES, HAS_MARKED_ROWS>(
+                    self.buffers,
+                    pixel_index,
+                    &mut row[left..end],
+                );
             }
         }
     }
 }
 
-impl Ink {
+impl InkSettings {
     /// Draws some pixels in a row; the index is that of the first pixel's first sample in the buffers.
     #[inline(always)]
-    fn strip<const SAMPLES: usize, const MARKED: bool>(
+    fn ink_picture_strip<const STRIP_PIXEL_SAMPLES: usize, const HAS_MARKED_STRIP: bool>(
         &self,
-        buffers: &Buffers,
+        buffers: &SampleBuffers,
         at: usize,
-        row: &mut [Colour],
+        row: &mut [RgbColour],
     ) {
         let mut paper = true;
-        for j in 0..SAMPLES {
-            for nth in 0..SAMPLES {
-                paper &= self.is_paper(buffers, at + j * buffers.stride + nth * LANES);
+        for j in 0..STRIP_PIXEL_SAMPLES {
+            for nth in 0..STRIP_PIXEL_SAMPLES {
+                paper &= self.is_paper(buffers, at + j * buffers.stride + nth * INK_LANE_SAMPLES);
             }
         }
         if paper {
             return;
         }
-        let mut below = [[0.0f32; LANES]; 3];
+        let mut below = [[0.0f32; INK_LANE_SAMPLES]; 3];
         for (k, pixel) in row.iter().enumerate() {
             for (below, part) in below.iter_mut().zip(pixel.0) {
                 below[k] = f32::from(part);
             }
         }
-        let mut sums = [[0.0f32; LANES]; 3];
-        for j in 0..SAMPLES {
-            for nth in 0..SAMPLES {
-                let (first, each) = (nth * (LANES / SAMPLES), LANES / SAMPLES);
-                let mut under = [[0.0f32; LANES]; 3];
+        let mut sums = [[0.0f32; INK_LANE_SAMPLES]; 3];
+        for j in 0..STRIP_PIXEL_SAMPLES {
+            for nth in 0..STRIP_PIXEL_SAMPLES {
+                let (first, each) = (
+                    nth * (INK_LANE_SAMPLES / STRIP_PIXEL_SAMPLES),
+                    INK_LANE_SAMPLES / STRIP_PIXEL_SAMPLES,
+                );
+                let mut under = [[0.0f32; INK_LANE_SAMPLES]; 3];
                 for part in 0..3 {
                     for (under, below) in under[part]
-                        .chunks_exact_mut(SAMPLES)
+                        .chunks_exact_mut(STRIP_PIXEL_SAMPLES)
                         .zip(&below[part][first..first + each])
                     {
                         for under in under {
@@ -204,12 +210,12 @@ impl Ink {
                         }
                     }
                 }
-                let place = at + j * buffers.stride + nth * LANES;
-                let inked = self.inked::<MARKED>(buffers, place, &under);
+                let place = at + j * buffers.stride + nth * INK_LANE_SAMPLES;
+                let inked = self.inked::<HAS_MARKED_STRIP>(buffers, place, &under);
                 for part in 0..3 {
                     for (sum, inked) in sums[part][first..first + each]
                         .iter_mut()
-                        .zip(inked[part].chunks_exact(SAMPLES))
+                        .zip(inked[part].chunks_exact(STRIP_PIXEL_SAMPLES))
                     {
                         for inked in inked {
                             *sum += inked;
@@ -218,13 +224,13 @@ impl Ink {
                 }
             }
         }
-        let share = self.opacity / (SAMPLES * SAMPLES) as f32;
+        let share = self.opacity / (STRIP_PIXEL_SAMPLES * STRIP_PIXEL_SAMPLES) as f32;
         let rest = 1.0 - self.opacity;
-        let mut bytes = [[0u32; LANES]; 3];
+        let mut bytes = [[0u32; INK_LANE_SAMPLES]; 3];
         for part in 0..3 {
-            for k in 0..LANES {
+            for k in 0..INK_LANE_SAMPLES {
                 let mean = sums[part][k] * share + below[part][k] * rest;
-                bytes[part][k] = whole(if mean < 255.0 { mean } else { 255.0 });
+                bytes[part][k] = round_to_byte(if mean < 255.0 { mean } else { 255.0 });
             }
         }
         for (k, pixel) in row.iter_mut().enumerate() {
@@ -234,13 +240,13 @@ impl Ink {
 
     /// Returns whether samples in a row and everything within the reach of a line are paper.
     #[inline(always)]
-    fn is_paper(&self, buffers: &Buffers, at: usize) -> bool {
-        let mut any = [0; LANES];
-        any.copy_from_slice(lanes(&buffers.paint, at, &[0; LANES]));
+    fn is_paper(&self, buffers: &SampleBuffers, at: usize) -> bool {
+        let mut any = [0; INK_LANE_SAMPLES];
+        any.copy_from_slice(lane_values(&buffers.paint, at, &[0; INK_LANE_SAMPLES]));
         for step in self.near {
-            let beside = lanes(&buffers.paint, at.wrapping_add_signed(step), &[0; LANES]);
-            for k in 0..LANES {
-                any[k] |= beside[k];
+            let neighbour_paint = lane_values(&buffers.paint, at.wrapping_add_signed(step), &[0; INK_LANE_SAMPLES]);
+            for k in 0..INK_LANE_SAMPLES {
+                any[k] |= neighbour_paint[k];
             }
         }
         any.iter().fold(0, |all, one| all | one) == 0
@@ -249,40 +255,41 @@ impl Ink {
     /// Returns the colours of samples in a row, with lines and shades; `below` is the background that
     /// paper shows.
     #[inline(always)]
-    fn inked<const MARKED: bool>(&self, buffers: &Buffers, at: usize, below: &Colours) -> Colours {
-        const FAR: [f32; LANES] = [f32::INFINITY; LANES];
-        let depth = lanes(&buffers.depth, at, &FAR);
-        let paint = lanes(&buffers.paint, at, &[0; LANES]);
+    fn inked<const HAS_MARKED_SAMPLES: bool>(
+        &self,
+        buffers: &SampleBuffers,
+        at: usize,
+        below: &InkLaneColours,
+    ) -> InkLaneColours {
+        const FAR_LANE_DEPTHS: [f32; INK_LANE_SAMPLES] = [f32::INFINITY; INK_LANE_SAMPLES];
+        let depth = lane_values(&buffers.depth, at, &FAR_LANE_DEPTHS);
+        let paint = lane_values(&buffers.paint, at, &[0; INK_LANE_SAMPLES]);
         // The depth steps to nearer neighbours, of the same part and of others; infinite next to paper.
-        let (mut within, mut between) = ([0.0f32; LANES], [0.0f32; LANES]);
+        let (mut within, mut between) = ([0.0f32; INK_LANE_SAMPLES], [0.0f32; INK_LANE_SAMPLES]);
         for step in self.near {
-            let beside = at.wrapping_add_signed(step);
-            let other = lanes(&buffers.depth, beside, &FAR);
-            let part = lanes(&buffers.paint, beside, &[0; LANES]);
-            for k in 0..LANES {
-                let before = depth[k] - other[k];
-                let before = if before > 0.0 { before } else { 0.0 };
-                let before = if MARKED && part[k] >= MARKS {
+            let neighbour_index = at.wrapping_add_signed(step);
+            let other = lane_values(&buffers.depth, neighbour_index, &FAR_LANE_DEPTHS);
+            let part = lane_values(&buffers.paint, neighbour_index, &[0; INK_LANE_SAMPLES]);
+            for k in 0..INK_LANE_SAMPLES {
+                let depth_gap = depth[k] - other[k];
+                let before = if depth_gap > 0.0 { depth_gap } else { 0.0 };
+                let before = if HAS_MARKED_SAMPLES && part[k] >= FIRST_MARK_PAINT {
                     0.0
                 } else {
                     before
                 };
-                let same = (part[k] ^ paint[k]) & PART == 0;
+                let same = (part[k] ^ paint[k]) & PAINT_PART_MASK == 0;
                 let (own, apart) = if same { (before, 0.0) } else { (0.0, before) };
                 within[k] = if own > within[k] { own } else { within[k] };
-                between[k] = if apart > between[k] {
-                    apart
-                } else {
-                    between[k]
-                };
+                between[k] = if apart > between[k] { apart } else { between[k] };
             }
         }
-        let mut behind = [0.0f32; LANES];
+        let mut behind = [0.0f32; INK_LANE_SAMPLES];
         for step in self.far {
-            let other = lanes(&buffers.depth, at.wrapping_add_signed(step), &FAR);
-            for k in 0..LANES {
-                let before = (depth[k] - SHADE_STEPS[0]) - other[k];
-                let before = if before > 0.0 { before } else { 0.0 };
+            let other = lane_values(&buffers.depth, at.wrapping_add_signed(step), &FAR_LANE_DEPTHS);
+            for k in 0..INK_LANE_SAMPLES {
+                let depth_gap = (depth[k] - SHADE_STEPS[0]) - other[k];
+                let before = if depth_gap > 0.0 { depth_gap } else { 0.0 };
                 behind[k] += if before < SHADE_STEPS[1] {
                     before
                 } else {
@@ -290,39 +297,30 @@ impl Ink {
                 };
             }
         }
-        let (mut light, mut line) = ([0.0f32; LANES], [0.0f32; LANES]);
-        for k in 0..LANES {
-            let own = if within[k] > self.step {
-                STRENGTHS[0]
-            } else {
-                0.0
-            };
+        let (mut light, mut line) = ([0.0f32; INK_LANE_SAMPLES], [0.0f32; INK_LANE_SAMPLES]);
+        for k in 0..INK_LANE_SAMPLES {
+            let ink_strength = if within[k] > self.step { LINE_STRENGTHS[0] } else { 0.0 };
             let clear = if between[k] > CLEAR_STEP {
-                STRENGTHS[2]
+                LINE_STRENGTHS[2]
             } else {
-                STRENGTHS[1]
+                LINE_STRENGTHS[1]
             };
             let apart = if between[k] > self.touch { clear } else { 0.0 };
-            line[k] = if own > apart { own } else { apart };
-            light[k] =
-                (1.0 - behind[k] * (SHADE_STRENGTH / 8.0 / SHADE_STEPS[1])) * (1.0 - line[k]);
+            line[k] = if ink_strength > apart { ink_strength } else { apart };
+            light[k] = (1.0 - behind[k] * (SHADE_STRENGTH / 8.0 / SHADE_STEPS[1])) * (1.0 - line[k]);
         }
-        let mut inked = [[0.0f32; LANES]; 3];
+        let mut inked = [[0.0f32; INK_LANE_SAMPLES]; 3];
         for part in 0..3 {
-            for k in 0..LANES {
-                let lit = unpacked(paint[k], part);
+            for k in 0..INK_LANE_SAMPLES {
+                let lit = unpack_paint(paint[k], part);
                 let inner = lit * light[k] + INNER_LINE[part] * line[k];
-                let marked = if MARKED && paint[k] >= MARKS {
+                let marked = if HAS_MARKED_SAMPLES && paint[k] >= FIRST_MARK_PAINT {
                     lit
                 } else {
                     inner
                 };
                 let outline = self.outline[part];
-                let paper = if between[k] > 0.0 {
-                    outline
-                } else {
-                    below[part][k]
-                };
+                let paper = if between[k] > 0.0 { outline } else { below[part][k] };
                 inked[part][k] = if paint[k] == 0 { paper } else { marked };
             }
         }
@@ -332,13 +330,13 @@ impl Ink {
 
 /// Returns values in a row from an index on; `other` values beyond the end.
 #[inline(always)]
-fn lanes<'a, T>(all: &'a [T], at: usize, missing: &'a [T; LANES]) -> &'a [T; LANES] {
+fn lane_values<'a, T>(all: &'a [T], at: usize, missing: &'a [T; INK_LANE_SAMPLES]) -> &'a [T; INK_LANE_SAMPLES] {
     let row = all.get(at..).and_then(|row| row.first_chunk());
     row.unwrap_or(missing)
 }
 
 /// Returns the steps to the eight places `reach` samples away.
-fn around(reach: usize, stride: usize) -> [isize; 8] {
+fn neighbour_sample_steps(reach: usize, stride: usize) -> [isize; 8] {
     let (reach, stride) = (reach as isize, stride as isize);
     let slant = (reach * 3 + 2) / 4;
     [

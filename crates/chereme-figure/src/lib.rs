@@ -1,8 +1,8 @@
 //! Turns movement into a visible body: its geometry, and pictures drawn without a window.
 //!
-//! A [`Body`] is built once for a skeleton and its anatomy, and then moved to any posture: a
-//! [`Mesh`](mesh::Mesh) of some fifteen thousand triangles, for the window's stage and for the
-//! [`Raster`](raster::Raster) here, which needs no GPU. Contact sheets, animations, thumbnails, pictures
+//! A [`SignerBody`] is built once for a skeleton and its anatomy, and then moved to any posture: a
+//! [`TriangleMesh`](mesh::TriangleMesh) of some fifteen thousand triangles, for the window's stage and for the
+//! [`FigureRaster`](raster::FigureRaster) here, which needs no GPU. Contact sheets, animations, thumbnails, pictures
 //! of handshapes and the chart of an alignment build on it. The same input gives the same bytes. The crate
 //! opens no window and no database, and knows nothing of the meaning of signs.
 //!
@@ -71,18 +71,18 @@ pub mod strip;
 pub mod view;
 pub mod writer;
 
-pub use animation::{Animation, AnimationOptions, Pictures, write_gif};
-pub use body::Body;
-pub use body::portable::{Bone, BoneMotion, PortableBody, PortableVertex};
+pub use animation::{AnimationOptions, ClipAnimation, PictureSequence, write_gif};
+pub use body::SignerBody;
+pub use body::portable::{BoneMotion, PortableBody, PortableBone, PortableVertex};
 pub use chart::{ChartOptions, alignment_picture};
-pub use error::{FigureError, MAX_FRAMES, SPEEDS};
+pub use error::{ANIMATION_SPEEDS, FigureError, MAX_FRAMES};
 pub use faces::face_sheet;
 pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_sheet};
-pub use image::Image;
-pub use palette::{Colour, Palette, Theme};
+pub use image::RasterImage;
+pub use palette::{FigurePalette, PaperTheme, RgbColour};
 pub use points::{PointCloud, points_sheet};
 pub use points_film::{PointsAnimation, PointsOptions};
-pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail, thumbnail_with_face};
-pub use strip::{Caption, Strip};
-pub use view::{Framing, Reach, View, has_hand_up, signed, stroke};
+pub use sheet::{PictureProgress, SheetFrames, SheetOptions, clip_thumbnail, contact_sheet, thumbnail_with_face};
+pub use strip::{AnimationCaption, AnimationStrip};
+pub use view::{ClipFraming, FigureView, SigningReach, active_signing_frames, has_hand_up, stroke_frame};
 pub use writer::write_png;

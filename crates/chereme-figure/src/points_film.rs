@@ -1,19 +1,19 @@
 //! Animations of points: optical markers, and points estimated from film.
 
-use chereme_motion::{Instant, Markers};
+use chereme_motion::{MarkerTrack, RecordingInstant};
 
-use crate::animation::Pictures;
-use crate::error::{FigureError, MAX_FRAMES, SPEEDS, checked_size, checked_view};
+use crate::animation::PictureSequence;
+use crate::error::{ANIMATION_SPEEDS, FigureError, MAX_FRAMES, checked_size, checked_view};
 use crate::font;
-use crate::image::Image;
+use crate::image::RasterImage;
 use crate::points::PointCloud;
-use crate::raster::{Raster, Style};
-use crate::view::View;
+use crate::raster::{FigureRaster, FigureStyle};
+use crate::view::FigureView;
 
 /// Height of the progress bar, in pixels.
-const BAR: usize = 4;
+const PROGRESS_BAR_HEIGHT_PIXELS: usize = 4;
 /// Distance of the note from the border, in pixels.
-const INSET: i64 = 6;
+const NOTE_INSET_PIXELS: i64 = 6;
 
 /// Options of an animation of points.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,10 +24,10 @@ pub struct PointsOptions {
     pub centiseconds: u16,
     /// Pictures per second, for films; it overrides `centiseconds`, the unit of GIFs.
     pub rate: Option<u32>,
-    /// Playback speed, one of [`SPEEDS`].
+    /// Playback speed, one of [`ANIMATION_SPEEDS`].
     pub speed: f64,
     /// Paper, light and lines.
-    pub style: Style,
+    pub style: FigureStyle,
 }
 
 impl Default for PointsOptions {
@@ -37,7 +37,7 @@ impl Default for PointsOptions {
             centiseconds: 4,
             rate: None,
             speed: 1.0,
-            style: Style::default(),
+            style: FigureStyle::default(),
         }
     }
 }
@@ -45,14 +45,14 @@ impl Default for PointsOptions {
 /// An animation of points whose pictures are drawn on demand: from the front, and from the left if the points are in a
 /// room.
 pub struct PointsAnimation<'a> {
-    markers: &'a Markers,
-    cloud: PointCloud<&'a Markers>,
+    markers: &'a MarkerTrack,
+    cloud: PointCloud<&'a MarkerTrack>,
     options: PointsOptions,
-    views: Vec<View>,
+    views: Vec<FigureView>,
     columns: Vec<usize>,
     size: [usize; 2],
     frames: usize,
-    raster: Raster,
+    raster: FigureRaster,
 }
 
 impl<'a> PointsAnimation<'a> {
@@ -60,27 +60,25 @@ impl<'a> PointsAnimation<'a> {
     ///
     /// # Errors
     /// [`FigureError`] if no frame has a point, pictures would be too large or too many, or the speed is not one of
-    /// [`SPEEDS`].
-    pub fn new(markers: &'a Markers, options: PointsOptions) -> Result<Self, FigureError> {
-        let cloud = PointCloud::of(markers, options.style.theme).ok_or(FigureError::Empty)?;
+    /// [`ANIMATION_SPEEDS`].
+    pub fn new(markers: &'a MarkerTrack, options: PointsOptions) -> Result<Self, FigureError> {
+        let cloud = PointCloud::cloud_from_markers(markers, options.style.theme).ok_or(FigureError::Empty)?;
         let views = match cloud.is_flat() {
-            true => vec![View::Addressee],
-            false => vec![View::Addressee, View::Left],
+            true => vec![FigureView::Addressee],
+            false => vec![FigureView::Addressee, FigureView::Left],
         };
-        let room = options.height.saturating_sub(BAR);
-        let width = |&view: &View| (cloud.aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
+        let room = options.height.saturating_sub(PROGRESS_BAR_HEIGHT_PIXELS);
+        let width = |&view: &FigureView| (cloud.cloud_view_aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
         let columns: Vec<usize> = views.iter().map(width).collect();
         for &column in &columns {
             checked_view(column, options.height)?;
         }
         let size = checked_size(columns.iter().sum(), options.height)?;
-        if !SPEEDS.contains(&options.speed) {
-            return Err(FigureError::Speed {
-                speed: options.speed,
-            });
+        if !ANIMATION_SPEEDS.contains(&options.speed) {
+            return Err(FigureError::Speed { speed: options.speed });
         }
-        let seconds = markers.span().end().seconds();
-        let frames = ((seconds / step(&options)).ceil() as usize).max(1);
+        let seconds = markers.marker_track_span().span_end_instant().instant_seconds();
+        let frames = ((seconds / picture_step_seconds(&options)).ceil() as usize).max(1);
         if frames > MAX_FRAMES {
             return Err(FigureError::Long { frames });
         }
@@ -92,13 +90,13 @@ impl<'a> PointsAnimation<'a> {
             columns,
             size,
             frames,
-            raster: Raster::default(),
+            raster: FigureRaster::default(),
         })
     }
 }
 
 /// Returns the time in the track from one picture to the next, in seconds.
-fn step(options: &PointsOptions) -> f64 {
+fn picture_step_seconds(options: &PointsOptions) -> f64 {
     let seconds = match options.rate {
         Some(rate) => 1.0 / f64::from(rate.clamp(1, 240)),
         None => f64::from(options.centiseconds.clamp(1, 100)) / 100.0,
@@ -106,12 +104,12 @@ fn step(options: &PointsOptions) -> f64 {
     seconds * options.speed
 }
 
-impl Pictures for PointsAnimation<'_> {
-    fn frames(&self) -> usize {
+impl PictureSequence for PointsAnimation<'_> {
+    fn picture_count(&self) -> usize {
         self.frames
     }
 
-    fn size(&self) -> [usize; 2] {
+    fn picture_size(&self) -> [usize; 2] {
         self.size
     }
 
@@ -119,34 +117,42 @@ impl Pictures for PointsAnimation<'_> {
         self.options.centiseconds.clamp(1, 100)
     }
 
-    fn draw(&mut self, frame: usize) -> Image {
-        let at = Instant::from_seconds(frame as f64 * step(&self.options));
-        let last = self.markers.frames().saturating_sub(1);
-        let own = self.markers.times().frame_at(at, self.markers.frames());
-        let mesh = self.cloud.mesh(own.unwrap_or(last));
+    fn draw_sequence_picture(&mut self, frame: usize) -> RasterImage {
+        let film_instant = RecordingInstant::from_seconds(frame as f64 * picture_step_seconds(&self.options));
+        let last = self.markers.marker_frame_count().saturating_sub(1);
+        let marker_frame = self
+            .markers
+            .marker_times()
+            .shown_frame_at(film_instant, self.markers.marker_frame_count());
+        let mesh = self.cloud.cloud_frame_mesh(marker_frame.unwrap_or(last));
         let theme = self.options.style.theme;
-        let mut image = Image::new(self.size[0], self.size[1], theme.background());
-        let room = self.size[1] - BAR;
+        let mut image = RasterImage::new(self.size[0], self.size[1], theme.theme_paper_colour());
+        let room = self.size[1] - PROGRESS_BAR_HEIGHT_PIXELS;
         let mut x = 0;
         for (&view, &width) in self.views.iter().zip(&self.columns) {
-            let camera = self.cloud.camera(view, width as f32 / room as f32);
+            let camera = self.cloud.cloud_camera(view, width as f32 / room as f32);
             let picture = self
                 .raster
-                .draw(&mesh, &camera, [width, room], &self.options.style);
-            image.paste(&picture, [x, 0]);
+                .draw_mesh_picture(&mesh, &camera, [width, room], &self.options.style);
+            image.paste_image(&picture, [x, 0]);
             if x > 0 {
-                image.fill([x as i64, 0], [1, room as i64], theme.rule());
+                image.fill_image_rectangle([x as i64, 0], [1, room as i64], theme.rule_colour());
             }
             x += width;
         }
-        if let Some(note) = self.cloud.note() {
-            let note = font::fitted(note, self.size[0].saturating_sub(2 * INSET as usize));
-            image.text(&note, [INSET, INSET], 1, theme.text());
+        if let Some(note) = self.cloud.cloud_measurement_note() {
+            let note = font::fit_text_width(note, self.size[0].saturating_sub(2 * NOTE_INSET_PIXELS as usize));
+            image.draw_image_text(
+                &note,
+                [NOTE_INSET_PIXELS, NOTE_INSET_PIXELS],
+                1,
+                theme.theme_text_colour(),
+            );
         }
         let played = self.size[0] * (frame + 1) / self.frames;
-        let bar = |width: usize| [width as i64, BAR as i64];
-        image.fill([0, room as i64], bar(self.size[0]), theme.rule());
-        image.fill([0, room as i64], bar(played), theme.text());
+        let bar = |width: usize| [width as i64, PROGRESS_BAR_HEIGHT_PIXELS as i64];
+        image.fill_image_rectangle([0, room as i64], bar(self.size[0]), theme.rule_colour());
+        image.fill_image_rectangle([0, room as i64], bar(played), theme.theme_text_colour());
         image
     }
 }
@@ -155,7 +161,7 @@ impl Pictures for PointsAnimation<'_> {
 mod tests {
     use std::ops::ControlFlow;
 
-    use chereme_motion::{Column, Convention, Marker, Rate, Space, Times};
+    use chereme_motion::{FrameNumberColumn, FrameRate, FrameTimes, MarkerSpace, MotionMarker, SpaceConvention};
 
     use super::*;
     use crate::animation::write_gif;
@@ -170,12 +176,12 @@ mod tests {
                     f64::NAN
                 }
             });
-            Column::doubles(values.collect())
+            FrameNumberColumn::from_double_floats(values.collect())
         };
-        let point = |name, phase| Marker::new(name, vec![column(phase), column(1.0), column(0.1)]);
-        let markers = Markers::new(
-            Times::Even(Rate::new(50, 1).expect("a rate")),
-            Space::World(Convention::MODEL),
+        let point = |name, phase| MotionMarker::new(name, vec![column(phase), column(1.0), column(0.1)]);
+        let markers = MarkerTrack::new(
+            FrameTimes::Even(FrameRate::new(50, 1).expect("a rate")),
+            MarkerSpace::World(SpaceConvention::MODEL_CONVENTION),
             vec![point("LWRA", 0.2), point("RWRA", -0.7)],
         )
         .expect("markers");
@@ -185,12 +191,12 @@ mod tests {
             ..PointsOptions::default()
         };
         let mut film = PointsAnimation::new(&markers, options.clone()).expect("a film");
-        assert_eq!(film.frames(), 20, "one second");
-        let paper = options.style.theme.background();
+        assert_eq!(film.picture_count(), 20, "one second");
+        let paper = options.style.theme.theme_paper_colour();
         let mut ink = |frame| {
-            let image = film.draw(frame);
-            let rows = (0..110).flat_map(|y| (0..image.width()).map(move |x| (x, y)));
-            rows.filter(|&(x, y)| image.pixel(x, y) != paper).count()
+            let image = film.draw_sequence_picture(frame);
+            let rows = (0..110).flat_map(|y| (0..image.image_width()).map(move |x| (x, y)));
+            rows.filter(|&(x, y)| image.image_pixel_at(x, y) != paper).count()
         };
         // The line between the two views is always drawn.
         assert!(ink(0) > ink(19) + 20, "{} {}", ink(0), ink(19));

@@ -1,49 +1,49 @@
 //! Reduces the number of colours: median cut (Heckbert 1982, doi:10.1145/965145.801294) with six bits per
 //! component.
 
-use crate::palette::Colour;
+use crate::palette::RgbColour;
 
-const BITS: u32 = 6;
-const CELLS: usize = 1 << (3 * BITS);
-const UNKNOWN: u16 = u16::MAX;
+const BITS_PER_COLOUR_PART: u32 = 6;
+const COLOUR_CELL_COUNT: usize = 1 << (3 * BITS_PER_COLOUR_PART);
+const UNKNOWN_PALETTE_INDEX: u16 = u16::MAX;
 
 /// Counts colours, chooses a palette, and finds the palette's nearest colour.
-pub(crate) struct Quantizer {
+pub(crate) struct ColourQuantizer {
     counts: Vec<u32>,
     /// The sums of the colours in each cell, so that a flat colour remains exact.
     sums: Vec<[u64; 3]>,
-    palette: Vec<Colour>,
+    palette: Vec<RgbColour>,
     nearest: Vec<u16>,
 }
 
-impl Default for Quantizer {
+impl Default for ColourQuantizer {
     fn default() -> Self {
         Self {
-            counts: vec![0; CELLS],
-            sums: vec![[0; 3]; CELLS],
+            counts: vec![0; COLOUR_CELL_COUNT],
+            sums: vec![[0; 3]; COLOUR_CELL_COUNT],
             palette: Vec::new(),
-            nearest: vec![UNKNOWN; CELLS],
+            nearest: vec![UNKNOWN_PALETTE_INDEX; COLOUR_CELL_COUNT],
         }
     }
 }
 
-fn cell(colour: Colour) -> usize {
-    let [r, g, b] = colour.0.map(|part| usize::from(part >> (8 - BITS)));
-    (r << (2 * BITS)) | (g << BITS) | b
+fn colour_cell(colour: RgbColour) -> usize {
+    let [r, g, b] = colour.0.map(|part| usize::from(part >> (8 - BITS_PER_COLOUR_PART)));
+    (r << (2 * BITS_PER_COLOUR_PART)) | (g << BITS_PER_COLOUR_PART) | b
 }
 
 /// Returns the colour in the middle of a cell.
-fn middle(cell: usize) -> Colour {
-    let part = |shift: u32| ((cell >> shift) & ((1 << BITS) - 1)) as u8;
-    Colour([part(2 * BITS), part(BITS), part(0)].map(|v| (v << 2) | (v >> 4)))
+fn cell_middle_colour(cell: usize) -> RgbColour {
+    let part = |shift: u32| ((cell >> shift) & ((1 << BITS_PER_COLOUR_PART) - 1)) as u8;
+    RgbColour([part(2 * BITS_PER_COLOUR_PART), part(BITS_PER_COLOUR_PART), part(0)].map(|v| (v << 2) | (v >> 4)))
 }
 
 /// A box of colours: each with its number of occurrences.
-struct Box6 {
-    colours: Vec<(Colour, u32)>,
+struct ColourBox {
+    colours: Vec<(RgbColour, u32)>,
 }
 
-impl Box6 {
+impl ColourBox {
     /// Returns the axis with the widest range of colours and that range, weighted so that boxes of many pixels are
     /// split first.
     fn widest(&self) -> (usize, f64) {
@@ -60,23 +60,22 @@ impl Box6 {
         (best.0, best.1 * pixels.powf(0.3))
     }
 
-    fn cut(mut self, axis: usize) -> [Self; 2] {
-        self.colours
-            .sort_unstable_by_key(|entry| (entry.0.0[axis], entry.0));
+    fn cut_colour_box(mut self, axis: usize) -> [Self; 2] {
+        self.colours.sort_unstable_by_key(|entry| (entry.0.0[axis], entry.0));
         let total: u64 = self.colours.iter().map(|entry| u64::from(entry.1)).sum();
         let mut below = 0;
-        let at = self.colours.iter().position(|entry| {
+        let median_index = self.colours.iter().position(|entry| {
             below += u64::from(entry.1);
             below * 2 >= total
         });
-        let at = (at.unwrap_or(0) + 1).clamp(1, self.colours.len() - 1);
-        let upper = self.colours.split_off(at);
+        let cut_index = (median_index.unwrap_or(0) + 1).clamp(1, self.colours.len() - 1);
+        let upper = self.colours.split_off(cut_index);
         [self, Self { colours: upper }]
     }
 
-    fn mean(&self) -> Colour {
+    fn mean_box_colour(&self) -> RgbColour {
         let total: u64 = self.colours.iter().map(|entry| u64::from(entry.1)).sum();
-        Colour(std::array::from_fn(|axis| {
+        RgbColour(std::array::from_fn(|axis| {
             let sum: u64 = self
                 .colours
                 .iter()
@@ -87,11 +86,11 @@ impl Box6 {
     }
 }
 
-impl Quantizer {
+impl ColourQuantizer {
     /// Counts the colours of a picture.
-    pub(crate) fn add(&mut self, pixels: &[Colour]) {
+    pub(crate) fn count_picture_colours(&mut self, pixels: &[RgbColour]) {
         for &pixel in pixels {
-            let cell = cell(pixel);
+            let cell = colour_cell(pixel);
             let count = &mut self.counts[cell];
             *count = count.saturating_add(1);
             for (sum, part) in self.sums[cell].iter_mut().zip(pixel.0) {
@@ -101,16 +100,16 @@ impl Quantizer {
     }
 
     /// Returns the mean of the colours in a cell.
-    fn mean(&self, cell: usize) -> Colour {
+    fn mean_cell_colour(&self, cell: usize) -> RgbColour {
         let count = u64::from(self.counts[cell].max(1));
-        Colour(self.sums[cell].map(|sum| ((sum + count / 2) / count).min(255) as u8))
+        RgbColour(self.sums[cell].map(|sum| ((sum + count / 2) / count).min(255) as u8))
     }
 
     /// Chooses at most `most` colours.
-    pub(crate) fn choose(&mut self, most: usize) {
-        let met = (0..CELLS).filter(|&i| self.counts[i] > 0);
-        let colours: Vec<(Colour, u32)> = met.map(|i| (self.mean(i), self.counts[i])).collect();
-        let mut boxes = vec![Box6 { colours }];
+    pub(crate) fn choose_palette_colours(&mut self, most: usize) {
+        let met = (0..COLOUR_CELL_COUNT).filter(|&i| self.counts[i] > 0);
+        let colours: Vec<(RgbColour, u32)> = met.map(|i| (self.mean_cell_colour(i), self.counts[i])).collect();
+        let mut boxes = vec![ColourBox { colours }];
         while boxes.len() < most {
             let cuttable = (0..boxes.len()).filter(|&i| boxes[i].colours.len() > 1);
             let Some((index, (axis, _))) = cuttable
@@ -119,12 +118,12 @@ impl Quantizer {
             else {
                 break;
             };
-            let halves = boxes.swap_remove(index).cut(axis);
+            let halves = boxes.swap_remove(index).cut_colour_box(axis);
             boxes.extend(halves);
         }
-        self.palette = boxes.iter().map(Box6::mean).collect();
+        self.palette = boxes.iter().map(ColourBox::mean_box_colour).collect();
         self.palette.sort_unstable();
-        self.nearest.fill(UNKNOWN);
+        self.nearest.fill(UNKNOWN_PALETTE_INDEX);
     }
 
     /// Returns red, green and blue of every colour of the palette.
@@ -133,15 +132,15 @@ impl Quantizer {
     }
 
     /// Returns the index in the palette of the colour nearest to `colour`.
-    pub(crate) fn index(&mut self, colour: Colour) -> u8 {
-        let cell = cell(colour);
-        if self.nearest[cell] == UNKNOWN {
+    pub(crate) fn index(&mut self, colour: RgbColour) -> u8 {
+        let cell = colour_cell(colour);
+        if self.nearest[cell] == UNKNOWN_PALETTE_INDEX {
             let wanted = if self.counts[cell] > 0 {
-                self.mean(cell)
+                self.mean_cell_colour(cell)
             } else {
-                middle(cell)
+                cell_middle_colour(cell)
             };
-            let distance = |other: &Colour| -> i32 {
+            let distance = |other: &RgbColour| -> i32 {
                 let part = |i: usize| i32::from(other.0[i]) - i32::from(wanted.0[i]);
                 2 * part(0) * part(0) + 4 * part(1) * part(1) + 3 * part(2) * part(2)
             };

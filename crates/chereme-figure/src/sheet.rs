@@ -2,20 +2,20 @@
 
 use std::ops::ControlFlow;
 
-use chereme_motion::{Anatomy, Clip, Face, Side};
+use chereme_motion::{BodyAnatomy, BodySide, Clip, FacePosture};
 
-use crate::body::Body;
+use crate::body::SignerBody;
 use crate::error::{FigureError, checked_size, checked_view};
 use crate::font;
-use crate::image::Image;
-use crate::mesh::Mesh;
-use crate::palette::Palette;
-use crate::raster::{Raster, Style};
-use crate::view::{Framing, View, signed, stroke};
+use crate::image::RasterImage;
+use crate::mesh::TriangleMesh;
+use crate::palette::FigurePalette;
+use crate::raster::{FigureRaster, FigureStyle};
+use crate::view::{ClipFraming, FigureView, active_signing_frames, stroke_frame};
 
 /// The frames of a clip to show.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Frames {
+pub enum SheetFrames {
     /// This number of frames, evenly spaced over the signing: from the first to the last frame with a hand up, without
     /// odd frames at both ends; all of these if there are fewer.
     Spaced(usize),
@@ -29,29 +29,29 @@ pub struct SheetOptions {
     /// The line above the pictures; empty for no line.
     pub title: String,
     /// The columns.
-    pub frames: Frames,
+    pub frames: SheetFrames,
     /// The rows.
-    pub views: Vec<View>,
+    pub views: Vec<FigureView>,
     /// The face of each frame of the clip; on later frames it is at rest.
-    pub faces: Vec<Face>,
+    pub faces: Vec<FacePosture>,
     /// The height of a cell in pixels, without its label.
     pub cell_height: usize,
     /// The colours of the body.
-    pub palette: Palette,
+    pub palette: FigurePalette,
     /// Paper, light and lines.
-    pub style: Style,
+    pub style: FigureStyle,
 }
 
 impl Default for SheetOptions {
     fn default() -> Self {
         Self {
             title: String::new(),
-            frames: Frames::Spaced(8),
-            views: vec![View::Addressee, View::Right],
+            frames: SheetFrames::Spaced(8),
+            views: vec![FigureView::Addressee, FigureView::Right],
             faces: Vec::new(),
             cell_height: 260,
-            palette: Palette::default(),
-            style: Style::default(),
+            palette: FigurePalette::default(),
+            style: FigureStyle::default(),
         }
     }
 }
@@ -60,22 +60,22 @@ impl SheetOptions {
     /// Returns the options with a row for each hand from nearby.
     #[must_use]
     pub fn with_hands(mut self) -> Self {
-        self.views.extend(Side::BOTH.map(View::Hand));
+        self.views.extend(BodySide::BOTH_SIDES.map(FigureView::Hand));
         self
     }
 
     /// Returns the options with a row for the face from nearby, whether it moves or not.
     #[must_use]
     pub fn with_face_row(mut self) -> Self {
-        if !self.views.contains(&View::Face) {
-            self.views.push(View::Face);
+        if !self.views.contains(&FigureView::Face) {
+            self.views.push(FigureView::Face);
         }
         self
     }
 
     /// Returns the options with facial expressions, and with a row for the face from nearby if it moves at all.
     #[must_use]
-    pub fn with_faces(mut self, faces: Vec<Face>) -> Self {
+    pub fn with_faces(mut self, faces: Vec<FacePosture>) -> Self {
         if faces.iter().any(|face| !face.is_at_rest()) {
             self = self.with_face_row();
         }
@@ -85,12 +85,12 @@ impl SheetOptions {
 }
 
 /// A callback between pictures: receives the number of finished pictures and the total.
-pub type Progress<'a> = &'a mut dyn FnMut(usize, usize) -> ControlFlow<()>;
+pub type PictureProgress<'a> = &'a mut dyn FnMut(usize, usize) -> ControlFlow<()>;
 
 /// Height of a line of labels, in pixels.
-const LABEL: usize = 18;
+const SHEET_LABEL_HEIGHT_PIXELS: usize = 18;
 /// The gap between cells, in pixels.
-const GAP: usize = 6;
+const SHEET_CELL_GAP_PIXELS: usize = 6;
 
 /// Draws the contact sheet of `clip`: one row per view, one column per frame, each with its time.
 ///
@@ -99,68 +99,76 @@ const GAP: usize = 6;
 /// stops it.
 pub fn contact_sheet(
     clip: &Clip,
-    anatomy: &Anatomy,
+    anatomy: &BodyAnatomy,
     options: &SheetOptions,
-    progress: Progress<'_>,
-) -> Result<Image, FigureError> {
-    let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
-    let frames = chosen(&options.frames, clip, anatomy)?;
+    progress: PictureProgress<'_>,
+) -> Result<RasterImage, FigureError> {
+    let framing = ClipFraming::framing_from_clip(clip, anatomy).ok_or(FigureError::Empty)?;
+    let frames = choose_sheet_frames(&options.frames, clip, anatomy)?;
     if options.views.is_empty() {
         return Err(FigureError::Nothing { what: "view" });
     }
     let wide = options
         .views
         .iter()
-        .map(|&view| framing.aspect(view))
+        .map(|&view| framing.framing_view_aspect(view))
         .fold(0.45, f32::max);
     let width = (options.cell_height as f32 * wide.min(1.6)) as usize;
     let cell = checked_view(width, options.cell_height)?;
     let head = if options.title.is_empty() {
-        GAP
+        SHEET_CELL_GAP_PIXELS
     } else {
-        2 * font::HEIGHT + 2 * GAP
+        2 * font::CELL_HEIGHT_DOTS + 2 * SHEET_CELL_GAP_PIXELS
     };
     let size = checked_size(
-        frames.len().saturating_mul(cell[0] + GAP) + GAP,
-        options.views.len().saturating_mul(cell[1] + GAP) + head + LABEL,
+        frames.len().saturating_mul(cell[0] + SHEET_CELL_GAP_PIXELS) + SHEET_CELL_GAP_PIXELS,
+        options.views.len().saturating_mul(cell[1] + SHEET_CELL_GAP_PIXELS) + head + SHEET_LABEL_HEIGHT_PIXELS,
     )?;
     let theme = options.style.theme;
-    let mut sheet = Image::new(size[0], size[1], theme.rule());
-    sheet.fill([0, 0], [size[0] as i64, head as i64], theme.background());
-    let title = font::fitted(&options.title, (size[0] - 2 * GAP) / 2);
-    sheet.text(&title, [GAP as i64, GAP as i64], 2, theme.text());
+    let mut sheet = RasterImage::new(size[0], size[1], theme.rule_colour());
+    sheet.fill_image_rectangle([0, 0], [size[0] as i64, head as i64], theme.theme_paper_colour());
+    let title = font::fit_text_width(&options.title, (size[0] - 2 * SHEET_CELL_GAP_PIXELS) / 2);
+    sheet.draw_image_text(
+        &title,
+        [SHEET_CELL_GAP_PIXELS as i64, SHEET_CELL_GAP_PIXELS as i64],
+        2,
+        theme.theme_text_colour(),
+    );
 
-    let body = Body::with_palette(clip.skeleton(), anatomy, &options.palette);
-    let mut mesh = Mesh::default();
-    let mut raster = Raster::default();
+    let body = SignerBody::with_palette(clip.clip_skeleton(), anatomy, &options.palette);
+    let mut mesh = TriangleMesh::default();
+    let mut raster = FigureRaster::default();
     let total = frames.len() * options.views.len();
     for (column, &frame) in frames.iter().enumerate() {
         let pose = clip.model_pose(frame);
-        body.shape(&pose, &mut mesh);
+        body.shape_body_mesh(&pose, &mut mesh);
         if let Some(face) = options.faces.get(frame) {
-            body.express(&pose, face, &mut mesh);
+            body.apply_face_expression(&pose, face, &mut mesh);
         }
-        let x = GAP + column * (cell[0] + GAP);
+        let x = SHEET_CELL_GAP_PIXELS + column * (cell[0] + SHEET_CELL_GAP_PIXELS);
         for (row, &view) in options.views.iter().enumerate() {
             let done = column * options.views.len() + row;
             if progress(done, total).is_break() {
                 return Err(FigureError::Stopped { done, total });
             }
             let aspect = cell[0] as f32 / cell[1] as f32;
-            let camera = framing.camera(view, aspect, &pose, anatomy);
-            let mut picture = raster.draw(&mesh, &camera, cell, &options.style);
+            let camera = framing.framing_camera(view, aspect, &pose, anatomy);
+            let mut picture = raster.draw_mesh_picture(&mesh, &camera, cell, &options.style);
             if column == 0 {
-                let chip = [font::width(view.name()) as i64 + 8, font::HEIGHT as i64 + 3];
-                picture.fill([0, 0], chip, theme.background());
-                picture.text(view.name(), [4, 0], 1, theme.text());
+                let chip = [
+                    font::text_width_dots(view.figure_view_name()) as i64 + 8,
+                    font::CELL_HEIGHT_DOTS as i64 + 3,
+                ];
+                picture.fill_image_rectangle([0, 0], chip, theme.theme_paper_colour());
+                picture.draw_image_text(view.figure_view_name(), [4, 0], 1, theme.theme_text_colour());
             }
-            sheet.paste(&picture, [x, head + row * (cell[1] + GAP)]);
+            sheet.paste_image(&picture, [x, head + row * (cell[1] + SHEET_CELL_GAP_PIXELS)]);
         }
-        let label = label(clip, frame);
-        let label = font::fitted(&label, cell[0]);
-        let y = head + options.views.len() * (cell[1] + GAP);
-        let inset = (cell[0] - font::width(&label).min(cell[0])) / 2;
-        sheet.text(&label, [(x + inset) as i64, y as i64], 1, theme.text());
+        let frame_label = sheet_frame_label(clip, frame);
+        let label = font::fit_text_width(&frame_label, cell[0]);
+        let y = head + options.views.len() * (cell[1] + SHEET_CELL_GAP_PIXELS);
+        let inset = (cell[0] - font::text_width_dots(&label).min(cell[0])) / 2;
+        sheet.draw_image_text(&label, [(x + inset) as i64, y as i64], 1, theme.theme_text_colour());
     }
     Ok(sheet)
 }
@@ -169,82 +177,82 @@ pub fn contact_sheet(
 ///
 /// # Errors
 /// [`FigureError`] if the clip is empty or the picture would be too small or too large.
-pub fn thumbnail(
+pub fn clip_thumbnail(
     clip: &Clip,
-    anatomy: &Anatomy,
+    anatomy: &BodyAnatomy,
     size: [usize; 2],
-    style: &Style,
-) -> Result<Image, FigureError> {
-    let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+    style: &FigureStyle,
+) -> Result<RasterImage, FigureError> {
+    let framing = ClipFraming::framing_from_clip(clip, anatomy).ok_or(FigureError::Empty)?;
     let size = checked_view(size[0], size[1])?;
-    let pose = clip.model_pose(stroke(clip, anatomy));
-    let mesh = Body::new(clip.skeleton(), anatomy).mesh(&pose);
+    let pose = clip.model_pose(stroke_frame(clip, anatomy));
+    let mesh = SignerBody::new(clip.clip_skeleton(), anatomy).posed_mesh(&pose);
     let aspect = size[0] as f32 / size[1] as f32;
-    let camera = framing.camera(View::Addressee, aspect, &pose, anatomy);
-    Ok(Raster::default().draw(&mesh, &camera, size, style))
+    let camera = framing.framing_camera(FigureView::Addressee, aspect, &pose, anatomy);
+    Ok(FigureRaster::default().draw_mesh_picture(&mesh, &camera, size, style))
 }
 
 /// The height of a face in the corner of a small picture, as a share of the picture's height.
-const INSET: f32 = 0.45;
+const FACE_INSET_SHARE: f32 = 0.45;
 
-/// Draws one small picture as [`thumbnail`] does, with the face from nearby in its upper right corner: `faces` are
+/// Draws one small picture as [`clip_thumbnail`] does, with the face from nearby in its upper right corner: `faces` are
 /// those of the clip's frames, at rest beyond them.
 ///
 /// # Errors
-/// The same as [`thumbnail`]'s.
+/// The same as [`clip_thumbnail`]'s.
 pub fn thumbnail_with_face(
     clip: &Clip,
-    anatomy: &Anatomy,
-    faces: &[Face],
+    anatomy: &BodyAnatomy,
+    faces: &[FacePosture],
     size: [usize; 2],
-    style: &Style,
-) -> Result<Image, FigureError> {
-    let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+    style: &FigureStyle,
+) -> Result<RasterImage, FigureError> {
+    let framing = ClipFraming::framing_from_clip(clip, anatomy).ok_or(FigureError::Empty)?;
     let size = checked_view(size[0], size[1])?;
-    let frame = stroke(clip, anatomy);
+    let frame = stroke_frame(clip, anatomy);
     let pose = clip.model_pose(frame);
-    let body = Body::new(clip.skeleton(), anatomy);
-    let mut mesh = body.mesh(&pose);
+    let body = SignerBody::new(clip.clip_skeleton(), anatomy);
+    let mut mesh = body.posed_mesh(&pose);
     if let Some(face) = faces.get(frame) {
-        body.express(&pose, face, &mut mesh);
+        body.apply_face_expression(&pose, face, &mut mesh);
     }
-    let mut raster = Raster::default();
-    let mut draw = |view: View, size: [usize; 2]| {
+    let mut raster = FigureRaster::default();
+    let mut draw = |view: FigureView, size: [usize; 2]| {
         let aspect = size[0] as f32 / size[1] as f32;
-        let camera = framing.camera(view, aspect, &pose, anatomy);
-        raster.draw(&mesh, &camera, size, style)
+        let camera = framing.framing_camera(view, aspect, &pose, anatomy);
+        raster.draw_mesh_picture(&mesh, &camera, size, style)
     };
-    let mut image = draw(View::Addressee, size);
-    let side = (size[1].min(size[0]) as f32 * INSET) as usize;
+    let mut image = draw(FigureView::Addressee, size);
+    let side = (size[1].min(size[0]) as f32 * FACE_INSET_SHARE) as usize;
     if side >= 8 {
-        let near = draw(View::Face, [side - 1, side - 1]);
+        let near = draw(FigureView::Face, [side - 1, side - 1]);
         let left = size[0] - side;
-        let rule = style.theme.rule();
-        image.fill([left as i64, 0], [side as i64, side as i64], rule);
-        image.paste(&near, [left + 1, 0]);
+        let rule = style.theme.rule_colour();
+        image.fill_image_rectangle([left as i64, 0], [side as i64, side as i64], rule);
+        image.paste_image(&near, [left + 1, 0]);
     }
     Ok(image)
 }
 
 /// Returns time and number of a frame for its label.
-fn label(clip: &Clip, frame: usize) -> String {
-    let seconds = clip.rate().instant(frame).seconds();
+fn sheet_frame_label(clip: &Clip, frame: usize) -> String {
+    let seconds = clip.clip_frame_rate().frame_start_instant(frame).instant_seconds();
     format!("{seconds:.2} s  #{frame}")
 }
 
 /// Returns the chosen frames.
-fn chosen(frames: &Frames, clip: &Clip, anatomy: &Anatomy) -> Result<Vec<usize>, FigureError> {
-    let last = clip.frames().checked_sub(1).ok_or(FigureError::Empty)?;
+fn choose_sheet_frames(frames: &SheetFrames, clip: &Clip, anatomy: &BodyAnatomy) -> Result<Vec<usize>, FigureError> {
+    let last = clip.clip_frame_count().checked_sub(1).ok_or(FigureError::Empty)?;
     let chosen = match frames {
-        Frames::Spaced(wanted) => {
-            let sound = signed(clip, anatomy);
+        SheetFrames::Spaced(wanted) => {
+            let sound = active_signing_frames(clip, anatomy);
             let (wanted, last) = ((*wanted).min(sound.len()), sound.len().saturating_sub(1));
             (0..wanted)
                 .map(|i| (2 * last * i + (wanted - 1)) / (2 * (wanted - 1).max(1)))
                 .map(|frame| sound.start + frame)
                 .collect()
         }
-        Frames::At(frames) => frames.clone(),
+        SheetFrames::At(frames) => frames.clone(),
     };
     if let Some(&frame) = chosen.iter().find(|&&frame| frame > last) {
         return Err(FigureError::Frame { frame, last });

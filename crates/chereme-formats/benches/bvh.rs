@@ -11,7 +11,7 @@ use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Instant;
 
-use chereme_formats::bvh::raw::{Block, Reader, Writer};
+use chereme_formats::bvh::raw::{BvhReader, BvhWriter, MotionBlock};
 use divan::Bencher;
 use divan::counter::BytesCount;
 
@@ -68,20 +68,18 @@ fn run(bencher: Bencher, reading: fn(&str) -> f64) {
 }
 
 fn read_ours(text: &str) -> f64 {
-    let mut reader = Reader::open(text.as_bytes()).expect("made text is sound");
-    let mut block = Block::default();
+    let mut reader = BvhReader::open_bvh(text.as_bytes()).expect("made text is sound");
+    let mut block = MotionBlock::default();
     let mut last = 0.0;
     while reader.next_block(&mut block).expect("made text is sound") {
-        last = block.columns[0].value(block.frames - 1);
+        last = block.columns[0].decimal_value_at(block.frames - 1);
     }
     last
 }
 
 fn read_theirs(text: &str) -> f64 {
     let bvh = bvh_anim::from_str(text).expect("made text is sound");
-    bvh.frames()
-        .last()
-        .map_or(0.0, |frame| f64::from(frame.as_slice()[0]))
+    bvh.frames().last().map_or(0.0, |frame| f64::from(frame.as_slice()[0]))
 }
 
 fn split_and_parse_numbers(text: &str) -> f64 {
@@ -94,25 +92,25 @@ fn split_and_parse_numbers(text: &str) -> f64 {
     numbers.collect::<Vec<f64>>().len() as f64
 }
 
-fn blocks(text: &[u8]) -> Vec<Block> {
-    let mut reader = Reader::open(text).expect("made text is sound");
+fn blocks(text: &[u8]) -> Vec<MotionBlock> {
+    let mut reader = BvhReader::open_bvh(text).expect("made text is sound");
     let mut blocks = Vec::new();
-    let mut block = Block::default();
+    let mut block = MotionBlock::default();
     while reader.next_block(&mut block).expect("made text is sound") {
         blocks.push(block.clone());
     }
     blocks
 }
 
-fn write_ours(text: &str, blocks: &[Block]) -> usize {
-    let reader = Reader::open(text.as_bytes()).expect("made text is sound");
-    let motion = Some((reader.header().frame_time.as_ref(), FRAMES as u64));
+fn write_ours(text: &str, blocks: &[MotionBlock]) -> usize {
+    let reader = BvhReader::open_bvh(text.as_bytes()).expect("made text is sound");
+    let motion = Some((reader.bvh_motion_header().frame_time.as_ref(), FRAMES as u64));
     let out = Vec::with_capacity(text.len() + 1024);
-    let mut writer = Writer::new(out, reader.hierarchy(), motion).expect("a vector takes all");
+    let mut writer = BvhWriter::new(out, reader.bvh_hierarchy(), motion).expect("a vector takes all");
     blocks
         .iter()
-        .for_each(|block| writer.block(block).expect("a vector takes all"));
-    writer.finish().expect("a vector takes all").len()
+        .for_each(|block| writer.write_motion_block(block).expect("a vector takes all"));
+    writer.finish_bvh_writing().expect("a vector takes all").len()
 }
 
 fn write_theirs(bvh: &bvh_anim::Bvh) -> usize {
@@ -140,10 +138,7 @@ fn print_ratios() {
         read / anim,
         read / split
     );
-    println!(
-        "write: {write:.0} MB/s, {:.1} x bvh_anim",
-        write / write_anim
-    );
+    println!("write: {write:.0} MB/s, {:.1} x bvh_anim", write / write_anim);
 }
 
 /// Returns the seconds of one run, the mean of many: the system counts processor time in steps of milliseconds.

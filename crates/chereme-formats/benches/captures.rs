@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use chereme_formats::{c3d, gltf as own_gltf, pose};
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
+use chereme_motion::{Clip, FrameRate, JointChannel, Skeleton, SkeletonJoint};
 
 /// The number of times that each file is read.
 const ROUNDS: usize = 21;
@@ -36,8 +36,8 @@ are stored, or a scene without its movement.
 
 fn main() {
     let mut table = Table::default();
-    let bytes = own_gltf::write(&body(), &own_gltf::About::default()).expect("a GLB");
-    let own = median(|| assert!(own_gltf::read(&bytes, &|_| None).is_ok()));
+    let bytes = own_gltf::write_glb(&body(), &own_gltf::GlbDescription::default()).expect("a GLB");
+    let own = median(|| assert!(own_gltf::read_gltf(&bytes, &|_| None).is_ok()));
     let peer = median(|| assert!(sum_of(&bytes) > 100_000.0));
     table.row(
         "65 joints, 3,600 frames, .glb",
@@ -58,21 +58,13 @@ fn main() {
             c3d_file,
             [
                 ("ezc3d", "import ezc3d", "ezc3d.c3d(F)"),
-                (
-                    "c3d",
-                    "import c3d",
-                    "list(c3d.Reader(open(F,'rb')).read_frames())",
-                ),
+                ("c3d", "import c3d", "list(c3d.Reader(open(F,'rb')).read_frames())"),
             ],
         ),
         (
             pose_file,
             [
-                (
-                    "pose-format",
-                    "from pose_format import Pose",
-                    "Pose.read(open(F,'rb'))",
-                ),
+                ("pose-format", "from pose_format import Pose", "Pose.read(open(F,'rb'))"),
                 (
                     "pose-format, bytes in memory",
                     "from pose_format import Pose; B=open(F,'rb').read()",
@@ -88,14 +80,10 @@ fn main() {
         let bytes = std::fs::read(&file).expect("read");
         let is_pose = file.extension().is_some_and(|it| it == "pose");
         let own = median(|| match is_pose {
-            true => assert!(pose::read(&bytes).is_ok()),
-            false => assert!(c3d::read(&bytes).is_ok()),
+            true => assert!(pose::read_pose_file(&bytes).is_ok()),
+            false => assert!(c3d::read_c3d(&bytes).is_ok()),
         });
-        let name = file
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
+        let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         for (peer, before, call) in peers {
             match python(&file, before, call) {
                 Ok(time) => table.row(&name, own, peer, time),
@@ -168,25 +156,18 @@ fn python(file: &Path, before: &str, call: &str) -> Result<f64, String> {
 /// Returns a file of that name somewhere below a folder.
 fn find(folder: &Path, name: &str) -> Option<PathBuf> {
     let entries = std::fs::read_dir(folder).ok()?.flatten();
-    entries
-        .map(|it| it.path())
-        .find_map(|path| match path.is_dir() {
-            true => find(&path, name),
-            false => path
-                .file_name()
-                .is_some_and(|it| it == name)
-                .then_some(path),
-        })
+    entries.map(|it| it.path()).find_map(|path| match path.is_dir() {
+        true => find(&path, name),
+        false => path.file_name().is_some_and(|it| it == name).then_some(path),
+    })
 }
 
 /// A body of 65 joints that all turn, two minutes at 30 frames a second.
 fn body() -> Clip {
-    let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
-    joints.extend(
-        (1..65).map(|at| Joint::new(format!("joint{at}"), Some((at - 1) / 2), DVec3::X * 0.1)),
-    );
+    let mut joints = vec![SkeletonJoint::new("Hips", None, DVec3::Y)];
+    joints.extend((1..65).map(|at| SkeletonJoint::new(format!("joint{at}"), Some((at - 1) / 2), DVec3::X * 0.1)));
     let skeleton = Skeleton::new(joints).expect("a skeleton");
-    let channels = (0..65).map(|joint| Channel {
+    let channels = (0..65).map(|joint| JointChannel {
         rotations: (0..3600)
             .map(|frame| DQuat::from_rotation_x((f64::from(frame) * 0.01 + f64::from(joint)).sin()))
             .collect(),
@@ -194,7 +175,7 @@ fn body() -> Clip {
     });
     Clip::new(
         skeleton.into(),
-        Rate::new(30, 1).expect("a rate"),
+        FrameRate::new(30, 1).expect("a rate"),
         channels.collect(),
     )
     .expect("a clip")
@@ -206,16 +187,9 @@ fn sum_of(bytes: &[u8]) -> f64 {
     let blob = file.blob.as_deref().unwrap_or_default();
     let mut sum = 0.0;
     let mut add = |number: f32| sum += f64::from(number);
-    for channel in file
-        .animations()
-        .flat_map(|it| it.channels().collect::<Vec<_>>())
-    {
+    for channel in file.animations().flat_map(|it| it.channels().collect::<Vec<_>>()) {
         let reader = channel.reader(|_| Some(blob));
-        reader
-            .read_inputs()
-            .into_iter()
-            .flatten()
-            .for_each(&mut add);
+        reader.read_inputs().into_iter().flatten().for_each(&mut add);
         match reader.read_outputs() {
             Some(gltf::animation::util::ReadOutputs::Rotations(all)) => {
                 all.into_f32().flatten().for_each(&mut add);
@@ -236,7 +210,7 @@ fn fbx(folder: &Path, table: &mut Table) {
         return;
     };
     let bytes = std::fs::read(&file).expect("read");
-    let own = median(|| assert!(chereme_formats::fbx::read(&bytes).is_ok()));
+    let own = median(|| assert!(chereme_formats::fbx::read_fbx(&bytes).is_ok()));
     let options = || ufbx::LoadOpts {
         ignore_geometry: true,
         ..ufbx::LoadOpts::default()

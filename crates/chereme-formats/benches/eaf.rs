@@ -129,7 +129,7 @@ fn raw_read(bencher: divan::Bencher) {
     let text = sample(SIGNS);
     bencher
         .counter(BytesCount::of_str(&text))
-        .bench(|| eaf::raw::read(text.as_bytes()).expect("a document"));
+        .bench(|| eaf::eaf_raw::read_eaf_document(text.as_bytes()).expect("a document"));
 }
 
 #[divan::bench]
@@ -137,25 +137,25 @@ fn read_for_meaning(bencher: divan::Bencher) {
     let text = sample(SIGNS);
     bencher
         .counter(BytesCount::of_str(&text))
-        .bench(|| eaf::read(text.as_bytes()).expect("a document"));
+        .bench(|| eaf::read_eaf(text.as_bytes()).expect("a document"));
 }
 
 #[divan::bench]
 fn meaning_alone(bencher: divan::Bencher) {
     let text = sample(SIGNS);
-    let (document, _) = eaf::raw::read(text.as_bytes()).expect("a document");
+    let (document, _) = eaf::eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
     bencher
         .counter(BytesCount::of_str(&text))
-        .bench(|| eaf::from_raw(&document));
+        .bench(|| eaf::transcript_from_eaf(&document));
 }
 
 #[divan::bench]
 fn write(bencher: divan::Bencher) {
     let text = sample(SIGNS);
-    let (document, _) = eaf::raw::read(text.as_bytes()).expect("a document");
+    let (document, _) = eaf::eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
     bencher.counter(BytesCount::of_str(&text)).bench(|| {
         let mut out = Vec::with_capacity(text.len());
-        eaf::raw::write(&document, &mut out).expect("a vector takes everything");
+        eaf::eaf_raw::write_eaf_document(&document, &mut out).expect("a vector takes everything");
         out
     });
 }

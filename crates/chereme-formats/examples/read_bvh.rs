@@ -4,36 +4,34 @@
 
 use std::error::Error;
 
-use chereme_formats::bvh::convert::{ClipBuilder, rate};
-use chereme_formats::bvh::raw::{Block, Reader};
-use chereme_motion::{Anatomy, Side};
+use chereme_formats::bvh::bvh_convert::{ClipBuilder, rate_from_frame_time};
+use chereme_formats::bvh::raw::{BvhReader, MotionBlock};
+use chereme_motion::{BodyAnatomy, BodySide};
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let named = std::env::args()
-        .nth(1)
-        .filter(|name| name.ends_with(".bvh"));
+    let named = std::env::args().nth(1).filter(|name| name.ends_with(".bvh"));
     let text = match named {
         Some(path) => std::fs::read_to_string(path)?,
         None => chereme_data::starter_text("bol.bvh").to_owned(),
     };
 
     // The raw reader mirrors the file, block by block of frames; an error names its line.
-    let mut reader = Reader::open(text.as_bytes())?;
-    let rate = rate(reader.header().frame_time.as_ref())?;
-    let mut builder = ClipBuilder::new(reader.hierarchy(), None)?;
-    let mut block = Block::default();
+    let mut reader = BvhReader::open_bvh(text.as_bytes())?;
+    let rate = rate_from_frame_time(reader.bvh_motion_header().frame_time.as_ref())?;
+    let mut builder = ClipBuilder::new(reader.bvh_hierarchy(), None)?;
+    let mut block = MotionBlock::default();
     while reader.next_block(&mut block)? {
-        builder.push(0..block.frames, |column| block.columns.get(column));
+        builder.push_block_rows(0..block.frames, |column| block.columns.get(column));
     }
 
     // The clip is what the file means: joints in metres, frames at exact times.
-    let clip = builder.finish(rate)?;
-    let anatomy = Anatomy::detect(clip.skeleton());
-    let (joints, frames) = (clip.skeleton().len(), clip.frames());
+    let clip = builder.finish_bvh_clip(rate)?;
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
+    let (joints, frames) = (clip.clip_skeleton().len(), clip.clip_frame_count());
     println!(
         "{joints} joints, {frames} frames, {:.2} s",
-        clip.span().seconds()
+        clip.clip_span().span_seconds()
     );
-    println!("fingers on the right: {}", anatomy.has_fingers(Side::Right));
+    println!("fingers on the right: {}", anatomy.has_fingers(BodySide::Right));
     Ok(())
 }

@@ -3,26 +3,26 @@
 //! Every column becomes a curve under its own name with its exact decimals. Times are those of the file:
 //! timecodes, timestamps, frame numbers or seconds.
 
+mod curves_table;
 mod fap;
 mod mediapipe;
 mod packets;
-mod table;
 #[cfg(test)]
 mod tests;
 
 use std::fmt::Write as _;
 
-use chereme_motion::column::{Column, Number};
-use chereme_motion::{Curve, Curves, Instant, Rate, Times};
+use chereme_motion::column::{FileNumber, FrameNumberColumn};
+use chereme_motion::{CurveTrack, FrameRate, FrameTimes, RecordingInstant, ScalarCurve};
 
-use crate::faces::System;
-use crate::finding::Finding;
+use crate::faces::FaceSystem;
+use crate::finding::ImportFinding;
 use crate::keypoints;
 use crate::scene::near_usual;
-use crate::table::{TableError, decode};
-use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks, rate_of, unique};
-pub(crate) use table::{TimeUnit, are_micros, are_millis, unit_of_time};
+use crate::table::{TableError, decode_table_bytes};
+use crate::tally::FindingTally;
+use crate::tracks::{CapturedTrackContent, CapturedTracks, FileTrack, rate_of, unique_track_names};
+pub(crate) use curves_table::{ColumnTimeUnit, are_micros, are_millis, unit_of_time};
 
 /// Largest distance of a time from an even grid, as a share of a frame, at which the rate still counts as even.
 const EVEN_SLACK: f64 = 0.1;
@@ -50,21 +50,19 @@ pub enum CurveFile {
 impl CurveFile {
     /// Returns the kind of file that begins with these bytes; `None` if it holds no channels.
     #[must_use]
-    pub fn of(bytes: &[u8]) -> Option<Self> {
+    pub fn detect_curve_file(bytes: &[u8]) -> Option<Self> {
         if packets::is_recording(bytes) {
             return Some(Self::Packets);
         }
-        let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
-        let start = start.trim_start_matches('\u{feff}').trim_start();
+        let start_text = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
+        let start = start_text.trim_start_matches('\u{feff}').trim_start();
         if start.starts_with(['{', '[']) {
-            let named = start.contains("\"categoryName\"")
-                && !keypoints::has_sides(&start.to_ascii_lowercase());
-            let is_scores =
-                named || start.contains("\"faceBlendshapes\"") || mediapipe::names_shapes(start);
+            let named = start.contains("\"categoryName\"") && !keypoints::has_sides(&start.to_ascii_lowercase());
+            let is_scores = named || start.contains("\"faceBlendshapes\"") || mediapipe::names_shapes(start);
             return is_scores.then_some(Self::MediaPipe);
         }
-        let shown = start.lines().map(str::trim);
-        let shown = shown.filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let text_lines = start.lines().map(str::trim);
+        let shown = text_lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
         if shown.clone().next().is_some_and(mediapipe::opens_score) {
             return Some(Self::MediaPipe);
         }
@@ -78,18 +76,12 @@ impl CurveFile {
             .collect();
         match *cells.first()? {
             "timecode" if cells.get(1) == Some(&"blendshapecount") => Some(Self::LiveLink),
-            "frame" if cells.contains(&"confidence") && cells.contains(&"success") => {
-                Some(Self::OpenFace)
-            }
-            _ if table::column_of_time(cells.iter().copied())
-                .is_some_and(|(at, _)| cells.len() > at + 1) =>
-            {
+            "frame" if cells.contains(&"confidence") && cells.contains(&"success") => Some(Self::OpenFace),
+            _ if curves_table::column_of_time(cells.iter().copied()).is_some_and(|(at, _)| cells.len() > at + 1) => {
                 Some(Self::Plain)
             }
             // Without their rate frames are no times; the reader says so of a face.
-            "frame" | "frames" if System::of_names(cells.iter().copied()).is_some() => {
-                Some(Self::Plain)
-            }
+            "frame" | "frames" if FaceSystem::of_names(cells.iter().copied()).is_some() => Some(Self::Plain),
             _ => None,
         }
     }
@@ -97,7 +89,7 @@ impl CurveFile {
 
 /// Why bytes could not be read as channels.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum CurveError {
     /// The file is not text.
     #[error("line {line}: this is not text")]
     NotText {
@@ -105,9 +97,7 @@ pub enum Error {
         line: u64,
     },
     /// The file is not one of the known kinds.
-    #[error(
-        "this is no table of channels: its first column is neither a timecode, a time nor a frame number"
-    )]
+    #[error("this is no table of channels: its first column is neither a timecode, a time nor a frame number")]
     Unknown,
     /// The first column counts frames, and nothing states their rate.
     #[error(
@@ -145,8 +135,8 @@ pub enum Error {
     Track(String),
 }
 
-impl Error {
-    fn cell(line: u64, cell: &str, expected: &'static str) -> Self {
+impl CurveError {
+    fn curve_cell_error(line: u64, cell: &str, expected: &'static str) -> Self {
         Self::Cell {
             line,
             cell: cell.chars().take(40).collect(),
@@ -155,25 +145,28 @@ impl Error {
     }
 }
 
-/// Reads a file of channels of any kind that [`CurveFile::of`] recognises.
+/// Reads a file of channels of any kind that [`CurveFile::detect_curve_file`] recognises.
 ///
 /// # Errors
-/// [`Error`] if the file is of no known kind, or its rows do not fit their header.
-pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
-    let mut findings = Findings::default();
-    let kind = CurveFile::of(bytes).ok_or(Error::Unknown)?;
+/// [`CurveError`] if the file is of no known kind, or its rows do not fit their header.
+pub fn read_curves(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding>), CurveError> {
+    let mut findings = FindingTally::default();
+    let kind = CurveFile::detect_curve_file(bytes).ok_or(CurveError::Unknown)?;
     if kind == CurveFile::Packets {
-        let channels = packets::read(bytes, &mut findings)?;
-        return Ok((channels.tracks(kind, &mut findings)?, findings.finish()));
+        let channels = packets::read_packet_channels(bytes, &mut findings)?;
+        return Ok((
+            channels.channels_to_tracks(kind, &mut findings)?,
+            findings.finish_finding_tally(),
+        ));
     }
-    let text = decode(bytes, &mut findings).map_err(|error| match error {
-        TableError::NotText { line } => Error::NotText { line },
-        _ => Error::Unknown,
+    let text = decode_table_bytes(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => CurveError::NotText { line },
+        _ => CurveError::Unknown,
     })?;
     if kind == CurveFile::OpenFace {
-        let mut tracks = Tracks::default();
-        for (number, face) in (1..).zip(table::open_face(&text, &mut findings)?) {
-            for mut track in face.tracks(kind, &mut findings)?.tracks {
+        let mut tracks = CapturedTracks::default();
+        for (number, face) in (1..).zip(curves_table::open_face(&text, &mut findings)?) {
+            for mut track in face.channels_to_tracks(kind, &mut findings)?.tracks {
                 if number > 1 {
                     track.name = format!("{} {number}", track.name);
                 }
@@ -181,78 +174,80 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
             }
         }
         return match tracks.tracks.is_empty() {
-            true => Err(Error::Empty),
-            false => Ok((tracks, findings.finish())),
+            true => Err(CurveError::Empty),
+            false => Ok((tracks, findings.finish_finding_tally())),
         };
     }
     let channels = match kind {
-        CurveFile::LiveLink => table::live_link(&text, &mut findings)?,
-        CurveFile::Plain => table::plain(&text, &mut findings)?,
-        CurveFile::MediaPipe => mediapipe::read(&text, &mut findings)?,
-        CurveFile::Fap => fap::read(&text)?,
-        CurveFile::OpenFace | CurveFile::Packets => return Err(Error::Unknown),
+        CurveFile::LiveLink => curves_table::live_link(&text, &mut findings)?,
+        CurveFile::Plain => curves_table::read_plain_channels(&text, &mut findings)?,
+        CurveFile::MediaPipe => mediapipe::read_mediapipe_channels(&text, &mut findings)?,
+        CurveFile::Fap => fap::read_fap_channels(&text)?,
+        CurveFile::OpenFace | CurveFile::Packets => return Err(CurveError::Unknown),
     };
-    Ok((channels.tracks(kind, &mut findings)?, findings.finish()))
+    Ok((
+        channels.channels_to_tracks(kind, &mut findings)?,
+        findings.finish_finding_tally(),
+    ))
 }
 
 /// Channels and times from a reader of one kind.
-struct Channels {
+struct CurveChannels {
     names: Vec<String>,
     units: Vec<&'static str>,
     /// The numbers, channel by channel.
-    columns: Vec<Vec<Option<Number>>>,
-    clock: Clock,
+    columns: Vec<Vec<Option<FileNumber>>>,
+    clock: CurveClock,
 }
 
 /// The form in which a file gives the times of its rows.
-enum Clock {
+enum CurveClock {
     /// Seconds of each row.
     Seconds(Vec<f64>),
     /// An even rate from the first row on.
-    Rate(Rate),
+    Rate(FrameRate),
 }
 
-impl Channels {
+impl CurveChannels {
     fn new(names: Vec<String>) -> Self {
         Self {
             columns: vec![Vec::new(); names.len()],
             units: vec![""; names.len()],
             names,
-            clock: Clock::Seconds(Vec::new()),
+            clock: CurveClock::Seconds(Vec::new()),
         }
     }
 
-    fn tracks(self, kind: CurveFile, findings: &mut Findings) -> Result<Tracks, Error> {
+    fn channels_to_tracks(self, kind: CurveFile, findings: &mut FindingTally) -> Result<CapturedTracks, CurveError> {
         let rows = self.columns.first().map_or(0, Vec::len);
         if rows == 0 {
-            return Err(Error::Empty);
+            return Err(CurveError::Empty);
         }
         let day = match (&self.clock, kind) {
-            (Clock::Seconds(seconds), CurveFile::LiveLink) => seconds.first().copied(),
+            (CurveClock::Seconds(seconds), CurveFile::LiveLink) => seconds.first().copied(),
             _ => None,
         };
-        let (times, offset) = times(self.clock, kind, findings)?;
-        let names = unique(self.names.iter().map(String::as_str), "column");
-        let curves = names.into_iter().zip(self.columns).zip(self.units);
-        let curves = curves.map(|((name, numbers), unit)| Curve {
+        let (times, offset) = curve_row_times(self.clock, kind, findings)?;
+        let names = unique_track_names(self.names.iter().map(String::as_str), "column");
+        let named_columns = names.into_iter().zip(self.columns).zip(self.units);
+        let curves = named_columns.map(|((name, numbers), unit)| ScalarCurve {
             name,
             unit: unit.to_owned(),
-            values: Column::decimals(numbers),
+            values: FrameNumberColumn::from_decimals(numbers),
         });
-        let curves = Curves::new(times, curves.collect())
-            .map_err(|error| Error::Track(error.to_string()))?;
-        let system = System::of(&curves);
+        let curves = CurveTrack::new(times, curves.collect()).map_err(|error| CurveError::Track(error.to_string()))?;
+        let system = FaceSystem::system_of_curves(&curves);
         if let Some(system) = system {
-            for unit in system.view(&curves).units {
-                findings.push(unit);
+            for unit in system.derive_face_view(&curves).units {
+                findings.push_counted_finding(unit);
             }
         }
         let is_face = kind != CurveFile::Plain || system.is_some();
         let name = if is_face { "face" } else { "curves" };
-        let mut track = FileTrack::new(name, Content::Curves(curves));
+        let mut track = FileTrack::new(name, CapturedTrackContent::Curves(curves));
         track.offset = offset;
-        track.clock = day.map(Instant::from_seconds);
-        Ok(Tracks {
+        track.clock = day.map(RecordingInstant::from_seconds);
+        Ok(CapturedTracks {
             tracks: vec![track],
             events: None,
         })
@@ -260,23 +255,25 @@ impl Channels {
 }
 
 /// Returns an even rate if the rows are even, else their own times, and the time of the first row.
-fn times(
-    clock: Clock,
+fn curve_row_times(
+    clock: CurveClock,
     kind: CurveFile,
-    findings: &mut Findings,
-) -> Result<(Times, Instant), Error> {
+    findings: &mut FindingTally,
+) -> Result<(FrameTimes, RecordingInstant), CurveError> {
     let seconds = match clock {
-        Clock::Rate(rate) => return Ok((Times::Even(rate), Instant::ZERO)),
-        Clock::Seconds(seconds) => seconds,
+        CurveClock::Rate(rate) => {
+            return Ok((FrameTimes::Even(rate), RecordingInstant::RECORDING_START));
+        }
+        CurveClock::Seconds(seconds) => seconds,
     };
     let first = seconds.first().copied().unwrap_or_default();
     // A timecode is the time of day; the track begins with its first row.
     let offset = match kind {
-        CurveFile::LiveLink | CurveFile::Packets => Instant::ZERO,
-        _ => Instant::from_seconds(first),
+        CurveFile::LiveLink | CurveFile::Packets => RecordingInstant::RECORDING_START,
+        _ => RecordingInstant::from_seconds(first),
     };
     if matches!(kind, CurveFile::LiveLink | CurveFile::Packets) {
-        findings.push(Finding::note(
+        findings.push_counted_finding(ImportFinding::new_note_finding(
             None,
             format!("its first row has the time {first:.3} s of the day; that is 0 s here"),
         ));
@@ -285,9 +282,8 @@ fn times(
     let count = from_first.len();
     let last = from_first.last().copied().unwrap_or_default();
     let mean = (count.max(2) - 1) as f64 / last;
-    let fits = |rate: &Rate, slack: f64| {
-        let near =
-            |(frame, time): (usize, &f64)| (time - frame as f64 * rate.frame_time()).abs() <= slack;
+    let fits = |rate: &FrameRate, slack: f64| {
+        let near = |(frame, time): (usize, &f64)| (time - frame as f64 * rate.frame_time()).abs() <= slack;
         from_first.iter().enumerate().all(near)
     };
     // Rounded times show a usual rate with an error of their own; exact ones show theirs, however near a usual one is.
@@ -299,22 +295,22 @@ fn times(
             .find(|rate| fits(rate, EVEN_SLACK * rate.frame_time()))
     });
     if let Some(rate) = even.filter(|_| count > 1) {
-        return Ok((Times::Even(rate), offset));
+        return Ok((FrameTimes::Even(rate), offset));
     }
-    let times = Times::listed(Column::doubles(from_first))
-        .map_err(|error| Error::Track(error.to_string()))?;
+    let times = FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(from_first))
+        .map_err(|error| CurveError::Track(error.to_string()))?;
     Ok((times, offset))
 }
 
 /// Writes a track of curves as CSV: a column of seconds, then one for each curve, `name [unit]`.
 #[must_use]
-pub fn write(curves: &Curves, offset: Instant) -> String {
+pub fn write_curves_csv(curves: &CurveTrack, offset: RecordingInstant) -> String {
     let quoted = |name: &str| match name.contains([',', '"', '\n']) {
         true => format!("\"{}\"", name.replace('"', "\"\"")),
         false => name.to_owned(),
     };
     let mut out = String::from("time [s]");
-    for curve in curves.curves() {
+    for curve in curves.track_curves() {
         let unit = if curve.unit.is_empty() {
             String::new()
         } else {
@@ -323,11 +319,11 @@ pub fn write(curves: &Curves, offset: Instant) -> String {
         let _ = write!(out, ",{}", quoted(&format!("{}{unit}", curve.name)));
     }
     out.push('\n');
-    for frame in 0..curves.frames() {
-        let seconds = curves.times().instant(frame).seconds() + offset.seconds();
+    for frame in 0..curves.curve_frame_count() {
+        let seconds = curves.curve_times().frame_time_instant(frame).instant_seconds() + offset.instant_seconds();
         let _ = write!(out, "{seconds:.6}");
-        for curve in curves.curves() {
-            let _ = write!(out, ",{}", curve.values.text(frame).unwrap_or_default());
+        for curve in curves.track_curves() {
+            let _ = write!(out, ",{}", curve.values.column_text_at(frame).unwrap_or_default());
         }
         out.push('\n');
     }

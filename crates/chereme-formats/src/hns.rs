@@ -5,32 +5,34 @@
 //! two, or else the text after the last symbol; a line may have none. Of several columns beside the symbols, the one that
 //! names the signs is the gloss.
 
-use crate::finding::Finding;
-use crate::table::{TableError, decode};
-use crate::tally::Findings;
+use crate::finding::ImportFinding;
+use crate::table::{TableError, decode_table_bytes};
+use crate::tally::FindingTally;
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::hamnosys::{Notated, in_plain_symbols, mended, parse_lenient, symbol::Symbol};
-use chereme_sign::text::nearest;
+use chereme_sign::hamnosys::{
+    NotatedSign, in_plain_symbols, parse_lenient, repair_garbled_symbols, symbol::HamnosysSymbol,
+};
+use chereme_sign::text::nearest_candidate;
 
 /// The number of leading bytes that decide whether a file holds HamNoSys.
-const LOOKED_AT: usize = 1 << 16;
+const HNS_DETECTION_BYTES: usize = 1 << 16;
 /// The most columns before the symbols among which glosses are looked for. The columns after the symbols are counted
 /// from this number.
-const MOST_COLUMNS: usize = 16;
+const MAX_LEADING_COLUMNS: usize = 16;
 
 /// A notated sign and its line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HnsSign {
     /// The sign; its gloss is empty if the line has none.
-    pub sign: Notated,
+    pub sign: NotatedSign,
     /// The line of the file, counted from 1.
     pub line: u64,
 }
 
 /// Why bytes could not be read as lines of HamNoSys.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum HnsError {
     /// The file is not text.
     #[error("line {line}: this is not text; save it as lines of text in UTF-8")]
     NotText {
@@ -51,54 +53,54 @@ pub enum Error {
 /// without a symbol are reported.
 ///
 /// # Errors
-/// [`Error`] if the bytes are not text, or no line has a symbol.
-pub fn read(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<Finding>), Error> {
-    let mut findings = Findings::default();
-    let text = decode(bytes, &mut findings).map_err(|error| match error {
-        TableError::NotText { line } => Error::NotText { line },
-        _ => Error::Nothing,
+/// [`HnsError`] if the bytes are not text, or no line has a symbol.
+pub fn read_hns(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<ImportFinding>), HnsError> {
+    let mut findings = FindingTally::default();
+    let text = decode_table_bytes(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => HnsError::NotText { line },
+        _ => HnsError::Nothing,
     })?;
     let mut entries = Vec::new();
     let glosses = gloss_column(&text);
     for (line, text) in (1..).zip(text.lines()) {
-        if mended(text).is_some() {
-            findings.add("symbols in a wrong encoding", || mended_finding(line));
+        if repair_garbled_symbols(text).is_some() {
+            findings.add_limited_finding("symbols in a wrong encoding", || mended_finding(line));
         }
         let text = &*in_plain_symbols(text);
-        match Parts::of(text) {
+        match HnsLineParts::split_hns_line(text) {
             Some(parts) => {
-                let gloss = gloss(line, &parts, glosses, &mut findings);
-                entries.push(entry(line, (gloss, parts.symbols), &mut findings));
+                let gloss = choose_line_gloss(line, &parts, glosses, &mut findings);
+                entries.push(read_hns_entry(line, (gloss, parts.symbols), &mut findings));
             }
             None if text.trim().is_empty() => {}
-            None => findings.add("lines without HamNoSys", || {
-                Finding::warning(line, "the line holds no HamNoSys; it was left out")
+            None => findings.add_limited_finding("lines without HamNoSys", || {
+                ImportFinding::new_warning_finding(line, "the line holds no HamNoSys; it was left out")
                     .with_remedy("write the gloss, a tab, and HamNoSys")
             }),
         }
     }
     if entries.is_empty() {
-        return Err(Error::Nothing);
+        return Err(HnsError::Nothing);
     }
-    Ok((entries, findings.finish()))
+    Ok((entries, findings.finish_finding_tally()))
 }
 
 /// Returns whether a file that begins with these bytes holds HamNoSys; of a long file the first whole
 /// lines decide.
 #[must_use]
 pub fn holds_some(bytes: &[u8]) -> bool {
-    let mut seen = &bytes[..bytes.len().min(LOOKED_AT)];
-    if seen.len() == LOOKED_AT {
+    let mut seen = &bytes[..bytes.len().min(HNS_DETECTION_BYTES)];
+    if seen.len() == HNS_DETECTION_BYTES {
         // A character cut in two would make the rest look like Latin-1.
         seen = &seen[..memchr::memrchr(b'\n', seen).unwrap_or(0)];
     }
-    let text = decode(seen, &mut Findings::default());
+    let text = decode_table_bytes(seen, &mut FindingTally::default());
     text.is_ok_and(|text| text.lines().any(holds_symbols))
 }
 
 /// Returns the finding which reports that symbols were mended.
-pub(crate) fn mended_finding(line: u64) -> Finding {
-    Finding::note(
+pub(crate) fn mended_finding(line: u64) -> ImportFinding {
+    ImportFinding::new_note_finding(
         line,
         "HamNoSys had been saved as UTF-8 and read as Latin-1 or Windows-1252; its symbols were mended",
     )
@@ -107,37 +109,32 @@ pub(crate) fn mended_finding(line: u64) -> Finding {
 
 /// Returns whether a line or a cell holds a symbol, in any of its spellings.
 pub(crate) fn holds_symbols(text: &str) -> bool {
-    begin(&in_plain_symbols(text)).is_some()
+    find_symbols_start(&in_plain_symbols(text)).is_some()
 }
 
 /// Writes signs as lines, and returns for each the parts that HamNoSys cannot express.
 #[must_use]
-pub fn write<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> (Vec<u8>, Vec<Vec<String>>) {
+pub fn write_hns<'s>(signs: impl IntoIterator<Item = &'s NotatedSign>) -> (Vec<u8>, Vec<Vec<String>>) {
     let (mut text, mut lost) = (String::new(), Vec::new());
     for sign in signs {
-        let printed = sign.hamnosys();
+        let printed = sign.hamnosys_text();
         let gloss = sign.gloss.replace(['\t', '\n', '\r'], " ");
         text += &format!("{gloss}\t{}\n", printed.text);
-        let mut own: Vec<String> = printed
-            .losses
-            .into_iter()
-            .map(|loss| loss.message)
-            .collect();
+        let mut sign_losses: Vec<String> = printed.losses.into_iter().map(|loss| loss.message).collect();
         if !sign.nonmanual.is_empty() {
-            own.push("what face and body do".to_owned());
+            sign_losses.push("what face and body do".to_owned());
         }
-        lost.push(own);
+        lost.push(sign_losses);
     }
     (text.into_bytes(), lost)
 }
 
 /// Returns the byte at which the first symbol of a line starts.
-fn begin(line: &str) -> Option<usize> {
-    let character =
-        |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c) && Symbol::from_char(c).is_some();
+fn find_symbols_start(line: &str) -> Option<usize> {
+    let character = |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c) && HamnosysSymbol::from_char(c).is_some();
     let word = |rest: &str| {
         let end = rest.find(|c: char| !c.is_ascii_alphanumeric());
-        Symbol::from_name(&rest[..end.unwrap_or(rest.len())]).is_some()
+        HamnosysSymbol::from_symbol_name(&rest[..end.unwrap_or(rest.len())]).is_some()
     };
     let lower = line.to_ascii_lowercase();
     let named = (lower.match_indices("ham").map(|(at, _)| at))
@@ -157,16 +154,16 @@ fn misspelt_begin(line: &str, known: usize) -> usize {
     let is_misspelt = |word: &str| {
         let name = word.trim_matches(['<', '/', '>']);
         word.contains(|c| ('\u{e000}'..='\u{f8ff}').contains(&c))
-            || name.starts_with(prefix) && nearest(name, Symbol::all().map(Symbol::name)).is_some()
+            || name.starts_with(prefix)
+                && nearest_candidate(name, HamnosysSymbol::all_symbols().map(HamnosysSymbol::symbol_name)).is_some()
     };
     let mut first = known;
     loop {
         let before = line[..first].trim_end_matches(parting);
-        let start = before.rfind(parting).map_or(0, |at| {
-            at + before[at..].chars().next().map_or(1, char::len_utf8)
-        });
-        let is_gloss =
-            between_columns(&line[before.len()..first]) && !between_columns(&line[..start]);
+        let start = before
+            .rfind(parting)
+            .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+        let is_gloss = between_columns(&line[before.len()..first]) && !between_columns(&line[..start]);
         if is_gloss || !is_misspelt(&before[start..]) {
             return first;
         }
@@ -175,10 +172,10 @@ fn misspelt_begin(line: &str, known: usize) -> usize {
 }
 
 /// Returns the byte at which the last symbol of a line ends, whether or not it is a known one.
-fn end(line: &str) -> usize {
+fn find_symbols_end(line: &str) -> usize {
     let is_character = |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c);
-    let character = line.char_indices().rfind(|(_, c)| is_character(*c));
-    let character = character.map(|(at, c)| at + c.len_utf8());
+    let last_character = line.char_indices().rfind(|(_, c)| is_character(*c));
+    let character = last_character.map(|(at, c)| at + c.len_utf8());
     let lower = line.to_ascii_lowercase();
     let names = lower
         .match_indices("ham")
@@ -193,18 +190,18 @@ fn end(line: &str) -> usize {
 }
 
 /// A line with symbols: the text before them, the symbols, and the text after them if something parts it from them.
-struct Parts<'t> {
+struct HnsLineParts<'t> {
     before: &'t str,
     symbols: &'t str,
     after: &'t str,
 }
 
-impl<'t> Parts<'t> {
+impl<'t> HnsLineParts<'t> {
     /// Returns the parts of a line; `None` if it holds no symbol.
-    fn of(line: &'t str) -> Option<Self> {
-        let first = misspelt_begin(line, begin(line)?);
+    fn split_hns_line(line: &'t str) -> Option<Self> {
+        let first = misspelt_begin(line, find_symbols_start(line)?);
         let before = &line[..first];
-        let (symbols, after) = line[first..].split_at(end(&line[first..]));
+        let (symbols, after) = line[first..].split_at(find_symbols_end(&line[first..]));
         let lead = after.find(char::is_alphanumeric).map(|at| &after[..at]);
         let is_parted = lead.is_some_and(|lead| {
             let has_gloss = before.contains(char::is_alphanumeric);
@@ -212,11 +209,7 @@ impl<'t> Parts<'t> {
             lead.contains(is_column) || lead.contains("  ") || !has_gloss && lead.contains(' ')
         });
         Some(match is_parted {
-            true => Self {
-                before,
-                symbols,
-                after,
-            },
+            true => Self { before, symbols, after },
             false => Self {
                 before,
                 symbols: &line[first..],
@@ -226,17 +219,17 @@ impl<'t> Parts<'t> {
     }
 
     /// Returns the texts beside the symbols with the numbers of their columns.
-    fn columns(&self) -> impl Iterator<Item = (usize, &'t str)> {
-        let before = columns(self.before).into_iter().take(MOST_COLUMNS);
-        let after = self.after.trim_start_matches('"');
-        let after = after.strip_prefix('\t').unwrap_or(after);
-        let after = columns(after).into_iter().take(MOST_COLUMNS);
-        (0..).zip(before).chain((MOST_COLUMNS..).zip(after))
+    fn numbered_side_columns(&self) -> impl Iterator<Item = (usize, &'t str)> {
+        let before = split_side_columns(self.before).into_iter().take(MAX_LEADING_COLUMNS);
+        let after_quotes = self.after.trim_start_matches('"');
+        let after = after_quotes.strip_prefix('\t').unwrap_or(after_quotes);
+        let after = split_side_columns(after).into_iter().take(MAX_LEADING_COLUMNS);
+        (0..).zip(before).chain((MAX_LEADING_COLUMNS..).zip(after))
     }
 }
 
 /// Returns the texts that tabs part on one side of the symbols of a line.
-fn columns(side: &str) -> Vec<&str> {
+fn split_side_columns(side: &str) -> Vec<&str> {
     let columns = side.trim_end_matches('\t').split('\t');
     columns.map(|text| text.trim_matches(parting)).collect()
 }
@@ -247,13 +240,13 @@ fn gloss_column(text: &str) -> usize {
     let mut seen: BTreeMap<usize, (BTreeSet<String>, usize, usize)> = BTreeMap::new();
     for line in text.lines() {
         let line = in_plain_symbols(line);
-        let Some(parts) = Parts::of(&line) else {
+        let Some(parts) = HnsLineParts::split_hns_line(&line) else {
             continue;
         };
         if !line.contains('\t') && parts.after.is_empty() {
             continue;
         }
-        for (at, text) in parts.columns() {
+        for (at, text) in parts.numbered_side_columns() {
             let (texts, letters, all) = seen.entry(at).or_insert((BTreeSet::new(), 0, 1));
             let count = text.chars().filter(|c| c.is_alphabetic()).count();
             *letters += count;
@@ -263,47 +256,50 @@ fn gloss_column(text: &str) -> usize {
             }
         }
     }
-    let most = seen.values().map(|(texts, ..)| texts.len()).max();
-    let most = most.unwrap_or_default();
+    let largest_count = seen.values().map(|(texts, ..)| texts.len()).max();
+    let most = largest_count.unwrap_or_default();
     let named = |(_, (texts, letters, all)): &(&usize, &(BTreeSet<String>, usize, usize))| {
         texts.len() * 2 >= most && letters * 2 >= *all
     };
     let lettered = || seen.iter().find(|(_, (texts, ..))| texts.len() == most);
-    let found = seen.iter().find(named).or_else(lettered);
-    found.map_or(0, |(at, _)| *at)
+    let chosen_column = seen.iter().find(named).or_else(lettered);
+    chosen_column.map_or(0, |(at, _)| *at)
 }
 
 /// Returns the gloss among the columns beside the symbols of a line, and reports the others.
-fn gloss<'t>(line: u64, parts: &Parts<'t>, column: usize, findings: &mut Findings) -> &'t str {
-    let texts: Vec<(usize, &str)> = parts.columns().filter(|it| !it.1.is_empty()).collect();
+fn choose_line_gloss<'t>(line: u64, parts: &HnsLineParts<'t>, column: usize, findings: &mut FindingTally) -> &'t str {
+    let texts: Vec<(usize, &str)> = parts
+        .numbered_side_columns()
+        .filter(|cell| !cell.1.is_empty())
+        .collect();
     match texts.as_slice() {
         [] => return parts.before,
-        [(at, _)] if *at < MOST_COLUMNS => return parts.before,
+        [(at, _)] if *at < MAX_LEADING_COLUMNS => return parts.before,
         [(_, text)] => return text,
         _ => {}
     }
     // A line with fewer columns than the others has its gloss in the last one of that side.
-    let is_after = column >= MOST_COLUMNS;
-    let same_side = |it: &&(usize, &str)| (it.0 >= MOST_COLUMNS) == is_after;
-    let found = texts.iter().find(|it| it.0 == column);
-    let found = found.or_else(|| texts.iter().rfind(same_side));
-    let (at, gloss) = found.or(texts.first()).copied().unwrap_or_default();
-    let left_out = texts.iter().filter(|it| it.0 != at);
-    let left_out: Vec<&str> = left_out.map(|it| it.1).collect();
-    findings.add("columns beside the gloss", || {
-        let message = match at.checked_sub(MOST_COLUMNS) {
+    let is_after = column >= MAX_LEADING_COLUMNS;
+    let same_side = |cell: &&(usize, &str)| (cell.0 >= MAX_LEADING_COLUMNS) == is_after;
+    let named_cell = texts.iter().find(|cell| cell.0 == column);
+    let gloss_cell = named_cell.or_else(|| texts.iter().rfind(same_side));
+    let (at, gloss) = gloss_cell.or(texts.first()).copied().unwrap_or_default();
+    let other_cells = texts.iter().filter(|cell| cell.0 != at);
+    let left_out: Vec<&str> = other_cells.map(|cell| cell.1).collect();
+    findings.add_limited_finding("columns beside the gloss", || {
+        let message = match at.checked_sub(MAX_LEADING_COLUMNS) {
             Some(after) => format!(
                 "of the columns beside HamNoSys, number {} after it was taken for the gloss: {gloss:?}; the others were \
                  left out",
                 after + 1
             ),
-            None if texts.iter().filter(|it| it.0 < MOST_COLUMNS).count() > 1 => format!(
+            None if texts.iter().filter(|cell| cell.0 < MAX_LEADING_COLUMNS).count() > 1 => format!(
                 "of the columns before HamNoSys, number {} was taken for the gloss: {gloss:?}; the others were left out",
                 at + 1
             ),
             None => format!("the text after HamNoSys was left out: {:?}", left_out.join(", ")),
         };
-        Finding::note(line, message).with_remedy(
+        ImportFinding::new_note_finding(line, message).with_remedy(
             "if another one is the gloss, leave out the others, or save the file as a table with titles: .tsv",
         )
     });
@@ -315,29 +311,26 @@ fn parting(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | ':' | '=' | '|' | '"')
 }
 
-fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> HnsSign {
-    let (gloss, text) = (
-        gloss.trim_matches(parting),
-        text.trim().trim_end_matches('"'),
-    );
+fn read_hns_entry(line: u64, (gloss, text): (&str, &str), findings: &mut FindingTally) -> HnsSign {
+    let (gloss, text) = (gloss.trim_matches(parting), text.trim().trim_end_matches('"'));
     let read = parse_lenient(text);
     for found in read.findings {
-        findings.add("odd symbols", || {
-            let message = format!("symbol {}: {}", found.number(), found.message);
+        findings.add_limited_finding("odd symbols", || {
+            let message = format!("symbol {}: {}", found.symbol_number(), found.message);
             let finding = if found.dropped {
-                Finding::warning(line, message)
+                ImportFinding::new_warning_finding(line, message)
             } else {
-                Finding::note(line, message)
+                ImportFinding::new_note_finding(line, message)
             };
             finding.with_remedy(found.remedy)
         });
     }
     HnsSign {
-        sign: Notated {
+        sign: NotatedSign {
             gloss: gloss.to_owned(),
             text: Some(text.to_owned()),
             sign: read.sign,
-            ..Notated::default()
+            ..NotatedSign::default()
         },
         line,
     }
@@ -350,14 +343,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn glosses(text: &str) -> Vec<(u64, String, String)> {
-        let (entries, _) = read(text.as_bytes()).expect("read");
-        let fields = |entry: HnsSign| {
-            (
-                entry.line,
-                entry.sign.gloss,
-                entry.sign.text.unwrap_or_default(),
-            )
-        };
+        let (entries, _) = read_hns(text.as_bytes()).expect("read");
+        let fields = |entry: HnsSign| (entry.line, entry.sign.gloss, entry.sign.text.unwrap_or_default());
         entries.into_iter().map(fields).collect()
     }
 
@@ -372,11 +359,7 @@ mod tests {
             (format!("\u{feff}  {flat}"), ""),
             (format!("HAMBURG\t{flat}"), "HAMBURG"),
         ] {
-            assert_eq!(
-                glosses(&line),
-                [(1, gloss.to_owned(), flat.to_owned())],
-                "{line:?}"
-            );
+            assert_eq!(glosses(&line), [(1, gloss.to_owned(), flat.to_owned())], "{line:?}");
         }
         let characters = "\u{e001}\u{e020}\u{e03c}";
         for written in [
@@ -385,17 +368,13 @@ mod tests {
             "A;HAMFLATHAND HAMEXTFINGERU HAMPALMD",
             "A \\hamflathand\\hamextfingeru\\hampalmd",
         ] {
-            let (entries, findings) = read(written.as_bytes()).expect(written);
+            let (entries, findings) = read_hns(written.as_bytes()).expect(written);
             assert_eq!((entries.len(), findings), (1, vec![]), "{written}");
             let sign = &entries[0].sign;
             let names = to_names(sign.text.as_deref().unwrap_or_default()).expect(written);
             let names: Vec<_> = names.into_iter().filter(|it| *it != "hamspace").collect();
             let expected = ["hamflathand", "hamextfingeru", "hampalmd"];
-            assert_eq!(
-                (&*sign.gloss, &names[..]),
-                ("A", &expected[..]),
-                "{written}"
-            );
+            assert_eq!((&*sign.gloss, &names[..]), ("A", &expected[..]), "{written}");
         }
         assert_eq!(
             glosses(&format!("\nÀ\t{characters}\r\n\r\nB {flat}\n")),
@@ -414,24 +393,15 @@ mod tests {
                 &["0\tDERTIEN_13\t", "1\tTWEE_2\t", "2\tTWEE_2\t"][..],
                 ["DERTIEN_13", "TWEE_2", "TWEE_2"],
             ),
-            (
-                &["A\tNGT\tx", "BON JOUR\tNGT\ty", "C\tNGT\tz"],
-                ["A", "BON JOUR", "C"],
-            ),
-            (
-                &["S0001\tA-A\tthe first", "S0002\tBOL\t", "\tC\t"],
-                ["A-A", "BOL", "C"],
-            ),
+            (&["A\tNGT\tx", "BON JOUR\tNGT\ty", "C\tNGT\tz"], ["A", "BON JOUR", "C"]),
+            (&["S0001\tA-A\tthe first", "S0002\tBOL\t", "\tC\t"], ["A-A", "BOL", "C"]),
             (&["A\t", "B", "4\t"], ["A", "B", "4"]),
         ] {
             let text: Vec<String> = lines.iter().map(|it| format!("{it}\t{flat}")).collect();
-            let found: Vec<String> = glosses(&text.join("\n"))
-                .into_iter()
-                .map(|it| it.1)
-                .collect();
+            let found: Vec<String> = glosses(&text.join("\n")).into_iter().map(|it| it.1).collect();
             assert_eq!(found, wanted, "{lines:?}");
         }
-        let (_, findings) = read(format!("0\tDERTIEN_13\t{flat}").as_bytes()).expect("read");
+        let (_, findings) = read_hns(format!("0\tDERTIEN_13\t{flat}").as_bytes()).expect("read");
         let wanted = "of the columns before HamNoSys, number 2 was taken for the gloss: \"DERTIEN_13\"; \
                       the others were left out";
         assert_eq!(findings[0].message, wanted);
@@ -473,7 +443,7 @@ mod tests {
         for notation in [flat, characters] {
             for (lines, wanted, finding) in cases {
                 let text = lines.join("\n").replace('*', notation);
-                let (entries, findings) = read(text.as_bytes()).expect("read");
+                let (entries, findings) = read_hns(text.as_bytes()).expect("read");
                 let found: Vec<&str> = entries.iter().map(|it| it.sign.gloss.as_str()).collect();
                 assert_eq!(found, wanted, "{text:?}");
                 for entry in &entries {
@@ -482,21 +452,15 @@ mod tests {
                 let messages: Vec<&str> = findings.iter().map(|it| it.message.as_str()).collect();
                 match finding {
                     "" => assert_eq!(messages, Vec::<&str>::new(), "{text:?}"),
-                    start => assert!(
-                        messages.iter().any(|it| it.starts_with(start)),
-                        "{messages:?}"
-                    ),
+                    start => assert!(messages.iter().any(|it| it.starts_with(start)), "{messages:?}"),
                 }
             }
         }
         // Odd symbols at the end are no gloss.
         for odd in ["hamnosuch", "\u{e001}hamnosuch", "{", "xyz"] {
-            let (entries, findings) = read(format!("A\t{flat} {odd}").as_bytes()).expect("read");
+            let (entries, findings) = read_hns(format!("A\t{flat} {odd}").as_bytes()).expect("read");
             assert_eq!(entries[0].sign.gloss, "A", "{odd}");
-            assert!(
-                findings[0].message.starts_with("symbol "),
-                "{odd}: {findings:?}"
-            );
+            assert!(findings[0].message.starts_with("symbol "), "{odd}: {findings:?}");
         }
     }
 
@@ -521,47 +485,39 @@ mod tests {
             ("A HAMSTER\thamfist hamextfingeru", "A HAMSTER", 0),
         ];
         for (line, gloss, odd) in cases {
-            let (entries, findings) = read(line.as_bytes()).expect(line);
+            let (entries, findings) = read_hns(line.as_bytes()).expect(line);
             assert_eq!(entries[0].sign.gloss, gloss, "{line}");
-            let unread = |finding: &&Finding| finding.message.starts_with("symbol ");
+            let unread = |finding: &&ImportFinding| finding.message.starts_with("symbol ");
             let unread: Vec<_> = findings.iter().filter(unread).collect();
             assert_eq!(unread.len(), odd, "{line}: {findings:?}");
             if odd > 0 {
                 assert!(unread[0].message.starts_with("symbol 1: "), "{unread:?}");
             }
         }
-        let (_, findings) = read(b"A\thamflathnd hamextfingeru").expect("read");
+        let (_, findings) = read_hns(b"A\thamflathnd hamextfingeru").expect("read");
         assert!(findings[0].message.contains("did you mean \"hamflathand\""));
     }
 
     #[test]
     fn lines_without_symbols_and_odd_symbols_are_reported() {
         let (entries, findings) =
-            read(b"a title\nA\thamfist hamextfingeru hampalml hamparend\nB\t\n").expect("read");
+            read_hns(b"a title\nA\thamfist hamextfingeru hampalml hamparend\nB\t\n").expect("read");
         assert_eq!(entries.len(), 1);
-        let reported: Vec<_> = findings
-            .iter()
-            .map(|it| (it.line, it.message.as_str()))
-            .collect();
+        let reported: Vec<_> = findings.iter().map(|it| (it.line, it.message.as_str())).collect();
         assert_eq!(reported.len(), 3, "{reported:?}");
-        assert_eq!(
-            reported[0],
-            (Some(1), "the line holds no HamNoSys; it was left out")
-        );
+        assert_eq!(reported[0], (Some(1), "the line holds no HamNoSys; it was left out"));
         assert!(
             reported[1].0 == Some(2) && reported[1].1.starts_with("symbol 4"),
             "{reported:?}"
         );
         assert_eq!(reported[2].0, Some(3));
-        assert_eq!(read(b"nothing of the kind\n"), Err(Error::Nothing));
-        assert_eq!(read(b""), Err(Error::Nothing));
-        assert_eq!(read(b"A\n\0"), Err(Error::NotText { line: 2 }));
+        assert_eq!(read_hns(b"nothing of the kind\n"), Err(HnsError::Nothing));
+        assert_eq!(read_hns(b""), Err(HnsError::Nothing));
+        assert_eq!(read_hns(b"A\n\0"), Err(HnsError::NotText { line: 2 }));
         let many = "\u{e000}\u{e020}\u{e03c}é\n".repeat(9_000);
         for skipped in 0..12 {
             assert!(holds_some(&many.as_bytes()[12 * skipped..]), "{skipped}");
-            assert!(holds_some(
-                format!("{}{many}", "a".repeat(skipped)).as_bytes()
-            ));
+            assert!(holds_some(format!("{}{many}", "a".repeat(skipped)).as_bytes()));
         }
         assert!(holds_some(b"x\ny hamfist") && !holds_some(b"a hamster") && !holds_some(b"\0"));
     }
@@ -570,25 +526,21 @@ mod tests {
     fn lines_in_a_wrong_encoding_are_mended_and_reported() {
         let text = "MERCI\t\u{e001}\u{e020}\u{e03c}\n";
         let latin: String = text.bytes().map(char::from).collect();
-        let (entries, findings) = read(latin.as_bytes()).expect("read");
-        assert_eq!(
-            entries[0].sign.text.as_deref(),
-            Some("\u{e001}\u{e020}\u{e03c}")
-        );
+        let (entries, findings) = read_hns(latin.as_bytes()).expect("read");
+        assert_eq!(entries[0].sign.text.as_deref(), Some("\u{e001}\u{e020}\u{e03c}"));
         assert!(findings[0].message.contains("mended"), "{findings:?}");
     }
 
     #[test]
     fn written_lines_read_back_unchanged() {
-        let text =
-            "A\thamflathand hamextfingeru hampalml\nB B\thamfist hamextfingero hampalmd hammoveo\n";
-        let (first, _) = read(text.as_bytes()).expect("read");
-        let (bytes, lost) = write(first.iter().map(|entry| &entry.sign));
-        let (second, findings) = read(&bytes).expect("read again");
+        let text = "A\thamflathand hamextfingeru hampalml\nB B\thamfist hamextfingero hampalmd hammoveo\n";
+        let (first, _) = read_hns(text.as_bytes()).expect("read");
+        let (bytes, lost) = write_hns(first.iter().map(|entry| &entry.sign));
+        let (second, findings) = read_hns(&bytes).expect("read again");
         assert_eq!((lost, findings), (vec![Vec::<String>::new(); 2], vec![]));
         for (one, other) in first.iter().zip(&second) {
             assert_eq!((&one.sign.gloss, one.line), (&other.sign.gloss, other.line));
-            assert_eq!(one.sign.hamnosys().text, other.sign.hamnosys().text);
+            assert_eq!(one.sign.hamnosys_text().text, other.sign.hamnosys_text().text);
         }
     }
 
@@ -596,12 +548,12 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
         fn the_reader_accepts_any_bytes(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
-            let _ = read(&bytes);
+            let _ = read_hns(&bytes);
         }
 
         #[test]
         fn the_reader_accepts_any_characters(text in "[\u{e000}-\u{e0f0} a\t\nhm]{0,80}") {
-            let _ = read(text.as_bytes());
+            let _ = read_hns(text.as_bytes());
         }
     }
 }

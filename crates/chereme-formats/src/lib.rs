@@ -38,7 +38,7 @@ pub mod timecode;
 pub mod tracks;
 pub mod trc;
 
-pub use finding::{Finding, Mend, Severity};
-pub use markup::Error as MarkupError;
+pub use finding::{FindingSeverity, ImportFinding, ReaderCorrection};
+pub use markup::MarkupError;
 pub use reach::TooFar;
-pub use scene::Scene;
+pub use scene::BodyScene;

@@ -1,13 +1,13 @@
 //! Places at exactly 0 0 0, as some programs write gaps.
 
-use chereme_motion::column::Number;
+use chereme_motion::column::FileNumber;
 use glam::DVec3;
 
-use crate::finding::Finding;
-use crate::tally::Findings;
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
 
 /// The number of markers that a finding names.
-const NAMED: usize = 5;
+const MAX_NAMED_MARKERS: usize = 5;
 
 /// The least distance of a marker from 0, as a share of its usual one, for its places at exactly 0 0 0 to be gaps.
 const NEAR_NOUGHT: f64 = 0.1;
@@ -15,15 +15,11 @@ const NEAR_NOUGHT: f64 = 0.1;
 /// Makes gaps of the places at exactly 0 0 0 of markers that are otherwise far from there, and reports their count.
 ///
 /// A marker that is there in every frame was never seen if others are elsewhere.
-pub(crate) fn open_noughts(
-    names: &[String],
-    columns: &mut [Vec<Option<Number>>],
-    findings: &mut Findings,
-) {
-    let places = |axes: &[Vec<Option<Number>>]| -> Vec<Option<DVec3>> {
-        let at = |axis: &Vec<Option<Number>>, frame: usize| Some(axis[frame].as_ref()?.to_f64());
+pub(crate) fn open_noughts(names: &[String], columns: &mut [Vec<Option<FileNumber>>], findings: &mut FindingTally) {
+    let places = |axes: &[Vec<Option<FileNumber>>]| -> Vec<Option<DVec3>> {
+        let coordinate = |axis: &Vec<Option<FileNumber>>, frame: usize| Some(axis[frame].as_ref()?.to_f64());
         let place = |frame| {
-            let [x, y, z] = [0, 1, 2].map(|axis| at(&axes[axis], frame));
+            let [x, y, z] = [0, 1, 2].map(|axis| coordinate(&axes[axis], frame));
             Some(DVec3::new(x?, y?, z?))
         };
         (0..axes[0].len()).map(place).collect()
@@ -47,11 +43,7 @@ pub(crate) fn open_noughts(
             _ => has_places && !is_origin(name),
         };
         if !is_far {
-            left += if has_places && is_origin(name) {
-                0
-            } else {
-                noughts
-            };
+            left += if has_places && is_origin(name) { 0 } else { noughts };
             continue;
         }
         for axis in axes {
@@ -63,9 +55,9 @@ pub(crate) fn open_noughts(
         markers.push(name.as_str());
     }
     if opened > 0 {
-        let some = markers[..markers.len().min(NAMED)].join(", ");
-        findings.push(
-            Finding::warning(
+        let some = markers[..markers.len().min(MAX_NAMED_MARKERS)].join(", ");
+        findings.push_counted_finding(
+            ImportFinding::new_warning_finding(
                 None,
                 format!(
                     "{opened} places of {} markers are exactly 0 0 0 and become gaps, as some programs write gaps so: {some}",
@@ -76,7 +68,7 @@ pub(crate) fn open_noughts(
         );
     }
     if left > 0 {
-        findings.push(Finding::warning(
+        findings.push_counted_finding(ImportFinding::new_warning_finding(
             None,
             format!("{left} places are exactly 0 0 0 though the file calls them seen; some programs write gaps so"),
         ));

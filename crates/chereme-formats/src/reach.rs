@@ -2,10 +2,10 @@
 
 use chereme_motion::ModelPose;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Clip, Pose, Skeleton};
+use chereme_motion::{Clip, LocalPose, Skeleton};
 
 /// The largest coordinate that is written as a 32-bit number; products of four such numbers still are finite ones.
-const FARTHEST: f64 = 1e9;
+const MAX_WRITABLE_COORDINATE: f64 = 1e9;
 
 /// A joint or marker whose numbers do not fit into a file of 32-bit numbers.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -27,46 +27,50 @@ fn when(frame: Option<usize>) -> String {
 }
 
 /// Returns whether a place can be written; one that is no number cannot.
-pub(crate) fn reaches(place: DVec3) -> bool {
-    place.to_array().iter().all(|value| value.abs() <= FARTHEST)
+pub(crate) fn is_writable_place(place: DVec3) -> bool {
+    place
+        .to_array()
+        .iter()
+        .all(|value| value.abs() <= MAX_WRITABLE_COORDINATE)
 }
 
-fn turns(rotation: DQuat) -> bool {
+fn is_writable_rotation(rotation: DQuat) -> bool {
     rotation.normalize().is_finite()
 }
 
 /// Returns the rest pose of a skeleton in model space.
-pub(crate) fn rest(skeleton: &Skeleton) -> ModelPose {
-    let joints = skeleton.joints();
-    let pose = Pose {
+pub(crate) fn skeleton_rest_pose(skeleton: &Skeleton) -> ModelPose {
+    let joints = skeleton.skeleton_joints();
+    let pose = LocalPose {
         rotations: joints.iter().map(|joint| joint.rest).collect(),
         translations: joints.iter().map(|joint| joint.offset).collect(),
     };
-    ModelPose::of(skeleton, &pose)
+    ModelPose::from_local_pose(skeleton, &pose)
 }
 
 /// Refuses a clip with a place or rotation that 32-bit numbers cannot hold, at rest or in any frame.
 ///
 /// # Errors
 /// [`TooFar`] with the first such joint.
-pub(crate) fn check(clip: &Clip) -> Result<(), TooFar> {
-    let skeleton = clip.skeleton();
+pub(crate) fn check_clip_reach(clip: &Clip) -> Result<(), TooFar> {
+    let skeleton = clip.clip_skeleton();
     let too_far = |joint: usize, frame| TooFar {
         kind: "joint",
-        name: skeleton.joint(joint).name.clone(),
+        name: skeleton.joint_at(joint).name.clone(),
         frame,
     };
-    let rest = rest(skeleton);
-    for (at, joint) in skeleton.joints().iter().enumerate() {
-        let tip = joint.tip.map_or(DVec3::ZERO, |tip| rest.point(at, tip));
-        let places = [joint.offset, rest.position(at), tip];
-        if !places.into_iter().all(reaches) || !turns(joint.rest) {
+    let rest = skeleton_rest_pose(skeleton);
+    for (at, joint) in skeleton.skeleton_joints().iter().enumerate() {
+        let tip = joint.tip.map_or(DVec3::ZERO, |tip| rest.joint_point_to_model(at, tip));
+        let places = [joint.offset, rest.model_joint_position(at), tip];
+        if !places.into_iter().all(is_writable_place) || !is_writable_rotation(joint.rest) {
             return Err(too_far(at, None));
         }
     }
-    for frame in 0..clip.frames() {
-        for (at, channel) in clip.channels().iter().enumerate() {
-            if !reaches(clip.translation(at, frame)) || !turns(channel.rotations[frame]) {
+    for frame in 0..clip.clip_frame_count() {
+        for (at, channel) in clip.joint_channels().iter().enumerate() {
+            if !is_writable_place(clip.joint_translation(at, frame)) || !is_writable_rotation(channel.rotations[frame])
+            {
                 return Err(too_far(at, Some(frame)));
             }
         }

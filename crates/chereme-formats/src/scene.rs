@@ -1,57 +1,57 @@
 //! The moving body in scene files, and code that readers of such files share.
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Channel, Clip, Convention, Curves, Instant, Joint};
+use chereme_motion::{Clip, CurveTrack, JointChannel, RecordingInstant, SkeletonJoint, SpaceConvention};
 
 /// The moving body in a document.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Scene {
+pub struct BodyScene {
     /// The movement in the file's unit and axes; one frame at rest if the file has no animation.
     pub clip: Clip,
     /// Unit and axes of the file.
-    pub convention: Convention,
+    pub convention: SpaceConvention,
     /// The weights of morph targets, if they move.
-    pub morphs: Option<Curves>,
+    pub morphs: Option<CurveTrack>,
     /// The name of the animation that was read.
     pub take: Option<String>,
     /// The time of day of the first frame, if the file's times are timecodes.
-    pub clock: Option<Instant>,
+    pub clock: Option<RecordingInstant>,
 }
 
 /// The most frames from which a median is taken.
-const MOST: usize = 2048;
+const MAX_SCENE_MEDIAN_FRAMES: usize = 2048;
 /// Distance between a joint and its offset above which the offset counts as wrong, as a share of the
 /// longer of both.
-const OFF: f64 = 0.15;
+const WRONG_OFFSET_SHARE: f64 = 0.15;
 /// Largest median distance of a bone's end from its median position, as a share of the bone's length;
 /// joints that move more are not attached to a bone.
-const SPREAD: f64 = 0.25;
+const MAX_BONE_SPREAD_SHARE: f64 = 0.25;
 /// Places that differ less than this share of their length are equal.
-const SAME: f64 = 1e-7;
+const SAME_PLACE_SHARE: f64 = 1e-7;
 
 /// Returns the median position of a joint if the joint stays near it and its `offset` contradicts it; `found`
 /// are its positions in its parent's space.
-pub(crate) fn placed(offset: DVec3, found: &[DVec3]) -> Option<DVec3> {
-    let at = DVec3::from_array([0, 1, 2].map(|axis| {
+pub(crate) fn median_joint_place(offset: DVec3, found: &[DVec3]) -> Option<DVec3> {
+    let median_place = DVec3::from_array([0, 1, 2].map(|axis| {
         let mut values: Vec<f64> = found.iter().map(|at| at[axis]).collect();
         values.sort_by(f64::total_cmp);
         values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
     }));
-    if !at.is_finite() || at.abs().max_element() > 1e9 {
+    if !median_place.is_finite() || median_place.abs().max_element() > 1e9 {
         return None;
     }
-    let length = at.length().max(offset.length());
-    let mut far: Vec<f64> = found.iter().map(|it| it.distance(at)).collect();
+    let length = median_place.length().max(offset.length());
+    let mut far: Vec<f64> = found.iter().map(|place| place.distance(median_place)).collect();
     far.sort_by(f64::total_cmp);
     let spread = far.get(far.len() / 2).copied().unwrap_or_default();
-    let off = at.distance(offset) > OFF * length;
-    (off && spread < SPREAD * at.length().max(1e-9)).then_some(at)
+    let off = median_place.distance(offset) > WRONG_OFFSET_SHARE * length;
+    (off && spread < MAX_BONE_SPREAD_SHARE * median_place.length().max(1e-9)).then_some(median_place)
 }
 
 /// Puts the joints whose movement contradicts their offsets where their movement has them, and drops positions
 /// that never differ from the offset. Joints that carry most of the body keep both: they move in the room.
 /// Returns the number of wrong offsets.
-pub(crate) fn settle(joints: &mut [Joint], channels: &mut [Channel]) -> usize {
+pub(crate) fn settle_joint_offsets(joints: &mut [SkeletonJoint], channels: &mut [JointChannel]) -> usize {
     let count = joints.len();
     let mut below = vec![1_usize; count];
     for joint in (0..count).rev() {
@@ -65,15 +65,15 @@ pub(crate) fn settle(joints: &mut [Joint], channels: &mut [Channel]) -> usize {
             continue;
         };
         if joint > 0 && below[joint] * 2 <= count {
-            let step = places.len().div_ceil(MOST).max(1);
-            let found: Vec<DVec3> = places.iter().copied().step_by(step).collect();
-            if let Some(at) = placed(joints[joint].offset, &found) {
+            let step = places.len().div_ceil(MAX_SCENE_MEDIAN_FRAMES).max(1);
+            let sampled_places: Vec<DVec3> = places.iter().copied().step_by(step).collect();
+            if let Some(at) = median_joint_place(joints[joint].offset, &sampled_places) {
                 joints[joint].offset = at;
                 moved += 1;
             }
         }
         let offset = joints[joint].offset;
-        let same = |place: &DVec3| place.distance(offset) <= SAME * offset.length().max(1e-6);
+        let same = |place: &DVec3| place.distance(offset) <= SAME_PLACE_SHARE * offset.length().max(1e-6);
         if places.iter().all(same) {
             channel.translations = None;
         }
@@ -93,8 +93,7 @@ pub(crate) fn near_usual_within(rate: f64, share: f64) -> f64 {
     ];
     let off = |usual: &f64| (rate / usual - 1.0).abs();
     let near = usual.into_iter().filter(|usual| off(usual) < share);
-    near.min_by(|a, b| off(a).total_cmp(&off(b)))
-        .unwrap_or(rate)
+    near.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(rate)
 }
 
 #[cfg(test)]
@@ -105,15 +104,15 @@ mod tests {
 
     #[test]
     fn joint_positions_equal_those_of_the_movement_and_constant_ones_are_dropped() {
-        let channel = |places: Vec<DVec3>| Channel {
+        let channel = |places: Vec<DVec3>| JointChannel {
             rotations: vec![DQuat::IDENTITY; places.len()],
             translations: Some(places),
         };
         let mut joints = vec![
-            Joint::new("hips", None, DVec3::Y),
-            Joint::new("chest", Some(0), DVec3::Y),
-            Joint::new("finger", Some(1), DVec3::X),
-            Joint::new("tip", Some(2), DVec3::new(60.0, 3.0, 0.0)),
+            SkeletonJoint::new("hips", None, DVec3::Y),
+            SkeletonJoint::new("chest", Some(0), DVec3::Y),
+            SkeletonJoint::new("finger", Some(1), DVec3::X),
+            SkeletonJoint::new("tip", Some(2), DVec3::new(60.0, 3.0, 0.0)),
         ];
         let mut channels = vec![
             channel(vec![DVec3::X, DVec3::Y, DVec3::Z]),
@@ -121,12 +120,9 @@ mod tests {
             channel(vec![DVec3::X; 3]),
             channel([2.0, 2.01, 1.99].map(|x| DVec3::new(x, 0.0, 0.0)).to_vec()),
         ];
-        assert_eq!(settle(&mut joints, &mut channels), 1);
+        assert_eq!(settle_joint_offsets(&mut joints, &mut channels), 1);
         assert_eq!(joints[3].offset, DVec3::new(2.0, 0.0, 0.0));
-        let kept: Vec<bool> = channels
-            .iter()
-            .map(|channel| channel.translations.is_some())
-            .collect();
+        let kept: Vec<bool> = channels.iter().map(|channel| channel.translations.is_some()).collect();
         assert_eq!(kept, [true, false, false, true]);
     }
 }

@@ -8,19 +8,19 @@ mod tests;
 
 use std::fmt::Write as _;
 
-use chereme_motion::{Instant, Span};
+use chereme_motion::{RecordingInstant, TimeSpan};
 
-use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
-use crate::finding::Finding;
-use crate::table::{TableError, decode};
-use crate::tally::Findings;
+use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+use crate::finding::ImportFinding;
+use crate::table::{TableError, decode_table_bytes};
+use crate::tally::FindingTally;
 
 /// The name of the tier of cues without a voice.
-pub const TIER: &str = "subtitles";
+pub const VOICELESS_TIER_NAME: &str = "subtitles";
 
 /// The format to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
+pub enum SubtitleFormat {
     /// SubRip: numbered cues, commas in times.
     Srt,
     /// WebVTT: voices, points in times.
@@ -29,7 +29,7 @@ pub enum Form {
 
 /// The reason why bytes could not be read as subtitles.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum SubtitleError {
     /// The file is not text.
     #[error("line {line}: this is not text; save the subtitles as text in UTF-8")]
     NotText {
@@ -44,30 +44,30 @@ pub enum Error {
 /// Reads subtitles of either kind.
 ///
 /// # Errors
-/// [`Error`] if the bytes are not text, or no line holds the times of a cue.
-pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
-    let mut findings = Findings::default();
-    let text = decode(bytes, &mut findings).map_err(|error| match error {
-        TableError::NotText { line } => Error::NotText { line },
-        _ => Error::NoCues,
+/// [`SubtitleError`] if the bytes are not text, or no line holds the times of a cue.
+pub fn read_subtitles(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), SubtitleError> {
+    let mut findings = FindingTally::default();
+    let text = decode_table_bytes(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => SubtitleError::NotText { line },
+        _ => SubtitleError::NoCues,
     })?;
     let is_vtt = text.trim_start_matches('\u{feff}').starts_with("WEBVTT");
-    let mut cues: Vec<(Span, String, u64)> = Vec::new();
+    let mut cues: Vec<(TimeSpan, String, u64)> = Vec::new();
     // SubRip states no other place for text after a blank line than the cue before it.
     let mut follows_cue = false;
     let mut lines = (1u64..).zip(text.lines()).peekable();
     while let Some((line, text)) = lines.next() {
         if is_vtt && is_block(text) {
-            findings.add("blocks of notes and styles", || {
-                Finding::note(line, format!("the block {:?} was left out", text.trim()))
+            findings.add_limited_finding("blocks of notes and styles", || {
+                ImportFinding::new_note_finding(line, format!("the block {:?} was left out", text.trim()))
             });
             while lines.next_if(|(_, text)| !text.trim().is_empty()).is_some() {}
             continue;
         }
-        let Some((span, settings)) = times(text) else {
+        let Some((span, settings)) = parse_cue_times(text) else {
             if text.contains("-->") {
-                findings.add("cues without times", || {
-                    Finding::warning(
+                findings.add_limited_finding("cues without times", || {
+                    ImportFinding::new_warning_finding(
                         line,
                         format!("{:?} are no times; the cue was left out", text.trim()),
                     )
@@ -80,65 +80,67 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
             let mut after = lines.clone().filter(|(_, text)| !text.trim().is_empty());
             let number = text.trim().parse::<u64>().is_ok();
             let names = |(_, text): &(u64, &str)| text.contains("-->");
-            let is_name = number && after.next().is_some_and(|it| names(&it))
-                || is_vtt && lines.peek().is_some_and(names);
+            let is_name =
+                number && after.next().is_some_and(|line| names(&line)) || is_vtt && lines.peek().is_some_and(names);
             if text.trim().is_empty() || is_name {
                 continue;
             }
             match cues.last_mut().filter(|_| follows_cue && !is_vtt) {
                 Some((_, said, _)) => {
-                    findings.add("blank lines within cues", || {
-                        Finding::note(line, format!("the text {:?} stands after a blank line; it was added to the cue before it", text.trim()))
+                    findings.add_limited_finding("blank lines within cues", || {
+                        ImportFinding::new_note_finding(
+                            line,
+                            format!(
+                                "the text {:?} stands after a blank line; it was added to the cue before it",
+                                text.trim()
+                            ),
+                        )
                     });
                     if !said.is_empty() {
                         said.push('\n');
                     }
                     said.push_str(text.trim_end());
                 }
-                None => findings.add("lines outside cues", || {
-                    Finding::warning(
+                None => findings.add_limited_finding("lines outside cues", || {
+                    ImportFinding::new_warning_finding(
                         line,
-                        format!(
-                            "the line {:?} belongs to no cue and was left out",
-                            text.trim()
-                        ),
+                        format!("the line {:?} belongs to no cue and was left out", text.trim()),
                     )
-                    .with_remedy(
-                        "write it below the times of its cue, with no blank line before it",
-                    )
+                    .with_remedy("write it below the times of its cue, with no blank line before it")
                 }),
             }
             continue;
         };
         follows_cue = true;
         if settings {
-            findings.add("positions of cues", || {
-                Finding::note(line, "the position of the cue was left out")
+            findings.add_limited_finding("positions of cues", || {
+                ImportFinding::new_note_finding(line, "the position of the cue was left out")
             });
         }
-        let mut said: Vec<&str> = Vec::new();
+        let mut text_lines: Vec<&str> = Vec::new();
         while let Some((_, text)) = lines.next_if(|(_, text)| is_text(text)) {
-            said.push(text.trim_end());
+            text_lines.push(text.trim_end());
         }
         // The number of the next cue stands directly before its times if a blank line is missing.
-        if lines.peek().is_some_and(|(_, text)| times(text).is_some())
-            && said
-                .last()
-                .is_some_and(|text| text.trim().parse::<u64>().is_ok())
+        if lines.peek().is_some_and(|(_, text)| parse_cue_times(text).is_some())
+            && text_lines.last().is_some_and(|text| text.trim().parse::<u64>().is_ok())
         {
-            said.pop();
+            text_lines.pop();
         }
-        cues.push((span, said.join("\n"), line));
+        cues.push((span, text_lines.join("\n"), line));
     }
     if cues.is_empty() {
-        return Err(Error::NoCues);
+        return Err(SubtitleError::NoCues);
     }
-    Ok((transcript(cues, is_vtt, &mut findings), findings.finish()))
+    Ok((
+        cues_to_transcript(cues, is_vtt, &mut findings),
+        findings.finish_finding_tally(),
+    ))
 }
 
 /// Reports whether a line below the times of a cue is of its text.
 fn is_text(line: &str) -> bool {
-    !line.trim().is_empty() && times(line).is_none()
+    !line.trim().is_empty() && parse_cue_times(line).is_none()
 }
 
 fn is_block(line: &str) -> bool {
@@ -149,26 +151,21 @@ fn is_block(line: &str) -> bool {
 }
 
 /// Reads a line of times; the second value is true if settings follow.
-fn times(line: &str) -> Option<(Span, bool)> {
+fn parse_cue_times(line: &str) -> Option<(TimeSpan, bool)> {
     let (start, rest) = line.split_once("-->")?;
     let mut words = rest.split_whitespace();
-    let start = instant(start.trim())?;
-    let end = instant(words.next()?)?;
-    let span = Span::new(start, end).ok()?;
+    let start = parse_subtitle_instant(start.trim())?;
+    let end = parse_subtitle_instant(words.next()?)?;
+    let span = TimeSpan::new(start, end).ok()?;
     Some((span, words.next().is_some()))
 }
 
 /// Reads `HH:MM:SS,mmm` or `MM:SS.mmm`; hours may have any number of digits.
-fn instant(text: &str) -> Option<Instant> {
+fn parse_subtitle_instant(text: &str) -> Option<RecordingInstant> {
     let (whole, fraction) = text.split_once([',', '.']).unwrap_or((text, "0"));
     let number = |text: &str| {
-        let digits =
-            !text.is_empty() && text.len() <= 6 && text.bytes().all(|byte| byte.is_ascii_digit());
-        if digits {
-            text.parse::<i64>().ok()
-        } else {
-            None
-        }
+        let digits = !text.is_empty() && text.len() <= 6 && text.bytes().all(|byte| byte.is_ascii_digit());
+        if digits { text.parse::<i64>().ok() } else { None }
     };
     let mut seconds = 0;
     let mut parts = 0;
@@ -181,39 +178,43 @@ fn instant(text: &str) -> Option<Instant> {
     }
     number(fraction)?;
     let micros = number(&format!("{fraction:0<6}")[..6])?;
-    Some(Instant::from_micros(seconds * 1_000_000 + micros))
+    Some(RecordingInstant::from_micros(seconds * 1_000_000 + micros))
 }
 
 /// Puts cues on tiers, one for each voice, and clips cues of one tier that overlap.
-fn transcript(cues: Vec<(Span, String, u64)>, is_vtt: bool, findings: &mut Findings) -> Transcript {
-    let mut transcript = Transcript::default();
+fn cues_to_transcript(
+    cues: Vec<(TimeSpan, String, u64)>,
+    is_vtt: bool,
+    findings: &mut FindingTally,
+) -> AnnotationTranscript {
+    let mut transcript = AnnotationTranscript::default();
     for (at, (span, text, line)) in cues.into_iter().enumerate() {
-        let (voice, value) = plain(&text, is_vtt);
+        let (voice, value) = split_cue_voice(&text, is_vtt);
         if value.is_empty() {
-            findings.add("empty cues", || {
-                Finding::note(line, "an empty cue was left out")
+            findings.add_limited_finding("empty cues", || {
+                ImportFinding::new_note_finding(line, "an empty cue was left out")
             });
             continue;
         }
-        let same = |tier: &Tier| tier.participant.as_deref() == voice.as_deref();
+        let same = |tier: &TranscriptTier| tier.participant.as_deref() == voice.as_deref();
         let tier = match transcript.tiers.iter().position(same) {
             Some(tier) => tier,
             None => {
-                let name = voice.as_deref().unwrap_or(TIER).to_owned();
-                transcript.tiers.push(Tier {
+                let name = voice.as_deref().unwrap_or(VOICELESS_TIER_NAME).to_owned();
+                transcript.tiers.push(TranscriptTier {
                     name,
-                    kind: TIER.to_owned(),
+                    kind: VOICELESS_TIER_NAME.to_owned(),
                     participant: voice,
-                    ..Tier::default()
+                    ..TranscriptTier::default()
                 });
                 transcript.tiers.len() - 1
             }
         };
         let tier = &mut transcript.tiers[tier];
-        tier.annotations.push(Annotation {
+        tier.annotations.push(TranscriptAnnotation {
             id: format!("a{}", at + 1),
             span,
-            timing: Timing::Own,
+            timing: AnnotationTiming::Own,
             parent: None,
             order: 0,
             value,
@@ -224,13 +225,13 @@ fn transcript(cues: Vec<(Span, String, u64)>, is_vtt: bool, findings: &mut Findi
         });
     }
     for tier in &mut transcript.tiers {
-        tier.annotations.sort_by_key(|cue| cue.span.start());
+        tier.annotations.sort_by_key(|cue| cue.span.span_start_instant());
         for at in 1..tier.annotations.len() {
-            let start = tier.annotations[at].span.start();
+            let start = tier.annotations[at].span.span_start_instant();
             let before = &mut tier.annotations[at - 1];
-            if before.span.end() > start {
-                findings.add("overlapping cues", || {
-                    Finding::warning(
+            if before.span.span_end_instant() > start {
+                findings.add_limited_finding("overlapping cues", || {
+                    ImportFinding::new_warning_finding(
                         None,
                         format!(
                             "the cue {:?} ends after the next begins; it ends at {start} now",
@@ -238,16 +239,12 @@ fn transcript(cues: Vec<(Span, String, u64)>, is_vtt: bool, findings: &mut Findi
                         ),
                     )
                 });
-                before.span = Span::between(before.span.start(), start);
+                before.span = TimeSpan::span_between(before.span.span_start_instant(), start);
             }
         }
-        let empty = tier
-            .annotations
-            .iter()
-            .filter(|cue| cue.span.is_empty())
-            .count();
+        let empty = tier.annotations.iter().filter(|cue| cue.span.is_empty()).count();
         if empty > 0 {
-            findings.push(Finding::warning(
+            findings.push_counted_finding(ImportFinding::new_warning_finding(
                 None,
                 format!("{empty} cues begin together with the next one and were left out"),
             ));
@@ -258,7 +255,7 @@ fn transcript(cues: Vec<(Span, String, u64)>, is_vtt: bool, findings: &mut Findi
 }
 
 /// Returns the voice of a cue, and its text without tags.
-fn plain(text: &str, is_vtt: bool) -> (Option<String>, String) {
+fn split_cue_voice(text: &str, is_vtt: bool) -> (Option<String>, String) {
     let (mut voice, mut value) = (None, String::new());
     let mut rest = text;
     while let Some(open) = rest.find(['<', '{']) {
@@ -300,42 +297,38 @@ fn plain(text: &str, is_vtt: bool) -> (Option<String>, String) {
 
 /// Writes tiers as subtitles, in the order of their times; WebVTT names the tier as voice if there are several.
 #[must_use]
-pub fn write(transcript: &Transcript, form: Form) -> String {
-    let mut cues: Vec<(&Tier, &Annotation)> = transcript
+pub fn write_subtitles(transcript: &AnnotationTranscript, form: SubtitleFormat) -> String {
+    let mut cues: Vec<(&TranscriptTier, &TranscriptAnnotation)> = transcript
         .tiers
         .iter()
         .flat_map(|tier| tier.annotations.iter().map(move |cue| (tier, cue)))
         .filter(|(_, cue)| !cue.value.trim().is_empty())
         .collect();
-    cues.sort_by_key(|(_, cue)| (cue.span.start(), cue.span.end()));
+    cues.sort_by_key(|(_, cue)| (cue.span.span_start_instant(), cue.span.span_end_instant()));
     let several = transcript.tiers.len() > 1;
     let mut out = String::new();
-    if form == Form::Vtt {
+    if form == SubtitleFormat::Vtt {
         out.push_str("WEBVTT\n\n");
     }
     for (at, (tier, cue)) in (1..).zip(cues) {
         // A blank line inside would end the cue.
-        let lines: Vec<&str> = cue
-            .value
-            .lines()
-            .filter(|line| !line.trim().is_empty())
-            .collect();
+        let lines: Vec<&str> = cue.value.lines().filter(|line| !line.trim().is_empty()).collect();
         let text = lines.join("\n").replace("-->", "→");
-        let (start, end) = (stamp(cue.span.start(), form), stamp(cue.span.end(), form));
+        let (start, end) = (
+            stamp(cue.span.span_start_instant(), form),
+            stamp(cue.span.span_end_instant(), form),
+        );
         let _ = match form {
-            Form::Srt => write!(out, "{at}\n{start} --> {end}\n{text}\n\n"),
-            Form::Vtt => {
-                let text = text
-                    .replace('&', "&amp;")
-                    .replace('<', "&lt;")
-                    .replace('>', "&gt;");
-                let voice = tier
+            SubtitleFormat::Srt => write!(out, "{at}\n{start} --> {end}\n{text}\n\n"),
+            SubtitleFormat::Vtt => {
+                let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+                let speaker = tier
                     .participant
                     .as_deref()
                     .unwrap_or(&tier.name)
                     .replace(['<', '>'], " ");
                 let voice = if several {
-                    format!("<v {voice}>")
+                    format!("<v {speaker}>")
                 } else {
                     String::new()
                 };
@@ -346,10 +339,10 @@ pub fn write(transcript: &Transcript, form: Form) -> String {
     out
 }
 
-fn stamp(instant: Instant, form: Form) -> String {
-    let millis = instant.millis().max(0);
+fn stamp(instant: RecordingInstant, form: SubtitleFormat) -> String {
+    let millis = instant.instant_millis().max(0);
     let (seconds, millis) = (millis / 1000, millis % 1000);
-    let point = if form == Form::Srt { ',' } else { '.' };
+    let point = if form == SubtitleFormat::Srt { ',' } else { '.' };
     format!(
         "{:02}:{:02}:{:02}{point}{millis:03}",
         seconds / 3600,

@@ -1,10 +1,10 @@
 //! Timecodes such as `12:34:56:07.250`: hours, minutes, seconds, frames and a fraction of a frame.
 
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 
 /// A timecode as its parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Timecode {
+pub(crate) struct VideoTimecode {
     seconds: f64,
     frames: f64,
     /// Whether a semicolon says that its count drops frames.
@@ -12,28 +12,26 @@ pub(crate) struct Timecode {
 }
 
 /// A day in seconds.
-pub(crate) const DAY: f64 = 86_400.0;
+pub(crate) const SECONDS_PER_DAY: f64 = 86_400.0;
 
 /// Reads a timecode; a semicolon or a point may stand before the frames.
-pub(crate) fn parse(text: &str) -> Option<Timecode> {
+pub(crate) fn parse_timecode(text: &str) -> Option<VideoTimecode> {
     let drops = text.contains(';');
     let mut parts = text.trim().splitn(4, [':', ';']);
-    let mut whole = |most: u32| {
+    let mut next_number = |most: u32| {
         let number: u32 = parts.next()?.trim().parse().ok()?;
         (number <= most).then_some(f64::from(number))
     };
-    let seconds = whole(23)? * 3600.0 + whole(59)? * 60.0 + whole(59)?;
+    let seconds = next_number(23)? * 3600.0 + next_number(59)? * 60.0 + next_number(59)?;
     let frames: f64 = parts.next()?.trim().replacen(',', ".", 1).parse().ok()?;
-    (0.0..1000.0).contains(&frames).then_some(Timecode {
-        seconds,
-        frames,
-        drops,
-    })
+    (0.0..1000.0)
+        .contains(&frames)
+        .then_some(VideoTimecode { seconds, frames, drops })
 }
 
 /// The rate and the times that the timecodes of a file show together.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Times {
+pub(crate) struct TimecodeTimes {
     /// The seconds of the day; after midnight they go on beyond 24 hours.
     pub(crate) seconds: Vec<f64>,
     /// The frames that a second counts.
@@ -47,7 +45,7 @@ pub(crate) struct Times {
 }
 
 /// The frames in a second that timecodes count.
-const BASES: [f64; 8] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
+const TIMECODE_BASES_FPS: [f64; 8] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
 /// The frames in a second that are taken if nothing shows them, as phones count them.
 const USUAL_BASE: f64 = 60.0;
 /// The error of a part of a second of three decimals.
@@ -56,8 +54,8 @@ const DECIMAL_SLACK: f64 = 0.0011;
 const STEP_SLACK: f64 = 1.5;
 
 /// Returns the times of timecodes in their order.
-pub(crate) fn times(codes: &[Timecode]) -> Times {
-    let (base, is_guessed) = base(codes);
+pub(crate) fn infer_timecode_times(codes: &[VideoTimecode]) -> TimecodeTimes {
+    let (base, is_guessed) = infer_timecode_base(codes);
     let drops = codes.iter().any(|code| code.drops) || leaves_out(codes, base);
     let dropped = match base {
         30.0 if drops => 2.0,
@@ -66,39 +64,39 @@ pub(crate) fn times(codes: &[Timecode]) -> Times {
     };
     let drops = dropped > 0.0;
     // Decimals may be those of the second instead of the frame; then frames may occur twice.
-    let share = |code: &Timecode| (code.frames.floor() / base).fract();
+    let share = |code: &VideoTimecode| (code.frames.floor() / base).fract();
     let later = codes.iter().filter(|code| code.frames >= 1.0).count() > 1;
-    let exact = |code: &Timecode| (code.frames.fract() - share(code)).abs() < DECIMAL_SLACK;
-    let within = |code: &Timecode| {
+    let exact = |code: &VideoTimecode| (code.frames.fract() - share(code)).abs() < DECIMAL_SLACK;
+    let within = |code: &VideoTimecode| {
         let part = code.frames.fract() - share(code);
         (-DECIMAL_SLACK..1.0 / base + DECIMAL_SLACK).contains(&part)
     };
     let is_exact = later && codes.iter().all(exact);
     let repeats = later && codes.iter().all(within);
-    let counted = |code: &Timecode| match (is_exact, repeats) {
+    let counted = |code: &VideoTimecode| match (is_exact, repeats) {
         (true, _) => code.frames.floor(),
         (false, true) => code.frames.fract() * base,
         (false, false) => code.frames,
     };
-    let at = |seconds: f64, frames: f64| {
+    let clock_seconds = |seconds: f64, frames: f64| {
         let minutes = (seconds / 60.0).floor();
         let left_out = dropped * (minutes - (minutes / 10.0).floor());
         let length = if drops { 1.001 } else { 1.0 };
         (seconds * base + frames - left_out) * length / base
     };
-    let day = at(DAY, 0.0);
+    let day = clock_seconds(SECONDS_PER_DAY, 0.0);
     let mut days = 0.0;
     let mut before = f64::NEG_INFINITY;
     let seconds = codes.iter().map(|code| {
-        let mut time = at(code.seconds, counted(code)) + days;
-        if time < before - DAY / 2.0 {
+        let mut time = clock_seconds(code.seconds, counted(code)) + days;
+        if time < before - SECONDS_PER_DAY / 2.0 {
             days += day;
             time += day;
         }
         before = time;
         time
     });
-    Times {
+    TimecodeTimes {
         seconds: seconds.collect(),
         base,
         is_guessed,
@@ -109,22 +107,18 @@ pub(crate) fn times(codes: &[Timecode]) -> Times {
 
 /// Returns the frames in a second that timecodes count, and whether nothing shows them: the usual number with which the
 /// steps across seconds are like the others.
-fn base(codes: &[Timecode]) -> (f64, bool) {
+fn infer_timecode_base(codes: &[VideoTimecode]) -> (f64, bool) {
     let frames = codes.iter().map(|code| code.frames.floor());
     let largest = frames.fold(0.0, f64::max);
-    let mut possible = BASES.into_iter().filter(|base| largest < *base);
+    let mut possible = TIMECODE_BASES_FPS.into_iter().filter(|base| largest < *base);
     let least = possible.clone().next().unwrap_or(1000.0);
-    let usual = if largest < USUAL_BASE {
-        USUAL_BASE
-    } else {
-        least
-    };
+    let usual = if largest < USUAL_BASE { USUAL_BASE } else { least };
     let mut steps = Vec::new();
     let mut across = Vec::new();
     for pair in codes.windows(2) {
         let [before, after] = pair else { continue };
         // A day may end between them.
-        let passed = (after.seconds - before.seconds).rem_euclid(DAY);
+        let passed = (after.seconds - before.seconds).rem_euclid(SECONDS_PER_DAY);
         match passed {
             0.0 => steps.push(after.frames - before.frames),
             1.0 => across.push(after.frames - before.frames),
@@ -147,15 +141,15 @@ fn base(codes: &[Timecode]) -> (f64, bool) {
 }
 
 /// Returns whether frames are left out where a count that drops frames leaves them out: at every minute but each tenth.
-fn leaves_out(codes: &[Timecode], base: f64) -> bool {
+fn leaves_out(codes: &[VideoTimecode], base: f64) -> bool {
     let first = match base {
         30.0 => 2.0,
         60.0 => 4.0,
         _ => return false,
     };
-    let begins = |code: &Timecode| code.seconds % 60.0 == 0.0 && code.seconds % 600.0 != 0.0;
-    let within = |code: &Timecode| begins(code) && code.frames.floor() < first;
-    let leaps = |pair: &[Timecode]| {
+    let begins = |code: &VideoTimecode| code.seconds % 60.0 == 0.0 && code.seconds % 600.0 != 0.0;
+    let within = |code: &VideoTimecode| begins(code) && code.frames.floor() < first;
+    let leaps = |pair: &[VideoTimecode]| {
         let [before, after] = pair else { return false };
         after.seconds - before.seconds == 1.0
             && before.frames.floor() == base - 1.0
@@ -177,46 +171,40 @@ fn leaves_out(codes: &[Timecode], base: f64) -> bool {
 /// assert_eq!(time_of_day("25:00:00:00", 30.0), None);
 /// ```
 #[must_use]
-pub fn time_of_day(text: &str, rate: f64) -> Option<Instant> {
+pub fn time_of_day(text: &str, rate: f64) -> Option<RecordingInstant> {
     let (code, base) = match text.trim().split_once('@') {
         Some((code, base)) => (code, base.trim().parse().ok()?),
         None => (text, base_of(rate)),
     };
     let code = match code.trim().matches([':', ';']).count() {
-        2 => parse(&format!("{}:00", code.trim()))?,
-        _ => parse(code)?,
+        2 => parse_timecode(&format!("{}:00", code.trim()))?,
+        _ => parse_timecode(code)?,
     };
     let sound = (1.0..=1000.0).contains(&base) && code.frames < base;
-    sound.then(|| Instant::from_seconds(code.seconds + code.frames / base))
+    sound.then(|| RecordingInstant::from_seconds(code.seconds + code.frames / base))
 }
 
 /// Returns the number of frames in a second that the timecodes of a capture of this rate use.
 fn base_of(rate: f64) -> f64 {
-    let whole = |base: &f64| {
+    let is_multiple = |base: &f64| {
         let times = rate / base;
         times >= 0.99 && (times - times.round()).abs() < 0.002 * times
     };
     let usual = [30.0, 25.0, 24.0];
-    usual.into_iter().find(whole).unwrap_or(30.0)
+    usual.into_iter().find(is_multiple).unwrap_or(30.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn read(codes: &[String]) -> Times {
-        let codes: Option<Vec<Timecode>> = codes.iter().map(|code| parse(code)).collect();
-        times(&codes.expect("timecodes"))
+    fn read(codes: &[String]) -> TimecodeTimes {
+        let codes: Option<Vec<VideoTimecode>> = codes.iter().map(|code| parse_timecode(code)).collect();
+        infer_timecode_times(&codes.expect("timecodes"))
     }
 
     /// Returns timecodes of frames from `begin` on, `step` apart, that count `base` a second.
-    fn codes(
-        begin: u32,
-        count: u32,
-        step: u32,
-        base: u32,
-        decimals: impl Fn(u32) -> String,
-    ) -> Vec<String> {
+    fn codes(begin: u32, count: u32, step: u32, base: u32, decimals: impl Fn(u32) -> String) -> Vec<String> {
         let code = |at: u32| {
             let frame = begin + at * step;
             let (second, frame) = (frame / base, frame % base);
@@ -262,10 +250,7 @@ mod tests {
                     let minute = 60 * base - dropped;
                     let (minutes, frame) = match frame < 60 * base {
                         true => (0, frame),
-                        false => (
-                            1 + (frame - 60 * base) / minute,
-                            dropped + (frame - 60 * base) % minute,
-                        ),
+                        false => (1 + (frame - 60 * base) / minute, dropped + (frame - 60 * base) % minute),
                     };
                     let (second, frame) = (frame / base, frame % base);
                     format!("00:{minutes:02}:{second:02}{separator}{frame:02}")
@@ -291,19 +276,12 @@ mod tests {
         // Two rows for each frame.
         let twice = (0..120).map(|row| {
             let (second, part) = (row / 60, f64::from(row % 60) / 60.0);
-            format!(
-                "00:00:{second:02}:{:02}.{:03}",
-                row % 60 / 2,
-                (part * 1000.0).floor()
-            )
+            format!("00:00:{second:02}:{:02}.{:03}", row % 60 / 2, (part * 1000.0).floor())
         });
         let times = read(&twice.collect::<Vec<_>>());
         assert!(times.repeats && times.base == 30.0);
         for (row, seconds) in (0..).zip(&times.seconds) {
-            assert!(
-                (seconds - f64::from(row) / 60.0).abs() < 0.0011,
-                "{row} {seconds}"
-            );
+            assert!((seconds - f64::from(row) / 60.0).abs() < 0.0011, "{row} {seconds}");
         }
         let times = read(&codes(0, 120, 1, 60, |_| ".500".to_owned()));
         assert!(!times.repeats);

@@ -3,22 +3,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_motion::{
-    Axes, Column, Convention, Curves, Direction, Instant, Marker, Markers, Rate, Span,
+    AxisDirection, CurveTrack, FrameNumberColumn, FrameRate, MarkerTrack, MotionMarker, RecordingInstant, SignerAxes,
+    SpaceConvention, TimeSpan,
 };
-use chereme_sign::{Choice, Remedy};
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use glam::DVec3;
 
-use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
-use crate::finding::Finding;
-use crate::tally::Findings;
+use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
 
 /// The contents of a file of captured points or numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Tracks {
+pub struct CapturedTracks {
     /// The tracks in the order of the file.
     pub tracks: Vec<FileTrack>,
     /// Named moments of the file as tiers, if it has any.
-    pub events: Option<Transcript>,
+    pub events: Option<AnnotationTranscript>,
 }
 
 /// One track of a file.
@@ -27,34 +28,34 @@ pub struct FileTrack {
     /// The name, unique in its document.
     pub name: String,
     /// The time of its first frame, from the start of the file.
-    pub offset: Instant,
+    pub offset: RecordingInstant,
     /// The time of day of its own time 0, if the file has timecodes.
-    pub clock: Option<Instant>,
+    pub clock: Option<RecordingInstant>,
     /// Its frames.
-    pub content: Content,
+    pub content: CapturedTrackContent,
 }
 
 /// The frames of a track.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Content {
+pub enum CapturedTrackContent {
     /// Named points.
-    Markers(Markers),
+    Markers(MarkerTrack),
     /// Named numbers.
-    Curves(Curves),
+    Curves(CurveTrack),
 }
 
 /// Returns the remedy for axes that a file does not state.
-pub(crate) fn say_axes() -> Remedy {
-    Remedy::choice(
-        Choice::Axes,
+pub(crate) fn say_axes() -> ErrorRemedy {
+    ErrorRemedy::choice_remedy(
+        RemedyChoice::Axes,
         "say the axes with --axes, such as --axes +Z,+X: up, and the signer's left",
     )
 }
 
 /// Returns the finding that the caller's rate of a film is taken instead of that of its file.
 #[must_use]
-pub fn another_rate(stated: Rate, taken: Rate) -> Finding {
-    Finding::warning(
+pub fn another_rate(stated: FrameRate, taken: FrameRate) -> ImportFinding {
+    ImportFinding::new_warning_finding(
         None,
         format!("the file states {stated}; the rate that was asked for is taken: {taken}"),
     )
@@ -63,10 +64,10 @@ pub fn another_rate(stated: Rate, taken: Rate) -> Finding {
 impl FileTrack {
     /// Returns a track that begins with its file.
     #[must_use]
-    pub fn new(name: impl Into<String>, content: Content) -> Self {
+    pub fn new(name: impl Into<String>, content: CapturedTrackContent) -> Self {
         Self {
             name: name.into(),
-            offset: Instant::ZERO,
+            offset: RecordingInstant::RECORDING_START,
             clock: None,
             content,
         }
@@ -74,22 +75,22 @@ impl FileTrack {
 }
 
 /// Returns a number of frames per second as a fraction; the 1000/1001 rates of film are recognised.
-pub(crate) fn rate_of(per_second: f64) -> Option<Rate> {
+pub(crate) fn rate_of(per_second: f64) -> Option<FrameRate> {
     if !per_second.is_finite() || per_second <= 0.0 || per_second > 1e6 {
         return None;
     }
     let near = |value: f64| (value - per_second).abs() <= 1e-5 * per_second;
-    let whole = per_second.round();
-    if whole >= 1.0 && near(whole) {
-        return Rate::new(whole as u32, 1).ok();
+    let whole_rate = per_second.round();
+    if whole_rate >= 1.0 && near(whole_rate) {
+        return FrameRate::new(whole_rate as u32, 1).ok();
     }
     let film = (per_second * 1.001).round();
     if film >= 1.0 && near(film / 1.001) && film <= 4e6 {
-        return Rate::new((film * 1000.0) as u32, 1001).ok();
+        return FrameRate::new((film * 1000.0) as u32, 1001).ok();
     }
     let scaled = (per_second * 1000.0).round();
     if (1.0..=4e9).contains(&scaled) {
-        return Rate::new(scaled as u32, 1000).ok();
+        return FrameRate::new(scaled as u32, 1000).ok();
     }
     None
 }
@@ -109,23 +110,29 @@ pub(crate) fn metres_of_unit(name: &str) -> Option<f64> {
 }
 
 /// Returns moments as annotations of one frame each on a tier called `name`.
-pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> Option<Transcript> {
+pub(crate) fn events_to_transcript(
+    name: &str,
+    moments: &[(RecordingInstant, String)],
+    rate: FrameRate,
+) -> Option<AnnotationTranscript> {
     if moments.is_empty() {
         return None;
     }
     let mut moments = moments.to_vec();
     moments.sort();
-    let frame = Instant::from_seconds(rate.frame_time()).micros().max(1);
+    let frame = RecordingInstant::from_seconds(rate.frame_time())
+        .instant_micros()
+        .max(1);
     let annotations = (1..).zip(&moments).map(|(number, (at, value))| {
         let next = moments.get(number).map(|(next, _)| *next);
-        let end = at.shifted(frame);
+        let frame_end = at.shifted_instant(frame);
         let end = next
             .filter(|next| *next > *at)
-            .map_or(end, |next| next.min(end));
-        Annotation {
+            .map_or(frame_end, |next| next.min(frame_end));
+        TranscriptAnnotation {
             id: format!("a{number}"),
-            span: Span::between(*at, end),
-            timing: Timing::Own,
+            span: TimeSpan::span_between(*at, end),
+            timing: AnnotationTiming::Own,
             parent: None,
             order: 0,
             value: value.clone(),
@@ -135,29 +142,29 @@ pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> O
             millis: None,
         }
     });
-    let mut annotations: Vec<Annotation> = annotations.collect();
+    let mut annotations: Vec<TranscriptAnnotation> = annotations.collect();
     // Events at the same moment share an annotation: a tier holds only one at a time.
     annotations.dedup_by(|later, before| {
-        let same = later.span.start() == before.span.start();
+        let same = later.span.span_start_instant() == before.span.span_start_instant();
         if same {
             before.value = format!("{}, {}", before.value, later.value);
         }
         same
     });
-    let tier = Tier {
+    let tier = TranscriptTier {
         name: name.to_owned(),
         kind: name.to_owned(),
         annotations,
-        ..Tier::default()
+        ..TranscriptTier::default()
     };
-    Some(Transcript {
+    Some(AnnotationTranscript {
         tiers: vec![tier],
-        ..Transcript::default()
+        ..AnnotationTranscript::default()
     })
 }
 
 /// Returns names without repetition; empty ones become `word 1` and so on.
-pub(crate) fn unique<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Vec<String> {
+pub(crate) fn unique_track_names<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Vec<String> {
     let mut seen = BTreeSet::new();
     // The last number of a name, so that a name that occurs a million times is numbered in one pass.
     let mut last: BTreeMap<String, u64> = BTreeMap::new();
@@ -182,27 +189,25 @@ pub(crate) fn unique<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Ve
 }
 
 /// Returns axes with `up` as their vertical; pairs of markers such as LSHO and RSHO show which direction is left.
-pub(crate) fn axes_with_up(markers: &[Marker], up: Direction, findings: &mut Findings) -> Axes {
-    if let Some(axes) = left_of(markers, up).and_then(|left| Axes::new(up, left)) {
+pub(crate) fn axes_with_up(markers: &[MotionMarker], up: AxisDirection, findings: &mut FindingTally) -> SignerAxes {
+    if let Some(axes) = left_of(markers, up).and_then(|left| SignerAxes::new(up, left)) {
         return axes;
     }
-    findings.push(Finding::note(
+    findings.push_counted_finding(ImportFinding::new_note_finding(
         None,
         "no pair of markers such as LSHO and RSHO shows which side is left; the first axis that fits is taken",
     ));
     let all = ["+Z,+X", "+Y,+X", "+X,+Y", "-Z,+X", "-Y,+X", "-X,+Y"];
     let fits = all
         .iter()
-        .filter_map(|text| text.parse::<Axes>().ok())
-        .find(|axes| axes.up() == up);
-    fits.unwrap_or(Convention::MODEL.axes)
+        .filter_map(|text| text.parse::<SignerAxes>().ok())
+        .find(|axes| axes.up_direction() == up);
+    fits.unwrap_or(SpaceConvention::MODEL_CONVENTION.axes)
 }
 
 /// Returns the direction from the feet to head and shoulders, if markers have such names.
-pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
-    let high = [
-        "HEAD", "LFHD", "RFHD", "SHO", "C7", "CLAV", "ACR", "STRN", "ACROM",
-    ];
+pub(crate) fn up_of(markers: &[MotionMarker]) -> Option<AxisDirection> {
+    let high = ["HEAD", "LFHD", "RFHD", "SHO", "C7", "CLAV", "ACR", "STRN", "ACROM"];
     let low = ["HEE", "TOE", "ANK", "FOOT", "CALC", "MTP", "KNE"];
     let mean = |words: &[&str]| {
         let (mut sum, mut count) = (DVec3::ZERO, 0.0);
@@ -211,15 +216,15 @@ pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
             if !words.iter().any(|word| name.contains(word)) {
                 continue;
             }
-            let frames = marker.place.first().map_or(0, Column::len);
-            if let Some(at) = (0..frames).find_map(|frame| marker.at(frame)) {
+            let frames = marker.place.first().map_or(0, FrameNumberColumn::len);
+            if let Some(at) = (0..frames).find_map(|frame| marker.marker_position(frame)) {
                 sum += at;
                 count += 1.0;
             }
         }
         (count > 0.0).then(|| sum / count)
     };
-    Some(Direction::nearest(mean(&high)? - mean(&low)?))
+    Some(AxisDirection::nearest_axis_direction(mean(&high)? - mean(&low)?))
 }
 
 /// Splits a marker's name such as `Anna:LSHO` into the subject with its colon, which may be empty, and the label.
@@ -229,27 +234,27 @@ fn split_label(name: &str) -> (&str, &str) {
 
 /// Returns the direction from right to left, from pairs of markers whose names differ by L and R. A name of a letter and
 /// a number does not count as one of a pair: L1 and R1 may be the little and the ring finger, or a vertebra.
-fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
+fn left_of(markers: &[MotionMarker], up: AxisDirection) -> Option<AxisDirection> {
     let mut sum = DVec3::ZERO;
-    let up = up.vector();
-    let names: Vec<String> = markers.iter().map(|it| it.name.to_lowercase()).collect();
-    let mut known: BTreeMap<(&str, &str), &Marker> = BTreeMap::new();
+    let up = up.axis_direction_vector();
+    let names: Vec<String> = markers.iter().map(|marker| marker.name.to_lowercase()).collect();
+    let mut markers_by_name: BTreeMap<(&str, &str), &MotionMarker> = BTreeMap::new();
     for (marker, name) in markers.iter().zip(&names) {
-        known.entry((&marker.group, name)).or_insert(marker);
+        markers_by_name.entry((&marker.group, name)).or_insert(marker);
     }
     for (left, name) in markers.iter().zip(&names) {
         let Some(other) = other_side(name) else {
             continue;
         };
-        let Some(right) = known.get(&(left.group.as_str(), other.as_str())) else {
+        let Some(right) = markers_by_name.get(&(left.group.as_str(), other.as_str())) else {
             continue;
         };
-        let frames = left.place.first().map_or(0, Column::len);
-        let both = (0..frames).find_map(|frame| Some(left.at(frame)? - right.at(frame)?));
+        let frames = left.place.first().map_or(0, FrameNumberColumn::len);
+        let both = (0..frames).find_map(|frame| Some(left.marker_position(frame)? - right.marker_position(frame)?));
         sum += both.unwrap_or(DVec3::ZERO).normalize_or_zero();
     }
     let across = sum - up * sum.dot(up);
-    (across.length() > 0.5).then(|| Direction::nearest(across))
+    (across.length() > 0.5).then(|| AxisDirection::nearest_axis_direction(across))
 }
 
 /// Returns the name of the right marker for the name of a left one in small letters.
@@ -275,9 +280,12 @@ fn other_side(name: &str) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn marker(name: &str, at: DVec3) -> Marker {
-        let place = at.to_array().map(|x| Column::doubles(vec![x])).to_vec();
-        Marker::new(name.to_owned(), place)
+    fn marker(name: &str, at: DVec3) -> MotionMarker {
+        let place = at
+            .to_array()
+            .map(|x| FrameNumberColumn::from_double_floats(vec![x]))
+            .to_vec();
+        MotionMarker::new(name.to_owned(), place)
     }
 
     #[test]
@@ -286,18 +294,9 @@ mod tests {
             let both = [marker(left, DVec3::Z), marker(right, DVec3::NEG_Z)];
             left_of(&both, "+Y".parse().expect("a direction"))
         };
-        assert_eq!(
-            pair("LSHO", "RSHO"),
-            Some("+Z".parse().expect("a direction"))
-        );
-        assert_eq!(
-            pair("l_wrist", "r_wrist"),
-            Some("+Z".parse().expect("a direction"))
-        );
-        assert_eq!(
-            pair("Anna:LSHO", "Anna:RSHO"),
-            Some("+Z".parse().expect("a direction"))
-        );
+        assert_eq!(pair("LSHO", "RSHO"), Some("+Z".parse().expect("a direction")));
+        assert_eq!(pair("l_wrist", "r_wrist"), Some("+Z".parse().expect("a direction")));
+        assert_eq!(pair("Anna:LSHO", "Anna:RSHO"), Some("+Z".parse().expect("a direction")));
         for (left, right) in [
             ("lsho", "rsho"),
             ("anna:lsho", "anna:rsho"),
@@ -306,11 +305,7 @@ mod tests {
             ("shoulder_left", "shoulder_right"),
             ("LeftShoulder", "RightShoulder"),
         ] {
-            assert_eq!(
-                pair(left, right),
-                Some("+Z".parse().expect("a direction")),
-                "{left}"
-            );
+            assert_eq!(pair(left, right), Some("+Z".parse().expect("a direction")), "{left}");
         }
         assert_eq!(pair("L1", "R1"), None);
         assert_eq!(pair("Lena:LSHO", "Rita:RSHO"), None);
@@ -318,10 +313,7 @@ mod tests {
 
     #[test]
     fn the_subject_of_a_label_does_not_show_which_direction_is_up() {
-        let markers = [
-            marker("HeeSho:LFHD", DVec3::Y),
-            marker("HeeSho:LTOE", DVec3::NEG_Y),
-        ];
+        let markers = [marker("HeeSho:LFHD", DVec3::Y), marker("HeeSho:LTOE", DVec3::NEG_Y)];
         assert_eq!(up_of(&markers), Some("+Y".parse().expect("a direction")));
     }
 }

@@ -1,20 +1,22 @@
 //! Tables of changes to annotations.
 
-use chereme_formats::eaf::Transcript;
-use chereme_formats::eaf::convert::{Annotation, Tier, Timing};
+use chereme_formats::eaf::AnnotationTranscript;
+use chereme_formats::eaf::eaf_convert::{AnnotationTiming, TranscriptAnnotation, TranscriptTier};
 use chereme_formats::table::TableError;
-use chereme_formats::table::annotations::{Moment, TimeUnit, is_export, read, transcript, write};
+use chereme_formats::table::annotations::{
+    TableMoment, TableTimeUnit, is_export, read_change_table, read_elan_table, write_elan_table,
+};
 use chereme_formats::table::tab_rows;
-use chereme_motion::{Instant, Span};
+use chereme_motion::{RecordingInstant, TimeSpan};
 use proptest::prelude::*;
 
 /// Reads a table and shows each row or fault as a line.
 fn shown(text: &str) -> String {
-    let (table, _) = read(text.as_bytes(), None).expect("a table");
-    let time = |moment: Option<Moment>| match moment {
+    let (table, _) = read_change_table(text.as_bytes(), None).expect("a table");
+    let time = |moment: Option<TableMoment>| match moment {
         None => "-".to_owned(),
-        Some(Moment::Frame(frame)) => format!("f{frame}"),
-        Some(Moment::Time(time)) => time.micros().to_string(),
+        Some(TableMoment::Frame(frame)) => format!("f{frame}"),
+        Some(TableMoment::Time(time)) => time.instant_micros().to_string(),
     };
     let text = |text: &Option<String>| text.as_deref().unwrap_or("-").to_owned();
     let rows = table.rows.iter().map(|row| {
@@ -99,14 +101,14 @@ fn a_duration_beyond_the_range_of_times_is_a_fault() {
 
 #[test]
 fn text_that_is_no_table_is_refused() {
-    assert_eq!(read(b"", None), Err(TableError::Empty));
-    assert_eq!(read(b"\n \n", None), Err(TableError::Empty));
+    assert_eq!(read_change_table(b"", None), Err(TableError::Empty));
+    assert_eq!(read_change_table(b"\n \n", None), Err(TableError::Empty));
     assert_eq!(
-        read(b"tier\n\0", None),
+        read_change_table(b"tier\n\0", None),
         Err(TableError::NotText { line: 2 })
     );
     assert!(matches!(
-        read(b"start,end\n1,2\n", None),
+        read_change_table(b"start,end\n1,2\n", None),
         Err(TableError::Missing {
             needed: "tier or id",
             ..
@@ -114,14 +116,14 @@ fn text_that_is_no_table_is_refused() {
     ));
     let wide = ",".repeat(5000) + "tier";
     assert!(matches!(
-        read(wide.as_bytes(), None),
+        read_change_table(wide.as_bytes(), None),
         Err(TableError::Columns { found: 5001, .. })
     ));
 }
 
 #[test]
 fn odd_columns_are_reported() {
-    let (_, findings) = read(b"teir,tier,tier\nx,y,z\n", None).expect("a table");
+    let (_, findings) = read_change_table(b"teir,tier,tier\nx,y,z\n", None).expect("a table");
     let messages: Vec<&str> = findings.iter().map(|it| &*it.message).collect();
     assert_eq!(
         messages,
@@ -133,12 +135,12 @@ fn odd_columns_are_reported() {
 }
 
 /// Returns the annotations that a table adds: tier, start and end in milliseconds, value.
-fn added(text: &str, unit: Option<TimeUnit>) -> Vec<(String, i64, i64, String)> {
-    let (table, _) = read(text.as_bytes(), unit).expect(text);
+fn added(text: &str, unit: Option<TableTimeUnit>) -> Vec<(String, i64, i64, String)> {
+    let (table, _) = read_change_table(text.as_bytes(), unit).expect(text);
     assert_eq!(table.faults, [], "{text}");
-    let millis = |moment: Option<Moment>| match moment {
-        Some(Moment::Time(time)) => time.micros() / 1000,
-        Some(Moment::Frame(frame)) => -i64::try_from(frame).expect("few"),
+    let millis = |moment: Option<TableMoment>| match moment {
+        Some(TableMoment::Time(time)) => time.instant_micros() / 1000,
+        Some(TableMoment::Frame(frame)) => -i64::try_from(frame).expect("few"),
         None => i64::MIN,
     };
     let row = |row: chereme_formats::table::annotations::ChangeRow| {
@@ -162,13 +164,10 @@ fn units_are_read_from_titles_or_given_with_the_table() {
         assert_eq!(added(text, None), want, "{text}");
     }
     let bare = "tier,start,end,value\nA,35100,35200,x\n";
-    assert_eq!(added(bare, Some(TimeUnit::Milliseconds)), want);
-    assert_eq!(added(bare, Some(TimeUnit::Seconds))[0].1, 35_100_000);
-    assert_eq!(added(bare, Some(TimeUnit::Frames))[0].1, -35_100);
-    assert_eq!(
-        added("tier,start_frame,end_frame\nA,12,24\n", None)[0].2,
-        -24
-    );
+    assert_eq!(added(bare, Some(TableTimeUnit::Milliseconds)), want);
+    assert_eq!(added(bare, Some(TableTimeUnit::Seconds))[0].1, 35_100_000);
+    assert_eq!(added(bare, Some(TableTimeUnit::Frames))[0].1, -35_100);
+    assert_eq!(added("tier,start_frame,end_frame\nA,12,24\n", None)[0].2, -24);
 }
 
 #[test]
@@ -183,8 +182,9 @@ fn whole_numbers_too_long_for_seconds_are_refused_and_others_are_not() {
         ("A,,,x\n", false),
     ] {
         let text = format!("tier,start,end,value\n{rows}");
-        let read = read(text.as_bytes(), None);
-        let implausible = matches!(&read, Err(error @ TableError::Implausible { .. }) if error.to_string().contains("start_ms"));
+        let read = read_change_table(text.as_bytes(), None);
+        let implausible =
+            matches!(&read, Err(error @ TableError::Implausible { .. }) if error.to_string().contains("start_ms"));
         assert_eq!(implausible, refused, "{rows}: {read:?}");
     }
 }
@@ -230,10 +230,7 @@ fn elan_exports_are_read() {
     let file = std::path::Path::new(&data).join("annotation/eaf/neocl-speach/test.eaf.tsv");
     let text = std::fs::read_to_string(file).expect("the file");
     let rows = added(&text, None);
-    assert_eq!(
-        rows.len(),
-        text.lines().filter(|line| !line.trim().is_empty()).count()
-    );
+    assert_eq!(rows.len(), text.lines().filter(|line| !line.trim().is_empty()).count());
     assert_eq!(
         (&*rows[0].0, rows[0].1, rows[0].2),
         ("Person1 (Utterance)", 1_040, 2_330)
@@ -245,22 +242,13 @@ fn quotation_marks_that_close_at_no_end_of_a_cell_are_text() {
     let row = |start: u32, value: &str| format!("G\t\t{start}.0\t{}.5\t0.5\t{value}\n", start);
     for (written, want) in [
         (vec!["\"open", "B", "C"], vec!["\"open", "B", "C"]),
-        (
-            vec!["\"open", "B", "end\" C"],
-            vec!["\"open", "B", "end\" C"],
-        ),
-        (
-            vec!["\"he said", "yes\"", "C"],
-            vec!["\"he said", "yes\"", "C"],
-        ),
+        (vec!["\"open", "B", "end\" C"], vec!["\"open", "B", "end\" C"]),
+        (vec!["\"he said", "yes\"", "C"], vec!["\"he said", "yes\"", "C"]),
         (
             vec!["A", "\"he said", "well", "yes\""],
             vec!["A", "\"he said", "well", "yes\""],
         ),
-        (
-            vec!["A", "\"a\" and \"b\"", "\""],
-            vec!["A", "\"a\" and \"b\"", "\""],
-        ),
+        (vec!["A", "\"a\" and \"b\"", "\""], vec!["A", "\"a\" and \"b\"", "\""]),
         (vec!["\"Aha!\"", "B"], vec!["\"Aha!\"", "B"]),
         (vec!["\"a \"\"b\"\" c\"", "B"], vec!["a \"b\" c", "B"]),
         (vec!["\"two\nlines\"", "B"], vec!["two\nlines", "B"]),
@@ -268,22 +256,17 @@ fn quotation_marks_that_close_at_no_end_of_a_cell_are_text() {
     ] {
         let text: String = (1..).zip(&written).map(|(at, it)| row(at, it)).collect();
         assert!(is_export(text.as_bytes()), "{text}");
-        let (found, _) = transcript(text.as_bytes()).expect(&text);
-        let found: Vec<&str> = found.tiers[0]
-            .annotations
-            .iter()
-            .map(|it| &*it.value)
-            .collect();
+        let (found, _) = read_elan_table(text.as_bytes()).expect(&text);
+        let found: Vec<&str> = found.tiers[0].annotations.iter().map(|it| &*it.value).collect();
         assert_eq!(found, want, "{text}");
     }
     let quoted = "\"tier\"\t\"start\"\t\"end\"\t\"value\"\n\"G\"\t1\t2\t\"Aha!\"\n\"G\"\t3\t4\t\"a\n\"\"b\tc\"\n";
     let values: Vec<String> = added(quoted, None).into_iter().map(|it| it.3).collect();
     assert_eq!(values, ["Aha!", "a\n\"b\tc"]);
-    let comma =
-        "tier,start,end,value\nG,1,2,\"open\nG,3,4,B\nG,5,6,\"a, \"\"b\"\"\"\nG,7,8,\"c\"\n";
+    let comma = "tier,start,end,value\nG,1,2,\"open\nG,3,4,B\nG,5,6,\"a, \"\"b\"\"\"\nG,7,8,\"c\"\n";
     let values: Vec<String> = added(comma, None).into_iter().map(|it| it.3).collect();
     assert_eq!(values, ["\"open", "B", "a, \"b\"", "c"]);
-    let (_, findings) = read(comma.as_bytes(), None).expect("a table");
+    let (_, findings) = read_change_table(comma.as_bytes(), None).expect("a table");
     let lines: Vec<Option<u64>> = findings.iter().map(|it| it.line).collect();
     assert_eq!(lines, [Some(2)], "{findings:?}");
 }
@@ -297,14 +280,14 @@ fn the_lines_of_rows_count_those_within_cells() {
 }
 
 /// A document with a tier for each name and its annotations one after the other, `length` milliseconds each.
-fn document(tiers: Vec<(&str, Vec<String>)>, from: i64, length: i64) -> Transcript {
-    let annotation = |(at, value): (i64, String)| Annotation {
+fn document(tiers: Vec<(&str, Vec<String>)>, from: i64, length: i64) -> AnnotationTranscript {
+    let annotation = |(at, value): (i64, String)| TranscriptAnnotation {
         id: format!("a{at}"),
-        span: Span::between(
-            Instant::from_millis(from + at * length),
-            Instant::from_millis(from + (at + 1) * length),
+        span: TimeSpan::span_between(
+            RecordingInstant::from_millis(from + at * length),
+            RecordingInstant::from_millis(from + (at + 1) * length),
         ),
-        timing: Timing::Own,
+        timing: AnnotationTiming::Own,
         parent: None,
         order: 0,
         value,
@@ -313,22 +296,25 @@ fn document(tiers: Vec<(&str, Vec<String>)>, from: i64, length: i64) -> Transcri
         external_ref: None,
         millis: None,
     };
-    let tier = |(name, values): (&str, Vec<String>)| Tier {
+    let tier = |(name, values): (&str, Vec<String>)| TranscriptTier {
         name: name.to_owned(),
         annotations: (0..).zip(values).map(annotation).collect(),
-        ..Tier::default()
+        ..TranscriptTier::default()
     };
-    Transcript {
+    AnnotationTranscript {
         tiers: tiers.into_iter().map(tier).collect(),
-        ..Transcript::default()
+        ..AnnotationTranscript::default()
     }
 }
 
 /// The tiers of a document: name, start and end in milliseconds, value.
-fn flat(document: &Transcript) -> Vec<(String, i64, i64, String)> {
+fn flat(document: &AnnotationTranscript) -> Vec<(String, i64, i64, String)> {
     let all = document.tiers.iter().flat_map(|tier| {
         tier.annotations.iter().map(|it| {
-            let (start, end) = (it.span.start().millis(), it.span.end().millis());
+            let (start, end) = (
+                it.span.span_start_instant().instant_millis(),
+                it.span.span_end_instant().instant_millis(),
+            );
             (tier.name.clone(), start, end, it.value.clone())
         })
     });
@@ -347,9 +333,9 @@ proptest! {
         let mut tiers: Vec<(&str, Vec<String>)> = names.into_iter().map(|it| (it, odd.clone())).collect();
         tiers.push(("any", any));
         let whole = document(tiers, 0, 250);
-        let text = write(&whole);
+        let text = write_elan_table(&whole);
         prop_assert!(is_export(text.as_bytes()), "{}", text);
-        let (found, findings) = transcript(text.as_bytes()).expect("what was written");
+        let (found, findings) = read_elan_table(text.as_bytes()).expect("what was written");
         prop_assert_eq!(flat(&found), flat(&whole), "{}", text);
         prop_assert!(findings.iter().all(|it| it.message.contains("no titles") || it.message.contains("lines")), "{:?}", findings);
     }
@@ -360,18 +346,18 @@ fn negative_times_read_back_and_unreadable_ones_are_named() {
     let tiers = vec![("G", vec!["A".to_owned(), "B".into(), "C".into()])];
     for (from, length) in [(-500, 1500), (-4_000_001, 250), (-1000, 1000)] {
         let whole = document(tiers.clone(), from, length);
-        let text = write(&whole);
-        let (found, _) = transcript(text.as_bytes()).expect("what was written");
+        let text = write_elan_table(&whole);
+        let (found, _) = read_elan_table(text.as_bytes()).expect("what was written");
         assert_eq!(flat(&found), flat(&whole), "{text}");
     }
-    let text = write(&document(tiers.clone(), -500, 1500));
+    let text = write_elan_table(&document(tiers.clone(), -500, 1500));
     assert!(
         text.starts_with("G\t\t-00:00:00.500\t-0.500\t00:00:01.000\t1.000\t"),
         "{text}"
     );
     let whole = document(tiers, 500, 1000);
     let all = flat(&whole);
-    let good = write(&whole);
+    let good = write_elan_table(&whole);
     for (from, to) in [
         ("1.500\t00:00:02", "n/a\t00:00:02"),
         ("00:00:00.500\t0.500", "00:00:00.-500\t0.-500"),
@@ -384,7 +370,7 @@ fn negative_times_read_back_and_unreadable_ones_are_named() {
             + (0..3)
                 .find(|&at| damaged.lines().nth(at) != good.lines().nth(at))
                 .expect("a change");
-        let (found, findings) = transcript(damaged.as_bytes()).expect("a table");
+        let (found, findings) = read_elan_table(damaged.as_bytes()).expect("a table");
         let mut rest = all.clone();
         rest.remove(at - 1);
         assert_eq!(flat(&found), rest, "{damaged}");
@@ -402,8 +388,8 @@ fn negative_times_read_back_and_unreadable_ones_are_named() {
         ("0:00:00.-5", None),
         ("-", None),
     ] {
-        let found = text.parse::<Moment>().ok();
-        let want = want.map(|it| Moment::Time(Instant::from_micros(it)));
+        let found = text.parse::<TableMoment>().ok();
+        let want = want.map(|it| TableMoment::Time(RecordingInstant::from_micros(it)));
         assert_eq!(found, want, "{text}");
     }
 }

@@ -8,7 +8,7 @@
 
 use std::fmt::Write as _;
 
-use chereme_formats::bvh::raw::{Block, BvhError, Hierarchy, Reader, Summary, Writer};
+use chereme_formats::bvh::raw::{BvhError, BvhHierarchy, BvhReadSummary, BvhReader, BvhWriter, MotionBlock};
 
 const GOOD: &str = "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 90 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\
 \tJOINT Left Arm\n\t{\n\t\tOFFSET 10.5 0 0\n\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n\t\tEnd Site\n\t\t{\n\t\t\tOFFSET 5 0 0\n\t\t}\n\t}\n}\n\
@@ -19,22 +19,22 @@ MOTION\nFrames: 3\nFrame Time: 0.01\n\
 const TINY: &str = "HIERARCHY\nROOT A\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.01\n";
 
 struct Read {
-    hierarchy: Hierarchy,
-    blocks: Vec<Block>,
-    summary: Summary,
+    hierarchy: BvhHierarchy,
+    blocks: Vec<MotionBlock>,
+    summary: BvhReadSummary,
 }
 
 fn read(bytes: &[u8]) -> Result<Read, BvhError> {
-    let mut reader = Reader::open(bytes)?;
+    let mut reader = BvhReader::open_bvh(bytes)?;
     let mut blocks = Vec::new();
-    let mut block = Block::default();
+    let mut block = MotionBlock::default();
     while reader.next_block(&mut block)? {
         blocks.push(block.clone());
     }
     Ok(Read {
-        hierarchy: reader.hierarchy().clone(),
+        hierarchy: reader.bvh_hierarchy().clone(),
         blocks,
-        summary: reader.finish(),
+        summary: reader.finish_bvh_reading(),
     })
 }
 
@@ -59,11 +59,7 @@ fn check<'a>(cases: impl IntoIterator<Item = (&'a str, impl AsRef<[u8]>, &'a str
     for (name, bytes, expected) in cases {
         let answer = answer(bytes.as_ref());
         if !answer.starts_with(expected) {
-            write!(
-                failures,
-                "\n{name}\n  expected: {expected}\n    answer: {answer}"
-            )
-            .unwrap();
+            write!(failures, "\n{name}\n  expected: {expected}\n    answer: {answer}").unwrap();
         }
     }
     assert!(failures.is_empty(), "{failures}");
@@ -172,11 +168,7 @@ fn deviations_from_the_format_are_tolerated_with_findings() {
             good("Left Arm", "Hips"),
             "3 frames | 6: two joints are called \"Hips\"",
         ),
-        (
-            "no name",
-            good("Left Arm", ""),
-            "3 frames | 6: a joint has no name",
-        ),
+        ("no name", good("Left Arm", ""), "3 frames | 6: a joint has no name"),
         (
             "positions below the root",
             good(
@@ -306,24 +298,13 @@ fn deviations_from_the_format_are_tolerated_with_findings() {
 #[test]
 fn meaningless_files_are_refused() {
     let utf16: Vec<u8> = GOOD.encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let utf16_mark: Vec<u8> = [0xff, 0xfe]
-        .into_iter()
-        .chain(utf16.iter().copied())
-        .collect();
+    let utf16_mark: Vec<u8> = [0xff, 0xfe].into_iter().chain(utf16.iter().copied()).collect();
     let cases: Vec<(&str, Vec<u8>, &str)> = vec![
         ("empty", b"".to_vec(), "line 1: the file is empty"),
         ("blank", b" \n\n".to_vec(), "line 3: the file is empty"),
-        (
-            "UTF-16",
-            utf16,
-            "line 1: the text is UTF-16; save the file as UTF-8",
-        ),
+        ("UTF-16", utf16, "line 1: the text is UTF-16; save the file as UTF-8"),
         ("UTF-16 with mark", utf16_mark, "line 1: the text is UTF-16"),
-        (
-            "binary",
-            b"\x7fELF\x02\0\0\x01".to_vec(),
-            "line 1: this is not text",
-        ),
+        ("binary", b"\x7fELF\x02\0\0\x01".to_vec(), "line 1: this is not text"),
         (
             "binary without zeros",
             b"\x89PNG\r\n\x1a\nxyz".to_vec(),
@@ -339,11 +320,7 @@ fn meaningless_files_are_refused() {
             good("MOTION", "ROOT B\n{\n}\nMOTION").into(),
             "line 16: a second ROOT; split the file",
         ),
-        (
-            "root inside",
-            good("JOINT", "ROOT").into(),
-            "line 6: a second ROOT",
-        ),
+        ("root inside", good("JOINT", "ROOT").into(), "line 6: a second ROOT"),
         (
             "unknown channel",
             good("Zrotation", "Wrotation").into(),
@@ -478,9 +455,7 @@ fn meaningless_files_are_refused() {
         ),
         (
             "numbers without channels",
-            tiny("1\n")
-                .replace("CHANNELS 1 Xrotation", "CHANNELS 0")
-                .into(),
+            tiny("1\n").replace("CHANNELS 1 Xrotation", "CHANNELS 0").into(),
             "line 14: the row has 1 numbers, but the hierarchy has 0",
         ),
         (
@@ -544,11 +519,7 @@ fn large_hierarchies_are_read() {
             many(513, true),
             "line 2050: joints are nested more than 512 deep",
         ),
-        (
-            "a million deep",
-            deep,
-            "line 514: joints are nested more than 512 deep",
-        ),
+        ("a million deep", deep, "line 514: joints are nested more than 512 deep"),
     ]);
 }
 
@@ -620,19 +591,19 @@ fn flipped_bytes_never_panic_and_what_reads_reads_again() {
 fn assert_written_equal(first: &Read) {
     let frame_time = "0.01".parse().unwrap();
     let motion = Some((Some(&frame_time), first.summary.frames));
-    let Ok(mut writer) = Writer::new(Vec::new(), &first.hierarchy, motion) else {
+    let Ok(mut writer) = BvhWriter::new(Vec::new(), &first.hierarchy, motion) else {
         return;
     };
     for block in &first.blocks {
-        writer.block(block).unwrap();
+        writer.write_motion_block(block).unwrap();
     }
-    let again = read(&writer.finish().unwrap()).unwrap();
+    let again = read(&writer.finish_bvh_writing().unwrap()).unwrap();
     assert_eq!(again.hierarchy, first.hierarchy);
     assert_eq!(again.summary.frames, first.summary.frames);
     for (a, b) in first.blocks.iter().zip(&again.blocks) {
         for (a, b) in a.columns.iter().zip(&b.columns) {
             assert!(
-                (0..a.mantissas.len()).all(|frame| a.number(frame) == b.number(frame)),
+                (0..a.mantissas.len()).all(|frame| a.exact_number_at(frame) == b.exact_number_at(frame)),
                 "{a:?} {b:?}"
             );
         }
@@ -658,29 +629,22 @@ fn pieces_of_any_size_read_alike() {
     let mut plain: Vec<f64> = Vec::new();
     for frame in 0..9000u32 {
         let row: Vec<String> = (0..9)
-            .map(|c| {
-                format!(
-                    "{:.4}",
-                    f64::from(frame * 7 % 1000) * 0.37 - f64::from(c) * 20.0
-                )
-            })
+            .map(|c| format!("{:.4}", f64::from(frame * 7 % 1000) * 0.37 - f64::from(c) * 20.0))
             .collect();
         plain.extend(row.iter().map(|number| number.parse::<f64>().unwrap()));
         text.push_str(&row.join(" "));
         text.push('\n');
     }
     for size in [1, 2, 3, 7, 64, 4095, 65_536, 262_143, 1 << 20] {
-        let mut reader = Reader::open(Pieces(text.as_bytes(), size)).unwrap();
-        let (mut block, mut row) = (Block::default(), 0);
+        let mut reader = BvhReader::open_bvh(Pieces(text.as_bytes(), size)).unwrap();
+        let (mut block, mut row) = (MotionBlock::default(), 0);
         while reader.next_block(&mut block).unwrap() {
             assert_eq!(block.first_frame, row as u64);
             for frame in 0..block.frames {
                 for (index, column) in block.columns.iter().enumerate() {
-                    let at = (row + frame)
-                        .checked_sub(3)
-                        .map(|row| plain[row * 9 + index]);
+                    let at = (row + frame).checked_sub(3).map(|row| plain[row * 9 + index]);
                     assert!(
-                        at.is_none_or(|value| value == column.value(frame)),
+                        at.is_none_or(|value| value == column.decimal_value_at(frame)),
                         "{size} {row} {frame}"
                     );
                 }
@@ -688,6 +652,6 @@ fn pieces_of_any_size_read_alike() {
             row += block.frames;
         }
         assert_eq!(reader.bytes_read(), text.len() as u64);
-        assert_eq!(reader.finish().frames, 9003);
+        assert_eq!(reader.finish_bvh_reading().frames, 9003);
     }
 }

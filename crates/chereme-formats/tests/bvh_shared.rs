@@ -12,33 +12,34 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bvh_anim::ChannelType;
-use chereme_formats::bvh::convert::{self, ClipBuilder};
+use chereme_formats::bvh::bvh_convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{
-    Block, Channel, ChannelFix, Header, Hierarchy, Options, Reader, Summary, Writer,
+    BvhChannel, BvhHierarchy, BvhMotionHeader, BvhReadOptions, BvhReadSummary, BvhReader, BvhWriter, ChannelFix,
+    MotionBlock,
 };
 use chereme_motion::Clip;
 
 struct Read {
-    hierarchy: Hierarchy,
-    header: Header,
-    blocks: Vec<Block>,
-    summary: Summary,
+    hierarchy: BvhHierarchy,
+    header: BvhMotionHeader,
+    blocks: Vec<MotionBlock>,
+    summary: BvhReadSummary,
 }
 
 fn read(bytes: &[u8], block_frames: usize) -> Read {
-    let mut reader = Reader::open_with(bytes, Options { block_frames }).unwrap();
+    let mut reader = BvhReader::open_with(bytes, BvhReadOptions { block_frames }).unwrap();
     let mut blocks = Vec::new();
-    let mut block = Block::default();
+    let mut block = MotionBlock::default();
     while reader.next_block(&mut block).unwrap() {
         blocks.push(block.clone());
     }
     assert_eq!(reader.bytes_read(), bytes.len() as u64);
-    let (hierarchy, header) = (reader.hierarchy().clone(), reader.header().clone());
+    let (hierarchy, header) = (reader.bvh_hierarchy().clone(), reader.bvh_motion_header().clone());
     Read {
         hierarchy,
         header,
         blocks,
-        summary: reader.finish(),
+        summary: reader.finish_bvh_reading(),
     }
 }
 
@@ -47,11 +48,11 @@ fn write(read: &Read) -> Vec<u8> {
         .header
         .has_motion
         .then_some((read.header.frame_time.as_ref(), read.summary.frames));
-    let mut writer = Writer::new(Vec::new(), &read.hierarchy, motion).unwrap();
+    let mut writer = BvhWriter::new(Vec::new(), &read.hierarchy, motion).unwrap();
     for block in &read.blocks {
-        writer.block(block).unwrap();
+        writer.write_motion_block(block).unwrap();
     }
-    writer.finish().unwrap()
+    writer.finish_bvh_writing().unwrap()
 }
 
 /// Returns the files of the shared data; prints a reason if the folder is missing.
@@ -90,11 +91,11 @@ fn read_write_read_is_equal_in_every_number() {
                 .blocks
                 .iter()
                 .flat_map(|block| (0..block.frames).map(move |frame| (block, frame)));
-            let columns = |(block, frame): (&Block, usize)| -> Vec<_> {
+            let columns = |(block, frame): (&MotionBlock, usize)| -> Vec<_> {
                 block
                     .columns
                     .iter()
-                    .map(|column| column.number(frame))
+                    .map(|column| column.exact_number_at(frame))
                     .collect()
             };
             rows.flat_map(columns).collect::<Vec<_>>()
@@ -105,7 +106,7 @@ fn read_write_read_is_equal_in_every_number() {
 }
 
 /// Returns the numbers of the rows, read in the plainest way.
-fn numbers_of_text(bytes: &[u8]) -> Vec<Option<chereme_formats::bvh::raw::Number>> {
+fn numbers_of_text(bytes: &[u8]) -> Vec<Option<chereme_formats::bvh::raw::FileNumber>> {
     let text = String::from_utf8_lossy(bytes);
     let Some((_, motion)) = text.split_once("Frame Time:") else {
         return Vec::new();
@@ -142,11 +143,7 @@ fn oddities_are_found() {
     let found: Vec<String> = files()
         .iter()
         .flat_map(|path| {
-            let name = path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let findings = read(&fs::read(path).unwrap(), 256).summary.findings;
             findings
                 .into_iter()
@@ -163,45 +160,33 @@ fn oddities_are_found() {
         "kateBVH.bvh:9 joint \"mixamorig:Spine\" below the root has position channels (48 times)",
     ];
     for start in expected.iter().filter(|_| !found.is_empty()) {
-        assert!(
-            found.iter().any(|message| message.starts_with(start)),
-            "{start}"
-        );
+        assert!(found.iter().any(|message| message.starts_with(start)), "{start}");
     }
 }
 
 #[test]
 fn only_the_signers_file_has_its_root_columns_swapped() {
-    let is_swapped = |path: &PathBuf| {
-        read(&fs::read(path).unwrap(), 256)
-            .summary
-            .root_fix
-            .is_some()
-    };
+    let is_swapped = |path: &PathBuf| read(&fs::read(path).unwrap(), 256).summary.root_fix.is_some();
     let files = files();
     let swapped: Vec<_> = files.iter().filter(|path| is_swapped(path)).collect();
     assert!(
         files.is_empty() || (swapped.len() == 1 && swapped[0].ends_with("NGT Thanks.bvh")),
         "{swapped:?}"
     );
-    use Channel::{Xposition, Xrotation, Yposition, Yrotation, Zposition, Zrotation};
-    let said = [
-        Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation,
-    ];
-    let meant = [
-        Xrotation, Yrotation, Zrotation, Xposition, Yposition, Zposition,
-    ];
-    assert_eq!(ChannelFix::RotationBeforePosition.apply(&said), meant);
+    use BvhChannel::{Xposition, Xrotation, Yposition, Yrotation, Zposition, Zrotation};
+    let said = [Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation];
+    let meant = [Xrotation, Yrotation, Zrotation, Xposition, Yposition, Zposition];
+    assert_eq!(ChannelFix::RotationBeforePosition.apply_channel_fix(&said), meant);
 }
 
 /// Returns the clip of a file's blocks, in its own unit and axes.
 fn clip_of(read: &Read) -> Clip {
     let mut builder = ClipBuilder::new(&read.hierarchy, read.summary.root_fix).unwrap();
     for block in &read.blocks {
-        builder.push(0..block.frames, |at| block.columns.get(at));
+        builder.push_block_rows(0..block.frames, |at| block.columns.get(at));
     }
     builder
-        .finish(convert::rate(read.header.frame_time.as_ref()).unwrap())
+        .finish_bvh_clip(bvh_convert::rate_from_frame_time(read.header.frame_time.as_ref()).unwrap())
         .unwrap()
 }
 
@@ -212,17 +197,17 @@ fn clips_convert_to_columns_with_equal_rotations() {
         let clip = clip_of(&first);
         // If the root's columns have another order than the header says, the header gives the order to write.
         assert_eq!(
-            convert::widened(&first.hierarchy, &clip),
+            bvh_convert::widen_hierarchy(&first.hierarchy, &clip),
             first.hierarchy,
             "{path:?}"
         );
-        let columns = convert::columns(&clip, &first.hierarchy, 9).unwrap();
-        let block = Block {
+        let columns = bvh_convert::columns_from_clip(&clip, &first.hierarchy, 9).unwrap();
+        let block = MotionBlock {
             first_frame: 0,
-            frames: clip.frames(),
+            frames: clip.clip_frame_count(),
             columns,
         };
-        let summary = Summary {
+        let summary = BvhReadSummary {
             root_fix: None,
             ..first.summary
         };
@@ -231,16 +216,16 @@ fn clips_convert_to_columns_with_equal_rotations() {
             summary,
             ..first
         });
-        for joint in 0..clip.skeleton().len() {
-            for frame in 0..clip.frames() {
+        for joint in 0..clip.clip_skeleton().len() {
+            for frame in 0..clip.clip_frame_count() {
                 let (a, b) = (
-                    clip.channel(joint).rotations[frame],
-                    again.channel(joint).rotations[frame],
+                    clip.joint_channel(joint).rotations[frame],
+                    again.joint_channel(joint).rotations[frame],
                 );
                 assert!(a.angle_between(b) < 1e-7, "{path:?} {joint} {frame}");
                 let (a, b) = (
-                    clip.translation(joint, frame),
-                    again.translation(joint, frame),
+                    clip.joint_translation(joint, frame),
+                    again.joint_translation(joint, frame),
                 );
                 assert!(a.abs_diff_eq(b, 1e-8), "{path:?} {joint} {frame}");
             }
@@ -271,24 +256,14 @@ fn clean_files_read_as_in_an_independent_reader() {
 fn compare(ours: &Read, theirs: &bvh_anim::Bvh, path: &Path) {
     assert_eq!(ours.summary.frames, theirs.num_frames() as u64, "{path:?}");
     let ours_time = ours.header.frame_time.as_ref().unwrap().to_f64();
-    assert!(
-        (theirs.frame_time().as_secs_f64() - ours_time).abs() < 1e-8,
-        "{path:?}"
-    );
+    assert!((theirs.frame_time().as_secs_f64() - ours_time).abs() < 1e-8, "{path:?}");
     let mut joints = ours.hierarchy.joints.iter();
-    for joint in theirs
-        .joints()
-        .filter(|joint| joint.data().num_channels() > 0)
-    {
+    for joint in theirs.joints().filter(|joint| joint.data().num_channels() > 0) {
         let mine = joints.next().unwrap();
         let data = joint.data();
         // The oracle cuts names at blanks and colons.
         let cut = mine.name.split([' ', ':']).next().unwrap();
-        assert_eq!(
-            cut.as_bytes(),
-            <_ as AsRef<[u8]>>::as_ref(data.name()),
-            "{path:?}"
-        );
+        assert_eq!(cut.as_bytes(), <_ as AsRef<[u8]>>::as_ref(data.name()), "{path:?}");
         let offset = data.offset();
         let offsets = [offset.x, offset.y, offset.z];
         assert_eq!(
@@ -304,7 +279,7 @@ fn compare(ours: &Read, theirs: &bvh_anim::Bvh, path: &Path) {
         assert_eq!(
             mine.channels
                 .iter()
-                .map(|channel| channel.word())
+                .map(|channel| channel.channel_word())
                 .collect::<Vec<_>>(),
             words,
             "{path:?}"
@@ -317,12 +292,10 @@ fn compare(ours: &Read, theirs: &bvh_anim::Bvh, path: &Path) {
             let mine: Vec<f32> = block
                 .columns
                 .iter()
-                .map(|column| column.value(frame) as f32)
+                .map(|column| column.decimal_value_at(frame) as f32)
                 .collect();
             assert!(
-                mine.iter()
-                    .zip(row)
-                    .all(|(a, b)| (a - b).abs() <= a.abs() * 1.2e-7),
+                mine.iter().zip(row).all(|(a, b)| (a - b).abs() <= a.abs() * 1.2e-7),
                 "{path:?} {frame}"
             );
         }

@@ -1,15 +1,14 @@
 //! EAF files: values read, findings, refusals, and round trips.
 
-use chereme_formats::eaf::raw::{self, Anchor, Document};
-use chereme_formats::eaf::{Error, Transcript, from_raw, read, to_raw};
+use chereme_formats::eaf::eaf_raw::{self, AnnotationAnchor, EafDocument};
+use chereme_formats::eaf::{AnnotationTranscript, EafError, read_eaf, to_raw, transcript_from_eaf};
 use std::path::{Path, PathBuf};
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2024-01-01T00:00:00Z\" FORMAT=\"3.0\" VERSION=\"3.0\">\n";
 
 /// A document of slots (`id=ms` or `id`), tiers and more.
 fn eaf(slots: &str, rest: &str) -> String {
-    let mut text =
-        format!("{HEAD}<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>\n<TIME_ORDER>\n");
+    let mut text = format!("{HEAD}<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>\n<TIME_ORDER>\n");
     for slot in slots.split_whitespace() {
         let (id, value) = slot.split_once('=').unwrap_or((slot, ""));
         let value = if value.is_empty() {
@@ -32,10 +31,7 @@ const TYPES: &str = r#"<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="root" TIME_ALIGNABLE
 /// A tier of annotations written `id:slot-slot=value` or `id:^parent<previous=value`.
 fn tier(head: &str, annotations: &str) -> String {
     let mut words = head.split(' ');
-    let (name, kind) = (
-        words.next().unwrap_or_default(),
-        words.next().unwrap_or_default(),
-    );
+    let (name, kind) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
     let parent = words
         .next()
         .map(|it| format!(" PARENT_REF=\"{it}\""))
@@ -46,16 +42,11 @@ fn tier(head: &str, annotations: &str) -> String {
         let (place, value) = rest.split_once('=').unwrap_or((rest, ""));
         let (name, attributes) = match place.strip_prefix('^') {
             Some(place) => {
-                let (parent, previous) = place
-                    .split_once('<')
-                    .map_or((place, None), |(a, b)| (a, Some(b)));
+                let (parent, previous) = place.split_once('<').map_or((place, None), |(a, b)| (a, Some(b)));
                 let previous = previous
                     .map(|it| format!(" PREVIOUS_ANNOTATION=\"{it}\""))
                     .unwrap_or_default();
-                (
-                    "REF_ANNOTATION",
-                    format!("ANNOTATION_REF=\"{parent}\"{previous}"),
-                )
+                ("REF_ANNOTATION", format!("ANNOTATION_REF=\"{parent}\"{previous}"))
             }
             None => {
                 let (start, end) = place.split_once('-').expect("two slots");
@@ -73,16 +64,16 @@ fn tier(head: &str, annotations: &str) -> String {
 }
 
 /// The tiers as lines: `name: id start-end value, …`.
-fn shown(transcript: &Transcript) -> String {
+fn shown(transcript: &AnnotationTranscript) -> String {
     let mut text = String::new();
     for tier in &transcript.tiers {
         text += &format!("{}:", tier.name);
         for it in &tier.annotations {
             let (from, to) = (
-                it.span.start().micros() as f64 / 1e3,
-                it.span.end().micros() as f64 / 1e3,
+                it.span.span_start_instant().instant_micros() as f64 / 1e3,
+                it.span.span_end_instant().instant_micros() as f64 / 1e3,
             );
-            let above = it.parent.and_then(|place| transcript.annotation(place));
+            let above = it.parent.and_then(|place| transcript.annotation_at(place));
             let above = above.map(|it| format!("^{}", it.id)).unwrap_or_default();
             text += &format!(" {}{above} {from}-{to} {}", it.id, it.value);
         }
@@ -91,9 +82,9 @@ fn shown(transcript: &Transcript) -> String {
     text
 }
 
-fn written(document: &Document<'_>) -> String {
+fn written(document: &EafDocument<'_>) -> String {
     let mut out = Vec::new();
-    raw::write(document, &mut out).expect("a vector takes everything");
+    eaf_raw::write_eaf_document(document, &mut out).expect("a vector takes everything");
     String::from_utf8(out).expect("UTF-8")
 }
 
@@ -103,40 +94,34 @@ fn check(text: &str, expected: &str, findings: &[&str]) {
 }
 
 fn check_reading(text: &str, expected: &str, findings: &[&str]) {
-    let (document, mut found) = raw::read(text.as_bytes()).expect("a document");
-    let (transcript, more) = from_raw(&document);
+    let (document, mut found) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
+    let (transcript, more) = transcript_from_eaf(&document);
     found.extend(more);
     assert_eq!(shown(&transcript), expected);
     let found: Vec<&str> = found.iter().map(|it| &*it.message).collect();
     assert_eq!(found.len(), findings.len(), "{found:#?}");
     for (found, expected) in found.iter().zip(findings) {
-        assert!(
-            found.contains(expected),
-            "{found:?} does not say {expected:?}"
-        );
+        assert!(found.contains(expected), "{found:?} does not say {expected:?}");
     }
 }
 
 /// Checks that a document stays the same through reading, writing and reading, and through its meaning and back.
 fn comes_back(bytes: &[u8]) {
-    let (document, _) = raw::read(bytes).expect("a document");
+    let (document, _) = eaf_raw::read_eaf_document(bytes).expect("a document");
     let text = written(&document);
-    let (again, findings) = raw::read(text.as_bytes()).expect("what was written is read");
-    assert_eq!(again, raw::upgraded(document.clone()));
+    let (again, findings) = eaf_raw::read_eaf_document(text.as_bytes()).expect("what was written is read");
+    assert_eq!(again, eaf_raw::upgrade_eaf_document(document.clone()));
     assert_eq!(written(&again), text, "writing is a fixpoint");
-    let loud = |it: &&chereme_formats::Finding| {
-        !it.message.contains("kept aside") && !it.message.contains("is not a")
-    };
+    let loud =
+        |it: &&chereme_formats::ImportFinding| !it.message.contains("kept aside") && !it.message.contains("is not a");
     assert_eq!(findings.iter().find(loud), None);
-    let (meant, _) = from_raw(&document);
+    let (meant, _) = transcript_from_eaf(&document);
     let back = to_raw(&meant, &document);
     let text = written(&back);
-    let (back, _) = raw::read(text.as_bytes()).expect("what was written is read");
-    let (mut again, findings) = from_raw(&back);
+    let (back, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("what was written is read");
+    let (mut again, findings) = transcript_from_eaf(&back);
     assert!(
-        !findings
-            .iter()
-            .any(|it| it.message.contains("not in the file")),
+        !findings.iter().any(|it| it.message.contains("not in the file")),
         "{findings:?}"
     );
     let (mut meant, counter) = (meant, "lastUsedAnnotationId");
@@ -168,8 +153,7 @@ fn shared_unaligned_and_equal_time_slots_are_read() {
     check(
         &eaf(
             "ts1=0 ts2 ts3 ts4=90 ts5=90 ts6=100",
-            &(tier("p root", "a1:ts1-ts4=x a2:ts5-ts6")
-                + &tier("c time p", "a3:ts1-ts2=i a4:ts2-ts3=j a5:ts3-ts4=k")),
+            &(tier("p root", "a1:ts1-ts4=x a2:ts5-ts6") + &tier("c time p", "a3:ts1-ts2=i a4:ts2-ts3=j a5:ts3-ts4=k")),
         ),
         "p: a1 0-90 x a2 90-100 \nc: a3^a1 0-30 i a4^a1 30-60 j a5^a1 60-90 k\n",
         &[],
@@ -182,12 +166,12 @@ fn shared_time_slots_stay_shared_when_written() {
         "ts1=0 ts2=40 ts4=90",
         &(tier("p root", "a1:ts1-ts4=x") + &tier("c time p", "a3:ts1-ts2=i a4:ts2-ts4=j")),
     );
-    let (document, _) = raw::read(text.as_bytes()).expect("a document");
-    let back = to_raw(&from_raw(&document).0, &document);
+    let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
+    let back = to_raw(&transcript_from_eaf(&document).0, &document);
     assert_eq!(back.time_order.len(), 3);
     assert_eq!(
         back.tiers[1].annotations[0].anchor,
-        Anchor::Slots {
+        AnnotationAnchor::Slots {
             start: "ts1".into(),
             end: "ts2".into()
         }
@@ -236,9 +220,7 @@ fn duplicate_tiers_and_ids_are_renamed_and_reported() {
     check(
         &eaf(
             "ts1=0 ts2=100 ts1=7",
-            &(tier("p root", "a1:ts1-ts2=x")
-                + &tier("p root", "a1:ts1-ts2=y")
-                + &tier("p root", "")),
+            &(tier("p root", "a1:ts1-ts2=x") + &tier("p root", "a1:ts1-ts2=y") + &tier("p root", "")),
         ),
         "p: a1 0-100 x\np 2: a2 0-100 y\np 3:\n",
         &[
@@ -307,8 +289,8 @@ fn times_that_no_clock_can_hold_are_left_out_and_reported() {
             let slots = format!("ts1=0 ts2={time}");
             let text = eaf(&slots, &tier("p root", "a1:ts1-ts2=x"));
             let text = text.replace("\"milliseconds\"", &format!("\"{units}\""));
-            let (document, mut findings) = raw::read(text.as_bytes()).expect("a document");
-            let (transcript, more) = from_raw(&document);
+            let (document, mut findings) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
+            let (transcript, more) = transcript_from_eaf(&document);
             findings.extend(more);
             let want = format!(
                 "TIME_VALUE=\"{time}\" of <TIME_SLOT> is not a whole number within the range of times; it was left out"
@@ -320,11 +302,11 @@ fn times_that_no_clock_can_hold_are_left_out_and_reported() {
             }
             let ends = [i64::MIN, i64::MAX];
             for it in transcript.tiers.iter().flat_map(|tier| &tier.annotations) {
-                let span = [it.span.start().micros(), it.span.end().micros()];
-                assert!(
-                    span.iter().all(|at| !ends.contains(at)),
-                    "{time} {units}: {span:?}"
-                );
+                let span = [
+                    it.span.span_start_instant().instant_micros(),
+                    it.span.span_end_instant().instant_micros(),
+                ];
+                assert!(span.iter().all(|at| !ends.contains(at)), "{time} {units}: {span:?}");
             }
         }
     }
@@ -343,51 +325,37 @@ fn a_subdivision_with_a_gap_is_reported() {
             "ts1=0 ts2=100 ts3=200 ts4=300",
             &(above.clone() + &tier("below time top", divided)),
         );
-        let (document, _) = raw::read(text.as_bytes()).expect("a document");
-        let (_, findings) = from_raw(&document);
-        let gap = |it: &chereme_formats::Finding| it.message.contains("part of annotation \"a1\"");
-        assert_eq!(
-            findings.iter().any(gap),
-            reported,
-            "{divided}: {findings:?}"
-        );
+        let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
+        let (_, findings) = transcript_from_eaf(&document);
+        let gap = |it: &chereme_formats::ImportFinding| it.message.contains("part of annotation \"a1\"");
+        assert_eq!(findings.iter().any(gap), reported, "{divided}: {findings:?}");
     }
 }
 
 #[test]
 fn frames_become_milliseconds() {
-    let pal = eaf("ts1=1 ts2=25", &tier("p root", "a1:ts1-ts2=x"))
-        .replace("\"milliseconds\"", "\"PAL-frames\"");
+    let pal = eaf("ts1=1 ts2=25", &tier("p root", "a1:ts1-ts2=x")).replace("\"milliseconds\"", "\"PAL-frames\"");
     check(&pal, "p: a1 40-1000 x\n", &["the times are in PAL-frames"]);
     let ntsc = pal.replace("PAL", "NTSC");
     assert_eq!(
-        shown(&read(ntsc.as_bytes()).expect("a document").0),
+        shown(&read_eaf(ntsc.as_bytes()).expect("a document").0),
         "p: a1 33.366-834.166 x\n"
     );
 }
 
 #[test]
 fn values_keep_breaks_entities_and_blanks() {
-    let text = eaf("ts1=0 ts2=9", &tier("p&amp;é&#x3e; root", "a1:ts1-ts2=@")).replace(
-        '@',
-        "  a\r\nb &lt;i&gt; &quot;&apos;&amp;&#233;<![CDATA[<&>]]> ",
-    );
+    let text = eaf("ts1=0 ts2=9", &tier("p&amp;é&#x3e; root", "a1:ts1-ts2=@"))
+        .replace('@', "  a\r\nb &lt;i&gt; &quot;&apos;&amp;&#233;<![CDATA[<&>]]> ");
     check(&text, "p&é>: a1 0-9   a\nb <i> \"'&é<&> \n", &[]);
-    let text =
-        eaf("ts1=0 ts2=9", &tier("p root", "a1:ts1-ts2=@")).replace('@', "R&D &nbsp; &#0; &");
+    let text = eaf("ts1=0 ts2=9", &tier("p root", "a1:ts1-ts2=@")).replace('@', "R&D &nbsp; &#0; &");
     check(
         &text,
         "p: a1 0-9 R&D &nbsp; &#0; &\n",
-        &[
-            "& is unknown",
-            "&nbsp; is unknown",
-            "&#0; is unknown",
-            "& is unknown",
-        ],
+        &["& is unknown", "&nbsp; is unknown", "&#0; is unknown", "& is unknown"],
     );
-    let text = eaf("ts1=0 ts2=9", &tier("p root", ""))
-        .replace("AUTHOR=\"\"", "AUTHOR='a \"b\"\n&#10;&amp; c & d'");
-    let (document, _) = raw::read(text.as_bytes()).expect("a document");
+    let text = eaf("ts1=0 ts2=9", &tier("p root", "")).replace("AUTHOR=\"\"", "AUTHOR='a \"b\"\n&#10;&amp; c & d'");
+    let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
     assert_eq!(document.author, "a \"b\" \n& c & d");
     comes_back(text.as_bytes());
 }
@@ -411,7 +379,7 @@ fn every_element_of_the_schema_and_unknown_ones_are_kept() {
     let text = eaf("ts1=0 ts2=9", &(tier("p root", "a1:ts1-ts2=x").replace("ANNOTATION_ID=\"a1\"", "ANNOTATION_ID=\"a1\" LANG_REF=\"fra\" SVG_REF=\"s\" EXT_REF=\"er1 er9\" CVE_REF=\"c1\" colour=\"red\"") + more))
         .replace("<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>", r#"<HEADER TIME_UNITS="milliseconds"><MEDIA_DESCRIPTOR MEDIA_URL="file:///C:/v.mp4" MIME_TYPE="video/mp4" TIME_ORIGIN="1200" EXTRACTED_FROM="e"/>
         <MEDIA_DESCRIPTOR MEDIA_URL="file:C:\v.mp4" MIME_TYPE="video/mp4"/><LINKED_FILE_DESCRIPTOR LINK_URL="l" MIME_TYPE="m" ASSOCIATED_WITH="x"/><PROPERTY NAME="URN">urn:x</PROPERTY><PROPERTY NAME="lastUsedAnnotation">4</PROPERTY></HEADER>"#);
-    let (document, findings) = raw::read(text.as_bytes()).expect("a document");
+    let (document, findings) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
     assert_eq!(findings.len(), 2, "{findings:?}");
     let annotation = &document.tiers[0].annotations[0];
     assert_eq!(
@@ -419,17 +387,11 @@ fn every_element_of_the_schema_and_unknown_ones_are_kept() {
         (Some("fra"), Some("s"))
     );
     assert_eq!(annotation.external_ref.as_deref(), Some("er1 er9"));
-    assert_eq!(
-        document.vocabularies[0].external_refs[0].kind,
-        "resource_url"
-    );
+    assert_eq!(document.vocabularies[0].external_refs[0].kind, "resource_url");
     assert_eq!(document.ref_link_sets[0].id, "rl");
-    let (transcript, _) = from_raw(&document);
+    let (transcript, _) = transcript_from_eaf(&document);
     assert_eq!(transcript.media[0].time_origin, Some(1200));
-    assert_eq!(
-        transcript.vocabularies[2].external.as_deref(),
-        Some("file:/c.ecv")
-    );
+    assert_eq!(transcript.vocabularies[2].external.as_deref(), Some("file:/c.ecv"));
     let out = written(&document);
     for part in [
         "<EXTRA own=\"1\"><a>b &amp; c</a></EXTRA>",
@@ -449,21 +411,19 @@ fn every_element_of_the_schema_and_unknown_ones_are_kept() {
 #[test]
 fn many_tiers_and_long_names_are_read() {
     let tiers: String = (0..150)
-        .map(|n| {
-            tier(
-                &format!("{}{n} root", "长".repeat(300)),
-                &format!("a{n}:ts1-ts2=v"),
-            )
-        })
+        .map(|n| tier(&format!("{}{n} root", "长".repeat(300)), &format!("a{n}:ts1-ts2=v")))
         .collect();
     comes_back(eaf("ts1=0 ts2=10", &tiers).as_bytes());
 }
 
 #[test]
 fn the_last_used_id_is_updated_as_the_last_property() {
-    let text = eaf("ts1=0 ts2=10", &tier("p root", "a41:ts1-ts2=v")).replace("<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>", "<HEADER><PROPERTY NAME=\"lastUsedAnnotationId\">7</PROPERTY><PROPERTY NAME=\"URN\">u</PROPERTY></HEADER>");
-    let (document, _) = raw::read(text.as_bytes()).expect("a document");
-    let back = to_raw(&from_raw(&document).0, &document);
+    let text = eaf("ts1=0 ts2=10", &tier("p root", "a41:ts1-ts2=v")).replace(
+        "<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>",
+        "<HEADER><PROPERTY NAME=\"lastUsedAnnotationId\">7</PROPERTY><PROPERTY NAME=\"URN\">u</PROPERTY></HEADER>",
+    );
+    let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
+    let back = to_raw(&transcript_from_eaf(&document).0, &document);
     let properties: Vec<(&str, &str)> = back
         .header
         .properties
@@ -476,14 +436,14 @@ fn the_last_used_id_is_updated_as_the_last_property() {
 #[test]
 fn an_annotation_keeps_its_milliseconds_until_it_is_moved() {
     let text = eaf("ts1=33 ts2=67", &tier("p root", "a1:ts1-ts2=v"));
-    let (document, _) = raw::read(text.as_bytes()).expect("a document");
-    let (mut transcript, _) = from_raw(&document);
-    let snapped = chereme_motion::Span::between(
-        chereme_motion::Instant::from_micros(33_900),
-        chereme_motion::Instant::from_micros(66_666),
+    let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
+    let (mut transcript, _) = transcript_from_eaf(&document);
+    let snapped = chereme_motion::TimeSpan::span_between(
+        chereme_motion::RecordingInstant::from_micros(33_900),
+        chereme_motion::RecordingInstant::from_micros(66_666),
     );
     transcript.tiers[0].annotations[0].span = snapped;
-    let values = |transcript: &Transcript| {
+    let values = |transcript: &AnnotationTranscript| {
         to_raw(transcript, &document)
             .time_order
             .iter()
@@ -498,7 +458,7 @@ fn an_annotation_keeps_its_milliseconds_until_it_is_moved() {
 #[test]
 fn external_vocabularies_are_read() {
     let text = "\u{feff}<CV_RESOURCE AUTHOR=\"\" DATE=\"\" VERSION=\"0.2\"><LANGUAGE LANG_ID=\"eng\"/><CONTROLLED_VOCABULARY CV_ID=\"v\"><CV_ENTRY_ML CVE_ID=\"1\"><CVE_VALUE LANG_REF=\"eng\">B</CVE_VALUE></CV_ENTRY_ML></CONTROLLED_VOCABULARY></CV_RESOURCE>";
-    let (document, findings) = raw::read_ecv(text.as_bytes()).expect("a vocabulary");
+    let (document, findings) = eaf_raw::read_ecv(text.as_bytes()).expect("a vocabulary");
     assert_eq!(
         (
             document.vocabularies[0].entries[0].values[0].value.as_ref(),
@@ -507,8 +467,8 @@ fn external_vocabularies_are_read() {
         ("B", 0)
     );
     assert!(matches!(
-        raw::read(text.as_bytes()),
-        Err(Error::Root { line: 1, .. })
+        eaf_raw::read_eaf_document(text.as_bytes()),
+        Err(EafError::Root { line: 1, .. })
     ));
 }
 
@@ -525,21 +485,57 @@ fn files_that_are_no_eaf_are_refused_with_the_line() {
         ("blank", b"  \n ".into(), "line 2: this is not XML"),
         ("text", b"ANNOTATION".into(), "line 1: this is not XML"),
         ("binary", b"\x00\x01\x02\xff\xfe<".into(), "line 1: this is not XML"),
-        ("control", b"<ANNOTATION_DOCUMENT>\n\x01</ANNOTATION_DOCUMENT>".into(), "line 2: this is not XML"),
-        ("root", b"\n<html></html>".into(), "line 2: the root element is <html>; it should be <ANNOTATION_DOCUMENT>"),
+        (
+            "control",
+            b"<ANNOTATION_DOCUMENT>\n\x01</ANNOTATION_DOCUMENT>".into(),
+            "line 2: this is not XML",
+        ),
+        (
+            "root",
+            b"\n<html></html>".into(),
+            "line 2: the root element is <html>; it should be <ANNOTATION_DOCUMENT>",
+        ),
         ("laughs", laughs.into(), "line 2: a <!DOCTYPE"),
-        ("nested", (HEAD.to_owned() + &"<a>".repeat(1_000_000)).into(), "line 3: elements are nested too deep, more than 64"),
-        ("attributes", format!("<ANNOTATION_DOCUMENT{many}/>").into(), "line 1: the element has too many attributes, more than 64"),
+        (
+            "nested",
+            (HEAD.to_owned() + &"<a>".repeat(1_000_000)).into(),
+            "line 3: elements are nested too deep, more than 64",
+        ),
+        (
+            "attributes",
+            format!("<ANNOTATION_DOCUMENT{many}/>").into(),
+            "line 1: the element has too many attributes, more than 64",
+        ),
         ("utf-16", utf16, "line 1: the text is in UTF-16"),
-        ("declared", b"<?xml version=\"1.0\" encoding=\"Shift_JIS\"?><ANNOTATION_DOCUMENT/>".into(), "line 1: the text is in Shift_JIS"),
-        ("latin-1", b"<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<ANNOTATION_DOCUMENT AUTHOR=\"\xe9\"/>".into(), "line 2: the text is in ISO-8859-1"),
+        (
+            "declared",
+            b"<?xml version=\"1.0\" encoding=\"Shift_JIS\"?><ANNOTATION_DOCUMENT/>".into(),
+            "line 1: the text is in Shift_JIS",
+        ),
+        (
+            "latin-1",
+            b"<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<ANNOTATION_DOCUMENT AUTHOR=\"\xe9\"/>".into(),
+            "line 2: the text is in ISO-8859-1",
+        ),
         ("cut", HEAD.into(), "line 3: the file ends inside <ANNOTATION_DOCUMENT>"),
-        ("crossed", (HEAD.to_owned() + "<HEADER>\n</TIER>").into(), "line 4: </TIER> closes <HEADER>"),
-        ("attribute", (HEAD.to_owned() + "\n<TIER TIER_ID></TIER>").into(), "line 4: <TIER> has a broken attribute"),
-        ("unquoted", (HEAD.to_owned() + "\n<TIER TIER_ID=x></TIER>").into(), "line 4: <TIER> has a broken attribute"),
+        (
+            "crossed",
+            (HEAD.to_owned() + "<HEADER>\n</TIER>").into(),
+            "line 4: </TIER> closes <HEADER>",
+        ),
+        (
+            "attribute",
+            (HEAD.to_owned() + "\n<TIER TIER_ID></TIER>").into(),
+            "line 4: <TIER> has a broken attribute",
+        ),
+        (
+            "unquoted",
+            (HEAD.to_owned() + "\n<TIER TIER_ID=x></TIER>").into(),
+            "line 4: <TIER> has a broken attribute",
+        ),
     ];
     for (name, bytes, expected) in cases {
-        let error = raw::read(&bytes).expect_err(name).to_string();
+        let error = eaf_raw::read_eaf_document(&bytes).expect_err(name).to_string();
         assert!(error.starts_with(expected), "{name}: {error}");
     }
 }
@@ -550,12 +546,9 @@ fn findings_of_a_kind_are_counted_not_piled_up() {
         "ts1=0 ts2=10",
         &("<!-- -->\n<x/>".repeat(50_000) + &tier("p root", "a1:ts1-ts2=v")),
     );
-    let (_, findings) = raw::read(text.as_bytes()).expect("a document");
+    let (_, findings) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
     assert_eq!(findings.len(), 42);
-    assert_eq!(
-        findings[41].message,
-        "49980 more: elements beyond the schema"
-    );
+    assert_eq!(findings[41].message, "49980 more: elements beyond the schema");
 }
 
 /// A small document that has a bit of everything.
@@ -573,7 +566,7 @@ fn truncation_anywhere_is_an_error_or_a_document() {
     let text = small();
     let end = text.trim_end().len();
     for length in 0..end {
-        let result = read(&text.as_bytes()[..length]);
+        let result = read_eaf(&text.as_bytes()[..length]);
         assert!(
             result.is_err(),
             "{length} of {end} bytes were taken for a whole document"
@@ -602,14 +595,16 @@ fn flipped_bytes_do_no_harm() {
                 _ => next() as u8,
             };
         }
-        if let Ok((document, _)) = raw::read(&bytes) {
-            let (transcript, _) = from_raw(&document);
+        if let Ok((document, _)) = eaf_raw::read_eaf_document(&bytes) {
+            let (transcript, _) = transcript_from_eaf(&document);
             let out = written(&to_raw(&transcript, &document));
-            assert!(raw::read(out.as_bytes()).is_ok());
+            assert!(eaf_raw::read_eaf_document(out.as_bytes()).is_ok());
             let again = written(&document);
             assert_eq!(
-                raw::read(again.as_bytes()).expect("what was written").0,
-                raw::upgraded(document)
+                eaf_raw::read_eaf_document(again.as_bytes())
+                    .expect("what was written")
+                    .0,
+                eaf_raw::upgrade_eaf_document(document)
             );
         }
     }
@@ -641,12 +636,8 @@ fn shared_files_read_back_unchanged() {
     files(&data.join("annotation/eaf"), "eaf", &mut found);
     for path in &found {
         let bytes = std::fs::read(path).expect("a file");
-        let (transcript, findings) = read(&bytes).expect("a document");
-        let count: usize = transcript
-            .tiers
-            .iter()
-            .map(|tier| tier.annotations.len())
-            .sum();
+        let (transcript, findings) = read_eaf(&bytes).expect("a document");
+        let count: usize = transcript.tiers.iter().map(|tier| tier.annotations.len()).sum();
         eprintln!(
             "{}: {} tiers, {count} annotations, {} findings",
             path.display(),
@@ -662,8 +653,6 @@ fn shared_files_read_back_unchanged() {
     found.clear();
     files(&data.join("annotation/eaf"), "ecv", &mut found);
     for path in &found {
-        assert!(
-            raw::read_ecv(&std::fs::read(path).expect("a file")).is_ok_and(|it| it.1.is_empty())
-        );
+        assert!(eaf_raw::read_ecv(&std::fs::read(path).expect("a file")).is_ok_and(|it| it.1.is_empty()));
     }
 }

@@ -2,11 +2,11 @@
 
 #![allow(clippy::print_stderr, reason = "a test may say that it skips its work")]
 
-use chereme_formats::eaf::convert::{
-    Annotation, AnnotationAddress, EntryValue, Tier, Timing, VocabularyEntry,
+use chereme_formats::eaf::eaf_convert::{
+    AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier, VocabularyEntry, VocabularyEntryValue,
 };
-use chereme_formats::eaf::{self, Transcript, patched, raw, read, same_meaning};
-use chereme_motion::{Instant, Span};
+use chereme_formats::eaf::{self, AnnotationTranscript, eaf_raw, patch_eaf, read_eaf, same_meaning};
+use chereme_motion::{RecordingInstant, TimeSpan};
 use std::path::{Path, PathBuf};
 
 /// As ELAN 2 writes: a line for each tag, `&apos;`, empty values with two tags.
@@ -18,11 +18,11 @@ fn both() -> [(&'static str, &'static str); 2] {
     [("elan2", OLD), ("elan6", NEW)]
 }
 
-fn transcript(text: &[u8]) -> Transcript {
-    read(text).expect("an EAF file").0
+fn transcript(text: &[u8]) -> AnnotationTranscript {
+    read_eaf(text).expect("an EAF file").0
 }
 
-fn place(it: &Transcript, id: &str) -> AnnotationAddress {
+fn place(it: &AnnotationTranscript, id: &str) -> AnnotationAddress {
     let mut all = it.tiers.iter().enumerate().flat_map(|(tier, it)| {
         let own = it.annotations.iter().enumerate();
         own.map(move |(index, it)| (it.id.clone(), AnnotationAddress { tier, index }))
@@ -30,29 +30,26 @@ fn place(it: &Transcript, id: &str) -> AnnotationAddress {
     all.find(|(known, _)| known == id).expect("an annotation").1
 }
 
-fn annotation<'t>(it: &'t mut Transcript, id: &str) -> &'t mut Annotation {
+fn annotation<'t>(it: &'t mut AnnotationTranscript, id: &str) -> &'t mut TranscriptAnnotation {
     let place = place(it, id);
     &mut it.tiers[place.tier].annotations[place.index]
 }
 
-fn tier<'t>(it: &'t mut Transcript, name: &str) -> &'t mut Tier {
-    it.tiers
-        .iter_mut()
-        .find(|it| it.name == name)
-        .expect("a tier")
+fn tier<'t>(it: &'t mut AnnotationTranscript, name: &str) -> &'t mut TranscriptTier {
+    it.tiers.iter_mut().find(|it| it.name == name).expect("a tier")
 }
 
-fn move_to(it: &mut Annotation, start: i64, end: i64) {
-    it.span = Span::between(Instant::from_millis(start), Instant::from_millis(end));
+fn move_to(it: &mut TranscriptAnnotation, start: i64, end: i64) {
+    it.span = TimeSpan::span_between(RecordingInstant::from_millis(start), RecordingInstant::from_millis(end));
     it.millis = None;
-    it.timing = Timing::Own;
+    it.timing = AnnotationTiming::Own;
 }
 
-fn new(id: &str, start: i64, end: i64, value: &str) -> Annotation {
-    Annotation {
+fn new(id: &str, start: i64, end: i64, value: &str) -> TranscriptAnnotation {
+    TranscriptAnnotation {
         id: id.into(),
-        span: Span::between(Instant::from_millis(start), Instant::from_millis(end)),
-        timing: Timing::Own,
+        span: TimeSpan::span_between(RecordingInstant::from_millis(start), RecordingInstant::from_millis(end)),
+        timing: AnnotationTiming::Own,
         parent: None,
         order: 0,
         value: value.into(),
@@ -64,10 +61,10 @@ fn new(id: &str, start: i64, end: i64, value: &str) -> Annotation {
 }
 
 /// Changes a file; returns the new text.
-fn changed(text: &str, change: impl FnOnce(&mut Transcript)) -> String {
+fn changed(text: &str, change: impl FnOnce(&mut AnnotationTranscript)) -> String {
     let mut after = transcript(text.as_bytes());
     change(&mut after);
-    let bytes = patched(text.as_bytes(), &after)
+    let bytes = patch_eaf(text.as_bytes(), &after)
         .expect("an EAF file")
         .expect("changed in place");
     assert!(same_meaning(&transcript(&bytes), &after));
@@ -95,11 +92,7 @@ fn lines(before: &str, after: &str, removed: &[&str], added: &[&str]) {
         lines.sort();
         lines
     };
-    assert_eq!(
-        (trim(gone), trim(new)),
-        (strings(removed), strings(added)),
-        "{after}"
-    );
+    assert_eq!((trim(gone), trim(new)), (strings(removed), strings(added)), "{after}");
 }
 
 fn strings(lines: &[&str]) -> Vec<String> {
@@ -119,9 +112,7 @@ fn an_unchanged_file_is_written_byte_for_byte() {
             text.replace('\'', "&apos;").replace('"', "'"),
         ] {
             let after = transcript(text.as_bytes());
-            let bytes = patched(text.as_bytes(), &after)
-                .expect("read")
-                .expect("kept");
+            let bytes = patch_eaf(text.as_bytes(), &after).expect("read").expect("kept");
             assert!(bytes == text.as_bytes(), "{name}");
         }
     }
@@ -159,23 +150,16 @@ fn files_in_other_encodings_keep_their_bytes_and_their_encoding() {
         let text: String = text.chars().filter(|it| u32::from(*it) < 0x100).collect();
         for encoding in ENCODINGS {
             let bytes = encoded(&text, encoding);
-            let (before, findings) = read(&bytes).expect(encoding);
-            assert_eq!(
-                before.tiers,
-                transcript(text.as_bytes()).tiers,
-                "{encoding}"
-            );
-            assert_eq!(
-                findings.len(),
-                1 + read(text.as_bytes()).expect("read").1.len()
-            );
-            let same = patched(&bytes, &before).expect("read").expect("kept");
+            let (before, findings) = read_eaf(&bytes).expect(encoding);
+            assert_eq!(before.tiers, transcript(text.as_bytes()).tiers, "{encoding}");
+            assert_eq!(findings.len(), 1 + read_eaf(text.as_bytes()).expect("read").1.len());
+            let same = patch_eaf(&bytes, &before).expect("read").expect("kept");
             assert!(same == bytes, "{name} {encoding}");
             let mut after = before.clone();
             annotation(&mut after, "a1").value = "\u{ca}TRE \u{2019} \u{20ac} \u{1f91f}".into();
-            let changed = patched(&bytes, &after).expect("read").expect("in place");
+            let changed = patch_eaf(&bytes, &after).expect("read").expect("in place");
             assert!(same_meaning(&transcript(&changed), &after), "{encoding}");
-            let decoded = eaf::decode(&changed).expect("the same encoding").text;
+            let decoded = eaf::decode_eaf(&changed).expect("the same encoding").text;
             let (gone, new) = difference(
                 &text.replacen("UTF-8", encoding.trim_end_matches(" marked"), 1),
                 &decoded,
@@ -190,17 +174,17 @@ fn an_encoding_that_a_file_declares_wrongly_is_a_finding() {
     let text = OLD.replacen("CHAT", "CH\u{c2}T", 1);
     for name in ["ISO-8859-1", "UTF-16"] {
         let wrong = text.replacen("UTF-8", name, 1);
-        let (it, findings) = read(wrong.as_bytes()).expect("read");
+        let (it, findings) = read_eaf(wrong.as_bytes()).expect("read");
         assert!(
             findings.iter().any(|it| it.message.contains("in UTF-8")),
             "{findings:?}"
         );
-        let same = patched(wrong.as_bytes(), &it).expect("read").expect("kept");
+        let same = patch_eaf(wrong.as_bytes(), &it).expect("read").expect("kept");
         assert!(same == wrong.as_bytes());
     }
     let marked = format!("\u{feff}{text}").replacen("UTF-8", "ISO-8859-1", 1);
     assert_eq!(
-        read(marked.as_bytes()).expect("read").0.tiers,
+        read_eaf(marked.as_bytes()).expect("read").0.tiers,
         transcript(text.as_bytes()).tiers
     );
 }
@@ -212,13 +196,9 @@ fn bytes_of_no_encoding_are_refused_in_words() {
     half.splice(200..202, [0x00, 0xd8]);
     let mut wide = vec![0xff, 0xfe, 0, 0];
     wide.extend(NEW.chars().flat_map(|it| u32::from(it).to_le_bytes()));
-    let latin: Vec<u8> = OLD
-        .replacen("CHAT", "\u{e9}", 1)
-        .chars()
-        .map(|it| it as u8)
-        .collect();
+    let latin: Vec<u8> = OLD.replacen("CHAT", "\u{e9}", 1).chars().map(|it| it as u8).collect();
     for bytes in [cut, &half, &wide, &latin] {
-        let error = read(bytes).expect_err("refused");
+        let error = read_eaf(bytes).expect_err("refused");
         assert!(!error.to_string().is_empty());
     }
 }
@@ -226,17 +206,10 @@ fn bytes_of_no_encoding_are_refused_in_words() {
 #[test]
 fn a_changed_value_changes_its_own_line() {
     for (_, text) in both() {
-        let after = changed(text, |it| {
-            annotation(it, "a1").value = "L'OISEAU <2>".into()
-        });
+        let after = changed(text, |it| annotation(it, "a1").value = "L'OISEAU <2>".into());
         let apostrophe = if text == OLD { "&apos;" } else { "'" };
         let line = format!("<ANNOTATION_VALUE>L{apostrophe}OISEAU &lt;2&gt;</ANNOTATION_VALUE>");
-        lines(
-            text,
-            &after,
-            &["<ANNOTATION_VALUE>CHAT</ANNOTATION_VALUE>"],
-            &[&line],
-        );
+        lines(text, &after, &["<ANNOTATION_VALUE>CHAT</ANNOTATION_VALUE>"], &[&line]);
     }
 }
 
@@ -286,20 +259,10 @@ fn a_moved_end_changes_its_slot() {
 #[test]
 fn a_slot_that_passes_its_neighbour_moves_its_line() {
     let after = changed(NEW, |it| move_to(annotation(it, "a1"), 2600, 2700));
-    let slots: Vec<&str> = after
-        .lines()
-        .filter(|line| line.contains("<TIME_SLOT "))
-        .collect();
+    let slots: Vec<&str> = after.lines().filter(|line| line.contains("<TIME_SLOT ")).collect();
     let values: Vec<i64> = slots
         .iter()
-        .filter_map(|line| {
-            line.split("TIME_VALUE=\"")
-                .nth(1)?
-                .split('"')
-                .next()?
-                .parse()
-                .ok()
-        })
+        .filter_map(|line| line.split("TIME_VALUE=\"").nth(1)?.split('"').next()?.parse().ok())
         .collect();
     assert!(values.is_sorted(), "{slots:?}");
     let (gone, new) = difference(NEW, &after);
@@ -387,7 +350,7 @@ fn a_divided_annotation_shares_slots_with_its_neighbour_and_its_parent() {
     let after = changed(NEW, |it| {
         move_to(annotation(it, "a6"), 1500, 1750);
         let parent = place(it, "a4");
-        let piece = Annotation {
+        let piece = TranscriptAnnotation {
             parent: Some(parent),
             ..new("a8", 1750, 2000, "c")
         };
@@ -442,28 +405,20 @@ fn a_chain_is_relinked_around_a_removed_annotation() {
 fn tiers_are_renamed_added_and_removed_in_place() {
     let renamed = changed(OLD, |it| tier(it, "Gloss").name = "Glosse".into());
     let (gone, new) = difference(OLD, &renamed);
-    assert_eq!(
-        (gone.len(), new.len()),
-        (2, 2),
-        "the tier and its child: {new:?}"
-    );
+    assert_eq!((gone.len(), new.len()), (2, 2), "the tier and its child: {new:?}");
     let added = changed(NEW, |it| {
-        it.tiers.push(Tier {
+        it.tiers.push(TranscriptTier {
             name: "Notes".into(),
             kind: "notes".into(),
             annotations: vec![self::new("a30", 0, 90, "first")],
-            ..Tier::default()
+            ..TranscriptTier::default()
         });
     });
     let (gone, new) = difference(NEW, &added);
     assert_eq!(gone.len(), 1, "the number of the last annotation");
+    assert!(new.iter().any(|line| line.contains("TIER_ID=\"Notes\"")), "{new:?}");
     assert!(
-        new.iter().any(|line| line.contains("TIER_ID=\"Notes\"")),
-        "{new:?}"
-    );
-    assert!(
-        new.iter()
-            .any(|line| line.contains("LINGUISTIC_TYPE_ID=\"notes\"")),
+        new.iter().any(|line| line.contains("LINGUISTIC_TYPE_ID=\"notes\"")),
         "{new:?}"
     );
     let removed = changed(OLD, |it| {
@@ -481,7 +436,7 @@ fn a_vocabulary_gets_entries_and_the_header_properties() {
     let after = changed(NEW, |it| {
         let entry = VocabularyEntry {
             id: "cveid1".into(),
-            values: vec![EntryValue {
+            values: vec![VocabularyEntryValue {
                 language: "und".into(),
                 value: "CHIEN".into(),
                 description: None,
@@ -506,17 +461,11 @@ fn a_vocabulary_gets_entries_and_the_header_properties() {
 
 #[test]
 fn a_file_without_line_ends_gets_none() {
-    let flat: String = NEW
-        .lines()
-        .map(str::trim_start)
-        .collect::<Vec<_>>()
-        .join(" ");
+    let flat: String = NEW.lines().map(str::trim_start).collect::<Vec<_>>().join(" ");
     let flat = flat.replace("> <", "><");
     let after = changed(&flat, |it| {
         annotation(it, "a1").value = "NEU".into();
-        tier(it, "Gloss")
-            .annotations
-            .push(new("a9", 3000, 3100, "x"));
+        tier(it, "Gloss").annotations.push(new("a9", 3000, 3100, "x"));
         tier(it, "Phases").annotations.clear();
     });
     assert!(!after.contains('\n'));
@@ -530,20 +479,17 @@ fn changes_that_cannot_be_made_in_place_are_refused() {
         tier.parent = None;
         tier.stereotype = None;
     }
-    assert_eq!(patched(NEW.as_bytes(), &after), Ok(None));
-    assert!(patched(b"no file", &after).is_err());
+    assert_eq!(patch_eaf(NEW.as_bytes(), &after), Ok(None));
+    assert!(patch_eaf(b"no file", &after).is_err());
 }
 
 #[test]
 fn new_files_break_start_tags_as_elan_6_does() {
-    let (document, _) = raw::read(NEW.as_bytes()).expect("read");
+    let (document, _) = eaf_raw::read_eaf_document(NEW.as_bytes()).expect("read");
     let mut out = Vec::new();
-    raw::write(&document, &mut out).expect("written");
+    eaf_raw::write_eaf_document(&document, &mut out).expect("written");
     let text = String::from_utf8(out).expect("UTF-8");
-    assert_eq!(
-        text,
-        NEW.replace("    <!-- checked by two people -->\n", "")
-    );
+    assert_eq!(text, NEW.replace("    <!-- checked by two people -->\n", ""));
 }
 
 fn shared_files() -> Vec<PathBuf> {
@@ -574,7 +520,7 @@ fn shared_files_change_only_in_the_lines_that_were_edited() {
         let text = std::str::from_utf8(&bytes).expect("UTF-8");
         let before = transcript(&bytes);
         assert!(
-            patched(&bytes, &before) == Ok(Some(bytes.clone())),
+            patch_eaf(&bytes, &before) == Ok(Some(bytes.clone())),
             "{}",
             path.display()
         );
@@ -583,12 +529,7 @@ fn shared_files_change_only_in_the_lines_that_were_edited() {
         if let Some(id) = filled.next().map(|it| it.id.clone()) {
             let after = changed(text, |it| annotation(it, &id).value = "another".into());
             let (gone, new) = difference(text, &after);
-            assert_eq!(
-                (gone.len(), new.len()),
-                (1, 1),
-                "{} {gone:?} {new:?}",
-                path.display()
-            );
+            assert_eq!((gone.len(), new.len()), (1, 1), "{} {gone:?} {new:?}", path.display());
         }
         let roots = before.tiers.iter().enumerate();
         let mut roots = roots.filter(|(at, it)| {
@@ -599,13 +540,9 @@ fn shared_files_change_only_in_the_lines_that_were_edited() {
         if let Some((at, _)) = roots.next() {
             let after = changed(text, |it| drop(it.tiers[at].annotations.pop()));
             let (gone, new) = difference(text, &after);
-            assert!(
-                new.is_empty() && gone.len() <= 9,
-                "{} {gone:?} {new:?}",
-                path.display()
-            );
+            assert!(new.is_empty() && gone.len() <= 9, "{} {gone:?} {new:?}", path.display());
         }
-        let _: Result<_, eaf::Error> = patched(&bytes, &Transcript::default());
+        let _: Result<_, eaf::EafError> = patch_eaf(&bytes, &AnnotationTranscript::default());
     }
 }
 
@@ -617,7 +554,7 @@ fn a_value_outside_an_old_vocabulary_adds_a_line_to_it() {
          \x20       <CV_ENTRY DESCRIPTION=\"noun\">n</CV_ENTRY>\n\
          \x20   </CONTROLLED_VOCABULARY>\n</ANNOTATION_DOCUMENT>",
     );
-    let add = |it: &mut Transcript, id: &str| {
+    let add = |it: &mut AnnotationTranscript, id: &str| {
         let mut entry = it.vocabularies[0].entries[0].clone();
         entry.id = id.to_owned();
         entry.values[0].value = "v & w".into();
@@ -639,5 +576,5 @@ fn a_value_outside_an_old_vocabulary_adds_a_line_to_it() {
     assert!(after.contains("<CV_ENTRY ID=\"cve7\">"), "{after}");
     let mut gone = transcript(old.as_bytes());
     gone.vocabularies[0].entries.clear();
-    assert_eq!(patched(old.as_bytes(), &gone), Ok(None), "more than lines");
+    assert_eq!(patch_eaf(old.as_bytes(), &gone), Ok(None), "more than lines");
 }

@@ -4,15 +4,15 @@
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use chereme_formats::bvh::raw::{Block, Reader};
-use chereme_formats::roles::Mapping;
+use chereme_formats::bvh::raw::{BvhReader, MotionBlock};
+use chereme_formats::roles::TierMapping;
 use chereme_formats::{
-    anvil, c3d, curves, eaf, exmaralda, gltf, hns, keypoints, lexicon, points as point_tables,
-    pose, sigml, signstream, subtitles, table, textgrid, trc,
+    anvil, c3d, curves, eaf, exmaralda, gltf, hns, keypoints, lexicon, points as point_tables, pose, sigml, signstream,
+    subtitles, table, textgrid, trc,
 };
 use chereme_motion::{
-    Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
-    glam::DVec3,
+    Clip, FrameNumberColumn, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, MotionMarker, RecordingInstant, Skeleton,
+    SkeletonJoint, SpaceConvention, glam::DVec3,
 };
 
 /// A format: a small file of it, and its reader, which returns whether it accepted the bytes.
@@ -85,19 +85,17 @@ const TEXT_GRID: &str = "File type = \"ooTextFile\"\nObject class = \"TextGrid\"
 xmax = 1\n text = \"A \"\"b\"\"\"\n intervals [2]:\n xmin = 1\n xmax = 2\n text = \"\"\n item [2]:\n class = \"TextTier\"\n name = \
 \"events\"\n xmin = 0\n xmax = 2\n points: size = 1\n points [1]:\n number = 0.5\n mark = \"clap\"\n";
 
-const SRT: &str = "1\n00:00:01,000 --> 00:00:02,500\nthe <i>dog</i>\nsleeps\n\n2\n00:00:03,000 --> 00:00:04,000\nthe cat\n";
+const SRT: &str =
+    "1\n00:00:01,000 --> 00:00:02,500\nthe <i>dog</i>\nsleeps\n\n2\n00:00:03,000 --> 00:00:04,000\nthe cat\n";
 const VTT: &str = "WEBVTT\n\nNOTE a note\n\nid\n00:01.000 --> 00:02.500 align:start\n<v Anna>the dog &amp; the cat\n";
 const TRC: &str = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\
 \tOrigNumFrames\n100\t100\t3\t2\tmm\t100\t1\t3\nFrame#\tTime\tLSHO\t\t\tRSHO\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n1\t0\t1\t2\t3\t-1\t2\t3\n\
 2\t0.01\t1\t2\t3\t-1\t2\t3\n3\t0.02\t1\t2\t3\t\t\t\n";
 const MOTIVE: &str = "Format Version,1.23,Take Name,a,Export Frame Rate,100,Length Units,Meters\n\n,Type,Marker,Marker,Marker\n,Name,w,w,w\n,ID,1,1,1\n\
 ,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n1,0.01,1,2,3\n";
-const NEXUS: &str =
-    "Trajectories\n100\n,,A:w,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,3\n";
-const QUALISYS: &str =
-    "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tw\n1\t2\t3\n4\t5\t6\n";
-const DEEP_LAB_CUT: &str =
-    "scorer,a,a,a\nbodyparts,w,w,w\ncoords,x,y,likelihood\n0,1,2,0.9\n1,1,2,0.9\n";
+const NEXUS: &str = "Trajectories\n100\n,,A:w,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,3\n";
+const QUALISYS: &str = "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tw\n1\t2\t3\n4\t5\t6\n";
+const DEEP_LAB_CUT: &str = "scorer,a,a,a\nbodyparts,w,w,w\ncoords,x,y,likelihood\n0,1,2,0.9\n1,1,2,0.9\n";
 const LIVE_LINK: &str = "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen,HeadYaw\n11:00:00:00.0,3,0.1,0.2,0.3\n11:00:00:01.0,3,0.1,0.25,0.3\n\
 11:00:00:02.0,3,0.1,0.3,0.3\n";
 const OPEN_FACE: &str = "frame, face_id, timestamp, confidence, success, AU01_r, AU45_c\n1, 0, 0.000, 0.98, 1, 0.5, 0\n2, 0, 0.033, 0.98, 1, \
@@ -116,11 +114,10 @@ const MARKS: &str = "[{\"timestampMs\":0,\"poseLandmarks\":[{\"x\":0.5,\"y\":0.5
 const SIGML: &str = "<sigml><hns_sign gloss=\"HUND\"><hamnosys_manual><hamflathand/><hamextfingeru/><hampalml/><hamchin/></hamnosys_manual>\
 </hns_sign><hamgestural_sign gloss=\"KAT\"><sign_manual><handconfig handshape=\"flat\" extfidir=\"u\" palmor=\"l\"/>\
 <location_bodyarm location=\"chin\"/><directedmotion direction=\"r\"/></sign_manual></hamgestural_sign></sigml>";
-const HNS: &str =
-    "HUND\thamflathand hamextfingeru hampalml hamchin\nKAT\t\\hamfist \\hamextfingeru\n";
-const TABLE: &str =
-    "gloss;Handshape strong;Location;frequency\nCAT;B;forehead > chin;12\nDOG;5;neutral space;3\n";
-const SIGNS: &str = "[{\"gloss\":\"CAT\",\"handshape\":\"B\",\"location\":\"chin\"},{\"gloss\":\"DOG\",\"hamnosys\":\"hamfist\"}]";
+const HNS: &str = "HUND\thamflathand hamextfingeru hampalml hamchin\nKAT\t\\hamfist \\hamextfingeru\n";
+const TABLE: &str = "gloss;Handshape strong;Location;frequency\nCAT;B;forehead > chin;12\nDOG;5;neutral space;3\n";
+const SIGNS: &str =
+    "[{\"gloss\":\"CAT\",\"handshape\":\"B\",\"location\":\"chin\"},{\"gloss\":\"DOG\",\"hamnosys\":\"hamfist\"}]";
 const EXPORT: &str = "{\"name\":\"c\",\"signs\":[{\"signlevel\":{\"entryid\":7,\"gloss\":[\"DOG\"]},\"cfg modules\":{\"a\":\
 {\"_handconfiguration\":[{\"field_number\":4,\"slots\":[{\"slot_number\":17,\"symbol\":\"E\"}]}],\"_articulators\":[\"Hand\",{\"1\":true}]}},\
 \"loc modules\":{\"x\":{\"locationtree\":{\"checkstates\":{\"Body>Chin\":2}}}}}]}";
@@ -149,20 +146,20 @@ fn binary_text_grid() -> Vec<u8> {
 
 fn body() -> Clip {
     let skeleton = Skeleton::new(vec![
-        Joint::new("hips", None, DVec3::Y),
-        Joint::new("chest", Some(0), DVec3::Y * 0.3),
-        Joint::new("head", Some(1), DVec3::Y * 0.3),
+        SkeletonJoint::new("hips", None, DVec3::Y),
+        SkeletonJoint::new("chest", Some(0), DVec3::Y * 0.3),
+        SkeletonJoint::new("head", Some(1), DVec3::Y * 0.3),
     ])
     .expect("a skeleton");
-    Clip::still(skeleton.into(), Rate::new(25, 1).expect("a rate"), 3)
+    Clip::from_rest_pose(skeleton.into(), FrameRate::new(25, 1).expect("a rate"), 3)
 }
 
-fn markers() -> Markers {
-    let column = |phase: f32| Column::singles((0..4).map(|at| at as f32 + phase).collect());
-    let point = |name| Marker::new(name, vec![column(1.0), column(2.0), column(3.0)]);
-    let rate = Rate::new(100, 1).expect("a rate");
-    let space = Space::World(Convention::MODEL);
-    Markers::new(Times::Even(rate), space, vec![point("LSHO"), point("RSHO")]).expect("markers")
+fn markers() -> MarkerTrack {
+    let column = |phase: f32| FrameNumberColumn::from_single_floats((0..4).map(|at| at as f32 + phase).collect());
+    let point = |name| MotionMarker::new(name, vec![column(1.0), column(2.0), column(3.0)]);
+    let rate = FrameRate::new(100, 1).expect("a rate");
+    let space = MarkerSpace::World(SpaceConvention::MODEL_CONVENTION);
+    MarkerTrack::new(FrameTimes::Even(rate), space, vec![point("LSHO"), point("RSHO")]).expect("markers")
 }
 
 fn points() -> Vec<u8> {
@@ -198,62 +195,62 @@ fn old_points() -> Vec<u8> {
 }
 
 fn read_bvh(bytes: &[u8]) -> bool {
-    let Ok(mut reader) = Reader::open(bytes) else {
+    let Ok(mut reader) = BvhReader::open_bvh(bytes) else {
         return false;
     };
-    let mut block = Block::default();
+    let mut block = MotionBlock::default();
     while reader.next_block(&mut block).is_ok_and(|more| more) {}
     true
 }
 
 fn formats() -> Vec<Format> {
-    let about = gltf::About::default();
+    let about = gltf::GlbDescription::default();
     let keys = |bytes: &[u8]| {
-        let mut reader = keypoints::Reader::default();
-        let pushed = reader.push(None, bytes);
-        pushed.and_then(|()| reader.finish(None)).is_ok()
+        let mut reader = keypoints::KeypointReader::default();
+        let pushed = reader.push_keypoint_document(None, bytes);
+        pushed.and_then(|()| reader.finish_keypoint_tracks(None)).is_ok()
     };
-    let gltf_of = |bytes: &[u8]| gltf::read(bytes, &|_| None).is_ok();
-    let signs = |bytes: &[u8]| lexicon::read(bytes, &Mapping::default()).is_ok();
+    let gltf_of = |bytes: &[u8]| gltf::read_gltf(bytes, &|_| None).is_ok();
+    let signs = |bytes: &[u8]| lexicon::read_lexicon(bytes, &TierMapping::default()).is_ok();
     let mut all = vec![
         format("bvh", BVH, read_bvh),
-        format("eaf", EAF, |bytes| eaf::read(bytes).is_ok()),
+        format("eaf", EAF, |bytes| eaf::read_eaf(bytes).is_ok()),
         format("ecv", ECV, |bytes| eaf::read_vocabularies(bytes).is_ok()),
-        format("pfsx", PFSX, |bytes| eaf::settings::read(bytes).is_ok()),
-        format("anvil", ANVIL, |bytes| anvil::read(bytes).is_ok()),
-        format("exmaralda", EXB, |bytes| exmaralda::read(bytes).is_ok()),
+        format("pfsx", PFSX, |bytes| {
+            eaf::eaf_settings::read_display_settings(bytes).is_ok()
+        }),
+        format("anvil", ANVIL, |bytes| anvil::read_anvil(bytes).is_ok()),
+        format("exmaralda", EXB, |bytes| exmaralda::read_exmaralda(bytes).is_ok()),
         format("signstream", SIGNSTREAM, |bytes| {
-            signstream::read(bytes).is_ok()
+            signstream::read_signstream_file(bytes).is_ok()
         }),
-        format("textgrid", TEXT_GRID, |bytes| textgrid::read(bytes).is_ok()),
+        format("textgrid", TEXT_GRID, |bytes| {
+            textgrid::read_textgrid_file(bytes).is_ok()
+        }),
         format("textgrid, binary", binary_text_grid(), |bytes| {
-            textgrid::read(bytes).is_ok()
+            textgrid::read_textgrid_file(bytes).is_ok()
         }),
-        format("srt", SRT, |bytes| subtitles::read(bytes).is_ok()),
-        format("vtt", VTT, |bytes| subtitles::read(bytes).is_ok()),
-        format(
-            "glb",
-            gltf::write(&body(), &about).expect("a body"),
-            gltf_of,
-        ),
+        format("srt", SRT, |bytes| subtitles::read_subtitles(bytes).is_ok()),
+        format("vtt", VTT, |bytes| subtitles::read_subtitles(bytes).is_ok()),
+        format("glb", gltf::write_glb(&body(), &about).expect("a body"), gltf_of),
         format(
             "c3d",
-            c3d::write(&markers(), Instant::ZERO).expect("markers"),
-            |bytes| c3d::read(bytes).is_ok(),
+            c3d::write_c3d(&markers(), RecordingInstant::RECORDING_START).expect("markers"),
+            |bytes| c3d::read_c3d(bytes).is_ok(),
         ),
-        format("trc", TRC, |bytes| trc::read(bytes).is_ok()),
-        format("pose", points(), |bytes| pose::read(bytes).is_ok()),
-        format("pose 0.0", old_points(), |bytes| pose::read(bytes).is_ok()),
+        format("trc", TRC, |bytes| trc::read_trc_file(bytes).is_ok()),
+        format("pose", points(), |bytes| pose::read_pose_file(bytes).is_ok()),
+        format("pose 0.0", old_points(), |bytes| pose::read_pose_file(bytes).is_ok()),
         format("openpose", PEOPLE, keys),
         format("openpose, a film", FILM, keys),
         format("landmarks", MARKS, keys),
-        format("sigml", SIGML, |bytes| sigml::read(bytes).is_ok()),
-        format("hamnosys", HNS, |bytes| hns::read(bytes).is_ok()),
+        format("sigml", SIGML, |bytes| sigml::read_sigml_signs(bytes).is_ok()),
+        format("hamnosys", HNS, |bytes| hns::read_hns(bytes).is_ok()),
         format("lexicon", TABLE, signs),
         format("lexicon as json", SIGNS, signs),
         format("slp-aa", EXPORT, signs),
         format("annotations", ROWS, |bytes| {
-            table::annotations::read(bytes, None).is_ok()
+            table::annotations::read_change_table(bytes, None).is_ok()
         }),
     ];
     for (name, text) in [
@@ -263,7 +260,7 @@ fn formats() -> Vec<Format> {
         ("fap", FAP),
         ("curves", "time [s],a,b\n0,1,2\n0.1,2,3\n"),
     ] {
-        all.push(format(name, text, |bytes| curves::read(bytes).is_ok()));
+        all.push(format(name, text, |bytes| curves::read_curves(bytes).is_ok()));
     }
     for (name, text) in [
         (
@@ -276,15 +273,13 @@ fn formats() -> Vec<Format> {
         ("deeplabcut", DEEP_LAB_CUT),
     ] {
         all.push(format(name, text, |bytes| {
-            point_tables::read(bytes, None).is_ok()
+            point_tables::read_point_table(bytes, None).is_ok()
         }));
     }
     #[cfg(feature = "fbx")]
-    all.push(format(
-        "fbx",
-        include_str!("../src/fbx/plain.fbx"),
-        |bytes| chereme_formats::fbx::read(bytes).is_ok(),
-    ));
+    all.push(format("fbx", include_str!("../src/fbx/plain.fbx"), |bytes| {
+        chereme_formats::fbx::read_fbx(bytes).is_ok()
+    }));
     all
 }
 
@@ -325,11 +320,7 @@ fn damaged(format: &Format, chance: &mut Chance) -> Vec<Vec<u8>> {
     let mut all = vec![Vec::new()];
     // Cut at every block of a few bytes.
     let step = (whole.len() / 64).max(1);
-    all.extend(
-        (0..whole.len())
-            .step_by(step)
-            .map(|end| whole[..end].to_vec()),
-    );
+    all.extend((0..whole.len()).step_by(step).map(|end| whole[..end].to_vec()));
     // Bytes and words of two, four and eight bytes turned to their extremes.
     for _ in 0..96 {
         let mut bytes = whole.clone();
@@ -443,7 +434,7 @@ fn promises_of_endless_data_are_refused_or_cut() {
     let end = old.len();
     // 65,535 frames without people, and a component of 65,535 points.
     old[end - 8..end - 6].copy_from_slice(&u16::MAX.to_le_bytes());
-    pose::read(&old).ok();
+    pose::read_pose_file(&old).ok();
     let glb = |accessor: &str, more: &str| {
         format!(
             "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"name\":\"a\"}}],\"scenes\":[{{\"nodes\":[0]}}],\
@@ -459,21 +450,17 @@ fn promises_of_endless_data_are_refused_or_cut() {
         "{\"bufferView\":0,\"byteOffset\":18446744073709551615,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},{\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}",
     ] {
         let text = glb(accessor, "");
-        assert!(
-            gltf::read(text.as_bytes(), &|_| None).is_err(),
-            "{accessor}"
-        );
+        assert!(gltf::read_gltf(text.as_bytes(), &|_| None).is_err(), "{accessor}");
     }
     let far = "{\"people\":[{\"pose_keypoints_2d\":[1,2,0.5]}]}";
-    let film =
-        format!("{{\"frames\":{{\"0\":{far},\"5183999\":{far},\"18446744073709551615\":{far}}}}}");
-    let mut reader = keypoints::Reader::default();
-    assert!(reader.push(None, film.as_bytes()).is_err());
+    let film = format!("{{\"frames\":{{\"0\":{far},\"5183999\":{far},\"18446744073709551615\":{far}}}}}");
+    let mut reader = keypoints::KeypointReader::default();
+    assert!(reader.push_keypoint_document(None, film.as_bytes()).is_err());
     let frames: Vec<String> = (0..2000)
         .map(|at| format!("[{{\"categoryName\":\"n{at}\",\"score\":0}}]"))
         .collect();
     let scores = format!("{{\"frames\":[{}]}}", frames.join(","));
-    assert!(curves::read(scores.as_bytes()).is_err());
+    assert!(curves::read_curves(scores.as_bytes()).is_err());
     if let Some(most) = most_memory() {
         assert!(most < MOST, "{most} MiB");
     }

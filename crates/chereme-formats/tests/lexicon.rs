@@ -3,21 +3,20 @@
 #[path = "lexicon/titles.rs"]
 mod titles;
 
-use chereme_formats::lexicon::{self, Lexicon, Meaning};
-use chereme_formats::roles::Mapping;
+use chereme_formats::lexicon::{self, LexiconColumnMeaning, SignLexicon};
+use chereme_formats::roles::TierMapping;
 use chereme_formats::table::TableError;
-use chereme_sign::Component;
+use chereme_sign::SignComponent;
 use proptest::prelude::*;
 
-fn read(text: &str) -> (Lexicon, Vec<String>) {
-    let (lexicon, findings) = lexicon::read(text.as_bytes(), &Mapping::default()).expect("a table");
+fn read(text: &str) -> (SignLexicon, Vec<String>) {
+    let (lexicon, findings) = lexicon::read_lexicon(text.as_bytes(), &TierMapping::default()).expect("a table");
     (lexicon, findings.into_iter().map(|it| it.message).collect())
 }
 
-fn codings(lexicon: &Lexicon, entry: usize) -> Vec<String> {
+fn codings(lexicon: &SignLexicon, entry: usize) -> Vec<String> {
     let all = lexicon.entries[entry].codings.iter();
-    all.map(|it| format!("{}={}", it.field(), it.reading))
-        .collect()
+    all.map(|it| format!("{}={}", it.coding_field(), it.reading)).collect()
 }
 
 #[test]
@@ -41,11 +40,7 @@ fn cells_are_split_into_separate_values() {
             "downwards > outwards, downwards",
             "initial.movement.direction=downwards final.movement.direction=outwards final.movement.direction=downwards",
         ),
-        (
-            "Movement direction",
-            "variable",
-            "movement.direction=variable",
-        ),
+        ("Movement direction", "variable", "movement.direction=variable"),
         (
             "Movement shape",
             "circle parallel + straight",
@@ -69,17 +64,9 @@ fn cells_are_split_into_separate_values() {
             "initial.weak.configuration.change=closing",
         ),
         ("nonmanual.gaze", "left", "nonmanual.gaze=left"),
-        (
-            "Handshape change",
-            "closing",
-            "dominant.configuration.change=closing",
-        ),
+        ("Handshape change", "closing", "dominant.configuration.change=closing"),
         ("Handshape change", ">S", "final.dominant.configuration=S"),
-        (
-            "Handshape change",
-            "+ closing",
-            "dominant.configuration.change=closing",
-        ),
+        ("Handshape change", "+ closing", "dominant.configuration.change=closing"),
         (
             "Handshape change",
             "wiggle, closing",
@@ -174,13 +161,10 @@ fn beside_a_final_value_of_another_column_the_value_is_initial() {
 
 #[test]
 fn handshapes_in_a_column_of_changes_are_announced() {
-    let (_, findings) =
-        read("gloss\tHandshape change\nA\tclosing\nB\t>S\nC\t>5\nD\topening > closing\n");
+    let (_, findings) = read("gloss\tHandshape change\nA\tclosing\nB\t>S\nC\t>5\nD\topening > closing\n");
     assert_eq!(
         findings,
-        [
-            "cells of \"Handshape change\" that name handshapes, such as \">S\", were taken for these: 2"
-        ]
+        ["cells of \"Handshape change\" that name handshapes, such as \">S\", were taken for these: 2"]
     );
 }
 
@@ -192,19 +176,13 @@ fn columns_are_recognised_by_title_and_by_mapping() {
     assert_eq!(lexicon.delimiter, b';');
     assert_eq!(
         lexicon.columns[0].meaning,
-        Meaning::Gloss {
+        LexiconColumnMeaning::Gloss {
             language: Some("nl".into())
         }
     );
-    assert_eq!(
-        lexicon.entries[0].translations,
-        [("en".to_owned(), "Y".to_owned())]
-    );
-    assert_eq!(lexicon.columns[3].meaning, Meaning::Attribute);
-    assert_eq!(
-        lexicon.entries[0].attributes,
-        [("Remarks".to_owned(), "hm".to_owned())]
-    );
+    assert_eq!(lexicon.entries[0].translations, [("en".to_owned(), "Y".to_owned())]);
+    assert_eq!(lexicon.columns[3].meaning, LexiconColumnMeaning::Attribute);
+    assert_eq!(lexicon.entries[0].attributes, [("Remarks".to_owned(), "hm".to_owned())]);
     assert_eq!(
         findings,
         ["the column \"Remarks\" is kept as an attribute of each sign"]
@@ -213,25 +191,21 @@ fn columns_are_recognised_by_title_and_by_mapping() {
         codings(&lexicon, 0),
         ["orientation.palm=up", "dominant.configuration=B"]
     );
-    let mapping = Mapping::from_json(r#"{"columns": {"Mot": "gloss.fr", "Re*": "note", "Forme": "both.configuration", "Fin": "final.placement"}}"#).expect("a mapping");
-    let (lexicon, findings) = lexicon::read(
-        "Mot,Remarque,Forme,Fin\nchat,x,V,a > b\n".as_bytes(),
-        &mapping,
+    let mapping = TierMapping::from_json(
+        r#"{"columns": {"Mot": "gloss.fr", "Re*": "note", "Forme": "both.configuration", "Fin": "final.placement"}}"#,
     )
-    .expect("a table");
+    .expect("a mapping");
+    let (lexicon, findings) =
+        lexicon::read_lexicon("Mot,Remarque,Forme,Fin\nchat,x,V,a > b\n".as_bytes(), &mapping).expect("a table");
     assert!(findings.is_empty());
     assert_eq!(lexicon.entries[0].gloss, "chat");
     assert_eq!(
-        lexicon.entries[0].codings[0].hand.map(|it| it.name()),
+        lexicon.entries[0].codings[0].hand.map(|it| it.annotated_hands_name()),
         Some("both")
     );
     assert_eq!(
         codings(&lexicon, 0),
-        [
-            "configuration=V",
-            "initial.placement=a",
-            "final.placement=b"
-        ]
+        ["configuration=V", "initial.placement=a", "final.placement=b"]
     );
 }
 
@@ -248,14 +222,9 @@ fn symbols_in_a_wrong_encoding_are_mended_before_blanks_are_cut() {
 
 #[test]
 fn odd_tables_are_read_with_findings() {
-    let (lexicon, findings) = read(
-        "\u{feff}gloss,Location\r\n\"A, \"\"B\"\"\",chin\r\nSHORT\r\n,chin\r\nC,chin,more\r\nC,nose\r\n",
-    );
-    let glosses: Vec<(&str, u64)> = lexicon
-        .entries
-        .iter()
-        .map(|it| (&*it.gloss, it.line))
-        .collect();
+    let (lexicon, findings) =
+        read("\u{feff}gloss,Location\r\n\"A, \"\"B\"\"\",chin\r\nSHORT\r\n,chin\r\nC,chin,more\r\nC,nose\r\n");
+    let glosses: Vec<(&str, u64)> = lexicon.entries.iter().map(|it| (&*it.gloss, it.line)).collect();
     assert_eq!(glosses, [("A, \"B\"", 2), ("SHORT", 3), ("C", 5), ("C", 6)]);
     assert_eq!(
         findings,
@@ -267,19 +236,15 @@ fn odd_tables_are_read_with_findings() {
         ]
     );
     let (latin, findings) =
-        lexicon::read(b"gloss\tLocation\n\xc9T\xc9\tchin\n", &Mapping::default()).expect("a table");
+        lexicon::read_lexicon(b"gloss\tLocation\n\xc9T\xc9\tchin\n", &TierMapping::default()).expect("a table");
     assert_eq!(latin.entries[0].gloss, "ÉTÉ");
     assert_eq!(findings[0].line, Some(2));
     let utf16: Vec<u8> = [0xff, 0xfe]
         .into_iter()
-        .chain(
-            "gloss\tLocation\nÉTÉ\tchin\n"
-                .encode_utf16()
-                .flat_map(u16::to_le_bytes),
-        )
+        .chain("gloss\tLocation\nÉTÉ\tchin\n".encode_utf16().flat_map(u16::to_le_bytes))
         .collect();
     assert_eq!(
-        lexicon::read(&utf16, &Mapping::default())
+        lexicon::read_lexicon(&utf16, &TierMapping::default())
             .expect("a table")
             .0
             .entries[0]
@@ -287,14 +252,11 @@ fn odd_tables_are_read_with_findings() {
         "ÉTÉ"
     );
     assert!(matches!(
-        lexicon::read(b"a,b\n1,2\n", &Mapping::default()),
-        Err(TableError::Missing {
-            needed: "a gloss",
-            ..
-        })
+        lexicon::read_lexicon(b"a,b\n1,2\n", &TierMapping::default()),
+        Err(TableError::Missing { needed: "a gloss", .. })
     ));
     assert_eq!(
-        lexicon::read(b"", &Mapping::default()),
+        lexicon::read_lexicon(b"", &TierMapping::default()),
         Err(TableError::Empty)
     );
 }
@@ -306,10 +268,7 @@ fn arrows_part_successive_values_and_what_programs_write_for_nothing_is_counted(
     );
     let changing = "initial.dominant.configuration=B final.dominant.configuration=5";
     for (entry, wanted) in [
-        (
-            0,
-            format!("{changing} initial.placement=chin final.placement=chest"),
-        ),
+        (0, format!("{changing} initial.placement=chin final.placement=chest")),
         (1, format!("{changing} placement=chin")),
         (2, changing.to_owned()),
         (3, String::new()),
@@ -328,7 +287,7 @@ fn arrows_part_successive_values_and_what_programs_write_for_nothing_is_counted(
 #[test]
 fn tables_of_other_projects_are_understood() {
     let notated = |bytes: &[u8]| -> Vec<(u64, String, Option<String>)> {
-        let (lexicon, _) = lexicon::read(bytes, &Mapping::default()).expect("a table");
+        let (lexicon, _) = lexicon::read_lexicon(bytes, &TierMapping::default()).expect("a table");
         let all = lexicon.entries.into_iter();
         all.map(|it| (it.line, it.gloss, it.notation)).collect()
     };
@@ -339,16 +298,10 @@ fn tables_of_other_projects_are_understood() {
         format!("id,word,ham\n7,A,{flat}\n8,B,{flat}\n"),
         format!("Symbols;Bezeichnung\n{flat};A\n{flat};B\n"),
         format!("[{{\"gloss\": \"A\", \"hamnosys\": \"{flat}\"}}]\n"),
-        format!(
-            "{{\n\"A\": {{\"symbols\": \"{flat}\", \"n\": 1, \"more\": [1]}},\n\"B\": \"{flat}\"}}"
-        ),
+        format!("{{\n\"A\": {{\"symbols\": \"{flat}\", \"n\": 1, \"more\": [1]}},\n\"B\": \"{flat}\"}}"),
     ] {
         let read = notated(table.as_bytes());
-        assert_eq!(
-            (&*read[0].1, read[0].2.as_deref()),
-            ("A", Some(flat)),
-            "{table}"
-        );
+        assert_eq!((&*read[0].1, read[0].2.as_deref()), ("A", Some(flat)), "{table}");
     }
     assert_eq!(
         notated(format!("{{\n \"A\": \"{flat}\",\n \"B\": \"{flat}\"}}").as_bytes()),
@@ -364,12 +317,9 @@ fn tables_of_other_projects_are_understood() {
             "no column is called a gloss; \"column 1\" was taken for it",
         ]
     );
-    assert!(lexicon::read(b"{\"id\": 1}", &Mapping::default()).is_err());
-    let (windows, _) = lexicon::read(
-        b"gloss;Location\nC\x8cUR \x93\xe9\x94;chin\n",
-        &Mapping::default(),
-    )
-    .expect("a table");
+    assert!(lexicon::read_lexicon(b"{\"id\": 1}", &TierMapping::default()).is_err());
+    let (windows, _) = lexicon::read_lexicon(b"gloss;Location\nC\x8cUR \x93\xe9\x94;chin\n", &TierMapping::default())
+        .expect("a table");
     assert_eq!(windows.entries[0].gloss, "CŒUR “é”");
 }
 
@@ -377,13 +327,10 @@ fn tables_of_other_projects_are_understood() {
 fn a_short_row_below_a_wide_one_costs_little() {
     let wide: String = (0..4096).map(|n| format!("c{n},")).collect();
     let text = format!("gloss,{wide}\n{}", "x\n".repeat(2000));
-    let refused = lexicon::read(text[..].as_bytes(), &Mapping::default());
-    assert!(
-        matches!(refused, Err(TableError::Columns { .. })),
-        "{refused:?}"
-    );
+    let refused = lexicon::read_lexicon(text[..].as_bytes(), &TierMapping::default());
+    assert!(matches!(refused, Err(TableError::Columns { .. })), "{refused:?}");
     let text = text.replacen("c0,c1,", "", 1);
-    let refused = lexicon::read(text.as_bytes(), &Mapping::default());
+    let refused = lexicon::read_lexicon(text.as_bytes(), &TierMapping::default());
     assert!(
         matches!(refused, Err(TableError::Ragged { line: 1026, .. })),
         "{refused:?}"
@@ -392,7 +339,7 @@ fn a_short_row_below_a_wide_one_costs_little() {
 
 #[test]
 fn tables_and_cells_beyond_the_limits_are_refused_with_their_place() {
-    let refused = |text: String| lexicon::read(text.as_bytes(), &Mapping::default());
+    let refused = |text: String| lexicon::read_lexicon(text.as_bytes(), &TierMapping::default());
     let rows = refused(format!("gloss,Handshape\n{}", "x,B\n".repeat(1_000_001)));
     assert_eq!(rows.err(), Some(TableError::TooLarge { line: 1_000_002 }));
     let cells = refused(format!(
@@ -405,27 +352,16 @@ fn tables_and_cells_beyond_the_limits_are_refused_with_their_place() {
         "{:?}",
         cells.err()
     );
-    let long = refused(format!(
-        "gloss,Handshape\nA,B\n{},B\n",
-        "x".repeat((1 << 20) + 1)
-    ));
+    let long = refused(format!("gloss,Handshape\nA,B\n{},B\n", "x".repeat((1 << 20) + 1)));
     let (line, column, bytes) = (3, 1, (1 << 20) + 1);
-    assert_eq!(
-        long.err(),
-        Some(TableError::LongCell {
-            line,
-            column,
-            bytes
-        })
-    );
+    assert_eq!(long.err(), Some(TableError::LongCell { line, column, bytes }));
 }
 
 #[test]
 fn inventories_count_values_of_both_hands_and_all_phases() {
-    let (lexicon, _) = read(
-        "gloss\tHandshape strong\tHandshape weak\tLocation\nA\tB\t\tchin > nose\nC\tB\t5\tchin\nD\tB > 5\t-\t?\n",
-    );
-    let inventories = lexicon.inventories();
+    let (lexicon, _) =
+        read("gloss\tHandshape strong\tHandshape weak\tLocation\nA\tB\t\tchin > nose\nC\tB\t5\tchin\nD\tB > 5\t-\t?\n");
+    let inventories = lexicon.component_inventories();
     let shown: Vec<String> = inventories
         .iter()
         .map(|it| {
@@ -440,10 +376,7 @@ fn inventories_count_values_of_both_hands_and_all_phases() {
             )
         })
         .collect();
-    assert_eq!(
-        shown,
-        ["configuration: 5 2, B 3", "placement: chin 2, nose 1"]
-    );
+    assert_eq!(shown, ["configuration: 5 2, B 3", "placement: chin 2, nose 1"]);
 }
 
 #[test]
@@ -472,10 +405,8 @@ fn a_misspelled_value_is_located_in_its_own_column() {
         text += &format!("G{n}\t\t\tC-spread\n");
     }
     text += "X\t\t\tC-spreid\n";
-    let (_, findings) = lexicon::read(text.as_bytes(), &Mapping::default()).expect("a table");
-    let slip = findings
-        .iter()
-        .find(|it| it.message.contains("kept as two"));
+    let (_, findings) = lexicon::read_lexicon(text.as_bytes(), &TierMapping::default()).expect("a table");
+    let slip = findings.iter().find(|it| it.message.contains("kept as two"));
     assert_eq!(slip.expect("a finding").line, Some(34));
 }
 
@@ -486,7 +417,7 @@ fn a_table_of_2145_signs_reads_back_unchanged() {
         return;
     };
     let bytes = std::fs::read(data.join("phonology/ngt_lexicon.tsv")).expect("a file");
-    let (lexicon, findings) = lexicon::read(&bytes, &Mapping::default()).expect("a table");
+    let (lexicon, findings) = lexicon::read_lexicon(&bytes, &TierMapping::default()).expect("a table");
     for finding in &findings {
         eprintln!("{:?} {}", finding.line, finding.message);
     }
@@ -499,14 +430,11 @@ fn a_table_of_2145_signs_reads_back_unchanged() {
     assert_eq!(lexicon.entries.len(), 2145);
     assert!(lexicon.columns.iter().all(|column| column.confidence > 0.9));
     let mut out = Vec::new();
-    lexicon::write(&lexicon, &mut out).expect("a vector takes everything");
-    let (again, _) = lexicon::read(&out, &Mapping::default()).expect("what was written");
+    lexicon::write_lexicon(&lexicon, &mut out).expect("a vector takes everything");
+    let (again, _) = lexicon::read_lexicon(&out, &TierMapping::default()).expect("what was written");
     assert_eq!(again, lexicon);
     let plain = String::from_utf8(bytes).expect("UTF-8");
-    let rows: Vec<Vec<&str>> = plain
-        .lines()
-        .map(|line| line.split('\t').collect())
-        .collect();
+    let rows: Vec<Vec<&str>> = plain.lines().map(|line| line.split('\t').collect()).collect();
     for (entry, row) in lexicon.entries.iter().zip(&rows[1..]) {
         assert_eq!(entry.cells, *row);
         let filled = lexicon
@@ -515,7 +443,7 @@ fn a_table_of_2145_signs_reads_back_unchanged() {
             .zip(row)
             .enumerate()
             .filter(|(_, (column, cell))| {
-                matches!(column.meaning, Meaning::Coding { .. }) && !cell.is_empty()
+                matches!(column.meaning, LexiconColumnMeaning::Coding { .. }) && !cell.is_empty()
             });
         for (at, (_, cell)) in filled {
             let raw: Vec<&str> = entry
@@ -532,20 +460,17 @@ fn a_table_of_2145_signs_reads_back_unchanged() {
             assert_eq!(letters(&raw.concat()), letters(cell), "{}", entry.gloss);
         }
     }
-    let inventories = lexicon.inventories();
+    let inventories = lexicon.component_inventories();
     let shapes = inventories
         .iter()
-        .find(|it| it.component == Component::Configuration && it.feature.is_none());
+        .find(|it| it.component == SignComponent::Configuration && it.feature.is_none());
     assert!(shapes.is_some_and(|it| it.values["B"] > 600));
     let compound = lexicon
         .entries
         .iter()
         .flat_map(|it| &it.codings)
-        .filter_map(|it| it.reading.value());
-    assert_eq!(
-        compound.filter(|value| value.contains(['>', '+'])).count(),
-        0
-    );
+        .filter_map(|it| it.reading.reading_value());
+    assert_eq!(compound.filter(|value| value.contains(['>', '+'])).count(), 0);
     for inventory in &inventories {
         eprintln!(
             "{} {:?}: {}",
@@ -561,9 +486,9 @@ proptest! {
 
     #[test]
     fn any_bytes_are_a_table_or_an_error(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
-        let _ = lexicon::read(&bytes, &Mapping::default());
-        let _ = chereme_formats::table::annotations::read(&bytes, None);
-        let _ = chereme_formats::eaf::read(&bytes);
+        let _ = lexicon::read_lexicon(&bytes, &TierMapping::default());
+        let _ = chereme_formats::table::annotations::read_change_table(&bytes, None);
+        let _ = chereme_formats::eaf::read_eaf(&bytes);
     }
 
     #[test]
@@ -575,13 +500,13 @@ proptest! {
             table.write_record(row).expect("a vector takes everything");
         }
         let bytes = table.into_inner().expect("a vector takes everything");
-        let Ok((lexicon, _)) = lexicon::read(&bytes, &Mapping::default()) else { return Ok(()) };
+        let Ok((lexicon, _)) = lexicon::read_lexicon(&bytes, &TierMapping::default()) else { return Ok(()) };
         let kept: Vec<&[String]> = cells.chunks(4).filter(|row| !row[0].trim().is_empty()).collect();
         prop_assert!(lexicon.entries.iter().map(|entry| &entry.cells[..]).eq(kept));
         let mut out = Vec::new();
-        lexicon::write(&lexicon, &mut out).expect("a vector takes everything");
-        let (again, _) = lexicon::read(&out, &Mapping::default()).expect("what was written");
-        let cells = |it: &Lexicon| it.entries.iter().map(|entry| entry.cells.clone()).collect::<Vec<_>>();
+        lexicon::write_lexicon(&lexicon, &mut out).expect("a vector takes everything");
+        let (again, _) = lexicon::read_lexicon(&out, &TierMapping::default()).expect("what was written");
+        let cells = |it: &SignLexicon| it.entries.iter().map(|entry| entry.cells.clone()).collect::<Vec<_>>();
         prop_assert_eq!(cells(&again), cells(&lexicon));
     }
 }

@@ -1,24 +1,18 @@
 //! Tests of the roles that are inferred from the names of tiers.
 
-use chereme_formats::roles::{Mapping, TierName, guess_roles};
+use chereme_formats::roles::{TierMapping, TierRoleEvidence, guess_roles};
 
 fn check(names: &[(&str, &str)]) {
-    let tiers: Vec<TierName<'_>> = names
+    let tiers: Vec<TierRoleEvidence<'_>> = names
         .iter()
-        .map(|(name, _)| TierName {
+        .map(|(name, _)| TierRoleEvidence {
             name,
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         })
         .collect();
-    for (guess, (name, expected)) in guess_roles(&tiers, &Mapping::default()).iter().zip(names) {
-        let hand = guess
-            .hand
-            .map(|hand| format!("{hand}."))
-            .unwrap_or_default();
-        let role = guess
-            .role
-            .as_ref()
-            .map_or("?".to_owned(), |role| role.name());
+    for (guess, (name, expected)) in guess_roles(&tiers, &TierMapping::default()).iter().zip(names) {
+        let hand = guess.hand.map(|hand| format!("{hand}.")).unwrap_or_default();
+        let role = guess.role.as_ref().map_or("?".to_owned(), |role| role.role_name());
         assert_eq!(format!("{hand}{role}"), *expected, "{name}: {}", guess.why);
         assert_eq!(guess.role.is_none(), guess.confidence == 0.0, "{name}");
     }
@@ -104,28 +98,28 @@ fn md_beside_mnd_is_the_dominant_hand() {
 #[test]
 fn types_and_parents_help_to_infer_a_role() {
     let tiers = [
-        TierName {
+        TierRoleEvidence {
             name: "RH",
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         },
-        TierName {
+        TierRoleEvidence {
             name: "tier 2",
             kind: "handshape",
             parent: Some(0),
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         },
-        TierName {
+        TierRoleEvidence {
             name: "brows",
             parent: Some(0),
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         },
     ];
-    let guesses = guess_roles(&tiers, &Mapping::default());
+    let guesses = guess_roles(&tiers, &TierMapping::default());
     assert_eq!(
-        guesses[1].role.as_ref().map(|role| role.name()).as_deref(),
+        guesses[1].role.as_ref().map(|role| role.role_name()).as_deref(),
         Some("configuration")
     );
-    assert_eq!(guesses[1].hand.map(|hand| hand.name()), Some("right"));
+    assert_eq!(guesses[1].hand.map(|hand| hand.annotated_hands_name()), Some("right"));
     assert_eq!(guesses[1].confidence, 0.5);
     assert_eq!(
         guesses[1].why,
@@ -136,28 +130,27 @@ fn types_and_parents_help_to_infer_a_role() {
 
 #[test]
 fn a_mapping_overrides_inferred_roles() {
-    let mapping = Mapping::from_json(r#"{"tiers": {"RH_*": "left.placement", "H1": "free"}}"#)
-        .expect("a mapping");
+    let mapping = TierMapping::from_json(r#"{"tiers": {"RH_*": "left.placement", "H1": "free"}}"#).expect("a mapping");
     let tiers = [
-        TierName {
+        TierRoleEvidence {
             name: "rh_config",
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         },
-        TierName {
+        TierRoleEvidence {
             name: "H1",
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         },
     ];
     let guesses = guess_roles(&tiers, &mapping);
     assert_eq!(
         (
-            guesses[0].role.as_ref().map(|role| role.name()),
+            guesses[0].role.as_ref().map(|role| role.role_name()),
             guesses[0].confidence
         ),
         (Some("placement".into()), 1.0)
     );
     assert_eq!(
-        guesses[1].role.as_ref().map(|role| role.name()).as_deref(),
+        guesses[1].role.as_ref().map(|role| role.role_name()).as_deref(),
         Some("free")
     );
 }
@@ -172,26 +165,26 @@ fn a_letter_of_a_type_is_no_hand_and_a_word_is() {
         ("right hand", Some("right")),
         ("main gauche", Some("left")),
     ] {
-        let tier = TierName {
+        let tier = TierRoleEvidence {
             name: "Gloss",
             kind,
-            ..TierName::default()
+            ..TierRoleEvidence::default()
         };
-        let guess = &guess_roles(&[tier], &Mapping::default())[0];
-        assert_eq!(guess.hand.map(|hand| hand.name()), hand, "{kind}");
+        let guess = &guess_roles(&[tier], &TierMapping::default())[0];
+        assert_eq!(guess.hand.map(|hand| hand.annotated_hands_name()), hand, "{kind}");
     }
 }
 
 #[test]
 fn a_gloss_tier_one_to_one_below_another_is_a_second_reading_of_it() {
-    let tier = |name, parent| TierName {
+    let tier = |name, parent| TierRoleEvidence {
         name,
         kind: "",
         parent,
         one_to_one: parent.is_some(),
-        ..TierName::default()
+        ..TierRoleEvidence::default()
     };
-    let below = TierName {
+    let below = TierRoleEvidence {
         one_to_one: false,
         ..tier("Signs of the left hand", Some(0))
     };
@@ -203,21 +196,14 @@ fn a_gloss_tier_one_to_one_below_another_is_a_second_reading_of_it() {
         below,
     ];
     let roles = |mapping: &str| -> Vec<String> {
-        let mapping = Mapping::from_json(mapping).expect("a mapping");
+        let mapping = TierMapping::from_json(mapping).expect("a mapping");
         let guesses = guess_roles(&tiers, &mapping);
-        let role =
-            |guess: &chereme_formats::roles::TierGuess| guess.role.clone().map(|role| role.name());
+        let role = |guess: &chereme_formats::roles::TierGuess| guess.role.clone().map(|role| role.role_name());
         guesses.iter().filter_map(role).collect()
     };
     assert_eq!(
         roles("{}"),
-        [
-            "gloss",
-            "translation",
-            "translation",
-            "translation",
-            "gloss"
-        ]
+        ["gloss", "translation", "translation", "translation", "gloss"]
     );
     let said = r#"{"tiers": {"Lexem_*": "comment", "Sign_r_A": "right.gloss"}}"#;
     assert_eq!(

@@ -1,8 +1,8 @@
 //! SiGML files: values read, findings, refusals, and round trips.
 
-use chereme_formats::sigml::{self, Error};
+use chereme_formats::sigml::{self, SigmlError};
 use chereme_sign::hamnosys::{
-    Act, Bend, Contact, HandsUsed, Manual, MotionKind, NonmanualPart, Notated, Place,
+    FingerBend, HandPlace, HandsUsed, ManualPart, MotionKind, NonmanualAct, NonmanualPart, NotatedSign, PlaceContact,
     ThumbPosition, TierKind, TierStart,
 };
 
@@ -13,16 +13,13 @@ fn document(manual: &str) -> String {
 }
 
 /// Reads the one part of a sign; returns it with the findings as `line: message`.
-fn part(manual: &str) -> (Manual, Vec<String>) {
-    let (mut signs, findings) = sigml::read(document(manual).as_bytes()).expect("it is SiGML");
+fn part(manual: &str) -> (ManualPart, Vec<String>) {
+    let (mut signs, findings) = sigml::read_sigml_signs(document(manual).as_bytes()).expect("it is SiGML");
     let line = |line: Option<u64>| line.map_or_else(String::new, |line| line.to_string());
     let reported = findings
         .iter()
         .map(|finding| format!("{}: {}", line(finding.line), finding.message));
-    (
-        signs.remove(0).sign.sign.parts.remove(0),
-        reported.collect(),
-    )
+    (signs.remove(0).sign.sign.parts.remove(0), reported.collect())
 }
 
 #[test]
@@ -41,7 +38,7 @@ fn a_sign_is_read_with_every_attribute() {
   <location_bodyarm location="chest" side="right_at" contact="touch"><location_hand location="tip" digits="2"/></location_bodyarm>
   <rpt_motion repetition="fromstart"><directedmotion direction="d" size="small" manner="fast"/></rpt_motion>
 </sign_manual></hamgestural_sign></sigml>"#;
-    let (signs, findings) = sigml::read(text).expect("it is SiGML");
+    let (signs, findings) = sigml::read_sigml_signs(text).expect("it is SiGML");
     let sign = &signs[0].sign;
     assert_eq!(sign.gloss, "HERE & NOW");
     assert_eq!(
@@ -53,10 +50,7 @@ fn a_sign_is_read_with_every_attribute() {
     assert_eq!(
         reported,
         [
-            (
-                Some(1),
-                "a document type is named; it is not fetched, and not kept"
-            ),
+            (Some(1), "a document type is named; it is not fetched, and not kept"),
             (
                 Some(5),
                 "<head_movement> has an amount or speed, which is not in SiGML 1.2; it was kept as a factor"
@@ -65,19 +59,17 @@ fn a_sign_is_read_with_every_attribute() {
     );
     let head = &sign.nonmanual.tiers[&TierKind::Head];
     assert_eq!(head.start, Some(TierStart::SlightDelay));
-    assert_eq!(head.groups[0], [Act::new(NonmanualPart::Head, "SH")]);
+    assert_eq!(head.groups[0], [NonmanualAct::new(NonmanualPart::Head, "SH")]);
     assert_eq!(head.groups[1].len(), 2);
     assert!(sign.nonmanual.tiers[&TierKind::Mouthing].fit_picture);
     let part = &sign.sign.parts[0];
-    assert!(
-        matches!(part.hands, HandsUsed::Both(s) if s.left_right && s.out_of_phase && !s.up_down)
-    );
-    let shape = part.posture.shape.dominant().expect("there is one");
+    assert!(matches!(part.hands, HandsUsed::Both(s) if s.left_right && s.out_of_phase && !s.up_down));
+    let shape = part.posture.shape.dominant_value().expect("there is one");
     assert_eq!(shape.form.thumb, Some(ThumbPosition::Across));
-    assert_eq!(shape.bends[4], Some(Bend::Hooked));
-    let aim = part.posture.extended.dominant().expect("there is one");
+    assert_eq!(shape.bends[4], Some(FingerBend::Hooked));
+    let aim = part.posture.extended.dominant_value().expect("there is one");
     assert_eq!(aim.second.map(|d| d.to_string()).as_deref(), Some("uor"));
-    assert_eq!(part.posture.extended.other(), None);
+    assert_eq!(part.posture.extended.other_value(), None);
     let MotionKind::Repeated { motion, .. } = &part.actions[0].kind else {
         panic!("{:?}", part.actions)
     };
@@ -91,14 +83,8 @@ fn deviations_are_read_and_reported_with_their_line() {
             r#"<handconfig extfidir="uuo"/>"#,
             r#"4: extfidir="uuo" was read as "uo""#,
         ),
-        (
-            r#"<handconfig extfidir="lu"/>"#,
-            r#"4: extfidir="lu" was read as "ul""#,
-        ),
-        (
-            r#"<handconfig extfidir="UL"/>"#,
-            r#"4: extfidir="UL" was read as "ul""#,
-        ),
+        (r#"<handconfig extfidir="lu"/>"#, r#"4: extfidir="lu" was read as "ul""#),
+        (r#"<handconfig extfidir="UL"/>"#, r#"4: extfidir="UL" was read as "ul""#),
         (
             r#"<handconfig handshape="FINGER2"/>"#,
             r#"4: <handconfig handshape="FINGER2"> was read as "finger2""#,
@@ -216,18 +202,12 @@ fn deviations_are_read_and_reported_with_their_line() {
             "<changeposture/>",
             "4: <changeposture> stands outside <tgt_motion>; it changes nothing",
         ),
-        (
-            "<dance/>",
-            "4: <dance> has no place in <sign_manual>; it was left out",
-        ),
+        ("<dance/>", "4: <dance> has no place in <sign_manual>; it was left out"),
         (
             "\n<nomotion>“2” tip&gt;</nomotion>",
             r#"5: there is text in <nomotion>: "“2” tip"; it was left out"#,
         ),
-        (
-            "<!-- so -->",
-            "4: an XML comment or instruction is not kept",
-        ),
+        ("<!-- so -->", "4: an XML comment or instruction is not kept"),
         (
             "<nonmanualconfig><nomotion/></nonmanualconfig>",
             "4: <nonmanualconfig> names no part of the body; it was left out",
@@ -251,9 +231,7 @@ fn a_location_inside_a_motion_means_brushing() {
         panic!("{:?}", part.actions)
     };
     assert!(motion.manner.fast && !part.actions[0].manner.fast);
-    assert!(
-        matches!(&posture.place, Some(Place::Hand(site)) if site.contact == Some(Contact::Brushing))
-    );
+    assert!(matches!(&posture.place, Some(HandPlace::Hand(site)) if site.contact == Some(PlaceContact::Brushing)));
 }
 
 #[test]
@@ -269,36 +247,30 @@ fn symbols_are_read_and_written() {
 </hamnosys_manual>
 </hns_sign>
 </sigml>"#;
-    let (signs, findings) = sigml::read(text).expect("it is SiGML");
+    let (signs, findings) = sigml::read_sigml_signs(text).expect("it is SiGML");
     let reported: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
     assert_eq!(
         reported,
         [
-            (
-                Some(3),
-                "<hnm_nose>: SiGML 1.2 lists no \"XX\"; it was kept as it is"
-            ),
+            (Some(3), "<hnm_nose>: SiGML 1.2 lists no \"XX\"; it was kept as it is"),
             (Some(3), "<hnm_body tag=\"\"> says nothing; it was left out"),
             (Some(6), "<hamtab> is layout; it was left out"),
-            (
-                Some(7),
-                "<hamfoo> is not a symbol of HamNoSys; it was left out"
-            ),
+            (Some(7), "<hamfoo> is not a symbol of HamNoSys; it was left out"),
         ]
     );
     let sign = &signs[0].sign;
     assert!(matches!(sign.sign.parts[0].hands, HandsUsed::Both(symmetry) if symmetry.left_right));
     assert_eq!(
         sign.nonmanual.tiers[&TierKind::Head].groups[0],
-        [Act::new(NonmanualPart::Head, "NO")]
+        [NonmanualAct::new(NonmanualPart::Head, "NO")]
     );
     let (written, lost) = sigml::write_symbols([sign]);
     assert_eq!(lost, [Vec::<String>::new()]);
-    let (again, findings) = sigml::read(&written).expect("we wrote it");
+    let (again, findings) = sigml::read_sigml_signs(&written).expect("we wrote it");
     assert_eq!((&again[0].sign, findings.len()), (sign, 1), "{findings:?}");
     let gestural = sigml::write_gestural([sign]);
     assert_eq!(
-        sigml::read(&gestural).expect("we wrote it").0[0].sign.sign,
+        sigml::read_sigml_signs(&gestural).expect("we wrote it").0[0].sign.sign,
         sign.sign
     );
 }
@@ -316,13 +288,13 @@ fn every_spelling_of_a_text_gives_the_same_symbols() {
         ("\\hamflathand\\hamextfingeru\\hampalmd", 0),
         ("hamflathand hamnosuch hamextfingeru hampalmd", 1),
     ] {
-        let sign = Notated {
+        let sign = NotatedSign {
             text: Some(text.to_owned()),
-            ..Notated::default()
+            ..NotatedSign::default()
         };
         let (written, lost) = sigml::write_symbols([&sign]);
         assert_eq!(lost[0].len(), losses, "{text:?}: {lost:?}");
-        let (again, _) = sigml::read(&written).expect("we wrote it");
+        let (again, _) = sigml::read_sigml_signs(&written).expect("we wrote it");
         let read = again[0].sign.text.as_deref().unwrap_or_default();
         assert_eq!(read.replace(' ', ""), characters, "{text:?}");
     }
@@ -331,7 +303,7 @@ fn every_spelling_of_a_text_gives_the_same_symbols() {
 #[test]
 fn losses_of_the_symbol_form_are_reported() {
     let text = document(r#"<directedmotion direction="uol" speed="0.5"/>"#);
-    let (signs, _) = sigml::read(text.as_bytes()).expect("it is SiGML");
+    let (signs, _) = sigml::read_sigml_signs(text.as_bytes()).expect("it is SiGML");
     let (_, lost) = sigml::write_symbols(signs.iter().map(|entry| &entry.sign));
     assert!(!lost[0].is_empty());
 }
@@ -343,14 +315,10 @@ fn elements_with_the_prefix_of_a_namespace_are_read_like_those_without() {
         .replace("</", "</sg:")
         .replace("<s", "<sg:s")
         .replace("<h", "<sg:h");
-    let named = prefixed.replacen(
-        "<sg:sigml>",
-        "<sg:sigml xmlns:sg=\"http://example.org/sigml\">",
-        1,
-    );
-    let wanted = sigml::read(plain.as_bytes()).expect("it is SiGML");
+    let named = prefixed.replacen("<sg:sigml>", "<sg:sigml xmlns:sg=\"http://example.org/sigml\">", 1);
+    let wanted = sigml::read_sigml_signs(plain.as_bytes()).expect("it is SiGML");
     for text in [prefixed, named] {
-        let (signs, findings) = sigml::read(text.as_bytes()).expect("it is SiGML");
+        let (signs, findings) = sigml::read_sigml_signs(text.as_bytes()).expect("it is SiGML");
         assert_eq!((signs, findings), wanted.clone(), "{text}");
     }
 }
@@ -369,29 +337,26 @@ fn files_that_are_no_sigml_are_refused() {
             "line 2: the file ends inside <hamgestural_sign>",
         ),
         ("<sigml>\n</sign>", "line 2: </sign> closes <sigml>"),
-        (
-            "<sigml/>\n<sigml/>",
-            "line 2: <sigml> is a second root element",
-        ),
+        ("<sigml/>\n<sigml/>", "line 2: <sigml> is a second root element"),
         ("<sigml a/>", "line 1: <sigml> has a broken attribute"),
-        (
-            bomb,
-            "line 1: a <!DOCTYPE …> with declarations of its own is not read",
-        ),
+        (bomb, "line 1: a <!DOCTYPE …> with declarations of its own is not read"),
         (&deep, "line 1: elements are nested too deep, more than 64"),
         (
             "<?xml version=\"1.0\" encoding=\"latin1\"?><sigml base_uri=\"é\"/>",
             "line 1: the text is in latin1",
         ),
     ] {
-        let error = sigml::read(text.as_bytes()).expect_err(text).to_string();
+        let error = sigml::read_sigml_signs(text.as_bytes()).expect_err(text).to_string();
         assert!(error.starts_with(expected), "{text}: {error}");
     }
     let wide: Vec<u8> = "<sigml/>".bytes().flat_map(|byte| [byte, 0]).collect();
-    assert!(matches!(sigml::read(&wide), Err(Error::Encoding { .. })));
     assert!(matches!(
-        sigml::read(b"<sigml a='\xff'/>"),
-        Err(Error::Encoding { line: 1, .. })
+        sigml::read_sigml_signs(&wide),
+        Err(SigmlError::Encoding { .. })
+    ));
+    assert!(matches!(
+        sigml::read_sigml_signs(b"<sigml a='\xff'/>"),
+        Err(SigmlError::Encoding { line: 1, .. })
     ));
 }
 
@@ -403,7 +368,7 @@ fn other_encodings_are_read_if_the_document_declares_them() {
     let wide = format!("\u{feff}<?xml version=\"1.0\" encoding=\"utf-16\"?>\n{sign}");
     let wide: Vec<u8> = wide.encode_utf16().flat_map(u16::to_le_bytes).collect();
     for bytes in [western, wide] {
-        let (signs, findings) = sigml::read(&bytes).expect("it is SiGML");
+        let (signs, findings) = sigml::read_sigml_signs(&bytes).expect("it is SiGML");
         assert_eq!((&*signs[0].sign.gloss, signs[0].line.0), ("ÉTÉ", 3));
         assert_eq!(findings.len(), 2, "{findings:?}");
     }
@@ -423,9 +388,9 @@ fn nesting_up_to_the_limit_is_read_and_written() {
         "</location_hand>".repeat(depth)
     );
     for text in [document(&motion), document(&site)] {
-        let (signs, _) = sigml::read(text.as_bytes()).expect("it is not too deep");
+        let (signs, _) = sigml::read_sigml_signs(text.as_bytes()).expect("it is not too deep");
         let written = sigml::write_gestural(signs.iter().map(|entry| &entry.sign));
-        assert_eq!(sigml::read(&written).expect("we wrote it").0, signs);
+        assert_eq!(sigml::read_sigml_signs(&written).expect("we wrote it").0, signs);
         let _ = sigml::write_symbols(signs.iter().map(|entry| &entry.sign));
     }
 }
@@ -437,6 +402,6 @@ fn truncation_anywhere_is_an_error_or_a_document() {
     );
     for end in 0..text.len() {
         let whole = text[..end].trim_end().ends_with("</sigml>");
-        assert_eq!(sigml::read(&text.as_bytes()[..end]).is_ok(), whole, "{end}");
+        assert_eq!(sigml::read_sigml_signs(&text.as_bytes()[..end]).is_ok(), whole, "{end}");
     }
 }

@@ -2,12 +2,13 @@
 
 use chereme_formats::sigml;
 use chereme_sign::hamnosys::{
-    Act, Aim, Amount, Bend, BodyAction, BodyLocation, BodyPlace, Circular, Clock, Compass,
-    Constellation, Contact, Curve, Digit, Digits, Directed, Direction, Each, Ellipse,
-    FingerContact, FingerPart, Form, Frame, Growth, HandClass, HandLocation, HandSite, HandsUsed,
-    Handshape, Manner, Manual, Motion, MotionKind, Nonmanual, NonmanualPart, NonmanualTier,
-    Notated, Opening, Place, Posture, Repeat, Repetition, Side, Sign, Site, Size, Symmetry,
-    ThumbExtra, ThumbPosition, TierEnd, TierKind, TierStart, WristMotion, Zigzag,
+    BodyAction, BodyLocation, BodyPlace, CeeOpening, CircularPath, ClockRange, CompassDirection, DigitList,
+    DirectedPath, DirectionAim, DirectionFrame, EachHand, EllipseAxis, FingerBend, FingerContact, FingerPart,
+    HamnosysSign, HandClass, HandConstellation, HandDigit, HandLocation, HandPlace, HandSite, HandSymmetry, HandsUsed,
+    Handshape, HandshapeForm, LocationSide, ManualPart, MotionGrowth, MotionKind, MotionManner, MotionRepetition,
+    MotionSize, NonmanualAct, NonmanualActs, NonmanualPart, NonmanualTier, NotatedMotion, NotatedPosture, NotatedSign,
+    PathCurve, PathZigzag, PlaceContact, RepeatKind, SidedLocation, SizeAmount, SpatialDirection, ThumbExtra,
+    ThumbPosition, TierEnd, TierKind, TierStart, WristMotion,
 };
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -26,53 +27,53 @@ fn maybe<T: std::fmt::Debug>(value: impl Strategy<Value = T>) -> impl Strategy<V
     proptest::option::weighted(0.3, value)
 }
 
-fn direction() -> impl Strategy<Value = Direction> {
-    select(Direction::all().collect::<Vec<_>>())
+fn direction() -> impl Strategy<Value = SpatialDirection> {
+    select(SpatialDirection::all_spatial_directions().collect::<Vec<_>>())
 }
 
-fn compass() -> impl Strategy<Value = Compass> {
-    select(Compass::ALL.to_vec())
+fn compass() -> impl Strategy<Value = CompassDirection> {
+    select(CompassDirection::ALL_COMPASS_DIRECTIONS.to_vec())
 }
 
-fn size() -> impl Strategy<Value = Option<Size>> {
-    maybe(word(&[Size::Small, Size::Big]))
+fn size() -> impl Strategy<Value = Option<MotionSize>> {
+    maybe(word(&[MotionSize::Small, MotionSize::Big]))
 }
 
-fn digit() -> impl Strategy<Value = Digit> {
-    select(Digit::ALL.to_vec())
+fn digit() -> impl Strategy<Value = HandDigit> {
+    select(HandDigit::ALL_HAND_DIGITS.to_vec())
 }
 
-fn digits() -> impl Strategy<Value = Digits> {
-    proptest::sample::subsequence(Digit::ALL.to_vec(), 0..=2).prop_map(Digits)
+fn digits() -> impl Strategy<Value = DigitList> {
+    proptest::sample::subsequence(HandDigit::ALL_HAND_DIGITS.to_vec(), 0..=2).prop_map(DigitList)
 }
 
-fn side() -> impl Strategy<Value = Option<Side>> {
+fn side() -> impl Strategy<Value = Option<LocationSide>> {
     maybe(word(&[
-        Side::LeftBeside,
-        Side::RightAt,
-        Side::Front,
-        Side::Dorsal,
-        Side::Ulnar,
+        LocationSide::LeftBeside,
+        LocationSide::RightAt,
+        LocationSide::Front,
+        LocationSide::Dorsal,
+        LocationSide::Ulnar,
     ]))
 }
 
-fn bend() -> BoxedStrategy<Bend> {
+fn bend() -> BoxedStrategy<FingerBend> {
     prop_oneof![
         word(&[
-            Bend::Bent,
-            Bend::Round,
-            Bend::Hooked,
-            Bend::DoubleBent,
-            Bend::DoubleHooked,
-            Bend::HalfBent
+            FingerBend::Bent,
+            FingerBend::Round,
+            FingerBend::Hooked,
+            FingerBend::DoubleBent,
+            FingerBend::DoubleHooked,
+            FingerBend::HalfBent
         ]),
-        proptest::array::uniform3(0.0..4.0).prop_map(Bend::Joints),
-        proptest::array::uniform3(0u8..=4).prop_map(|joints| Bend::Joints(joints.map(f64::from))),
+        proptest::array::uniform3(0.0..4.0).prop_map(FingerBend::Joints),
+        proptest::array::uniform3(0u8..=4).prop_map(|joints| FingerBend::Joints(joints.map(f64::from))),
     ]
     .boxed()
 }
 
-fn form() -> BoxedStrategy<Form> {
+fn form() -> BoxedStrategy<HandshapeForm> {
     let class = word(&[
         HandClass::Fist,
         HandClass::Flat,
@@ -84,9 +85,9 @@ fn form() -> BoxedStrategy<Form> {
         ThumbPosition::Across,
         ThumbPosition::Opposed,
     ]));
-    let opening = maybe(word(&[Opening::Tight, Opening::Slack]));
+    let opening = maybe(word(&[CeeOpening::Tight, CeeOpening::Slack]));
     (class, thumb, maybe(bend()), opening)
-        .prop_map(|(class, thumb, bend, opening)| Form {
+        .prop_map(|(class, thumb, bend, opening)| HandshapeForm {
             class,
             thumb,
             bend,
@@ -101,11 +102,7 @@ fn part_of_finger() -> impl Strategy<Value = FingerPart> {
 
 fn handshape() -> BoxedStrategy<Handshape> {
     let contact = (digit(), digit(), maybe(part_of_finger()));
-    let contact = contact.prop_map(|(first, second, part)| FingerContact {
-        first,
-        second,
-        part,
-    });
+    let contact = contact.prop_map(|(first, second, part)| FingerContact { first, second, part });
     let thumb = prop_oneof![
         (digit(), digit()).prop_map(|(a, b)| ThumbExtra::Between(a, b)),
         Just(ThumbExtra::Enclosed),
@@ -121,24 +118,18 @@ fn handshape() -> BoxedStrategy<Handshape> {
     let rest = (proptest::collection::vec(contact, 0..=2), maybe(thumb));
     (forms, fingers, rest)
         .prop_map(
-            |(
-                (form, between, approx, splay),
-                (special, exempt, opposed, bends),
-                (contacts, thumb),
-            )| {
-                Handshape {
-                    form,
-                    between,
-                    approx,
-                    splay,
-                    special,
-                    exempt,
-                    opposed,
-                    bends,
-                    contacts,
-                    thumb,
-                    ..Handshape::default()
-                }
+            |((form, between, approx, splay), (special, exempt, opposed, bends), (contacts, thumb))| Handshape {
+                form,
+                between,
+                approx,
+                splay,
+                special,
+                exempt,
+                opposed,
+                bends,
+                contacts,
+                thumb,
+                ..Handshape::default()
             },
         )
         .boxed()
@@ -146,27 +137,32 @@ fn handshape() -> BoxedStrategy<Handshape> {
 
 fn aim<D: std::fmt::Debug + Clone + 'static>(
     direction: impl Strategy<Value = D> + Clone + 'static,
-) -> impl Strategy<Value = Aim<D>> {
-    let frame = word(&[Frame::Plain, Frame::Plain, Frame::Absolute, Frame::Relative]);
-    (direction.clone(), maybe(direction), any::<bool>(), frame).prop_map(
-        |(first, second, approx, frame)| Aim {
+) -> impl Strategy<Value = DirectionAim<D>> {
+    let frame = word(&[
+        DirectionFrame::Plain,
+        DirectionFrame::Plain,
+        DirectionFrame::Absolute,
+        DirectionFrame::Relative,
+    ]);
+    (direction.clone(), maybe(direction), any::<bool>(), frame).prop_map(|(first, second, approx, frame)| {
+        DirectionAim {
             first,
             second,
             approx,
             frame,
-        },
-    )
+        }
+    })
 }
 
 fn each<T: std::fmt::Debug + Clone + 'static>(
     one: impl Strategy<Value = T> + Clone + 'static,
-) -> impl Strategy<Value = Each<T>> {
+) -> impl Strategy<Value = EachHand<T>> {
     let split = (maybe(one.clone()), maybe(one.clone()));
     prop_oneof![
-        Just(Each::Unset),
-        one.prop_map(Each::Shared),
+        Just(EachHand::Unset),
+        one.prop_map(EachHand::Shared),
         split.prop_filter_map("a split says something", |(a, b)| {
-            (a.is_some() || b.is_some()).then_some(Each::Split(a, b))
+            (a.is_some() || b.is_some()).then_some(EachHand::Split(a, b))
         }),
     ]
 }
@@ -178,20 +174,19 @@ fn hand_site() -> BoxedStrategy<HandSite> {
         HandLocation::WristBack,
         HandLocation::Elbow,
     ]);
-    let simple =
-        (at, digits(), side(), any::<bool>()).prop_map(|(at, digits, side, approx)| HandSite {
-            at: Some(at),
-            digits,
-            side,
-            approx,
-            ..HandSite::default()
-        });
+    let simple = (at, digits(), side(), any::<bool>()).prop_map(|(at, digits, side, approx)| HandSite {
+        at: Some(at),
+        digits,
+        side,
+        approx,
+        ..HandSite::default()
+    });
     let simple = simple.boxed();
     let contact = maybe(word(&[
-        Contact::Touch,
-        Contact::Close,
-        Contact::Interlock,
-        Contact::Brushing,
+        PlaceContact::Touch,
+        PlaceContact::Close,
+        PlaceContact::Interlock,
+        PlaceContact::Brushing,
     ]));
     (
         simple.clone(),
@@ -218,13 +213,13 @@ fn body_place() -> BoxedStrategy<BodyPlace> {
             BodyLocation::NeutralSpace,
             BodyLocation::UpperEyelid,
         ]);
-        maybe((at, side(), any::<bool>()).prop_map(|(at, side, approx)| Site { at, side, approx }))
+        maybe((at, side(), any::<bool>()).prop_map(|(at, side, approx)| SidedLocation { at, side, approx }))
     };
     let contact = maybe(word(&[
-        Contact::Touch,
-        Contact::Close,
-        Contact::ArmExtended,
-        Contact::Brushing,
+        PlaceContact::Touch,
+        PlaceContact::Close,
+        PlaceContact::ArmExtended,
+        PlaceContact::Brushing,
     ]));
     (
         site(),
@@ -246,42 +241,42 @@ fn body_place() -> BoxedStrategy<BodyPlace> {
         .boxed()
 }
 
-fn place() -> BoxedStrategy<Place> {
+fn place() -> BoxedStrategy<HandPlace> {
     let hands = (
         maybe(hand_site()),
         maybe(hand_site()),
-        maybe(word(&[Contact::Touch, Contact::Cross])),
+        maybe(word(&[PlaceContact::Touch, PlaceContact::Cross])),
         maybe(body_place()),
         maybe(1u8..=5),
     );
     let hands = hands.prop_map(|(dominant, other, contact, at, define)| {
-        Place::Hands(Constellation {
+        HandPlace::Hands(HandConstellation {
             dominant,
             other,
             contact,
             at,
             define,
-            ..Constellation::default()
+            ..HandConstellation::default()
         })
     });
     let one = prop_oneof![
-        body_place().prop_map(Place::Body),
-        hand_site().prop_map(Place::Hand),
+        body_place().prop_map(HandPlace::Body),
+        hand_site().prop_map(HandPlace::Hand),
         hands,
-        (1u8..=5).prop_map(Place::Named),
+        (1u8..=5).prop_map(HandPlace::Named),
     ];
     let one = one.boxed();
     let half = maybe(one.clone().prop_map(Box::new));
-    prop_oneof![3 => one.clone(), 1 => (half, maybe(one.prop_map(Box::new))).prop_map(|(a, b)| Place::Split(a, b))]
-    .boxed()
+    prop_oneof![3 => one.clone(), 1 => (half, maybe(one.prop_map(Box::new))).prop_map(|(a, b)| HandPlace::Split(a, b))]
+        .boxed()
 }
 
-fn posture() -> BoxedStrategy<Posture> {
+fn posture() -> BoxedStrategy<NotatedPosture> {
     let shape = each(handshape().boxed());
     let extended = each(aim(direction().boxed()).boxed());
     let palm = each(aim(compass().boxed()).boxed());
     (shape, extended, palm, maybe(place()))
-        .prop_map(|(shape, extended, palm, place)| Posture {
+        .prop_map(|(shape, extended, palm, place)| NotatedPosture {
             shape,
             extended,
             palm,
@@ -290,36 +285,28 @@ fn posture() -> BoxedStrategy<Posture> {
         .boxed()
 }
 
-fn growth() -> BoxedStrategy<Option<Growth>> {
-    maybe((any::<bool>(), size()).prop_map(|(increasing, size)| Growth { increasing, size }))
-        .boxed()
+fn growth() -> BoxedStrategy<Option<MotionGrowth>> {
+    maybe((any::<bool>(), size()).prop_map(|(increasing, size)| MotionGrowth { increasing, size })).boxed()
 }
 
-fn zigzag() -> BoxedStrategy<Option<Zigzag>> {
-    maybe(
-        (any::<bool>(), size(), growth()).prop_map(|(wavy, size, growth)| Zigzag {
-            wavy,
-            size,
-            growth,
-        }),
-    )
-    .boxed()
+fn zigzag() -> BoxedStrategy<Option<PathZigzag>> {
+    maybe((any::<bool>(), size(), growth()).prop_map(|(wavy, size, growth)| PathZigzag { wavy, size, growth })).boxed()
 }
 
-fn amount() -> impl Strategy<Value = Amount> {
-    (size(), size()).prop_map(|(first, second)| Amount { first, second })
+fn amount() -> impl Strategy<Value = SizeAmount> {
+    (size(), size()).prop_map(|(first, second)| SizeAmount { first, second })
 }
 
-fn ellipse() -> impl Strategy<Value = Option<Ellipse>> {
+fn ellipse() -> impl Strategy<Value = Option<EllipseAxis>> {
     maybe(word(&[
-        Ellipse::Horizontal,
-        Ellipse::UpRight,
-        Ellipse::Vertical,
-        Ellipse::UpLeft,
+        EllipseAxis::Horizontal,
+        EllipseAxis::UpRight,
+        EllipseAxis::Vertical,
+        EllipseAxis::UpLeft,
     ]))
 }
 
-fn manner() -> BoxedStrategy<Manner> {
+fn manner() -> BoxedStrategy<MotionManner> {
     (any::<[bool; 9]>(), maybe(0.1..3.0))
         .prop_map(
             |(
@@ -336,7 +323,7 @@ fn manner() -> BoxedStrategy<Manner> {
                 ],
                 speed,
             )| {
-                Manner {
+                MotionManner {
                     fast,
                     slow,
                     tense,
@@ -354,17 +341,10 @@ fn manner() -> BoxedStrategy<Manner> {
 }
 
 fn simple() -> BoxedStrategy<MotionKind> {
-    let curve = maybe((compass(), size()).prop_map(|(to, size)| Curve { to, size }));
-    let directed = (
-        direction(),
-        maybe(direction()),
-        amount(),
-        curve,
-        zigzag(),
-        ellipse(),
-    );
+    let curve = maybe((compass(), size()).prop_map(|(to, size)| PathCurve { to, size }));
+    let directed = (direction(), maybe(direction()), amount(), curve, zigzag(), ellipse());
     let directed = directed.prop_map(|(direction, second, size, curve, zigzag, ellipse)| {
-        MotionKind::Directed(Directed {
+        MotionKind::Directed(DirectedPath {
             direction,
             second,
             size,
@@ -373,8 +353,8 @@ fn simple() -> BoxedStrategy<MotionKind> {
             ellipse,
         })
     });
-    let clock = (maybe(compass()), maybe(compass()), 0u8..=2)
-        .prop_map(|(start, end, full)| Clock { start, end, full });
+    let clock =
+        (maybe(compass()), maybe(compass()), 0u8..=2).prop_map(|(start, end, full)| ClockRange { start, end, full });
     let circular = (
         direction(),
         maybe(direction()),
@@ -385,20 +365,18 @@ fn simple() -> BoxedStrategy<MotionKind> {
         zigzag(),
         growth(),
     );
-    let circular = circular.prop_map(
-        |(axis, second, size, ellipse, ellipse_size, clock, zigzag, growth)| {
-            MotionKind::Circular(Circular {
-                axis,
-                second,
-                size,
-                ellipse,
-                ellipse_size,
-                clock,
-                zigzag,
-                growth,
-            })
-        },
-    );
+    let circular = circular.prop_map(|(axis, second, size, ellipse, ellipse_size, clock, zigzag, growth)| {
+        MotionKind::Circular(CircularPath {
+            axis,
+            second,
+            size,
+            ellipse,
+            ellipse_size,
+            clock,
+            zigzag,
+            growth,
+        })
+    });
     let wrist = (word(&[WristMotion::Nodding, WristMotion::StirCcw]), size());
     prop_oneof![
         directed,
@@ -411,18 +389,18 @@ fn simple() -> BoxedStrategy<MotionKind> {
     .boxed()
 }
 
-fn motion() -> BoxedStrategy<Motion> {
+fn motion() -> BoxedStrategy<NotatedMotion> {
     let with = |kind: BoxedStrategy<MotionKind>| {
-        (kind, manner()).prop_map(|(kind, manner)| Motion {
+        (kind, manner()).prop_map(|(kind, manner)| NotatedMotion {
             manner,
-            ..Motion::new(kind)
+            ..NotatedMotion::new(kind)
         })
     };
     with(simple().boxed())
         .prop_recursive(3, 8, 3, move |inner| {
             let several = proptest::collection::vec(inner.clone(), 2..=3);
             let boxed = inner.clone().prop_map(Box::new).boxed();
-            let repeat = word(&[Repeat::FromStart, Repeat::ContinueSeveral, Repeat::Swap]).boxed();
+            let repeat = word(&[RepeatKind::FromStart, RepeatKind::ContinueSeveral, RepeatKind::Swap]).boxed();
             let repetition = (
                 repeat.clone(),
                 maybe(repeat),
@@ -432,23 +410,22 @@ fn motion() -> BoxedStrategy<Motion> {
                 growth(),
                 any::<bool>(),
             );
-            let repetition = repetition.prop_map(
-                |(repeat, second, growth, shift, shift_size, shift_growth, approx)| Repetition {
-                    repeat,
-                    second,
-                    growth,
-                    shift,
-                    shift_size,
-                    shift_growth,
-                    approx,
-                },
-            );
+            let repetition =
+                repetition.prop_map(|(repeat, second, growth, shift, shift_size, shift_growth, approx)| {
+                    MotionRepetition {
+                        repeat,
+                        second,
+                        growth,
+                        shift,
+                        shift_size,
+                        shift_growth,
+                        approx,
+                    }
+                });
             let kind = prop_oneof![
-                (several.clone(), any::<bool>())
-                    .prop_map(|(motions, fused)| MotionKind::Sequence { motions, fused }),
+                (several.clone(), any::<bool>()).prop_map(|(motions, fused)| MotionKind::Sequence { motions, fused }),
                 several.prop_map(MotionKind::Parallel),
-                (boxed.clone(), boxed.clone())
-                    .prop_map(|(a, b)| MotionKind::Split(Some(a), Some(b))),
+                (boxed.clone(), boxed.clone()).prop_map(|(a, b)| MotionKind::Split(Some(a), Some(b))),
                 (maybe(boxed.clone()), posture().prop_map(Box::new))
                     .prop_map(|(motion, posture)| MotionKind::Target { motion, posture }),
                 (boxed.clone(), repetition)
@@ -466,22 +443,17 @@ fn motion() -> BoxedStrategy<Motion> {
         .boxed()
 }
 
-fn manual() -> BoxedStrategy<Manual> {
-    let symmetry =
-        any::<[bool; 5]>().prop_map(|[left_right, up_down, out_in, out_of_phase, real_space]| {
-            HandsUsed::Both(Symmetry {
-                left_right,
-                up_down,
-                out_in,
-                out_of_phase,
-                real_space,
-            })
-        });
-    let hands = prop_oneof![
-        Just(HandsUsed::Dominant),
-        Just(HandsUsed::Nondominant),
-        symmetry
-    ];
+fn manual() -> BoxedStrategy<ManualPart> {
+    let symmetry = any::<[bool; 5]>().prop_map(|[left_right, up_down, out_in, out_of_phase, real_space]| {
+        HandsUsed::Both(HandSymmetry {
+            left_right,
+            up_down,
+            out_in,
+            out_of_phase,
+            real_space,
+        })
+    });
+    let hands = prop_oneof![Just(HandsUsed::Dominant), Just(HandsUsed::Nondominant), symmetry];
     let body = (side(), maybe(motion().prop_map(Box::new))).prop_map(|(side, motion)| BodyAction {
         part: BodyLocation::Head,
         side,
@@ -494,38 +466,35 @@ fn manual() -> BoxedStrategy<Manual> {
         posture(),
         proptest::collection::vec(motion(), 0..=2),
     )
-        .prop_map(|(hands, holdover, body, posture, actions)| Manual {
+        .prop_map(|(hands, holdover, body, posture, actions)| ManualPart {
             hands,
             holdover,
             body,
             posture,
             actions,
-            ..Manual::default()
+            ..ManualPart::default()
         })
         .boxed()
 }
 
-fn nonmanual() -> BoxedStrategy<Nonmanual> {
+fn nonmanual() -> BoxedStrategy<NonmanualActs> {
     let act = (
-        select(NonmanualPart::ALL.to_vec()),
+        select(NonmanualPart::ALL_NONMANUAL_PARTS.to_vec()),
         "[A-Z]{2}|[A-Z][0-9]{2}_[a-z]{3}|[a-z:@]{1,4}",
         maybe(0.1..2.0),
         maybe(0.1..2.0),
     );
-    let act = act.prop_map(|(part, tag, amount, speed)| Act {
+    let act = act.prop_map(|(part, tag, amount, speed)| NonmanualAct {
         part,
         tag,
         amount,
         speed,
     });
-    let start = maybe(word(&[
-        TierStart::SlightDelay,
-        TierStart::StartSlightlyAhead,
-    ]));
+    let start = maybe(word(&[TierStart::SlightDelay, TierStart::StartSlightlyAhead]));
     let end = maybe(word(&[TierEnd::LastsLonger, TierEnd::EndsBefore]));
     let groups = proptest::collection::vec(proptest::collection::vec(act, 1..=3), 1..=3);
     let tier = (start, end, any::<bool>(), groups);
-    proptest::collection::btree_map(select(TierKind::ALL.to_vec()), tier, 0..=3)
+    proptest::collection::btree_map(select(TierKind::ALL_TIER_KINDS.to_vec()), tier, 0..=3)
         .prop_map(|tiers| {
             let tiers = tiers.into_iter().map(|(kind, (start, end, fit, groups))| {
                 let fit_picture = fit && kind == TierKind::Mouthing;
@@ -539,38 +508,25 @@ fn nonmanual() -> BoxedStrategy<Nonmanual> {
                     },
                 )
             });
-            Nonmanual {
-                tiers: tiers.collect(),
-            }
+            NonmanualActs { tiers: tiers.collect() }
         })
         .boxed()
 }
 
-fn notated() -> BoxedStrategy<Notated> {
-    let header = (
-        "[A-Z<>&\"'é]{1,8}",
-        maybe("[a-z]{3}"),
-        maybe(0.1..3.0),
-        maybe(0.1..3.0),
-    );
-    (
-        header,
-        proptest::collection::vec(manual(), 1..=2),
-        nonmanual(),
-    )
-        .prop_map(
-            |((gloss, language, speed, duration), parts, nonmanual)| Notated {
-                gloss,
-                sign_language: language.clone(),
-                gloss_language: language,
-                speed,
-                timescale: speed,
-                duration,
-                text: None,
-                sign: Sign { parts },
-                nonmanual,
-            },
-        )
+fn notated() -> BoxedStrategy<NotatedSign> {
+    let header = ("[A-Z<>&\"'é]{1,8}", maybe("[a-z]{3}"), maybe(0.1..3.0), maybe(0.1..3.0));
+    (header, proptest::collection::vec(manual(), 1..=2), nonmanual())
+        .prop_map(|((gloss, language, speed, duration), parts, nonmanual)| NotatedSign {
+            gloss,
+            sign_language: language.clone(),
+            gloss_language: language,
+            speed,
+            timescale: speed,
+            duration,
+            text: None,
+            sign: HamnosysSign { parts },
+            nonmanual,
+        })
         .boxed()
 }
 
@@ -580,14 +536,14 @@ proptest! {
     #[test]
     fn any_sign_reads_back_unchanged_from_gestural_sigml(signs in proptest::collection::vec(notated(), 1..=2)) {
         let text = sigml::write_gestural(&signs);
-        let (again, _) = sigml::read(&text).expect("we wrote it");
+        let (again, _) = sigml::read_sigml_signs(&text).expect("we wrote it");
         let again: Vec<_> = again.into_iter().map(|entry| entry.sign).collect();
         prop_assert_eq!(again, signs);
     }
 
     #[test]
     fn any_bytes_are_a_document_or_an_error(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
-        let _ = sigml::read(&bytes);
+        let _ = sigml::read_sigml_signs(&bytes);
     }
 
     #[test]
@@ -595,6 +551,6 @@ proptest! {
         let mut text = document("<handconfig extfidir=\"u\"/><directedmotion direction=\"ol\" size=\"big\"/>");
         let at = at.min(text.len());
         text.insert_str(at, &bytes);
-        let _ = sigml::read(text.as_bytes());
+        let _ = sigml::read_sigml_signs(text.as_bytes());
     }
 }

@@ -5,26 +5,26 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::pose::{ModelPose, Pose};
+use crate::pose::{LocalPose, ModelPose};
 use crate::skeleton::Skeleton;
-use crate::time::{Instant, Rate, Span};
+use crate::time::{FrameRate, RecordingInstant, TimeSpan};
 
 /// The movement of one joint in its parent's space.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Channel {
+pub struct JointChannel {
     /// One unit quaternion per frame.
     pub rotations: Vec<DQuat>,
     /// One position per frame in metres if the joint also moves; otherwise it stays at its offset.
     pub translations: Option<Vec<DVec3>>,
 }
 
-/// A movement: one [`Channel`] per joint, all of the same length.
+/// A movement: one [`JointChannel`] per joint, all of the same length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clip {
     skeleton: Arc<Skeleton>,
-    rate: Rate,
+    rate: FrameRate,
     frames: usize,
-    channels: Vec<Channel>,
+    channels: Vec<JointChannel>,
 }
 
 /// Why channels do not form a clip.
@@ -63,11 +63,7 @@ impl Clip {
     ///
     /// # Errors
     /// [`ClipError`] if channels are missing, differ in length, or contain invalid values.
-    pub fn new(
-        skeleton: Arc<Skeleton>,
-        rate: Rate,
-        channels: Vec<Channel>,
-    ) -> Result<Self, ClipError> {
+    pub fn new(skeleton: Arc<Skeleton>, rate: FrameRate, channels: Vec<JointChannel>) -> Result<Self, ClipError> {
         if channels.len() != skeleton.len() {
             return Err(ClipError::Joints {
                 channels: channels.len(),
@@ -75,7 +71,7 @@ impl Clip {
             });
         }
         let frames = channels[0].rotations.len();
-        for (joint, channel) in skeleton.joints().iter().zip(&channels) {
+        for (joint, channel) in skeleton.skeleton_joints().iter().zip(&channels) {
             let name = || joint.name.clone();
             let moved = channel.translations.as_ref().map_or(frames, Vec::len);
             for found in [channel.rotations.len(), moved] {
@@ -94,10 +90,7 @@ impl Clip {
                 .flatten()
                 .position(|t: &DVec3| !t.is_finite());
             if let Some(frame) = turned.or(moved) {
-                return Err(ClipError::Value {
-                    joint: name(),
-                    frame,
-                });
+                return Err(ClipError::Value { joint: name(), frame });
             }
         }
         Ok(Self {
@@ -110,11 +103,11 @@ impl Clip {
 
     /// Returns `frames` frames of the skeleton at rest.
     #[must_use]
-    pub fn still(skeleton: Arc<Skeleton>, rate: Rate, frames: usize) -> Self {
+    pub fn from_rest_pose(skeleton: Arc<Skeleton>, rate: FrameRate, frames: usize) -> Self {
         let channels = skeleton
-            .joints()
+            .skeleton_joints()
             .iter()
-            .map(|joint| Channel {
+            .map(|joint| JointChannel {
                 rotations: vec![joint.rest; frames],
                 translations: None,
             })
@@ -131,11 +124,7 @@ impl Clip {
     ///
     /// # Errors
     /// [`ClipError`] if a pose has another number of joints, or contains invalid values.
-    pub fn from_poses(
-        skeleton: Arc<Skeleton>,
-        rate: Rate,
-        poses: &[Pose],
-    ) -> Result<Self, ClipError> {
+    pub fn from_poses(skeleton: Arc<Skeleton>, rate: FrameRate, poses: &[LocalPose]) -> Result<Self, ClipError> {
         let joints = skeleton.len();
         if let Some(pose) = poses
             .iter()
@@ -146,12 +135,11 @@ impl Clip {
         }
         let channels = (0..joints)
             .map(|j| {
-                let offset = skeleton.joint(j).offset;
+                let offset = skeleton.joint_at(j).offset;
                 let moves = poses.iter().any(|pose| pose.translations[j] != offset);
-                Channel {
+                JointChannel {
                     rotations: poses.iter().map(|pose| pose.rotations[j]).collect(),
-                    translations: moves
-                        .then(|| poses.iter().map(|pose| pose.translations[j]).collect()),
+                    translations: moves.then(|| poses.iter().map(|pose| pose.translations[j]).collect()),
                 }
             })
             .collect();
@@ -160,69 +148,65 @@ impl Clip {
 
     /// Returns the skeleton that moves.
     #[must_use]
-    pub fn skeleton(&self) -> &Arc<Skeleton> {
+    pub fn clip_skeleton(&self) -> &Arc<Skeleton> {
         &self.skeleton
     }
 
     /// Returns the frame rate.
     #[must_use]
-    pub fn rate(&self) -> Rate {
+    pub fn clip_frame_rate(&self) -> FrameRate {
         self.rate
     }
 
     /// Returns how many frames there are; a clip may be empty.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn clip_frame_count(&self) -> usize {
         self.frames
     }
 
     /// Returns the time of the clip, which starts at zero.
     #[must_use]
-    pub fn span(&self) -> Span {
-        self.rate.span(0..self.frames)
+    pub fn clip_span(&self) -> TimeSpan {
+        self.rate.frame_range_span(0..self.frames)
     }
 
     /// Returns the movement of `joint`.
     #[must_use]
-    pub fn channel(&self, joint: usize) -> &Channel {
+    pub fn joint_channel(&self, joint: usize) -> &JointChannel {
         &self.channels[joint]
     }
 
     /// Returns the movement of every joint.
     #[must_use]
-    pub fn channels(&self) -> &[Channel] {
+    pub fn joint_channels(&self) -> &[JointChannel] {
         &self.channels
     }
 
     /// Returns the channels, to build another clip from them.
     #[must_use]
-    pub fn into_channels(self) -> Vec<Channel> {
+    pub fn into_channels(self) -> Vec<JointChannel> {
         self.channels
     }
 
     /// Returns the position of `joint` in its parent's space at `frame`, in metres.
     #[must_use]
-    pub fn translation(&self, joint: usize, frame: usize) -> DVec3 {
+    pub fn joint_translation(&self, joint: usize, frame: usize) -> DVec3 {
         match &self.channels[joint].translations {
             Some(places) => places[frame],
-            None => self.skeleton.joint(joint).offset,
+            None => self.skeleton.joint_at(joint).offset,
         }
     }
 
     /// Returns the posture at `frame`, in local space.
     ///
     /// # Panics
-    /// Panics if `frame` is not below [`frames`](Self::frames).
+    /// Panics if `frame` is not below [`Clip::clip_frame_count`].
     #[must_use]
-    pub fn pose(&self, frame: usize) -> Pose {
-        Pose {
-            rotations: self
-                .channels
-                .iter()
-                .map(|channel| channel.rotations[frame])
-                .collect(),
+    pub fn clip_pose_at(&self, frame: usize) -> LocalPose {
+        LocalPose {
+            rotations: self.channels.iter().map(|channel| channel.rotations[frame]).collect(),
             translations: (0..self.channels.len())
-                .map(|j| self.translation(j, frame))
+                .map(|j| self.joint_translation(j, frame))
                 .collect(),
         }
     }
@@ -230,23 +214,23 @@ impl Clip {
     /// Returns the posture at `frame`, in model space.
     ///
     /// # Panics
-    /// Panics if `frame` is not below [`frames`](Self::frames).
+    /// Panics if `frame` is not below [`Clip::clip_frame_count`].
     #[must_use]
     pub fn model_pose(&self, frame: usize) -> ModelPose {
-        ModelPose::of(&self.skeleton, &self.pose(frame))
+        ModelPose::from_local_pose(&self.skeleton, &self.clip_pose_at(frame))
     }
 
     /// Returns the posture at `instant`: between two frames, rotations are interpolated by slerp and positions
     /// linearly; outside the clip it is that of the nearest frame. An empty clip is at rest.
     #[must_use]
-    pub fn sample(&self, instant: Instant) -> Pose {
+    pub fn sample_pose(&self, instant: RecordingInstant) -> LocalPose {
         if self.frames == 0 {
             return self.skeleton.rest_pose();
         }
-        let at = (instant.seconds() * self.rate.per_second()).clamp(0.0, (self.frames - 1) as f64);
-        let (first, share) = (at.floor() as usize, at.fract());
+        let frame_position = (instant.instant_seconds() * self.rate.per_second()).clamp(0.0, (self.frames - 1) as f64);
+        let (first, share) = (frame_position.floor() as usize, frame_position.fract());
         if share == 0.0 {
-            return self.pose(first);
+            return self.clip_pose_at(first);
         }
         let second = first + 1;
         let rotations = self.channels.iter().map(|channel| {
@@ -254,10 +238,10 @@ impl Clip {
             a.slerp(b, share)
         });
         let translations = (0..self.channels.len()).map(|j| {
-            self.translation(j, first)
-                .lerp(self.translation(j, second), share)
+            self.joint_translation(j, first)
+                .lerp(self.joint_translation(j, second), share)
         });
-        Pose {
+        LocalPose {
             rotations: rotations.collect(),
             translations: translations.collect(),
         }
@@ -267,14 +251,14 @@ impl Clip {
     ///
     /// Computes only the joints between it and the root.
     #[must_use]
-    pub fn path(&self, joint: usize) -> Vec<DVec3> {
-        let mut up: Vec<usize> = self.skeleton.ancestors(joint).collect();
+    pub fn joint_path(&self, joint: usize) -> Vec<DVec3> {
+        let mut up: Vec<usize> = self.skeleton.joint_ancestors(joint).collect();
         up.reverse();
         (0..self.frames)
             .map(|frame| {
                 let (mut position, mut rotation) = (DVec3::ZERO, DQuat::IDENTITY);
                 for &j in &up {
-                    position += rotation * self.translation(j, frame);
+                    position += rotation * self.joint_translation(j, frame);
                     rotation *= self.channels[j].rotations[frame];
                 }
                 position
@@ -284,18 +268,15 @@ impl Clip {
 
     /// Returns the part of the clip in `frames`, as far as it exists.
     #[must_use]
-    pub fn slice(&self, frames: Range<usize>) -> Self {
+    pub fn slice_clip_frames(&self, frames: Range<usize>) -> Self {
         let end = frames.end.min(self.frames);
         let range = frames.start.min(end)..end;
         let channels = self
             .channels
             .iter()
-            .map(|channel| Channel {
+            .map(|channel| JointChannel {
                 rotations: channel.rotations[range.clone()].to_vec(),
-                translations: channel
-                    .translations
-                    .as_ref()
-                    .map(|t| t[range.clone()].to_vec()),
+                translations: channel.translations.as_ref().map(|t| t[range.clone()].to_vec()),
             })
             .collect();
         Self {
@@ -309,24 +290,20 @@ impl Clip {
     /// Returns the same movement at another frame rate; the first frame stays, and no frame lies after the last one of
     /// this clip.
     #[must_use]
-    pub fn resampled(&self, rate: Rate) -> Self {
+    pub fn resample_clip(&self, rate: FrameRate) -> Self {
         if rate == self.rate || self.frames == 0 {
-            return Self {
-                rate,
-                ..self.clone()
-            };
+            return Self { rate, ..self.clone() };
         }
-        let last = self.rate.instant(self.frames - 1);
-        let frames = rate.frame_at(last) + usize::from(rate.instant(rate.frame_at(last)) <= last);
-        self.retimed(rate, frames, |frame| rate.instant(frame))
+        let last = self.rate.frame_start_instant(self.frames - 1);
+        let frames =
+            rate.nearest_frame_at(last) + usize::from(rate.frame_start_instant(rate.nearest_frame_at(last)) <= last);
+        self.retime_clip(rate, frames, |frame| rate.frame_start_instant(frame))
     }
 
     /// Returns `frames` frames at `rate`, each sampled at the instant that `source` returns for it.
     #[must_use]
-    pub fn retimed(&self, rate: Rate, frames: usize, source: impl Fn(usize) -> Instant) -> Self {
-        let poses: Vec<Pose> = (0..frames)
-            .map(|frame| self.sample(source(frame)))
-            .collect();
+    pub fn retime_clip(&self, rate: FrameRate, frames: usize, source: impl Fn(usize) -> RecordingInstant) -> Self {
+        let poses: Vec<LocalPose> = (0..frames).map(|frame| self.sample_pose(source(frame))).collect();
         Self::from_poses(Arc::clone(&self.skeleton), rate, &poses)
             .expect("sampled poses are of this skeleton and slerp keeps unit length")
     }
@@ -335,54 +312,56 @@ impl Clip {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::skeleton::Joint;
+    use crate::skeleton::SkeletonJoint;
 
     fn turning(frames: usize) -> Clip {
         let skeleton = Skeleton::new(vec![
-            Joint::new("root", None, DVec3::ZERO),
-            Joint::new("arm", Some(0), DVec3::X),
+            SkeletonJoint::new("root", None, DVec3::ZERO),
+            SkeletonJoint::new("arm", Some(0), DVec3::X),
         ])
         .expect("a tree");
-        let mut channels = Clip::still(
-            skeleton.clone().into(),
-            Rate::new(10, 1).expect("rate"),
-            frames,
-        )
-        .into_channels();
+        let mut channels =
+            Clip::from_rest_pose(skeleton.clone().into(), FrameRate::new(10, 1).expect("rate"), frames).into_channels();
         for (i, q) in channels[0].rotations.iter_mut().enumerate() {
             *q = DQuat::from_rotation_y(i as f64 * 0.1);
         }
-        Clip::new(skeleton.into(), Rate::new(10, 1).expect("rate"), channels).expect("a clip")
+        Clip::new(skeleton.into(), FrameRate::new(10, 1).expect("rate"), channels).expect("a clip")
     }
 
     #[test]
     fn a_joint_path_equals_forward_kinematics_on_a_circle() {
         let clip = turning(20);
-        for (frame, at) in clip.path(1).into_iter().enumerate() {
+        for (frame, at) in clip.joint_path(1).into_iter().enumerate() {
             let angle = frame as f64 * 0.1;
             assert!(at.abs_diff_eq(DVec3::new(angle.cos(), 0.0, -angle.sin()), 1e-12));
-            assert!(at.abs_diff_eq(clip.model_pose(frame).position(1), 1e-12));
+            assert!(at.abs_diff_eq(clip.model_pose(frame).model_joint_position(1), 1e-12));
         }
     }
 
     #[test]
     fn sampling_interpolates_between_frames_and_holds_the_ends() {
         let clip = turning(5);
-        let half = clip.sample(Instant::from_seconds(0.15)).rotations[0];
+        let half = clip.sample_pose(RecordingInstant::from_seconds(0.15)).rotations[0];
         assert!(half.angle_between(DQuat::from_rotation_y(0.15)) < 1e-7);
-        assert_eq!(clip.sample(Instant::from_seconds(9.0)), clip.pose(4));
-        assert_eq!(clip.sample(Instant::from_seconds(-1.0)), clip.pose(0));
+        assert_eq!(
+            clip.sample_pose(RecordingInstant::from_seconds(9.0)),
+            clip.clip_pose_at(4)
+        );
+        assert_eq!(
+            clip.sample_pose(RecordingInstant::from_seconds(-1.0)),
+            clip.clip_pose_at(0)
+        );
     }
 
     #[test]
     fn resampling_up_and_down_again_gives_the_frames_back() {
         let clip = turning(7);
-        let fine = clip.resampled(Rate::new(40, 1).expect("rate"));
-        assert_eq!(fine.frames(), 25);
-        let back = fine.resampled(clip.rate());
-        assert_eq!(back.frames(), 7);
+        let fine = clip.resample_clip(FrameRate::new(40, 1).expect("rate"));
+        assert_eq!(fine.clip_frame_count(), 25);
+        let back = fine.resample_clip(clip.clip_frame_rate());
+        assert_eq!(back.clip_frame_count(), 7);
         for frame in 0..7 {
-            let (a, b) = (clip.pose(frame), back.pose(frame));
+            let (a, b) = (clip.clip_pose_at(frame), back.clip_pose_at(frame));
             assert!(a.rotations[0].angle_between(b.rotations[0]) < 1e-7);
         }
     }
@@ -390,9 +369,12 @@ mod tests {
     #[test]
     fn slices_compose_to_the_intersection() {
         let clip = turning(10);
-        assert_eq!(clip.slice(2..9).slice(1..4), clip.slice(3..6));
-        assert_eq!(clip.slice(8..30).frames(), 2);
-        assert_eq!(clip.slice(20..30).frames(), 0);
+        assert_eq!(
+            clip.slice_clip_frames(2..9).slice_clip_frames(1..4),
+            clip.slice_clip_frames(3..6)
+        );
+        assert_eq!(clip.slice_clip_frames(8..30).clip_frame_count(), 2);
+        assert_eq!(clip.slice_clip_frames(20..30).clip_frame_count(), 0);
     }
 
     #[test]
@@ -400,7 +382,7 @@ mod tests {
         let clip = turning(3);
         let mut channels = clip.clone().into_channels();
         channels[1].rotations[2] = DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0);
-        let error = Clip::new(clip.skeleton().clone(), clip.rate(), channels).expect_err("no unit");
+        let error = Clip::new(clip.clip_skeleton().clone(), clip.clip_frame_rate(), channels).expect_err("no unit");
         assert_eq!(
             error,
             ClipError::Value {
@@ -410,7 +392,7 @@ mod tests {
         );
         let mut channels = clip.clone().into_channels();
         channels[1].rotations.pop();
-        let error = Clip::new(clip.skeleton().clone(), clip.rate(), channels).expect_err("short");
+        let error = Clip::new(clip.clip_skeleton().clone(), clip.clip_frame_rate(), channels).expect_err("short");
         assert_eq!(
             error,
             ClipError::Length {

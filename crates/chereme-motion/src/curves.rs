@@ -2,25 +2,25 @@
 
 use std::collections::BTreeSet;
 
-use crate::column::Column;
-use crate::time::{Instant, Span};
-use crate::times::Times;
+use crate::column::FrameNumberColumn;
+use crate::time::{RecordingInstant, TimeSpan};
+use crate::times::FrameTimes;
 
 /// One scalar channel.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub struct ScalarCurve {
     /// The name in the file; unique among the curves of a track.
     pub name: String,
     /// The unit of the numbers, such as `rad`, `N` or `mV`; empty for a plain number or an unknown unit.
     pub unit: String,
     /// One number per frame.
-    pub values: Column,
+    pub values: FrameNumberColumn,
 }
 
-impl Curve {
+impl ScalarCurve {
     /// Returns a curve of plain numbers.
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Column) -> Self {
+    pub fn new(name: impl Into<String>, values: FrameNumberColumn) -> Self {
         Self {
             name: name.into(),
             unit: String::new(),
@@ -31,10 +31,10 @@ impl Curve {
 
 /// Curves with the same times: one track of scalar channels.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curves {
-    times: Times,
+pub struct CurveTrack {
+    times: FrameTimes,
     frames: usize,
-    curves: Vec<Curve>,
+    curves: Vec<ScalarCurve>,
 }
 
 /// A reason why channels are not a track.
@@ -93,9 +93,9 @@ pub enum TrackError {
 }
 
 /// Checks the lengths of channels, and returns their number of frames.
-pub(crate) fn frames_of<'a>(
-    times: &Times,
-    mut channels: impl Iterator<Item = (&'a str, &'a Column)>,
+pub(crate) fn channel_frame_count<'a>(
+    times: &FrameTimes,
+    mut channels: impl Iterator<Item = (&'a str, &'a FrameNumberColumn)>,
 ) -> Result<usize, TrackError> {
     let (_, first) = channels.next().ok_or(TrackError::Empty)?;
     let frames = first.len();
@@ -106,16 +106,14 @@ pub(crate) fn frames_of<'a>(
             expected: frames,
         });
     }
-    match times.frames() {
+    match times.timed_frame_count() {
         Some(times) if times != frames => Err(TrackError::Times { times, frames }),
         _ => Ok(frames),
     }
 }
 
 /// Checks that every channel has a name, and that names are unique.
-pub(crate) fn check_names<'a>(
-    names: impl Iterator<Item = (&'a str, &'a str)>,
-) -> Result<(), TrackError> {
+pub(crate) fn check_names<'a>(names: impl Iterator<Item = (&'a str, &'a str)>) -> Result<(), TrackError> {
     let mut seen = BTreeSet::new();
     for (at, (group, name)) in names.enumerate() {
         if name.is_empty() {
@@ -128,86 +126,77 @@ pub(crate) fn check_names<'a>(
     Ok(())
 }
 
-impl Curves {
+impl CurveTrack {
     /// Returns the track of `curves`.
     ///
     /// # Errors
     /// [`TrackError`] if there is no curve, names are missing or equal, or lengths differ.
-    pub fn new(times: Times, curves: Vec<Curve>) -> Result<Self, TrackError> {
+    pub fn new(times: FrameTimes, curves: Vec<ScalarCurve>) -> Result<Self, TrackError> {
         check_names(curves.iter().map(|curve| ("", curve.name.as_str())))?;
-        let channels = curves
-            .iter()
-            .map(|curve| (curve.name.as_str(), &curve.values));
-        let frames = frames_of(&times, channels)?;
-        Ok(Self {
-            times,
-            frames,
-            curves,
-        })
+        let channels = curves.iter().map(|curve| (curve.name.as_str(), &curve.values));
+        let frames = channel_frame_count(&times, channels)?;
+        Ok(Self { times, frames, curves })
     }
 
     /// Returns the times of the frames.
     #[must_use]
-    pub fn times(&self) -> &Times {
+    pub fn curve_times(&self) -> &FrameTimes {
         &self.times
     }
 
     /// Returns how many frames there are.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn curve_frame_count(&self) -> usize {
         self.frames
     }
 
     /// Returns the span of the track, counted from its own start.
     #[must_use]
-    pub fn span(&self) -> Span {
-        self.times.span(self.frames)
+    pub fn curve_track_span(&self) -> TimeSpan {
+        self.times.frame_times_span(self.frames)
     }
 
     /// Returns the curves in the order of the file.
     #[must_use]
-    pub fn curves(&self) -> &[Curve] {
+    pub fn track_curves(&self) -> &[ScalarCurve] {
         &self.curves
     }
 
     /// Returns the curve of this name; ignores case if exactly one name matches that way.
     #[must_use]
-    pub fn curve(&self, name: &str) -> Option<&Curve> {
+    pub fn find_curve(&self, name: &str) -> Option<&ScalarCurve> {
         let exact = self.curves.iter().find(|curve| curve.name == name);
-        let mut alike = self
-            .curves
-            .iter()
-            .filter(|curve| curve.name.eq_ignore_ascii_case(name));
+        let mut alike = self.curves.iter().filter(|curve| curve.name.eq_ignore_ascii_case(name));
         exact.or_else(|| alike.next().filter(|_| alike.next().is_none()))
     }
 
     /// Returns every curve's number at `instant`: interpolated between the two frames around it, or that of the nearest
     /// frame outside the track; `None` in a gap.
     #[must_use]
-    pub fn sample(&self, instant: Instant) -> Vec<Option<f64>> {
+    pub fn sample_curves(&self, instant: RecordingInstant) -> Vec<Option<f64>> {
         let Some(last) = self.frames.checked_sub(1) else {
             return vec![None; self.curves.len()];
         };
         let first = match &self.times {
-            Times::Even(rate) => {
-                let at = instant.seconds().max(0.0) * rate.per_second();
-                (at.floor() as usize).min(last)
+            FrameTimes::Even(rate) => {
+                let frame_position = instant.instant_seconds().max(0.0) * rate.per_second();
+                (frame_position.floor() as usize).min(last)
             }
-            Times::Listed(_) => self.times.frame_at(instant, self.frames).unwrap_or(last),
+            FrameTimes::Listed(_) => self.times.shown_frame_at(instant, self.frames).unwrap_or(last),
         };
         let second = (first + 1).min(last);
         let (a, b) = (
-            self.times.instant(first).seconds(),
-            self.times.instant(second).seconds(),
+            self.times.frame_time_instant(first).instant_seconds(),
+            self.times.frame_time_instant(second).instant_seconds(),
         );
-        let share = ((instant.seconds() - a) / (b - a)).clamp(0.0, 1.0);
-        let share = if share.is_nan() { 0.0 } else { share };
-        let blend = |curve: &Curve| {
-            let from = curve.values.value(first)?;
+        let raw_share = ((instant.instant_seconds() - a) / (b - a)).clamp(0.0, 1.0);
+        let share = if raw_share.is_nan() { 0.0 } else { raw_share };
+        let blend = |curve: &ScalarCurve| {
+            let from = curve.values.column_value_at(first)?;
             if share == 0.0 {
                 return Some(from);
             }
-            Some(from + (curve.values.value(second)? - from) * share)
+            Some(from + (curve.values.column_value_at(second)? - from) * share)
         };
         self.curves.iter().map(blend).collect()
     }
@@ -216,41 +205,39 @@ impl Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::time::Rate;
+    use crate::time::FrameRate;
 
-    fn rate() -> Times {
-        Times::Even(Rate::new(10, 1).expect("a rate"))
+    fn rate() -> FrameTimes {
+        FrameTimes::Even(FrameRate::new(10, 1).expect("a rate"))
     }
 
     #[test]
     fn curves_are_blended_between_frames_and_stop_at_gaps() {
-        let jaw = Column::singles(vec![0.0, 1.0, f32::NAN, 0.5]);
-        let curves = Curves::new(rate(), vec![Curve::new("JawOpen", jaw)]).expect("a track");
-        let at = |seconds| curves.sample(Instant::from_seconds(seconds))[0];
+        let jaw = FrameNumberColumn::from_single_floats(vec![0.0, 1.0, f32::NAN, 0.5]);
+        let curves = CurveTrack::new(rate(), vec![ScalarCurve::new("JawOpen", jaw)]).expect("a track");
+        let at = |seconds| curves.sample_curves(RecordingInstant::from_seconds(seconds))[0];
         assert_eq!(at(-1.0), Some(0.0));
         assert!((at(0.05).expect("a number") - 0.5).abs() < 1e-12);
         assert_eq!(
             [at(0.1), at(0.15), at(0.2), at(0.3), at(9.0)],
             [Some(1.0), None, None, Some(0.5), Some(0.5)]
         );
-        assert_eq!(curves.span().seconds(), 0.4);
+        assert_eq!(curves.curve_track_span().span_seconds(), 0.4);
         assert_eq!(
-            curves.curve("jawopen").map(|curve| curve.name.as_str()),
+            curves.find_curve("jawopen").map(|curve| curve.name.as_str()),
             Some("JawOpen")
         );
-        assert_eq!(curves.curve("jaw"), None);
+        assert_eq!(curves.find_curve("jaw"), None);
     }
 
     #[test]
     fn channels_that_cannot_form_a_track_are_refused() {
-        let curve = |name: &str, frames| Curve::new(name, Column::doubles(vec![0.0; frames]));
+        let curve =
+            |name: &str, frames| ScalarCurve::new(name, FrameNumberColumn::from_double_floats(vec![0.0; frames]));
         let cases = [
             (vec![], TrackError::Empty),
             (vec![curve("", 1)], TrackError::Nameless(0)),
-            (
-                vec![curve("a", 1), curve("a", 1)],
-                TrackError::Twice("a".into()),
-            ),
+            (vec![curve("a", 1), curve("a", 1)], TrackError::Twice("a".into())),
             (
                 vec![curve("a", 2), curve("b", 1)],
                 TrackError::Length {
@@ -261,13 +248,11 @@ mod tests {
             ),
         ];
         for (curves, fault) in cases {
-            assert_eq!(Curves::new(rate(), curves), Err(fault));
+            assert_eq!(CurveTrack::new(rate(), curves), Err(fault));
         }
-        let times = Times::listed(Column::doubles(vec![0.0, 0.5])).expect("times");
-        let fault = TrackError::Times {
-            times: 2,
-            frames: 3,
-        };
-        assert_eq!(Curves::new(times, vec![curve("a", 3)]), Err(fault));
+        let times =
+            FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(vec![0.0, 0.5])).expect("times");
+        let fault = TrackError::Times { times: 2, frames: 3 };
+        assert_eq!(CurveTrack::new(times, vec![curve("a", 3)]), Err(fault));
     }
 }

@@ -2,15 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::time::{Instant, Rate};
+use crate::time::{FrameRate, RecordingInstant};
 
 /// The posture of a face: each number is 0 at rest, and 1 at the usual limit of the movement.
 ///
 /// Pairs are of the signer's right and left, in this order. Numbers that say so go down to -1 for the opposite.
-/// Data spells each number as the field does ([`Face::NAMES`]); shorter names of older data are read as well.
+/// Data spells each number as the field does ([`FacePosture::FACE_NUMBER_NAMES`]); shorter names of older data are read as well.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Face {
+pub struct FacePosture {
     /// The brows raised; -1 is lowered.
     #[serde(rename = "brow_raise", alias = "brows")]
     pub brows: [f64; 2],
@@ -60,12 +60,12 @@ pub struct Face {
     pub cheeks: [f64; 2],
 }
 
-impl Face {
+impl FacePosture {
     /// How many numbers it has.
-    pub const LEN: usize = 21;
+    pub const FACE_NUMBER_COUNT: usize = 21;
 
-    /// The name of each number as the field spells it, in the order of [`numbers`](Self::numbers).
-    pub const NAMES: [&str; Self::LEN] = [
+    /// The name of each number as the field spells it, in the order of [`numbers`](Self::face_numbers).
+    pub const FACE_NUMBER_NAMES: [&str; Self::FACE_NUMBER_COUNT] = [
         "brow_raise_right",
         "brow_raise_left",
         "brow_squeeze",
@@ -89,17 +89,17 @@ impl Face {
         "cheek_puff_left",
     ];
 
-    /// Returns the position in [`NAMES`](Self::NAMES) of a number; `None` for an unknown name.
+    /// Returns the position in [`FACE_NUMBER_NAMES`](Self::FACE_NUMBER_NAMES) of a number; `None` for an unknown name.
     #[must_use]
-    pub fn position(name: &str) -> Option<usize> {
-        Self::NAMES.iter().position(|known| *known == name)
+    pub fn face_number_position(name: &str) -> Option<usize> {
+        Self::FACE_NUMBER_NAMES.iter().position(|known| *known == name)
     }
 
     /// Returns the least value that the number at this position can have: -1 if it has an opposite, else 0.
     #[must_use]
-    pub fn least(position: usize) -> f64 {
-        const SINGLE: [usize; 7] = [2, 8, 10, 14, 15, 16, 17];
-        if SINGLE.contains(&position) {
+    pub fn least_face_number(position: usize) -> f64 {
+        const UNOPPOSED_FACE_NUMBERS: [usize; 7] = [2, 8, 10, 14, 15, 16, 17];
+        if UNOPPOSED_FACE_NUMBERS.contains(&position) {
             0.0
         } else {
             -1.0
@@ -108,13 +108,13 @@ impl Face {
 
     /// Returns the face with these numbers, each clamped to its range; NaN becomes 0.
     #[must_use]
-    pub fn from_numbers(numbers: [f64; Self::LEN]) -> Self {
+    pub fn from_numbers(numbers: [f64; Self::FACE_NUMBER_COUNT]) -> Self {
         let mut face = Self::default();
-        for (at, (own, number)) in face.all().into_iter().zip(numbers).enumerate() {
+        for (at, (own, number)) in face.face_fields_mut().into_iter().zip(numbers).enumerate() {
             *own = if number.is_nan() {
                 0.0
             } else {
-                number.clamp(Self::least(at), 1.0)
+                number.clamp(Self::least_face_number(at), 1.0)
             };
         }
         face
@@ -122,7 +122,7 @@ impl Face {
 
     /// Returns the mirror image of the face: right and left change places.
     #[must_use]
-    pub fn mirrored(&self) -> Self {
+    pub fn mirrored_face(&self) -> Self {
         let swap = |[a, b]: [f64; 2]| [b, a];
         Self {
             brows: swap(self.brows),
@@ -138,9 +138,9 @@ impl Face {
 
     /// Returns its numbers, in the order of its fields.
     #[must_use]
-    pub fn numbers(&self) -> [f64; Self::LEN] {
+    pub fn face_numbers(&self) -> [f64; Self::FACE_NUMBER_COUNT] {
         let mut copy = *self;
-        copy.all().map(|number| *number)
+        copy.face_fields_mut().map(|number| *number)
     }
 
     /// Adds a share of another face; a field beyond its range stays at the end of it.
@@ -152,17 +152,17 @@ impl Face {
     /// face.add(&open, 0.5);
     /// assert_eq!((face.jaw, face.brows), (0.4, [1.0, 1.0]));
     /// ```
-    pub fn add(&mut self, other: &Self, weight: f64) {
-        for (own, more) in self.all().into_iter().zip(other.numbers()) {
+    pub fn add_face_share(&mut self, other: &Self, weight: f64) {
+        for (own, more) in self.face_fields_mut().into_iter().zip(other.face_numbers()) {
             *own = (*own + weight * more).clamp(-1.0, 1.0);
         }
     }
 
     /// Interpolates between this face and another; `share` is 0 for this one and 1 for the other.
     #[must_use]
-    pub fn towards(&self, other: &Self, share: f64) -> Self {
+    pub fn interpolate_face(&self, other: &Self, share: f64) -> Self {
         let mut face = *self;
-        for (own, there) in face.all().into_iter().zip(other.numbers()) {
+        for (own, there) in face.face_fields_mut().into_iter().zip(other.face_numbers()) {
             *own += (there - *own) * share;
         }
         face
@@ -170,8 +170,8 @@ impl Face {
 
     /// Returns the face at a moment of a clip whose frames have `faces`; `None` beyond them.
     #[must_use]
-    pub fn at(faces: &[Self], rate: Rate, moment: Instant) -> Option<Self> {
-        faces.get(rate.frame_at(moment)).copied()
+    pub fn face_at_moment(faces: &[Self], rate: FrameRate, moment: RecordingInstant) -> Option<Self> {
+        faces.get(rate.nearest_frame_at(moment)).copied()
     }
 
     /// Returns whether every field is at rest.
@@ -180,7 +180,7 @@ impl Face {
         *self == Self::default()
     }
 
-    fn all(&mut self) -> [&mut f64; Self::LEN] {
+    fn face_fields_mut(&mut self) -> [&mut f64; Self::FACE_NUMBER_COUNT] {
         let [right_brow, left_brow] = &mut self.brows;
         let [right_lid, left_lid] = &mut self.lids;
         let [leftwards, upwards] = &mut self.gaze;
@@ -214,44 +214,41 @@ impl Face {
 
 #[cfg(test)]
 mod tests {
-    use super::Face;
+    use super::FacePosture;
 
     #[test]
     fn faces_add_up_within_limits() {
-        let mut face = Face::default();
+        let mut face = FacePosture::default();
         assert!(face.is_at_rest());
-        let down = Face {
+        let down = FacePosture {
             brows: [-0.7, -0.7],
             gaze: [0.0, -1.0],
-            ..Face::default()
+            ..FacePosture::default()
         };
-        face.add(&down, 1.0);
-        face.add(&down, 1.0);
+        face.add_face_share(&down, 1.0);
+        face.add_face_share(&down, 1.0);
         assert_eq!((face.brows, face.gaze), ([-1.0, -1.0], [0.0, -1.0]));
-        assert_eq!(face.towards(&Face::default(), 0.5).brows, [-0.5, -0.5]);
-        assert_eq!(face.towards(&down, 1.0), down);
+        assert_eq!(face.interpolate_face(&FacePosture::default(), 0.5).brows, [-0.5, -0.5]);
+        assert_eq!(face.interpolate_face(&down, 1.0), down);
     }
 
     #[test]
     fn face_numbers_have_names_limits_and_a_mirror() {
-        let numbers: [f64; Face::LEN] = std::array::from_fn(|at| 0.01 * (at + 1) as f64);
-        let face = Face::from_numbers(numbers);
-        assert_eq!(face.numbers(), numbers);
-        let at = |name: &str| Face::position(name).expect("a name");
+        let numbers: [f64; FacePosture::FACE_NUMBER_COUNT] = std::array::from_fn(|at| 0.01 * (at + 1) as f64);
+        let face = FacePosture::from_numbers(numbers);
+        assert_eq!(face.face_numbers(), numbers);
+        let at = |name: &str| FacePosture::face_number_position(name).expect("a name");
         assert_eq!(face.jaw, numbers[at("jaw_open")]);
         assert_eq!(
             face.brows,
-            [
-                numbers[at("brow_raise_right")],
-                numbers[at("brow_raise_left")]
-            ]
+            [numbers[at("brow_raise_right")], numbers[at("brow_raise_left")]]
         );
-        assert_eq!(Face::position("jaw"), None);
-        assert_eq!(face.mirrored().mirrored(), face);
-        assert_eq!(face.mirrored().brows[1], face.brows[0]);
-        let far = Face::from_numbers([-3.0; Face::LEN]);
+        assert_eq!(FacePosture::face_number_position("jaw"), None);
+        assert_eq!(face.mirrored_face().mirrored_face(), face);
+        assert_eq!(face.mirrored_face().brows[1], face.brows[0]);
+        let far = FacePosture::from_numbers([-3.0; FacePosture::FACE_NUMBER_COUNT]);
         assert_eq!((far.jaw, far.wide, far.pout), (0.0, -1.0, 0.0));
-        let gap = Face::from_numbers([f64::NAN; Face::LEN]);
+        let gap = FacePosture::from_numbers([f64::NAN; FacePosture::FACE_NUMBER_COUNT]);
         assert!(gap.is_at_rest());
     }
 
@@ -259,16 +256,16 @@ mod tests {
     fn older_names_are_read_as_well() {
         let old = r#"{"jaw": 0.5, "wide": -1.0, "brows": [1.0, 0.0]}"#;
         let new = r#"{"jaw_open": 0.5, "mouth_stretch": -1.0, "brow_raise": [1.0, 0.0]}"#;
-        let read = |text| serde_json::from_str::<Face>(text).expect("a face");
+        let read = |text| serde_json::from_str::<FacePosture>(text).expect("a face");
         assert_eq!(read(old), read(new));
-        assert!(serde_json::from_str::<Face>(r#"{"jaws": 1.0}"#).is_err());
+        assert!(serde_json::from_str::<FacePosture>(r#"{"jaws": 1.0}"#).is_err());
     }
 
     #[test]
     fn the_number_of_face_numbers_is_right() {
-        let names = serde_json::to_value(Face::default()).expect("a face is written");
+        let names = serde_json::to_value(FacePosture::default()).expect("a face is written");
         let fields = names.as_object().expect("with names").values();
         let numbers = fields.map(|field| field.as_array().map_or(1, Vec::len));
-        assert_eq!(numbers.sum::<usize>(), Face::LEN);
+        assert_eq!(numbers.sum::<usize>(), FacePosture::FACE_NUMBER_COUNT);
     }
 }

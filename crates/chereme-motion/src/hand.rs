@@ -5,20 +5,20 @@ use serde::{Deserialize, Serialize};
 /// A side of the signer's body, always from the signer's own point of view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Side {
+pub enum BodySide {
     /// The signer's right.
     Right,
     /// The signer's left.
     Left,
 }
 
-impl Side {
+impl BodySide {
     /// Both sides, right first.
-    pub const BOTH: [Self; 2] = [Self::Right, Self::Left];
+    pub const BOTH_SIDES: [Self; 2] = [Self::Right, Self::Left];
 
     /// Returns the opposite side.
     #[must_use]
-    pub fn other(self) -> Self {
+    pub fn opposite_side(self) -> Self {
         match self {
             Self::Right => Self::Left,
             Self::Left => Self::Right,
@@ -27,7 +27,7 @@ impl Side {
 
     /// Returns the sign of this side on the X axis of model space: the left is positive.
     #[must_use]
-    pub fn sign(self) -> f64 {
+    pub fn side_sign(self) -> f64 {
         match self {
             Self::Right => -1.0,
             Self::Left => 1.0,
@@ -36,7 +36,7 @@ impl Side {
 
     /// Returns `right` or `left`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn body_side_name(self) -> &'static str {
         match self {
             Self::Right => "right",
             Self::Left => "left",
@@ -47,7 +47,7 @@ impl Side {
 /// One of the four fingers other than the thumb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Finger {
+pub enum HandFinger {
     /// The index finger.
     Index,
     /// The middle finger.
@@ -58,9 +58,9 @@ pub enum Finger {
     Little,
 }
 
-impl Finger {
+impl HandFinger {
     /// The four fingers, from the thumb's side outwards.
-    pub const ALL: [Self; 4] = [Self::Index, Self::Middle, Self::Ring, Self::Little];
+    pub const ALL_FINGERS: [Self; 4] = [Self::Index, Self::Middle, Self::Ring, Self::Little];
 
     /// Returns the index of this finger in [`HandAngles::fingers`].
     #[must_use]
@@ -70,7 +70,7 @@ impl Finger {
 
     /// Returns the name of this finger in lower case.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn finger_name(self) -> &'static str {
         match self {
             Self::Index => "index",
             Self::Middle => "middle",
@@ -116,14 +116,14 @@ pub struct HandAngles {
 
 impl HandAngles {
     /// How many angles a hand has.
-    pub const LEN: usize = 21;
+    pub const HAND_ANGLE_COUNT: usize = 21;
 
     /// Returns every angle in a fixed order: the thumb's five (radial, palmar, opposition and two
     /// flexions), then for each finger its spread and three flexions.
     #[must_use]
-    pub fn to_array(&self) -> [f64; Self::LEN] {
+    pub fn to_array(&self) -> [f64; Self::HAND_ANGLE_COUNT] {
         let t = &self.thumb;
-        let mut all = [0.0; Self::LEN];
+        let mut all = [0.0; Self::HAND_ANGLE_COUNT];
         all[..5].copy_from_slice(&[t.radial, t.palmar, t.opposition, t.flexion[0], t.flexion[1]]);
         for (finger, slot) in self.fingers.iter().zip(all[5..].chunks_exact_mut(4)) {
             slot[0] = finger.spread;
@@ -134,7 +134,7 @@ impl HandAngles {
 
     /// Returns the posture whose [`to_array`](Self::to_array) is `all`.
     #[must_use]
-    pub fn from_array(all: [f64; Self::LEN]) -> Self {
+    pub fn from_array(all: [f64; Self::HAND_ANGLE_COUNT]) -> Self {
         let mut hand = Self {
             thumb: ThumbAngles {
                 radial: all[0],
@@ -153,13 +153,13 @@ impl HandAngles {
 
     /// Returns the posture with every angle passed through `f`, for example into degrees.
     #[must_use]
-    pub fn map(&self, f: impl Fn(f64) -> f64) -> Self {
+    pub fn map_hand_angles(&self, f: impl Fn(f64) -> f64) -> Self {
         Self::from_array(self.to_array().map(f))
     }
 
     /// Interpolates between `self` (`weight` 0) and `other` (1), angle by angle.
     #[must_use]
-    pub fn lerp(&self, other: &Self, weight: f64) -> Self {
+    pub fn interpolate_hand_angles(&self, other: &Self, weight: f64) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
         Self::from_array(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * weight))
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// The course of an interpolation as its weight goes from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Interpolation {
+pub enum InterpolationKind {
     /// Spherical linear interpolation (eq. 1): constant angular speed.
     Slerp,
     /// The blend `(1 - c)·a + c·b` with `c = (1 - cos πw)/2` (eq. 2).
@@ -20,13 +20,13 @@ pub enum Interpolation {
     MinimumJerk,
 }
 
-impl Interpolation {
+impl InterpolationKind {
     /// Every kind of interpolation.
-    pub const ALL: [Self; 4] = [Self::Slerp, Self::Cosine, Self::Sigmoid, Self::MinimumJerk];
+    pub const ALL_INTERPOLATIONS: [Self; 4] = [Self::Slerp, Self::Cosine, Self::Sigmoid, Self::MinimumJerk];
 
     /// Returns the name in recipes.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn interpolation_name(self) -> &'static str {
         match self {
             Self::Slerp => "slerp",
             Self::Cosine => "cosine",
@@ -38,7 +38,7 @@ impl Interpolation {
     /// Returns the share of the path that is done at weight `w`, which is clamped to 0..=1; it is 0 at 0, ½ at ½ and 1
     /// at 1, and never decreases.
     #[must_use]
-    pub fn share(self, w: f64) -> f64 {
+    pub fn interpolation_share(self, w: f64) -> f64 {
         let w = w.clamp(0.0, 1.0);
         match self {
             Self::Slerp => w,
@@ -57,11 +57,11 @@ impl Interpolation {
     /// [`Slerp`](Self::Slerp) follows the great circle; the others are normalised linear blends, like the paper's
     /// equations 2 and 3.
     #[must_use]
-    pub fn rotation(self, a: DQuat, b: DQuat, w: f64) -> DQuat {
+    pub fn interpolate_rotation(self, a: DQuat, b: DQuat, w: f64) -> DQuat {
         match self {
             Self::Slerp => a.slerp(b, w.clamp(0.0, 1.0)),
             _ => {
-                let share = self.share(w);
+                let share = self.interpolation_share(w);
                 let near = if a.dot(b) < 0.0 { -b } else { b };
                 (a * (1.0 - share) + near * share).normalize()
             }
@@ -76,27 +76,38 @@ mod tests {
 
     #[test]
     fn speed_profiles_equal_their_end_points_and_published_values() {
-        for interpolation in Interpolation::ALL {
-            assert_eq!(interpolation.share(0.0), 0.0, "{}", interpolation.name());
-            assert_eq!(interpolation.share(1.0), 1.0, "{}", interpolation.name());
-            assert!(
-                (interpolation.share(0.5) - 0.5).abs() < 1e-12,
+        for interpolation in InterpolationKind::ALL_INTERPOLATIONS {
+            assert_eq!(
+                interpolation.interpolation_share(0.0),
+                0.0,
                 "{}",
-                interpolation.name()
+                interpolation.interpolation_name()
+            );
+            assert_eq!(
+                interpolation.interpolation_share(1.0),
+                1.0,
+                "{}",
+                interpolation.interpolation_name()
+            );
+            assert!(
+                (interpolation.interpolation_share(0.5) - 0.5).abs() < 1e-12,
+                "{}",
+                interpolation.interpolation_name()
             );
         }
         let printed = |w: f64| 1.0 / (1.0 + (-10.0 * (w - 0.5f64)).exp());
         assert!((printed(0.0) - 0.0067).abs() < 5e-5 && (printed(1.0) - 0.9933).abs() < 5e-5);
         let back =
-            |w: f64| Interpolation::Sigmoid.share(w) * (printed(1.0) - printed(0.0)) + printed(0.0);
+            |w: f64| InterpolationKind::Sigmoid.interpolation_share(w) * (printed(1.0) - printed(0.0)) + printed(0.0);
         assert!((back(0.3) - printed(0.3)).abs() < 1e-12);
     }
 
     #[test]
     fn minimum_jerk_peaks_at_fifteen_eighths_of_the_mean_speed() {
         let h = 1e-6;
-        let interpolation = Interpolation::MinimumJerk;
-        let speed = (interpolation.share(0.5 + h) - interpolation.share(0.5 - h)) / (2.0 * h);
+        let interpolation = InterpolationKind::MinimumJerk;
+        let speed =
+            (interpolation.interpolation_share(0.5 + h) - interpolation.interpolation_share(0.5 - h)) / (2.0 * h);
         assert!((speed - 1.875).abs() < 1e-6);
     }
 
@@ -111,12 +122,12 @@ mod tests {
             prop_assume!(axis.length() > 0.1);
             let a = DQuat::from_rotation_x(0.3);
             let b = a * DQuat::from_axis_angle(axis.normalize(), angle);
-            for interpolation in Interpolation::ALL {
-                let q = interpolation.rotation(a, b, w);
+            for interpolation in InterpolationKind::ALL_INTERPOLATIONS {
+                let q = interpolation.interpolate_rotation(a, b, w);
                 prop_assert!(q.is_normalized());
                 let along = a.angle_between(q) + q.angle_between(b);
                 prop_assert!((along - a.angle_between(b)).abs() < 1e-6);
-                prop_assert!(q.angle_between(interpolation.rotation(b, a, 1.0 - w)) < 1e-6);
+                prop_assert!(q.angle_between(interpolation.interpolate_rotation(b, a, 1.0 - w)) < 1e-6);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Lapses of a capture: frames within a take whose movement was lost, and frames that stand several times.
 //!
 //! When cameras or gloves lose a limb, programs write its last posture again and again, write zeros, or follow
-//! something else for a moment. [`Lapses`] finds these frames by their jumps: a lapse begins or ends with a step that is far
+//! something else for a moment. [`ClipLapses`] finds these frames by their jumps: a lapse begins or ends with a step that is far
 //! longer than those around it. A hand that is held still moves on without a jump, and has no lapse. Nothing changes a clip.
 
 use std::fmt;
@@ -9,36 +9,36 @@ use std::ops::Range;
 
 use glam::{DQuat, DVec3};
 
-use crate::anatomy::{Anatomy, Part};
-use crate::clip::{Channel, Clip};
-use crate::hand::Side;
+use crate::anatomy::{BodyAnatomy, BodyPart};
+use crate::clip::{Clip, JointChannel};
+use crate::hand::BodySide;
 use crate::pose::ModelPose;
 
 /// Frames in which the movement of a limb was probably lost.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Lapse {
+pub struct MotionLapse {
     /// The frames, counted from 0.
     pub frames: Range<usize>,
     /// The joints that were lost.
-    pub limb: Limb,
+    pub limb: LapseLimb,
     /// The numbers in their place.
-    pub what: Lost,
+    pub what: LostMovement,
 }
 
 /// Joints that are lost together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limb {
+pub enum LapseLimb {
     /// All joints.
     Body,
     /// The upper arm and the forearm, relative to the collar bone.
-    Arm(Side),
+    Arm(BodySide),
     /// The joints below the wrist, relative to the hand.
-    Fingers(Side),
+    Fingers(BodySide),
 }
 
 /// The numbers that a file has in place of lost movement; distances in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Lost {
+pub enum LostMovement {
     /// The posture of the frame before, up to a jump of this distance.
     Still(f64),
     /// Zeros or the rest pose, with jumps; this is the longest.
@@ -47,17 +47,17 @@ pub enum Lost {
     Away(f64),
 }
 
-impl fmt::Display for Limb {
+impl fmt::Display for LapseLimb {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Body => f.write_str("the body"),
-            Self::Arm(side) => write!(f, "the {} arm", side.name()),
-            Self::Fingers(side) => write!(f, "the {} fingers", side.name()),
+            Self::Arm(side) => write!(f, "the {} arm", side.body_side_name()),
+            Self::Fingers(side) => write!(f, "the {} fingers", side.body_side_name()),
         }
     }
 }
 
-impl fmt::Display for Lapse {
+impl fmt::Display for MotionLapse {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (Range { start, end }, limb) = (&self.frames, self.limb);
         match end - start {
@@ -65,23 +65,29 @@ impl fmt::Display for Lapse {
             _ => write!(f, "frames {start} to {}: ", end - 1)?,
         }
         let [stands, jumps, returns] = match limb {
-            Limb::Fingers(_) => ["stand", "jump", "return"],
+            LapseLimb::Fingers(_) => ["stand", "jump", "return"],
             _ => ["stands", "jumps", "returns"],
         };
         let cm = |metres: f64| 100.0 * metres;
         match self.what {
-            Lost::Still(far) => write!(f, "{limb} {stands} still, then {jumps} {:.0} cm", cm(far)),
-            Lost::Rest(far) => write!(f, "{limb} {jumps} {:.0} cm to the rest pose", cm(far)),
-            Lost::Away(far) => write!(f, "{limb} {jumps} {:.0} cm away and {returns}", cm(far)),
+            LostMovement::Still(far) => {
+                write!(f, "{limb} {stands} still, then {jumps} {:.0} cm", cm(far))
+            }
+            LostMovement::Rest(far) => {
+                write!(f, "{limb} {jumps} {:.0} cm to the rest pose", cm(far))
+            }
+            LostMovement::Away(far) => {
+                write!(f, "{limb} {jumps} {:.0} cm away and {returns}", cm(far))
+            }
         }
     }
 }
 
 /// The lapses of a clip.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Lapses {
+pub struct ClipLapses {
     /// The lapses, in order of time.
-    pub found: Vec<Lapse>,
+    pub found: Vec<MotionLapse>,
     /// The number of frames in which all joints stand as in the frame before, in short runs.
     pub repeated: usize,
     /// The number of frames outside of longer runs of such frames.
@@ -91,27 +97,26 @@ pub struct Lapses {
 }
 
 /// The longest run of equal frames that a conversion from another frame rate writes.
-const SHORT: usize = 8;
+const MAX_CONVERSION_RUN_FRAMES: usize = 8;
 /// The least number of frames that stand still before a jump.
-const STILL: usize = 3;
+const MIN_STILL_FRAMES: usize = 3;
 /// A jump is at least this many times as long as four of five steps around it, up to this many seconds away.
-const JUMP: (f64, f64) = (3.0, 0.2);
+const LAPSE_JUMP_LIMITS: (f64, f64) = (3.0, 0.2);
 /// The longest time for which a limb is away, in seconds, and the largest share of the jump by which it misses its own
 /// path when it returns.
-const AWAY: (f64, f64) = (0.15, 0.35);
+const LIMB_ABSENCE_LIMITS: (f64, f64) = (0.15, 0.35);
 /// Rotations within this angle of rest, in radians, count as rest.
-const SAME: f64 = 1e-3;
+const LAPSE_REST_TOLERANCE_RADIANS: f64 = 1e-3;
 
-impl Limb {
+impl LapseLimb {
     /// Returns every limb, the body first.
-    fn all() -> impl Iterator<Item = Self> {
-        let sides = Side::BOTH.into_iter();
-        std::iter::once(Self::Body)
-            .chain(sides.flat_map(|side| [Self::Arm(side), Self::Fingers(side)]))
+    fn all_lapse_limbs() -> impl Iterator<Item = Self> {
+        let sides = BodySide::BOTH_SIDES.into_iter();
+        std::iter::once(Self::Body).chain(sides.flat_map(|side| [Self::Arm(side), Self::Fingers(side)]))
     }
 
     /// Returns the least jump after frames that stand still or at rest, in metres.
-    fn least(self) -> f64 {
+    fn least_rest_jump(self) -> f64 {
         match self {
             Self::Body | Self::Arm(_) => 0.03,
             Self::Fingers(_) => 0.015,
@@ -119,7 +124,7 @@ impl Limb {
     }
 
     /// Returns the least jump away, in metres, and its least speed in metres per second: beyond what people can do.
-    fn beyond(self) -> (f64, f64) {
+    fn impossible_jump_limits(self) -> (f64, f64) {
         match self {
             Self::Body => (0.5, 20.0),
             Self::Arm(_) => (0.2, 12.0),
@@ -128,32 +133,32 @@ impl Limb {
     }
 }
 
-impl Lapses {
+impl ClipLapses {
     /// Examines a clip; `anatomy` belongs to its skeleton.
     #[must_use]
-    pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
+    pub fn find_clip_lapses(clip: &Clip, anatomy: &BodyAnatomy) -> Self {
         let mut lapses = Self {
             bends: has_bending_joints(clip, anatomy),
             ..Self::default()
         };
-        if clip.frames() < 2 {
-            lapses.moving = clip.frames();
+        if clip.clip_frame_count() < 2 {
+            lapses.moving = clip.clip_frame_count();
             return lapses;
         }
-        let mut paths: Vec<Path> = Limb::all()
-            .filter_map(|limb| Path::begin(limb, clip, anatomy))
+        let mut paths: Vec<LimbPath> = LapseLimb::all_lapse_limbs()
+            .filter_map(|limb| LimbPath::begin_limb_path(limb, clip, anatomy))
             .collect();
         let mut model = clip.model_pose(0);
-        for frame in 0..clip.frames() {
-            model.set(clip.skeleton(), &clip.pose(frame));
+        for frame in 0..clip.clip_frame_count() {
+            model.set_local_pose(clip.clip_skeleton(), &clip.clip_pose_at(frame));
             for path in &mut paths {
-                path.push((clip, anatomy), &model, frame);
+                path.push_limb_frame((clip, anatomy), &model, frame);
             }
         }
         for path in &paths {
-            for lapse in path.lapses(clip.rate().per_second()) {
-                let is_known = lapses.found.iter().any(|known: &Lapse| {
-                    known.limb == Limb::Body && meets(&known.frames, &lapse.frames)
+            for lapse in path.limb_path_lapses(clip.clip_frame_rate().per_second()) {
+                let is_known = lapses.found.iter().any(|known: &MotionLapse| {
+                    known.limb == LapseLimb::Body && has_common_frame(&known.frames, &lapse.frames)
                 });
                 if !is_known {
                     lapses.found.push(lapse);
@@ -161,11 +166,11 @@ impl Lapses {
             }
         }
         lapses.found.sort_by_key(|lapse| lapse.frames.start);
-        if let Some(body) = paths.iter().find(|path| path.limb == Limb::Body) {
-            let long = |run: &Range<usize>| run.len() > SHORT;
-            let (long, short): (Vec<_>, Vec<_>) = runs(&body.same).partition(long);
+        if let Some(body) = paths.iter().find(|path| path.limb == LapseLimb::Body) {
+            let long = |run: &Range<usize>| run.len() > MAX_CONVERSION_RUN_FRAMES;
+            let (long, short): (Vec<_>, Vec<_>) = true_frame_runs(&body.same).partition(long);
             lapses.repeated = short.iter().map(ExactSizeIterator::len).sum();
-            lapses.moving = clip.frames() - long.iter().map(ExactSizeIterator::len).sum::<usize>();
+            lapses.moving = clip.clip_frame_count() - long.iter().map(ExactSizeIterator::len).sum::<usize>();
         }
         lapses
     }
@@ -174,34 +179,37 @@ impl Lapses {
 /// Returns whether any joint turns or moves, besides markers and the joints that carry the whole body. A skeleton without
 /// an arm counts as one whose joints turn.
 #[must_use]
-pub fn has_bending_joints(clip: &Clip, anatomy: &Anatomy) -> bool {
-    if !Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
+pub fn has_bending_joints(clip: &Clip, anatomy: &BodyAnatomy) -> bool {
+    if !BodySide::BOTH_SIDES
+        .iter()
+        .any(|&side| anatomy.arm_chain(side).is_some())
+    {
         return true;
     }
-    let skeleton = clip.skeleton();
-    let hips = anatomy.joint(Part::Hips).unwrap_or(0);
-    let carriers: Vec<usize> = skeleton.ancestors(hips).collect();
-    let is_own = |joint: &usize| !carriers.contains(joint) && !anatomy.markers().contains(joint);
+    let skeleton = clip.clip_skeleton();
+    let hips = anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
+    let carriers: Vec<usize> = skeleton.joint_ancestors(hips).collect();
+    let is_own = |joint: &usize| !carriers.contains(joint) && !anatomy.marker_joints().contains(joint);
     (0..skeleton.len()).filter(is_own).any(|joint| {
-        let Channel {
+        let JointChannel {
             rotations,
             translations,
-        } = clip.channel(joint);
+        } = clip.joint_channel(joint);
         let turns = rotations
             .iter()
-            .any(|turn| turn.angle_between(rotations[0]) > SAME);
+            .any(|turn| turn.angle_between(rotations[0]) > LAPSE_REST_TOLERANCE_RADIANS);
         let places = translations.iter().flatten();
         turns
             || places
                 .clone()
                 .zip(places.skip(1))
-                .any(|(a, b)| a.distance(*b) > SAME)
+                .any(|(a, b)| a.distance(*b) > LAPSE_REST_TOLERANCE_RADIANS)
     })
 }
 
 /// The movement of a limb.
-struct Path {
-    limb: Limb,
+struct LimbPath {
+    limb: LapseLimb,
     joints: Vec<usize>,
     /// The joint relative to which the limb is measured.
     base: Option<usize>,
@@ -215,39 +223,35 @@ struct Path {
     rest: Vec<bool>,
 }
 
-impl Path {
-    fn begin(limb: Limb, clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        let skeleton = clip.skeleton();
+impl LimbPath {
+    fn begin_limb_path(limb: LapseLimb, clip: &Clip, anatomy: &BodyAnatomy) -> Option<Self> {
+        let skeleton = clip.clip_skeleton();
         let (joints, base, measured) = match limb {
-            Limb::Body => {
+            LapseLimb::Body => {
                 let parts = [
-                    Part::Hips,
-                    Part::UpperArm(Side::Right),
-                    Part::UpperArm(Side::Left),
+                    BodyPart::Hips,
+                    BodyPart::UpperArm(BodySide::Right),
+                    BodyPart::UpperArm(BodySide::Left),
                 ];
-                let found = parts.iter().filter_map(|&part| anatomy.joint(part));
-                let measured: Vec<_> = found.map(|joint| (joint, false)).collect();
+                let part_joints = parts.iter().filter_map(|&part| anatomy.part_joint(part));
+                let measured: Vec<_> = part_joints.map(|joint| (joint, false)).collect();
                 ((0..skeleton.len()).collect::<Vec<_>>(), None, measured)
             }
-            Limb::Arm(side) => {
-                let arm = anatomy.arm(side)?;
-                let base = skeleton.parent(arm.upper)?;
+            LapseLimb::Arm(side) => {
+                let arm = anatomy.arm_chain(side)?;
+                let base = skeleton.joint_parent(arm.upper)?;
                 let measured = vec![(arm.forearm, false), (arm.hand, false)];
                 (vec![arm.upper, arm.forearm], Some(base), measured)
             }
-            Limb::Fingers(side) => {
+            LapseLimb::Fingers(side) => {
                 let joints = anatomy.possible_fingers(side);
-                let is_last = |joint: &usize| {
-                    !joints
-                        .iter()
-                        .any(|&other| skeleton.parent(other) == Some(*joint))
-                };
+                let is_last = |joint: &usize| !joints.iter().any(|&other| skeleton.joint_parent(other) == Some(*joint));
                 let measured: Vec<_> = joints
                     .iter()
                     .filter(|joint| is_last(joint))
                     .map(|&joint| (joint, true))
                     .collect();
-                let base = anatomy.joint(Part::Hand(side))?;
+                let base = anatomy.part_joint(BodyPart::Hand(side))?;
                 (joints, Some(base), measured)
             }
         };
@@ -256,47 +260,51 @@ impl Path {
             joints,
             base,
             measured,
-            places: Vec::with_capacity(clip.frames()),
-            same: Vec::with_capacity(clip.frames()),
-            rest: Vec::with_capacity(clip.frames()),
+            places: Vec::with_capacity(clip.clip_frame_count()),
+            same: Vec::with_capacity(clip.clip_frame_count()),
+            rest: Vec::with_capacity(clip.clip_frame_count()),
         })
     }
 
-    fn push(&mut self, (clip, anatomy): (&Clip, &Anatomy), model: &ModelPose, frame: usize) {
-        let skeleton = clip.skeleton();
+    fn push_limb_frame(&mut self, (clip, anatomy): (&Clip, &BodyAnatomy), model: &ModelPose, frame: usize) {
+        let skeleton = clip.clip_skeleton();
         let (origin, turned) = match self.base {
-            Some(base) => (model.position(base), model.rotation(base).inverse()),
+            Some(base) => (
+                model.model_joint_position(base),
+                model.model_joint_rotation(base).inverse(),
+            ),
             None => (DVec3::ZERO, DQuat::IDENTITY),
         };
         for &(joint, is_tip) in &self.measured {
             let tip = anatomy.digit_end(skeleton, joint).filter(|_| is_tip);
-            let at = model.point(joint, tip.unwrap_or_default());
-            self.places.push(turned * (at - origin));
+            let joint_place = model.joint_point_to_model(joint, tip.unwrap_or_default());
+            self.places.push(turned * (joint_place - origin));
         }
-        let turns = |joint: usize| &clip.channel(joint).rotations;
+        let turns = |joint: usize| &clip.joint_channel(joint).rotations;
         let is_same = frame > 0
             && self.joints.iter().all(|&joint| {
                 turns(joint)[frame] == turns(joint)[frame - 1]
-                    && clip.translation(joint, frame) == clip.translation(joint, frame - 1)
+                    && clip.joint_translation(joint, frame) == clip.joint_translation(joint, frame - 1)
             });
         let is_rest = if is_same {
             self.rest[frame - 1]
         } else {
             // The root turns in the world.
-            let own = self.joints.iter().filter(|&&joint| joint > 0);
-            let near = |turn: DQuat, rest: DQuat| turn.angle_between(rest) < SAME;
-            own.clone()
+            let inner_joints = self.joints.iter().filter(|&&joint| joint > 0);
+            let near = |turn: DQuat, rest: DQuat| turn.angle_between(rest) < LAPSE_REST_TOLERANCE_RADIANS;
+            inner_joints
+                .clone()
                 .all(|&joint| near(turns(joint)[frame], DQuat::IDENTITY))
-                || own
+                || inner_joints
                     .clone()
-                    .all(|&joint| near(turns(joint)[frame], skeleton.joint(joint).rest))
+                    .all(|&joint| near(turns(joint)[frame], skeleton.joint_at(joint).rest))
         };
         self.same.push(is_same);
         self.rest.push(is_rest);
     }
 
     /// Returns the distance between two frames: that of the place that moves farthest.
-    fn far(&self, a: usize, b: usize) -> f64 {
+    fn limb_frame_distance(&self, a: usize, b: usize) -> f64 {
         let count = self.measured.len();
         let places = |frame: usize| &self.places[frame * count..(frame + 1) * count];
         let far = places(a).iter().zip(places(b)).map(|(a, b)| a.distance(*b));
@@ -305,79 +313,81 @@ impl Path {
 
     /// Returns a length that four of five steps just before and after these frames do not exceed; the steps into and
     /// out of them do not count, nor do frames that stand still.
-    fn usual(&self, frames: &Range<usize>, rate: f64) -> f64 {
-        let near = (JUMP.1 * rate).ceil() as usize;
+    fn usual_step_length(&self, frames: &Range<usize>, rate: f64) -> f64 {
+        let near = (LAPSE_JUMP_LIMITS.1 * rate).ceil() as usize;
         let before = frames.start.saturating_sub(near + 1)..frames.start.saturating_sub(1);
         let after = frames.end..(frames.end + near).min(self.same.len() - 1);
-        let steps = before.chain(after).filter(|&frame| !self.same[frame + 1]);
-        let mut steps: Vec<f64> = steps.map(|frame| self.far(frame, frame + 1)).collect();
+        let step_frames = before.chain(after).filter(|&frame| !self.same[frame + 1]);
+        let mut steps: Vec<f64> = step_frames
+            .map(|frame| self.limb_frame_distance(frame, frame + 1))
+            .collect();
         steps.sort_by(f64::total_cmp);
-        let at = (0.8 * steps.len() as f64) as usize;
-        steps.get(at).copied().unwrap_or(0.0)
+        let quantile_index = (0.8 * steps.len() as f64) as usize;
+        steps.get(quantile_index).copied().unwrap_or(0.0)
     }
 
-    fn lapses(&self, rate: f64) -> Vec<Lapse> {
-        let mut found: Vec<Lapse> = Vec::new();
+    fn limb_path_lapses(&self, rate: f64) -> Vec<MotionLapse> {
+        let mut found_lapses: Vec<MotionLapse> = Vec::new();
         let all = self.same.len();
-        let lapse = |frames: Range<usize>, what: Lost| Lapse {
+        let lapse = |frames: Range<usize>, what: LostMovement| MotionLapse {
             frames,
             limb: self.limb,
             what,
         };
-        for run in runs(&self.rest).filter(|run| run.len() < all) {
-            let usual = JUMP.0 * self.usual(&run, rate);
+        for run in true_frame_runs(&self.rest).filter(|run| run.len() < all) {
+            let usual = LAPSE_JUMP_LIMITS.0 * self.usual_step_length(&run, rate);
             let inner = [
-                (run.start > 0).then(|| self.far(run.start - 1, run.start)),
-                (run.end < all).then(|| self.far(run.end - 1, run.end)),
+                (run.start > 0).then(|| self.limb_frame_distance(run.start - 1, run.start)),
+                (run.end < all).then(|| self.limb_frame_distance(run.end - 1, run.end)),
             ];
             let jumps = inner.iter().flatten();
             if jumps
                 .clone()
-                .all(|&far| far > usual && far > self.limb.least())
+                .all(|&far| far > usual && far > self.limb.least_rest_jump())
             {
                 let most = jumps.copied().fold(0.0, f64::max);
-                found.push(lapse(run, Lost::Rest(most)));
+                found_lapses.push(lapse(run, LostMovement::Rest(most)));
             }
         }
-        for run in runs(&self.same).filter(|run| run.len() >= STILL && run.end < all) {
-            let far = self.far(run.end - 1, run.end);
-            if far > self.limb.least()
-                && far > JUMP.0 * self.usual(&run, rate)
-                && !found.iter().any(|known| meets(&known.frames, &run))
+        for run in true_frame_runs(&self.same).filter(|run| run.len() >= MIN_STILL_FRAMES && run.end < all) {
+            let far = self.limb_frame_distance(run.end - 1, run.end);
+            if far > self.limb.least_rest_jump()
+                && far > LAPSE_JUMP_LIMITS.0 * self.usual_step_length(&run, rate)
+                && !found_lapses.iter().any(|known| has_common_frame(&known.frames, &run))
             {
-                found.push(lapse(run, Lost::Still(far)));
+                found_lapses.push(lapse(run, LostMovement::Still(far)));
             }
         }
-        let (least, speed) = self.limb.beyond();
-        let longest = ((AWAY.0 * rate).ceil() as usize).max(1);
+        let (least, speed) = self.limb.impossible_jump_limits();
+        let longest = ((LIMB_ABSENCE_LIMITS.0 * rate).ceil() as usize).max(1);
         let mut frame = 1;
         while frame < all {
-            let far = self.far(frame - 1, frame);
+            let far = self.limb_frame_distance(frame - 1, frame);
             if far > least && far * rate > speed {
                 let back = (frame + 1..(frame + longest + 1).min(all))
-                    .find(|&back| self.far(frame - 1, back) < AWAY.1 * far);
+                    .find(|&back| self.limb_frame_distance(frame - 1, back) < LIMB_ABSENCE_LIMITS.1 * far);
                 if let Some(back) = back.filter(|&back| {
                     let run = frame..back;
-                    far > JUMP.0 * self.usual(&run, rate)
-                        && !found.iter().any(|known| meets(&known.frames, &run))
+                    far > LAPSE_JUMP_LIMITS.0 * self.usual_step_length(&run, rate)
+                        && !found_lapses.iter().any(|known| has_common_frame(&known.frames, &run))
                 }) {
-                    found.push(lapse(frame..back, Lost::Away(far)));
+                    found_lapses.push(lapse(frame..back, LostMovement::Away(far)));
                     frame = back;
                 }
             }
             frame += 1;
         }
-        found
+        found_lapses
     }
 }
 
 /// Returns whether two ranges of frames have one in common.
-fn meets(a: &Range<usize>, b: &Range<usize>) -> bool {
+fn has_common_frame(a: &Range<usize>, b: &Range<usize>) -> bool {
     a.start < b.end && b.start < a.end
 }
 
 /// Returns the runs of frames for which this holds.
-fn runs(holds: &[bool]) -> impl Iterator<Item = Range<usize>> + '_ {
+fn true_frame_runs(holds: &[bool]) -> impl Iterator<Item = Range<usize>> + '_ {
     let mut start = 0;
     holds.chunk_by(|a, b| a == b).filter_map(move |run| {
         let from = start;
@@ -389,16 +399,16 @@ fn runs(holds: &[bool]) -> impl Iterator<Item = Range<usize>> + '_ {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::anatomy::fixtures::{PLAIN, body, roles};
-    use crate::clip::Channel;
-    use crate::time::Rate;
+    use crate::anatomy::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+    use crate::clip::JointChannel;
+    use crate::time::FrameRate;
 
     /// Returns two seconds of signing at 100 frames a second, with the posture of each frame taken from the frame that
     /// `source` names.
-    fn take(source: impl Fn(usize, usize) -> Option<usize>) -> (Clip, Anatomy) {
-        let skeleton = std::sync::Arc::new(body(PLAIN));
-        let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
-        let rate = Rate::new(100, 1).expect("a rate");
+    fn take(source: impl Fn(usize, usize) -> Option<usize>) -> (Clip, BodyAnatomy) {
+        let skeleton = std::sync::Arc::new(fixture_body(PLAIN_BODY_VARIATION));
+        let anatomy = BodyAnatomy::with_roles(&skeleton, &fixture_joint_roles(&skeleton)).expect("a body");
+        let rate = FrameRate::new(100, 1).expect("a rate");
         let turned = |joint: usize, frame: usize| {
             let (own, at) = (joint as f64, frame as f64 / 100.0);
             let size = if joint == 0 { 0.02 } else { 0.4 };
@@ -412,7 +422,7 @@ mod tests {
                 Some(at) => DVec3::new(0.0, 1.0, at as f64 / 500.0),
                 None => DVec3::ZERO,
             };
-            Channel {
+            JointChannel {
                 rotations: (0..200).map(turn).collect(),
                 translations: (joint == 0).then(|| (0..200).map(place).collect()),
             }
@@ -422,26 +432,26 @@ mod tests {
         (clip, anatomy)
     }
 
-    fn found(source: impl Fn(usize, usize) -> Option<usize>) -> Lapses {
+    fn found(source: impl Fn(usize, usize) -> Option<usize>) -> ClipLapses {
         let (clip, anatomy) = take(source);
-        Lapses::of(&clip, &anatomy)
+        ClipLapses::find_clip_lapses(&clip, &anatomy)
     }
 
-    fn joints(limb: Limb) -> Vec<usize> {
+    fn joints(limb: LapseLimb) -> Vec<usize> {
         let (clip, anatomy) = take(|_, frame| Some(frame));
         match limb {
-            Limb::Body => (0..clip.skeleton().len()).collect(),
-            Limb::Arm(side) => anatomy
-                .arm(side)
+            LapseLimb::Body => (0..clip.clip_skeleton().len()).collect(),
+            LapseLimb::Arm(side) => anatomy
+                .arm_chain(side)
                 .map(|arm| vec![arm.upper, arm.forearm])
                 .unwrap_or_default(),
-            Limb::Fingers(side) => anatomy.fingers(side),
+            LapseLimb::Fingers(side) => anatomy.finger_joints(side),
         }
     }
 
     #[test]
     fn a_limb_that_stands_still_or_drops_to_rest_is_found_with_its_frames() {
-        for limb in Limb::all() {
+        for limb in LapseLimb::all_lapse_limbs() {
             let own = joints(limb);
             let held = found(|joint, frame| match own.contains(&joint) {
                 true if (56..71).contains(&frame) => Some(55),
@@ -452,7 +462,7 @@ mod tests {
             };
             assert_eq!((&lapse.frames, lapse.limb), (&(56..71), limb));
             assert!(
-                matches!(lapse.what, Lost::Still(far) if far > limb.least()),
+                matches!(lapse.what, LostMovement::Still(far) if far > limb.least_rest_jump()),
                 "{lapse:?}"
             );
             let rests = found(|joint, frame| match own.contains(&joint) {
@@ -463,23 +473,20 @@ mod tests {
                 panic!("{limb}: {rests:?}");
             };
             assert_eq!((&lapse.frames, lapse.limb), (&(56..71), limb));
-            assert!(matches!(lapse.what, Lost::Rest(_)), "{lapse:?}");
+            assert!(matches!(lapse.what, LostMovement::Rest(_)), "{lapse:?}");
         }
     }
 
     #[test]
     fn an_arm_that_leaves_for_a_moment_is_found() {
-        let own = joints(Limb::Arm(Side::Left));
+        let own = joints(LapseLimb::Arm(BodySide::Left));
         let away = found(|joint, frame| match own.contains(&joint) {
             true if (80..84).contains(&frame) => Some(frame + 60),
             _ => Some(frame),
         });
         assert_eq!(away.found.len(), 1, "{away:?}");
         assert_eq!(away.found[0].frames, 80..84);
-        assert!(
-            away.found[0].to_string().contains("the left arm jumps"),
-            "{away:?}"
-        );
+        assert!(away.found[0].to_string().contains("the left arm jumps"), "{away:?}");
     }
 
     #[test]
@@ -498,10 +505,7 @@ mod tests {
     #[test]
     fn frames_that_stand_twice_are_counted() {
         let twice = found(|_, frame| Some(frame / 2 * 2));
-        assert_eq!(
-            (twice.repeated, twice.moving, twice.found.len()),
-            (100, 200, 0)
-        );
+        assert_eq!((twice.repeated, twice.moving, twice.found.len()), (100, 200, 0));
         let once = found(|_, frame| Some(frame));
         assert_eq!((once.repeated, once.moving), (0, 200));
         let held = found(|_, frame| Some(frame.min(150)));

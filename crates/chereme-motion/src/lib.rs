@@ -68,19 +68,19 @@ mod golden;
 mod tests;
 
 pub use anatomy::{
-    Anatomy, ArmChain, Evidence, HandCorrection, HandRange, Part, Roles, RolesError,
+    ArmChain, AssignedJointRoles, BodyAnatomy, BodyPart, HandCorrection, HandRange, PartEvidence, RolesError,
 };
-pub use axes::{Axes, Axis, Convention, Direction};
-pub use clip::{Channel, Clip, ClipError};
-pub use column::Column;
-pub use curves::{Curve, Curves, TrackError};
+pub use axes::{AxisDirection, SignerAxes, SpaceAxis, SpaceConvention};
+pub use clip::{Clip, ClipError, JointChannel};
+pub use column::FrameNumberColumn;
+pub use curves::{CurveTrack, ScalarCurve, TrackError};
 pub use euler::RotationOrder;
-pub use face::Face;
-pub use hand::{Finger, FingerAngles, HandAngles, Side, ThumbAngles};
-pub use interpolation::Interpolation;
-pub use markers::{Capture, Marker, Markers, Quality, Space};
-pub use pose::{ModelPose, Pose};
-pub use skeleton::{Joint, Skeleton, SkeletonError};
-pub use time::{Instant, Rate, RateError, Span, SpanError};
-pub use times::{Times, TimesError};
+pub use face::FacePosture;
+pub use hand::{BodySide, FingerAngles, HandAngles, HandFinger, ThumbAngles};
+pub use interpolation::InterpolationKind;
+pub use markers::{CaptureMethod, MarkerSpace, MarkerTrack, MotionMarker, QualityMeaning};
+pub use pose::{LocalPose, ModelPose};
+pub use skeleton::{Skeleton, SkeletonError, SkeletonJoint};
+pub use time::{FrameRate, RateError, RecordingInstant, SpanError, TimeSpan};
+pub use times::{FrameTimes, TimesError};
 pub use wrist::{WristAngles, WristLimits};

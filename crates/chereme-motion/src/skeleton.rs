@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use crate::pose::{ModelPose, Pose};
+use crate::pose::{LocalPose, ModelPose};
 
 /// One joint of a skeleton.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Joint {
+pub struct SkeletonJoint {
     /// The name in its source.
     pub name: String,
     /// The index of the parent joint; only the root has none.
@@ -20,7 +20,7 @@ pub struct Joint {
     pub tip: Option<DVec3>,
 }
 
-impl Joint {
+impl SkeletonJoint {
     /// Returns a joint without a rotation at rest and without a tip.
     #[must_use]
     pub fn new(name: impl Into<String>, parent: Option<usize>, offset: DVec3) -> Self {
@@ -36,18 +36,15 @@ impl Joint {
     /// Returns the joint with a tip at `tip` in its own space.
     #[must_use]
     pub fn with_tip(self, tip: DVec3) -> Self {
-        Self {
-            tip: Some(tip),
-            ..self
-        }
+        Self { tip: Some(tip), ..self }
     }
 }
 
 /// Joints in a tree with one root; every parent comes before its children.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Vec<Joint>", into = "Vec<Joint>")]
+#[serde(try_from = "Vec<SkeletonJoint>", into = "Vec<SkeletonJoint>")]
 pub struct Skeleton {
-    joints: Vec<Joint>,
+    joints: Vec<SkeletonJoint>,
     children: Vec<Vec<usize>>,
 }
 
@@ -66,9 +63,7 @@ pub enum SkeletonError {
         name: String,
     },
     /// A joint's parent is itself, follows it, or does not exist.
-    #[error(
-        "joint {index} ({name:?}) names parent {parent}, but a parent comes before its children"
-    )]
+    #[error("joint {index} ({name:?}) names parent {parent}, but a parent comes before its children")]
     Parent {
         /// The joint's index.
         index: usize,
@@ -92,7 +87,7 @@ impl Skeleton {
     ///
     /// # Errors
     /// [`SkeletonError`] if the joints are not one tree in that order, or if a number is not finite.
-    pub fn new(joints: Vec<Joint>) -> Result<Self, SkeletonError> {
+    pub fn new(joints: Vec<SkeletonJoint>) -> Result<Self, SkeletonError> {
         if joints.is_empty() {
             return Err(SkeletonError::Empty);
         }
@@ -101,16 +96,10 @@ impl Skeleton {
             let name = || joint.name.clone();
             match joint.parent {
                 None if index > 0 => {
-                    return Err(SkeletonError::Root {
-                        index,
-                        name: name(),
-                    });
+                    return Err(SkeletonError::Root { index, name: name() });
                 }
                 Some(_) if index == 0 => {
-                    return Err(SkeletonError::Root {
-                        index,
-                        name: name(),
-                    });
+                    return Err(SkeletonError::Root { index, name: name() });
                 }
                 Some(parent) if parent >= index => {
                     return Err(SkeletonError::Parent {
@@ -122,14 +111,10 @@ impl Skeleton {
                 Some(parent) => children[parent].push(index),
                 None => {}
             }
-            let finite = joint.offset.is_finite()
-                && joint.tip.is_none_or(DVec3::is_finite)
-                && joint.rest.is_normalized();
+            let finite =
+                joint.offset.is_finite() && joint.tip.is_none_or(DVec3::is_finite) && joint.rest.is_normalized();
             if !finite {
-                return Err(SkeletonError::Value {
-                    index,
-                    name: name(),
-                });
+                return Err(SkeletonError::Value { index, name: name() });
             }
         }
         Ok(Self { joints, children })
@@ -137,7 +122,7 @@ impl Skeleton {
 
     /// Returns the joints, the root first.
     #[must_use]
-    pub fn joints(&self) -> &[Joint] {
+    pub fn skeleton_joints(&self) -> &[SkeletonJoint] {
         &self.joints
     }
 
@@ -153,48 +138,48 @@ impl Skeleton {
     /// # Panics
     /// Panics if `index` is not below [`len`](Self::len).
     #[must_use]
-    pub fn joint(&self, index: usize) -> &Joint {
+    pub fn joint_at(&self, index: usize) -> &SkeletonJoint {
         &self.joints[index]
     }
 
     /// Returns the joints whose parent is `index`, in order.
     #[must_use]
-    pub fn children(&self, index: usize) -> &[usize] {
+    pub fn joint_children(&self, index: usize) -> &[usize] {
         &self.children[index]
     }
 
     /// Returns the parent of `index`.
     #[must_use]
-    pub fn parent(&self, index: usize) -> Option<usize> {
+    pub fn joint_parent(&self, index: usize) -> Option<usize> {
         self.joints[index].parent
     }
 
     /// Returns the first joint whose name is exactly `name`.
     #[must_use]
-    pub fn find(&self, name: &str) -> Option<usize> {
+    pub fn find_joint(&self, name: &str) -> Option<usize> {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
     /// Returns the joints from `index` up to the root, `index` first.
-    pub fn ancestors(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
-        std::iter::successors(Some(index), |&joint| self.parent(joint))
+    pub fn joint_ancestors(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(index), |&joint| self.joint_parent(joint))
     }
 
     /// Returns `index` and all its descendants, parents first.
     #[must_use]
-    pub fn subtree(&self, index: usize) -> Vec<usize> {
+    pub fn joint_subtree(&self, index: usize) -> Vec<usize> {
         let mut inside = vec![false; self.len()];
         inside[index] = true;
         for joint in index + 1..self.len() {
-            inside[joint] = self.parent(joint).is_some_and(|parent| inside[parent]);
+            inside[joint] = self.joint_parent(joint).is_some_and(|parent| inside[parent]);
         }
         (index..self.len()).filter(|&joint| inside[joint]).collect()
     }
 
     /// Returns the posture at rest, in local space.
     #[must_use]
-    pub fn rest_pose(&self) -> Pose {
-        Pose {
+    pub fn rest_pose(&self) -> LocalPose {
+        LocalPose {
             rotations: self.joints.iter().map(|joint| joint.rest).collect(),
             translations: self.joints.iter().map(|joint| joint.offset).collect(),
         }
@@ -203,18 +188,18 @@ impl Skeleton {
     /// Returns the posture at rest, in model space.
     #[must_use]
     pub fn rest_model_pose(&self) -> ModelPose {
-        ModelPose::of(self, &self.rest_pose())
+        ModelPose::from_local_pose(self, &self.rest_pose())
     }
 }
 
-impl TryFrom<Vec<Joint>> for Skeleton {
+impl TryFrom<Vec<SkeletonJoint>> for Skeleton {
     type Error = SkeletonError;
-    fn try_from(joints: Vec<Joint>) -> Result<Self, SkeletonError> {
+    fn try_from(joints: Vec<SkeletonJoint>) -> Result<Self, SkeletonError> {
         Self::new(joints)
     }
 }
 
-impl From<Skeleton> for Vec<Joint> {
+impl From<Skeleton> for Vec<SkeletonJoint> {
     fn from(skeleton: Skeleton) -> Self {
         skeleton.joints
     }
@@ -226,7 +211,7 @@ mod tests {
 
     #[test]
     fn joints_that_form_no_tree_are_refused_by_name() {
-        let joint = |name: &str, parent| Joint::new(name, parent, DVec3::Y);
+        let joint = |name: &str, parent| SkeletonJoint::new(name, parent, DVec3::Y);
         for (joints, want) in [
             (vec![], "at least one joint"),
             (vec![joint("a", Some(0))], "second root"),
@@ -234,15 +219,9 @@ mod tests {
                 vec![joint("a", None), joint("b", None)],
                 "joint 1 (\"b\") is a second root",
             ),
-            (
-                vec![joint("a", None), joint("b", Some(1))],
-                "names parent 1",
-            ),
-            (
-                vec![joint("a", None), joint("b", Some(7))],
-                "names parent 7",
-            ),
-            (vec![Joint::new("a", None, DVec3::NAN)], "no number"),
+            (vec![joint("a", None), joint("b", Some(1))], "names parent 1"),
+            (vec![joint("a", None), joint("b", Some(7))], "names parent 7"),
+            (vec![SkeletonJoint::new("a", None, DVec3::NAN)], "no number"),
         ] {
             let error = Skeleton::new(joints).expect_err(want).to_string();
             assert!(error.contains(want), "{error}");
@@ -252,13 +231,11 @@ mod tests {
     #[test]
     fn a_subtree_holds_all_descendants() {
         let parents = [None, Some(0), Some(1), Some(0), Some(2), Some(3)];
-        let joints = parents
-            .map(|parent| Joint::new("j", parent, DVec3::Y))
-            .to_vec();
+        let joints = parents.map(|parent| SkeletonJoint::new("j", parent, DVec3::Y)).to_vec();
         let skeleton = Skeleton::new(joints).expect("a tree");
-        assert_eq!(skeleton.subtree(1), [1, 2, 4]);
-        assert_eq!(skeleton.subtree(0), [0, 1, 2, 3, 4, 5]);
-        assert_eq!(skeleton.ancestors(4).collect::<Vec<_>>(), [4, 2, 1, 0]);
-        assert_eq!(skeleton.children(0), [1, 3]);
+        assert_eq!(skeleton.joint_subtree(1), [1, 2, 4]);
+        assert_eq!(skeleton.joint_subtree(0), [0, 1, 2, 3, 4, 5]);
+        assert_eq!(skeleton.joint_ancestors(4).collect::<Vec<_>>(), [4, 2, 1, 0]);
+        assert_eq!(skeleton.joint_children(0), [1, 3]);
     }
 }

@@ -7,15 +7,13 @@ use std::ops::Range;
 const MICROS_PER_SECOND: i128 = 1_000_000;
 
 /// A moment, in microseconds from the start of a recording.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Instant(i64);
+pub struct RecordingInstant(i64);
 
-impl Instant {
+impl RecordingInstant {
     /// The start of the recording.
-    pub const ZERO: Self = Self(0);
+    pub const RECORDING_START: Self = Self(0);
 
     /// Returns the instant `micros` microseconds after the start.
     #[must_use]
@@ -38,43 +36,41 @@ impl Instant {
 
     /// Returns the microseconds from the start.
     #[must_use]
-    pub const fn micros(self) -> i64 {
+    pub const fn instant_micros(self) -> i64 {
         self.0
     }
 
     /// Returns the milliseconds from the start, halves rounded up.
     #[must_use]
-    pub const fn millis(self) -> i64 {
+    pub const fn instant_millis(self) -> i64 {
         self.0.saturating_add(500).div_euclid(1000)
     }
 
     /// Returns the seconds from the start.
     #[must_use]
-    pub fn seconds(self) -> f64 {
+    pub fn instant_seconds(self) -> f64 {
         self.0 as f64 / 1e6
     }
 
     /// Returns the instant moved by `micros` microseconds; it saturates.
     #[must_use]
-    pub const fn shifted(self, micros: i64) -> Self {
+    pub const fn shifted_instant(self, micros: i64) -> Self {
         Self(self.0.saturating_add(micros))
     }
 }
 
-impl fmt::Display for Instant {
+impl fmt::Display for RecordingInstant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.3}s", self.seconds())
+        write!(f, "{:.3}s", self.instant_seconds())
     }
 }
 
 /// A half-open span of time: it includes its start and excludes its end, and is never negative.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(try_from = "RawSpan", into = "RawSpan")]
-pub struct Span {
-    start: Instant,
-    end: Instant,
+pub struct TimeSpan {
+    start: RecordingInstant,
+    end: RecordingInstant,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -83,15 +79,15 @@ struct RawSpan {
     end_us: i64,
 }
 
-impl TryFrom<RawSpan> for Span {
+impl TryFrom<RawSpan> for TimeSpan {
     type Error = SpanError;
     fn try_from(raw: RawSpan) -> Result<Self, SpanError> {
-        Self::new(Instant(raw.start_us), Instant(raw.end_us))
+        Self::new(RecordingInstant(raw.start_us), RecordingInstant(raw.end_us))
     }
 }
 
-impl From<Span> for RawSpan {
-    fn from(span: Span) -> Self {
+impl From<TimeSpan> for RawSpan {
+    fn from(span: TimeSpan) -> Self {
         Self {
             start_us: span.start.0,
             end_us: span.end.0,
@@ -104,17 +100,17 @@ impl From<Span> for RawSpan {
 #[error("a span cannot end ({end}) before it starts ({start})")]
 pub struct SpanError {
     /// The requested start.
-    pub start: Instant,
+    pub start: RecordingInstant,
     /// The requested end.
-    pub end: Instant,
+    pub end: RecordingInstant,
 }
 
-impl Span {
+impl TimeSpan {
     /// Returns the span from `start` up to `end`, excluding `end`; equal ends give an empty span.
     ///
     /// # Errors
     /// [`SpanError`] if `end` is before `start`.
-    pub fn new(start: Instant, end: Instant) -> Result<Self, SpanError> {
+    pub fn new(start: RecordingInstant, end: RecordingInstant) -> Result<Self, SpanError> {
         if end < start {
             Err(SpanError { start, end })
         } else {
@@ -124,7 +120,7 @@ impl Span {
 
     /// Returns the span between two instants, whichever comes first.
     #[must_use]
-    pub fn between(a: Instant, b: Instant) -> Self {
+    pub fn span_between(a: RecordingInstant, b: RecordingInstant) -> Self {
         Self {
             start: a.min(b),
             end: a.max(b),
@@ -133,26 +129,26 @@ impl Span {
 
     /// Returns the first instant of the span.
     #[must_use]
-    pub const fn start(self) -> Instant {
+    pub const fn span_start_instant(self) -> RecordingInstant {
         self.start
     }
 
     /// Returns the first instant after the span.
     #[must_use]
-    pub const fn end(self) -> Instant {
+    pub const fn span_end_instant(self) -> RecordingInstant {
         self.end
     }
 
     /// Returns the length in microseconds.
     #[must_use]
-    pub const fn micros(self) -> i64 {
+    pub const fn span_micros(self) -> i64 {
         self.end.0.saturating_sub(self.start.0)
     }
 
     /// Returns the length in seconds.
     #[must_use]
-    pub fn seconds(self) -> f64 {
-        self.micros() as f64 / 1e6
+    pub fn span_seconds(self) -> f64 {
+        self.span_micros() as f64 / 1e6
     }
 
     /// Returns whether the span contains no instant.
@@ -163,35 +159,35 @@ impl Span {
 
     /// Returns whether `instant` lies in the span.
     #[must_use]
-    pub fn contains(self, instant: Instant) -> bool {
+    pub fn has_instant(self, instant: RecordingInstant) -> bool {
         self.start <= instant && instant < self.end
     }
 
     /// Returns whether `other` lies completely in the span.
     #[must_use]
-    pub fn covers(self, other: Self) -> bool {
+    pub fn has_span_inside(self, other: Self) -> bool {
         self.start <= other.start && other.end <= self.end
     }
 
     /// Returns the common part of both spans; `None` if they share no instant.
     #[must_use]
-    pub fn intersection(self, other: Self) -> Option<Self> {
+    pub fn span_intersection(self, other: Self) -> Option<Self> {
         let (start, end) = (self.start.max(other.start), self.end.min(other.end));
         (start < end).then_some(Self { start, end })
     }
 
     /// Returns whether the spans share an instant.
     #[must_use]
-    pub fn overlaps(self, other: Self) -> bool {
-        self.intersection(other).is_some()
+    pub fn is_overlapping_span(self, other: Self) -> bool {
+        self.span_intersection(other).is_some()
     }
 
     /// Returns the span moved by `micros` microseconds; it saturates.
     #[must_use]
-    pub const fn shifted(self, micros: i64) -> Self {
+    pub const fn shifted_span(self, micros: i64) -> Self {
         Self {
-            start: self.start.shifted(micros),
-            end: self.end.shifted(micros),
+            start: self.start.shifted_instant(micros),
+            end: self.end.shifted_instant(micros),
         }
     }
 }
@@ -199,7 +195,7 @@ impl Span {
 /// A frame rate in frames per second, as a fraction in lowest terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "RawRate", into = "RawRate")]
-pub struct Rate {
+pub struct FrameRate {
     frames: u32,
     seconds: u32,
 }
@@ -210,15 +206,15 @@ struct RawRate {
     seconds: u32,
 }
 
-impl TryFrom<RawRate> for Rate {
+impl TryFrom<RawRate> for FrameRate {
     type Error = RateError;
     fn try_from(raw: RawRate) -> Result<Self, RateError> {
         Self::new(raw.frames, raw.seconds)
     }
 }
 
-impl From<Rate> for RawRate {
-    fn from(rate: Rate) -> Self {
+impl From<FrameRate> for RawRate {
+    fn from(rate: FrameRate) -> Self {
         Self {
             frames: rate.frames,
             seconds: rate.seconds,
@@ -252,7 +248,7 @@ const COMMON_RATES: [(u32, u32); 6] = [
     (240_000, 1001),
 ];
 
-impl Rate {
+impl FrameRate {
     /// Returns the rate of `frames` frames in `seconds` seconds.
     ///
     /// # Errors
@@ -279,15 +275,14 @@ impl Rate {
             return Err(RateError::FrameTime(seconds));
         }
         let step = 10f64.powi(-(decimals.min(15) as i32)).max(seconds * 2e-6);
-        let whole = (1.0 / seconds).round();
-        let whole = (whole >= 1.0 && whole <= f64::from(u32::MAX)).then_some((whole as u32, 1));
-        let nearest = whole
+        let nearest_whole = (1.0 / seconds).round();
+        let whole_rate =
+            (nearest_whole >= 1.0 && nearest_whole <= f64::from(u32::MAX)).then_some((nearest_whole as u32, 1));
+        let nearest = whole_rate
             .into_iter()
             .chain(COMMON_RATES)
             .map(|(f, s)| ((f64::from(s) / f64::from(f) - seconds).abs(), f, s))
-            .filter(|(error, f, s)| {
-                *error <= step && *error < 0.005 * f64::from(*s) / f64::from(*f)
-            })
+            .filter(|(error, f, s)| *error <= step && *error < 0.005 * f64::from(*s) / f64::from(*f))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, frames, per)) = nearest {
             return Self::new(frames, per);
@@ -302,11 +297,11 @@ impl Rate {
 
     /// Returns the numerator: frames in [`per_seconds`](Self::per_seconds) seconds.
     #[must_use]
-    pub const fn frames(self) -> u32 {
+    pub const fn rate_numerator(self) -> u32 {
         self.frames
     }
 
-    /// Returns the denominator: the seconds for [`frames`](Self::frames) frames.
+    /// Returns the denominator: the seconds for [`rate_numerator`](Self::rate_numerator) frames.
     #[must_use]
     pub const fn per_seconds(self) -> u32 {
         self.seconds
@@ -327,17 +322,17 @@ impl Rate {
     /// Returns the instant at which frame number `frame` (from 0) starts, rounded to the
     /// microsecond; it saturates.
     #[must_use]
-    pub fn instant(self, frame: usize) -> Instant {
+    pub fn frame_start_instant(self, frame: usize) -> RecordingInstant {
         let numerator = frame as i128 * i128::from(self.seconds) * MICROS_PER_SECOND;
         let micros = div_round(numerator, i128::from(self.frames));
-        Instant(i64::try_from(micros).unwrap_or(i64::MAX))
+        RecordingInstant(i64::try_from(micros).unwrap_or(i64::MAX))
     }
 
     /// Returns the frame whose start is nearest to `instant`; before the start it is frame 0.
     ///
     /// Up to 1 kHz `frame_at(instant(f)) == f` for every `f`.
     #[must_use]
-    pub fn frame_at(self, instant: Instant) -> usize {
+    pub fn nearest_frame_at(self, instant: RecordingInstant) -> usize {
         let numerator = i128::from(instant.0.max(0)) * i128::from(self.frames);
         let frame = div_round(numerator, i128::from(self.seconds) * MICROS_PER_SECOND);
         usize::try_from(frame).unwrap_or(usize::MAX)
@@ -346,19 +341,22 @@ impl Rate {
     /// Returns the frames whose starts lie in `span`; a start within half a microsecond of the span's ends counts as
     /// exactly there.
     #[must_use]
-    pub fn frames_in(self, span: Span) -> Range<usize> {
+    pub fn frames_in(self, span: TimeSpan) -> Range<usize> {
         self.first_from(span.start)..self.first_from(span.end)
     }
 
     /// Returns the span of the frames in `frames`.
     #[must_use]
-    pub fn span(self, frames: Range<usize>) -> Span {
-        Span::between(self.instant(frames.start), self.instant(frames.end))
+    pub fn frame_range_span(self, frames: Range<usize>) -> TimeSpan {
+        TimeSpan::span_between(
+            self.frame_start_instant(frames.start),
+            self.frame_start_instant(frames.end),
+        )
     }
 
-    fn first_from(self, instant: Instant) -> usize {
-        let near = self.frame_at(instant);
-        if self.instant(near) < instant {
+    fn first_from(self, instant: RecordingInstant) -> usize {
+        let near = self.nearest_frame_at(instant);
+        if self.frame_start_instant(near) < instant {
             near.saturating_add(1)
         } else {
             near
@@ -366,7 +364,7 @@ impl Rate {
     }
 }
 
-impl fmt::Display for Rate {
+impl fmt::Display for FrameRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.seconds == 1 {
             write!(f, "{} fps", self.frames)
@@ -410,24 +408,11 @@ mod tests {
             (1.0, 0, 1, 1),
             (0.002, 3, 500, 1),
         ] {
-            let rate = Rate::from_frame_time(seconds, decimals).expect("a rate");
-            assert_eq!(
-                (rate.frames(), rate.per_seconds()),
-                (frames, per),
-                "{seconds}"
-            );
+            let rate = FrameRate::from_frame_time(seconds, decimals).expect("a rate");
+            assert_eq!((rate.rate_numerator(), rate.per_seconds()), (frames, per), "{seconds}");
         }
-        for bad in [
-            0.0,
-            -0.01,
-            f64::NAN,
-            f64::INFINITY,
-            1e-9,
-            1e9,
-            1e300,
-            1e-300,
-        ] {
-            let error = Rate::from_frame_time(bad, 6).expect_err("no rate");
+        for bad in [0.0, -0.01, f64::NAN, f64::INFINITY, 1e-9, 1e9, 1e300, 1e-300] {
+            let error = FrameRate::from_frame_time(bad, 6).expect_err("no rate");
             assert!(error.to_string().len() < 120, "{error}");
         }
     }
@@ -440,23 +425,23 @@ mod tests {
             frames in 1u32..=1_000_000, seconds in 1u32..=2000, frame in 0usize..10_000_000
         ) {
             prop_assume!(frames <= seconds * 1000);
-            let rate = Rate::new(frames, seconds).expect("a rate");
-            prop_assert_eq!(rate.frame_at(rate.instant(frame)), frame);
+            let rate = FrameRate::new(frames, seconds).expect("a rate");
+            prop_assert_eq!(rate.nearest_frame_at(rate.frame_start_instant(frame)), frame);
         }
 
         #[test]
         fn frames_to_span_to_frames_is_the_identity(first in 0usize..100_000, count in 0usize..1000) {
-            let rate = Rate::new(120_000, 1001).expect("a rate");
-            prop_assert_eq!(rate.frames_in(rate.span(first..first + count)), first..first + count);
+            let rate = FrameRate::new(120_000, 1001).expect("a rate");
+            prop_assert_eq!(rate.frames_in(rate.frame_range_span(first..first + count)), first..first + count);
         }
 
         #[test]
         fn an_intersection_is_covered_by_both_spans(a in -50i64..50, b in -50i64..50, c in -50i64..50, d in -50i64..50) {
-            let x = Span::between(Instant(a), Instant(b));
-            let y = Span::between(Instant(c), Instant(d));
-            prop_assert_eq!(x.intersection(y), y.intersection(x));
-            if let Some(both) = x.intersection(y) {
-                prop_assert!(x.covers(both) && y.covers(both) && !both.is_empty());
+            let x = TimeSpan::span_between(RecordingInstant(a), RecordingInstant(b));
+            let y = TimeSpan::span_between(RecordingInstant(c), RecordingInstant(d));
+            prop_assert_eq!(x.span_intersection(y), y.span_intersection(x));
+            if let Some(both) = x.span_intersection(y) {
+                prop_assert!(x.has_span_inside(both) && y.has_span_inside(both) && !both.is_empty());
             }
         }
     }

@@ -1,20 +1,20 @@
 //! The times of a track's frames: at an even rate, or each with its own time.
 
-use crate::column::Column;
-use crate::time::{Instant, Rate, Span};
+use crate::column::FrameNumberColumn;
+use crate::time::{FrameRate, RecordingInstant, TimeSpan};
 
 /// The times of frames, counted from the start of their track.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Times {
+pub enum FrameTimes {
     /// Frame `n` is `n` frame times after the start.
-    Even(Rate),
+    Even(FrameRate),
     /// Each frame has its own time.
-    Listed(Listed),
+    Listed(ListedTimes),
 }
 
 /// Times in seconds, exactly as the file gives them: without gaps, each later than the one before.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Listed(Column);
+pub struct ListedTimes(FrameNumberColumn);
 
 /// A reason why numbers are not times.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -41,23 +41,23 @@ pub enum TimesError {
 }
 
 /// A hundred years in seconds.
-const LONGEST: f64 = 3.2e9;
+const MAX_LISTED_SECONDS: f64 = 3.2e9;
 
 /// The shortest pause between two frames that counts as a gap, in microseconds.
 const LEAST_GAP: i64 = 250_000;
 /// The shortest pause between two frames that counts as a gap, in usual steps.
 const GAP_STEPS: i64 = 3;
 
-impl Listed {
+impl ListedTimes {
     /// Returns the times of a column of seconds.
     ///
     /// # Errors
     /// [`TimesError`] if a frame has no time, or a time is not later than the one before.
-    pub fn new(seconds: Column) -> Result<Self, TimesError> {
+    pub fn new(seconds: FrameNumberColumn) -> Result<Self, TimesError> {
         let mut before = f64::NEG_INFINITY;
-        for (frame, time) in seconds.values().enumerate() {
+        for (frame, time) in seconds.column_values().enumerate() {
             let seconds = time.ok_or(TimesError::Gap(frame))?;
-            if seconds.abs() > LONGEST {
+            if seconds.abs() > MAX_LISTED_SECONDS {
                 return Err(TimesError::Range { frame, seconds });
             }
             if seconds <= before {
@@ -70,37 +70,35 @@ impl Listed {
 
     /// Returns the seconds as the file gives them.
     #[must_use]
-    pub fn seconds(&self) -> &Column {
+    pub fn listed_seconds(&self) -> &FrameNumberColumn {
         &self.0
     }
 
     /// Returns the even rate whose frames are within `tolerance` seconds of the times, counted from the first one;
     /// `None` if there is no such rate, or if there are fewer than two times.
     #[must_use]
-    pub fn even(&self, tolerance: f64) -> Option<Rate> {
-        let times: Vec<f64> = self.0.values().flatten().collect();
+    pub fn infer_even_rate(&self, tolerance: f64) -> Option<FrameRate> {
+        let times: Vec<f64> = self.0.column_values().flatten().collect();
         let (first, last) = (*times.first()?, *times.last()?);
         let step = (last - first) / (times.len() - 1).max(1) as f64;
-        let rate = Rate::from_frame_time(step, 6).ok()?;
-        let near = |(frame, time): (usize, &f64)| {
-            (time - first - frame as f64 * rate.frame_time()).abs() <= tolerance
-        };
+        let rate = FrameRate::from_frame_time(step, 6).ok()?;
+        let near = |(frame, time): (usize, &f64)| (time - first - frame as f64 * rate.frame_time()).abs() <= tolerance;
         (times.len() > 1 && times.iter().enumerate().all(near)).then_some(rate)
     }
 }
 
-impl Times {
+impl FrameTimes {
     /// Returns the times of a column of seconds.
     ///
     /// # Errors
-    /// The errors of [`Listed::new`].
-    pub fn listed(seconds: Column) -> Result<Self, TimesError> {
-        Listed::new(seconds).map(Self::Listed)
+    /// The errors of [`ListedTimes::new`].
+    pub fn from_listed_seconds(seconds: FrameNumberColumn) -> Result<Self, TimesError> {
+        ListedTimes::new(seconds).map(Self::Listed)
     }
 
     /// Returns the even rate; `None` if frames have their own times.
     #[must_use]
-    pub fn rate(&self) -> Option<Rate> {
+    pub fn even_times_rate(&self) -> Option<FrameRate> {
         match self {
             Self::Even(rate) => Some(*rate),
             Self::Listed(_) => None,
@@ -109,7 +107,7 @@ impl Times {
 
     /// Returns the number of frames that have a time; `None` if there is no limit.
     #[must_use]
-    pub fn frames(&self) -> Option<usize> {
+    pub fn timed_frame_count(&self) -> Option<usize> {
         match self {
             Self::Even(_) => None,
             Self::Listed(listed) => Some(listed.0.len()),
@@ -118,12 +116,12 @@ impl Times {
 
     /// Returns the time of `frame`, rounded to the microsecond; after the last listed frame, its time.
     #[must_use]
-    pub fn instant(&self, frame: usize) -> Instant {
+    pub fn frame_time_instant(&self, frame: usize) -> RecordingInstant {
         match self {
-            Self::Even(rate) => rate.instant(frame),
-            Self::Listed(Listed(seconds)) => {
+            Self::Even(rate) => rate.frame_start_instant(frame),
+            Self::Listed(ListedTimes(seconds)) => {
                 let frame = frame.min(seconds.len().saturating_sub(1));
-                Instant::from_seconds(seconds.value(frame).unwrap_or_default())
+                RecordingInstant::from_seconds(seconds.column_value_at(frame).unwrap_or_default())
             }
         }
     }
@@ -131,10 +129,10 @@ impl Times {
     /// Returns the index of the frame that `instant` shows, out of `frames`: the last one that is not after it, else
     /// the first. At an even rate it is the nearest one, as for a clip.
     #[must_use]
-    pub fn frame_at(&self, instant: Instant, frames: usize) -> Option<usize> {
+    pub fn shown_frame_at(&self, instant: RecordingInstant, frames: usize) -> Option<usize> {
         let last = frames.checked_sub(1)?;
         Some(match self {
-            Self::Even(rate) => rate.frame_at(instant).min(last),
+            Self::Even(rate) => rate.nearest_frame_at(instant).min(last),
             Self::Listed(_) => self.first_after(instant, frames).saturating_sub(1),
         })
     }
@@ -142,18 +140,21 @@ impl Times {
     /// Returns the span of `frames` frames: from the first to the end of the last. The last listed frame lasts as long
     /// as the median of the others, and a single one has no duration.
     #[must_use]
-    pub fn span(&self, frames: usize) -> Span {
-        let Self::Listed(Listed(seconds)) = self else {
+    pub fn frame_times_span(&self, frames: usize) -> TimeSpan {
+        let Self::Listed(ListedTimes(seconds)) = self else {
             let Self::Even(rate) = self else {
-                return Span::default();
+                return TimeSpan::default();
             };
-            return rate.span(0..frames);
+            return rate.frame_range_span(0..frames);
         };
         let Some(last) = frames.min(seconds.len()).checked_sub(1) else {
-            return Span::default();
+            return TimeSpan::default();
         };
         let step = self.usual_step(frames);
-        Span::between(self.instant(0), self.instant(last).shifted(step))
+        TimeSpan::span_between(
+            self.frame_time_instant(0),
+            self.frame_time_instant(last).shifted_instant(step),
+        )
     }
 
     /// Returns the usual time from one of `frames` frames to the next, in microseconds: the median; 0 for a single
@@ -161,10 +162,12 @@ impl Times {
     #[must_use]
     pub fn usual_step(&self, frames: usize) -> i64 {
         if let Self::Even(rate) = self {
-            return rate.instant(1).micros();
+            return rate.frame_start_instant(1).instant_micros();
         }
-        let mut steps: Vec<i64> = (1..frames.min(self.frames().unwrap_or(frames)))
-            .map(|frame| self.instant(frame).micros() - self.instant(frame - 1).micros())
+        let mut steps: Vec<i64> = (1..frames.min(self.timed_frame_count().unwrap_or(frames)))
+            .map(|frame| {
+                self.frame_time_instant(frame).instant_micros() - self.frame_time_instant(frame - 1).instant_micros()
+            })
             .collect();
         steps.sort_unstable();
         steps.get(steps.len() / 2).copied().unwrap_or_default()
@@ -180,38 +183,38 @@ impl Times {
 
     /// Returns the gaps among `frames` frames: each from the frame before it to the frame after it.
     #[must_use]
-    pub fn gaps(&self, frames: usize) -> Vec<Span> {
+    pub fn frame_time_gaps(&self, frames: usize) -> Vec<TimeSpan> {
         let Self::Listed(_) = self else {
             return Vec::new();
         };
         let longest = self.longest_step(frames);
-        (1..frames.min(self.frames().unwrap_or(frames)))
-            .map(|frame| Span::between(self.instant(frame - 1), self.instant(frame)))
-            .filter(|span| span.micros() > longest)
+        (1..frames.min(self.timed_frame_count().unwrap_or(frames)))
+            .map(|frame| TimeSpan::span_between(self.frame_time_instant(frame - 1), self.frame_time_instant(frame)))
+            .filter(|span| span.span_micros() > longest)
             .collect()
     }
 
     /// Returns those of `frames` whose times lie in `span`.
     #[must_use]
-    pub fn frames_in(&self, span: Span, frames: usize) -> std::ops::Range<usize> {
+    pub fn frames_in(&self, span: TimeSpan, frames: usize) -> std::ops::Range<usize> {
         match self {
             Self::Even(rate) => {
                 let range = rate.frames_in(span);
                 range.start.min(frames)..range.end.min(frames)
             }
             Self::Listed(_) => {
-                let before = |at: Instant| self.first_after(at.shifted(-1), frames);
-                before(span.start())..before(span.end())
+                let before = |at: RecordingInstant| self.first_after(at.shifted_instant(-1), frames);
+                before(span.span_start_instant())..before(span.span_end_instant())
             }
         }
     }
 
     /// Returns the first of `frames` that is after `instant`, `frames` if none of them is.
-    fn first_after(&self, instant: Instant, frames: usize) -> usize {
+    fn first_after(&self, instant: RecordingInstant, frames: usize) -> usize {
         let (mut low, mut high) = (0, frames);
         while low < high {
             let middle = usize::midpoint(low, high);
-            if self.instant(middle) <= instant {
+            if self.frame_time_instant(middle) <= instant {
                 low = middle + 1;
             } else {
                 high = middle;
@@ -225,35 +228,43 @@ impl Times {
 mod tests {
     use super::*;
 
-    fn listed(seconds: &[f64]) -> Times {
-        Times::listed(Column::doubles(seconds.to_vec())).expect("times")
+    fn listed(seconds: &[f64]) -> FrameTimes {
+        FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(seconds.to_vec())).expect("times")
     }
 
     #[test]
     fn listed_times_show_the_frame_that_began_last() {
         let times = listed(&[0.5, 0.53, 0.6, 0.63]);
-        let at = |seconds| times.frame_at(Instant::from_seconds(seconds), 4);
+        let at = |seconds| times.shown_frame_at(RecordingInstant::from_seconds(seconds), 4);
         assert_eq!(
             [at(0.0), at(0.5), at(0.52), at(0.6), at(0.62), at(9.0)],
             [Some(0), Some(0), Some(0), Some(2), Some(2), Some(3)]
         );
         assert_eq!(
-            times.span(4),
-            Span::between(Instant::from_seconds(0.5), Instant::from_seconds(0.66))
+            times.frame_times_span(4),
+            TimeSpan::span_between(
+                RecordingInstant::from_seconds(0.5),
+                RecordingInstant::from_seconds(0.66)
+            )
         );
-        let span = |a, b| Span::between(Instant::from_seconds(a), Instant::from_seconds(b));
+        let span = |a, b| TimeSpan::span_between(RecordingInstant::from_seconds(a), RecordingInstant::from_seconds(b));
         assert_eq!(times.frames_in(span(0.5, 0.6), 4), 0..2);
         assert_eq!(times.frames_in(span(0.51, 9.0), 4), 1..4);
-        assert_eq!(times.frame_at(Instant::ZERO, 0), None);
-        assert_eq!(listed(&[2.0]).span(1).micros(), 0);
+        assert_eq!(times.shown_frame_at(RecordingInstant::RECORDING_START, 0), None);
+        assert_eq!(listed(&[2.0]).frame_times_span(1).span_micros(), 0);
     }
 
     #[test]
     fn pauses_of_several_usual_steps_are_gaps() {
         let gaps = |seconds: &[f64]| -> Vec<(i64, i64)> {
             let times = listed(seconds);
-            let ends = |it: &Span| (it.start().micros(), it.end().micros());
-            times.gaps(seconds.len()).iter().map(ends).collect()
+            let ends = |it: &TimeSpan| {
+                (
+                    it.span_start_instant().instant_micros(),
+                    it.span_end_instant().instant_micros(),
+                )
+            };
+            times.frame_time_gaps(seconds.len()).iter().map(ends).collect()
         };
         // At 10 frames a second three steps are longer than a quarter of a second.
         assert_eq!(gaps(&[0.0, 0.1, 0.2, 0.5, 0.6]), []);
@@ -261,16 +272,16 @@ mod tests {
         assert_eq!(gaps(&[0.0, 0.02, 0.04, 0.28, 0.3]), []);
         assert_eq!(gaps(&[0.0, 0.02, 0.04, 0.3, 0.32]), [(40_000, 300_000)]);
         assert_eq!((gaps(&[]), gaps(&[1.0])), (vec![], vec![]));
-        let even = Times::Even(Rate::new(2, 1).expect("a rate"));
-        assert_eq!((even.gaps(9).len(), even.usual_step(9)), (0, 500_000));
+        let even = FrameTimes::Even(FrameRate::new(2, 1).expect("a rate"));
+        assert_eq!((even.frame_time_gaps(9).len(), even.usual_step(9)), (0, 500_000));
         assert_eq!(even.longest_step(9), 1_500_000);
     }
 
     #[test]
     fn an_even_rate_is_detected_in_regular_times() {
         let even = |seconds: &[f64], tolerance| match listed(seconds) {
-            Times::Listed(times) => times.even(tolerance).map(Rate::frames),
-            Times::Even(_) => None,
+            FrameTimes::Listed(times) => times.infer_even_rate(tolerance).map(FrameRate::rate_numerator),
+            FrameTimes::Even(_) => None,
         };
         let at_thirty: Vec<f64> = (0..50).map(|n| 4.0 + f64::from(n) / 30.0).collect();
         assert_eq!(even(&at_thirty, 1e-6), Some(30));
@@ -282,14 +293,13 @@ mod tests {
 
     #[test]
     fn times_out_of_order_are_refused_with_their_frame() {
-        let fault = |seconds: &[f64]| Times::listed(Column::doubles(seconds.to_vec())).err();
+        let fault = |seconds: &[f64]| {
+            FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(seconds.to_vec())).err()
+        };
         assert_eq!(fault(&[0.0, f64::NAN]), Some(TimesError::Gap(1)));
         assert_eq!(
             fault(&[0.0, 1.0, 1.0]),
-            Some(TimesError::Order {
-                frame: 2,
-                seconds: 1.0
-            })
+            Some(TimesError::Order { frame: 2, seconds: 1.0 })
         );
         assert_eq!(
             fault(&[1e12]),

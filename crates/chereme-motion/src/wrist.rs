@@ -28,23 +28,23 @@ impl WristAngles {
     /// Returns the bend of the wrist as a multiple of the largest bend in the same direction; above 1 it is out of
     /// range. The largest bends form an ellipse over flexion and deviation.
     #[must_use]
-    pub fn bend(&self, limits: &WristLimits) -> f64 {
-        let ends = self.ends(limits);
+    pub fn wrist_bend_share(&self, limits: &WristLimits) -> f64 {
+        let ends = self.bend_limit_axes(limits);
         let [a, b] = [self.flexion / ends[0], self.deviation / ends[1]];
         (a * a + b * b).sqrt()
     }
 
     /// Returns the turn of the forearm as a multiple of its limit; above 1 it is out of range.
     #[must_use]
-    pub fn turned(&self, limits: &WristLimits) -> f64 {
+    pub fn forearm_turn_share(&self, limits: &WristLimits) -> f64 {
         self.turn.abs() / limits.turn[usize::from(self.turn > 0.0)]
     }
 
     /// Returns the nearest angles within the limits; a forearm beyond its limits stops at the upper one (palm up) if
     /// `high`, at the lower one otherwise.
     #[must_use]
-    pub fn allowed(&self, limits: &WristLimits, high: bool) -> Self {
-        let [flexion, deviation] = match self.bend(limits) > 1.0 {
+    pub fn clamp_to_limits(&self, limits: &WristLimits, high: bool) -> Self {
+        let [flexion, deviation] = match self.wrist_bend_share(limits) > 1.0 {
             true => self.nearest_bend(limits),
             false => [self.flexion, self.deviation],
         };
@@ -61,15 +61,15 @@ impl WristAngles {
         }
     }
 
-    /// Returns flexion and deviation at the nearest point of the limit; only for a [`bend`](Self::bend) above 1.
+    /// Returns flexion and deviation at the nearest point of the limit; only for a [`wrist_bend_share`](Self::wrist_bend_share) above 1.
     #[must_use]
     pub fn nearest_bend(&self, limits: &WristLimits) -> [f64; 2] {
-        nearest_on_ellipse([self.flexion, self.deviation], self.ends(limits))
+        nearest_on_ellipse([self.flexion, self.deviation], self.bend_limit_axes(limits))
     }
 
     /// Interpolates linearly; the limits are convex, so the result is within them if both ends are.
     #[must_use]
-    pub fn mix(&self, to: &Self, share: f64) -> Self {
+    pub fn interpolate_wrist_angles(&self, to: &Self, share: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * share;
         Self {
             flexion: mix(self.flexion, to.flexion),
@@ -80,7 +80,7 @@ impl WristAngles {
 
     /// Returns the largest difference of an angle.
     #[must_use]
-    pub fn apart(&self, other: &Self) -> f64 {
+    pub fn largest_angle_difference(&self, other: &Self) -> f64 {
         let flexion = (self.flexion - other.flexion).abs();
         let deviation = (self.deviation - other.deviation).abs();
         flexion.max(deviation).max((self.turn - other.turn).abs())
@@ -88,7 +88,7 @@ impl WristAngles {
 
     /// Returns the limits of flexion and deviation on the sides to which the wrist bends: the half axes of the ellipse
     /// of limits there.
-    fn ends(&self, limits: &WristLimits) -> [f64; 2] {
+    fn bend_limit_axes(&self, limits: &WristLimits) -> [f64; 2] {
         [
             limits.flexion[usize::from(self.flexion > 0.0)],
             limits.deviation[usize::from(self.deviation > 0.0)],
@@ -155,13 +155,18 @@ mod tests {
                         deviation,
                         turn,
                     };
-                    let free = asked.bend(&limits) <= 1.0 && asked.turned(&limits) <= 1.0;
+                    let free = asked.wrist_bend_share(&limits) <= 1.0 && asked.forearm_turn_share(&limits) <= 1.0;
                     for high in [false, true] {
-                        let allowed = asked.allowed(&limits, high);
-                        assert!(allowed.bend(&limits) < 1.0 + 1e-6, "{asked:?}");
-                        assert!(allowed.turned(&limits) <= 1.0, "{asked:?}");
+                        let allowed = asked.clamp_to_limits(&limits, high);
+                        assert!(allowed.wrist_bend_share(&limits) < 1.0 + 1e-6, "{asked:?}");
+                        assert!(allowed.forearm_turn_share(&limits) <= 1.0, "{asked:?}");
                         assert_eq!(allowed == asked, free, "{asked:?}");
-                        assert!(allowed.allowed(&limits, high).apart(&allowed) < 1e-6);
+                        assert!(
+                            allowed
+                                .clamp_to_limits(&limits, high)
+                                .largest_angle_difference(&allowed)
+                                < 1e-6
+                        );
                     }
                 }
             }

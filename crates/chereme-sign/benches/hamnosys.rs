@@ -5,7 +5,7 @@
 //! that it is read twice. For comparison, the text is also split into characters with a look-up of each, which is the
 //! least that any reader does.
 
-use chereme_sign::hamnosys::{Symbol, from_names, parse, print, text_of};
+use chereme_sign::hamnosys::{HamnosysSymbol, from_names, parse_hamnosys, print_hamnosys, sign_hamnosys_text};
 use divan::Bencher;
 use divan::counter::ItemsCount;
 
@@ -44,30 +44,30 @@ fn read(bencher: Bencher) {
     let signs = signs();
     bencher
         .counter(ItemsCount::new(signs.len()))
-        .bench(|| signs.iter().filter(|text| parse(text).is_ok()).count());
+        .bench(|| signs.iter().filter(|text| parse_hamnosys(text).is_ok()).count());
 }
 
 #[divan::bench]
 fn write(bencher: Bencher) {
     let trees: Vec<_> = signs()
         .iter()
-        .map(|text| parse(text).expect("a sign").sign)
+        .map(|text| parse_hamnosys(text).expect("a sign").sign)
         .collect();
     bencher
         .counter(ItemsCount::new(trees.len()))
-        .bench(|| trees.iter().map(|sign| text_of(sign).len()).sum::<usize>());
+        .bench(|| trees.iter().map(|sign| sign_hamnosys_text(sign).len()).sum::<usize>());
 }
 
 #[divan::bench]
 fn write_and_look_for_losses(bencher: Bencher) {
     let trees: Vec<_> = signs()
         .iter()
-        .map(|text| parse(text).expect("a sign").sign)
+        .map(|text| parse_hamnosys(text).expect("a sign").sign)
         .collect();
     bencher.counter(ItemsCount::new(trees.len())).bench(|| {
         trees
             .iter()
-            .map(|sign| print(sign).losses.len())
+            .map(|sign| print_hamnosys(sign).losses.len())
             .sum::<usize>()
     });
 }
@@ -77,8 +77,8 @@ fn look_up_characters_only(bencher: Bencher) {
     let signs = signs();
     let classes = |text: &String| {
         text.chars()
-            .filter_map(Symbol::from_char)
-            .map(|symbol| symbol.class() as usize)
+            .filter_map(HamnosysSymbol::from_char)
+            .map(|symbol| symbol.symbol_class() as usize)
             .sum::<usize>()
     };
     bencher

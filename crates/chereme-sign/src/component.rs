@@ -1,6 +1,6 @@
 //! The components of a sign, whose hand they belong to, and how a search names one of them.
 
-use chereme_motion::Side;
+use chereme_motion::BodySide;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -8,7 +8,7 @@ use std::str::FromStr;
 /// One of the five kinds of property that distinguish signs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Component {
+pub enum SignComponent {
     /// The shape of the hand.
     Configuration,
     /// Where the hand is, on the body or in space.
@@ -21,9 +21,9 @@ pub enum Component {
     NonManual,
 }
 
-impl Component {
+impl SignComponent {
     /// The five components in the order in which they are printed.
-    pub const ALL: [Self; 5] = [
+    pub const ALL_COMPONENTS: [Self; 5] = [
         Self::Configuration,
         Self::Placement,
         Self::Movement,
@@ -33,13 +33,13 @@ impl Component {
 
     /// Returns the canonical name, as queries spell it.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        self.names()[0]
+    pub fn component_name(self) -> &'static str {
+        self.component_spellings()[0]
     }
 
     /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
-    pub fn names(self) -> &'static [&'static str] {
+    pub fn component_spellings(self) -> &'static [&'static str] {
         match self {
             Self::Configuration => &["configuration", "handshape", "shape", "config"],
             Self::Placement => &["placement", "location", "place"],
@@ -55,34 +55,31 @@ impl Component {
         self != Self::NonManual
     }
 
-    fn from_name(text: &str) -> Option<Self> {
-        Self::ALL
+    fn parse_component_name(text: &str) -> Option<Self> {
+        Self::ALL_COMPONENTS
             .into_iter()
-            .find(|component| component.names().contains(&text))
+            .find(|component| component.component_spellings().contains(&text))
     }
 }
 
-impl fmt::Display for Component {
+impl fmt::Display for SignComponent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.component_name())
     }
 }
 
-impl FromStr for Component {
+impl FromStr for SignComponent {
     type Err = FieldError;
     fn from_str(text: &str) -> Result<Self, FieldError> {
-        Self::from_name(&text.trim().to_lowercase()).ok_or_else(|| FieldError::NoComponent {
-            text: text.to_owned(),
-        })
+        Self::parse_component_name(&text.trim().to_lowercase())
+            .ok_or_else(|| FieldError::NoComponent { text: text.to_owned() })
     }
 }
 
 /// The hand with which a signer makes one-handed signs.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Handedness {
+pub enum SignerHandedness {
     /// Right-handed.
     #[default]
     Right,
@@ -90,13 +87,13 @@ pub enum Handedness {
     Left,
 }
 
-impl Handedness {
+impl SignerHandedness {
     /// Returns the side of the dominant hand.
     #[must_use]
-    pub fn dominant(self) -> Side {
+    pub fn signer_dominant_side(self) -> BodySide {
         match self {
-            Self::Right => Side::Right,
-            Self::Left => Side::Left,
+            Self::Right => BodySide::Right,
+            Self::Left => BodySide::Left,
         }
     }
 }
@@ -117,17 +114,17 @@ pub enum HandRef {
 
 impl HandRef {
     /// The four ways of naming a hand.
-    pub const ALL: [Self; 4] = [Self::Right, Self::Left, Self::Dominant, Self::Weak];
+    pub const ALL_HAND_REFS: [Self; 4] = [Self::Right, Self::Left, Self::Dominant, Self::Weak];
 
     /// Returns the canonical name.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        self.names()[0]
+    pub fn hand_ref_name(self) -> &'static str {
+        self.hand_ref_spellings()[0]
     }
 
     /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
-    pub fn names(self) -> &'static [&'static str] {
+    pub fn hand_ref_spellings(self) -> &'static [&'static str] {
         match self {
             Self::Right => &["right", "rh"],
             Self::Left => &["left", "lh"],
@@ -138,49 +135,48 @@ impl HandRef {
 
     /// Returns the side of the body of this hand, for a signer of this handedness.
     #[must_use]
-    pub fn resolve(self, handedness: Handedness) -> Side {
+    pub fn resolve_hand_ref(self, handedness: SignerHandedness) -> BodySide {
         match self {
-            Self::Right => Side::Right,
-            Self::Left => Side::Left,
-            Self::Dominant => handedness.dominant(),
-            Self::Weak => handedness.dominant().other(),
+            Self::Right => BodySide::Right,
+            Self::Left => BodySide::Left,
+            Self::Dominant => handedness.signer_dominant_side(),
+            Self::Weak => handedness.signer_dominant_side().opposite_side(),
         }
     }
 
-    fn from_name(text: &str) -> Option<Self> {
-        Self::ALL
+    fn parse_hand_ref(text: &str) -> Option<Self> {
+        Self::ALL_HAND_REFS
             .into_iter()
-            .find(|hand| hand.names().contains(&text))
+            .find(|hand| hand.hand_ref_spellings().contains(&text))
     }
 }
 
-impl From<Side> for HandRef {
-    fn from(side: Side) -> Self {
+impl From<BodySide> for HandRef {
+    fn from(side: BodySide) -> Self {
         match side {
-            Side::Right => Self::Right,
-            Side::Left => Self::Left,
+            BodySide::Right => Self::Right,
+            BodySide::Left => Self::Left,
         }
     }
 }
 
 impl fmt::Display for HandRef {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.hand_ref_name())
     }
 }
 
 impl FromStr for HandRef {
     type Err = FieldError;
     fn from_str(text: &str) -> Result<Self, FieldError> {
-        Self::from_name(&text.trim().to_lowercase()).ok_or_else(|| FieldError::UnknownHand {
-            text: text.to_owned(),
-        })
+        Self::parse_hand_ref(&text.trim().to_lowercase())
+            .ok_or_else(|| FieldError::UnknownHand { text: text.to_owned() })
     }
 }
 
 /// A position among several successive values of one sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Phase {
+pub enum SignPhase {
     /// The first of several values.
     Initial,
     /// A value between the first and the last, counted from 1; `middle` alone is the first of them.
@@ -189,8 +185,8 @@ pub enum Phase {
     Final,
 }
 
-impl Phase {
-    fn from_name(text: &str) -> Option<Self> {
+impl SignPhase {
+    fn parse_sign_phase(text: &str) -> Option<Self> {
         match text {
             "initial" | "start" => Some(Self::Initial),
             "final" | "end" => Some(Self::Final),
@@ -204,7 +200,7 @@ impl Phase {
     }
 }
 
-impl fmt::Display for Phase {
+impl fmt::Display for SignPhase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Initial => f.write_str("initial"),
@@ -215,12 +211,11 @@ impl fmt::Display for Phase {
     }
 }
 
-impl FromStr for Phase {
+impl FromStr for SignPhase {
     type Err = FieldError;
     fn from_str(text: &str) -> Result<Self, FieldError> {
-        Self::from_name(&text.trim().to_lowercase()).ok_or_else(|| FieldError::UnknownPhase {
-            text: text.to_owned(),
-        })
+        Self::parse_sign_phase(&text.trim().to_lowercase())
+            .ok_or_else(|| FieldError::UnknownPhase { text: text.to_owned() })
     }
 }
 
@@ -231,21 +226,21 @@ impl FromStr for Phase {
 /// any value of the sign.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub struct Field {
+pub struct ComponentField {
     /// The hand; `None` for either.
     pub hand: Option<HandRef>,
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The part of the component in lower case, such as `brows` or `palm`; `None` for the whole.
     pub feature: Option<String>,
     /// The position among several successive values; `None` for any.
-    pub phase: Option<Phase>,
+    pub phase: Option<SignPhase>,
 }
 
-impl Field {
+impl ComponentField {
     /// Returns the field of `component` on either hand, whole, in any phase.
     #[must_use]
-    pub fn new(component: Component) -> Self {
+    pub fn new(component: SignComponent) -> Self {
         Self {
             hand: None,
             component,
@@ -256,34 +251,34 @@ impl Field {
 
     /// Returns this field on `hand`.
     #[must_use]
-    pub fn on(mut self, hand: impl Into<HandRef>) -> Self {
+    pub fn with_field_hand(mut self, hand: impl Into<HandRef>) -> Self {
         self.hand = Some(hand.into());
         self
     }
 
     /// Returns this field narrowed to one feature, such as `palm` of the orientation.
     #[must_use]
-    pub fn of(mut self, feature: impl Into<String>) -> Self {
+    pub fn with_field_feature(mut self, feature: impl Into<String>) -> Self {
         self.feature = Some(feature.into());
         self
     }
 
     /// Returns this field in `phase`.
     #[must_use]
-    pub fn at(mut self, phase: Phase) -> Self {
+    pub fn with_field_phase(mut self, phase: SignPhase) -> Self {
         self.phase = Some(phase);
         self
     }
 
-    /// Returns this field with `dominant` and `weak` turned into `right` and `left`.
+    /// Returns this field with `signer_dominant_side` and `weak` turned into `right` and `left`.
     #[must_use]
-    pub fn resolved(mut self, handedness: Handedness) -> Self {
-        self.hand = self.hand.map(|hand| hand.resolve(handedness).into());
+    pub fn resolve_field_hand(mut self, handedness: SignerHandedness) -> Self {
+        self.hand = self.hand.map(|hand| hand.resolve_hand_ref(handedness).into());
         self
     }
 }
 
-impl fmt::Display for Field {
+impl fmt::Display for ComponentField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(phase) = self.phase {
             write!(f, "{phase}.")?;
@@ -291,7 +286,7 @@ impl fmt::Display for Field {
         if let Some(hand) = self.hand {
             write!(f, "{hand}.")?;
         }
-        f.write_str(self.component.name())?;
+        f.write_str(self.component.component_name())?;
         match &self.feature {
             Some(feature) => write!(f, ".{feature}"),
             None => Ok(()),
@@ -299,7 +294,7 @@ impl fmt::Display for Field {
     }
 }
 
-impl FromStr for Field {
+impl FromStr for ComponentField {
     type Err = FieldError;
 
     fn from_str(text: &str) -> Result<Self, FieldError> {
@@ -308,42 +303,29 @@ impl FromStr for Field {
         let mut parts = lower.split('.');
         let component = loop {
             let Some(part) = parts.next() else {
-                return Err(FieldError::NoComponent {
-                    text: text.to_owned(),
-                });
+                return Err(FieldError::NoComponent { text: text.to_owned() });
             };
-            if let Some(component) = Component::from_name(part) {
+            if let Some(component) = SignComponent::parse_component_name(part) {
                 break component;
             }
-            let repeated = if let Some(found) = HandRef::from_name(part) {
+            let repeated = if let Some(found) = HandRef::parse_hand_ref(part) {
                 hand.replace(found).is_some()
-            } else if let Some(found) = Phase::from_name(part) {
+            } else if let Some(found) = SignPhase::parse_sign_phase(part) {
                 phase.replace(found).is_some()
             } else {
-                return Err(FieldError::unknown(part));
+                return Err(FieldError::unknown_field_part(part));
             };
             if repeated {
-                return Err(FieldError::Repeated {
-                    part: part.to_owned(),
-                });
+                return Err(FieldError::Repeated { part: part.to_owned() });
             }
         };
         let feature = parts.next().map(str::to_owned);
-        let legal = |name: &String| {
-            !name.is_empty()
-                && name
-                    .chars()
-                    .all(|c| c.is_alphanumeric() || "-_".contains(c))
-        };
+        let legal = |name: &String| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
         if !feature.iter().all(legal) || parts.next().is_some() {
-            return Err(FieldError::Feature {
-                text: text.to_owned(),
-            });
+            return Err(FieldError::Feature { text: text.to_owned() });
         }
         if hand.is_some() && !component.is_manual() {
-            return Err(FieldError::HandOfNonManual {
-                text: text.to_owned(),
-            });
+            return Err(FieldError::HandOfNonManual { text: text.to_owned() });
         }
         Ok(Self {
             hand,
@@ -354,15 +336,15 @@ impl FromStr for Field {
     }
 }
 
-impl TryFrom<String> for Field {
+impl TryFrom<String> for ComponentField {
     type Error = FieldError;
     fn try_from(text: String) -> Result<Self, FieldError> {
         text.parse()
     }
 }
 
-impl From<Field> for String {
-    fn from(field: Field) -> Self {
+impl From<ComponentField> for String {
+    fn from(field: ComponentField) -> Self {
         field.to_string()
     }
 }
@@ -371,9 +353,7 @@ impl From<Field> for String {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FieldError {
     /// No part of the text is a component.
-    #[error(
-        "{text:?} names no component: configuration, placement, movement, orientation or nonmanual"
-    )]
+    #[error("{text:?} names no component: configuration, placement, movement, orientation or nonmanual")]
     NoComponent {
         /// The text as written.
         text: String,
@@ -419,14 +399,13 @@ pub enum FieldError {
 }
 
 impl FieldError {
-    fn unknown(part: &str) -> Self {
-        let hands = HandRef::ALL.into_iter().flat_map(HandRef::names);
-        let components = Component::ALL.into_iter().flat_map(Component::names);
-        let words = hands
-            .chain(components)
-            .chain(&["initial", "middle", "final"])
-            .copied();
-        let nearest = crate::text::nearest(part, words).map(str::to_owned);
+    fn unknown_field_part(part: &str) -> Self {
+        let hands = HandRef::ALL_HAND_REFS.into_iter().flat_map(HandRef::hand_ref_spellings);
+        let components = SignComponent::ALL_COMPONENTS
+            .into_iter()
+            .flat_map(SignComponent::component_spellings);
+        let words = hands.chain(components).chain(&["initial", "middle", "final"]).copied();
+        let nearest = crate::text::nearest_candidate(part, words).map(str::to_owned);
         Self::UnknownPart {
             part: part.to_owned(),
             nearest,
@@ -440,7 +419,7 @@ impl FieldError {
 /// [`same_value`](Self::same_value).
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Reading {
+pub enum ComponentReading {
     /// The id of an inventory's value, or free text.
     Value(String),
     /// Nobody has coded it yet.
@@ -452,10 +431,10 @@ pub enum Reading {
     Unclear,
 }
 
-impl Reading {
+impl ComponentReading {
     /// Returns the value, if there is one.
     #[must_use]
-    pub fn value(&self) -> Option<&str> {
+    pub fn reading_value(&self) -> Option<&str> {
         match self {
             Self::Value(value) => Some(value),
             _ => None,
@@ -465,11 +444,11 @@ impl Reading {
     /// Returns whether both readings are values and equal; two missing readings are never the same.
     #[must_use]
     pub fn same_value(&self, other: &Self) -> bool {
-        self.value().is_some() && self.value() == other.value()
+        self.reading_value().is_some() && self.reading_value() == other.reading_value()
     }
 }
 
-impl From<&str> for Reading {
+impl From<&str> for ComponentReading {
     /// Makes blank text [`Unset`](Self::Unset) and any other text a value.
     fn from(text: &str) -> Self {
         if text.trim().is_empty() {
@@ -480,7 +459,7 @@ impl From<&str> for Reading {
     }
 }
 
-impl fmt::Display for Reading {
+impl fmt::Display for ComponentReading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Value(value) => value,
@@ -513,7 +492,7 @@ mod tests {
             ("middle3.movement", "middle3.movement"),
             ("middle1.movement", "middle.movement"),
         ] {
-            let field: Field = text.parse().expect(text);
+            let field: ComponentField = text.parse().expect(text);
             assert_eq!(field.to_string(), printed);
         }
     }
@@ -555,53 +534,56 @@ mod tests {
                 r#""middle0" is no hand, phase or component; did you mean "middle"?"#,
             ),
         ] {
-            let error = text.parse::<Field>().expect_err(text);
+            let error = text.parse::<ComponentField>().expect_err(text);
             assert_eq!(error.to_string(), message);
         }
     }
 
     #[test]
     fn dominance_resolves_through_handedness() {
-        assert_eq!(HandRef::Weak.resolve(Handedness::Right), Side::Left);
-        assert_eq!(HandRef::Dominant.resolve(Handedness::Left), Side::Left);
-        let field: Field = "weak.placement".parse().expect("a field");
+        assert_eq!(HandRef::Weak.resolve_hand_ref(SignerHandedness::Right), BodySide::Left);
         assert_eq!(
-            field.resolved(Handedness::Left).to_string(),
+            HandRef::Dominant.resolve_hand_ref(SignerHandedness::Left),
+            BodySide::Left
+        );
+        let field: ComponentField = "weak.placement".parse().expect("a field");
+        assert_eq!(
+            field.resolve_field_hand(SignerHandedness::Left).to_string(),
             "right.placement"
         );
     }
 
     #[test]
     fn missing_readings_never_count_as_equal() {
-        let missing = [Reading::Unset, Reading::NotApplicable, Reading::Unclear];
+        let missing = [
+            ComponentReading::Unset,
+            ComponentReading::NotApplicable,
+            ComponentReading::Unclear,
+        ];
         for a in &missing {
             assert!(missing.iter().all(|b| !a.same_value(b)));
         }
-        assert!(Reading::from("U").same_value(&Reading::from("U")));
-        assert_eq!(Reading::from("  "), Reading::Unset);
+        assert!(ComponentReading::from("U").same_value(&ComponentReading::from("U")));
+        assert_eq!(ComponentReading::from("  "), ComponentReading::Unset);
     }
 
-    fn any_field() -> impl Strategy<Value = Field> {
-        let hand = proptest::option::of(proptest::sample::select(HandRef::ALL.to_vec()));
-        let component = proptest::sample::select(Component::ALL.to_vec());
+    fn any_field() -> impl Strategy<Value = ComponentField> {
+        let hand = proptest::option::of(proptest::sample::select(HandRef::ALL_HAND_REFS.to_vec()));
+        let component = proptest::sample::select(SignComponent::ALL_COMPONENTS.to_vec());
         let phase = prop_oneof![
             Just(None),
-            Just(Some(Phase::Initial)),
-            (1u8..).prop_map(|count| Some(Phase::Middle(count))),
-            Just(Some(Phase::Final)),
+            Just(Some(SignPhase::Initial)),
+            (1u8..).prop_map(|count| Some(SignPhase::Middle(count))),
+            Just(Some(SignPhase::Final)),
         ];
-        (
-            hand,
-            component,
-            proptest::option::of("[a-z][a-z0-9_-]{0,8}"),
-            phase,
-        )
-            .prop_map(|(hand, component, feature, phase)| Field {
+        (hand, component, proptest::option::of("[a-z][a-z0-9_-]{0,8}"), phase).prop_map(
+            |(hand, component, feature, phase)| ComponentField {
                 hand: hand.filter(|_| component.is_manual()),
                 component,
                 feature,
                 phase,
-            })
+            },
+        )
     }
 
     proptest! {
@@ -609,14 +591,14 @@ mod tests {
 
         #[test]
         fn printing_then_parsing_gives_the_field_back(field in any_field()) {
-            prop_assert_eq!(field.to_string().parse::<Field>(), Ok(field.clone()));
+            prop_assert_eq!(field.to_string().parse::<ComponentField>(), Ok(field.clone()));
             let json = serde_json::to_string(&field).expect("fields serialise");
-            prop_assert_eq!(serde_json::from_str::<Field>(&json).expect("and back"), field);
+            prop_assert_eq!(serde_json::from_str::<ComponentField>(&json).expect("and back"), field);
         }
 
         #[test]
         fn any_text_is_a_field_or_an_error(text in ".{0,40}") {
-            let _ = text.parse::<Field>();
+            let _ = text.parse::<ComponentField>();
         }
     }
 }

@@ -1,31 +1,31 @@
 //! Inventories: the values that a component may have, as data.
 //!
-//! An [`Inventory`] belongs to one component, or to one feature of it (the palm's direction, the brows). This project's
+//! An [`ComponentInventory`] belongs to one component, or to one feature of it (the palm's direction, the brows). This project's
 //! own are in `schema/inventories`, described by `schema/inventory.schema.json`, and come with the program:
-//! [`builtin`]. Others are read with [`Inventory::from_json`], in the same form.
+//! [`builtin_inventories`]. Others are read with [`ComponentInventory::from_json`], in the same form.
 //!
 //! Directions and offsets are `[left, up, forward]` as the signer sees them, the axes of model
 //! space; angles are radians here and degrees in the files.
 
-mod json;
+mod inventory_json;
 #[cfg(test)]
 mod tests;
 
-pub use json::{FilePosition, InventoryError};
+pub use inventory_json::{FilePosition, InventoryError};
 
-use crate::component::{Component, Field};
-use crate::text::{edit_distance, fold};
-use chereme_motion::{HandAngles, Side};
+use crate::component::{ComponentField, SignComponent};
+use crate::text::{edit_distance, fold_text};
+use chereme_motion::{BodySide, HandAngles};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 /// The values that one component, or one feature of it, may have.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Inventory {
+pub struct ComponentInventory {
     /// The name in files and queries, such as `configurations`.
     pub id: String,
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The feature of the component, such as `palm`; `None` for the whole.
     pub feature: Option<String>,
     /// The version, raised whenever a value changes its meaning.
@@ -64,9 +64,9 @@ pub struct InventoryValue {
     /// The directions of palm and fingers.
     pub orientation: Option<HandOrientation>,
     /// The strokes of the hand, one after another.
-    pub strokes: Vec<Stroke>,
+    pub strokes: Vec<LetterSignStroke>,
     /// The place on the body or in space.
-    pub landmark: Option<Landmark>,
+    pub landmark: Option<BodyLandmark>,
     /// A direction as a unit vector.
     pub direction: Option<[f64; 3]>,
     /// The rotation of the palm about the hand's length in radians, as HamNoSys counts it: 0 is palm down when the hand
@@ -91,7 +91,7 @@ pub struct HandOrientation {
 
 /// One stroke of a letter whose sign has movement.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stroke {
+pub struct LetterSignStroke {
     /// A value of `movement.direction`; `None` for a stroke that stays in place.
     pub direction: Option<String>,
     /// The length in shoulder widths.
@@ -102,7 +102,7 @@ pub struct Stroke {
 
 /// A place by a landmark of the signer's body and an offset from it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Landmark {
+pub struct BodyLandmark {
     /// The landmark's name, such as `chin`; `ipsi-` and `contra-` at its start stand for the
     /// acting hand's own and other side.
     pub name: String,
@@ -111,62 +111,62 @@ pub struct Landmark {
     pub offset: [f64; 3],
 }
 
-impl Landmark {
+impl BodyLandmark {
     /// Returns the landmark's name and the offset `[left, up, forward]` for an acting hand.
     #[must_use]
-    pub fn resolve(&self, hand: Side) -> (String, [f64; 3]) {
+    pub fn resolve_landmark(&self, hand: BodySide) -> (String, [f64; 3]) {
         let (side, rest) = match self.name.split_once('-') {
             Some(("ipsi", rest)) => (hand, rest),
-            Some(("contra", rest)) => (hand.other(), rest),
+            Some(("contra", rest)) => (hand.opposite_side(), rest),
             _ => return (self.name.clone(), self.offset),
         };
         let [out, up, forward] = self.offset;
         (
-            format!("{}-{rest}", side.name()),
-            [out * side.sign(), up, forward],
+            format!("{}-{rest}", side.body_side_name()),
+            [out * side.side_sign(), up, forward],
         )
     }
 }
 
-impl Inventory {
+impl ComponentInventory {
     /// Returns the field that the values belong to.
     #[must_use]
-    pub fn field(&self) -> Field {
-        let field = Field::new(self.component);
+    pub fn inventory_field(&self) -> ComponentField {
+        let field = ComponentField::new(self.component);
         self.feature
             .iter()
-            .fold(field, |field, feature| field.of(feature))
+            .fold(field, |field, feature| field.with_field_feature(feature))
     }
 
     /// Returns the value with this id, exactly as written.
     #[must_use]
-    pub fn get(&self, id: &str) -> Option<&InventoryValue> {
+    pub fn value_by_id(&self, id: &str) -> Option<&InventoryValue> {
         self.values.iter().find(|value| value.id == id)
     }
 
     /// Returns the value that `text` means: by its id, or else by id, alias or name in any
     /// language without regard to case and accents.
     #[must_use]
-    pub fn find(&self, text: &str) -> Option<&InventoryValue> {
-        self.get(text).or_else(|| {
-            let wanted = key(text);
-            let ids = self.values.iter().find(|value| key(&value.id) == wanted);
+    pub fn find_inventory_value(&self, text: &str) -> Option<&InventoryValue> {
+        self.value_by_id(text).or_else(|| {
+            let wanted = spelling_key(text);
+            let ids = self.values.iter().find(|value| spelling_key(&value.id) == wanted);
             ids.or_else(|| {
                 self.values
                     .iter()
-                    .find(|value| value.spellings().any(|s| key(s) == wanted))
+                    .find(|value| value.value_spellings().any(|s| spelling_key(s) == wanted))
             })
         })
     }
 
     /// Returns whether every text names a value, and texts that differ only in case or accents name different values.
     #[must_use]
-    pub fn distinguishes<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
-        let mut meant: BTreeMap<(String, &str), &str> = BTreeMap::new();
+    pub fn distinguishes_texts<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
+        let mut first_texts: BTreeMap<(String, &str), &str> = BTreeMap::new();
         texts.into_iter().all(|text| {
-            let found = self.find(text);
-            found.is_some_and(|value| {
-                let other = meant.insert((key(text), &value.id), text.trim());
+            let found_value = self.find_inventory_value(text);
+            found_value.is_some_and(|value| {
+                let other = first_texts.insert((spelling_key(text), &value.id), text.trim());
                 other.is_none_or(|other| other == text.trim())
             })
         })
@@ -176,11 +176,11 @@ impl Inventory {
     /// `lower lip` of `mouth` are not kept apart.
     #[must_use]
     pub fn keeps_apart<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
-        let mut meant: BTreeMap<&str, &str> = BTreeMap::new();
+        let mut first_texts: BTreeMap<&str, &str> = BTreeMap::new();
         texts.into_iter().all(|text| {
-            let found = self.find(text);
-            found.is_some_and(|value| {
-                let other = meant.insert(&value.id, text.trim());
+            let found_value = self.find_inventory_value(text);
+            found_value.is_some_and(|value| {
+                let other = first_texts.insert(&value.id, text.trim());
                 other.is_none_or(|other| other == text.trim())
             })
         })
@@ -189,13 +189,13 @@ impl Inventory {
     /// Returns the ids of up to five values that somebody who wrote `text` may have meant, the
     /// likeliest first.
     #[must_use]
-    pub fn suggest(&self, text: &str) -> Vec<&str> {
-        let wanted = key(text);
+    pub fn suggest_value_ids(&self, text: &str) -> Vec<&str> {
+        let wanted = spelling_key(text);
         let most = (wanted.chars().count() / 3).max(1);
         let mut near: Vec<(usize, &str)> = Vec::new();
         for value in &self.values {
             let slips = |spelling: &str| {
-                let spelling = key(spelling);
+                let spelling = spelling_key(spelling);
                 let part = wanted.len() >= 3 && spelling.contains(&wanted);
                 if part {
                     Some(1)
@@ -203,7 +203,7 @@ impl Inventory {
                     edit_distance(&wanted, &spelling, most)
                 }
             };
-            if let Some(least) = value.spellings().filter_map(slips).min() {
+            if let Some(least) = value.value_spellings().filter_map(slips).min() {
                 near.push((least, &value.id));
             }
         }
@@ -213,35 +213,25 @@ impl Inventory {
 
     /// Returns whether the value `id` is `broader` or lies within it at any depth.
     #[must_use]
-    pub fn is_within(&self, id: &str, broader: &str) -> bool {
-        self.chain(id).any(|value| value.id == broader)
+    pub fn is_within_value(&self, id: &str, broader: &str) -> bool {
+        self.broader_value_chain(id).any(|value| value.id == broader)
     }
 
     /// Returns the value `id` and its broader values, the narrowest first.
-    pub fn chain<'a>(&'a self, id: &str) -> impl Iterator<Item = &'a InventoryValue> {
-        let up = |value: &&'a InventoryValue| {
-            value
-                .broader
-                .as_deref()
-                .and_then(|broader| self.get(broader))
-        };
-        std::iter::successors(self.get(id), up).take(self.values.len() + 1)
+    pub fn broader_value_chain<'a>(&'a self, id: &str) -> impl Iterator<Item = &'a InventoryValue> {
+        let up = |value: &&'a InventoryValue| value.broader.as_deref().and_then(|broader| self.value_by_id(broader));
+        std::iter::successors(self.value_by_id(id), up).take(self.values.len() + 1)
     }
 
     /// Returns the values that `matches` all the features wanted, in their order; see
     /// [`InventoryValue::matches_features`].
-    pub fn with_features<'a>(
-        &'a self,
-        wanted: &'a [&'a str],
-    ) -> impl Iterator<Item = &'a InventoryValue> {
-        self.values
-            .iter()
-            .filter(|value| value.matches_features(wanted))
+    pub fn with_features<'a>(&'a self, wanted: &'a [&'a str]) -> impl Iterator<Item = &'a InventoryValue> {
+        self.values.iter().filter(|value| value.matches_features(wanted))
     }
 
     /// Returns every feature that any value has, in alphabetical order.
     #[must_use]
-    pub fn features(&self) -> BTreeSet<&str> {
+    pub fn feature_names(&self) -> BTreeSet<&str> {
         self.values
             .iter()
             .flat_map(|value| &value.features)
@@ -253,7 +243,7 @@ impl Inventory {
 impl InventoryValue {
     /// Returns the name in `language`, or else in English, or else the id.
     #[must_use]
-    pub fn name(&self, language: &str) -> &str {
+    pub fn value_name_in(&self, language: &str) -> &str {
         let named = self.names.get(language).or_else(|| self.names.get("en"));
         named.map_or(&self.id, String::as_str)
     }
@@ -261,8 +251,8 @@ impl InventoryValue {
     /// Returns the shape of the hand: the value's own, or that of the value that it names in the inventory
     /// `configurations`.
     #[must_use]
-    pub fn hand_pose(&self, configurations: &Inventory) -> Option<HandAngles> {
-        let named = || configurations.get(self.configuration.as_deref()?)?.pose;
+    pub fn hand_pose(&self, configurations: &ComponentInventory) -> Option<HandAngles> {
+        let named = || configurations.value_by_id(self.configuration.as_deref()?)?.pose;
         self.pose.or_else(named)
     }
 
@@ -275,20 +265,20 @@ impl InventoryValue {
                 Some(name) => (true, name),
                 None => (false, *wanted),
             };
-            let name = key(name);
-            self.features.iter().any(|feature| key(feature) == name) != absent
+            let name = spelling_key(name);
+            self.features.iter().any(|feature| spelling_key(feature) == name) != absent
         })
     }
 
     /// Returns every spelling of the value: its id, its aliases, its names.
-    pub fn spellings(&self) -> impl Iterator<Item = &str> {
+    pub fn value_spellings(&self) -> impl Iterator<Item = &str> {
         let others = self.aliases.iter().chain(self.names.values());
         std::iter::once(&self.id).chain(others).map(String::as_str)
     }
 }
 
-fn key(text: &str) -> String {
-    fold(text.trim())
+fn spelling_key(text: &str) -> String {
+    fold_text(text.trim())
 }
 
 /// The files of `schema/inventories` by name, as they come with the program.
@@ -321,29 +311,29 @@ pub const BUILTIN_FILES: [(&str, &str); 6] = [
 
 /// Returns the inventories that come with the program, in the order of their files.
 #[must_use]
-pub fn builtin() -> &'static [Inventory] {
-    static ALL: LazyLock<Vec<Inventory>> = LazyLock::new(|| {
-        let read = |(_, text): &(&str, &str)| Inventory::all_from_json(text);
+pub fn builtin_inventories() -> &'static [ComponentInventory] {
+    static ALL_BUILTIN_INVENTORIES: LazyLock<Vec<ComponentInventory>> = LazyLock::new(|| {
+        let read = |(_, text): &(&str, &str)| ComponentInventory::all_from_json(text);
         let all: Result<Vec<_>, _> = BUILTIN_FILES.iter().map(read).collect();
         all.expect("a test reads the built-in inventories")
             .into_iter()
             .flatten()
             .collect()
     });
-    &ALL
+    &ALL_BUILTIN_INVENTORIES
 }
 
 /// Returns the built-in inventory `id`, such as `configurations`.
 #[must_use]
-pub fn builtin_by_id(id: &str) -> Option<&'static Inventory> {
-    builtin().iter().find(|inventory| inventory.id == id)
+pub fn builtin_by_id(id: &str) -> Option<&'static ComponentInventory> {
+    builtin_inventories().iter().find(|inventory| inventory.id == id)
 }
 
 /// Returns the first built-in inventory of the component and feature that `field` names,
 /// whatever its hand and phase.
 #[must_use]
-pub fn builtin_for(field: &Field) -> Option<&'static Inventory> {
-    builtin().iter().find(|inventory| {
-        inventory.component == field.component && inventory.feature == field.feature
-    })
+pub fn builtin_for(field: &ComponentField) -> Option<&'static ComponentInventory> {
+    builtin_inventories()
+        .iter()
+        .find(|inventory| inventory.component == field.component && inventory.feature == field.feature)
 }

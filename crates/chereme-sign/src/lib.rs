@@ -56,11 +56,13 @@ pub mod token;
 pub mod tuned;
 pub mod words;
 
-pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
-pub use inventory::{Inventory, InventoryError, InventoryValue};
-pub use relation::{Relation, RelationError};
-pub use remedy::{Choice, Remedy};
+pub use component::{
+    ComponentField, ComponentReading, FieldError, HandRef, SignComponent, SignPhase, SignerHandedness,
+};
+pub use inventory::{ComponentInventory, InventoryError, InventoryValue};
+pub use relation::{RelationError, TimeRelation};
+pub use remedy::{ErrorRemedy, RemedyChoice};
 pub use tier::{
-    Annotation, AnnotationId, Change, Edit, EditError, Hands, RoleError, RoleWords, Seam,
-    Stereotype, Tier, TierId, TierRole, TierSet, TierTopic, Violation, check, plan,
+    AnnotatedHands, AnnotationId, AskedTierChange, EditError, MergeSeam, RoleError, RoleWords, Tier, TierAnnotation,
+    TierEdit, TierId, TierRole, TierSet, TierStereotype, TierTopic, TierViolation, check_tier_set, plan_tier_change,
 };

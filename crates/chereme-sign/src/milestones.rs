@@ -19,23 +19,23 @@
 use std::fmt;
 use std::ops::Range;
 
-use chereme_motion::{Instant, Span};
+use chereme_motion::{RecordingInstant, TimeSpan};
 use serde::{Deserialize, Serialize};
 
-use crate::text::fold;
+use crate::text::fold_text;
 
 /// The time between an expression and the edge of an utterance, in microseconds.
-pub const EDGE: i64 = 500_000;
+pub const UTTERANCE_EDGE_MICROS: i64 = 500_000;
 
 /// The grammatical function of an expression of the face in the signs that it spans.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Function(String);
+pub struct ExpressionFunction(String);
 
 /// The sign at which the body of an expression is cut in two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Cut {
+pub enum BodyCut {
     /// The second sign: NOT or another negation comes first.
     Second,
     /// The last sign: the question word, the doubled pronoun or the question mark comes last.
@@ -43,7 +43,7 @@ pub enum Cut {
 }
 
 /// The functions that have several names, with their names in lower case and without punctuation.
-const NAMES: [(&str, &[&str]); 6] = [
+const FUNCTION_NAMES: [(&str, &[&str]); 6] = [
     (
         "negation",
         &[
@@ -97,39 +97,28 @@ const NAMES: [(&str, &[&str]); 6] = [
     ),
     (
         "conditional",
-        &[
-            "conditional",
-            "cond",
-            "condition",
-            "conditionnelle",
-            "bedingung",
-        ],
+        &["conditional", "cond", "condition", "conditionnelle", "bedingung"],
     ),
     (
         "rhetorical",
-        &[
-            "rhetorical",
-            "rhq",
-            "rhetoricalquestion",
-            "questionrhetorique",
-        ],
+        &["rhetorical", "rhq", "rhetoricalquestion", "questionrhetorique"],
     ),
 ];
 
-impl Function {
+impl ExpressionFunction {
     /// Returns the function with that name. `negation`, `wh`, `yn`, `topic`, `conditional` and `rhetorical` have
     /// several names; any other name stands for itself, in lower case and without accents.
     #[must_use]
-    pub fn of(name: &str) -> Self {
-        let folded = fold(name.trim());
-        let plain: String = folded.chars().filter(|it| it.is_alphanumeric()).collect();
-        let known = NAMES.iter().find(|(_, names)| names.contains(&&*plain));
-        Self(known.map_or(folded, |(id, _)| (*id).to_owned()))
+    pub fn from_function_name(name: &str) -> Self {
+        let folded = fold_text(name.trim());
+        let plain: String = folded.chars().filter(|letter| letter.is_alphanumeric()).collect();
+        let entry = FUNCTION_NAMES.iter().find(|(_, names)| names.contains(&&*plain));
+        Self(entry.map_or(folded, |(id, _)| (*id).to_owned()))
     }
 
     /// Returns its name.
     #[must_use]
-    pub fn name(&self) -> &str {
+    pub fn function_name(&self) -> &str {
         &self.0
     }
 
@@ -137,25 +126,25 @@ impl Function {
     /// like those.
     #[must_use]
     pub fn is_known(&self) -> bool {
-        NAMES.iter().any(|(id, _)| *id == self.0)
+        FUNCTION_NAMES.iter().any(|(id, _)| *id == self.0)
     }
 
     /// Returns the names of the functions that are known.
-    pub fn known() -> impl Iterator<Item = &'static str> {
-        NAMES.iter().map(|(id, _)| *id)
+    pub fn known_function_names() -> impl Iterator<Item = &'static str> {
+        FUNCTION_NAMES.iter().map(|(id, _)| *id)
     }
 
     /// Returns the sign at which its body is cut: the second for negation, the last for all others.
     #[must_use]
-    pub fn cut(&self) -> Cut {
+    pub fn body_cut(&self) -> BodyCut {
         match &*self.0 {
-            "negation" => Cut::Second,
-            _ => Cut::Last,
+            "negation" => BodyCut::Second,
+            _ => BodyCut::Last,
         }
     }
 }
 
-impl fmt::Display for Function {
+impl fmt::Display for ExpressionFunction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
@@ -164,25 +153,25 @@ impl fmt::Display for Function {
 /// The milestones of one expression, on its recording's clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Milestones {
+pub struct ExpressionMilestones {
     /// M1: the start of the onset. It may lie before the recording, and after M2 if signs overlap.
     #[serde(rename = "m1_us")]
-    pub m1: Instant,
+    pub m1: RecordingInstant,
     /// M2: the start of the first sign.
     #[serde(rename = "m2_us")]
-    pub m2: Instant,
+    pub m2: RecordingInstant,
     /// M3: the start of the sign at which the body is cut; `None` if there is one sign, whose body is one phase.
     #[serde(rename = "m3_us")]
-    pub m3: Option<Instant>,
+    pub m3: Option<RecordingInstant>,
     /// M4: the end of the last sign.
     #[serde(rename = "m4_us")]
-    pub m4: Instant,
+    pub m4: RecordingInstant,
     /// M5: the end of the offset. It may lie before M4 if signs overlap.
     #[serde(rename = "m5_us")]
-    pub m5: Instant,
+    pub m5: RecordingInstant,
 }
 
-impl fmt::Display for Milestones {
+impl fmt::Display for ExpressionMilestones {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let m3 = self.m3.map_or("-".to_owned(), |m3| m3.to_string());
         let Self { m1, m2, m4, m5, .. } = self;
@@ -193,7 +182,7 @@ impl fmt::Display for Milestones {
 /// A phase of an expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Phase {
+pub enum ExpressionPhase {
     /// From M1 to M2.
     Onset,
     /// From M2 to M3: of a negation the first sign, else all signs but the last; empty if there is one sign.
@@ -204,13 +193,13 @@ pub enum Phase {
     Offset,
 }
 
-impl Phase {
+impl ExpressionPhase {
     /// Every phase in order.
-    pub const ALL: [Self; 4] = [Self::Onset, Self::First, Self::Rest, Self::Offset];
+    pub const ALL_EXPRESSION_PHASES: [Self; 4] = [Self::Onset, Self::First, Self::Rest, Self::Offset];
 
     /// Returns the name: `onset`, `first`, `rest` or `offset`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn expression_phase_name(self) -> &'static str {
         match self {
             Self::Onset => "onset",
             Self::First => "first",
@@ -221,7 +210,7 @@ impl Phase {
 
     /// Returns the milestones between which it lies, such as `M1-M2`.
     #[must_use]
-    pub fn between(self) -> &'static str {
+    pub fn milestone_range_name(self) -> &'static str {
         match self {
             Self::Onset => "M1-M2",
             Self::First => "M2-M3",
@@ -231,10 +220,10 @@ impl Phase {
     }
 }
 
-impl Milestones {
+impl ExpressionMilestones {
     /// Returns the milestones at five times that never decrease.
     #[must_use]
-    pub fn of_times([m1, m2, m3, m4, m5]: [Instant; 5]) -> Self {
+    pub fn of_times([m1, m2, m3, m4, m5]: [RecordingInstant; 5]) -> Self {
         Self {
             m1,
             m2,
@@ -247,7 +236,7 @@ impl Milestones {
     /// Returns five times that never decrease: an onset or offset of negative length, which overlapping signs would
     /// cause, becomes empty, and M3 is M2 if there is only one sign.
     #[must_use]
-    pub fn times(&self) -> [Instant; 5] {
+    pub fn milestone_times(&self) -> [RecordingInstant; 5] {
         let m3 = self.m3.unwrap_or(self.m2).max(self.m2);
         let m4 = self.m4.max(m3);
         [self.m1.min(self.m2), self.m2, m3, m4, self.m5.max(m4)]
@@ -255,40 +244,40 @@ impl Milestones {
 
     /// Returns the span of each phase; empty ones are empty spans.
     #[must_use]
-    pub fn phases(&self) -> [Span; 4] {
-        let times = self.times();
-        std::array::from_fn(|n| Span::between(times[n], times[n + 1]))
+    pub fn phase_spans(&self) -> [TimeSpan; 4] {
+        let times = self.milestone_times();
+        std::array::from_fn(|n| TimeSpan::span_between(times[n], times[n + 1]))
     }
 
     /// Returns the span from M1 to M5.
     #[must_use]
-    pub fn span(&self) -> Span {
-        let phases = self.phases();
-        Span::between(phases[0].start(), phases[3].end())
+    pub fn milestone_span(&self) -> TimeSpan {
+        let phases = self.phase_spans();
+        TimeSpan::span_between(phases[0].span_start_instant(), phases[3].span_end_instant())
     }
 
     /// Returns the span of the signs, from M2 to M4.
     #[must_use]
-    pub fn body(&self) -> Span {
-        let times = self.times();
-        Span::between(times[1], times[3])
+    pub fn expression_body_span(&self) -> TimeSpan {
+        let times = self.milestone_times();
+        TimeSpan::span_between(times[1], times[3])
     }
 
     /// Returns the milestones moved by `micros` microseconds.
     #[must_use]
-    pub fn shifted(&self, micros: i64) -> Self {
+    pub fn shift_milestones(&self, micros: i64) -> Self {
         Self {
-            m1: self.m1.shifted(micros),
-            m2: self.m2.shifted(micros),
-            m3: self.m3.map(|m3| m3.shifted(micros)),
-            m4: self.m4.shifted(micros),
-            m5: self.m5.shifted(micros),
+            m1: self.m1.shifted_instant(micros),
+            m2: self.m2.shifted_instant(micros),
+            m3: self.m3.map(|m3| m3.shifted_instant(micros)),
+            m4: self.m4.shifted_instant(micros),
+            m5: self.m5.shifted_instant(micros),
         }
     }
 
     /// Returns the oddities of the milestones, as sentences for people.
     #[must_use]
-    pub fn oddities(&self) -> Vec<String> {
+    pub fn milestone_oddities(&self) -> Vec<String> {
         let mut odd = Vec::new();
         if self.m1 > self.m2 {
             odd.push("the sign before overlaps the first sign, so the onset is empty".to_owned());
@@ -296,8 +285,8 @@ impl Milestones {
         if self.m5 < self.m4 {
             odd.push("the sign after overlaps the last sign, so the offset is empty".to_owned());
         }
-        if self.m1 < Instant::ZERO {
-            let before = -self.m1.seconds();
+        if self.m1 < RecordingInstant::RECORDING_START {
+            let before = -self.m1.instant_seconds();
             odd.push(format!(
                 "M1 lies {before:.3} s before the recording, where nothing is to be read"
             ));
@@ -313,7 +302,7 @@ impl Milestones {
     #[must_use]
     pub fn moment_for(&self, target: &Self, seconds: f64) -> Option<f64> {
         let one = self.m3.is_none() || target.m3.is_none();
-        let (own, there) = (self.ends(one), target.ends(one));
+        let (own, there) = (self.milestone_seconds(one), target.milestone_seconds(one));
         if seconds < there[0] || seconds > there[4] {
             return None;
         }
@@ -326,12 +315,12 @@ impl Milestones {
     }
 
     /// Returns M1 to M5 in seconds; M3 is M2 if the body counts as one phase.
-    fn ends(&self, one: bool) -> [f64; 5] {
-        let mut times = self.times();
+    fn milestone_seconds(&self, one: bool) -> [f64; 5] {
+        let mut times = self.milestone_times();
         if one {
             times[2] = times[1];
         }
-        times.map(Instant::seconds)
+        times.map(RecordingInstant::instant_seconds)
     }
 }
 
@@ -340,26 +329,26 @@ impl Milestones {
 /// M1 is the end of the sign just before them, or `edge` microseconds before them if the utterance begins with them; M5
 /// is found in the same way after them. `None` if `of` holds no sign.
 #[must_use]
-pub fn milestones(
-    signs: &[Span],
+pub fn find_expression_milestones(
+    signs: &[TimeSpan],
     of: Range<usize>,
-    function: &Function,
+    function: &ExpressionFunction,
     edge: i64,
-) -> Option<Milestones> {
+) -> Option<ExpressionMilestones> {
     let spanned = signs.get(of.clone())?;
     let (first, last) = (spanned.first()?, spanned.last()?);
-    let before = of.start.checked_sub(1).map(|at| signs[at].end());
-    let after = signs.get(of.end).map(|sign| sign.start());
-    let cut = match function.cut() {
-        Cut::Second => spanned.get(1),
-        Cut::Last => spanned.get(1..).and_then(<[Span]>::last),
+    let before = of.start.checked_sub(1).map(|at| signs[at].span_end_instant());
+    let after = signs.get(of.end).map(|sign| sign.span_start_instant());
+    let cut = match function.body_cut() {
+        BodyCut::Second => spanned.get(1),
+        BodyCut::Last => spanned.get(1..).and_then(<[TimeSpan]>::last),
     };
-    Some(Milestones {
-        m1: before.unwrap_or(first.start().shifted(-edge)),
-        m2: first.start(),
-        m3: cut.map(|sign| sign.start()),
-        m4: last.end(),
-        m5: after.unwrap_or(last.end().shifted(edge)),
+    Some(ExpressionMilestones {
+        m1: before.unwrap_or(first.span_start_instant().shifted_instant(-edge)),
+        m2: first.span_start_instant(),
+        m3: cut.map(|sign| sign.span_start_instant()),
+        m4: last.span_end_instant(),
+        m5: after.unwrap_or(last.span_end_instant().shifted_instant(edge)),
     })
 }
 
@@ -367,30 +356,36 @@ pub fn milestones(
 mod tests {
     use super::*;
 
-    fn ms(millis: i64) -> Instant {
-        Instant::from_millis(millis)
+    fn ms(millis: i64) -> RecordingInstant {
+        RecordingInstant::from_millis(millis)
     }
 
-    fn signs(times: &[(i64, i64)]) -> Vec<Span> {
+    fn signs(times: &[(i64, i64)]) -> Vec<TimeSpan> {
         times
             .iter()
-            .map(|(from, to)| Span::between(ms(*from), ms(*to)))
+            .map(|(from, to)| TimeSpan::span_between(ms(*from), ms(*to)))
             .collect()
     }
 
-    fn found(times: &[(i64, i64)], of: Range<usize>, function: &str) -> Milestones {
-        milestones(&signs(times), of, &Function::of(function), EDGE).expect("signs")
+    fn found(times: &[(i64, i64)], of: Range<usize>, function: &str) -> ExpressionMilestones {
+        find_expression_milestones(
+            &signs(times),
+            of,
+            &ExpressionFunction::from_function_name(function),
+            UTTERANCE_EDGE_MICROS,
+        )
+        .expect("signs")
     }
 
     /// Returns M1 to M5 in milliseconds; a missing M3 as `i64::MIN`.
-    fn millis(it: &Milestones) -> [i64; 5] {
-        let m3 = it.m3.map_or(i64::MIN, Instant::millis);
+    fn millis(it: &ExpressionMilestones) -> [i64; 5] {
+        let m3 = it.m3.map_or(i64::MIN, RecordingInstant::instant_millis);
         [
-            it.m1.millis(),
-            it.m2.millis(),
+            it.m1.instant_millis(),
+            it.m2.instant_millis(),
             m3,
-            it.m4.millis(),
-            it.m5.millis(),
+            it.m4.instant_millis(),
+            it.m5.instant_millis(),
         ]
     }
 
@@ -406,12 +401,7 @@ mod tests {
             (four, 0..3, "topic", [-400, 100, 1000, 1500, 1600]),
             (four, 2..3, "wh", [900, 1000, NONE, 1500, 1600]),
             (four, 2..3, "neg", [900, 1000, NONE, 1500, 1600]),
-            (
-                &[(0, 500), (500, 900)],
-                1..2,
-                "wh",
-                [500, 500, NONE, 900, 1400],
-            ),
+            (&[(0, 500), (500, 900)], 1..2, "wh", [500, 500, NONE, 900, 1400]),
             (
                 &[(0, 500), (450, 900), (850, 990)],
                 1..2,
@@ -420,15 +410,24 @@ mod tests {
             ),
         ];
         for (times, of, function, want) in cases {
-            assert_eq!(
-                millis(&found(times, of.clone(), function)),
-                want,
-                "{of:?} {function}"
-            );
+            assert_eq!(millis(&found(times, of.clone(), function)), want, "{of:?} {function}");
         }
-        let none = milestones(&signs(four), 4..4, &Function::of("wh"), EDGE);
+        let none = find_expression_milestones(
+            &signs(four),
+            4..4,
+            &ExpressionFunction::from_function_name("wh"),
+            UTTERANCE_EDGE_MICROS,
+        );
         assert_eq!(
-            (none, milestones(&[], 0..1, &Function::of("wh"), EDGE)),
+            (
+                none,
+                find_expression_milestones(
+                    &[],
+                    0..1,
+                    &ExpressionFunction::from_function_name("wh"),
+                    UTTERANCE_EDGE_MICROS
+                )
+            ),
             (None, None)
         );
     }
@@ -436,18 +435,14 @@ mod tests {
     #[test]
     fn overlapping_signs_leave_an_empty_phase_that_is_reported() {
         let it = found(&[(0, 500), (450, 900), (850, 990)], 1..2, "yn");
-        let lengths: Vec<i64> = it
-            .phases()
-            .iter()
-            .map(|span| span.micros() / 1000)
-            .collect();
+        let lengths: Vec<i64> = it.phase_spans().iter().map(|span| span.span_micros() / 1000).collect();
         assert_eq!(lengths, [0, 0, 450, 0]);
-        assert_eq!(it.span(), Span::between(ms(450), ms(900)));
-        assert_eq!(it.oddities().len(), 2);
+        assert_eq!(it.milestone_span(), TimeSpan::span_between(ms(450), ms(900)));
+        assert_eq!(it.milestone_oddities().len(), 2);
         let early = found(&[(200, 900)], 0..1, "yn");
-        assert!(early.oddities()[0].contains("0.300 s before the recording"));
+        assert!(early.milestone_oddities()[0].contains("0.300 s before the recording"));
         assert_eq!(
-            found(&[(0, 100), (200, 300), (400, 500)], 1..2, "wh").oddities(),
+            found(&[(0, 100), (200, 300), (400, 500)], 1..2, "wh").milestone_oddities(),
             [""; 0]
         );
     }
@@ -461,22 +456,23 @@ mod tests {
             ("question fermée", "yn"),
             ("Affect", "affect"),
         ] {
-            assert_eq!(Function::of(name).name(), id, "{name}");
+            assert_eq!(
+                ExpressionFunction::from_function_name(name).function_name(),
+                id,
+                "{name}"
+            );
         }
-        assert!(Function::of("topic").is_known() && !Function::of("affect").is_known());
+        assert!(
+            ExpressionFunction::from_function_name("topic").is_known()
+                && !ExpressionFunction::from_function_name("affect").is_known()
+        );
     }
 
     #[test]
     fn warping_maps_milestones_to_milestones_and_stretches_phases_evenly() {
-        let at = |times: [i64; 5]| Milestones::of_times(times.map(ms));
-        let (own, there) = (
-            at([0, 300, 800, 1000, 1400]),
-            at([100, 200, 1200, 1300, 1900]),
-        );
-        for (own_at, there_at) in [0.0, 0.3, 0.8, 1.0, 1.4]
-            .into_iter()
-            .zip([0.1, 0.2, 1.2, 1.3, 1.9])
-        {
+        let at = |times: [i64; 5]| ExpressionMilestones::of_times(times.map(ms));
+        let (own, there) = (at([0, 300, 800, 1000, 1400]), at([100, 200, 1200, 1300, 1900]));
+        for (own_at, there_at) in [0.0, 0.3, 0.8, 1.0, 1.4].into_iter().zip([0.1, 0.2, 1.2, 1.3, 1.9]) {
             let moment = own.moment_for(&there, there_at).expect("inside");
             assert!((moment - own_at).abs() < 1e-9, "{there_at}: {moment}");
         }
@@ -494,9 +490,6 @@ mod tests {
         let half = short.moment_for(&long, 0.7).expect("inside");
         assert!((half - 0.4).abs() < 1e-9, "{half}");
         let held = no_onset.moment_for(&own, 0.15).expect("inside");
-        assert!(
-            (held - 0.1).abs() < 1e-9,
-            "an onset that is empty here is held"
-        );
+        assert!((held - 0.1).abs() < 1e-9, "an onset that is empty here is held");
     }
 }

@@ -1,7 +1,7 @@
 //! Temporal relations between spans: ELAN's eleven and Allen's.
 
-use crate::text::{did_you_mean, fold, nearest};
-use chereme_motion::{Instant, Span};
+use crate::text::{did_you_mean, fold_text, nearest_candidate};
+use chereme_motion::{RecordingInstant, TimeSpan};
 use std::fmt;
 use std::str::FromStr;
 
@@ -11,7 +11,7 @@ use std::str::FromStr;
 /// knowledge about temporal intervals*, 1983): ELAN's `OverlapsBegin` and `OverlapsEnd` are two of them, and
 /// `Before` and `After` hold two each. Distances are microseconds; a distance below zero counts as zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Relation {
+pub enum TimeRelation {
     /// `a` lies wholly in `b`.
     Inside,
     /// Some of `a` lies outside `b`.
@@ -52,9 +52,9 @@ pub enum Relation {
     Covers,
 }
 
-impl Relation {
+impl TimeRelation {
     /// The relations without a distance, by the name that queries use.
-    pub const PLAIN: [(&'static str, Self); 16] = [
+    pub const PLAIN_RELATIONS: [(&'static str, Self); 16] = [
         ("overlaps", Self::Overlaps),
         ("not-overlaps", Self::NotOverlaps),
         ("inside", Self::Inside),
@@ -75,34 +75,39 @@ impl Relation {
 
     /// Returns whether this is a relation of `a` to `b`.
     #[must_use]
-    pub fn holds(self, a: Span, b: Span) -> bool {
-        let (start, end) = (a.start().cmp(&b.start()), a.end().cmp(&b.end()));
+    pub fn relation_holds(self, a: TimeSpan, b: TimeSpan) -> bool {
+        let (start, end) = (
+            a.span_start_instant().cmp(&b.span_start_instant()),
+            a.span_end_instant().cmp(&b.span_end_instant()),
+        );
         match self {
-            Self::Inside => b.covers(a),
-            Self::NotInside => !b.covers(a),
-            Self::Overlaps => a.overlaps(b),
-            Self::NotOverlaps => !a.overlaps(b),
-            Self::OverlapsBegin => start.is_lt() && end.is_lt() && a.overlaps(b),
-            Self::OverlapsEnd => start.is_gt() && end.is_gt() && a.overlaps(b),
-            Self::Around(reach) => widened(b.start(), b.end(), reach).covers(a),
-            Self::OfBegin(reach) => widened(b.start(), b.start(), reach).covers(a),
-            Self::OfEnd(reach) => widened(b.end(), b.end(), reach).covers(a),
-            Self::Before => a.end() <= b.start(),
-            Self::After => b.end() <= a.start(),
+            Self::Inside => b.has_span_inside(a),
+            Self::NotInside => !b.has_span_inside(a),
+            Self::Overlaps => a.is_overlapping_span(b),
+            Self::NotOverlaps => !a.is_overlapping_span(b),
+            Self::OverlapsBegin => start.is_lt() && end.is_lt() && a.is_overlapping_span(b),
+            Self::OverlapsEnd => start.is_gt() && end.is_gt() && a.is_overlapping_span(b),
+            Self::Around(reach) => widen_span(b.span_start_instant(), b.span_end_instant(), reach).has_span_inside(a),
+            Self::OfBegin(reach) => {
+                widen_span(b.span_start_instant(), b.span_start_instant(), reach).has_span_inside(a)
+            }
+            Self::OfEnd(reach) => widen_span(b.span_end_instant(), b.span_end_instant(), reach).has_span_inside(a),
+            Self::Before => a.span_end_instant() <= b.span_start_instant(),
+            Self::After => b.span_end_instant() <= a.span_start_instant(),
             Self::Equals => a == b,
-            Self::Meets => a.end() == b.start(),
-            Self::MetBy => a.start() == b.end(),
+            Self::Meets => a.span_end_instant() == b.span_start_instant(),
+            Self::MetBy => a.span_start_instant() == b.span_end_instant(),
             Self::Starts => start.is_eq() && end.is_lt(),
             Self::StartedBy => start.is_eq() && end.is_gt(),
             Self::Finishes => start.is_gt() && end.is_eq(),
             Self::FinishedBy => start.is_lt() && end.is_eq(),
-            Self::Covers => a.covers(b),
+            Self::Covers => a.has_span_inside(b),
         }
     }
 
     /// Returns the relation of `b` to `a` if this one is that of `a` to `b`; `None` if it has no name.
     #[must_use]
-    pub fn inverse(self) -> Option<Self> {
+    pub fn inverse_relation(self) -> Option<Self> {
         Some(match self {
             Self::Inside => Self::Covers,
             Self::Covers => Self::Inside,
@@ -122,12 +127,12 @@ impl Relation {
     }
 }
 
-fn widened(start: Instant, end: Instant, reach: i64) -> Span {
+fn widen_span(start: RecordingInstant, end: RecordingInstant, reach: i64) -> TimeSpan {
     let reach = reach.max(0);
-    Span::between(start.shifted(-reach), end.shifted(reach))
+    TimeSpan::span_between(start.shifted_instant(-reach), end.shifted_instant(reach))
 }
 
-impl fmt::Display for Relation {
+impl fmt::Display for TimeRelation {
     /// Writes the name that queries use, such as `overlaps-begin` or `within 0.2s of-end`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (reach, kind) = match self {
@@ -135,30 +140,30 @@ impl fmt::Display for Relation {
             Self::OfBegin(reach) => (reach, "of-begin"),
             Self::OfEnd(reach) => (reach, "of-end"),
             plain => {
-                let named = Self::PLAIN.iter().find(|(_, relation)| relation == plain);
+                let named = Self::PLAIN_RELATIONS.iter().find(|(_, relation)| relation == plain);
                 return f.write_str(named.map_or("overlaps", |(name, _)| name));
             }
         };
         let reach = (*reach).max(0);
-        let fraction = format!("{:06}", reach % 1_000_000);
-        let fraction = fraction.trim_end_matches('0');
+        let padded_fraction = format!("{:06}", reach % 1_000_000);
+        let fraction = padded_fraction.trim_end_matches('0');
         let point = if fraction.is_empty() { "" } else { "." };
         write!(f, "within {}{point}{fraction}s {kind}", reach / 1_000_000)
     }
 }
 
-impl FromStr for Relation {
+impl FromStr for TimeRelation {
     type Err = RelationError;
 
     /// Reads a relation as queries and as ELAN name it: `overlaps-begin`, `overlaps only begin`,
     /// `no overlap`, `within 0.2s around`, `within 200 ms of begin`.
     fn from_str(text: &str) -> Result<Self, RelationError> {
-        let words = fold(text).replace(['-', '_'], " ");
-        let words: Vec<&str> = words.split_whitespace().collect();
+        let folded_words = fold_text(text).replace(['-', '_'], " ");
+        let words: Vec<&str> = folded_words.split_whitespace().collect();
         if let ["within", rest @ ..] = &words[..] {
-            return within(rest, text);
+            return parse_within_words(rest, text);
         }
-        let name: Vec<&str> = words
+        let name_words: Vec<&str> = words
             .into_iter()
             .filter(|word| !["is", "only", "time"].contains(word))
             .map(|word| match word {
@@ -168,43 +173,39 @@ impl FromStr for Relation {
                 word => word,
             })
             .collect();
-        let name = name.join("-");
-        let found = Self::PLAIN.iter().find(|(plain, _)| *plain == name);
-        found
+        let name = name_words.join("-");
+        let entry = Self::PLAIN_RELATIONS.iter().find(|(plain, _)| *plain == name);
+        entry
             .map(|(_, relation)| *relation)
             .ok_or_else(|| RelationError::Unknown {
                 text: text.to_owned(),
-                nearest: nearest(&name, Self::PLAIN.map(|(name, _)| name)).map(str::to_owned),
+                nearest: nearest_candidate(&name, Self::PLAIN_RELATIONS.map(|(name, _)| name)).map(str::to_owned),
             })
     }
 }
 
-fn within(words: &[&str], text: &str) -> Result<Relation, RelationError> {
-    let written = || RelationError::Distance {
-        text: text.to_owned(),
-    };
+fn parse_within_words(words: &[&str], text: &str) -> Result<TimeRelation, RelationError> {
+    let written = || RelationError::Distance { text: text.to_owned() };
     let kind = words
         .iter()
         .position(|word| ["of", "around"].contains(word))
         .ok_or_else(written)?;
-    let reach = micros(&words[..kind].concat()).ok_or_else(written)?;
+    let reach = parse_relation_micros(&words[..kind].concat()).ok_or_else(written)?;
     match &words[kind..] {
-        ["around"] => Ok(Relation::Around(reach)),
-        ["of", "begin" | "start", ..] => Ok(Relation::OfBegin(reach)),
-        ["of", "end", ..] => Ok(Relation::OfEnd(reach)),
+        ["around"] => Ok(TimeRelation::Around(reach)),
+        ["of", "begin" | "start", ..] => Ok(TimeRelation::OfBegin(reach)),
+        ["of", "end", ..] => Ok(TimeRelation::OfEnd(reach)),
         _ => Err(written()),
     }
 }
 
-fn micros(text: &str) -> Option<i64> {
+fn parse_relation_micros(text: &str) -> Option<i64> {
     let (number, unit) = match text.strip_suffix("ms") {
         Some(number) => (number, 1e3),
         None => (text.strip_suffix('s')?, 1e6),
     };
     let micros = number.parse::<f64>().ok()? * unit;
-    (0.0..9e18)
-        .contains(&micros)
-        .then_some(micros.round() as i64)
+    (0.0..9e18).contains(&micros).then_some(micros.round() as i64)
 }
 
 /// A text that names no relation.
@@ -218,10 +219,8 @@ pub enum RelationError {
         /// The relation nearest to it.
         nearest: Option<String>,
     },
-    /// The text after `within` is not a distance and a place.
-    #[error(
-        "{text:?}: after \"within\" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"
-    )]
+    /// The text after `parse_within_words` is not a distance and a place.
+    #[error("{text:?}: after \"within\" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end")]
     Distance {
         /// The text as written.
         text: String,
@@ -233,20 +232,20 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn span(start: i64, end: i64) -> Span {
-        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    fn span(start: i64, end: i64) -> TimeSpan {
+        TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
     }
 
     /// Every relation in the order of the table's columns; the distances are 5 microseconds.
-    fn columns() -> Vec<Relation> {
-        let mut all: Vec<Relation> = Relation::PLAIN
+    fn columns() -> Vec<TimeRelation> {
+        let mut all: Vec<TimeRelation> = TimeRelation::PLAIN_RELATIONS
             .iter()
             .map(|(_, relation)| *relation)
             .collect();
         all.extend([
-            Relation::Around(5),
-            Relation::OfBegin(5),
-            Relation::OfEnd(5),
+            TimeRelation::Around(5),
+            TimeRelation::OfBegin(5),
+            TimeRelation::OfEnd(5),
         ]);
         all
     }
@@ -259,10 +258,7 @@ mod tests {
             (span(50, 100), "not-overlaps not-inside before meets"),
             (span(96, 98), "not-overlaps not-inside before around begin"),
             (span(50, 150), "overlaps not-inside overlaps-begin"),
-            (
-                span(96, 104),
-                "overlaps not-inside overlaps-begin around begin",
-            ),
+            (span(96, 104), "overlaps not-inside overlaps-begin around begin"),
             (span(100, 150), "overlaps inside starts around"),
             (span(101, 104), "overlaps inside around begin"),
             (span(120, 150), "overlaps inside around"),
@@ -274,25 +270,20 @@ mod tests {
             (span(98, 203), "overlaps not-inside covers around"),
             (span(50, 250), "overlaps not-inside covers"),
             (span(150, 250), "overlaps not-inside overlaps-end"),
-            (
-                span(198, 204),
-                "overlaps not-inside overlaps-end around end",
-            ),
+            (span(198, 204), "overlaps not-inside overlaps-end around end"),
             (span(200, 250), "not-overlaps not-inside after met-by"),
             (span(202, 204), "not-overlaps not-inside after around end"),
             (span(250, 280), "not-overlaps not-inside after"),
         ] {
             let mut wanted: Vec<&str> = holds.split(' ').collect();
             wanted.sort_unstable();
-            let name = |relation: &Relation| match relation {
-                Relation::Around(_) => "around".to_owned(),
-                Relation::OfBegin(_) => "begin".to_owned(),
-                Relation::OfEnd(_) => "end".to_owned(),
+            let name = |relation: &TimeRelation| match relation {
+                TimeRelation::Around(_) => "around".to_owned(),
+                TimeRelation::OfBegin(_) => "begin".to_owned(),
+                TimeRelation::OfEnd(_) => "end".to_owned(),
                 plain => plain.to_string(),
             };
-            let found = columns()
-                .into_iter()
-                .filter(|relation| relation.holds(a, b));
+            let found = columns().into_iter().filter(|relation| relation.relation_holds(a, b));
             let mut found: Vec<String> = found.map(|relation| name(&relation)).collect();
             found.sort_unstable();
             assert_eq!(found, wanted, "{a:?}");
@@ -302,16 +293,16 @@ mod tests {
     #[test]
     fn names_of_queries_and_of_elan_are_read() {
         for (text, relation) in [
-            ("Inside", Relation::Inside),
-            ("is inside", Relation::Inside),
-            ("not inside", Relation::NotInside),
-            ("overlaps only begin time", Relation::OverlapsBegin),
-            ("overlaps_only_end", Relation::OverlapsEnd),
-            ("no overlap", Relation::NotOverlaps),
-            ("before", Relation::Before),
-            ("within 0.2s around", Relation::Around(200_000)),
-            ("within 200 ms of begin time", Relation::OfBegin(200_000)),
-            ("within 1.5s of-end", Relation::OfEnd(1_500_000)),
+            ("Inside", TimeRelation::Inside),
+            ("is inside", TimeRelation::Inside),
+            ("not inside", TimeRelation::NotInside),
+            ("overlaps only begin time", TimeRelation::OverlapsBegin),
+            ("overlaps_only_end", TimeRelation::OverlapsEnd),
+            ("no overlap", TimeRelation::NotOverlaps),
+            ("before", TimeRelation::Before),
+            ("within 0.2s around", TimeRelation::Around(200_000)),
+            ("within 200 ms of begin time", TimeRelation::OfBegin(200_000)),
+            ("within 1.5s of-end", TimeRelation::OfEnd(1_500_000)),
         ] {
             assert_eq!(text.parse(), Ok(relation), "{text}");
         }
@@ -333,14 +324,11 @@ mod tests {
                 r#""within NaNs around": after "within" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"#,
             ),
         ] {
-            assert_eq!(
-                text.parse::<Relation>().expect_err(text).to_string(),
-                message
-            );
+            assert_eq!(text.parse::<TimeRelation>().expect_err(text).to_string(), message);
         }
     }
 
-    fn any_span() -> impl Strategy<Value = Span> {
+    fn any_span() -> impl Strategy<Value = TimeSpan> {
         (0i64..12, 0i64..12).prop_map(|(a, b)| span(a, b))
     }
 
@@ -350,15 +338,15 @@ mod tests {
         #[test]
         fn an_inverse_relation_holds_for_the_swapped_pair(a in any_span(), b in any_span()) {
             for relation in columns() {
-                if let Some(inverse) = relation.inverse() {
-                    prop_assert_eq!(relation.holds(a, b), inverse.holds(b, a), "{}", relation);
+                if let Some(inverse) = relation.inverse_relation() {
+                    prop_assert_eq!(relation.relation_holds(a, b), inverse.relation_holds(b, a), "{}", relation);
                 }
             }
         }
 
         #[test]
         fn around_no_distance_is_inside(a in any_span(), b in any_span()) {
-            prop_assert_eq!(Relation::Around(-1).holds(a, b), Relation::Inside.holds(a, b));
+            prop_assert_eq!(TimeRelation::Around(-1).relation_holds(a, b), TimeRelation::Inside.relation_holds(a, b));
         }
     }
 }

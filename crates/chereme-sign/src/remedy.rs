@@ -7,21 +7,21 @@ use serde::{Serialize, Serializer};
 
 /// A remedy for an error or a finding.
 ///
-/// Every remedy has a text for the command line. Another program shows [`Remedy::Advice`] as it is, offers its own form
-/// of a [`Remedy::Choice`], and leaves a [`Remedy::Command`] out.
+/// Every remedy has a text for the command line. Another program shows [`ErrorRemedy::Advice`] as it is, offers its own form
+/// of a [`ErrorRemedy::Choice`], and leaves a [`ErrorRemedy::Command`] out.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Remedy {
+pub enum ErrorRemedy {
     /// Advice that holds in every program.
     Advice(Cow<'static, str>),
     /// Advice that names a command or an option of the command line, for which no other program has a counterpart.
     Command(Cow<'static, str>),
     /// A choice that each program offers in its own form, and the text of the command line.
-    Choice(Choice, Cow<'static, str>),
+    Choice(RemedyChoice, Cow<'static, str>),
 }
 
 /// A choice that each program offers in its own form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Choice {
+pub enum RemedyChoice {
     /// The part of the body for each joint.
     JointRoles,
     /// The order of the root's columns in a motion file.
@@ -46,20 +46,20 @@ pub enum Choice {
     Notation,
 }
 
-impl Remedy {
+impl ErrorRemedy {
     /// Returns a remedy that names a command or an option of the command line.
-    pub fn command(text: impl Into<Cow<'static, str>>) -> Self {
+    pub fn command_remedy(text: impl Into<Cow<'static, str>>) -> Self {
         Self::Command(text.into())
     }
 
     /// Returns a remedy that each program offers in its own form; `text` is that of the command line.
-    pub fn choice(choice: Choice, text: impl Into<Cow<'static, str>>) -> Self {
+    pub fn choice_remedy(choice: RemedyChoice, text: impl Into<Cow<'static, str>>) -> Self {
         Self::Choice(choice, text.into())
     }
 
     /// Returns the text for the command line.
     #[must_use]
-    pub fn text(&self) -> &str {
+    pub fn remedy_text(&self) -> &str {
         match self {
             Self::Advice(text) | Self::Command(text) | Self::Choice(_, text) => text,
         }
@@ -68,12 +68,12 @@ impl Remedy {
     /// Returns whether there is no text.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.text().is_empty()
+        self.remedy_text().is_empty()
     }
 
     /// Returns the text if it holds in every program.
     #[must_use]
-    pub fn advice(&self) -> Option<&str> {
+    pub fn remedy_advice(&self) -> Option<&str> {
         match self {
             Self::Advice(text) => Some(text),
             Self::Command(_) | Self::Choice(..) => None,
@@ -81,34 +81,34 @@ impl Remedy {
     }
 }
 
-impl Default for Remedy {
+impl Default for ErrorRemedy {
     /// Returns no advice.
     fn default() -> Self {
         Self::Advice(Cow::Borrowed(""))
     }
 }
 
-impl From<&str> for Remedy {
+impl From<&str> for ErrorRemedy {
     fn from(text: &str) -> Self {
         Self::Advice(text.to_owned().into())
     }
 }
 
-impl From<String> for Remedy {
+impl From<String> for ErrorRemedy {
     fn from(text: String) -> Self {
         Self::Advice(text.into())
     }
 }
 
-impl fmt::Display for Remedy {
+impl fmt::Display for ErrorRemedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text())
+        f.write_str(self.remedy_text())
     }
 }
 
-impl Serialize for Remedy {
+impl Serialize for ErrorRemedy {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.text())
+        serializer.serialize_str(self.remedy_text())
     }
 }
 
@@ -119,16 +119,15 @@ mod tests {
     #[test]
     fn documents_hold_the_text_of_the_command_line() {
         let remedies = [
-            Remedy::from("name it"),
-            Remedy::command("`chereme log CORPUS` lists them"),
-            Remedy::choice(Choice::Unit, "give the unit with --unit"),
+            ErrorRemedy::from("name it"),
+            ErrorRemedy::command_remedy("`chereme log CORPUS` lists them"),
+            ErrorRemedy::choice_remedy(RemedyChoice::Unit, "give the unit with --unit"),
         ];
         let json = serde_json::to_string(&remedies).expect("plain texts");
-        let texts =
-            "[\"name it\",\"`chereme log CORPUS` lists them\",\"give the unit with --unit\"]";
+        let texts = "[\"name it\",\"`chereme log CORPUS` lists them\",\"give the unit with --unit\"]";
         assert_eq!(json, texts);
         assert_eq!(
-            remedies.each_ref().map(Remedy::advice),
+            remedies.each_ref().map(ErrorRemedy::remedy_advice),
             [Some("name it"), None, None]
         );
     }

@@ -10,14 +10,10 @@ use unicode_normalization::{UnicodeNormalization, is_nfc};
 /// plain ones. Compatibility forms (`ﬁ`, `²`, full-width letters) become the characters that they stand for.
 /// Blanks stay, except that every kind of blank becomes a space. Folding twice changes nothing.
 #[must_use]
-pub fn fold(text: &str) -> String {
+pub fn fold_text(text: &str) -> String {
     let mut folded = String::with_capacity(text.len());
-    for c in text
-        .nfkd()
-        .filter(|c| !is_ignored(*c))
-        .flat_map(char::to_lowercase)
-    {
-        match plain(c) {
+    for c in text.nfkd().filter(|c| !is_ignored(*c)).flat_map(char::to_lowercase) {
+        match plain_letter(c) {
             Some(plain) => folded.push_str(plain),
             None if c.is_whitespace() => folded.push(' '),
             None => folded.push(c),
@@ -29,7 +25,7 @@ pub fn fold(text: &str) -> String {
 /// Returns a text with letters and their accents in one character each (Unicode's form NFC), so that texts that look the
 /// same are equal: some programs store `É` as one character, others as `E` and an accent.
 #[must_use]
-pub fn composed(text: &str) -> Cow<'_, str> {
+pub fn compose_accents(text: &str) -> Cow<'_, str> {
     match is_nfc(text) {
         true => text.into(),
         false => text.nfc().collect::<String>().into(),
@@ -38,7 +34,7 @@ pub fn composed(text: &str) -> Cow<'_, str> {
 
 /// Returns a text with letters and their accents in separate characters (Unicode's form NFD).
 #[must_use]
-pub fn decomposed(text: &str) -> Cow<'_, str> {
+pub fn decompose_accents(text: &str) -> Cow<'_, str> {
     match text.is_ascii() {
         true => text.into(),
         false => text.nfd().collect::<String>().into(),
@@ -59,7 +55,7 @@ fn is_ignored(c: char) -> bool {
 }
 
 /// Returns the plain spelling of a letter or sign that Unicode does not decompose.
-fn plain(c: char) -> Option<&'static str> {
+fn plain_letter(c: char) -> Option<&'static str> {
     Some(match c {
         'œ' => "oe",
         'æ' => "ae",
@@ -95,10 +91,7 @@ pub fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
     let mut last: Vec<usize> = (0..=b.len()).map(|j| j.min(far)).collect();
     let mut row = vec![far; b.len() + 1];
     for i in 1..=a.len() {
-        let (from, to) = (
-            i.saturating_sub(most).max(1),
-            i.saturating_add(most).min(b.len()),
-        );
+        let (from, to) = (i.saturating_sub(most).max(1), i.saturating_add(most).min(b.len()));
         row[from - 1] = if from == 1 { i.min(far) } else { far };
         for j in from..=to {
             let changed = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
@@ -121,8 +114,8 @@ pub fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
 /// Both are folded. The limit is one slip for words of up to four characters, two up to eight, three beyond; a
 /// candidate that begins with `word` (three characters or more) counts as one slip away. Among equals the first wins.
 #[must_use]
-pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let word = fold(word);
+pub fn nearest_candidate<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = fold_text(word);
     let length = word.chars().count();
     let most = match length {
         0 => return None,
@@ -132,16 +125,16 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     };
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
-        let folded = fold(candidate);
+        let folded = fold_text(candidate);
         let near = best.map_or(most, |(distance, _)| distance);
-        let found = if length >= 3 && folded.len() > word.len() && folded.starts_with(&word) {
+        let raw_distance = if length >= 3 && folded.len() > word.len() && folded.starts_with(&word) {
             Some(1)
         } else {
             edit_distance(&word, &folded, near)
         };
         // A word of one character has nothing in common with a word one slip away.
-        let found = found.filter(|distance| length > 1 || *distance == 0);
-        if let Some(distance) = found
+        let close_distance = raw_distance.filter(|distance| length > 1 || *distance == 0);
+        if let Some(distance) = close_distance
             && best.is_none_or(|(least, _)| distance < least)
         {
             best = Some((distance, candidate));
@@ -180,15 +173,15 @@ mod tests {
             ("だ", "た\u{3099}"),
             ("", ""),
         ] {
-            assert_eq!(fold(text), folded, "{text:?}");
+            assert_eq!(fold_text(text), folded, "{text:?}");
         }
     }
 
     #[test]
     fn folding_every_character_twice_changes_nothing() {
         for c in '\0'..='\u{2FFFF}' {
-            let once = fold(&c.to_string());
-            assert_eq!(fold(&once), once, "{:x}", u32::from(c));
+            let once = fold_text(&c.to_string());
+            assert_eq!(fold_text(&once), once, "{:x}", u32::from(c));
         }
     }
 
@@ -211,14 +204,7 @@ mod tests {
 
     #[test]
     fn the_nearest_word_is_suggested() {
-        let fields = [
-            "configuration",
-            "placement",
-            "movement",
-            "gloss",
-            "sign",
-            "signer",
-        ];
+        let fields = ["configuration", "placement", "movement", "gloss", "sign", "signer"];
         for (word, meant) in [
             ("confguration", Some("configuration")),
             ("Palcement", Some("placement")),
@@ -229,7 +215,7 @@ mod tests {
             ("elephant", None),
             ("", None),
         ] {
-            assert_eq!(nearest(word, fields), meant, "{word}");
+            assert_eq!(nearest_candidate(word, fields), meant, "{word}");
         }
     }
 
@@ -243,11 +229,7 @@ mod tests {
                         let changed = d[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
                         let least = changed.min(d[i - 1][j] + 1).min(d[i][j - 1] + 1);
                         let swap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-                        if swap {
-                            least.min(d[i - 2][j - 2] + 1)
-                        } else {
-                            least
-                        }
+                        if swap { least.min(d[i - 2][j - 2] + 1) } else { least }
                     }
                 };
             }

@@ -1,9 +1,9 @@
 //! Tiers and annotations: the description of a recording, apart from its movement.
 //!
 //! A [`Tier`] is a list of annotations of one kind; a child tier hangs below a parent tier by one of ELAN's four
-//! [`Stereotype`]s. A [`TierSet`] holds the tiers of one recording, or only the neighbourhood of one change. Nothing
-//! edits a tier set directly: [`plan`] turns a [`Change`] into the [`Edit`]s that carry it out with all its
-//! consequences, or reports the rule that it would break; [`check`] lists the broken rules of a set from elsewhere.
+//! [`TierStereotype`]s. A [`TierSet`] holds the tiers of one recording, or only the neighbourhood of one change. Nothing
+//! edits a tier set directly: [`plan_tier_change`] turns a [`AskedTierChange`] into the [`TierEdit`]s that carry it out with all its
+//! consequences, or reports the rule that it would break; [`check_tier_set`] lists the broken rules of a set from elsewhere.
 //!
 //! # Rules
 //!
@@ -18,22 +18,22 @@
 //! | tree | no tier is its own ancestor; an alignable tier never sits below a symbolic one |
 //! | vocabulary | if the values of a tier's vocabulary are known, its annotations use no others |
 
-mod check;
 mod error;
-mod merge;
-mod plan;
 mod role;
-pub mod spans;
 #[cfg(test)]
 mod tests;
+mod tier_check;
+mod tier_merge;
+mod tier_plan;
+pub mod tier_spans;
 
-pub use check::{MAX_DEPTH, Named, Violation, check, check_tiers};
 pub use error::EditError;
-pub use plan::plan;
-pub use role::{Hands, RoleError, RoleWords, TierRole, TierTopic};
+pub use role::{AnnotatedHands, RoleError, RoleWords, TierRole, TierTopic};
+pub use tier_check::{MAX_TIER_DEPTH, NamedAnnotation, TierViolation, check_tier_set, check_tiers};
+pub use tier_plan::plan_tier_change;
 
-use crate::component::{Field, HandRef, Reading};
-use chereme_motion::Span;
+use crate::component::{ComponentField, ComponentReading, HandRef};
+use chereme_motion::TimeSpan;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -62,7 +62,7 @@ impl fmt::Display for AnnotationId {
 
 /// The relation of a child tier's annotations to those of its parent tier, as in ELAN.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Stereotype {
+pub enum TierStereotype {
     /// The children tile their parent without gaps.
     #[serde(rename = "Time_Subdivision")]
     TimeSubdivision,
@@ -77,9 +77,9 @@ pub enum Stereotype {
     SymbolicAssociation,
 }
 
-impl Stereotype {
+impl TierStereotype {
     /// The four stereotypes.
-    pub const ALL: [Self; 4] = [
+    pub const ALL_TIER_STEREOTYPES: [Self; 4] = [
         Self::TimeSubdivision,
         Self::IncludedIn,
         Self::SymbolicSubdivision,
@@ -106,7 +106,7 @@ impl Stereotype {
                 .collect::<String>()
                 .to_lowercase()
         };
-        Self::ALL
+        Self::ALL_TIER_STEREOTYPES
             .into_iter()
             .find(|stereotype| plain(stereotype.elan_name()) == plain(text))
     }
@@ -118,7 +118,7 @@ impl Stereotype {
     }
 }
 
-impl fmt::Display for Stereotype {
+impl fmt::Display for TierStereotype {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.elan_name())
     }
@@ -136,7 +136,7 @@ pub struct Tier {
     /// The hand that they describe, if they describe one.
     pub hand: Option<HandRef>,
     /// The tier above, and the relation to it; `None` for a root tier.
-    pub parent: Option<(TierId, Stereotype)>,
+    pub parent: Option<(TierId, TierStereotype)>,
     /// The id of the inventory or controlled vocabulary that the values come from.
     pub vocabulary: Option<String>,
 }
@@ -144,7 +144,7 @@ pub struct Tier {
 impl Tier {
     /// Returns a root tier of glosses without a hand.
     #[must_use]
-    pub fn root(id: TierId, name: impl Into<String>) -> Self {
+    pub fn root_tier(id: TierId, name: impl Into<String>) -> Self {
         let (role, hand, parent, vocabulary) = (TierRole::Gloss, None, None, None);
         Self {
             id,
@@ -158,7 +158,7 @@ impl Tier {
 
     /// Returns the stereotype; `None` for a root tier.
     #[must_use]
-    pub fn stereotype(&self) -> Option<Stereotype> {
+    pub fn tier_stereotype(&self) -> Option<TierStereotype> {
         self.parent.map(|(_, stereotype)| stereotype)
     }
 
@@ -171,14 +171,14 @@ impl Tier {
     /// Returns whether the annotations have times of their own.
     #[must_use]
     pub fn is_alignable(&self) -> bool {
-        self.stereotype().is_none_or(Stereotype::is_alignable)
+        self.tier_stereotype().is_none_or(TierStereotype::is_alignable)
     }
 
     /// Returns the field that the tier codes; `None` for a tier that codes no component.
     #[must_use]
-    pub fn field(&self) -> Option<Field> {
+    pub fn tier_coded_field(&self) -> Option<ComponentField> {
         match &self.role {
-            TierRole::Component { component, feature } => Some(Field {
+            TierRole::Component { component, feature } => Some(ComponentField {
                 hand: self.hand,
                 component: *component,
                 feature: feature.clone(),
@@ -191,7 +191,7 @@ impl Tier {
 
 /// One statement about a stretch of a recording.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Annotation {
+pub struct TierAnnotation {
     /// The annotation's handle.
     pub id: AnnotationId,
     /// The tier it is on.
@@ -201,35 +201,35 @@ pub struct Annotation {
     /// The place among its siblings in a Symbolic_Subdivision, counted from 0; 0 elsewhere.
     pub order: u32,
     /// Its time span: its own, or on a symbolic tier the one that follows from its parent.
-    pub span: Span,
+    pub span: TimeSpan,
     /// Its value.
-    pub value: Reading,
+    pub value: ComponentReading,
 }
 
 /// Values that the annotations of a tier may have.
-pub type Vocabulary = BTreeSet<String>;
+pub type TierVocabulary = BTreeSet<String>;
 
 /// The tiers of a recording with their annotations, or the neighbourhood of one change.
 ///
 /// A set that holds less than everything must hold every tier of the recording, and for a
-/// [`Change`] the annotations that [`Change::window`] describes.
+/// [`AskedTierChange`] the annotations that [`AskedTierChange::change_window`] describes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TierSet {
     tiers: BTreeMap<TierId, Tier>,
-    vocabularies: BTreeMap<String, Vocabulary>,
-    annotations: BTreeMap<AnnotationId, Annotation>,
+    vocabularies: BTreeMap<String, TierVocabulary>,
+    annotations: BTreeMap<AnnotationId, TierAnnotation>,
     by_time: BTreeMap<TierId, BTreeSet<TimeKey>>,
     children: BTreeMap<AnnotationId, BTreeSet<(TierId, TimeKey)>>,
 }
 
-type TimeKey = (chereme_motion::Instant, u32, AnnotationId);
+type TimeKey = (chereme_motion::RecordingInstant, u32, AnnotationId);
 
 /// One step of a change: annotations to write or remove, or a tier to write.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Edit {
+pub enum TierEdit {
     /// Writes the annotation, in place of the one with the same handle if there is one.
-    Put(Annotation),
+    Put(TierAnnotation),
     /// Removes the annotation with this handle.
     Remove(AnnotationId),
     /// Gives a tier another vocabulary, or removes its vocabulary.
@@ -244,16 +244,16 @@ pub enum Edit {
 /// A change that somebody asks for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Change {
+pub enum AskedTierChange {
     /// Adds an annotation with a time of its own to an alignable tier.
     Add {
         /// The tier.
         tier: TierId,
         /// The time. On a Time_Subdivision it is either a whole parent that has no child there yet, or the head or tail
         /// of one sibling, which is shortened.
-        span: Span,
+        span: TimeSpan,
         /// The value.
-        value: Reading,
+        value: ComponentReading,
     },
     /// Adds an annotation below a parent on a symbolic tier.
     AddBelow {
@@ -264,7 +264,7 @@ pub enum Change {
         /// The position among the siblings from 0, later ones moving on; `None` for the end.
         order: Option<u32>,
         /// The value.
-        value: Reading,
+        value: ComponentReading,
     },
     /// Gives an aligned annotation another time.
     ///
@@ -274,7 +274,7 @@ pub enum Change {
         /// The annotation.
         annotation: AnnotationId,
         /// The new time.
-        span: Span,
+        span: TimeSpan,
     },
     /// Gives an annotation of a Symbolic_Subdivision another place among its siblings.
     Reorder {
@@ -291,7 +291,7 @@ pub enum Change {
         /// The annotation, which becomes the first half.
         annotation: AnnotationId,
         /// The cut, inside the annotation.
-        at: chereme_motion::Instant,
+        at: chereme_motion::RecordingInstant,
     },
     /// Merges two neighbours on an alignable tier or in a Symbolic_Subdivision into one annotation.
     ///
@@ -303,9 +303,9 @@ pub enum Change {
         /// The later annotation, which is removed.
         second: AnnotationId,
         /// The value of the merged annotation; `None` if both have the same.
-        value: Option<Reading>,
+        value: Option<ComponentReading>,
         /// The treatment of children of equal value that meet at the seam.
-        seam: Seam,
+        seam: MergeSeam,
     },
     /// Removes an annotation and all below it.
     ///
@@ -319,7 +319,7 @@ pub enum Change {
         /// The annotation.
         annotation: AnnotationId,
         /// The new value.
-        value: Reading,
+        value: ComponentReading,
     },
     /// Gives a tier another vocabulary, or removes its vocabulary.
     SetVocabulary {
@@ -333,7 +333,7 @@ pub enum Change {
 /// How a merge treats children of equal value that meet at the seam of their parents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Seam {
+pub enum MergeSeam {
     /// They stay apart.
     #[default]
     Keep,
@@ -342,18 +342,15 @@ pub enum Seam {
 }
 
 impl TierSet {
-    /// Returns a set of these tiers and annotations without checking them; [`check`] lists the rules that they break.
+    /// Returns a set of these tiers and annotations without checking them; [`check_tier_set`] lists the rules that they break.
     #[must_use]
-    pub fn new(
-        tiers: impl IntoIterator<Item = Tier>,
-        annotations: impl IntoIterator<Item = Annotation>,
-    ) -> Self {
+    pub fn new(tiers: impl IntoIterator<Item = Tier>, annotations: impl IntoIterator<Item = TierAnnotation>) -> Self {
         let mut set = Self::default();
         for tier in tiers {
             set.tiers.insert(tier.id, tier);
         }
         for annotation in annotations {
-            set.put(annotation);
+            set.put_annotation(annotation);
         }
         set
     }
@@ -361,87 +358,76 @@ impl TierSet {
     /// Returns this set with the values of the vocabulary `id`; values of vocabularies that a set does not know are not
     /// checked.
     #[must_use]
-    pub fn with_vocabulary(
-        mut self,
-        id: impl Into<String>,
-        values: impl IntoIterator<Item = String>,
-    ) -> Self {
-        self.vocabularies
-            .insert(id.into(), values.into_iter().collect());
+    pub fn with_vocabulary(mut self, id: impl Into<String>, values: impl IntoIterator<Item = String>) -> Self {
+        self.vocabularies.insert(id.into(), values.into_iter().collect());
         self
     }
 
     /// Returns the tiers in the order of their handles.
-    pub fn tiers(&self) -> impl Iterator<Item = &Tier> {
+    pub fn all_tiers(&self) -> impl Iterator<Item = &Tier> {
         self.tiers.values()
     }
 
     /// Returns the tier with this handle.
     #[must_use]
-    pub fn tier(&self, id: TierId) -> Option<&Tier> {
+    pub fn tier_by_id(&self, id: TierId) -> Option<&Tier> {
         self.tiers.get(&id)
     }
 
     /// Returns the tiers that hang directly below `id`.
     pub fn tiers_below(&self, id: TierId) -> impl Iterator<Item = &Tier> {
-        self.tiers
-            .values()
-            .filter(move |tier| tier.parent_id() == Some(id))
+        self.tiers.values().filter(move |tier| tier.parent_id() == Some(id))
     }
 
     /// Returns the known values of the vocabulary `id`.
     #[must_use]
-    pub fn vocabulary(&self, id: &str) -> Option<&Vocabulary> {
+    pub fn vocabulary_by_id(&self, id: &str) -> Option<&TierVocabulary> {
         self.vocabularies.get(id)
     }
 
     /// Returns every annotation in the order of their handles.
-    pub fn annotations(&self) -> impl Iterator<Item = &Annotation> {
+    pub fn all_annotations(&self) -> impl Iterator<Item = &TierAnnotation> {
         self.annotations.values()
     }
 
     /// Returns the annotation with this handle.
     #[must_use]
-    pub fn annotation(&self, id: AnnotationId) -> Option<&Annotation> {
+    pub fn annotation_by_id(&self, id: AnnotationId) -> Option<&TierAnnotation> {
         self.annotations.get(&id)
     }
 
     /// Returns the annotations of a tier in the order of time, and of their positions below a parent.
-    pub fn on(&self, tier: TierId) -> impl DoubleEndedIterator<Item = &Annotation> {
+    pub fn annotations_on_tier(&self, tier: TierId) -> impl DoubleEndedIterator<Item = &TierAnnotation> {
         let keys = self.by_time.get(&tier).into_iter().flatten();
         keys.filter_map(|(_, _, id)| self.annotations.get(id))
     }
 
     /// Returns the annotations directly below `parent`, tier by tier, each in the order of time.
-    pub fn below(&self, parent: AnnotationId) -> impl DoubleEndedIterator<Item = &Annotation> {
+    pub fn annotations_below(&self, parent: AnnotationId) -> impl DoubleEndedIterator<Item = &TierAnnotation> {
         let keys = self.children.get(&parent).into_iter().flatten();
         keys.filter_map(|(_, (_, _, id))| self.annotations.get(id))
     }
 
     /// Returns the annotations of `tier` directly below `parent` in the order of time.
-    pub fn below_on(
-        &self,
-        parent: AnnotationId,
-        tier: TierId,
-    ) -> impl DoubleEndedIterator<Item = &Annotation> {
-        self.below(parent).filter(move |child| child.tier == tier)
+    pub fn below_on(&self, parent: AnnotationId, tier: TierId) -> impl DoubleEndedIterator<Item = &TierAnnotation> {
+        self.annotations_below(parent).filter(move |child| child.tier == tier)
     }
 
     /// Returns the annotations of `tier` that share an instant with `span`, in the order of time.
     #[must_use]
-    pub fn overlapping(&self, tier: TierId, span: Span) -> Vec<&Annotation> {
+    pub fn overlapping_annotations(&self, tier: TierId, span: TimeSpan) -> Vec<&TierAnnotation> {
         let Some(keys) = self.by_time.get(&tier) else {
             return Vec::new();
         };
-        let end = (span.end(), 0, AnnotationId(0));
-        let mut found: Vec<&Annotation> = keys
+        let end = (span.span_end_instant(), 0, AnnotationId(0));
+        let mut overlaps: Vec<&TierAnnotation> = keys
             .range(..end)
             .rev()
             .filter_map(|(_, _, id)| self.annotations.get(id))
-            .take_while(|annotation| annotation.span.end() > span.start())
+            .take_while(|annotation| annotation.span.span_end_instant() > span.span_start_instant())
             .collect();
-        found.reverse();
-        found
+        overlaps.reverse();
+        overlaps
     }
 
     /// Returns this set with the positions and times of all symbolic annotations recomputed from their parents:
@@ -449,7 +435,7 @@ impl TierSet {
     ///
     /// For sets from files, which give symbolic annotations no times.
     #[must_use]
-    pub fn settled(mut self) -> Self {
+    pub fn with_settled_tiers(mut self) -> Self {
         let symbolic = |tier: &&Tier| !tier.is_alignable();
         let mut tiers: Vec<(TierId, Option<TierId>)> = self
             .tiers
@@ -464,23 +450,22 @@ impl TierSet {
                 .into_iter()
                 .partition(|(_, above)| above.is_none_or(|above| !waiting.contains(&above)));
             ready = !now.is_empty();
-            now.into_iter().for_each(|(id, _)| self.settle(id));
+            now.into_iter().for_each(|(id, _)| self.settle_symbolic_tier(id));
             tiers = later;
         }
         self
     }
 
-    fn settle(&mut self, tier: TierId) {
-        let mut families: BTreeMap<AnnotationId, Vec<Annotation>> = BTreeMap::new();
-        for child in self.on(tier) {
+    fn settle_symbolic_tier(&mut self, tier: TierId) {
+        let mut families: BTreeMap<AnnotationId, Vec<TierAnnotation>> = BTreeMap::new();
+        for child in self.annotations_on_tier(tier) {
             if let Some(parent) = child.parent {
                 families.entry(parent).or_default().push(child.clone());
             }
         }
-        let listed =
-            self.tier(tier).and_then(Tier::stereotype) == Some(Stereotype::SymbolicSubdivision);
+        let listed = self.tier_by_id(tier).and_then(Tier::tier_stereotype) == Some(TierStereotype::SymbolicSubdivision);
         for (parent, mut family) in families {
-            let Some(span) = self.annotation(parent).map(|parent| parent.span) else {
+            let Some(span) = self.annotation_by_id(parent).map(|parent| parent.span) else {
                 continue;
             };
             family.sort_by_key(|child| (child.order, child.id));
@@ -492,22 +477,22 @@ impl TierSet {
                     0
                 };
                 child.span = if listed {
-                    share(span, place, count)
+                    subdivision_share(span, place, count)
                 } else {
                     span
                 };
-                self.put(child);
+                self.put_annotation(child);
             }
         }
     }
 
     /// Carries out `edits` in their order.
-    pub fn apply(&mut self, edits: impl IntoIterator<Item = Edit>) {
+    pub fn apply_edits(&mut self, edits: impl IntoIterator<Item = TierEdit>) {
         for edit in edits {
             match edit {
-                Edit::Put(annotation) => self.put(annotation),
-                Edit::Remove(id) => self.remove(id),
-                Edit::Vocabulary { tier, vocabulary } => {
+                TierEdit::Put(annotation) => self.put_annotation(annotation),
+                TierEdit::Remove(id) => self.remove_annotation(id),
+                TierEdit::Vocabulary { tier, vocabulary } => {
                     if let Some(tier) = self.tiers.get_mut(&tier) {
                         tier.vocabulary = vocabulary;
                     }
@@ -516,20 +501,17 @@ impl TierSet {
         }
     }
 
-    fn put(&mut self, annotation: Annotation) {
-        self.remove(annotation.id);
+    fn put_annotation(&mut self, annotation: TierAnnotation) {
+        self.remove_annotation(annotation.id);
         let key = time_key(&annotation);
         self.by_time.entry(annotation.tier).or_default().insert(key);
         if let Some(parent) = annotation.parent {
-            self.children
-                .entry(parent)
-                .or_default()
-                .insert((annotation.tier, key));
+            self.children.entry(parent).or_default().insert((annotation.tier, key));
         }
         self.annotations.insert(annotation.id, annotation);
     }
 
-    fn remove(&mut self, id: AnnotationId) {
+    fn remove_annotation(&mut self, id: AnnotationId) {
         let Some(old) = self.annotations.remove(&id) else {
             return;
         };
@@ -555,17 +537,17 @@ impl TierSet {
 ///
 /// The shares tile the parent; their lengths differ by a microsecond at most.
 #[must_use]
-pub fn share(parent: Span, place: usize, count: usize) -> Span {
-    let (length, count) = (i128::from(parent.micros()), (count as i128).max(1));
-    let at = |place: i128| {
+pub fn subdivision_share(parent: TimeSpan, place: usize, count: usize) -> TimeSpan {
+    let (length, count) = (i128::from(parent.span_micros()), (count as i128).max(1));
+    let boundary = |place: i128| {
         let offset = length * place.min(count) / count;
         parent
-            .start()
-            .shifted(i64::try_from(offset).unwrap_or(i64::MAX))
+            .span_start_instant()
+            .shifted_instant(i64::try_from(offset).unwrap_or(i64::MAX))
     };
-    Span::between(at(place as i128), at(place as i128 + 1))
+    TimeSpan::span_between(boundary(place as i128), boundary(place as i128 + 1))
 }
 
-fn time_key(annotation: &Annotation) -> TimeKey {
-    (annotation.span.start(), annotation.order, annotation.id)
+fn time_key(annotation: &TierAnnotation) -> TimeKey {
+    (annotation.span.span_start_instant(), annotation.order, annotation.id)
 }

@@ -1,7 +1,7 @@
 //! From tiers to tokens: collects the values of component tiers for one token of a sign.
 
-use crate::component::{Component, Field, HandRef, Phase, Reading};
-use chereme_motion::Span;
+use crate::component::{ComponentField, ComponentReading, HandRef, SignComponent, SignPhase};
+use chereme_motion::TimeSpan;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ComponentSpan {
     /// The tier's field, without a phase.
-    pub field: Field,
+    pub field: ComponentField,
     /// The time.
-    pub span: Span,
+    pub span: TimeSpan,
     /// The value, or the reason for its absence.
-    pub reading: Reading,
+    pub reading: ComponentReading,
 }
 
 /// Returns the index in `tokens` of the gloss to which an annotation of a component tier belongs.
@@ -21,14 +21,14 @@ pub struct ComponentSpan {
 /// It belongs to the gloss with which it shares the most time, provided that this is at least half of the shorter of
 /// the two; among equals, to the one that starts first. An annotation without length belongs to none.
 #[must_use]
-pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
-    let shared = |token: &Span| token.intersection(annotation).map_or(0, Span::micros);
+pub fn owning_token_index(annotation: TimeSpan, tokens: &[TimeSpan]) -> Option<usize> {
+    let shared = |token: &TimeSpan| token.span_intersection(annotation).map_or(0, TimeSpan::span_micros);
     let best = tokens
         .iter()
         .enumerate()
-        .max_by_key(|(n, token)| (shared(token), Reverse((token.start(), *n))));
+        .max_by_key(|(n, token)| (shared(token), Reverse((token.span_start_instant(), *n))));
     let (place, token) = best?;
-    let shorter = annotation.micros().min(token.micros());
+    let shorter = annotation.span_micros().min(token.span_micros());
     let enough = i128::from(shared(token)) * 2 >= i128::from(shorter);
     (shared(token) > 0 && enough).then_some(place)
 }
@@ -37,13 +37,13 @@ pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
 /// annotation that gives its value.
 ///
 /// `token` is the gloss's span and `others` are the spans of the glosses around it, of the same hand or signer: an
-/// annotation belongs to one gloss only, see [`owner`]. `hand` is the gloss's own hand, if its tier has one:
+/// annotation belongs to one gloss only, see [`owning_token_index`]. `hand` is the gloss's own hand, if its tier has one:
 /// annotations about another hand are then left out, and annotations of hand tiers that name no hand count as about
 /// this one; non-manual components belong to no hand and always count. Hands are compared as they are: resolve
 /// `dominant` and `weak` first.
 ///
 /// Of one field, a single value has no phase. Of several, in the order of their starts, the first is
-/// [`Phase::Initial`], the last [`Phase::Final`], and those between are [`Phase::Middle`] from 1 on (beyond 255 they
+/// [`SignPhase::Initial`], the last [`SignPhase::Final`], and those between are [`SignPhase::Middle`] from 1 on (beyond 255 they
 /// are left out). Neighbours with equal values count as one. The result is sorted by the fields without their phases,
 /// then by time.
 ///
@@ -72,26 +72,20 @@ pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
 /// );
 /// ```
 #[must_use]
-pub fn readings(
-    token: Span,
-    others: &[Span],
+pub fn component_readings(
+    token: TimeSpan,
+    others: &[TimeSpan],
     hand: Option<HandRef>,
     around: &[ComponentSpan],
-) -> Vec<(Field, usize)> {
-    let tokens: Vec<Span> = std::iter::once(token)
-        .chain(others.iter().copied())
-        .collect();
-    let mut fields: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+) -> Vec<(ComponentField, usize)> {
+    let tokens: Vec<TimeSpan> = std::iter::once(token).chain(others.iter().copied()).collect();
+    let mut fields: BTreeMap<ComponentKey, Vec<usize>> = BTreeMap::new();
     for (place, annotation) in around.iter().enumerate() {
         let manual = annotation.field.component.is_manual();
         let about = annotation.field.hand.or(hand.filter(|_| manual));
         let ours = !manual || hand.is_none() || about == hand;
-        if ours && owner(annotation.span, &tokens) == Some(0) {
-            let key = (
-                annotation.field.component,
-                annotation.field.feature.as_deref(),
-                about,
-            );
+        if ours && owning_token_index(annotation.span, &tokens) == Some(0) {
+            let key = (annotation.field.component, annotation.field.feature.as_deref(), about);
             fields.entry(key).or_default().push(place);
         }
     }
@@ -101,23 +95,28 @@ pub fn readings(
         .collect()
 }
 
-type Key<'a> = (Component, Option<&'a str>, Option<HandRef>);
+type ComponentKey<'a> = (SignComponent, Option<&'a str>, Option<HandRef>);
 
 fn phased(
-    (component, feature, hand): Key,
+    (component, feature, hand): ComponentKey,
     mut places: Vec<usize>,
     around: &[ComponentSpan],
-) -> Vec<(Field, usize)> {
-    places.sort_by_key(|place| (around[*place].span.start(), around[*place].span.end()));
+) -> Vec<(ComponentField, usize)> {
+    places.sort_by_key(|place| {
+        (
+            around[*place].span.span_start_instant(),
+            around[*place].span.span_end_instant(),
+        )
+    });
     places.dedup_by(|later, earlier| around[*later].reading == around[*earlier].reading);
     let last = places.len().saturating_sub(1);
     let phase = |place: usize| match place {
         _ if last == 0 => Some(None),
-        0 => Some(Some(Phase::Initial)),
-        place if place == last => Some(Some(Phase::Final)),
-        place => Some(Some(Phase::Middle(u8::try_from(place).ok()?))),
+        0 => Some(Some(SignPhase::Initial)),
+        place if place == last => Some(Some(SignPhase::Final)),
+        place => Some(Some(SignPhase::Middle(u8::try_from(place).ok()?))),
     };
-    let field = |phase| Field {
+    let field = |phase| ComponentField {
         hand,
         component,
         feature: feature.map(str::to_owned),
@@ -132,11 +131,11 @@ fn phased(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_motion::Instant;
+    use chereme_motion::RecordingInstant;
     use proptest::prelude::*;
 
-    fn span(start: i64, end: i64) -> Span {
-        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    fn span(start: i64, end: i64) -> TimeSpan {
+        TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
     }
 
     fn says(text: &str) -> ComponentSpan {
@@ -148,8 +147,8 @@ mod tests {
             field: field.parse().expect("a field"),
             span: span(number(start), number(end)),
             reading: match value {
-                "?" => Reading::Unclear,
-                "n/a" => Reading::NotApplicable,
+                "?" => ComponentReading::Unclear,
+                "n/a" => ComponentReading::NotApplicable,
                 value => value.into(),
             },
         }
@@ -171,7 +170,7 @@ mod tests {
             (span(0, 10), &[], None),
         ] {
             assert_eq!(
-                owner(annotation, tokens),
+                owning_token_index(annotation, tokens),
                 place,
                 "{annotation:?} {tokens:?}"
             );
@@ -182,11 +181,7 @@ mod tests {
     fn phases_follow_the_order_of_time() {
         let right = Some(HandRef::Right);
         for (hand, around, wanted) in [
-            (
-                right,
-                &["0-100 configuration=U"][..],
-                "right.configuration=U",
-            ),
+            (right, &["0-100 configuration=U"][..], "right.configuration=U"),
             (None, &["0-100 configuration=U"], "configuration=U"),
             (
                 right,
@@ -203,11 +198,7 @@ mod tests {
                 ],
                 "initial.movement=arc middle.movement=unclear middle2.movement=arc final.movement=hold",
             ),
-            (
-                None,
-                &["0-50 movement=arc", "50-100 movement=arc"],
-                "movement=arc",
-            ),
+            (None, &["0-50 movement=arc", "50-100 movement=arc"], "movement=arc"),
             (
                 right,
                 &[
@@ -229,10 +220,8 @@ mod tests {
             (right, &[], ""),
         ] {
             let around: Vec<ComponentSpan> = around.iter().map(|text| says(text)).collect();
-            let found = readings(span(0, 100), &[span(100, 200)], hand, &around);
-            let found = found
-                .iter()
-                .map(|(f, place)| format!("{f}={}", around[*place].reading));
+            let found = component_readings(span(0, 100), &[span(100, 200)], hand, &around);
+            let found = found.iter().map(|(f, place)| format!("{f}={}", around[*place].reading));
             let found: Vec<String> = found.collect();
             assert_eq!(found.join(" "), wanted);
         }
@@ -240,13 +229,8 @@ mod tests {
 
     #[test]
     fn a_repeated_value_belongs_to_its_own_annotation() {
-        let around = [
-            "60-80 movement=out",
-            "0-20 movement=out",
-            "20-30 movement=down",
-        ]
-        .map(says);
-        let found = readings(span(0, 100), &[], None, &around);
+        let around = ["60-80 movement=out", "0-20 movement=out", "20-30 movement=down"].map(says);
+        let found = component_readings(span(0, 100), &[], None, &around);
         let places: Vec<usize> = found.into_iter().map(|(_, place)| place).collect();
         assert_eq!(places, [1, 2, 0]);
     }
@@ -260,12 +244,12 @@ mod tests {
             at in (0i64..60, 1i64..30),
         ) {
             let cuts: Vec<i64> = cuts.into_iter().collect();
-            let tokens: Vec<Span> = cuts.windows(2).map(|pair| span(pair[0], pair[1])).collect();
+            let tokens: Vec<TimeSpan> = cuts.windows(2).map(|pair| span(pair[0], pair[1])).collect();
             let around = [ComponentSpan { span: span(at.0, at.0 + at.1), ..says("0-1 movement=arc") }];
             let readers = (0..tokens.len()).filter(|n| {
-                let others: Vec<Span> =
+                let others: Vec<TimeSpan> =
                     tokens.iter().enumerate().filter(|(k, _)| k != n).map(|(_, span)| *span).collect();
-                !readings(tokens[*n], &others, None, &around).is_empty()
+                !component_readings(tokens[*n], &others, None, &around).is_empty()
             });
             prop_assert!(readers.count() <= 1);
         }

@@ -26,7 +26,7 @@ pub use chereme_data::schema_text;
 ///
 /// # Errors
 /// Fails if the text is not JSON, or a number is missing or of another kind.
-pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error> {
+pub fn read_tuned_document<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error> {
     serde_json::from_str(text)
 }
 
@@ -34,7 +34,7 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error> {
 ///
 /// # Errors
 /// Fails if there is no such array.
-pub fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<T, D::Error> {
+pub fn read_tuned_number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<T, D::Error> {
     let (value, _unit, _meaning): (T, String, String) = Deserialize::deserialize(from)?;
     Ok(value)
 }
@@ -49,7 +49,7 @@ macro_rules! tuned_numbers {
             #[derive(Debug, ::serde::Deserialize)]
             #[serde(deny_unknown_fields)]
             pub(crate) struct $numbers {
-                $(#[serde(deserialize_with = "chereme_sign::tuned::number")] pub(crate) $name: $kind,)*
+                $(#[serde(deserialize_with = "chereme_sign::tuned::read_tuned_number")] pub(crate) $name: $kind,)*
             }
         )*
         /// The tuned numbers, by group.
@@ -64,7 +64,7 @@ macro_rules! tuned_numbers {
         #[inline]
         pub(crate) fn tuned() -> &'static Tuned {
             static TUNED: ::std::sync::LazyLock<Tuned> = ::std::sync::LazyLock::new(|| {
-                $crate::tuned::read(DOCUMENT).expect("the program's own file has every number")
+                $crate::tuned::read_tuned_document(DOCUMENT).expect("the program's own file has every number")
             });
             &TUNED
         }
@@ -75,37 +75,36 @@ pub use tuned_numbers;
 
 /// Lists the numbers of a document that lack a meaning, or whose unit the document's description does not explain.
 #[must_use]
-pub fn faults(text: &str) -> Vec<String> {
-    let mut groups: BTreeMap<String, Value> = match read(text) {
+pub fn tuned_document_faults(text: &str) -> Vec<String> {
+    let mut groups: BTreeMap<String, Value> = match read_tuned_document(text) {
         Ok(groups) => groups,
         Err(error) => return vec![error.to_string()],
     };
-    let mut found = Vec::new();
+    let mut fault_texts = Vec::new();
     if groups.remove("version").is_none() {
-        found.push("no version".to_owned());
+        fault_texts.push("no version".to_owned());
     }
     let description = groups.remove("description").unwrap_or_default().to_string();
     for (group, numbers) in groups {
-        let numbers: BTreeMap<String, (Value, String, String)> =
-            match serde_json::from_value(numbers) {
-                Ok(numbers) => numbers,
-                Err(error) => {
-                    found.push(format!("{group}: {error}"));
-                    continue;
-                }
-            };
+        let numbers: BTreeMap<String, (Value, String, String)> = match serde_json::from_value(numbers) {
+            Ok(numbers) => numbers,
+            Err(error) => {
+                fault_texts.push(format!("{group}: {error}"));
+                continue;
+            }
+        };
         for (name, (_, units, meaning)) in numbers {
             for unit in units.split(", ") {
                 if !description.contains(&format!(" {unit} ")) {
-                    found.push(format!("{group}.{name}: the unit {unit}"));
+                    fault_texts.push(format!("{group}.{name}: the unit {unit}"));
                 }
             }
             if meaning.len() < 14 {
-                found.push(format!("{group}.{name}: the meaning {meaning}"));
+                fault_texts.push(format!("{group}.{name}: the meaning {meaning}"));
             }
         }
     }
-    found
+    fault_texts
 }
 
 #[cfg(test)]
@@ -115,20 +114,18 @@ mod tests {
     #[test]
     fn numbers_without_a_known_unit_or_a_meaning_are_listed() {
         let document = |unit: &str, meaning: &str| {
-            format!(
-                r#"{{"version": 1, "description": "Units: m metres.", "a": {{"b": [1, "{unit}", "{meaning}"]}}}}"#
-            )
+            format!(r#"{{"version": 1, "description": "Units: m metres.", "a": {{"b": [1, "{unit}", "{meaning}"]}}}}"#)
         };
-        assert!(faults(&document("m", "Length of a usual step")).is_empty());
+        assert!(tuned_document_faults(&document("m", "Length of a usual step")).is_empty());
         assert_eq!(
-            faults(&document("km", "Length of a usual step")),
+            tuned_document_faults(&document("km", "Length of a usual step")),
             ["a.b: the unit km"]
         );
         assert_eq!(
-            faults(&document("m", "Length")),
+            tuned_document_faults(&document("m", "Length")),
             ["a.b: the meaning Length"]
         );
-        assert_eq!(faults(r#"{"description": ""}"#), ["no version"]);
-        assert_eq!(faults("{").len(), 1);
+        assert_eq!(tuned_document_faults(r#"{"description": ""}"#), ["no version"]);
+        assert_eq!(tuned_document_faults("{").len(), 1);
     }
 }

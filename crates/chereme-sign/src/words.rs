@@ -1,6 +1,6 @@
 //! Words that people read: the languages of the interfaces, and texts in them.
 //!
-//! Words lie in folders, one for each language: see [`folders`]. A [`Text`] names its words there by an id, or holds them in
+//! Words lie in folders, one for each language: see [`folders`]. A [`InterfaceText`] names its words there by an id, or holds them in
 //! English and French, as those of operators and detectors do, beside their code.
 
 use serde::de::{Deserialize, Deserializer, Error as _};
@@ -12,7 +12,7 @@ use folders::{language_files, phrase_text};
 
 /// A language of the user interfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Language {
+pub enum InterfaceLanguage {
     /// English, in which every text is written.
     #[default]
     English,
@@ -22,10 +22,9 @@ pub enum Language {
     Other(&'static str),
 }
 
-impl Language {
+impl InterfaceLanguage {
     /// The languages in which every text is written, with their own names for themselves.
-    pub const ALL: [(Self, &'static str); 2] =
-        [(Self::English, "English"), (Self::French, "Français")];
+    pub const BUILTIN_LANGUAGES: [(Self, &'static str); 2] = [(Self::English, "English"), (Self::French, "Français")];
 
     /// Returns every language that has a folder of words, with its own name for itself.
     #[must_use]
@@ -34,7 +33,7 @@ impl Language {
             Some((Self::from_code(code)?, files.language_name(code)))
         };
         let mut listed: Vec<_> = language_files().iter().filter_map(named).collect();
-        listed.sort_by_key(|(language, _)| (matches!(language, Self::Other(_)), language.code()));
+        listed.sort_by_key(|(language, _)| (matches!(language, Self::Other(_)), language.language_code()));
         listed
     }
 
@@ -51,7 +50,7 @@ impl Language {
 
     /// Returns its language code, which inventories use for their names.
     #[must_use]
-    pub fn code(self) -> &'static str {
+    pub fn language_code(self) -> &'static str {
         match self {
             Self::English => "en",
             Self::French => "fr",
@@ -72,9 +71,7 @@ impl Language {
     /// Returns the language of the system from the environment, which `variable` reads.
     #[must_use]
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
-        let mut locales = ["LC_ALL", "LC_MESSAGES", "LANG"]
-            .into_iter()
-            .filter_map(variable);
+        let mut locales = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().filter_map(variable);
         let locale = locales.find(|locale| !locale.is_empty());
         Self::of_locale(&locale.unwrap_or_default())
     }
@@ -89,25 +86,25 @@ impl Language {
     }
 }
 
-impl Serialize for Language {
+impl Serialize for InterfaceLanguage {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_str(self.stored_name())
     }
 }
 
-impl<'de> Deserialize<'de> for Language {
+impl<'de> Deserialize<'de> for InterfaceLanguage {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let name = String::deserialize(from)?;
-        let mut complete = Self::ALL.into_iter().map(|(language, _)| language);
+        let mut complete = Self::BUILTIN_LANGUAGES.into_iter().map(|(language, _)| language);
         let stored = complete.find(|language| language.stored_name() == name);
-        let known = stored.or_else(|| Self::from_code(&name));
-        known.ok_or_else(|| D::Error::custom(format!("there are no words for the language {name}")))
+        let language = stored.or_else(|| Self::from_code(&name));
+        language.ok_or_else(|| D::Error::custom(format!("there are no words for the language {name}")))
     }
 }
 
 /// A text for people: its words in English and French, or its id in the folders of words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Text {
+pub struct InterfaceText {
     /// In English; the id, if the words lie in folders.
     pub en: &'static str,
     /// In French; the id, if the words lie in folders.
@@ -115,7 +112,7 @@ pub struct Text {
     lies_in_folders: bool,
 }
 
-impl Text {
+impl InterfaceText {
     /// Creates a text from its English and its French words.
     #[must_use]
     pub const fn new(en: &'static str, fr: &'static str) -> Self {
@@ -138,14 +135,14 @@ impl Text {
 
     /// Returns the words in `language`; words that it lacks are English, and an id without words stays.
     #[must_use]
-    pub fn of(self, language: Language) -> &'static str {
+    pub fn text_in_language(self, language: InterfaceLanguage) -> &'static str {
         match language {
             _ if self.lies_in_folders => {
                 let id = self.en.to_lowercase().replace(['.', '_'], "-");
                 phrase_text(&id, language).unwrap_or(self.en)
             }
-            Language::French => self.fr,
-            Language::English | Language::Other(_) => self.en,
+            InterfaceLanguage::French => self.fr,
+            InterfaceLanguage::English | InterfaceLanguage::Other(_) => self.en,
         }
     }
 }
@@ -156,40 +153,50 @@ mod tests {
 
     #[test]
     fn a_language_is_a_folder_and_falls_back_to_english() {
-        let codes: Vec<&str> = Language::all_listed()
+        let codes: Vec<&str> = InterfaceLanguage::all_listed()
             .iter()
-            .map(|(language, _)| language.code())
+            .map(|(language, _)| language.language_code())
             .collect();
         assert_eq!(codes[..2], ["en", "fr"]);
-        assert_eq!(Language::from_code("fr"), Some(Language::French));
-        assert_eq!(Language::from_code("tlh"), None);
-        for (language, name) in Language::all_listed() {
-            assert_eq!(Language::from_code(language.code()), Some(language));
-            assert_ne!(name, language.code(), "language-name");
+        assert_eq!(InterfaceLanguage::from_code("fr"), Some(InterfaceLanguage::French));
+        assert_eq!(InterfaceLanguage::from_code("tlh"), None);
+        for (language, name) in InterfaceLanguage::all_listed() {
+            assert_eq!(InterfaceLanguage::from_code(language.language_code()), Some(language));
+            assert_ne!(name, language.language_code(), "language-name");
             let stored = serde_json::to_string(&language).expect("stored");
-            let read: Language = serde_json::from_str(&stored).expect("read");
+            let read: InterfaceLanguage = serde_json::from_str(&stored).expect("read");
             assert_eq!(read, language);
         }
-        assert!(serde_json::from_str::<Language>("\"tlh\"").is_err());
-        let undo = Text::from_id("menu-edit.undo");
+        assert!(serde_json::from_str::<InterfaceLanguage>("\"tlh\"").is_err());
+        let undo = InterfaceText::from_id("menu-edit.undo");
         let others = ["Undo", "Annuler", "Undo"];
-        let languages = [Language::English, Language::French, Language::Other("tlh")];
-        assert_eq!(languages.map(|language| undo.of(language)), others);
-        assert_eq!(Text::new("a", "b").of(Language::Other("tlh")), "a");
-        assert_eq!(Text::from_id("menu-none").of(Language::French), "menu-none");
+        let languages = [
+            InterfaceLanguage::English,
+            InterfaceLanguage::French,
+            InterfaceLanguage::Other("tlh"),
+        ];
+        assert_eq!(languages.map(|language| undo.text_in_language(language)), others);
+        assert_eq!(
+            InterfaceText::new("a", "b").text_in_language(InterfaceLanguage::Other("tlh")),
+            "a"
+        );
+        assert_eq!(
+            InterfaceText::from_id("menu-none").text_in_language(InterfaceLanguage::French),
+            "menu-none"
+        );
     }
 
     #[test]
     fn the_language_is_that_of_the_locale() {
-        assert_eq!(Language::of_locale("fr_CH"), Language::French);
-        assert_eq!(Language::of_locale("C"), Language::English);
+        assert_eq!(InterfaceLanguage::of_locale("fr_CH"), InterfaceLanguage::French);
+        assert_eq!(InterfaceLanguage::of_locale("C"), InterfaceLanguage::English);
         let of = |name: &str| match name {
             "LC_ALL" => Some(String::new()),
             "LC_MESSAGES" => Some("fr_BE.UTF-8".to_owned()),
             "LANG" => Some("C".to_owned()),
             _ => None,
         };
-        assert_eq!(Language::of_environment(of), Language::French);
-        assert_eq!(Language::of_environment(|_| None), Language::English);
+        assert_eq!(InterfaceLanguage::of_environment(of), InterfaceLanguage::French);
+        assert_eq!(InterfaceLanguage::of_environment(|_| None), InterfaceLanguage::English);
     }
 }

@@ -1,6 +1,6 @@
 //! Transcriptions by other people, if they are stored next to the repository.
 
-use chereme_sign::hamnosys::{Symbol, parse, parse_lenient};
+use chereme_sign::hamnosys::{HamnosysSymbol, parse_hamnosys, parse_lenient};
 
 #[test]
 fn transcriptions_of_others_read_and_print_as_they_were() {
@@ -14,11 +14,9 @@ fn transcriptions_of_others_read_and_print_as_they_were() {
         "hearai-parse-hamnosys/hamnosys_example.txt",
         "hearai-parse-hamnosys/test_source.txt",
     ] {
-        let path = std::path::Path::new(&data)
-            .join("notation/hamnosys")
-            .join(file);
+        let path = std::path::Path::new(&data).join("notation/hamnosys").join(file);
         let text = std::fs::read_to_string(path).expect("a readable file");
-        let symbol = |c: char| Symbol::from_char(c).is_some() && !matches!(c, '!' | '+');
+        let symbol = |c: char| HamnosysSymbol::from_char(c).is_some() && !matches!(c, '!' | '+');
         texts.extend(
             text.split(|c| !symbol(c))
                 .map(|run| run.trim_matches(' ').to_owned())
@@ -27,14 +25,14 @@ fn transcriptions_of_others_read_and_print_as_they_were() {
     }
     let (mut refused, mut canonical) = (0, 0);
     for text in &texts {
-        match parse(text) {
+        match parse_hamnosys(text) {
             Ok(read) => {
-                assert_eq!(read.print(), *text);
+                assert_eq!(read.transcription_text(), *text);
                 canonical += usize::from(!format!("{:?}", read.sign).contains("Written(Some("));
             }
             Err(_) => {
                 refused += 1;
-                assert_eq!(parse_lenient(text).print(), *text);
+                assert_eq!(parse_lenient(text).transcription_text(), *text);
             }
         }
     }
@@ -43,9 +41,5 @@ fn transcriptions_of_others_read_and_print_as_they_were() {
         texts.len() - refused,
         texts.len()
     );
-    assert!(
-        refused * 50 <= texts.len(),
-        "{refused} of {} refused",
-        texts.len()
-    );
+    assert!(refused * 50 <= texts.len(), "{refused} of {} refused", texts.len());
 }

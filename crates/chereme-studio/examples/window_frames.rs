@@ -24,13 +24,13 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use chereme_corpus::{
-    Address, Corpus, ImportOptions, MediaChange, Name, PictureOptions, Progress, unheard,
+    Corpus, CorpusAddress, ImportOptions, MediaChange, PictureOptions, ProgressReceiver, RowName, ignore_progress_step,
     unpack_starter,
 };
-use chereme_studio::{Folders, Options, Studio};
+use chereme_studio::{Studio, StudioFolders, StudioOptions};
 use eframe::egui::{
-    Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
-    RawInput, TouchPhase, Ui, ViewportBuilder, ViewportCommand, Visuals, vec2,
+    Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput, TouchPhase, Ui,
+    ViewportBuilder, ViewportCommand, Visuals, vec2,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -64,15 +64,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = false;
-    let folders = Folders {
+    let folders = StudioFolders {
         config: Some(folder.path().to_owned()),
         data: None,
     };
-    let options = Options {
+    let options = StudioOptions {
         corpus: Some(corpus),
         author: "A".into(),
         folders,
-        ..Options::default()
+        ..StudioOptions::default()
     };
     let meter = Meter {
         studio: Studio::new(options),
@@ -112,26 +112,22 @@ fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
         .find(|path| path.ends_with("phrase.bvh"))
         .ok_or("no phrase")?;
     let path = folder.join("many.chereme");
-    let mut corpus = Corpus::create(&path, "A")?;
+    let mut corpus = Corpus::create_corpus(&path, "A")?;
     let beside = folder.join("phrase.bvh");
     std::fs::copy(phrase, &beside)?;
     let annotations = folder.join("phrase.eaf");
     std::fs::write(&annotations, many(200, 500, 6000)?)?;
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    corpus.import(
-        &[beside, annotations],
-        &options,
-        &mut Progress::new(&mut hear),
-    )?;
+    corpus.import_paths(&[beside, annotations], &options, &mut ProgressReceiver::new(&mut hear))?;
     Ok(path)
 }
 
 /// Returns the same corpus with a film next to the signer.
 fn filmed(folder: &Path, film: Option<String>) -> Result<PathBuf, Box<dyn Error>> {
     let path = made(folder)?;
-    let mut corpus = Corpus::open(&path, "A")?;
-    let recording = Name::Number(1);
+    let mut corpus = Corpus::open_corpus(&path, "A")?;
+    let recording = RowName::Number(1);
     let film = match film {
         Some(film) => std::fs::canonicalize(film)?,
         None => {
@@ -140,9 +136,9 @@ fn filmed(folder: &Path, film: Option<String>) -> Result<PathBuf, Box<dyn Error>
                 height: Some(1080),
                 ..PictureOptions::default()
             };
-            let mut hear = unheard;
-            let what = Address::Recording(recording.clone());
-            corpus.draw(&what, &film, &options, &mut Progress::new(&mut hear))?;
+            let mut hear = ignore_progress_step;
+            let what = CorpusAddress::Recording(recording.clone());
+            corpus.draw_movement_file(&what, &film, &options, &mut ProgressReceiver::new(&mut hear))?;
             film
         }
     };
@@ -157,10 +153,10 @@ fn starter(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let files = folder.join("files");
     unpack_starter(&files)?;
     let path = folder.join("starter.chereme");
-    let mut corpus = Corpus::create(&path, "A")?;
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&path, "A")?;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    corpus.import(&[files], &options, &mut Progress::new(&mut hear))?;
+    corpus.import_paths(&[files], &options, &mut ProgressReceiver::new(&mut hear))?;
     Ok(path)
 }
 
@@ -182,18 +178,18 @@ const CHANGES: u64 = 60;
 /// Prints the time that each changed recipe takes with nothing else running.
 #[expect(clippy::print_stdout, reason = "it tells what it measured")]
 fn without_window(path: &Path) -> Result<(), Box<dyn Error>> {
-    let mut corpus = Corpus::open(path, "A")?;
+    let mut corpus = Corpus::open_corpus(path, "A")?;
     for recipe in RECIPES {
         let mut times = [Vec::new(), Vec::new()];
         let mut frames = 0;
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         for nth in 0..CHANGES {
             let text = changed(recipe, nth);
             let begun = Instant::now();
-            frames = corpus.preview(&text)?.clip.frames();
+            frames = corpus.preview_recipe(&text)?.clip.clip_frame_count();
             times[0].push(begun.elapsed());
             let begun = Instant::now();
-            corpus.draft(&text, false, &mut Progress::new(&mut hear))?;
+            corpus.draft_recipe(&text, false, &mut ProgressReceiver::new(&mut hear))?;
             times[1].push(begun.elapsed());
         }
         println!("{recipe}: {frames} frames");
@@ -219,11 +215,11 @@ fn pair(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let mut files = unpack_starter(&folder.join("files"))?;
     files.retain(|path| path.file_stem().is_some_and(|stem| stem == "escargot"));
     let path = folder.join("two.chereme");
-    let mut corpus = Corpus::create(&path, "A")?;
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&path, "A")?;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    corpus.import(&files, &options, &mut Progress::new(&mut hear))?;
-    corpus.recombine("ESCARGOT | configure right U", "LIMACE")?;
+    corpus.import_paths(&files, &options, &mut ProgressReceiver::new(&mut hear))?;
+    corpus.recombine_recipe("ESCARGOT | configure right U", "LIMACE")?;
     Ok(path)
 }
 
@@ -242,10 +238,7 @@ fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Er
     }
     text += "</TIME_ORDER>";
     for tier in 0..tiers {
-        write!(
-            text,
-            "<TIER LINGUISTIC_TYPE_REF=\"free\" TIER_ID=\"tier {tier}\">"
-        )?;
+        write!(text, "<TIER LINGUISTIC_TYPE_REF=\"free\" TIER_ID=\"tier {tier}\">")?;
         for at in 0..each {
             write!(
                 text,
@@ -335,33 +328,19 @@ impl Scene {
             (Self::Grid | Self::Wall, 4) => vec![key(Key::F, Modifiers::COMMAND)],
             (Self::Grid | Self::Wall, 10) => vec![key(Key::Enter, Modifiers::NONE)],
             (Self::Wall, 14) => vec![key(Key::F11, Modifiers::NONE)],
-            (Self::Change(_), 0) => vec![
-                key(Key::F3, Modifiers::COMMAND),
-                key(Key::R, Modifiers::COMMAND),
-            ],
+            (Self::Change(_), 0) => vec![key(Key::F3, Modifiers::COMMAND), key(Key::R, Modifiers::COMMAND)],
             (Self::Change(_), 4) => vec![key(Key::A, Modifiers::COMMAND)],
             (Self::Change(nth), 5) => vec![Event::Text(RECIPES[nth].into())],
             (Self::Change(_), 6) => vec![key(Key::ArrowLeft, Modifiers::NONE); 2],
             (Self::Change(_), 40) => vec![key(Key::Space, Modifiers::COMMAND)],
-            (
-                Self::Play
-                | Self::Film
-                | Self::Two
-                | Self::Grid
-                | Self::Wall
-                | Self::Change(_)
-                | Self::Empty,
-                _,
-            ) => Vec::new(),
+            (Self::Play | Self::Film | Self::Two | Self::Grid | Self::Wall | Self::Change(_) | Self::Empty, _) => {
+                Vec::new()
+            }
             (Self::Scroll, frame) => {
                 let zooms = frame % 240 >= 180;
                 let up = frame % 120 >= 60;
                 let turn = if up { 40.0 } else { -40.0 };
-                let modifiers = if zooms {
-                    Modifiers::COMMAND
-                } else {
-                    Modifiers::NONE
-                };
+                let modifiers = if zooms { Modifiers::COMMAND } else { Modifiers::NONE };
                 let wheel = Event::MouseWheel {
                     unit: MouseWheelUnit::Point,
                     delta: vec2(0.0, turn),
@@ -371,10 +350,7 @@ impl Scene {
                 };
                 vec![Event::PointerMoved(TIMELINE), wheel]
             }
-            (Self::Drag, 0) => vec![
-                key(Key::Space, Modifiers::COMMAND),
-                key(Key::F7, Modifiers::NONE),
-            ],
+            (Self::Drag, 0) => vec![key(Key::Space, Modifiers::COMMAND), key(Key::F7, Modifiers::NONE)],
             (Self::Drag, 1..9) => vec![key(Key::Equals, Modifiers::COMMAND)],
             (Self::Drag, 9) => vec![
                 Event::ModifiersChanged(Modifiers::ALT),
@@ -420,9 +396,7 @@ fn worked() -> BTreeMap<String, u64> {
             continue;
         };
         let name = match start.split_once('(') {
-            Some((_, name)) if !path.ends_with(PROGRAM) => {
-                name.trim_end_matches(|it: char| it.is_ascii_digit())
-            }
+            Some((_, name)) if !path.ends_with(PROGRAM) => name.trim_end_matches(|it: char| it.is_ascii_digit()),
             _ => ALL,
         };
         let parts = rest.split_whitespace().skip(11).take(2);
@@ -442,11 +416,7 @@ impl eframe::App for Meter {
         }
         ui.ctx().request_repaint();
         // The first frames of a scene only prepare it.
-        if self
-            .scenes
-            .front()
-            .is_none_or(|scene| self.frame < scene.sets())
-        {
+        if self.scenes.front().is_none_or(|scene| self.frame < scene.sets()) {
             return;
         }
         if let Some(Scene::Change(nth)) = self.scenes.front().copied() {
@@ -484,7 +454,7 @@ impl eframe::App for Meter {
     }
 
     fn raw_input_hook(&mut self, _ctx: &Context, input: &mut RawInput) {
-        if self.studio.corpus().is_none() || (self.frame == 0 && !self.studio.is_idle()) {
+        if self.studio.shown_corpus_path().is_none() || (self.frame == 0 && !self.studio.is_idle()) {
             return;
         }
         if let Some(scene) = self.scenes.front() {
@@ -515,7 +485,7 @@ impl Meter {
             return;
         };
         let wanted = changed(recipe, self.change.times);
-        if self.studio.is_drawn() && self.studio.staged() == Some(&wanted) {
+        if self.studio.is_drawn() && self.studio.staged_movement_name() == Some(&wanted) {
             self.change.took.push(begun.elapsed());
             self.change.frames.push(*frames);
             self.change.typed = None;

@@ -1,7 +1,7 @@
 //! The table of everything that keys, menus and the command palette can request; each row is an [`Action`].
 //!
 //! An action has no data; its object is the selection. To add one, write a row into [`table`] and a match arm in the code
-//! of its [`Owner`]; an action that only shows a pane or runs a use case needs no arm.
+//! of its [`ActionOwner`]; an action that only shows a pane or runs a use case needs no arm.
 
 /// Declares the actions.
 macro_rules! actions {
@@ -16,13 +16,13 @@ macro_rules! actions {
 
         /// Every action, in the order of the menus.
         pub(crate) const ACTIONS: &[ActionRow] = &{
-            use Context::*;
-            use Owner::*;
+            use ActionContext::*;
+            use ActionOwner::*;
             [$(ActionRow {
                 action: Action::$action,
                 id: $id,
-                name: Text::from_id(concat!("menu-", $id)),
-                menu: Menu::$menu,
+                name: InterfaceText::from_id(concat!("menu-", $id)),
+                menu: ActionMenu::$menu,
                 context: $context,
                 owner: $owner,
                 repeats: false $(|| actions!(@repeats $flag))*,
@@ -40,20 +40,20 @@ macro_rules! actions {
     (@edits $other:ident) => { false };
 }
 
-mod table;
+mod action_table;
 
 use crate::context::PaneInput;
-use crate::keys::Keymap;
-use crate::keys::chord::Chord;
+use crate::keys::DefaultKeymap;
+use crate::keys::chord::KeyChord;
 use crate::panes::PaneKind;
-use crate::words::Text;
-use crate::work::Job;
+use crate::words::InterfaceText;
+use crate::work::CorpusJob;
 
-pub(crate) use table::{ACTIONS, Action};
+pub(crate) use action_table::{ACTIONS, Action};
 
 /// The menu that lists an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) enum Menu {
+pub(crate) enum ActionMenu {
     File,
     Edit,
     Annotation,
@@ -67,25 +67,25 @@ pub(crate) enum Menu {
     Help,
 }
 
-impl Menu {
-    pub(crate) const ALL: [(Self, Text); 11] = [
-        (Self::File, Text::from_id("menu-bar-file")),
-        (Self::Edit, Text::from_id("menu-bar-edit")),
-        (Self::Annotation, Text::from_id("menu-bar-annotation")),
-        (Self::Value, Text::from_id("menu-bar-value")),
-        (Self::Timing, Text::from_id("menu-bar-timing")),
-        (Self::Tier, Text::from_id("menu-bar-tier")),
-        (Self::Play, Text::from_id("menu-bar-play")),
-        (Self::Stage, Text::from_id("menu-bar-stage")),
-        (Self::View, Text::from_id("menu-bar-view")),
-        (Self::Panes, Text::from_id("menu-bar-panes")),
-        (Self::Help, Text::from_id("menu-bar-help")),
+impl ActionMenu {
+    pub(crate) const ALL_ACTION_MENUS: [(Self, InterfaceText); 11] = [
+        (Self::File, InterfaceText::from_id("menu-bar-file")),
+        (Self::Edit, InterfaceText::from_id("menu-bar-edit")),
+        (Self::Annotation, InterfaceText::from_id("menu-bar-annotation")),
+        (Self::Value, InterfaceText::from_id("menu-bar-value")),
+        (Self::Timing, InterfaceText::from_id("menu-bar-timing")),
+        (Self::Tier, InterfaceText::from_id("menu-bar-tier")),
+        (Self::Play, InterfaceText::from_id("menu-bar-play")),
+        (Self::Stage, InterfaceText::from_id("menu-bar-stage")),
+        (Self::View, InterfaceText::from_id("menu-bar-view")),
+        (Self::Panes, InterfaceText::from_id("menu-bar-panes")),
+        (Self::Help, InterfaceText::from_id("menu-bar-help")),
     ];
 }
 
 /// The part of the window in which the keys of an action have an effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Context {
+pub(crate) enum ActionContext {
     /// In the whole window.
     Everywhere,
     /// Only with a corpus open.
@@ -96,7 +96,7 @@ pub(crate) enum Context {
 
 /// The part of the program that carries out an action.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Owner {
+pub(crate) enum ActionOwner {
     /// The window, with or without a corpus.
     Window,
     /// The window, which brings the pane of this kind to the front.
@@ -106,7 +106,7 @@ pub(crate) enum Owner {
     /// The window, with a corpus open.
     WithCorpus,
     /// The window, which runs the use case that the function returns for what is selected, or shows why it cannot be run.
-    Runs(fn(&PaneInput<'_>) -> Result<Job, Text>),
+    Runs(fn(&PaneInput<'_>) -> Result<CorpusJob, InterfaceText>),
     /// The pane of this kind.
     In(PaneKind),
 }
@@ -117,12 +117,12 @@ pub(crate) struct ActionRow {
     pub(crate) action: Action,
     /// Name of the action in the settings file; it never changes.
     pub(crate) id: &'static str,
-    pub(crate) name: Text,
-    pub(crate) menu: Menu,
-    pub(crate) context: Context,
+    pub(crate) name: InterfaceText,
+    pub(crate) menu: ActionMenu,
+    pub(crate) context: ActionContext,
     /// Whether holding its key repeats it.
     pub(crate) repeats: bool,
-    pub(crate) owner: Owner,
+    pub(crate) owner: ActionOwner,
     /// Whether it changes the corpus, or begins to.
     pub(crate) changes: bool,
     /// Whether it changes annotations or tiers of the timeline at once, so that its keys count only where they are seen.
@@ -133,25 +133,25 @@ pub(crate) struct ActionRow {
 
 impl Action {
     /// Returns whether the action changes the corpus, or begins to change it.
-    pub(crate) fn changes(self) -> bool {
-        self.row().changes
+    pub(crate) fn changes_corpus(self) -> bool {
+        self.action_row().changes
     }
 
     /// Returns the row of this action.
-    pub(crate) fn row(self) -> &'static ActionRow {
+    pub(crate) fn action_row(self) -> &'static ActionRow {
         &ACTIONS[self as usize]
     }
 }
 
 impl ActionRow {
     /// Returns the keys that a keymap gives the action.
-    pub(crate) fn defaults(&self, keymap: Keymap) -> Vec<Chord> {
+    pub(crate) fn default_chords(&self, keymap: DefaultKeymap) -> Vec<KeyChord> {
         let text = match (keymap, self.keys) {
-            (Keymap::Elan, [elan, ..])
-            | (Keymap::Praat, [elan, "=", _])
-            | (Keymap::Editor, [elan, _, "="]) => elan,
-            (Keymap::Praat, [_, praat, _]) => praat,
-            (Keymap::Editor, [_, _, editor]) => editor,
+            (DefaultKeymap::Elan, [elan, ..])
+            | (DefaultKeymap::Praat, [elan, "=", _])
+            | (DefaultKeymap::Editor, [elan, _, "="]) => elan,
+            (DefaultKeymap::Praat, [_, praat, _]) => praat,
+            (DefaultKeymap::Editor, [_, _, editor]) => editor,
         };
         text.split_whitespace()
             .filter(|word| *word != "none")
@@ -165,25 +165,25 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::words::Language;
+    use crate::words::InterfaceLanguage;
 
     #[test]
     fn actions_are_found_by_name_and_ids_are_unique() {
         let ids: BTreeSet<&str> = ACTIONS.iter().map(|row| row.id).collect();
         assert_eq!(ids.len(), ACTIONS.len());
         for row in ACTIONS {
-            assert_eq!(row.action.row().id, row.id);
+            assert_eq!(row.action.action_row().id, row.id);
         }
     }
 
     #[test]
     fn every_action_has_words_in_both_languages_and_valid_keys() {
         for row in ACTIONS {
-            for (language, _) in Language::ALL {
-                assert_ne!(row.name.of(language), row.name.en, "{}", row.id);
+            for (language, _) in InterfaceLanguage::BUILTIN_LANGUAGES {
+                assert_ne!(row.name.text_in_language(language), row.name.en, "{}", row.id);
             }
             for text in row.keys.iter().flat_map(|keys| keys.split_whitespace()) {
-                let known = text == "=" || text == "none" || text.parse::<Chord>().is_ok();
+                let known = text == "=" || text == "none" || text.parse::<KeyChord>().is_ok();
                 assert!(known, "{}: {text}", row.id);
             }
         }

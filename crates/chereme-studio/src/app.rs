@@ -4,48 +4,48 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui, ViewportCommand};
 use egui_tiles::Tree;
 
-use crate::Options;
+use crate::StudioOptions;
 use crate::action::Action;
-use crate::clipboard::Clipboard;
-use crate::command::Command;
-use crate::context::{DisplayState, Outbox, PaneInput};
-use crate::draft::Drafts;
-use crate::file_dialogs::{Chooser, Chosen};
-use crate::film::Films;
-use crate::keys::Keys;
+use crate::clipboard::WindowClipboard;
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, DisplayState, PaneInput};
+use crate::draft::DraftFile;
+use crate::file_dialogs::{ChooserResult, FileChooser};
+use crate::film::RecordingFilms;
+use crate::keys::ActionKeys;
 use crate::keys::queue::KeyQueue;
-use crate::miniatures::Figures;
-use crate::model::Snapshot;
-use crate::model::reel::Reel;
-use crate::overlay::Overlays;
-use crate::panes::carry::{self, Sprung};
-use crate::panes::{PaneKind, Panes};
-use crate::script::fonts::Unreported;
-use crate::settings::{Folders, Settings};
-use crate::start::Start;
-use crate::words::Text;
-use crate::work::begin::{Begin, Beginning};
-use crate::work::desk::{Desk, News, Wake};
-use crate::work::{Lane, Outcome, movement};
-use crate::workbench::Workbench;
+use crate::miniatures::MiniatureFigures;
+use crate::model::CorpusSnapshot;
+use crate::model::reel::MovementReel;
+use crate::overlay::WindowOverlays;
+use crate::panes::carry::{self, TabSpring};
+use crate::panes::{PaneKind, PaneSet};
+use crate::script::script_fonts::UnreportedScripts;
+use crate::settings::{StudioFolders, StudioSettings};
+use crate::start::StartPage;
+use crate::words::InterfaceText;
+use crate::work::begin::{CorpusOpening, OpeningInProgress};
+use crate::work::desk::{CorpusDesk, DeskNews, WindowWaker};
+use crate::work::{WorkLane, WorkOutcome, movement_jobs};
+use crate::workbench::TileWorkbench;
 use crate::{layout, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
 pub struct Studio {
     pub(crate) author: String,
-    pub(crate) folders: Folders,
-    pub(crate) settings: Settings,
+    pub(crate) folders: StudioFolders,
+    pub(crate) settings: StudioSettings,
     /// The settings as they are in the file.
-    pub(crate) saved: Settings,
-    pub(crate) keys: Keys,
+    pub(crate) saved: StudioSettings,
+    pub(crate) keys: ActionKeys,
     /// Keys that were pressed and not handed out yet.
     pub(crate) waiting: KeyQueue,
-    pub(crate) desk: Option<Desk>,
-    pub(crate) beginning: Option<Beginning>,
+    pub(crate) desk: Option<CorpusDesk>,
+    pub(crate) beginning: Option<OpeningInProgress>,
     /// The file of the open corpus, if it was created only to receive imported files.
     pub(crate) made_for: Option<PathBuf>,
     /// The gloss to show first in the starter corpus; empty for any.
@@ -58,31 +58,31 @@ pub struct Studio {
     /// Whether the window was to be closed while the file of the corpus is missing.
     pub(crate) close_asked: bool,
     /// `None` before the corpus is first read.
-    pub(crate) snapshot: Option<Snapshot>,
+    pub(crate) snapshot: Option<CorpusSnapshot>,
     pub(crate) shown: DisplayState,
-    pub(crate) reel: Reel,
-    pub(crate) little: Figures,
-    pub(crate) films: Films,
+    pub(crate) reel: MovementReel,
+    pub(crate) little: MiniatureFigures,
+    pub(crate) films: RecordingFilms,
     pub(crate) tree: Tree<PaneKind>,
     /// Whether the layout is that of a small window.
     pub(crate) small: bool,
-    pub(crate) panes: Panes,
+    pub(crate) panes: PaneSet,
     /// The pane that was used last; it has the focus while it is in sight.
     pub(crate) pane: Option<PaneKind>,
     /// The text field that has the cursor, and its pane.
     cursor: Option<(PaneKind, egui::Id)>,
-    sprung: Sprung,
-    pub(crate) start: Start,
-    pub(crate) chooser: Chooser,
-    unreported: Unreported,
-    pub(crate) clipboard: Clipboard,
-    pub(crate) overlays: Overlays,
-    pub(crate) walk: crate::menu_and_status::Walk,
-    pub(crate) out: Outbox,
-    pub(crate) drafts: Drafts,
+    sprung: TabSpring,
+    pub(crate) start: StartPage,
+    pub(crate) chooser: FileChooser,
+    unreported: UnreportedScripts,
+    pub(crate) clipboard: WindowClipboard,
+    pub(crate) overlays: WindowOverlays,
+    pub(crate) walk: crate::menu_and_status::MenuWalk,
+    pub(crate) out: CommandOutbox,
+    pub(crate) drafts: DraftFile,
     /// Key under which the view of the open corpus is stored in the settings.
     pub(crate) view: Option<String>,
-    pub(crate) wake: Wake,
+    pub(crate) wake: WindowWaker,
     ctx: Arc<OnceLock<Context>>,
     /// The title of the window.
     title: String,
@@ -93,39 +93,42 @@ pub struct Studio {
 impl Studio {
     /// Returns the state of the window before its first frame.
     #[must_use]
-    pub fn new(options: Options) -> Self {
-        let Options {
+    pub fn new(options: StudioOptions) -> Self {
+        let StudioOptions {
             corpus,
             author,
             folders,
             language,
             asked_language,
         } = options;
-        let usual = Settings {
+        let usual = StudioSettings {
             language,
-            ..Settings::default()
+            ..StudioSettings::default()
         };
         let file = folders.settings_file();
-        let mut settings = file.as_deref().and_then(Settings::read).unwrap_or(usual);
+        let mut settings = file
+            .as_deref()
+            .and_then(StudioSettings::read_settings_file)
+            .unwrap_or(usual);
         let saved = settings.clone();
         settings.language = asked_language.unwrap_or(settings.language);
         let ctx: Arc<OnceLock<Context>> = Arc::default();
         let waked = ctx.clone();
-        let wake: Wake = Arc::new(move || {
+        let wake: WindowWaker = Arc::new(move || {
             if let Some(ctx) = waked.get() {
                 ctx.request_repaint();
             }
         });
-        let mut out = Outbox::default();
+        let mut out = CommandOutbox::default();
         if let Some(path) = corpus {
-            out.send(Command::Begin(Begin::Open(path)));
+            out.send_command(WindowCommand::Begin(CorpusOpening::Open(path)));
         }
         Self {
             author,
             folders,
-            keys: Keys::new(settings.keymap, &settings.keys, settings.language),
+            keys: ActionKeys::new(settings.keymap, &settings.keys, settings.language),
             waiting: KeyQueue::default(),
-            tree: layout::remembered(settings.layout.as_ref(), (settings.busy, false)),
+            tree: layout::remembered_layout(settings.layout.as_ref(), (settings.busy, false)),
             small: false,
             saved,
             settings,
@@ -138,21 +141,21 @@ impl Studio {
             close_asked: false,
             snapshot: None,
             shown: DisplayState::default(),
-            reel: Reel::default(),
-            little: Figures::default(),
-            films: Films::default(),
-            panes: Panes::default(),
+            reel: MovementReel::default(),
+            little: MiniatureFigures::default(),
+            films: RecordingFilms::default(),
+            panes: PaneSet::default(),
             pane: None,
             cursor: None,
-            sprung: Sprung::default(),
-            start: Start::default(),
-            chooser: Chooser::default(),
-            unreported: Unreported::default(),
-            clipboard: Clipboard::default(),
-            overlays: Overlays::default(),
-            walk: crate::menu_and_status::Walk::default(),
+            sprung: TabSpring::default(),
+            start: StartPage::default(),
+            chooser: FileChooser::default(),
+            unreported: UnreportedScripts::default(),
+            clipboard: WindowClipboard::default(),
+            overlays: WindowOverlays::default(),
+            walk: crate::menu_and_status::MenuWalk::default(),
             out,
-            drafts: Drafts::default(),
+            drafts: DraftFile::default(),
             view: None,
             wake,
             ctx,
@@ -165,52 +168,52 @@ impl Studio {
     pub fn ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         if self.ctx.set(ctx.clone()).is_ok() {
-            theme::install(&ctx);
+            theme::install_studio_theme(&ctx);
         }
-        theme::apply(&ctx, &self.settings);
-        self.fit(ctx.content_rect().size());
-        self.listen();
+        theme::apply_theme_settings(&ctx, &self.settings);
+        self.fit_layout_to_window(ctx.content_rect().size());
+        self.receive_thread_results();
         self.stay_with_the_corpus(&ctx);
         self.name_window(&ctx);
-        self.panes.search.show_made(&mut self.out);
-        self.panes.library.show_made(&mut self.out);
-        self.panes.map.show_made(&mut self.out);
+        self.panes.search.show_animated_hit(&mut self.out);
+        self.panes.library.show_chosen_notated_sign(&mut self.out);
+        self.panes.map.show_animated_map_sign(&mut self.out);
         if self.panes.recombine.has_news() {
             // The pictures requested in this frame must show the new movement.
             self.keep_up(&ctx);
-            self.carry_out(&ctx);
+            self.carry_out_commands(&ctx);
         }
         self.hear_chooser(&ctx);
         self.tick(&ctx);
-        if let Some((action, text)) = self.clipboard.came(&ctx) {
-            self.paste(action, text, &ctx);
-            self.carry_out(&ctx);
+        if let Some((action, text)) = self.clipboard.take_awaited_paste(&ctx) {
+            self.paste_text(action, text, &ctx);
+            self.carry_out_commands(&ctx);
         }
         self.take_keys(&ctx);
         self.panes.timeline.next_frame();
         self.take_dropped(&ctx);
         // The pane with the handle must be drawn to answer a drag.
-        if self.shown.handle.is_some() && !layout::shows(&self.tree, PaneKind::Recombine) {
+        if self.shown.handle.is_some() && !layout::is_pane_in_sight(&self.tree, PaneKind::Recombine) {
             self.shown.handle = None;
         }
-        if let Some((text, remedy)) = self.unreported.news(self.settings.language) {
-            self.overlays.notices.say(&text, Some(remedy));
+        if let Some((text, remedy)) = self.unreported.take_missing_font_notice(self.settings.language) {
+            self.overlays.notices.add_lasting_notice(&text, Some(remedy));
         }
-        self.bars(ui);
+        self.show_bars(ui);
         if self.desk.is_some() {
             self.workbench(ui);
         } else {
             CentralPanel::default().show(ui, |ui| self.start_page(ui));
         }
-        self.overlays(&ctx);
-        self.carry_out(&ctx);
-        self.remember(&ctx);
+        self.draw_open_overlays(&ctx);
+        self.carry_out_commands(&ctx);
+        self.save_drafts_and_settings(&ctx);
     }
 
     /// Returns the playhead.
     #[must_use]
-    pub fn playhead(&self) -> Instant {
-        self.shown.player.playhead()
+    pub fn playhead_instant(&self) -> RecordingInstant {
+        self.shown.player.player_playhead()
     }
 
     /// Returns how long the latest pictures of the stage took to draw, on their own thread.
@@ -233,33 +236,30 @@ impl Studio {
 
     /// Returns the name of the movement on the stage, a recipe or a gloss, if the movement comes from a recipe.
     #[must_use]
-    pub fn staged(&self) -> Option<&str> {
+    pub fn staged_movement_name(&self) -> Option<&str> {
         let showing = self.shown.made.as_ref()?;
-        let there = self.panes.stage.shows(&showing.made);
+        let there = self.panes.stage.is_clip_on_stage(&showing.made);
         there.then_some(showing.made.name.as_str())
     }
 
     /// Returns the file of the open corpus.
     #[must_use]
-    pub fn corpus(&self) -> Option<&PathBuf> {
+    pub fn shown_corpus_path(&self) -> Option<&PathBuf> {
         self.desk.as_ref().map(|desk| &desk.path)
     }
 
-    /// Returns the [`generation`](chereme_corpus::Corpus::generation) of the corpus that the window shows.
+    /// Returns the [`generation`](chereme_corpus::Corpus::corpus_generation) of the corpus that the window shows.
     #[must_use]
-    pub fn generation(&self) -> Option<i64> {
+    pub fn shown_generation(&self) -> Option<i64> {
         Some(self.snapshot.as_ref()?.overview.generation)
     }
 
     /// Returns whether the window is idle: no work runs, no corpus is being opened, and the open corpus is read.
     #[must_use]
     pub fn is_idle(&self) -> bool {
-        let working = self
-            .desk
-            .as_ref()
-            .is_some_and(|desk| !desk.running.is_empty());
+        let working = self.desk.as_ref().is_some_and(|desk| !desk.running.is_empty());
         self.beginning.is_none()
-            && !self.chooser.is_open()
+            && !self.chooser.is_chooser_open()
             && !self.clipboard.is_waiting()
             && self.waiting.next_event().is_none()
             && !working
@@ -267,7 +267,7 @@ impl Studio {
     }
 
     /// Returns the view that panes draw from; `None` without a snapshot.
-    pub(crate) fn seen(&self, ctx: &Context) -> Option<PaneInput<'_>> {
+    pub(crate) fn pane_input(&self, ctx: &Context) -> Option<PaneInput<'_>> {
         Some(PaneInput {
             path: &self.desk.as_ref()?.path,
             snapshot: self.snapshot.as_ref()?,
@@ -284,59 +284,61 @@ impl Studio {
     }
 
     /// Receives the results of the threads.
-    fn listen(&mut self) {
-        let ended = self.beginning.as_mut().and_then(Beginning::ended);
+    fn receive_thread_results(&mut self) {
+        let ended = self
+            .beginning
+            .as_mut()
+            .and_then(OpeningInProgress::finished_opening_path);
         if let Some(ended) = ended {
             let begun = self.beginning.take();
-            let (look, made) = begun.map(|it| (it.look, it.made)).unwrap_or_default();
+            let (look, made) = begun.map(|work| (work.look, work.made)).unwrap_or_default();
             let task = crate::words::shell::TASK_OPENING;
             match ended {
                 Ok(path) => {
-                    self.open(&path);
+                    self.open_corpus_path(&path);
                     self.made_for = made;
                     if !look.is_empty() {
                         // Nothing else in the corpus can be shown yet.
                         self.looking = true;
-                        self.out.send(Command::Do(Action::LayoutSearch));
-                        self.out.send(Command::Import(look));
+                        self.out.send_command(WindowCommand::Do(Action::LayoutSearch));
+                        self.out.send_command(WindowCommand::Import(look));
                     }
                 }
-                Err(error) => {
-                    self.overlays
-                        .notices
-                        .trouble(&error, Some(task), self.settings.language)
-                }
+                Err(error) => self
+                    .overlays
+                    .notices
+                    .report_work_failure(&error, Some(task), self.settings.language),
             }
         }
-        let news = self.desk.as_mut().map(Desk::news).unwrap_or_default();
+        let news = self.desk.as_mut().map(CorpusDesk::take_desk_news).unwrap_or_default();
         for news in news {
             match news {
-                News::Read(snapshot, own) => self.take_snapshot(snapshot, own),
-                News::Unread(error) => {
+                DeskNews::Read(snapshot, own) => self.take_snapshot(snapshot, own),
+                DeskNews::Unread(error) => {
                     self.overlays
                         .notices
-                        .trouble(&error, None, self.settings.language)
+                        .report_work_failure(&error, None, self.settings.language)
                 }
-                News::Stands(stands) => self.stands(stands),
-                News::Copied(saved) => self.copied(saved),
-                News::Far(..) => {}
-                News::Ended(id, ended, about) => {
-                    if self.little.hear(id, &ended) {
+                DeskNews::Stands(stands) => self.report_corpus_file_standing(stands),
+                DeskNews::Copied(saved) => self.continue_in_saved_copy(saved),
+                DeskNews::Far(..) => {}
+                DeskNews::Ended(id, ended, about) => {
+                    if self.little.handle_miniature_result(id, &ended) {
                         continue;
                     }
                     if ended.is_err() && self.panes.timeline.awaits_change(id) {
                         self.forget_keys();
                     }
-                    self.panes.hear(id, &ended);
-                    self.overlays.export.hear(id, &ended);
-                    if let Ok(Outcome::Imported(report)) = &ended
+                    self.panes.forward_work_result(id, &ended);
+                    self.overlays.export.handle_export_result(id, &ended);
+                    if let Ok(WorkOutcome::Imported(report)) = &ended
                         && !report.dry_run
                         && std::mem::take(&mut self.looking)
                     {
-                        self.out.send(Command::Do(Action::LayoutAnnotate));
+                        self.out.send_command(WindowCommand::Do(Action::LayoutAnnotate));
                     }
                     if !(about.quiet && ended.is_err()) {
-                        self.hear(ended, about.task);
+                        self.handle_work_outcome(ended, about.task);
                     }
                 }
             }
@@ -346,10 +348,10 @@ impl Studio {
     /// Handles the result of an open file chooser.
     fn hear_chooser(&mut self, ctx: &Context) {
         let now = ctx.input(|input| input.time);
-        match self.chooser.ended(&self.wake, now) {
-            Some(Chosen::Command(command)) => self.out.send(command),
-            Some(Chosen::NoChooser(what)) => self.ask_path(what),
-            Some(Chosen::Nothing) | None => {}
+        match self.chooser.take_chooser_result(&self.wake, now) {
+            Some(ChooserResult::Command(command)) => self.out.send_command(command),
+            Some(ChooserResult::NoChooser(what)) => self.ask_path(what),
+            Some(ChooserResult::Nothing) | None => {}
         }
     }
 
@@ -361,21 +363,22 @@ impl Studio {
         let player = self.shown.on_stage_mut();
         if player.is_playing() {
             // A window that was hidden for a while continues at its old moment.
-            player.advance(passed.min(0.5));
+            player.advance_playhead(passed.min(0.5));
             ctx.request_repaint();
         }
         self.follow_films(ctx);
         let player = &self.shown.player;
-        let (at, direction) = (player.playhead(), player.direction());
+        let (at, direction) = (player.player_playhead(), player.playback_direction());
         let loading = self.desk.as_ref().map_or(0, |desk| {
-            let lanes = desk.running.values().map(|it| it.about.lane);
-            lanes.filter(|lane| *lane == Lane::Movement).count()
+            let lanes = desk.running.values().map(|work| work.about.lane);
+            lanes.filter(|lane| *lane == WorkLane::Movement).count()
         });
         // While the user drags over hours of movement, passed pieces are not loaded.
         if loading < 2
-            && let Some((recording, piece, span)) = self.reel.wanted(at, direction)
+            && let Some((recording, piece, span)) = self.reel.next_wanted_piece(at, direction)
         {
-            self.out.work(movement::load(recording, piece, span));
+            self.out
+                .request_work(movement_jobs::load_movement_job(recording, piece, span));
         }
     }
 
@@ -390,19 +393,17 @@ impl Studio {
             _ => None,
         };
         if self.desk.is_some()
-            && layout::shows(&self.tree, PaneKind::Studies)
+            && layout::is_pane_in_sight(&self.tree, PaneKind::Studies)
             && self.panes.studies.drop_files(&dropped)
         {
             return;
         }
-        let corpus = |path: &PathBuf| path.extension().is_some_and(|it| it == "chereme");
-        self.out.send(match one {
-            Some(path) if corpus(&path) => Command::Begin(Begin::Open(path)),
-            Some(path) if self.desk.is_none() && path.is_dir() => {
-                Command::Begin(Begin::Folder(path))
-            }
-            _ if self.desk.is_none() => Command::Begin(Begin::Files(dropped)),
-            _ => Command::Import(dropped),
+        let corpus = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "chereme");
+        self.out.send_command(match one {
+            Some(path) if corpus(&path) => WindowCommand::Begin(CorpusOpening::Open(path)),
+            Some(path) if self.desk.is_none() && path.is_dir() => WindowCommand::Begin(CorpusOpening::Folder(path)),
+            _ if self.desk.is_none() => WindowCommand::Begin(CorpusOpening::Files(dropped)),
+            _ => WindowCommand::Import(dropped),
         });
     }
 
@@ -426,7 +427,7 @@ impl Studio {
                 ..
             } = self;
             let (Some(snapshot), Some(desk)) = (snapshot.as_ref(), desk.as_ref()) else {
-                let words = crate::words::shell::READING.of(settings.language);
+                let words = crate::words::shell::READING.text_in_language(settings.language);
                 ui.centered_and_justified(|ui| ui.label(words));
                 return;
             };
@@ -443,7 +444,7 @@ impl Studio {
                 dark: theme::is_dark(ui.ctx()),
                 running: &desk.running,
             };
-            let mut workbench = Workbench {
+            let mut workbench = TileWorkbench {
                 panes,
                 seen,
                 out,
@@ -453,31 +454,31 @@ impl Studio {
                 chosen: None,
             };
             tree.ui(&mut workbench, ui);
-            layout::settle(tree);
+            layout::settle_pane_shares(tree);
             let (under, chosen) = (workbench.under, workbench.chosen);
             if let Some(tile) = chosen {
                 tree.make_active(|id, _| id == tile);
             }
-            carry::show(ui.ctx(), &seen, out);
-            if let Some(pane) = sprung.follow(under, ui.input(|input| input.time)) {
-                layout::bring(tree, pane);
+            carry::show_carried_sign(ui.ctx(), &seen, out);
+            if let Some(pane) = sprung.pane_to_open(under, ui.input(|input| input.time)) {
+                layout::bring_pane_to_front(tree, pane);
             }
         });
     }
 
-    fn bars(&mut self, ui: &mut Ui) {
-        Panel::top("menus").show(ui, |ui| self.menus(ui));
-        Panel::bottom("status").show(ui, |ui| self.status(ui));
+    fn show_bars(&mut self, ui: &mut Ui) {
+        Panel::top("menus").show(ui, |ui| self.show_menu_bar(ui));
+        Panel::bottom("status").show(ui, |ui| self.show_status_line(ui));
     }
 
     /// Writes unfinished text at once, and changed settings once no pointer button is down.
-    fn remember(&mut self, ctx: &Context) {
+    fn save_drafts_and_settings(&mut self, ctx: &Context) {
         if self.desk.is_some()
-            && let Err(error) = self.drafts.keep(self.panes.timeline.draft())
+            && let Err(error) = self.drafts.keep_draft(self.panes.timeline.timeline_draft())
         {
             self.overlays
                 .notices
-                .unsaved(&error, self.settings.language);
+                .report_unsaved_settings(&error, self.settings.language);
         }
         if self.desk.is_some() && !self.is_remembered() {
             *self.laid_out() = Some(self.tree.clone());
@@ -491,17 +492,17 @@ impl Studio {
         let written = self
             .folders
             .settings_file()
-            .map(|file| self.settings.write(&file));
+            .map(|file| self.settings.write_settings_file(&file));
         if let Some(Err(error)) = written {
             self.overlays
                 .notices
-                .unsaved(&error, self.settings.language);
+                .report_unsaved_settings(&error, self.settings.language);
         }
     }
 
     /// Names the window after the open corpus, so that two windows can be distinguished.
     fn name_window(&mut self, ctx: &Context) {
-        let title = self.title();
+        let title = self.window_title();
         if title != self.title {
             self.title.clone_from(&title);
             ctx.send_viewport_cmd(ViewportCommand::Title(title));
@@ -528,30 +529,30 @@ impl Studio {
 
     /// Switches between the layouts of small and large windows if the window's size calls for it; the pane in use stays
     /// in sight.
-    fn fit(&mut self, size: egui::Vec2) {
+    fn fit_layout_to_window(&mut self, size: egui::Vec2) {
         let small = layout::is_small(size);
         if small == self.small {
             return;
         }
         self.small = small;
         let before = (self.settings.busy, small);
-        self.tree = layout::remembered(self.laid_out().as_ref(), before);
+        self.tree = layout::remembered_layout(self.laid_out().as_ref(), before);
         self.panes.timeline.show_tier();
         if let Some(pane) = self.pane {
-            layout::bring(&mut self.tree, pane);
+            layout::bring_pane_to_front(&mut self.tree, pane);
         }
     }
 
-    fn hear(&mut self, ended: Result<Outcome, chereme_corpus::Error>, task: Text) {
+    fn handle_work_outcome(&mut self, ended: Result<WorkOutcome, chereme_corpus::CorpusError>, task: InterfaceText) {
         let language = self.settings.language;
         match ended {
-            Err(error) => self.overlays.notices.trouble(&error, Some(task), language),
-            Ok(Outcome::Moved {
+            Err(error) => self.overlays.notices.report_work_failure(&error, Some(task), language),
+            Ok(WorkOutcome::Moved {
                 recording,
                 piece,
                 moving,
-            }) => self.reel.put(recording, piece, moving),
-            Ok(outcome) => self.overlays.notices.of(&outcome, language),
+            }) => self.reel.put_loaded_piece(recording, piece, moving),
+            Ok(outcome) => self.overlays.notices.report_work_outcome(&outcome, language),
         }
     }
 }
@@ -560,11 +561,11 @@ impl Drop for Studio {
     /// Writes the zoom of the timelines when the window closes.
     fn drop(&mut self) {
         self.keep_view(true);
-        self.leave();
+        self.leave_corpus();
         if self.settings != self.saved
             && let Some(file) = self.folders.settings_file()
         {
-            drop(self.settings.write(&file));
+            drop(self.settings.write_settings_file(&file));
         }
     }
 }

@@ -8,30 +8,30 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::panes::timeline::Draft;
-use crate::settings::{Folders, write_whole};
+use crate::panes::timeline::AnnotationDraft;
+use crate::settings::{StudioFolders, write_whole};
 
 /// The draft file of one corpus.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Drafts {
+pub(crate) struct DraftFile {
     file: Option<PathBuf>,
     corpus: PathBuf,
     /// The draft that was read last, or was last given to be written.
-    written: Option<Draft>,
+    written: Option<AnnotationDraft>,
 }
 
 /// The content of a draft file. It names its corpus, because two paths may have the same hash.
 #[derive(Serialize, Deserialize)]
-struct Kept {
+struct DraftFileContent {
     corpus: PathBuf,
-    draft: Draft,
+    draft: AnnotationDraft,
 }
 
-impl Drafts {
+impl DraftFile {
     /// Returns the draft file of the corpus at `path`, which must be absolute; reads no file yet.
-    pub(crate) fn of(folders: &Folders, path: &Path) -> Self {
+    pub(crate) fn for_corpus_path(folders: &StudioFolders, path: &Path) -> Self {
         let name = format!("{:016x}.json", hash(&path.to_string_lossy()));
-        let folder = folders.config.as_ref().map(|it| it.join("drafts"));
+        let folder = folders.config.as_ref().map(|config| config.join("drafts"));
         Self {
             file: folder.map(|folder| folder.join(name)),
             corpus: path.to_owned(),
@@ -40,9 +40,9 @@ impl Drafts {
     }
 
     /// Reads the draft; `None` if there is no readable file, or if it belongs to another corpus.
-    pub(crate) fn read(&mut self) -> Option<Draft> {
+    pub(crate) fn read_draft(&mut self) -> Option<AnnotationDraft> {
         let text = fs::read_to_string(self.file.as_ref()?).ok()?;
-        let kept: Kept = serde_json::from_str(&text).ok()?;
+        let kept: DraftFileContent = serde_json::from_str(&text).ok()?;
         if kept.corpus != self.corpus {
             return None;
         }
@@ -52,7 +52,7 @@ impl Drafts {
 
     /// Writes the draft if it changed; removes the file if there is no draft. After an error the same draft is not tried
     /// again, because the window calls this in every frame.
-    pub(crate) fn keep(&mut self, draft: Option<Draft>) -> io::Result<()> {
+    pub(crate) fn keep_draft(&mut self, draft: Option<AnnotationDraft>) -> io::Result<()> {
         let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
             return Ok(());
         };
@@ -60,7 +60,7 @@ impl Drafts {
         match draft {
             Some(draft) => {
                 let corpus = self.corpus.clone();
-                write_whole(file, &Kept { corpus, draft })
+                write_whole(file, &DraftFileContent { corpus, draft })
             }
             None => match fs::remove_file(file) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -80,12 +80,12 @@ fn hash(text: &str) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::panes::timeline::Begun;
+    use crate::panes::timeline::BegunAnnotation;
 
-    fn draft(start: i64) -> Draft {
-        Draft {
+    fn draft(start: i64) -> AnnotationDraft {
+        AnnotationDraft {
             editing: None,
-            begun: Some(Begun {
+            begun: Some(BegunAnnotation {
                 recording: 1,
                 tier: 2,
                 start,
@@ -97,22 +97,22 @@ mod tests {
     #[test]
     fn each_corpus_has_its_own_draft_which_is_deleted_when_nothing_is_unfinished() {
         let folder = tempfile::tempdir().expect("a folder");
-        let folders = Folders {
+        let folders = StudioFolders {
             config: Some(folder.path().to_owned()),
             data: None,
         };
-        let of = |name: &str| Drafts::of(&folders, Path::new(name));
+        let of = |name: &str| DraftFile::for_corpus_path(&folders, Path::new(name));
         let (mut one, mut other) = (of("/one"), of("/other"));
-        assert_eq!(one.read(), None);
-        one.keep(Some(draft(5))).expect("written");
-        other.keep(Some(draft(7))).expect("written");
-        assert_eq!(of("/one").read(), Some(draft(5)));
-        assert_eq!(of("/other").read(), Some(draft(7)));
-        one.keep(None).expect("taken away");
-        one.keep(None).expect("nothing to take away");
-        assert_eq!(of("/one").read(), None);
-        let mut none = Drafts::of(&Folders::default(), Path::new("/one"));
-        none.keep(Some(draft(1))).expect("nothing to write to");
+        assert_eq!(one.read_draft(), None);
+        one.keep_draft(Some(draft(5))).expect("written");
+        other.keep_draft(Some(draft(7))).expect("written");
+        assert_eq!(of("/one").read_draft(), Some(draft(5)));
+        assert_eq!(of("/other").read_draft(), Some(draft(7)));
+        one.keep_draft(None).expect("taken away");
+        one.keep_draft(None).expect("nothing to take away");
+        assert_eq!(of("/one").read_draft(), None);
+        let mut none = DraftFile::for_corpus_path(&StudioFolders::default(), Path::new("/one"));
+        none.keep_draft(Some(draft(1))).expect("nothing to write to");
         assert_eq!(hash(""), 0xcbf2_9ce4_8422_2325);
         assert_eq!(hash("a"), 0xaf63_dc4c_8601_ec8c);
     }

@@ -3,7 +3,7 @@
 /// A failure of the window itself; failures inside it become notices there.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum Error {
+pub enum StudioError {
     /// The system could not open a window.
     #[error("no window can be opened: {reason}")]
     Window {
@@ -14,8 +14,8 @@ pub enum Error {
     },
 }
 
-impl Error {
-    pub(crate) fn window(error: eframe::Error) -> Self {
+impl StudioError {
+    pub(crate) fn from_window_error(error: eframe::Error) -> Self {
         let reason = without_place(&error.to_string());
         let remedy = if cfg!(target_os = "linux") {
             "a display (X11 or Wayland) with OpenGL is needed; on Debian: apt-get install libgl1 \
@@ -32,7 +32,7 @@ impl Error {
 
     /// Returns what to do about the failure.
     #[must_use]
-    pub fn remedy(&self) -> &str {
+    pub fn studio_error_remedy(&self) -> &str {
         match self {
             Self::Window { remedy, .. } => remedy,
         }

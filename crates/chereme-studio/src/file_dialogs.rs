@@ -8,14 +8,14 @@ use std::task::{Context, Poll, Wake as TaskWake};
 
 use rfd::{AsyncFileDialog, FileHandle};
 
-use crate::command::Command;
-use crate::words::{Language, Text, agreement, shell as words, studies};
-use crate::work::begin::Begin;
-use crate::work::desk::Wake;
+use crate::command::WindowCommand;
+use crate::words::{InterfaceLanguage, InterfaceText, agreement, shell as words, studies_words};
+use crate::work::begin::CorpusOpening;
+use crate::work::desk::WindowWaker;
 
 /// The purpose of a chooser, which decides how the chosen path is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Choose {
+pub(crate) enum ChooserPurpose {
     /// A corpus to open.
     Corpus,
     /// Where to create a new corpus.
@@ -53,31 +53,31 @@ pub(crate) enum Choose {
 }
 
 /// The chosen paths; empty if nothing was chosen.
-type Paths = Pin<Box<dyn Future<Output = Vec<PathBuf>> + Send>>;
+type ChosenPathsFuture = Pin<Box<dyn Future<Output = Vec<PathBuf>> + Send>>;
 /// Shows a chooser.
-pub(crate) type Show = fn(Choose, Language) -> Paths;
+pub(crate) type ShowChooser = fn(ChooserPurpose, InterfaceLanguage) -> ChosenPathsFuture;
 
 /// The chooser that is open, if any.
-pub(crate) struct Chooser {
-    pub(crate) show: Show,
-    open: Option<(Choose, Paths, f64)>,
+pub(crate) struct FileChooser {
+    pub(crate) show: ShowChooser,
+    open: Option<(ChooserPurpose, ChosenPathsFuture, f64)>,
 }
 
 /// The result of an open chooser.
 #[derive(Debug)]
-pub(crate) enum Chosen {
+pub(crate) enum ChooserResult {
     /// A path was chosen: carry out this command.
-    Command(Command),
+    Command(WindowCommand),
     /// The user closed the chooser.
     Nothing,
     /// The chooser ended sooner than a person can close it: this system has none, and the path is to be typed.
-    NoChooser(Choose),
+    NoChooser(ChooserPurpose),
 }
 
 /// Shortest time in which a person can close a chooser, in seconds.
-const AT_ONCE: f64 = 0.4;
+const MIN_CHOOSER_SECONDS: f64 = 0.4;
 
-impl Default for Chooser {
+impl Default for FileChooser {
     fn default() -> Self {
         Self {
             show: native,
@@ -86,45 +86,45 @@ impl Default for Chooser {
     }
 }
 
-impl Chooser {
+impl FileChooser {
     /// Shows a chooser, and forgets the one that is open.
-    pub(crate) fn ask(&mut self, what: Choose, language: Language, now: f64) {
+    pub(crate) fn ask_for_file(&mut self, what: ChooserPurpose, language: InterfaceLanguage, now: f64) {
         self.open = Some((what, (self.show)(what, language), now));
     }
 
     /// Returns whether a chooser is open.
-    pub(crate) fn is_open(&self) -> bool {
+    pub(crate) fn is_chooser_open(&self) -> bool {
         self.open.is_some()
     }
 
     /// Returns the result of the open chooser if it has ended; arranges for the window to wake at its end.
-    pub(crate) fn ended(&mut self, wake: &Wake, now: f64) -> Option<Chosen> {
+    pub(crate) fn take_chooser_result(&mut self, wake: &WindowWaker, now: f64) -> Option<ChooserResult> {
         let (what, paths, since) = self.open.as_mut()?;
-        let waker = Arc::new(Waking(wake.clone())).into();
+        let waker = Arc::new(ChooserWaker(wake.clone())).into();
         let Poll::Ready(paths) = paths.as_mut().poll(&mut Context::from_waker(&waker)) else {
             return None;
         };
-        let (what, quick) = (*what, now - *since < AT_ONCE);
+        let (what, quick) = (*what, now - *since < MIN_CHOOSER_SECONDS);
         self.open = None;
-        Some(match what.command(paths) {
-            Some(command) => Chosen::Command(command),
-            None if quick => Chosen::NoChooser(what),
-            None => Chosen::Nothing,
+        Some(match what.command_for_paths(paths) {
+            Some(command) => ChooserResult::Command(command),
+            None if quick => ChooserResult::NoChooser(what),
+            None => ChooserResult::Nothing,
         })
     }
 }
 
-struct Waking(Wake);
+struct ChooserWaker(WindowWaker);
 
-impl TaskWake for Waking {
+impl TaskWake for ChooserWaker {
     fn wake(self: Arc<Self>) {
         (self.0)();
     }
 }
 
-impl Choose {
+impl ChooserPurpose {
     /// Returns the title of the chooser.
-    pub(crate) fn title(self) -> Text {
+    pub(crate) fn chooser_title(self) -> InterfaceText {
         match self {
             Self::Corpus => words::START_OPEN,
             Self::NewCorpus => words::START_NEW,
@@ -132,24 +132,24 @@ impl Choose {
             Self::CorpusOfFolder | Self::Folder => words::START_IMPORT,
             Self::Files => words::CHOOSE_FILES,
             Self::Merge => words::CHOOSE_CORPUS,
-            Self::Questionnaire => studies::FOLDER,
-            Self::Answers => studies::DISK_FILES,
-            Self::Report => studies::REPORT_PATH,
-            Self::Trials => studies::CHOOSE_TABLE,
-            Self::Columns => studies::CHOOSE_MAP,
-            Self::Plan => studies::PLAN_OF_FILE,
-            Self::SavePlan => studies::PLAN_FILE,
-            Self::AnswersTable => studies::ANSWERS_TABLE,
+            Self::Questionnaire => studies_words::FOLDER,
+            Self::Answers => studies_words::DISK_FILES,
+            Self::Report => studies_words::REPORT_PATH,
+            Self::Trials => studies_words::CHOOSE_TABLE,
+            Self::Columns => studies_words::CHOOSE_MAP,
+            Self::Plan => studies_words::PLAN_OF_FILE,
+            Self::SavePlan => studies_words::PLAN_FILE,
+            Self::AnswersTable => studies_words::ANSWERS_TABLE,
             Self::Disagreements => agreement::TABLE_FILE,
             Self::Media(..) => words::CHOOSE_MEDIA,
         }
     }
 
     /// Returns the command that uses the chosen paths; `None` without a path.
-    pub(crate) fn command(self, mut paths: Vec<PathBuf>) -> Option<Command> {
+    pub(crate) fn command_for_paths(self, mut paths: Vec<PathBuf>) -> Option<WindowCommand> {
         let first = match self {
             Self::Files | Self::Folder | Self::Merge if !paths.is_empty() => {
-                return Some(Command::Import(paths));
+                return Some(WindowCommand::Import(paths));
             }
             _ if paths.is_empty() => return None,
             Self::Questionnaire
@@ -161,68 +161,68 @@ impl Choose {
             | Self::SavePlan
             | Self::AnswersTable
             | Self::Disagreements => {
-                return Some(Command::Studied(self, paths));
+                return Some(WindowCommand::Studied(self, paths));
             }
             Self::Media(recording, track) => {
-                return Some(Command::Media(recording, track, paths.swap_remove(0)));
+                return Some(WindowCommand::Media(recording, track, paths.swap_remove(0)));
             }
-            Self::Copy => return Some(Command::SaveCopy(paths.swap_remove(0))),
+            Self::Copy => return Some(WindowCommand::SaveCopy(paths.swap_remove(0))),
             _ => paths.swap_remove(0),
         };
-        Some(Command::Begin(match self {
-            Self::NewCorpus => Begin::New(first),
-            Self::CorpusOfFolder => Begin::Folder(first),
-            _ => Begin::Open(first),
+        Some(WindowCommand::Begin(match self {
+            Self::NewCorpus => CorpusOpening::New(first),
+            Self::CorpusOfFolder => CorpusOpening::Folder(first),
+            _ => CorpusOpening::Open(first),
         }))
     }
 }
 
 /// Shows the file chooser of the desktop.
-fn native(what: Choose, language: Language) -> Paths {
-    let dialog = AsyncFileDialog::new().set_title(what.title().of(language));
-    let one = |file: Option<FileHandle>| file.map(|it| it.path().to_owned()).into_iter().collect();
-    let corpora = [words::CORPORA.of(language), "chereme"];
+fn native(what: ChooserPurpose, language: InterfaceLanguage) -> ChosenPathsFuture {
+    let dialog = AsyncFileDialog::new().set_title(what.chooser_title().text_in_language(language));
+    let one = |file: Option<FileHandle>| file.map(|handle| handle.path().to_owned()).into_iter().collect();
+    let corpora = [words::CORPORA.text_in_language(language), "chereme"];
     match what {
-        Choose::Corpus | Choose::Merge => {
+        ChooserPurpose::Corpus | ChooserPurpose::Merge => {
             let file = dialog.add_filter(corpora[0], &corpora[1..]).pick_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::NewCorpus | Choose::Copy => {
+        ChooserPurpose::NewCorpus | ChooserPurpose::Copy => {
             let file = dialog
                 .add_filter(corpora[0], &corpora[1..])
                 .set_file_name("corpus.chereme")
                 .save_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::CorpusOfFolder | Choose::Folder | Choose::Questionnaire => {
+        ChooserPurpose::CorpusOfFolder | ChooserPurpose::Folder | ChooserPurpose::Questionnaire => {
             let folder = dialog.pick_folder();
             Box::pin(async move { one(folder.await) })
         }
-        Choose::Media(..) | Choose::Trials | Choose::Columns | Choose::Plan => {
+        ChooserPurpose::Media(..) | ChooserPurpose::Trials | ChooserPurpose::Columns | ChooserPurpose::Plan => {
             let file = dialog.pick_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::Report => {
+        ChooserPurpose::Report => {
             let file = dialog
                 .add_filter("HTML", &["html"])
                 .set_file_name("report.html")
                 .save_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::SavePlan | Choose::AnswersTable | Choose::Disagreements => {
+        ChooserPurpose::SavePlan | ChooserPurpose::AnswersTable | ChooserPurpose::Disagreements => {
             let name = match what {
-                Choose::SavePlan => "plan.json",
-                Choose::AnswersTable => "answers.csv",
+                ChooserPurpose::SavePlan => "plan.json",
+                ChooserPurpose::AnswersTable => "answers.csv",
                 _ => "disagreements.csv",
             };
             let file = dialog.set_file_name(name).save_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::Files | Choose::Answers => {
+        ChooserPurpose::Files | ChooserPurpose::Answers => {
             let files = dialog.pick_files();
             Box::pin(async move {
                 let files = files.await.unwrap_or_default();
-                files.iter().map(|it| it.path().to_owned()).collect()
+                files.iter().map(|file| file.path().to_owned()).collect()
             })
         }
     }
@@ -232,38 +232,41 @@ fn native(what: Choose, language: Language) -> Paths {
 mod tests {
     use super::*;
 
-    fn ended(show: Show, what: Choose, after: f64) -> Chosen {
-        let mut chooser = Chooser { show, open: None };
-        chooser.ask(what, Language::English, 0.0);
-        let wake: Wake = Arc::new(|| {});
-        let ended = chooser.ended(&wake, after).expect("at once");
-        assert!(!chooser.is_open());
+    fn ended(show: ShowChooser, what: ChooserPurpose, after: f64) -> ChooserResult {
+        let mut chooser = FileChooser { show, open: None };
+        chooser.ask_for_file(what, InterfaceLanguage::English, 0.0);
+        let wake: WindowWaker = Arc::new(|| {});
+        let ended = chooser.take_chooser_result(&wake, after).expect("at once");
+        assert!(!chooser.is_chooser_open());
         ended
     }
 
     #[test]
     fn a_chosen_file_gives_its_command_and_a_missing_dialog_is_reported() {
-        let one: Show = |_, _| Box::pin(async { vec![PathBuf::from("a")] });
-        let none: Show = |_, _| Box::pin(async { Vec::new() });
+        let one: ShowChooser = |_, _| Box::pin(async { vec![PathBuf::from("a")] });
+        let none: ShowChooser = |_, _| Box::pin(async { Vec::new() });
         let is = |what, expected| match ended(one, what, 1.0) {
-            Chosen::Command(Command::Begin(begin)) => assert_eq!(begin, expected),
+            ChooserResult::Command(WindowCommand::Begin(begin)) => assert_eq!(begin, expected),
             other => panic!("{other:?}"),
         };
-        is(Choose::Corpus, Begin::Open("a".into()));
-        is(Choose::NewCorpus, Begin::New("a".into()));
-        is(Choose::CorpusOfFolder, Begin::Folder("a".into()));
+        is(ChooserPurpose::Corpus, CorpusOpening::Open("a".into()));
+        is(ChooserPurpose::NewCorpus, CorpusOpening::New("a".into()));
+        is(ChooserPurpose::CorpusOfFolder, CorpusOpening::Folder("a".into()));
         assert!(matches!(
-            ended(one, Choose::Copy, 1.0),
-            Chosen::Command(Command::SaveCopy(path)) if path.as_os_str() == "a"
+            ended(one, ChooserPurpose::Copy, 1.0),
+            ChooserResult::Command(WindowCommand::SaveCopy(path)) if path.as_os_str() == "a"
         ));
         assert!(matches!(
-            ended(one, Choose::Files, 1.0),
-            Chosen::Command(Command::Import(paths)) if paths == [PathBuf::from("a")]
+            ended(one, ChooserPurpose::Files, 1.0),
+            ChooserResult::Command(WindowCommand::Import(paths)) if paths == [PathBuf::from("a")]
         ));
-        assert!(matches!(ended(none, Choose::Corpus, 3.0), Chosen::Nothing));
         assert!(matches!(
-            ended(none, Choose::Corpus, 0.1),
-            Chosen::NoChooser(Choose::Corpus)
+            ended(none, ChooserPurpose::Corpus, 3.0),
+            ChooserResult::Nothing
+        ));
+        assert!(matches!(
+            ended(none, ChooserPurpose::Corpus, 0.1),
+            ChooserResult::NoChooser(ChooserPurpose::Corpus)
         ));
     }
 }

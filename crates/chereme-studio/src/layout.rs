@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::panes::PaneKind;
 
-const ID: &str = "panes";
+const LAYOUT_TREE_ID: &str = "panes";
 
 /// The user's task, which decides the panes that get room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Busy {
+pub(crate) enum BusyTask {
     /// The timeline has the full width, as annotators know it.
     #[default]
     Annotating,
@@ -22,20 +22,20 @@ pub(crate) enum Busy {
 }
 
 /// The smallest size of a window, in points, that has room for panes on either side of the stage.
-const ROOMY: Vec2 = vec2(1000.0, 640.0);
+const MIN_ROOMY_POINTS: Vec2 = vec2(1000.0, 640.0);
 
 /// Returns whether a window of that size gets the small layouts, which show fewer panes at once.
 pub(crate) fn is_small(size: Vec2) -> bool {
-    size.x < ROOMY.x || size.y < ROOMY.y
+    size.x < MIN_ROOMY_POINTS.x || size.y < MIN_ROOMY_POINTS.y
 }
 
 /// Returns the layout for a task. In a small window the stage and the pane of the task have all the room, and the other
 /// panes are in tabs behind them.
-pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
+pub(crate) fn layout_for_task(busy: BusyTask, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
     use PaneKind::{
-        Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search,
-        Stage, Studies, Timeline,
+        Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Studies,
+        Timeline,
     };
     let mut tiles = Tiles::default();
     let mut tabs = |kinds: &[PaneKind]| {
@@ -44,70 +44,64 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     };
     let root = if small {
         match busy {
-            Busy::Annotating => {
+            BusyTask::Annotating => {
                 let above = [
-                    Stage, Film, Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue,
-                    Import, Inspector, History,
+                    Stage, Film, Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import, Inspector,
+                    History,
                 ];
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
-                shares(&mut tiles, Vertical, &parts)
+                tile_with_shares(&mut tiles, Vertical, &parts)
             }
-            Busy::Recombining => {
-                let left = tabs(&[
-                    Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
-                ]);
+            BusyTask::Recombining => {
+                let left = tabs(&[Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import]);
                 let side = tabs(&[Stage, Film, Timeline, Inspector, History]);
-                shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
+                tile_with_shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
-            Busy::Searching => {
-                let left = tabs(&[
-                    Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
-                ]);
-                let side = [
+            BusyTask::Searching => {
+                let left = tabs(&[Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import]);
+                let side_parts = [
                     (tabs(&[Stage]), 0.64),
                     (tabs(&[Timeline, Inspector, Film, History]), 0.36),
                 ];
-                let side = shares(&mut tiles, Vertical, &side);
-                shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
+                let side = tile_with_shares(&mut tiles, Vertical, &side_parts);
+                tile_with_shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
         }
     } else {
-        let left = tabs(&[
-            Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
-        ]);
+        let left = tabs(&[Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import]);
         let stage = tabs(&[Stage]);
         // Three panes above each other would have too little height to read.
         let below = match busy {
-            Busy::Annotating => tabs(&[Timeline]),
+            BusyTask::Annotating => tabs(&[Timeline]),
             _ => tabs(&[Timeline, Inspector, Film, History]),
         };
         match busy {
-            Busy::Annotating => {
+            BusyTask::Annotating => {
                 let right = tabs(&[Inspector, Film, History]);
-                let top = [(left, 0.26), (stage, 0.52), (right, 0.22)];
-                let top = shares(&mut tiles, Horizontal, &top);
-                shares(&mut tiles, Vertical, &[(top, 0.58), (below, 0.42)])
+                let top_parts = [(left, 0.26), (stage, 0.52), (right, 0.22)];
+                let top = tile_with_shares(&mut tiles, Horizontal, &top_parts);
+                tile_with_shares(&mut tiles, Vertical, &[(top, 0.58), (below, 0.42)])
             }
-            Busy::Searching => {
-                let side = [(stage, 0.58), (below, 0.42)];
-                let side = shares(&mut tiles, Vertical, &side);
-                shares(&mut tiles, Horizontal, &[(left, 0.52), (side, 0.48)])
+            BusyTask::Searching => {
+                let side_parts = [(stage, 0.58), (below, 0.42)];
+                let side = tile_with_shares(&mut tiles, Vertical, &side_parts);
+                tile_with_shares(&mut tiles, Horizontal, &[(left, 0.52), (side, 0.48)])
             }
-            Busy::Recombining => {
-                let side = [(stage, 0.68), (below, 0.32)];
-                let side = shares(&mut tiles, Vertical, &side);
-                shares(&mut tiles, Horizontal, &[(left, 0.38), (side, 0.62)])
+            BusyTask::Recombining => {
+                let side_parts = [(stage, 0.68), (below, 0.32)];
+                let side = tile_with_shares(&mut tiles, Vertical, &side_parts);
+                tile_with_shares(&mut tiles, Horizontal, &[(left, 0.38), (side, 0.62)])
             }
         }
     };
-    let mut tree = Tree::new(Id::unique(ID), root, tiles);
-    bring(
+    let mut tree = Tree::new(Id::unique(LAYOUT_TREE_ID), root, tiles);
+    bring_pane_to_front(
         &mut tree,
         match busy {
-            Busy::Annotating if small => Stage,
-            Busy::Annotating => Library,
-            Busy::Searching => Search,
-            Busy::Recombining => Recombine,
+            BusyTask::Annotating if small => Stage,
+            BusyTask::Annotating => Library,
+            BusyTask::Searching => Search,
+            BusyTask::Recombining => Recombine,
         },
     );
     tree
@@ -115,22 +109,22 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
 
 /// Scales the shares of all panes to an average of 1 within their container, so that the panes keep their relative
 /// sizes when one is added or removed. egui_tiles gives a new pane a share of 1, the average of its neighbours.
-pub(crate) fn settle(tree: &mut Tree<PaneKind>) {
+pub(crate) fn settle_pane_shares(tree: &mut Tree<PaneKind>) {
     let ids: Vec<TileId> = tree.tiles.tile_ids().collect();
     for id in ids {
         let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else {
             continue;
         };
-        let known = |child: &TileId| linear.shares.iter().any(|(it, _)| it == child);
-        let shares: Vec<(TileId, f32)> = if linear.children.iter().any(known) {
+        let has_share = |child: &TileId| linear.shares.iter().any(|(tile, _)| tile == child);
+        let shares: Vec<(TileId, f32)> = if linear.children.iter().any(has_share) {
             let children = linear.children.iter();
-            children.map(|it| (*it, linear.shares[*it])).collect()
+            children.map(|child| (*child, linear.shares[*child])).collect()
         } else {
-            let weight = |it: &TileId| (*it, groups(tree, *it).clamp(1, 3) as f32);
+            let weight = |child: &TileId| (*child, count_side_panes(tree, *child).clamp(1, 3) as f32);
             linear.children.iter().map(weight).collect()
         };
-        let mean = shares.iter().map(|it| it.1).sum::<f32>() / shares.len().max(1) as f32;
-        let even = (mean - 1.0).abs() < 1e-3 && linear.children.iter().all(known);
+        let mean = shares.iter().map(|pair| pair.1).sum::<f32>() / shares.len().max(1) as f32;
+        let even = (mean - 1.0).abs() < 1e-3 && linear.children.iter().all(has_share);
         if even || mean <= 0.0 {
             continue;
         }
@@ -143,16 +137,16 @@ pub(crate) fn settle(tree: &mut Tree<PaneKind>) {
 }
 
 /// Returns how many panes stand side by side below a tile; panes in tabs count as one.
-fn groups(tree: &Tree<PaneKind>, id: TileId) -> usize {
+fn count_side_panes(tree: &Tree<PaneKind>, id: TileId) -> usize {
     match tree.tiles.get(id) {
         Some(Tile::Container(Container::Linear(linear))) => {
-            linear.children.iter().map(|it| groups(tree, *it)).sum()
+            linear.children.iter().map(|child| count_side_panes(tree, *child)).sum()
         }
         _ => 1,
     }
 }
 
-fn shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
+fn tile_with_shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
     let mut linear = Linear::new(dir, parts.iter().map(|(tile, _)| *tile).collect());
     for (tile, share) in parts {
         // A new pane has a share of 1: the average of the panes here.
@@ -163,49 +157,48 @@ fn shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) 
 
 /// Returns the remembered layout if it contains every pane once, else the layout for the task `busy` and the window
 /// size.
-pub(crate) fn remembered(
-    tree: Option<&Tree<PaneKind>>,
-    (busy, small): (Busy, bool),
-) -> Tree<PaneKind> {
-    let whole = |tree: &&Tree<PaneKind>| {
-        PaneKind::ALL.iter().all(|kind| {
+pub(crate) fn remembered_layout(tree: Option<&Tree<PaneKind>>, (busy, small): (BusyTask, bool)) -> Tree<PaneKind> {
+    let is_complete = |tree: &&Tree<PaneKind>| {
+        PaneKind::ALL_PANE_KINDS.iter().all(|kind| {
             let is = |tile: &&Tile<PaneKind>| matches!(tile, Tile::Pane(pane) if pane == kind);
             tree.tiles.tiles().filter(is).count() == 1
         })
     };
-    tree.filter(whole)
+    tree.filter(is_complete)
         .cloned()
-        .unwrap_or_else(|| of(busy, small))
+        .unwrap_or_else(|| layout_for_task(busy, small))
 }
 
 /// Returns whether a pane is in sight, and not behind another tab.
-pub(crate) fn shows(tree: &Tree<PaneKind>, kind: PaneKind) -> bool {
+pub(crate) fn is_pane_in_sight(tree: &Tree<PaneKind>, kind: PaneKind) -> bool {
     let tile = tree.tiles.find_pane(&kind);
     tile.is_some_and(|tile| tree.active_tiles().contains(&tile))
 }
 
 /// Returns whether two panes are tabs of the same container, so that only one of them is in sight.
-pub(crate) fn hides(tree: &Tree<PaneKind>, kind: PaneKind, other: PaneKind) -> bool {
+pub(crate) fn shares_tab_container(tree: &Tree<PaneKind>, kind: PaneKind, other: PaneKind) -> bool {
     let parent = |kind: PaneKind| tree.tiles.parent_of(tree.tiles.find_pane(&kind)?);
-    kind != other && parent(kind).is_some_and(|it| Some(it) == parent(other))
+    kind != other && parent(kind).is_some_and(|container| Some(container) == parent(other))
 }
 
 /// Brings the stage into sight, and the timeline if only the inspector, the films or the history covers it.
-pub(crate) fn look(tree: &mut Tree<PaneKind>) {
+pub(crate) fn bring_stage_into_sight(tree: &mut Tree<PaneKind>) {
     use PaneKind::{Film, History, Inspector, Stage, Timeline};
-    if !shows(tree, Stage) {
-        bring(tree, Stage);
+    if !is_pane_in_sight(tree, Stage) {
+        bring_pane_to_front(tree, Stage);
     }
-    let covering = [Inspector, Film, History];
-    let covering = covering.into_iter().find(|it| hides(tree, *it, Timeline));
-    if covering.is_some_and(|it| shows(tree, it)) && !hides(tree, Stage, Timeline) {
-        bring(tree, Timeline);
+    let covering_kinds = [Inspector, Film, History];
+    let covering = covering_kinds
+        .into_iter()
+        .find(|kind| shares_tab_container(tree, *kind, Timeline));
+    if covering.is_some_and(|kind| is_pane_in_sight(tree, kind)) && !shares_tab_container(tree, Stage, Timeline) {
+        bring_pane_to_front(tree, Timeline);
     }
 }
 
 /// Hides all panes but these, or shows all panes again if any is hidden.
-pub(crate) fn enlarge(tree: &mut Tree<PaneKind>, kinds: &[PaneKind]) {
-    let tiles = PaneKind::ALL.map(|kind| (kind, tree.tiles.find_pane(&kind)));
+pub(crate) fn enlarge_panes(tree: &mut Tree<PaneKind>, kinds: &[PaneKind]) {
+    let tiles = PaneKind::ALL_PANE_KINDS.map(|kind| (kind, tree.tiles.find_pane(&kind)));
     let away = |tile: &Option<TileId>| tile.is_some_and(|tile| !tree.tiles.is_visible(tile));
     let all = tiles.iter().any(|(_, tile)| away(tile));
     for (kind, tile) in tiles {
@@ -214,15 +207,15 @@ pub(crate) fn enlarge(tree: &mut Tree<PaneKind>, kinds: &[PaneKind]) {
         }
     }
     for kind in kinds {
-        bring(tree, *kind);
+        bring_pane_to_front(tree, *kind);
     }
 }
 
 /// Brings a pane to the front of its tabs; if it was hidden, shows all panes again.
-pub(crate) fn bring(tree: &mut Tree<PaneKind>, kind: PaneKind) {
+pub(crate) fn bring_pane_to_front(tree: &mut Tree<PaneKind>, kind: PaneKind) {
     if let Some(tile) = tree.tiles.find_pane(&kind) {
         if !tree.tiles.is_visible(tile) {
-            for other in PaneKind::ALL {
+            for other in PaneKind::ALL_PANE_KINDS {
                 if let Some(other) = tree.tiles.find_pane(&other) {
                     tree.set_visible(other, true);
                 }
@@ -237,21 +230,21 @@ mod tests {
     use super::*;
 
     fn as_usual(tree: Option<&Tree<PaneKind>>) -> Tree<PaneKind> {
-        remembered(tree, (Busy::Annotating, false))
+        remembered_layout(tree, (BusyTask::Annotating, false))
     }
 
     #[test]
     fn a_layout_that_lacks_a_pane_is_refused() {
-        let tree = of(Busy::Annotating, false);
+        let tree = layout_for_task(BusyTask::Annotating, false);
         assert_eq!(as_usual(Some(&tree)), tree);
-        let mut lacking = of(Busy::Annotating, false);
+        let mut lacking = layout_for_task(BusyTask::Annotating, false);
         let stage = lacking.tiles.find_pane(&PaneKind::Stage).expect("a stage");
         lacking.remove_recursively(stage);
         assert_eq!(as_usual(Some(&lacking)), tree);
         assert_eq!(as_usual(None), tree);
-        for busy in [Busy::Annotating, Busy::Searching, Busy::Recombining] {
+        for busy in [BusyTask::Annotating, BusyTask::Searching, BusyTask::Recombining] {
             for small in [false, true] {
-                let tree = of(busy, small);
+                let tree = layout_for_task(busy, small);
                 assert_eq!(as_usual(Some(&tree)), tree);
             }
         }
@@ -270,11 +263,11 @@ mod tests {
 
     #[test]
     fn panes_keep_their_proportions_when_one_is_added() {
-        let mut tree = of(Busy::Annotating, false);
-        settle(&mut tree);
+        let mut tree = layout_for_task(BusyTask::Annotating, false);
+        settle_pane_shares(&mut tree);
         assert_eq!(
             tree,
-            of(Busy::Annotating, false),
+            layout_for_task(BusyTask::Annotating, false),
             "nothing is to be settled"
         );
         let before = widths(&tree);
@@ -283,24 +276,21 @@ mod tests {
         let tabs = tree.tiles.parent_of(stage).expect("tabs");
         let row = tree.tiles.parent_of(tabs).expect("a row");
         tree.move_tile_to_container(history, row, 3, false);
-        settle(&mut tree);
+        settle_pane_shares(&mut tree);
         let after = widths(&tree);
         assert_eq!(after.len(), 4);
         assert!(after[3] < 0.3, "it takes its part, not half: {after:?}");
         for (a, b) in before.iter().zip(&after) {
-            assert!(
-                (b / a - after[0] / before[0]).abs() < 1e-3,
-                "{before:?} {after:?}"
-            );
+            assert!((b / a - after[0] / before[0]).abs() < 1e-3, "{before:?} {after:?}");
         }
         // A pane beside several others takes as much as one of them.
-        let mut tree = of(Busy::Annotating, false);
+        let mut tree = layout_for_task(BusyTask::Annotating, false);
         let root = tree.root().expect("a root");
         let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");
         let both = Linear::new(LinearDir::Horizontal, vec![root, history]);
         let both = tree.tiles.insert_container(Container::Linear(both));
         tree.root = Some(both);
-        settle(&mut tree);
+        settle_pane_shares(&mut tree);
         let Some(Tile::Container(Container::Linear(both))) = tree.tiles.get(both) else {
             panic!("a row");
         };
@@ -310,59 +300,59 @@ mod tests {
 
     #[test]
     fn panes_are_closed_and_opened_again() {
-        let mut tree = of(Busy::Annotating, false);
-        enlarge(&mut tree, &[PaneKind::Timeline, PaneKind::Stage]);
+        let mut tree = layout_for_task(BusyTask::Annotating, false);
+        enlarge_panes(&mut tree, &[PaneKind::Timeline, PaneKind::Stage]);
         let shown = |tree: &Tree<PaneKind>| -> Vec<PaneKind> {
-            let all = PaneKind::ALL.into_iter();
-            all.filter(|kind| shows(tree, *kind)).collect()
+            let all = PaneKind::ALL_PANE_KINDS.into_iter();
+            all.filter(|kind| is_pane_in_sight(tree, *kind)).collect()
         };
         assert_eq!(shown(&tree), [PaneKind::Stage, PaneKind::Timeline]);
-        enlarge(&mut tree, &[PaneKind::Timeline]);
+        enlarge_panes(&mut tree, &[PaneKind::Timeline]);
         assert_eq!(shown(&tree).len(), 4);
-        enlarge(&mut tree, &[PaneKind::Timeline]);
+        enlarge_panes(&mut tree, &[PaneKind::Timeline]);
         assert_eq!(shown(&tree), [PaneKind::Timeline]);
         assert_eq!(as_usual(Some(&tree)), tree);
-        bring(&mut tree, PaneKind::Inspector);
+        bring_pane_to_front(&mut tree, PaneKind::Inspector);
         assert_eq!(shown(&tree).len(), 4);
     }
 
     #[test]
     fn a_pane_behind_others_is_brought_to_the_front() {
-        let mut tree = of(Busy::Annotating, false);
+        let mut tree = layout_for_task(BusyTask::Annotating, false);
         let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");
-        assert!(!shows(&tree, PaneKind::History));
-        bring(&mut tree, PaneKind::History);
-        assert!(tree.active_tiles().contains(&history) && shows(&tree, PaneKind::History));
+        assert!(!is_pane_in_sight(&tree, PaneKind::History));
+        bring_pane_to_front(&mut tree, PaneKind::History);
+        assert!(tree.active_tiles().contains(&history) && is_pane_in_sight(&tree, PaneKind::History));
     }
 
     #[test]
     fn an_opened_pane_is_visible_wherever_the_stage_is() {
         use PaneKind::{Inspector, Library, Search, Stage, Timeline};
-        for busy in [Busy::Annotating, Busy::Searching, Busy::Recombining] {
+        for busy in [BusyTask::Annotating, BusyTask::Searching, BusyTask::Recombining] {
             for small in [false, true] {
-                let mut tree = of(busy, small);
-                bring(&mut tree, Inspector);
-                bring(&mut tree, Search);
-                look(&mut tree);
-                assert!(shows(&tree, Stage), "{busy:?} {small}");
-                let beside = !hides(&tree, Stage, Timeline);
-                assert_eq!(shows(&tree, Timeline), beside, "{busy:?} {small}");
+                let mut tree = layout_for_task(busy, small);
+                bring_pane_to_front(&mut tree, Inspector);
+                bring_pane_to_front(&mut tree, Search);
+                bring_stage_into_sight(&mut tree);
+                assert!(is_pane_in_sight(&tree, Stage), "{busy:?} {small}");
+                let beside = !shares_tab_container(&tree, Stage, Timeline);
+                assert_eq!(is_pane_in_sight(&tree, Timeline), beside, "{busy:?} {small}");
             }
         }
-        let tree = of(Busy::Annotating, true);
-        assert!(hides(&tree, Search, Stage) && hides(&tree, Search, Library));
-        assert!(!hides(&tree, Stage, Timeline) && !hides(&tree, Stage, Stage));
+        let tree = layout_for_task(BusyTask::Annotating, true);
+        assert!(shares_tab_container(&tree, Search, Stage) && shares_tab_container(&tree, Search, Library));
+        assert!(!shares_tab_container(&tree, Stage, Timeline) && !shares_tab_container(&tree, Stage, Stage));
     }
 
     #[test]
     fn a_small_window_shows_stage_and_work_pane_together() {
         for (busy, kind) in [
-            (Busy::Annotating, PaneKind::Timeline),
-            (Busy::Searching, PaneKind::Search),
-            (Busy::Recombining, PaneKind::Recombine),
+            (BusyTask::Annotating, PaneKind::Timeline),
+            (BusyTask::Searching, PaneKind::Search),
+            (BusyTask::Recombining, PaneKind::Recombine),
         ] {
-            let tree = of(busy, true);
-            assert!(shows(&tree, PaneKind::Stage) && shows(&tree, kind));
+            let tree = layout_for_task(busy, true);
+            assert!(is_pane_in_sight(&tree, PaneKind::Stage) && is_pane_in_sight(&tree, kind));
         }
         assert!(is_small(vec2(800.0, 600.0)) && is_small(vec2(1280.0, 800.0) / 1.5));
         assert!(!is_small(vec2(1280.0, 720.0)));

@@ -63,32 +63,32 @@ mod workbench;
 use std::path::PathBuf;
 
 pub use app::Studio;
-pub use error::Error;
-pub use settings::Folders;
-pub use words::Language;
+pub use error::StudioError;
+pub use settings::StudioFolders;
+pub use words::InterfaceLanguage;
 
 use eframe::egui::ViewportBuilder;
 
 /// The settings that the window starts with.
 #[derive(Debug, Clone, Default)]
-pub struct Options {
+pub struct StudioOptions {
     /// The corpus to open; the start page if `None`.
     pub corpus: Option<PathBuf>,
     /// Name of the person at work, for the history.
     pub author: String,
     /// Where settings and the starter corpus are kept.
-    pub folders: Folders,
+    pub folders: StudioFolders,
     /// The language to use if the settings name none.
-    pub language: Language,
+    pub language: InterfaceLanguage,
     /// The language requested for this start; it is stored in the settings.
-    pub asked_language: Option<Language>,
+    pub asked_language: Option<InterfaceLanguage>,
 }
 
 /// Opens the window, and returns after it is closed.
 ///
 /// # Errors
-/// [`Error::Window`] if the system has no display, or none that can draw.
-pub fn run(options: Options) -> Result<(), Error> {
+/// [`StudioError::Window`] if the system has no display, or none that can draw.
+pub fn run(options: StudioOptions) -> Result<(), StudioError> {
     let native = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("Chereme")
@@ -102,10 +102,6 @@ pub fn run(options: Options) -> Result<(), Error> {
         system_font_fallback: false,
         ..eframe::NativeOptions::default()
     };
-    let started = eframe::run_native(
-        "chereme",
-        native,
-        Box::new(move |_| Ok(Box::new(Studio::new(options)))),
-    );
-    started.map_err(Error::window)
+    let started = eframe::run_native("chereme", native, Box::new(move |_| Ok(Box::new(Studio::new(options)))));
+    started.map_err(StudioError::from_window_error)
 }

@@ -3,89 +3,92 @@
 
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{Address, ExportOptions, ExportWhat, Name, PictureOptions};
+use chereme_corpus::{CorpusAddress, ExportOptions, ExportWhat, PictureOptions, RowName};
 use eframe::egui::Context;
 
 use crate::action::Action;
 use crate::app::Studio;
-use crate::command::Command;
-use crate::overlay::export::{What, file_name};
+use crate::command::WindowCommand;
+use crate::overlay::overlay_export::{ExportObject, file_name};
 use crate::panes::recombine::selected_token;
-use crate::words::stage as words;
-use crate::work::Job;
-use crate::work::exchange::{self, Shared};
+use crate::words::stage_words as words;
+use crate::work::CorpusJob;
+use crate::work::exchange::{self, SharedMovement};
 
 /// Height of a shared film, in pixels.
-const HEIGHT: usize = 720;
+const SHARED_FILM_HEIGHT_PIXELS: usize = 720;
 
 impl Studio {
     /// Writes the contents of the stage: generated movement, else the selected sign, else the recording.
-    pub(crate) fn share(&mut self, action: Action, ctx: &Context) {
-        match self.shared(action, ctx) {
+    pub(crate) fn share_stage_contents(&mut self, action: Action, ctx: &Context) {
+        match self.shared_contents_job(action, ctx) {
             Ok(job) => {
-                self.out.work(job);
+                self.out.request_work(job);
             }
-            Err(text) => self.out.send(Command::Cannot(text)),
+            Err(text) => self.out.send_command(WindowCommand::Cannot(text)),
         }
     }
 
-    fn shared(&self, action: Action, ctx: &Context) -> Result<Job, crate::words::Text> {
+    fn shared_contents_job(&self, action: Action, ctx: &Context) -> Result<CorpusJob, crate::words::InterfaceText> {
         let nothing = words::SHARE_NOTHING;
-        let corpus = self.corpus().ok_or(nothing)?;
+        let corpus = self.shown_corpus_path().ok_or(nothing)?;
         let ending = match action {
             Action::ShareFilm => "mp4",
             Action::ShareGif => "gif",
             Action::SharePicture => "png",
             _ => "glb",
         };
-        let made = self.shown.made.as_ref().map(|it| it.made.clone());
+        let made = self.shown.made.as_ref().map(|showing| showing.made.clone());
         let (what, name) = match made {
             Some(made) => {
-                let name = What::Recording(0, made.name.clone());
-                (Shared::Made(made), name)
+                let name = ExportObject::Recording(0, made.name.clone());
+                (SharedMovement::Made(made), name)
             }
             None => {
-                let seen = self.seen(ctx).ok_or(nothing)?;
+                let seen = self.pane_input(ctx).ok_or(nothing)?;
                 let recording = seen.shown.recording.ok_or(nothing)?;
                 if !seen.reel.has_movement() {
                     return Err(nothing);
                 }
-                let selected = seen.shown.annotation().is_some() || seen.shown.span.is_some();
+                let selected = seen.shown.selected_annotation().is_some() || seen.shown.span.is_some();
                 match selected_token(&seen).filter(|_| selected) {
                     Some((token, gloss)) => (
-                        Shared::Stored(Address::Token(token)),
-                        What::Token(token, gloss),
+                        SharedMovement::Stored(CorpusAddress::Token(token)),
+                        ExportObject::Token(token, gloss),
                     ),
                     None => {
-                        let glance = seen.snapshot.recording(recording).ok_or(nothing)?;
+                        let glance = seen.snapshot.recording_glance(recording).ok_or(nothing)?;
                         let name = glance.row.name.clone();
-                        let address = Address::Recording(Name::Number(recording));
-                        (Shared::Stored(address), What::Recording(recording, name))
+                        let address = CorpusAddress::Recording(RowName::Number(recording));
+                        (
+                            SharedMovement::Stored(address),
+                            ExportObject::Recording(recording, name),
+                        )
                     }
                 }
             }
         };
-        let to = free(corpus, &file_name(&name, corpus, Some(ending)));
+        let to = free_share_path(corpus, &file_name(&name, corpus, Some(ending)));
         match (ending, what) {
-            ("glb", Shared::Stored(address)) => {
+            ("glb", SharedMovement::Stored(address)) => {
                 let what = ExportWhat::Address(address);
-                Ok(exchange::export(what, to, ExportOptions::default()))
+                Ok(exchange::export_files_job(what, to, ExportOptions::default()))
             }
-            ("glb", Shared::Made(_)) => Err(words::SHARE_STORE),
+            ("glb", SharedMovement::Made(_)) => Err(words::SHARE_STORE),
             (ending, what) => {
                 let options = PictureOptions {
-                    height: (ending == "mp4").then_some(HEIGHT),
+                    height: (ending == "mp4").then_some(SHARED_FILM_HEIGHT_PIXELS),
                     captions: ending != "png",
                     ..PictureOptions::default()
                 };
-                Ok(exchange::share(what, to, options))
+                Ok(exchange::share_movement_job(what, to, options))
             }
         }
     }
 }
 
 /// Returns a path next to the corpus that no file has yet: `BOL.mp4`, else `BOL 2.mp4` and so on.
-fn free(corpus: &Path, name: &str) -> PathBuf {
+fn free_share_path(corpus: &Path, name: &str) -> PathBuf {
     let folder = corpus.parent().unwrap_or(Path::new(""));
     let first = folder.join(name);
     let name = Path::new(name);
@@ -105,7 +108,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let corpus = folder.path().join("c.chereme");
         let name = |expected: &str| {
-            assert_eq!(free(&corpus, "BOL.mp4"), folder.path().join(expected));
+            assert_eq!(free_share_path(&corpus, "BOL.mp4"), folder.path().join(expected));
             std::fs::write(folder.path().join(expected), "").expect("written");
         };
         name("BOL.mp4");

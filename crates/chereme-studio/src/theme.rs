@@ -4,15 +4,15 @@
 
 use chereme_corpus::TierRole;
 use eframe::egui::{
-    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Style,
-    TextStyle, Theme, ThemePreference, Vec2, epaint::Hsva,
+    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Style, TextStyle, Theme,
+    ThemePreference, Vec2, epaint::Hsva,
 };
 
-use crate::settings::{Settings, ThemeChoice};
+use crate::settings::{StudioSettings, ThemeChoice};
 
 /// Colours with a fixed meaning.
 #[derive(Debug)]
-pub(crate) struct Colours {
+pub(crate) struct ThemeColours {
     /// Selected things, and prompts to the user.
     pub(crate) accent: Color32,
     /// The selected time.
@@ -39,7 +39,7 @@ pub(crate) struct Colours {
     pub(crate) good: Color32,
 }
 
-const LIGHT: Colours = Colours {
+const LIGHT_THEME_COLOURS: ThemeColours = ThemeColours {
     accent: Color32::from_rgb(0x00, 0x62, 0xA3),
     selection: Color32::from_rgb(0xBF, 0xDD, 0xF2),
     playhead: Color32::from_rgb(0xC2, 0x41, 0x00),
@@ -58,7 +58,7 @@ const LIGHT: Colours = Colours {
     good: Color32::from_rgb(0x00, 0x6B, 0x4F),
 };
 
-const DARK: Colours = Colours {
+const DARK_THEME_COLOURS: ThemeColours = ThemeColours {
     accent: Color32::from_rgb(0x6D, 0xB9, 0xEA),
     selection: Color32::from_rgb(0x27, 0x4A, 0x66),
     playhead: Color32::from_rgb(0xFF, 0x95, 0x4F),
@@ -77,13 +77,17 @@ const DARK: Colours = Colours {
     good: Color32::from_rgb(0x5F, 0xD0, 0xA8),
 };
 
-impl Colours {
-    pub(crate) fn of(dark: bool) -> &'static Self {
-        if dark { &DARK } else { &LIGHT }
+impl ThemeColours {
+    pub(crate) fn colours_for_theme(dark: bool) -> &'static Self {
+        if dark {
+            &DARK_THEME_COLOURS
+        } else {
+            &LIGHT_THEME_COLOURS
+        }
     }
 
     /// Returns the colour of annotations of a tier with that role.
-    pub(crate) fn role(&self, role: &TierRole) -> Color32 {
+    pub(crate) fn tier_role_colour(&self, role: &TierRole) -> Color32 {
         match role {
             TierRole::Gloss => self.gloss,
             TierRole::Component { .. } => self.component,
@@ -94,8 +98,8 @@ impl Colours {
 }
 
 /// Returns the colours of the right and the left hand, like those of the figure, strong enough for lines and text.
-pub(crate) fn hands(dark: bool) -> [Color32; 2] {
-    let palette = chereme_figure::Palette::default().with_hands_apart();
+pub(crate) fn hand_theme_colours(dark: bool) -> [Color32; 2] {
+    let palette = chereme_figure::FigurePalette::default().with_hands_apart();
     [palette.right, palette.left].map(|hand| {
         let [r, g, b] = hand.back.0;
         let hue = Hsva::from(Color32::from_rgb(r, g, b));
@@ -106,16 +110,16 @@ pub(crate) fn hands(dark: bool) -> [Color32; 2] {
 }
 
 /// Sets up a context once: our fonts and spacing, and shapes that are cheap to draw.
-pub(crate) fn install(ctx: &Context) {
+pub(crate) fn install_studio_theme(ctx: &Context) {
     ctx.set_fonts(fonts());
-    crate::script::install(ctx);
-    ctx.add_plugin(crate::pixel_rects::Plain);
+    crate::script::install_script_support(ctx);
+    ctx.add_plugin(crate::pixel_rects::ShapeSimplifier);
     ctx.style_mut_of(Theme::Light, |style| refine(style, false));
     ctx.style_mut_of(Theme::Dark, |style| refine(style, true));
 }
 
 /// Applies theme and scale.
-pub(crate) fn apply(ctx: &Context, settings: &Settings) {
+pub(crate) fn apply_theme_settings(ctx: &Context, settings: &StudioSettings) {
     ctx.set_theme(match settings.theme {
         ThemeChoice::System => ThemePreference::System,
         ThemeChoice::Light => ThemePreference::Light,
@@ -129,20 +133,20 @@ pub(crate) fn apply(ctx: &Context, settings: &Settings) {
 /// Returns the fonts: Noto Sans, which has phonetic letters, before egui's fonts, which have signs that Noto Sans
 /// lacks.
 fn fonts() -> FontDefinitions {
-    const NOTO: &str = "Noto Sans";
+    const NOTO_FONT_NAME: &str = "Noto Sans";
     let mut fonts = FontDefinitions::default();
     let data = FontData::from_static(notosans::REGULAR_TTF);
-    fonts.font_data.insert(NOTO.to_owned(), data.into());
+    fonts.font_data.insert(NOTO_FONT_NAME.to_owned(), data.into());
     let usual = fonts.families.entry(FontFamily::Proportional).or_default();
-    usual.insert(0, NOTO.to_owned());
+    usual.insert(0, NOTO_FONT_NAME.to_owned());
     usual.push("Hack".to_owned());
     let fixed = fonts.families.entry(FontFamily::Monospace).or_default();
-    fixed.push(NOTO.to_owned());
+    fixed.push(NOTO_FONT_NAME.to_owned());
     fonts
 }
 
 fn refine(style: &mut Style, dark: bool) {
-    let colours = Colours::of(dark);
+    let colours = ThemeColours::colours_for_theme(dark);
     for (text, size) in [
         (TextStyle::Small, 11.5),
         (TextStyle::Body, 14.0),
@@ -151,9 +155,7 @@ fn refine(style: &mut Style, dark: bool) {
     ] {
         style.text_styles.insert(text, FontId::proportional(size));
     }
-    style
-        .text_styles
-        .insert(TextStyle::Monospace, FontId::monospace(13.0));
+    style.text_styles.insert(TextStyle::Monospace, FontId::monospace(13.0));
     style.spacing.item_spacing = Vec2::new(8.0, 6.0);
     style.spacing.button_padding = Vec2::new(8.0, 4.0);
     style.spacing.interact_size.y = 24.0;
@@ -163,11 +165,7 @@ fn refine(style: &mut Style, dark: bool) {
     style.spacing.scroll.dormant_background_opacity = 0.15;
     let visuals = &mut style.visuals;
     visuals.selection.bg_fill = colours.selection;
-    visuals.selection.stroke.color = if dark {
-        Color32::WHITE
-    } else {
-        colours.on_annotation
-    };
+    visuals.selection.stroke.color = if dark { Color32::WHITE } else { colours.on_annotation };
     visuals.hyperlink_color = colours.accent;
     let (panel, edge, text) = if dark {
         (
@@ -237,10 +235,10 @@ mod tests {
     #[test]
     fn the_selection_differs_in_lightness_from_every_tier() {
         for dark in [false, true] {
-            let colours = Colours::of(dark);
+            let colours = ThemeColours::colours_for_theme(dark);
             for role in ["gloss", "configuration", "translation", "free"] {
                 let role: TierRole = role.parse().expect("a role");
-                let apart = contrast(colours.chosen, colours.role(&role));
+                let apart = contrast(colours.chosen, colours.tier_role_colour(&role));
                 assert!(apart >= 1.8, "{dark} {role:?}: {apart}");
             }
             assert!(contrast(colours.chosen, colours.on_chosen) >= 4.5);
@@ -251,10 +249,10 @@ mod tests {
     fn fields_for_text_have_a_visible_edge() {
         for dark in [false, true] {
             let ctx = Context::default();
-            install(&ctx);
+            install_studio_theme(&ctx);
             let theme = if dark { Theme::Dark } else { Theme::Light };
             let visuals = ctx.style_of(theme).visuals.clone();
-            let edge = Colours::of(dark).field_edge;
+            let edge = ThemeColours::colours_for_theme(dark).field_edge;
             for ground in [visuals.panel_fill, visuals.text_edit_bg_color()] {
                 let apart = contrast(edge, ground);
                 assert!(apart >= 3.0, "{dark} {ground:?}: {apart}");
@@ -265,37 +263,26 @@ mod tests {
     #[test]
     fn lines_of_the_two_hands_are_visible_and_distinguishable() {
         for (dark, ground) in [(false, 0xF7), (true, 0x1A)] {
-            let [right, left] = hands(dark);
+            let [right, left] = hand_theme_colours(dark);
             for hand in [right, left] {
-                assert!(
-                    contrast(hand, Color32::from_gray(ground)) >= 3.0,
-                    "{dark} {hand:?}"
-                );
+                assert!(contrast(hand, Color32::from_gray(ground)) >= 3.0, "{dark} {hand:?}");
             }
             let warm = |it: Color32| i32::from(it.r()) - i32::from(it.b());
-            assert!(
-                warm(right) > 40 && warm(left) < -40,
-                "{dark} {right:?} {left:?}"
-            );
+            assert!(warm(right) > 40 && warm(left) < -40, "{dark} {right:?} {left:?}");
         }
     }
 
     #[test]
     fn the_fonts_cover_phonetic_letters_and_all_texts_of_the_window() {
         let ctx = Context::default();
-        install(&ctx);
-        ctx.run_ui(RawInput::default(), |_| {})
-            .textures_delta
-            .clear();
-        ctx.run_ui(RawInput::default(), |_| {})
-            .textures_delta
-            .clear();
+        install_studio_theme(&ctx);
+        ctx.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
+        ctx.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
         let text = "ɛɔəʃʒŋθðʔɑɪʊ éèêëàçùœÉŒ …’·→←↑↓×²°±≤≥";
         let missing: Vec<char> = text
             .chars()
             .filter(|letter| {
-                !letter.is_whitespace()
-                    && !ctx.fonts_mut(|fonts| fonts.has_glyph(&FontId::proportional(14.0), *letter))
+                !letter.is_whitespace() && !ctx.fonts_mut(|fonts| fonts.has_glyph(&FontId::proportional(14.0), *letter))
             })
             .collect();
         assert!(missing.is_empty(), "{missing:?}");

@@ -2,20 +2,20 @@
 
 use eframe::egui::output::OutputEvent;
 use eframe::egui::{
-    Frame, Id, Popup, Rect, Response, Role, Stroke, StrokeKind, Style, TextStyle, TextWrapMode, Ui,
-    WidgetInfo, WidgetText,
+    Frame, Id, Popup, Rect, Response, Role, Stroke, StrokeKind, Style, TextStyle, TextWrapMode, Ui, WidgetInfo,
+    WidgetText,
 };
 use egui_tiles::{Behavior, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
 
-use crate::context::{Outbox, PaneInput};
-use crate::panes::{PaneKind, Panes, carry, focused_widget};
+use crate::context::{CommandOutbox, PaneInput};
+use crate::panes::{PaneKind, PaneSet, carry, focused_widget};
 use crate::words::shell as words;
 
 /// The panes, as drawn by the tile layout.
-pub(crate) struct Workbench<'a> {
-    pub(crate) panes: &'a mut Panes,
+pub(crate) struct TileWorkbench<'a> {
+    pub(crate) panes: &'a mut PaneSet,
     pub(crate) seen: PaneInput<'a>,
-    pub(crate) out: &'a mut Outbox,
+    pub(crate) out: &'a mut CommandOutbox,
     pub(crate) pane: &'a mut Option<PaneKind>,
     /// The text field that has the cursor, or had it when the mouse was pressed, and its pane.
     pub(crate) cursor: &'a mut Option<(PaneKind, Id)>,
@@ -26,13 +26,13 @@ pub(crate) struct Workbench<'a> {
 }
 
 /// The height of a strip of tabs, which is the width of its arrows, too.
-const STRIP: f32 = 28.0;
+const TAB_STRIP_HEIGHT_POINTS: f32 = 28.0;
 /// The number of frames in which a strip is scrolled to its open tab after that changed: its arrows come a frame later.
-const FRAMES: u8 = 3;
+const STRIP_SCROLL_FRAMES: u8 = 3;
 
 /// The state of a strip at the frame before.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Strip {
+struct TabStripState {
     open: Option<TileId>,
     width: f32,
     /// The frames that are left in which it is scrolled.
@@ -40,16 +40,16 @@ struct Strip {
 }
 
 /// The margin of a pane; the frame around the pane that has the focus lies in it.
-const MARGIN: f32 = 8.0;
+const PANE_MARGIN_POINTS: f32 = 8.0;
 
 /// Returns the widget with the keyboard focus, if it lies in a part of the window, and not above it.
 fn focused_in(ui: &Ui, part: Rect) -> Option<Response> {
     let is_inside =
-        |it: &Response| it.layer_id == ui.layer_id() && part.contains_rect(it.interact_rect);
+        |response: &Response| response.layer_id == ui.layer_id() && part.contains_rect(response.interact_rect);
     focused_widget(ui).filter(is_inside)
 }
 
-impl Workbench<'_> {
+impl TileWorkbench<'_> {
     /// Leaves the cursor in the text field of a pane if a button of the pane was pressed; the pane reported what happened
     /// to its widgets after `before` other reports.
     fn keep_cursor(&mut self, ui: &Ui, part: Rect, (pane, before): (PaneKind, usize)) {
@@ -86,14 +86,14 @@ fn offset_for((left, right): (f32, f32), room: f32, offset: f32) -> f32 {
     offset.max(right - room).min(left)
 }
 
-impl Behavior<PaneKind> for Workbench<'_> {
+impl Behavior<PaneKind> for TileWorkbench<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, kind: &mut PaneKind) -> UiResponse {
-        Frame::new().inner_margin(MARGIN).show(ui, |ui| {
+        Frame::new().inner_margin(PANE_MARGIN_POINTS).show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             // A press on a list or a menu above the pane is none on the pane.
             let pressed = ui.input(|input| input.pointer.any_pressed());
             if pressed && ui.rect_contains_pointer(rect)
-                || focused_in(ui, rect).is_some_and(|it| it.gained_focus())
+                || focused_in(ui, rect).is_some_and(|response| response.gained_focus())
             {
                 *self.pane = Some(*kind);
             }
@@ -102,38 +102,28 @@ impl Behavior<PaneKind> for Workbench<'_> {
             ui.allocate_space(ui.available_size());
             self.keep_cursor(ui, rect, (*kind, before));
             if *self.pane == Some(*kind) {
-                let stroke = Stroke::new(1.5, self.seen.colours().accent);
-                let around = rect.expand(MARGIN - 1.0);
-                ui.painter()
-                    .rect_stroke(around, 0.0, stroke, StrokeKind::Inside);
+                let stroke = Stroke::new(1.5, self.seen.pane_colours().accent);
+                let around = rect.expand(PANE_MARGIN_POINTS - 1.0);
+                ui.painter().rect_stroke(around, 0.0, stroke, StrokeKind::Inside);
             }
         });
         UiResponse::None
     }
 
     fn tab_title_for_pane(&mut self, kind: &PaneKind) -> WidgetText {
-        self.seen.say(kind.title()).into()
+        self.seen.say_text(kind.pane_title()).into()
     }
 
     /// Shows the menu of all tabs if the strip has no room for them, and scrolls to the open tab once it changed.
-    fn top_bar_right_ui(
-        &mut self,
-        tiles: &Tiles<PaneKind>,
-        ui: &mut Ui,
-        tile: TileId,
-        tabs: &Tabs,
-        offset: &mut f32,
-    ) {
+    fn top_bar_right_ui(&mut self, tiles: &Tiles<PaneKind>, ui: &mut Ui, tile: TileId, tabs: &Tabs, offset: &mut f32) {
         let font = TextStyle::Button.resolve(ui.style());
         let margin = self.tab_title_spacing(ui.visuals());
         let mut end = 0.0;
         let mut titles: Vec<(TileId, WidgetText, (f32, f32))> = Vec::new();
-        for child in tabs.children.iter().filter(|it| tiles.is_visible(**it)) {
+        for child in tabs.children.iter().filter(|child| tiles.is_visible(**child)) {
             let title = self.tab_title_for_tile(tiles, *child);
             let extend = Some(TextWrapMode::Extend);
-            let galley = title
-                .clone()
-                .into_galley(ui, extend, f32::INFINITY, font.clone());
+            let galley = title.clone().into_galley(ui, extend, f32::INFINITY, font.clone());
             let begin = end;
             end += galley.size().x + 2.0 * margin;
             titles.push((*child, title, (begin, end)));
@@ -151,41 +141,29 @@ impl Behavior<PaneKind> for Workbench<'_> {
                 }
             }
         });
-        let name = self.seen.say(words::ALL_TABS);
+        let name = self.seen.say_text(words::ALL_TABS);
         let menu = menu.response.on_hover_text(name);
         menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
 
         let id = ui.scope_id().with(("strip", tile));
         let open = tabs.active;
-        let before: Strip = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        let before: TabStripState = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         let same = before.open == open && (before.width - width).abs() < 0.5;
-        let frames = if same { before.frames } else { FRAMES };
+        let frames = if same { before.frames } else { STRIP_SCROLL_FRAMES };
         if frames > 0
-            && let Some((_, _, tab)) = titles.iter().find(|it| Some(it.0) == open)
+            && let Some((_, _, tab)) = titles.iter().find(|entry| Some(entry.0) == open)
         {
-            let arrows = 2.0 * (STRIP + ui.spacing().item_spacing.x);
+            let arrows = 2.0 * (TAB_STRIP_HEIGHT_POINTS + ui.spacing().item_spacing.x);
             *offset = offset_for(*tab, ui.available_width() - arrows, *offset);
             ui.ctx().request_repaint();
         }
         let frames = frames.saturating_sub(1);
         ui.data_mut(|data| {
-            data.insert_temp(
-                id,
-                Strip {
-                    open,
-                    width,
-                    frames,
-                },
-            );
+            data.insert_temp(id, TabStripState { open, width, frames });
         });
     }
 
-    fn on_tab_button(
-        &mut self,
-        tiles: &mut Tiles<PaneKind>,
-        tile: TileId,
-        button: Response,
-    ) -> Response {
+    fn on_tab_button(&mut self, tiles: &mut Tiles<PaneKind>, tile: TileId, button: Response) -> Response {
         if button.clicked()
             && let Some(Tile::Pane(kind)) = tiles.get(tile)
         {
@@ -209,7 +187,7 @@ impl Behavior<PaneKind> for Workbench<'_> {
     }
 
     fn tab_bar_height(&self, _style: &Style) -> f32 {
-        STRIP
+        TAB_STRIP_HEIGHT_POINTS
     }
 
     fn gap_width(&self, _style: &Style) -> f32 {

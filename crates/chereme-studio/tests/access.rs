@@ -4,7 +4,7 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use chereme_studio::{Language, Options};
+use chereme_studio::{InterfaceLanguage, StudioOptions};
 use common::*;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
@@ -160,8 +160,8 @@ fn every_widget_has_a_name_with_hits_and_a_generated_sign() {
 #[test]
 fn the_start_page_has_names_in_french() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = window(Options {
-        language: Language::French,
+    let mut window = window(StudioOptions {
+        language: InterfaceLanguage::French,
         ..options(folder.path())
     });
     window.run_steps(3);
@@ -181,33 +181,30 @@ fn cut(window: &Window<'_>) -> BTreeSet<String> {
         let rect = node.rect();
         rect.left() < whole.min - 0.5 || rect.right() > whole.max + 0.5
     });
-    cut.filter_map(|node| node.accesskit_node().label())
-        .collect()
+    cut.filter_map(|node| node.accesskit_node().label()).collect()
 }
 
 #[test]
 fn menus_and_dialogues_are_in_reach_in_small_windows_in_either_language() {
     let folder = tempfile::tempdir().expect("a folder");
     let corpus = small_corpus(folder.path());
-    let menus: [(Language, &[&str]); 2] = [
+    let menus: [(InterfaceLanguage, &[&str]); 2] = [
         (
-            Language::English,
+            InterfaceLanguage::English,
             &["File", "Edit", "Stage", "View", "Panes", "Help"],
         ),
         (
-            Language::French,
+            InterfaceLanguage::French,
             &["Fichier", "Scène", "Affichage", "Panneaux", "Aide"],
         ),
     ];
     for (language, menus) in menus {
-        let mut window = window(Options {
+        let mut window = window(StudioOptions {
             corpus: Some(corpus.clone()),
             asked_language: Some(language),
             ..options(folder.path())
         });
-        until(&mut window, "the corpus", |it| {
-            it.state().generation().is_some()
-        });
+        until(&mut window, "the corpus", |it| it.state().shown_generation().is_some());
         // These are the sizes of usual screens at twice the scale.
         for size in [vec2(640.0, 400.0), vec2(512.0, 384.0), vec2(1280.0, 800.0)] {
             window.set_size(size);
@@ -215,10 +212,7 @@ fn menus_and_dialogues_are_in_reach_in_small_windows_in_either_language() {
             let tops = menus.iter().map(|menu| {
                 let mut all = window.get_all_by_label(menu);
                 let rect = all.next().expect("a menu").rect();
-                assert!(
-                    rect.left() >= 0.0 && rect.right() <= size.x,
-                    "{menu} {rect}"
-                );
+                assert!(rect.left() >= 0.0 && rect.right() <= size.x, "{menu} {rect}");
                 rect.top()
             });
             let lines: BTreeSet<i32> = tops.map(|top| top.round() as i32).collect();

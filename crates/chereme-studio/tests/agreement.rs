@@ -6,10 +6,10 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    AgreeOptions, AnnotateOptions, AnnotationAction, Corpus, ImportOptions, Instant, Moment, Name,
-    NewTier, Progress, TierName, TierRole, unheard,
+    AgreeOptions, AnnotateOptions, AnnotationAction, Corpus, ImportOptions, NewTier, ProgressReceiver,
+    RecordingInstant, RowName, TableMoment, TierRequestName, TierRole, ignore_progress_step,
 };
-use chereme_studio::{Language, Options};
+use chereme_studio::{InterfaceLanguage, StudioOptions};
 use common::tiers::{ALT, CTRL, operations, stored};
 use common::*;
 use eframe::egui::Key;
@@ -20,9 +20,7 @@ const BOTH: [&str; 11] = ["A", "B", "C", "A", "B", "C", "D", "A", "D", "B", "C"]
 
 fn glosses(second: bool) -> Vec<(String, i64, i64)> {
     let same = BOTH.iter().zip(0..);
-    let mut all: Vec<(String, i64, i64)> = same
-        .map(|(it, at)| ((*it).to_owned(), 60 * at, 60 * at + 50))
-        .collect();
+    let mut all: Vec<(String, i64, i64)> = same.map(|(it, at)| ((*it).to_owned(), 60 * at, 60 * at + 50)).collect();
     all.push(match second {
         true => ("CHIEN".to_owned(), 700, 800),
         false => ("CHAT".to_owned(), 700, 800),
@@ -38,14 +36,14 @@ fn glosses(second: bool) -> Vec<(String, i64, i64)> {
 }
 
 fn write_tier(corpus: &mut Corpus, name: &str, glosses: &[(String, i64, i64)]) {
-    let recording = Name::Number(1);
+    let recording = RowName::Number(1);
     corpus
         .add_tier(&NewTier::new(recording.clone(), name, TierRole::Free))
         .expect("a tier");
-    let time = |millis| Some(Moment::Time(Instant::from_millis(millis)));
+    let time = |millis| Some(TableMoment::Time(RecordingInstant::from_millis(millis)));
     let add = |(value, start, end): &(String, i64, i64)| {
         AnnotationAction::Add {
-            tier: TierName::Of {
+            tier: TierRequestName::Of {
                 recording: recording.clone(),
                 tier: name.to_owned(),
             },
@@ -59,27 +57,27 @@ fn write_tier(corpus: &mut Corpus, name: &str, glosses: &[(String, i64, i64)]) {
         .into()
     };
     let changes: Vec<_> = glosses.iter().map(add).collect();
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .annotate(
+        .annotate_corpus(
             &changes,
             &AnnotateOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("annotated");
 }
 
 fn coded_twice(folder: &Path) -> PathBuf {
     let path = small_corpus(folder);
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     write_tier(&mut corpus, "Notes Anna", &glosses(false));
     write_tier(&mut corpus, "Notes Ben", &glosses(true));
     path
 }
 
-fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
+fn opened<'a>(folder: &Path, language: InterfaceLanguage) -> Window<'a> {
     let corpus = Some(coded_twice(folder));
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus,
         language,
         ..options(folder)
@@ -94,32 +92,27 @@ fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
 }
 
 fn playhead_ms(window: &Window<'_>) -> i64 {
-    (window.state().playhead().micros() + 500) / 1000
+    (window.state().playhead_instant().instant_micros() + 500) / 1000
 }
 
 #[test]
 fn two_tiers_are_proposed_and_their_disagreements_opened_by_mouse_and_keys() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
-    until(&mut window, "the comparison", |it| {
-        has(it, "Disagreements (3)")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
+    until(&mut window, "the comparison", |it| has(it, "Disagreements (3)"));
     assert!(has(&window, "First tier: Notes Anna") && has(&window, "Second tier: Notes Ben"));
-    assert!(has(
-        &window,
-        "14 and 13 annotations; matched 13, of equal value 12"
-    ));
+    assert!(has(&window, "14 and 13 annotations; matched 13, of equal value 12"));
     // The figures are those of the library.
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = Corpus::open(&path, "reader").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = Corpus::open_corpus(&path, "reader").expect("opened");
     let options = AgreeOptions::new("Notes Anna", "Notes Ben");
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let found = corpus
-        .agree(&options, &mut Progress::new(&mut hear))
+        .compare_annotators(&options, &mut ProgressReceiver::new(&mut hear))
         .expect("compared");
     for name in ["raw", "kappa_ipf", "alpha_u", "matched"] {
         let figure = found.measures.iter().find(|it| it.0 == name).expect(name);
-        let text = figure.1.text().expect("a value");
+        let text = figure.1.figure_text().expect("a value");
         assert!(has(&window, &text), "{name} {text}");
     }
     assert!(!has(&window, "gamma"), "only on request");
@@ -163,10 +156,8 @@ fn two_tiers_are_proposed_and_their_disagreements_opened_by_mouse_and_keys() {
 #[test]
 fn a_third_tier_is_written_decided_in_the_history_and_undone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
-    until(&mut window, "the comparison", |it| {
-        has(it, "Disagreements (3)")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
+    until(&mut window, "the comparison", |it| has(it, "Disagreements (3)"));
     let before = operations(&window);
     click(&mut window, "Write the third tier");
     stored(&mut window, before);
@@ -188,20 +179,15 @@ fn a_third_tier_is_written_decided_in_the_history_and_undone() {
 #[test]
 fn the_pane_speaks_french_and_advises_without_two_tiers() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::French);
-    until(&mut window, "the comparison", |it| {
-        has(it, "Désaccords (3)")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::French);
+    until(&mut window, "the comparison", |it| has(it, "Désaccords (3)"));
     assert!(has(&window, "SEUL : seulement Notes Anna"));
     drop(window);
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     window.key_press_modifiers(ALT, Key::PageDown);
     window.run_steps(3);
-    assert!(contains(
-        &window,
-        "Compare two tiers in the pane Agreement first"
-    ));
+    assert!(contains(&window, "Compare two tiers in the pane Agreement first"));
     window.key_press_modifiers(CTRL | ALT, Key::B);
     until(&mut window, "advice", |it| {
         contains(it, "Choose the tiers of two annotators")
@@ -211,10 +197,8 @@ fn the_pane_speaks_french_and_advises_without_two_tiers() {
 #[test]
 fn a_low_and_narrow_pane_shows_the_names_of_all_lists_and_the_opened_row() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
-    until(&mut window, "the comparison", |it| {
-        has(it, "Disagreements (3)")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
+    until(&mut window, "the comparison", |it| has(it, "Disagreements (3)"));
     window.set_size([1280.0, 800.0].into());
     window.key_press_modifiers(CTRL, Key::F1);
     window.run_steps(3);
@@ -239,17 +223,13 @@ fn a_recording_without_two_tiers_asks_for_another_one() {
     let is_movement = |path: &&PathBuf| path.ends_with("escargot.bvh");
     let file = files.iter().find(is_movement).expect("a movement");
     let path = folder.path().join("bare.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     corpus
-        .import(
-            std::slice::from_ref(file),
-            &ImportOptions::default(),
-            &mut progress,
-        )
+        .import_paths(std::slice::from_ref(file), &ImportOptions::default(), &mut progress)
         .expect("imported");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(path),
         ..options(folder.path())
     });

@@ -73,19 +73,12 @@ fn cells_of_a_spreadsheet_are_pasted_and_odd_lines_reported() {
     window.run_steps(3);
     assert!(has(&window, "Line 4: no tier Nowhere here"));
     assert!(has(&window, "Line 5: “zzz” is no value of its tier"));
-    assert!(
-        window
-            .query_by_label_contains("Line 3: “soon” is no time")
-            .is_some()
-    );
+    assert!(window.query_by_label_contains("Line 3: “soon” is no time").is_some());
     let before = operations(&window);
     click(&mut window, "Paste the others: 2");
     stored(&mut window, before);
     assert_eq!(says(&window, "Gloss"), [(100, 200, "UN".to_owned())]);
-    assert_eq!(
-        says(&window, "Configuration RH"),
-        [(120, 180, "flat".to_owned())]
-    );
+    assert_eq!(says(&window, "Configuration RH"), [(120, 180, "flat".to_owned())]);
     // A column of values alone is assigned to the selected annotations, beginning with the first.
     click(&mut window, "Gloss: UN");
     window.event(Event::Paste("MAISON\n".into()));
@@ -160,19 +153,15 @@ fn the_playhead_goes_to_a_typed_time_and_through_the_tier() {
             .type_text(text);
         window.step();
         press(window, NONE, Key::Enter);
-        window.state().playhead().micros()
+        window.state().playhead_instant().instant_micros()
     };
     assert_eq!(go(&mut window, "0:00.5"), 500_000);
     assert_eq!(go(&mut window, "+0,25"), 750_000);
     assert_eq!(go(&mut window, "f1"), 0);
     assert_eq!(go(&mut window, "9:00"), 0);
-    assert!(
-        window
-            .query_by_label_contains("The recording ends at")
-            .is_some()
-    );
+    assert!(window.query_by_label_contains("The recording ends at").is_some());
     press(&mut window, NONE, Key::Escape);
-    let at = |window: &Window<'_>| (window.state().playhead().micros() + 500) / 1000;
+    let at = |window: &Window<'_>| (window.state().playhead_instant().instant_micros() + 500) / 1000;
     click(&mut window, "Tier Gloss");
     press(&mut window, ALT, Key::End);
     assert_eq!(at(&window), old["c"].0);
@@ -192,9 +181,7 @@ fn the_secondary_button_offers_the_possible_actions() {
     let before = operations(&window);
     window.get_by_label("Gloss: b").click_secondary();
     window.run_steps(3);
-    let all: Vec<_> = window
-        .query_all_by_label_contains("Duplicate the annotation")
-        .collect();
+    let all: Vec<_> = window.query_all_by_label_contains("Duplicate the annotation").collect();
     all.last().expect("an entry").click();
     window.run_steps(2);
     stored(&mut window, before);
@@ -211,15 +198,15 @@ fn short_pieces_are_repeated_until_stopped() {
     let (mut least, mut most, mut returns, mut before) = (i64::MAX, 0, 0, 0);
     for _ in 0..60 {
         window.step();
-        let at = window.state().playhead().micros() / 1000;
+        let at = window.state().playhead_instant().instant_micros() / 1000;
         returns += usize::from(at < before);
         (least, most, before) = (least.min(at), most.max(at), at);
     }
     assert!(returns > 0 && least >= old["b"].0 - 20 && most <= old["b"].1 + 20);
     press(&mut window, CTRL | ALT, Key::Space);
-    let at = window.state().playhead();
+    let at = window.state().playhead_instant();
     window.run_steps(5);
-    assert_eq!(window.state().playhead(), at);
+    assert_eq!(window.state().playhead_instant(), at);
 }
 
 #[test]

@@ -41,16 +41,11 @@ fn a_text_is_cued_corrected_shown_and_stored() {
         assert!(row < 6.0, "{name} stands before its list: {label} {list}");
     }
     type_into(&mut window, "Text to cue", "la maison");
-    until(&mut window, "the keys", |window| {
-        has(window, "side 6 for l a")
-    });
+    until(&mut window, "the keys", |window| has(window, "side 6 for l a"));
     let doubt = "chin 5 for m E; some pronounce the vowel differently: a click takes throat 5";
     assert!(has(&window, doubt), "the mid vowel is marked");
     press(&mut window, doubt);
-    assert!(
-        shows(&window, "throat 5 for m e"),
-        "the click took the other vowel"
-    );
+    assert!(shows(&window, "throat 5 for m e"), "the click took the other vowel");
     type_into(&mut window, "Gloss of the new sign", "MAISON");
     until(&mut window, "the cuer on the stage", |window| {
         let store = window.get_by_label("Store");
@@ -83,19 +78,13 @@ fn reading_is_practised_with_words_that_look_alike() {
     let mut window = open_small(folder.path());
     open_pane(&mut window);
     press(&mut window, "Practise reading");
-    until(&mut window, "the sets", |window| {
-        has(window, "pain, bain, main")
-    });
+    until(&mut window, "the sets", |window| has(window, "pain, bain, main"));
     press(&mut window, "pain, bain, main");
-    until(&mut window, "the question", |window| {
-        has(window, "What was cued?")
-    });
+    until(&mut window, "the question", |window| has(window, "What was cued?"));
     idle(&mut window);
-    until(
-        &mut window,
-        "a stage that does not name the word",
-        |window| shows(window, "what is it?"),
-    );
+    until(&mut window, "a stage that does not name the word", |window| {
+        shows(window, "what is it?")
+    });
     for word in ["pain", "bain", "main"] {
         let named = format!("The stage shows {word}");
         assert!(!shows(&window, &named), "{named}");
@@ -108,14 +97,9 @@ fn reading_is_practised_with_words_that_look_alike() {
     idle(&mut window);
     press(&mut window, "Reveal the word");
     // The revealed word is a label of the same text.
-    window
-        .get_by_role_and_label(Role::Button, "main")
-        .click_accesskit();
+    window.get_by_role_and_label(Role::Button, "main").click_accesskit();
     window.run_steps(3);
-    assert!(
-        shows(&window, "of 1 right"),
-        "a revealed word counts for nothing"
-    );
+    assert!(shows(&window, "of 1 right"), "a revealed word counts for nothing");
 }
 
 #[test]

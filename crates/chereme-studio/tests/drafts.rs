@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use chereme_corpus::Corpus;
-use chereme_studio::Options;
+use chereme_studio::StudioOptions;
 use common::{Window, has, idle, options, small_corpus, until, window};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -16,7 +16,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 const TYPIST: &str = "CHEREME_TEST_TYPIST";
 
 fn open<'a>(folder: &Path, corpus: &Path) -> Window<'a> {
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(corpus.to_owned()),
         ..options(folder)
     });
@@ -38,9 +38,9 @@ fn field(window: &Window<'_>) -> Option<String> {
 }
 
 fn glosses(corpus: &Path) -> Vec<String> {
-    let corpus = Corpus::open(corpus, "reader").expect("opened");
-    let recording = corpus.overview(1).expect("read").recordings[0].row.id;
-    let contents = corpus.contents(recording).expect("read");
+    let corpus = Corpus::open_corpus(corpus, "reader").expect("opened");
+    let recording = corpus.load_corpus_overview(1).expect("read").recordings[0].row.id;
+    let contents = corpus.load_recording_contents(recording).expect("read");
     let tier = contents.tiers.iter().find(|it| it.row.name == "Gloss");
     tier.expect("a tier")
         .annotations
@@ -128,9 +128,7 @@ fn a_discarded_draft_is_not_restored() {
     window.run_steps(2);
     drop(window);
     let mut window = open(folder.path(), &corpus);
-    until(&mut window, "the text", |it| {
-        field(it).as_deref() == Some("half")
-    });
+    until(&mut window, "the text", |it| field(it).as_deref() == Some("half"));
     window.key_press(Key::Escape);
     window.run_steps(2);
     drop(window);

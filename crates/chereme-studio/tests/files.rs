@@ -52,10 +52,10 @@ fn files_are_inspected_before_they_are_imported() {
     assert!(shows(&window, "nothing is written yet"));
     assert!(shows(&window, "parts found"), "the body is shown");
     assert!(shows(&window, "Tier Gloss is"), "tiers can be changed");
-    let path = window.state().corpus().expect("open").clone();
+    let path = window.state().shown_corpus_path().expect("open").clone();
     let count = || {
-        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
-        corpus.overview(1).expect("read").recordings.len()
+        let corpus = chereme_corpus::Corpus::open_corpus(&path, "B").expect("opened");
+        corpus.load_corpus_overview(1).expect("read").recordings.len()
     };
     assert_eq!(count(), 1, "nothing is written by looking");
     let header = window.get_by_label("Joints and their parts of the body");
@@ -78,9 +78,7 @@ fn files_are_inspected_before_they_are_imported() {
     until(&mut window, "what was done", |it| shows(it, "Imported: "));
     assert!(!shows(&window, "another program"), "it is one's own work");
     window.key_press_modifiers(Modifiers::SHIFT, Key::F1);
-    until(&mut window, "the new recording", |window| {
-        has(window, "bol")
-    });
+    until(&mut window, "the new recording", |window| has(window, "bol"));
 }
 
 #[test]
@@ -98,22 +96,12 @@ fn the_shown_recording_is_exported_to_a_typed_path() {
     click(&mut window, "Write");
     idle(&mut window);
     until(&mut window, "the notice", |window| {
-        shows(
-            window,
-            &format!("Written: all.csv in {}", folder.path().display()),
-        )
+        shows(window, &format!("Written: all.csv in {}", folder.path().display()))
     });
-    assert!(
-        std::fs::read_to_string(&to)
-            .expect("written")
-            .contains("ESCARGOT")
-    );
+    assert!(std::fs::read_to_string(&to).expect("written").contains("ESCARGOT"));
     click(&mut window, "Write");
     idle(&mut window);
-    assert!(
-        shows(&window, "there already"),
-        "what is there is not replaced unasked"
-    );
+    assert!(shows(&window, "there already"), "what is there is not replaced unasked");
     click(&mut window, "Replace the existing file");
     click(&mut window, "Write");
     idle(&mut window);
@@ -137,12 +125,10 @@ fn a_folder_of_the_start_page_is_inspected_first_and_cancelling_leaves_nothing()
         field.type_text(&files.display().to_string());
         window.run_steps(2);
         click(&mut window, "Import");
-        until(&mut window, "the look", |it| {
-            shows(it, "nothing is written yet")
-        });
+        until(&mut window, "the look", |it| shows(it, "nothing is written yet"));
         idle(&mut window);
-        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
-        assert!(corpus.overview(1).expect("read").recordings.is_empty());
+        let corpus = chereme_corpus::Corpus::open_corpus(&path, "B").expect("opened");
+        assert!(corpus.load_corpus_overview(1).expect("read").recordings.is_empty());
         drop(corpus);
         if takes {
             click(&mut window, "Take in");
@@ -186,7 +172,6 @@ fn remedies_name_parts_of_the_window_and_a_click_on_the_body_sets_a_joint() {
         window.step();
     }
     until(&mut window, "the joints", |it| {
-        it.query_by_label("Joint of: head")
-            .is_some_and(|it| it.is_focused())
+        it.query_by_label("Joint of: head").is_some_and(|it| it.is_focused())
     });
 }

@@ -5,10 +5,10 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Address, Corpus, ImportOptions, MediaChange, Name, PictureOptions, Progress, TrackChange,
-    unheard, unpack_starter,
+    Corpus, CorpusAddress, ImportOptions, MediaChange, PictureOptions, ProgressReceiver, RowName, TrackChange,
+    ignore_progress_step, unpack_starter,
 };
-use chereme_studio::Options;
+use chereme_studio::StudioOptions;
 use common::{Window, click, has, idle, options, small_corpus, until, window};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -24,10 +24,10 @@ fn film(corpus: &mut Corpus, folder: &Path) -> PathBuf {
         height: Some(96),
         ..PictureOptions::default()
     };
-    let mut hear = unheard;
-    let address: Address = "ESCARGOT".parse().expect("an address");
+    let mut hear = ignore_progress_step;
+    let address: CorpusAddress = "ESCARGOT".parse().expect("an address");
     corpus
-        .draw(&address, &path, &options, &mut Progress::new(&mut hear))
+        .draw_movement_file(&address, &path, &options, &mut ProgressReceiver::new(&mut hear))
         .expect("drawn");
     path
 }
@@ -35,14 +35,14 @@ fn film(corpus: &mut Corpus, folder: &Path) -> PathBuf {
 /// Opens the small corpus with a film linked to its recording.
 fn filmed<'a>(folder: &Path) -> (Window<'a>, PathBuf) {
     let path = small_corpus(folder);
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     film(&mut corpus, folder);
-    let take = Name::Text("escargot".to_owned());
+    let take = RowName::Text("escargot".to_owned());
     corpus
         .change_media(&take, &MediaChange::Add("film.mp4".to_owned()))
         .expect("linked");
     drop(corpus);
-    let options = Options {
+    let options = StudioOptions {
         corpus: Some(path.clone()),
         ..options(folder)
     };
@@ -63,25 +63,21 @@ fn film_alone<'a>(folder: &Path, film: &str) -> Window<'a> {
     );
     std::fs::write(&eaf, text).expect("written");
     let path = folder.join("talk.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
-            &[eaf],
-            &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .import_paths(&[eaf], &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
     drop(corpus);
-    window(Options {
+    window(StudioOptions {
         corpus: Some(path),
         ..options(folder)
     })
 }
 
 fn offset(path: &Path) -> i64 {
-    let corpus = Corpus::open(path, "B").expect("opened");
-    let tracks = corpus.tracks(&Name::Text("escargot".to_owned()));
+    let corpus = Corpus::open_corpus(path, "B").expect("opened");
+    let tracks = corpus.recording_tracks(&RowName::Text("escargot".to_owned()));
     let tracks = tracks.expect("read");
     let film = tracks.iter().find(|it| it.name == "linked 1");
     film.expect("a film").offset_us
@@ -100,11 +96,9 @@ fn a_film_plays_next_to_the_signer_and_as_an_overlay() {
         window.key_press_modifiers(Modifiers::ALT, Key::Period);
         window.run_steps(2);
     }
-    assert_eq!(window.state().playhead().micros(), 240_000);
+    assert_eq!(window.state().playhead_instant().instant_micros(), 240_000);
     assert!(shows(&window, "film frame 7 of"));
-    until(&mut window, "its picture", |window| {
-        window.state().is_filmed()
-    });
+    until(&mut window, "its picture", |window| window.state().is_filmed());
     // The film stands still while the movement goes on, and is then aligned with it.
     click(&mut window, "Hold");
     for _ in 0..3 {
@@ -112,7 +106,7 @@ fn a_film_plays_next_to_the_signer_and_as_an_overlay() {
         window.run_steps(2);
     }
     assert!(shows(&window, "film frame 7 of"));
-    let there = window.state().playhead().micros();
+    let there = window.state().playhead_instant().instant_micros();
     click(&mut window, "This frame is here");
     idle(&mut window);
     assert_eq!(offset(&path), there - 240_000);
@@ -127,9 +121,7 @@ fn a_film_plays_next_to_the_signer_and_as_an_overlay() {
 fn the_film_moves_from_the_stage_to_its_pane_while_that_is_visible() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, _) = filmed(folder.path());
-    until(&mut window, "the film", |window| {
-        shows(window, "film frame 1 of")
-    });
+    until(&mut window, "the film", |window| shows(window, "film frame 1 of"));
     let width = |window: &Window<'_>| window.get_by_label("film.mp4").rect().width();
     let beside = width(&window);
     window.key_press_modifiers(Modifiers::SHIFT, Key::F5);
@@ -144,18 +136,16 @@ fn the_film_moves_from_the_stage_to_its_pane_while_that_is_visible() {
 fn a_film_without_movement_is_on_the_stage_and_stepped_through() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     film(&mut corpus, folder.path());
     drop(corpus);
     let mut window = film_alone(folder.path(), "film.mp4");
-    until(&mut window, "the film", |window| {
-        shows(window, "film frame 1 of")
-    });
+    until(&mut window, "the film", |window| shows(window, "film frame 1 of"));
     assert!(!shows(&window, "The signer: "));
     for frame in 1..=9 {
         window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
         window.run_steps(2);
-        assert_eq!(window.state().playhead().micros(), frame * 40_000);
+        assert_eq!(window.state().playhead_instant().instant_micros(), frame * 40_000);
     }
     // The film continues after the end of the annotations.
     assert!(shows(&window, "film frame 10 of"));
@@ -181,20 +171,18 @@ fn a_missing_film_takes_a_line_below_the_films_that_are_there() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut alone, path) = filmed(folder.path());
     let shown = |window: &mut Window<'_>| {
-        until(window, "the film", |window| {
-            shows(window, "film frame 1 of")
-        });
+        until(window, "the film", |window| shows(window, "film frame 1 of"));
         window.get_by_label("film.mp4").rect()
     };
     let before = shown(&mut alone);
     drop(alone);
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let take = Name::Text("escargot".to_owned());
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    let take = RowName::Text("escargot".to_owned());
     corpus
         .change_media(&take, &MediaChange::Add("nowhere.mp4".to_owned()))
         .expect("linked");
     drop(corpus);
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(path),
         ..options(folder.path())
     });
@@ -210,25 +198,23 @@ fn a_missing_film_takes_a_line_below_the_films_that_are_there() {
 fn a_recording_does_not_last_as_long_as_the_film_of_the_recording_before() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     film(&mut corpus, folder.path());
     let files = unpack_starter(&folder.path().join("more")).expect("unpacked");
     let bol = files.into_iter().filter(|it| it.ends_with("bol.bvh"));
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     let options_of_import = ImportOptions::default();
     corpus
-        .import(&bol.collect::<Vec<_>>(), &options_of_import, &mut progress)
+        .import_paths(&bol.collect::<Vec<_>>(), &options_of_import, &mut progress)
         .expect("imported");
-    let take = Name::Text("escargot".to_owned());
+    let take = RowName::Text("escargot".to_owned());
     let link = MediaChange::Add("film.mp4".to_owned());
     corpus.change_media(&take, &link).expect("linked");
     let late = TrackChange::Offset(20_000_000);
-    corpus
-        .change_track(&take, "linked 1", &late)
-        .expect("moved");
+    corpus.change_track(&take, "linked 1", &late).expect("moved");
     drop(corpus);
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(path),
         ..options(folder.path())
     });
@@ -238,13 +224,11 @@ fn a_recording_does_not_last_as_long_as_the_film_of_the_recording_before() {
     let end = |window: &mut Window<'_>| {
         click(window, "To the end");
         window.run_steps(3);
-        window.state().playhead().micros()
+        window.state().playhead_instant().instant_micros()
     };
     assert!(end(&mut window) > 20_000_000);
     click(&mut window, "bol");
     idle(&mut window);
-    until(&mut window, "the other recording", |window| {
-        !has(window, "film.mp4")
-    });
+    until(&mut window, "the other recording", |window| !has(window, "film.mp4"));
     assert!(end(&mut window) < 10_000_000);
 }

@@ -4,8 +4,8 @@ mod common;
 
 use std::path::Path;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
-use chereme_studio::{Language, Options};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
+use chereme_studio::{InterfaceLanguage, StudioOptions};
 use common::*;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -26,16 +26,12 @@ fn open_notated<'a>(folder: &Path) -> Window<'a> {
     std::fs::write(&sigml, SIGML).expect("written");
     files.push(sigml);
     let path = folder.join("notated.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
-    let imported = corpus.import(
-        &files,
-        &ImportOptions::default(),
-        &mut Progress::new(&mut hear),
-    );
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let imported = corpus.import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear));
     imported.expect("imported");
     drop(corpus);
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(path),
         ..options(folder)
     });
@@ -62,9 +58,7 @@ fn signs_without_recordings_are_listed_animated_and_used_in_a_recipe() {
         says(window, "HOCHER is animated from its notation")
     });
     idle(&mut window);
-    until(&mut window, "the stage", |window| {
-        says(window, "Made: HOCHER")
-    });
+    until(&mut window, "the stage", |window| says(window, "Made: HOCHER"));
     // In a lower pane, that text is in the same line as the buttons, and the list keeps its height.
     let beside = |window: &Window<'_>| {
         let said = window.get_by_label_contains("HOCHER is animated from its notation");
@@ -105,9 +99,7 @@ fn a_small_window_shows_and_uses_an_opened_notated_sign() {
     window.key_press(Key::ArrowDown);
     window.run_steps(3);
     window.key_press(Key::Enter);
-    until(&mut window, "the stage in front", |window| {
-        has(window, "Pause")
-    });
+    until(&mut window, "the stage in front", |window| has(window, "Pause"));
     idle(&mut window);
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::R);
     window.run_steps(4);
@@ -183,8 +175,8 @@ fn a_recording_is_deleted_by_key_and_undone_from_its_notice() {
     let mut window = open_small(folder.path());
     let path = folder.path().join("small.chereme");
     let recordings = || {
-        let corpus = Corpus::open(&path, "B").expect("opened");
-        corpus.overview(1).expect("read").recordings.len()
+        let corpus = Corpus::open_corpus(&path, "B").expect("opened");
+        corpus.load_corpus_overview(1).expect("read").recordings.len()
     };
     click(&mut window, "Recordings (1)");
     let row = window.get_by_label("escargot").rect().center();
@@ -192,9 +184,7 @@ fn a_recording_is_deleted_by_key_and_undone_from_its_notice() {
     pointer(&mut window, row, Some(false));
     window.run_steps(3);
     window.key_press(Key::Delete);
-    until(&mut window, "the notice", |window| {
-        says(window, "Deleted: escargot")
-    });
+    until(&mut window, "the notice", |window| says(window, "Deleted: escargot"));
     idle(&mut window);
     assert_eq!(recordings(), 0);
     until(&mut window, "the empty list", |window| {
@@ -202,9 +192,7 @@ fn a_recording_is_deleted_by_key_and_undone_from_its_notice() {
     });
     let undo = window.get_all_by_label("Undo").last().expect("an offer");
     undo.click();
-    until(&mut window, "the recording", |window| {
-        has(window, "escargot")
-    });
+    until(&mut window, "the recording", |window| has(window, "escargot"));
     idle(&mut window);
     assert_eq!(recordings(), 1);
 }
@@ -214,15 +202,15 @@ fn deleting_the_source_of_a_sign_asks_about_that_sign_first() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
     let recordings = || -> Vec<String> {
-        let corpus = Corpus::open(&path, "B").expect("opened");
-        let all = corpus.overview(1).expect("read").recordings;
+        let corpus = Corpus::open_corpus(&path, "B").expect("opened");
+        let all = corpus.load_corpus_overview(1).expect("read").recordings;
         all.into_iter().map(|it| it.row.name).collect()
     };
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let made = corpus.recombine("ESCARGOT | configure right U", "LIMACE");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    let made = corpus.recombine_recipe("ESCARGOT | configure right U", "LIMACE");
     made.expect("generated");
     drop(corpus);
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(path.clone()),
         ..options(folder.path())
     });
@@ -245,15 +233,11 @@ fn deleting_the_source_of_a_sign_asks_about_that_sign_first() {
     assert_eq!(recordings(), ["escargot", "LIMACE"]);
     ask(&mut window);
     click(&mut window, "Keep them with their own movement");
-    until(&mut window, "the notice", |window| {
-        says(window, "Deleted: escargot")
-    });
+    until(&mut window, "the notice", |window| says(window, "Deleted: escargot"));
     idle(&mut window);
     assert_eq!(recordings(), ["LIMACE"]);
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    until(&mut window, "the recording", |window| {
-        has(window, "escargot")
-    });
+    until(&mut window, "the recording", |window| has(window, "escargot"));
     idle(&mut window);
     ask(&mut window);
     click(&mut window, "Delete them as well");
@@ -271,19 +255,13 @@ fn an_annotated_sign_is_deleted_with_its_annotations() {
     click(&mut window, "Signs (1)");
     window.get_by_label("ESCARGOT").click_secondary();
     window.run_steps(3);
-    window
-        .get_by_label_contains("Delete from the corpus")
-        .click();
+    window.get_by_label_contains("Delete from the corpus").click();
     until(&mut window, "the question", |window| {
         says(window, "ESCARGOT is annotated in recordings that stay")
     });
     click(&mut window, "Delete its annotations as well");
-    until(&mut window, "the notice", |window| {
-        says(window, "Deleted: ESCARGOT")
-    });
-    until(&mut window, "the empty list", |window| {
-        says(window, "Signs (0)")
-    });
+    until(&mut window, "the notice", |window| says(window, "Deleted: ESCARGOT"));
+    until(&mut window, "the empty list", |window| says(window, "Signs (0)"));
 }
 
 #[test]
@@ -293,21 +271,21 @@ fn a_list_without_entries_differs_from_a_filter_that_nothing_fits() {
     let bare = |path: &std::path::PathBuf| path.file_name().is_some_and(|it| it == "bol.bvh");
     let files: Vec<_> = files.into_iter().filter(bare).collect();
     let path = folder.path().join("captured.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
     let options_of_import = ImportOptions::default();
-    let mut progress = Progress::new(&mut hear);
-    let imported = corpus.import(&files, &options_of_import, &mut progress);
+    let mut progress = ProgressReceiver::new(&mut hear);
+    let imported = corpus.import_paths(&files, &options_of_import, &mut progress);
     imported.expect("imported");
     drop(corpus);
     let of = |language| {
-        window(Options {
+        window(StudioOptions {
             corpus: Some(path.clone()),
             asked_language: Some(language),
             ..options(folder.path())
         })
     };
-    let mut window = of(Language::English);
+    let mut window = of(InterfaceLanguage::English);
     until(&mut window, "the recording", |it| has(it, "Signs (0)"));
     click(&mut window, "Signs (0)");
     assert!(says(&window, "There are no signs yet") && !says(&window, "No sign has this name"));
@@ -318,7 +296,7 @@ fn a_list_without_entries_differs_from_a_filter_that_nothing_fits() {
     window.run_steps(3);
     assert!(says(&window, "No recording has this name"));
     drop(window);
-    let mut french = of(Language::French);
+    let mut french = of(InterfaceLanguage::French);
     until(&mut french, "the recording", |it| has(it, "Signes (0)"));
     french.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::K);
     until(&mut french, "why there is no map", |it| {
@@ -329,12 +307,12 @@ fn a_list_without_entries_differs_from_a_filter_that_nothing_fits() {
 /// Returns a file of the markers of two people who stand as the signer of a starter capture does.
 fn two_people(folder: &Path) -> std::path::PathBuf {
     let labels = [
-        "LFHD", "RFHD", "C7", "LSHO", "RSHO", "LELB", "RELB", "LWRA", "RWRA", "LWRB", "RWRB",
-        "LFIN", "RFIN", "LKNE", "RKNE", "LANK", "RANK",
+        "LFHD", "RFHD", "C7", "LSHO", "RSHO", "LELB", "RELB", "LWRA", "RWRA", "LWRB", "RWRB", "LFIN", "RFIN", "LKNE",
+        "RKNE", "LANK", "RANK",
     ];
     let path = small_corpus(folder);
-    let corpus = Corpus::open(&path, "A").expect("open");
-    let signer = corpus.movement(&"recording:1".parse().expect("an address"));
+    let corpus = Corpus::open_corpus(&path, "A").expect("open");
+    let signer = corpus.movement_at_address(&"recording:1".parse().expect("an address"));
     let signer = signer.expect("movement");
     let model = signer.clip.model_pose(0);
     let (mut names, mut axes, mut places) = (String::new(), String::new(), String::new());
@@ -342,21 +320,13 @@ fn two_people(folder: &Path) -> std::path::PathBuf {
         .into_iter()
         .flat_map(|it| labels.map(|label| (it, label)));
     for (n, (person, label)) in (1..).zip(people) {
-        let known = chereme_motion::fit::attachment(label).expect("a known label");
+        let known = chereme_motion::fit::find_marker_attachment(label).expect("a known label");
         let part = known.near.or(known.towards.map(|(part, _)| part));
-        let joint = signer
-            .anatomy
-            .joint(part.unwrap_or(known.on[0]))
-            .expect("a joint");
-        let at = model.position(joint) * 1000.0;
+        let joint = signer.anatomy.part_joint(part.unwrap_or(known.on[0])).expect("a joint");
+        let at = model.model_joint_position(joint) * 1000.0;
         names += &format!("{person}:{label}\t\t\t");
         axes += &format!("X{n}\tY{n}\tZ{n}\t");
-        places += &format!(
-            "\t{:.2}\t{:.2}\t{:.2}",
-            at.x,
-            at.y,
-            at.z + 1000.0 * known.thumbwards
-        );
+        places += &format!("\t{:.2}\t{:.2}\t{:.2}", at.x, at.y, at.z + 1000.0 * known.thumbwards);
     }
     let mut text = format!(
         "PathFileType\t4\t(X/Y/Z)\tduo.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\
@@ -375,14 +345,14 @@ fn two_people(folder: &Path) -> std::path::PathBuf {
 fn a_body_is_fitted_to_the_markers_of_the_person_who_is_chosen() {
     for (language, menu, entry, title, done) in [
         (
-            Language::English,
+            InterfaceLanguage::English,
             None,
             "Fit a body to the markers…",
             "Whose markers?",
             "A body is fitted to",
         ),
         (
-            Language::French,
+            InterfaceLanguage::French,
             Some("Édition"),
             "Ajuster un corps aux marqueurs…",
             "Les marqueurs de qui ?",
@@ -392,17 +362,17 @@ fn a_body_is_fitted_to_the_markers_of_the_person_who_is_chosen() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = two_people(folder.path());
         let path = folder.path().join("c.chereme");
-        let mut corpus = Corpus::create(&path, "A").expect("made");
-        let mut hear = unheard;
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
+            .import_paths(
                 &[file],
                 &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("imported");
         drop(corpus);
-        let mut window = window(Options {
+        let mut window = window(StudioOptions {
             corpus: Some(path.clone()),
             language,
             ..options(folder.path())
@@ -423,11 +393,11 @@ fn a_body_is_fitted_to_the_markers_of_the_person_who_is_chosen() {
         until(&mut window, "the notice", |window| says(window, done));
         idle(&mut window);
         assert!(!says(&window, title), "the question is answered");
-        let corpus = Corpus::open(&path, "A").expect("open");
-        let take = chereme_corpus::Name::Number(1);
-        let tracks = corpus.tracks(&take).expect("tracks");
+        let corpus = Corpus::open_corpus(&path, "A").expect("open");
+        let take = chereme_corpus::RowName::Number(1);
+        let tracks = corpus.recording_tracks(&take).expect("tracks");
         assert!(tracks.iter().any(|it| it.name == "body"), "{language:?}");
-        let summary = &corpus.log(1).expect("read")[0].summary;
+        let summary = &corpus.operation_log(1).expect("read")[0].summary;
         assert!(summary.contains("of Bob, "), "{summary}");
     }
 }

@@ -38,8 +38,7 @@ fn wrong_usage_names_the_word_and_the_remedy() {
     let done = run(&["--thme", "dark"]);
     assert_eq!(done.status.code(), Some(2));
     assert_eq!(text(&done.stdout), "");
-    let said =
-        "error: unknown option --thme\n  what to do: chereme-studio --help lists the options\n";
+    let said = "error: unknown option --thme\n  what to do: chereme-studio --help lists the options\n";
     assert_eq!(text(&done.stderr), said);
     let done = run(&["--language=fr", "a", "b"]);
     let said = text(&done.stderr);
@@ -51,10 +50,7 @@ fn wrong_usage_names_the_word_and_the_remedy() {
     assert_eq!(done.status.code(), Some(2));
     let said: Value = serde_json::from_slice(&done.stdout).expect("JSON");
     assert_eq!(said["error"]["message"], "--folder needs a value");
-    assert_eq!(
-        said["error"]["remedy"],
-        "chereme-studio --help lists the options"
-    );
+    assert_eq!(said["error"]["remedy"], "chereme-studio --help lists the options");
 }
 
 #[cfg(target_os = "linux")]

@@ -5,12 +5,12 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    AnnotationAction, Corpus, Hands, ImportOptions, ListFilter, ListKind, Moment, Name, NewTier,
-    Progress, TierName, TierRole, requests, starter_files, unheard,
+    AnnotatedHands, AnnotationAction, Corpus, ImportOptions, ListFilter, ListKind, NewTier, ProgressReceiver, RowName,
+    TableMoment, TierRequestName, TierRole, ignore_progress_step, requests, starter_files,
 };
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use chereme_sign::HandRef;
-use chereme_studio::Options;
+use chereme_studio::StudioOptions;
 use common::*;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -23,17 +23,17 @@ fn uncoded(folder: &Path) -> PathBuf {
         .expect("in the starter corpus");
     std::fs::write(&film, bytes).expect("written");
     let path = folder.join("uncoded.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     corpus
-        .import(&[film], &ImportOptions::default(), &mut progress)
+        .import_paths(&[film], &ImportOptions::default(), &mut progress)
         .expect("imported");
-    let gloss = NewTier::new(Name::Text("bol".into()), "gloss", TierRole::Gloss);
+    let gloss = NewTier::new(RowName::Text("bol".into()), "gloss", TierRole::Gloss);
     let tier = corpus.add_tier(&gloss).expect("a tier");
-    let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+    let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
     let add = AnnotationAction::Add {
-        tier: TierName::Number(tier.id),
+        tier: TierRequestName::Number(tier.id),
         start: time(0),
         end: time(1_000_000),
         parent: None,
@@ -42,16 +42,16 @@ fn uncoded(folder: &Path) -> PathBuf {
         confidence: None,
     };
     corpus
-        .annotate(&[add.into()], &Default::default(), &mut progress)
+        .annotate_corpus(&[add.into()], &Default::default(), &mut progress)
         .expect("annotated");
     path
 }
 
 /// Returns how many annotations each tier has, by its name.
 fn tiers(window: &Window<'_>) -> Vec<(String, u64)> {
-    let path = window.state().corpus().expect("open");
-    let corpus = Corpus::open(path, "B").expect("opened");
-    let listing = corpus.list(ListKind::Tiers, &ListFilter::default());
+    let path = window.state().shown_corpus_path().expect("open");
+    let corpus = Corpus::open_corpus(path, "B").expect("opened");
+    let listing = corpus.list_rows(ListKind::Tiers, &ListFilter::default());
     let rows = listing.expect("listed").rows;
     rows.iter()
         .map(|row| {
@@ -77,7 +77,7 @@ fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
 #[test]
 fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(uncoded(folder.path())),
         ..options(folder.path())
     });
@@ -92,8 +92,7 @@ fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     let all = count(&window, proposed);
     assert!(all >= 3, "{:?}", tiers(&window));
     assert_eq!(
-        count(&window, |name| name.starts_with("configuration ")
-            && !proposed(name)),
+        count(&window, |name| name.starts_with("configuration ") && !proposed(name)),
         0
     );
 
@@ -125,7 +124,7 @@ fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
 #[test]
 fn enter_after_the_last_proposal_makes_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(uncoded(folder.path())),
         ..options(folder.path())
     });
@@ -133,9 +132,7 @@ fn enter_after_the_last_proposal_makes_nothing() {
     idle(&mut window);
     press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
     let proposed = |name: &str| name.ends_with("(proposed)");
-    until(&mut window, "the proposals", |window| {
-        count(window, proposed) > 0
-    });
+    until(&mut window, "the proposals", |window| count(window, proposed) > 0);
     idle(&mut window);
     window.run_steps(4);
     let in_sight = window
@@ -156,11 +153,7 @@ fn enter_after_the_last_proposal_makes_nothing() {
     let text = "All proposals of this recording are accepted.";
     assert!(window.query_all_by_label_contains(text).next().is_some());
     // A tier of proposals takes no annotation of a person.
-    press(
-        &mut window,
-        Modifiers::COMMAND | Modifiers::SHIFT,
-        Key::ArrowRight,
-    );
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowRight);
     for (modifiers, key) in [
         (Modifiers::COMMAND | Modifiers::ALT, Key::N),
         (Modifiers::SHIFT, Key::Enter),
@@ -178,7 +171,7 @@ fn enter_after_the_last_proposal_makes_nothing() {
 #[test]
 fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(uncoded(folder.path())),
         ..options(folder.path())
     });
@@ -192,9 +185,7 @@ fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
     window.run_steps(4);
     idle(&mut window);
     let strokes = |name: &str| name == "movement.phase right (proposed)";
-    until(&mut window, "the strokes", |window| {
-        count(window, strokes) > 0
-    });
+    until(&mut window, "the strokes", |window| count(window, strokes) > 0);
     until(&mut window, "the notice", |window| {
         let text = "Proposals on separate tiers, hatched:";
         window.query_all_by_label_contains(text).next().is_some()
@@ -210,20 +201,20 @@ fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
 fn accepting_ends_at_proposals_whose_places_are_taken() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = uncoded(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     let role = "movement.phase".parse().expect("a role");
-    let mut phase = NewTier::new(Name::Text("bol".into()), "Phase RH", role);
-    phase.hand = Some(Hands::One(HandRef::Right));
+    let mut phase = NewTier::new(RowName::Text("bol".into()), "Phase RH", role);
+    phase.hand = Some(AnnotatedHands::One(HandRef::Right));
     let tier = corpus.add_tier(&phase).expect("a tier").id;
-    let end = corpus.overview(1).expect("read").recordings[0]
+    let end = corpus.load_corpus_overview(1).expect("read").recordings[0]
         .row
         .duration_us;
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
-    let whole = [requests::add(tier, (0, end), "stroke")];
-    let added = corpus.annotate(&whole, &Default::default(), &mut progress);
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
+    let whole = [requests::add_annotation_change(tier, (0, end), "stroke")];
+    let added = corpus.annotate_corpus(&whole, &Default::default(), &mut progress);
     added.expect("annotated");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(path),
         ..options(folder.path())
     });
@@ -234,9 +225,7 @@ fn accepting_ends_at_proposals_whose_places_are_taken() {
     let strokes = window.get_by_label_contains("strokes: strokes of each wrist");
     strokes.click();
     let proposed = |name: &str| name.ends_with("(proposed)");
-    until(&mut window, "the strokes", |window| {
-        count(window, proposed) > 0
-    });
+    until(&mut window, "the strokes", |window| count(window, proposed) > 0);
     idle(&mut window);
     let strokes = count(&window, proposed);
     let right = |name: &str| name == "movement.phase right (proposed)";
@@ -268,7 +257,7 @@ fn accepting_ends_at_proposals_whose_places_are_taken() {
 #[test]
 fn nothing_is_pasted_or_duplicated_onto_tiers_of_proposals() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(uncoded(folder.path())),
         ..options(folder.path())
     });
@@ -276,18 +265,13 @@ fn nothing_is_pasted_or_duplicated_onto_tiers_of_proposals() {
     idle(&mut window);
     press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
     let proposed = |name: &str| name.ends_with("(proposed)");
-    until(&mut window, "the proposals", |window| {
-        count(window, proposed) > 0
-    });
+    until(&mut window, "the proposals", |window| count(window, proposed) > 0);
     idle(&mut window);
     let before = tiers(&window);
     let refused = |window: &mut Window<'_>, what: &str| {
         idle(window);
         window.run_steps(3);
-        assert!(
-            contains(window, "A tier of proposals takes no annotations"),
-            "{what}"
-        );
+        assert!(contains(window, "A tier of proposals takes no annotations"), "{what}");
         assert_eq!(tiers(window), before, "{what}");
         // The next one must say it again.
         window.event(Event::Copy);

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use chereme_corpus::{
-    Corpus, ImportOptions, ListFilter, ListKind, Progress, unheard, unpack_starter,
+    Corpus, ImportOptions, ListFilter, ListKind, ProgressReceiver, ignore_progress_step, unpack_starter,
 };
-use chereme_studio::{Folders, Language, Options, Studio};
+use chereme_studio::{InterfaceLanguage, Studio, StudioFolders, StudioOptions};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -62,41 +62,34 @@ fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
 fn corpus(folder: &Path) -> PathBuf {
     let files = unpack_starter(&folder.join("files")).expect("unpacked");
     let wanted = |path: &PathBuf| {
-        let stem = path
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().into_owned());
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         stem.is_some_and(|stem| ["escargot", "lion", "lexicon"].contains(&stem.as_str()))
     };
     let files: Vec<PathBuf> = files.into_iter().filter(wanted).collect();
     let path = folder.join("small.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     let options = ImportOptions::default();
-    corpus
-        .import(&files, &options, &mut progress)
-        .expect("imported");
+    corpus.import_paths(&files, &options, &mut progress).expect("imported");
     path
 }
 
 fn open<'a>(folder: &Path) -> Window<'a> {
-    let options = Options {
+    let options = StudioOptions {
         corpus: Some(corpus(folder)),
         author: "Zoé".into(),
-        folders: Folders {
+        folders: StudioFolders {
             config: Some(folder.join("config")),
             data: Some(folder.join("data")),
         },
-        language: Language::English,
+        language: InterfaceLanguage::English,
         asked_language: None,
     };
     let mut window = Harness::builder()
         .with_size([1280.0, 1500.0])
         .with_step_dt(1.0 / 60.0)
-        .build_ui_state(
-            |ui, studio: &mut Studio| studio.ui(ui),
-            Studio::new(options),
-        );
+        .build_ui_state(|ui, studio: &mut Studio| studio.ui(ui), Studio::new(options));
     until(&mut window, "the corpus", |window| has(window, "escargot"));
     idle(&mut window);
     window
@@ -104,13 +97,12 @@ fn open<'a>(folder: &Path) -> Window<'a> {
 
 /// Returns the names of the recordings in the corpus file.
 fn recordings(window: &Window<'_>) -> Vec<String> {
-    let path = window.state().corpus().expect("open");
-    let corpus = Corpus::open(path, "B").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open");
+    let corpus = Corpus::open_corpus(path, "B").expect("opened");
     let listing = corpus
-        .list(ListKind::Recordings, &ListFilter::default())
+        .list_rows(ListKind::Recordings, &ListFilter::default())
         .expect("listed");
-    let name =
-        |row: &serde_json::Map<String, serde_json::Value>| row["name"].as_str().map(str::to_owned);
+    let name = |row: &serde_json::Map<String, serde_json::Value>| row["name"].as_str().map(str::to_owned);
     listing.rows.iter().filter_map(name).collect()
 }
 
@@ -135,10 +127,7 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     key(&mut window, Modifiers::NONE, Key::Enter);
     assert_eq!(recipe_of(&window), "ESCARGOT");
     idle(&mut window);
-    assert!(
-        shows(&window, "frames at"),
-        "what was made is told on the card"
-    );
+    assert!(shows(&window, "frames at"), "what was made is told on the card");
     click(&mut window, "Change…");
     window.get_by_label_contains("Handshape").click();
     window.run_steps(3);
@@ -162,9 +151,7 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     idle(&mut window);
     assert!(!recordings(&window).contains(&"LIMACE".to_owned()));
     // The status never reports an undone sign as stored.
-    until(&mut window, "the snapshot", |window| {
-        !has(window, "Show it")
-    });
+    until(&mut window, "the snapshot", |window| !has(window, "Show it"));
     key(&mut window, Modifiers::COMMAND, Key::Y);
     idle(&mut window);
     assert!(recordings(&window).contains(&"LIMACE".to_owned()));
@@ -182,16 +169,14 @@ fn show(window: &mut Window<'_>, recording: &str) {
 fn a_stored_recipe_is_opened_again_changed_and_stored_as_another() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
-    let path = window.state().corpus().expect("open").clone();
-    let mut other = Corpus::open(&path, "B").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
     other
-        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
         .expect("made");
     until(&mut window, "the made sign", |window| has(window, "LIMACE"));
     show(&mut window, "LIMACE");
-    until(&mut window, "the inspector", |window| {
-        has(window, "Open in Recombine")
-    });
+    until(&mut window, "the inspector", |window| has(window, "Open in Recombine"));
     window
         .get_all_by_label("Open in Recombine")
         .next()
@@ -220,16 +205,14 @@ fn a_stored_recipe_is_opened_again_changed_and_stored_as_another() {
 fn a_changed_recipe_replaces_its_sign_and_undo_restores_the_former_one() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
-    let path = window.state().corpus().expect("open").clone();
-    let mut other = Corpus::open(&path, "B").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
     other
-        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
         .expect("made");
     until(&mut window, "the made sign", |window| has(window, "LIMACE"));
     show(&mut window, "LIMACE");
-    until(&mut window, "the inspector", |window| {
-        has(window, "Open in Recombine")
-    });
+    until(&mut window, "the inspector", |window| has(window, "Open in Recombine"));
     press(&mut window, "Open in Recombine");
     idle(&mut window);
     let is_enabled = |window: &Window<'_>| {
@@ -243,8 +226,8 @@ fn a_changed_recipe_replaces_its_sign_and_undo_restores_the_former_one() {
     idle(&mut window);
     assert!(is_enabled(&window));
     let length = |window: &Window<'_>| {
-        let path = window.state().corpus().expect("open");
-        let overview = Corpus::open(path, "B").expect("opened").overview(1);
+        let path = window.state().shown_corpus_path().expect("open");
+        let overview = Corpus::open_corpus(path, "B").expect("opened").load_corpus_overview(1);
         let all = overview.expect("read").recordings;
         let made = all.iter().find(|it| it.row.name == "LIMACE");
         made.expect("there").row.duration_us
@@ -260,9 +243,7 @@ fn a_changed_recipe_replaces_its_sign_and_undo_restores_the_former_one() {
     idle(&mut window);
     assert_eq!(length(&window), before);
     // The pane never reports an undone replacement as stored; redo brings the report back.
-    until(&mut window, "the snapshot", |window| {
-        !has(window, "Show it")
-    });
+    until(&mut window, "the snapshot", |window| !has(window, "Show it"));
     key(&mut window, Modifiers::COMMAND, Key::Y);
     idle(&mut window);
     until(&mut window, "the new form", |window| has(window, "Show it"));
@@ -306,9 +287,7 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
 
     // The handle is at the hand's place in the picture.
     press(&mut window, "Pause");
-    until(&mut window, "the picture", |window| {
-        window.state().is_drawn()
-    });
+    until(&mut window, "the picture", |window| window.state().is_drawn());
     let from = window.get_by_label("Move: right hand").rect().center();
     let to = from + eframe::egui::vec2(-30.0, -40.0);
     window.drag_at(from);
@@ -318,10 +297,7 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
         window.run_steps(2);
     }
     let dragged = recipe_of(&window);
-    assert!(
-        dragged.starts_with("ESCARGOT | place right by right "),
-        "{dragged}"
-    );
+    assert!(dragged.starts_with("ESCARGOT | place right by right "), "{dragged}");
     window.drop_at(to);
     window.run_steps(3);
     idle(&mut window);
@@ -363,9 +339,7 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
     let curve = "travel right through 0cm,6cm,0cm then 6cm,8cm,0cm";
     type_into(&mut window, "Recipe", &format!("ESCARGOT | {curve}"));
     idle(&mut window);
-    until(&mut window, "the only path", |it| {
-        has(it, "Point 1 of the path")
-    });
+    until(&mut window, "the only path", |it| has(it, "Point 1 of the path"));
     press(&mut window, "Card: Sign");
     idle(&mut window);
     assert!(!has(&window, "Point 1 of the path"), "the sign is chosen");
@@ -386,9 +360,7 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
     idle(&mut window);
 
     press(&mut window, "Pause");
-    until(&mut window, "the picture", |window| {
-        window.state().is_drawn()
-    });
+    until(&mut window, "the picture", |window| window.state().is_drawn());
     let from = window.get_by_label("Point 1 of the path").rect().center();
     press(&mut window, "Draw on the stage");
     window.drag_at(from);
@@ -403,20 +375,13 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
     window.run_steps(4);
     idle(&mut window);
     let drawn = recipe_of(&window);
-    assert!(
-        drawn.starts_with("ESCARGOT | travel right through "),
-        "{drawn}"
-    );
+    assert!(drawn.starts_with("ESCARGOT | travel right through "), "{drawn}");
     assert!(
         drawn.matches(" then ").count() >= 3,
         "an arc has several points: {drawn}"
     );
     key(&mut window, Modifiers::COMMAND, Key::Z);
-    assert_eq!(
-        recipe_of(&window),
-        format!("ESCARGOT | {curve}"),
-        "it is one step"
-    );
+    assert_eq!(recipe_of(&window), format!("ESCARGOT | {curve}"), "it is one step");
 }
 
 #[test]
@@ -428,9 +393,7 @@ fn a_press_near_a_moving_handle_pauses_the_hand_and_grabs_the_handle() {
     idle(&mut window);
     press(&mut window, "Card: Place");
     idle(&mut window);
-    until(&mut window, "the handle", |window| {
-        has(window, "Move: right hand")
-    });
+    until(&mut window, "the handle", |window| has(window, "Move: right hand"));
     assert!(has(&window, "Pause"), "what was made plays");
     let at = window.get_by_label("Move: right hand").rect().center();
     let beside = at + eframe::egui::vec2(-18.0, 14.0);
@@ -464,10 +427,10 @@ fn recipe_of_stored(window: &Window<'_>) -> String {
 fn history_walks_back_and_forward_and_asks_before_several_steps() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
-    let path = window.state().corpus().expect("open").clone();
-    let mut other = Corpus::open(&path, "B").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
     for gloss in ["UN", "DEUX", "TROIS"] {
-        other.recombine("ESCARGOT | reverse", gloss).expect("made");
+        other.recombine_recipe("ESCARGOT | reverse", gloss).expect("made");
     }
     until(&mut window, "the made signs", |window| has(window, "TROIS"));
     key(&mut window, Modifiers::COMMAND, Key::H);
@@ -494,23 +457,16 @@ fn the_inspector_changes_what_it_shows_and_undo_takes_it_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
     show(&mut window, "escargot");
-    until(&mut window, "what is known", |window| {
-        shows(window, "Joints and")
-    });
+    until(&mut window, "what is known", |window| shows(window, "Joints and"));
     type_into(&mut window, "Licence", "!");
     key(&mut window, Modifiers::NONE, Key::Enter);
     idle(&mut window);
     let licence = |window: &Window<'_>| {
-        let path = window.state().corpus().expect("open");
-        let corpus = Corpus::open(path, "B").expect("opened");
-        let overview = corpus.overview(1).expect("read");
-        let found = overview
-            .recordings
-            .iter()
-            .find(|it| it.row.name == "escargot");
-        found
-            .and_then(|it| it.row.licence.clone())
-            .unwrap_or_default()
+        let path = window.state().shown_corpus_path().expect("open");
+        let corpus = Corpus::open_corpus(path, "B").expect("opened");
+        let overview = corpus.load_corpus_overview(1).expect("read");
+        let found = overview.recordings.iter().find(|it| it.row.name == "escargot");
+        found.and_then(|it| it.row.licence.clone()).unwrap_or_default()
     };
     assert!(licence(&window).ends_with('!'), "{}", licence(&window));
     key(&mut window, Modifiers::COMMAND, Key::H);
@@ -548,9 +504,7 @@ fn a_failed_step_is_reported_on_its_card_only() {
     type_into(&mut window, "Recipe", "ESCARGOT | configure right NOSUCH");
     idle(&mut window);
     // An unfinished name is not an error yet.
-    until(&mut window, "what is wrong", |window| {
-        shows(window, "NOSUCH")
-    });
+    until(&mut window, "what is wrong", |window| shows(window, "NOSUCH"));
     assert!(!has(&window, "Close"), "no notice stands in the way");
     click(&mut window, "Clear");
     type_into(&mut window, "Recipe", "ESCARGOT");
@@ -581,10 +535,7 @@ fn a_notation_is_written_from_the_board_of_symbols() {
     key(&mut window, Modifiers::COMMAND, Key::A);
     type_into(&mut window, "Type to find a symbol", "palml");
     key(&mut window, Modifiers::NONE, Key::Enter);
-    assert_eq!(
-        recipe_of(&window),
-        "hamnosys \"hamfist hamextfingeru hampalml\""
-    );
+    assert_eq!(recipe_of(&window), "hamnosys \"hamfist hamextfingeru hampalml\"");
     click(&mut window, "Take back");
     assert_eq!(recipe_of(&window), "hamnosys \"hamfist hamextfingeru\"");
     press(&mut window, "palml: the palm faces left");

@@ -3,7 +3,7 @@
 mod common;
 
 use chereme_corpus::Corpus;
-use chereme_studio::Options;
+use chereme_studio::StudioOptions;
 use common::*;
 use eframe::egui::{Key, Modifiers, Rect, Role, ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable;
@@ -15,19 +15,19 @@ fn the_starter_corpus_is_opened_and_a_recording_played() {
     click(&mut window, "aimer");
     until(&mut window, "the tiers", |window| has(window, "Tier Gloss"));
     idle(&mut window);
-    assert_eq!(window.state().playhead().micros(), 0);
+    assert_eq!(window.state().playhead_instant().instant_micros(), 0);
     click(&mut window, "Play");
     window.run_steps(30);
-    let at = window.state().playhead().micros();
+    let at = window.state().playhead_instant().instant_micros();
     assert!((400_000..700_000).contains(&at), "{at}");
     assert!(has(&window, "Pause"));
     click(&mut window, "Pause");
-    let at = window.state().playhead();
+    let at = window.state().playhead_instant();
     window.run_steps(10);
-    assert_eq!(window.state().playhead(), at);
+    assert_eq!(window.state().playhead_instant(), at);
     window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
     window.run_steps(2);
-    assert!(window.state().playhead() > at);
+    assert!(window.state().playhead_instant() > at);
 }
 
 #[test]
@@ -35,16 +35,12 @@ fn the_start_page_shows_errors_with_remedies() {
     let folder = tempfile::tempdir().expect("a folder");
     let rubbish = folder.path().join("no.chereme");
     std::fs::write(&rubbish, "rubbish, rubbish").expect("written");
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus: Some(rubbish),
         ..options(folder.path())
     });
     until(&mut window, "the notice", |window| has(window, "Close"));
-    assert!(
-        window
-            .query_by_label_contains("What helps: choose a file")
-            .is_some()
-    );
+    assert!(window.query_by_label_contains("What helps: choose a file").is_some());
     click(&mut window, "Close");
     window.step();
     assert!(!has(&window, "Close"));
@@ -87,10 +83,7 @@ fn every_tab_of_a_narrow_strip_is_reached_and_the_open_one_is_in_sight() {
         let menus = window.query_all_by_label("All panes of this strip");
         let menu = menus.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left()));
         let menu = menu.expect("a menu");
-        assert!(
-            menu.rect().right() <= edge,
-            "it belongs to the narrow strip"
-        );
+        assert!(menu.rect().right() <= edge, "it belongs to the narrow strip");
         menu.click();
         window.run_steps(3);
         let entries = window.query_all_by_label(pane);
@@ -177,7 +170,7 @@ fn the_start_page_is_operated_by_keys_and_resumes_the_last_corpus() {
     assert!(!has(&window, "starter"), "it is not offered any more");
     drop(window);
     let corpus = Some(path);
-    let mut window = self::window(Options {
+    let mut window = self::window(StudioOptions {
         corpus,
         ..options(folder.path())
     });
@@ -188,7 +181,7 @@ fn the_start_page_is_operated_by_keys_and_resumes_the_last_corpus() {
     window.run_steps(3);
     window.key_press(Key::Enter);
     until(&mut window, "the corpus", |window| has(window, "escargot"));
-    let open = window.state().corpus().expect("open");
+    let open = window.state().shown_corpus_path().expect("open");
     assert!(open.ends_with("small.chereme"), "{open:?}");
 }
 
@@ -197,9 +190,7 @@ fn open_starter_by_key<'a>(folder: &std::path::Path) -> Window<'a> {
     let mut window = window(options(folder));
     window.run_steps(2);
     window.key_press(Key::Enter);
-    until(&mut window, "the starter corpus", |window| {
-        has(window, "aimer")
-    });
+    until(&mut window, "the starter corpus", |window| has(window, "aimer"));
     idle(&mut window);
     window
 }
@@ -218,7 +209,7 @@ fn opened_corpora_and_choices_are_remembered() {
     click(&mut window, "Français");
     window.run_steps(3);
     assert!(has(&window, "Fonds"));
-    let path = window.state().corpus().expect("open").clone();
+    let path = window.state().shown_corpus_path().expect("open").clone();
     drop(window);
     let mut window = self::window(options(folder.path()));
     window.run_steps(3);
@@ -232,14 +223,12 @@ fn opened_corpora_and_choices_are_remembered() {
 fn a_change_by_another_program_is_noticed() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
-    let path = window.state().corpus().expect("open").clone();
-    let mut other = Corpus::open(&path, "B").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
     other
-        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
         .expect("made");
-    until(&mut window, "the new recording", |window| {
-        has(window, "LIMACE")
-    });
+    until(&mut window, "the new recording", |window| has(window, "LIMACE"));
     let said = "B changed the corpus in another program: LIMACE made";
     until(&mut window, "who did what", |it| {
         it.query_by_label_contains(said).is_some()
@@ -251,18 +240,14 @@ fn a_change_by_another_program_is_noticed() {
 fn a_corpus_that_is_deleted_while_it_is_open_is_noticed_and_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
-    let path = window.state().corpus().expect("open").clone();
+    let path = window.state().shown_corpus_path().expect("open").clone();
     for end in ["", "-wal", "-shm"] {
         // A missing file needs no removal.
         drop(std::fs::remove_file(format!("{}{end}", path.display())));
     }
     until(&mut window, "the notice", |it| has(it, "Put it back"));
     assert!(has(&window, "Save a copy…") && has(&window, "Error"));
-    assert!(
-        window
-            .query_by_label_contains("The corpus file is gone")
-            .is_some()
-    );
+    assert!(window.query_by_label_contains("The corpus file is gone").is_some());
     // The window stays open at first.
     let close = |window: &mut common::Window<'_>| {
         let viewport = window.input_mut().viewports.get_mut(&ViewportId::ROOT);
@@ -286,8 +271,8 @@ fn a_corpus_that_is_deleted_while_it_is_open_is_noticed_and_saved() {
         !has(it, "Put it back") && has(it, "escargot")
     });
     idle(&mut window);
-    let corpus = Corpus::open(&path, "B").expect("opened");
-    assert_eq!(corpus.overview(1).expect("read").recordings.len(), 1);
+    let corpus = Corpus::open_corpus(&path, "B").expect("opened");
+    assert_eq!(corpus.load_corpus_overview(1).expect("read").recordings.len(), 1);
 }
 
 #[test]

@@ -9,9 +9,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 fn pictures(window: &Window<'_>) -> Vec<String> {
     let nodes = window.query_all_by_label_contains("The signer: ");
-    nodes
-        .filter_map(|node| node.accesskit_node().label())
-        .collect()
+    nodes.filter_map(|node| node.accesskit_node().label()).collect()
 }
 
 fn is_on(window: &Window<'_>, label: &str) -> bool {
@@ -32,10 +30,7 @@ fn the_signer_is_shown_from_seven_directions_and_in_up_to_four_views() {
     window.run_steps(2);
     assert_eq!(pictures(&window), ["The signer: Right hand close up"]);
     click(&mut window, "Two views");
-    let two = [
-        "The signer: Right hand close up",
-        "The signer: From the front",
-    ];
+    let two = ["The signer: Right hand close up", "The signer: From the front"];
     assert_eq!(pictures(&window), two);
     window.key_press_modifiers(Modifiers::ALT, Key::Num9);
     window.run_steps(2);
@@ -60,15 +55,10 @@ fn hands_are_in_the_corners_and_palms_and_the_face_on_request() {
     assert!(is_on(&window, "Hands") && !is_on(&window, "Palms"));
     assert!(!has(&window, "Face close up"));
     click(&mut window, "Face");
-    until(&mut window, "the face", |window| {
-        has(window, "Face close up")
-    });
+    until(&mut window, "the face", |window| has(window, "Face close up"));
     click(&mut window, hands[0]);
     window.run_steps(2);
-    assert!(
-        is_on(&window, "Palms"),
-        "a click turns the palms to the eye"
-    );
+    assert!(is_on(&window, "Palms"), "a click turns the palms to the eye");
     window.key_press_modifiers(Modifiers::ALT, Key::H);
     window.run_steps(3);
     assert!(!is_on(&window, "Hands") && !has(&window, hands[0]));
@@ -113,16 +103,16 @@ fn the_bar_moves_the_playhead_by_mouse_and_by_keys() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     click(&mut window, "Time");
-    let at = window.state().playhead().micros();
+    let at = window.state().playhead_instant().instant_micros();
     assert!((1_500_000..2_200_000).contains(&at), "{at}");
     window.get_by_label("Time").focus();
     window.run_steps(2);
     window.key_press(Key::ArrowRight);
     window.run_steps(3);
-    let later = window.state().playhead().micros();
+    let later = window.state().playhead_instant().instant_micros();
     assert!((later - at).abs() < 40_000 && later != at, "{at}, {later}");
     click(&mut window, "To the start");
-    assert_eq!(window.state().playhead().micros(), 0);
+    assert_eq!(window.state().playhead_instant().instant_micros(), 0);
     assert!(!is_on(&window, "Loop"));
     click(&mut window, "Loop");
     assert!(is_on(&window, "Loop"));
@@ -132,12 +122,12 @@ fn the_bar_moves_the_playhead_by_mouse_and_by_keys() {
 fn the_view_of_the_stage_is_restored_when_the_window_opens_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
-    let path = window.state().corpus().expect("open").clone();
+    let path = window.state().shown_corpus_path().expect("open").clone();
     click(&mut window, "Two views");
     click(&mut window, "Grid");
     window.run_steps(3);
     drop(window);
-    let options = chereme_studio::Options {
+    let options = chereme_studio::StudioOptions {
         corpus: Some(path),
         ..common::options(folder.path())
     };
@@ -152,15 +142,11 @@ fn the_view_of_the_stage_is_restored_when_the_window_opens_again() {
 fn the_original_of_each_piece_is_shown_or_reported_missing() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
-    let path = window.state().corpus().expect("open").clone();
-    let mut other = Corpus::open(&path, "B").expect("opened");
-    other
-        .recombine("ESCARGOT then spell LSF", "BOTH")
-        .expect("made");
-    other.recombine("spell LSF", "LETTERS").expect("made");
-    until(&mut window, "the new recordings", |window| {
-        has(window, "LETTERS")
-    });
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
+    other.recombine_recipe("ESCARGOT then spell LSF", "BOTH").expect("made");
+    other.recombine_recipe("spell LSF", "LETTERS").expect("made");
+    until(&mut window, "the new recordings", |window| has(window, "LETTERS"));
     click(&mut window, "BOTH");
     until(&mut window, "the original", |window| has(window, "Beside"));
     idle(&mut window);
@@ -176,14 +162,12 @@ fn the_original_of_each_piece_is_shown_or_reported_missing() {
 fn a_generated_sign_is_shown_next_to_its_source() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
-    let path = window.state().corpus().expect("open").clone();
-    let mut other = Corpus::open(&path, "B").expect("opened");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
     other
-        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
         .expect("made");
-    until(&mut window, "the new recording", |window| {
-        has(window, "LIMACE")
-    });
+    until(&mut window, "the new recording", |window| has(window, "LIMACE"));
     click(&mut window, "LIMACE");
     until(&mut window, "the original", |window| has(window, "Beside"));
     idle(&mut window);

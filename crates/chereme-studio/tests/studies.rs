@@ -4,7 +4,7 @@ mod common;
 
 use chereme_corpus::Corpus;
 use chereme_corpus::study::StudyRequest;
-use chereme_studio::Language;
+use chereme_studio::InterfaceLanguage;
 use common::studies::*;
 use common::tiers::{ALT, CTRL, operations, stored};
 use common::*;
@@ -15,10 +15,8 @@ use egui_kittest::kittest::{NodeT, Queryable};
 #[test]
 fn a_study_is_planned_built_answered_and_reported() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
-    until(&mut window, "the empty list", |it| {
-        contains(it, "No study yet")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
+    until(&mut window, "the empty list", |it| contains(it, "No study yet"));
     click(&mut window, "New study");
     assert!(contains(&window, "a study needs trials"));
     type_into(&mut window, "Name of the study", "places");
@@ -32,7 +30,7 @@ fn a_study_is_planned_built_answered_and_reported() {
     // Each clip is shown on the stage before anything is stored.
     click(&mut window, "ESCARGOT, higher");
     until(&mut window, "the clip", |it| {
-        it.state().staged() == Some("ESCARGOT, higher")
+        it.state().staged_movement_name() == Some("ESCARGOT, higher")
     });
     let before = operations(&window);
     click(&mut window, "Store the plan");
@@ -40,19 +38,14 @@ fn a_study_is_planned_built_answered_and_reported() {
     until(&mut window, "the study", |it| {
         has(it, "Trials (2); a click shows the clip on the stage")
     });
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = Corpus::open(&path, "reader").expect("opened");
-    let study = corpus.study("places").expect("stored");
-    assert_eq!(
-        study.plan.trials[1].clip,
-        "ESCARGOT | place both by up 10cm"
-    );
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = Corpus::open_corpus(&path, "reader").expect("opened");
+    let study = corpus.study_with_answers("places").expect("stored");
+    assert_eq!(study.plan.trials[1].clip, "ESCARGOT | place both by up 10cm");
 
     click(&mut window, "Questionnaire");
     for (number, text) in [("Height of films", "64"), ("Pictures per second", "5")] {
-        window
-            .get_by_role_and_label(Role::SpinButton, number)
-            .focus();
+        window.get_by_role_and_label(Role::SpinButton, number).focus();
         window.run_steps(2);
         window.event(Event::Text(text.to_owned()));
         window.run_steps(2);
@@ -60,9 +53,7 @@ fn a_study_is_planned_built_answered_and_reported() {
         window.run_steps(2);
     }
     click(&mut window, "Build the questionnaire");
-    until(&mut window, "the questionnaire", |it| {
-        contains(it, "2 films, ")
-    });
+    until(&mut window, "the questionnaire", |it| contains(it, "2 films, "));
     let page = folder.path().join("places-questionnaire/index.html");
     assert!(page.is_file());
 
@@ -95,20 +86,18 @@ fn a_study_is_planned_built_answered_and_reported() {
         let before = operations(&window);
         window.key_press_modifiers(CTRL, Key::Z);
         stored(&mut window, before);
-        assert_eq!(corpus.studies().expect("read")[0].answers, left);
+        assert_eq!(corpus.study_overviews().expect("read")[0].answers, left);
     }
     let before = operations(&window);
     window.key_press_modifiers(CTRL, Key::Z);
     stored(&mut window, before);
-    until(&mut window, "the empty list", |it| {
-        contains(it, "No study yet")
-    });
+    until(&mut window, "the empty list", |it| contains(it, "No study yet"));
 }
 
 #[test]
 fn the_form_takes_the_chosen_sign_and_speaks_french() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::French);
+    let mut window = opened(folder.path(), InterfaceLanguage::French);
     click(&mut window, "Acteur Gloss");
     window.key_press_modifiers(ALT, Key::ArrowRight);
     window.run_steps(3);
@@ -126,10 +115,8 @@ fn the_form_takes_the_chosen_sign_and_speaks_french() {
 #[test]
 fn a_plan_that_is_left_can_be_continued_and_a_mended_fault_is_not_said_again() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
-    until(&mut window, "the empty list", |it| {
-        contains(it, "No study yet")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
+    until(&mut window, "the empty list", |it| contains(it, "No study yet"));
     // The form is filled in without the mouse.
     window.get_by_label("New study").focus();
     window.run_steps(2);
@@ -140,9 +127,7 @@ fn a_plan_that_is_left_can_be_continued_and_a_mended_fault_is_not_said_again() {
     type_into(&mut window, "Name of the study", "places");
     type_into(&mut window, "Signs", "NULLE");
     click(&mut window, "Store the plan");
-    until(&mut window, "the fault", |it| {
-        contains(it, "is not in the corpus")
-    });
+    until(&mut window, "the fault", |it| contains(it, "is not in the corpus"));
     type_into(&mut window, "Signs", " ESCARGOT");
     assert!(!contains(&window, "is not in the corpus"));
     click(&mut window, "Back to the studies");
@@ -154,9 +139,9 @@ fn a_plan_that_is_left_can_be_continued_and_a_mended_fault_is_not_said_again() {
 #[test]
 fn the_work_of_a_study_is_found_again_after_another_was_looked_at() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
-    let path = window.state().corpus().expect("open").clone();
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     for name in ["one", "two"] {
         let conditions = vec![("captured".to_owned(), "{}".to_owned())];
         let request = StudyRequest {
@@ -175,14 +160,10 @@ fn the_work_of_a_study_is_found_again_after_another_was_looked_at() {
     idle(&mut window);
     assert!(!contains(&window, "one-questionnaire"));
     click(&mut window, "one");
-    until(&mut window, "the fault", |it| {
-        contains(it, "one-questionnaire")
-    });
+    until(&mut window, "the fault", |it| contains(it, "one-questionnaire"));
     // Nobody has answered; a path that is emptied is not proposed again.
     click(&mut window, "Report");
-    until(&mut window, "the report", |it| {
-        has(it, "Nobody has answered yet.")
-    });
+    until(&mut window, "the report", |it| has(it, "Nobody has answered yet."));
     let file = (Role::TextInput, "File of the report (.html)");
     window.get_by_role_and_label(file.0, file.1).focus();
     window.run_steps(2);
@@ -199,7 +180,7 @@ fn the_work_of_a_study_is_found_again_after_another_was_looked_at() {
 #[test]
 fn the_keyboard_keeps_what_it_reaches_in_sight() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::English);
+    let mut window = opened(folder.path(), InterfaceLanguage::English);
     window.set_size([1280.0, 800.0].into());
     window.key_press_modifiers(CTRL, Key::F1);
     window.run_steps(3);

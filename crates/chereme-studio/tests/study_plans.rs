@@ -2,8 +2,8 @@
 
 mod common;
 
-use chereme_corpus::study::plan::{Comparison, Plan};
-use chereme_studio::Language;
+use chereme_corpus::study::study_plan::{HypothesisComparison, StudyPlan};
+use chereme_studio::InterfaceLanguage;
 use common::studies::*;
 use common::tiers::{CTRL, operations, stored};
 use common::*;
@@ -16,8 +16,8 @@ fn value(window: &Window<'_>, label: &str) -> String {
     node.accesskit_node().value().unwrap_or_default()
 }
 
-fn plan_of(window: &Window<'_>, name: &str) -> Plan {
-    corpus(window).study(name).expect("stored").plan
+fn plan_of(window: &Window<'_>, name: &str) -> StudyPlan {
+    corpus(window).study_with_answers(name).expect("stored").plan
 }
 
 /// Presses the button that stores the plan, and waits for it.
@@ -31,7 +31,7 @@ fn store(window: &mut Window<'_>) {
 #[test]
 fn a_stored_plan_is_opened_as_it_is_and_its_change_is_undone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened_with(folder.path(), Language::English, |corpus| {
+    let mut window = opened_with(folder.path(), InterfaceLanguage::English, |corpus| {
         let mut request = places("places");
         request.design.seed = 7;
         plan(corpus, &request);
@@ -64,11 +64,7 @@ fn a_stored_plan_is_opened_as_it_is_and_its_change_is_undone() {
     window.run_steps(40);
     click_in_sight(&mut window, "Add a hypothesis");
     window.run_steps(3);
-    type_into(
-        &mut window,
-        "Hypothesis 1: statement",
-        "higher signs look worse",
-    );
+    type_into(&mut window, "Hypothesis 1: statement", "higher signs look worse");
     let second = ["captured", "higher"].map(|it| format!("Hypothesis 1, Group 2: {it}"));
     for condition in &second {
         click_in_sight(&mut window, condition);
@@ -82,16 +78,13 @@ fn a_stored_plan_is_opened_as_it_is_and_its_change_is_undone() {
     store(&mut window);
     let after = plan_of(&window, "places");
     assert_eq!((after.questions.len(), after.design.seed), (2, 7));
-    let Comparison::Between(groups) = &after.hypotheses[0].compares else {
+    let HypothesisComparison::Between(groups) = &after.hypotheses[0].compares else {
         panic!("two groups")
     };
     assert_eq!(groups[1].conditions, ["higher"]);
     assert_eq!(after.hypotheses[0].text["en"], "higher signs look worse");
     until(&mut window, "the hypothesis", |it| {
-        contains(
-            it,
-            "H1: realism: captured ≠ higher – higher signs look worse",
-        )
+        contains(it, "H1: realism: captured ≠ higher – higher signs look worse")
     });
     // The hypothesis is removed in the form, and comes back with an undo.
     click(&mut window, "Change the plan");
@@ -111,7 +104,7 @@ fn a_stored_plan_is_opened_as_it_is_and_its_change_is_undone() {
 #[test]
 fn a_change_of_an_answered_plan_is_a_study_of_its_own() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened_with(folder.path(), Language::English, |corpus| {
+    let mut window = opened_with(folder.path(), InterfaceLanguage::English, |corpus| {
         answered(corpus, folder.path());
     });
     until(&mut window, "the study", |it| has(it, "places"));
@@ -127,7 +120,7 @@ fn a_change_of_an_answered_plan_is_a_study_of_its_own() {
     assert!(plan_of(&window, "places (2)").design.between);
     assert!(!plan_of(&window, "places").design.between);
     let answers: Vec<u64> = corpus(&window)
-        .studies()
+        .study_overviews()
         .expect("read")
         .iter()
         .map(|it| it.answers)
@@ -138,7 +131,7 @@ fn a_change_of_an_answered_plan_is_a_study_of_its_own() {
 #[test]
 fn plans_that_were_left_stay_whatever_is_looked_at_since() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened_with(folder.path(), Language::English, |corpus| {
+    let mut window = opened_with(folder.path(), InterfaceLanguage::English, |corpus| {
         plan(corpus, &places("places"));
     });
     until(&mut window, "the study", |it| has(it, "places"));
@@ -160,16 +153,14 @@ fn plans_that_were_left_stay_whatever_is_looked_at_since() {
         store(&mut window);
     }
     assert!(!has(&window, "Continue the unfinished plan"));
-    assert_eq!(corpus(&window).studies().expect("read").len(), 3);
+    assert_eq!(corpus(&window).study_overviews().expect("read").len(), 3);
 }
 
 #[test]
 fn a_table_of_trials_is_typed_or_dropped_and_each_wrong_row_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path(), Language::French);
-    until(&mut window, "the empty list", |it| {
-        contains(it, "Pas encore")
-    });
+    let mut window = opened(folder.path(), InterfaceLanguage::French);
+    until(&mut window, "the empty list", |it| contains(it, "Pas encore"));
     click(&mut window, "Nouvelle étude");
     type_into(&mut window, "Nom de l’étude", "tableau");
     let file = folder.path().join("essais.csv");
@@ -182,9 +173,7 @@ fn a_table_of_trials_is_typed_or_dropped_and_each_wrong_row_is_named() {
     assert!(contains(&window, "essais.csv, ligne 4 : "));
     let store = window.get_by_label("Enregistrer le plan");
     assert!(store.accesskit_node().is_disabled());
-    let right = wrong
-        .replace("b;;;2", "b;ESCARGOT | reverse;;2")
-        .replace(";x", ";3.5");
+    let right = wrong.replace("b;;;2", "b;ESCARGOT | reverse;;2").replace(";x", ";3.5");
     std::fs::write(&file, right).expect("written");
     drop_file(&mut window, &file);
     until(&mut window, "the trials", |it| has(it, "ESCARGOT, c"));
@@ -205,7 +194,7 @@ fn a_table_of_trials_is_typed_or_dropped_and_each_wrong_row_is_named() {
 #[test]
 fn distances_texts_and_the_file_of_a_plan_are_in_the_form() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened_with(folder.path(), Language::English, |corpus| {
+    let mut window = opened_with(folder.path(), InterfaceLanguage::English, |corpus| {
         let mut request = places("places");
         request.questions = vec!["place=left right".to_owned()];
         plan(corpus, &request);
@@ -233,10 +222,7 @@ fn distances_texts_and_the_file_of_a_plan_are_in_the_form() {
     let json = serde_json::to_value(&stored_plan.questions[0]).expect("JSON");
     assert_eq!(json["after"], "second");
     assert_eq!(json["kind"]["choice"]["options"][0]["picture"], "left.png");
-    assert_eq!(
-        json["kind"]["choice"]["options"][0]["text"]["fr"],
-        "à gauche"
-    );
+    assert_eq!(json["kind"]["choice"]["options"][0]["text"]["fr"], "à gauche");
 
     click(&mut window, "Save the plan as a file");
     window.run_steps(40);

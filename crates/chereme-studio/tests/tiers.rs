@@ -2,7 +2,7 @@
 
 mod common;
 
-use chereme_studio::{Language, Options};
+use chereme_studio::{InterfaceLanguage, StudioOptions};
 use common::tiers::*;
 use common::{Window, click, has, idle, until};
 use eframe::egui::{Key, Modifiers, Role, pos2, vec2};
@@ -12,9 +12,9 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 
 /// Returns the names of the tiers in their stored order.
 fn order(window: &Window<'_>) -> Vec<String> {
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = chereme_corpus::Corpus::open(&path, "reader").expect("opened");
-    let contents = corpus.contents(1).expect("read");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = chereme_corpus::Corpus::open_corpus(&path, "reader").expect("opened");
+    let contents = corpus.load_recording_contents(1).expect("read");
     contents.tiers.into_iter().map(|it| it.row.name).collect()
 }
 
@@ -89,12 +89,10 @@ fn a_tier_is_copied_with_the_chosen_contents() {
 fn hidden_tiers_and_zoom_are_remembered_for_each_corpus() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
-    let path = window.state().corpus().expect("open").clone();
+    let path = window.state().shown_corpus_path().expect("open").clone();
     window.get_by_role_and_label(Role::Button, "Tiers").click();
     window.run_steps(3);
-    window
-        .get_by_role_and_label(Role::CheckBox, "Translation FR")
-        .click();
+    window.get_by_role_and_label(Role::CheckBox, "Translation FR").click();
     window.run_steps(2);
     assert!(!has(&window, "Tier Translation FR"));
     press(&mut window, NONE, Key::Escape);
@@ -111,7 +109,7 @@ fn hidden_tiers_and_zoom_are_remembered_for_each_corpus() {
     let wide = rect(&window, "Gloss: ESCARGOT").width();
     drop(window);
     let again = |path: &std::path::Path| {
-        let mut window = common::window(Options {
+        let mut window = common::window(StudioOptions {
             corpus: Some(path.to_owned()),
             ..common::options(folder.path())
         });
@@ -168,11 +166,11 @@ fn stored_face_curves_have_lanes() {
     let file = folder.path().join("vraag.sigml");
     std::fs::write(&file, SIGML).expect("written");
     let path = folder.path().join("made.chereme");
-    let mut corpus = chereme_corpus::Corpus::create(&path, "A").expect("made");
+    let mut corpus = chereme_corpus::Corpus::create_corpus(&path, "A").expect("made");
     let recipe = format!("sigml {:?}", file.display().to_string());
-    corpus.recombine(&recipe, "VRAAG").expect("stored");
+    corpus.recombine_recipe(&recipe, "VRAAG").expect("stored");
     drop(corpus);
-    let mut window = common::window(Options {
+    let mut window = common::window(StudioOptions {
         corpus: Some(path),
         ..common::options(folder.path())
     });
@@ -187,16 +185,12 @@ fn stored_face_curves_have_lanes() {
     pointer(&mut window, middle, Some(true), NONE);
     pointer(&mut window, middle, Some(false), NONE);
     window.run_steps(2);
-    assert!(window.state().playhead().micros() > 0);
+    assert!(window.state().playhead_instant().instant_micros() > 0);
     let says = window.get_by_label_contains("both brows raised ");
     let says = says.accesskit_node().label().unwrap_or_default();
     assert!(!says.ends_with(" 0 %"), "{says}");
     press(&mut window, CTRL, Key::F10);
-    assert!(
-        window
-            .query_by_label_contains("both brows raised ")
-            .is_none()
-    );
+    assert!(window.query_by_label_contains("both brows raised ").is_none());
 }
 
 #[test]
@@ -218,9 +212,9 @@ fn a_component_tier_is_added_by_keys_with_a_proposed_parent() {
     window.run_steps(2);
     press(&mut window, NONE, Key::Enter);
     stored(&mut window, before);
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = chereme_corpus::Corpus::open(&path, "reader").expect("opened");
-    let contents = corpus.contents(1).expect("read");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = chereme_corpus::Corpus::open_corpus(&path, "reader").expect("opened");
+    let contents = corpus.load_recording_contents(1).expect("read");
     let tier = |name: &str| contents.tiers.iter().find(|it| it.row.name == name);
     let (gloss, added) = (tier("Gloss").expect("a tier"), tier("placement"));
     assert_eq!(added.expect("added").row.parent_id, Some(gloss.row.id));
@@ -236,9 +230,7 @@ fn the_properties_of_a_tier_are_edited_in_words() {
         let combo = window.get_by_role_and_label(Role::ComboBox, label);
         combo.value().unwrap_or_default()
     };
-    window
-        .get_by_role_and_label(Role::ComboBox, "What it says")
-        .click();
+    window.get_by_role_and_label(Role::ComboBox, "What it says").click();
     window.run_steps(3);
     window.get_by_label("non-manual · brows").click_accesskit();
     window.run_steps(3);
@@ -262,9 +254,9 @@ fn the_properties_of_a_tier_are_edited_in_words() {
 #[test]
 fn the_tools_fit_a_narrow_pane_in_the_longer_language() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = common::window(Options {
+    let mut window = common::window(StudioOptions {
         corpus: Some(common::small_corpus(folder.path())),
-        language: Language::French,
+        language: InterfaceLanguage::French,
         asked_language: None,
         ..common::options(folder.path())
     });

@@ -2,7 +2,7 @@
 
 mod common;
 
-use chereme_corpus::{Corpus, TierName};
+use chereme_corpus::{Corpus, TierRequestName};
 use common::tiers::*;
 use common::{Window, click, has, idle, until};
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, pos2};
@@ -72,32 +72,24 @@ fn two_taps_on_the_selection_open_a_field_that_stays_open() {
 fn a_recording_without_tiers_gets_the_usual_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = common::small_corpus(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let recording = corpus.overview(1).expect("read").recordings[0].row.id;
-    let contents = corpus.contents(recording).expect("read");
-    for tier in contents
-        .tiers
-        .iter()
-        .filter(|it| it.row.parent_id.is_none())
-    {
-        let tier = TierName::Number(tier.row.id);
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    let recording = corpus.load_corpus_overview(1).expect("read").recordings[0].row.id;
+    let contents = corpus.load_recording_contents(recording).expect("read");
+    for tier in contents.tiers.iter().filter(|it| it.row.parent_id.is_none()) {
+        let tier = TierRequestName::Number(tier.row.id);
         corpus.remove_tier(&tier).expect("removed");
     }
     drop(corpus);
-    let mut window = common::window(chereme_studio::Options {
+    let mut window = common::window(chereme_studio::StudioOptions {
         corpus: Some(path),
         ..common::options(folder.path())
     });
-    until(&mut window, "the offer", |it| {
-        has(it, "Add the usual tiers")
-    });
+    until(&mut window, "the offer", |it| has(it, "Add the usual tiers"));
     idle(&mut window);
     click(&mut window, "Add the usual tiers");
     until(&mut window, "the tiers", |it| has(it, "Tier Placement LH"));
     press(&mut window, CTRL, Key::Z);
-    until(&mut window, "the offer", |it| {
-        has(it, "Add the usual tiers")
-    });
+    until(&mut window, "the offer", |it| has(it, "Add the usual tiers"));
 }
 
 #[test]
@@ -124,10 +116,7 @@ fn a_selected_annotation_is_moved_and_neighbours_are_pushed_in_one_undo() {
     let mut window = three(folder.path());
     let old = spans(&window);
     click(&mut window, "Gloss: b");
-    let (from, c) = (
-        rect(&window, "Gloss: b").center(),
-        rect(&window, "Gloss: c"),
-    );
+    let (from, c) = (rect(&window, "Gloss: b").center(), rect(&window, "Gloss: c"));
     let before = operations(&window);
     // Normal mode: it stops at its neighbour.
     drag(&mut window, from, pos2(c.left(), from.y), NONE);
@@ -139,12 +128,7 @@ fn a_selected_annotation_is_moved_and_neighbours_are_pushed_in_one_undo() {
     click(&mut window, "Bulldozer");
     let from = rect(&window, "Gloss: b").center();
     let before = operations(&window);
-    drag(
-        &mut window,
-        from,
-        from + eframe::egui::vec2(30.0, 0.0),
-        NONE,
-    );
+    drag(&mut window, from, from + eframe::egui::vec2(30.0, 0.0), NONE);
     stored(&mut window, before);
     assert_eq!(operations(&window), before + 1);
     let pushed = spans(&window);
@@ -163,32 +147,22 @@ fn an_edge_is_dragged_and_escape_cancels() {
     click(&mut window, "Gloss: b");
     let b = rect(&window, "Gloss: b");
     let edge = pos2(b.right() - 2.0, b.center().y);
-    let here = window.state().playhead();
+    let here = window.state().playhead_instant();
     pointer(&mut window, edge, Some(true), NONE);
-    pointer(
-        &mut window,
-        edge + eframe::egui::vec2(10.0, 0.0),
-        None,
-        NONE,
-    );
+    pointer(&mut window, edge + eframe::egui::vec2(10.0, 0.0), None, NONE);
     press(&mut window, NONE, Key::Escape);
     pointer(&mut window, edge, Some(false), NONE);
     idle(&mut window);
     assert_eq!(spans(&window), old);
-    assert_eq!(window.state().playhead(), here, "Escape brings it back");
+    assert_eq!(window.state().playhead_instant(), here, "Escape brings it back");
     let before = operations(&window);
-    drag(
-        &mut window,
-        edge,
-        edge + eframe::egui::vec2(12.0, 0.0),
-        NONE,
-    );
+    drag(&mut window, edge, edge + eframe::egui::vec2(12.0, 0.0), NONE);
     stored(&mut window, before);
     let new = spans(&window);
     assert_eq!(new["b"].0, old["b"].0);
     assert!(new["b"].1 > old["b"].1);
     // The stage shows the moment of the edge.
-    assert_eq!(window.state().playhead().micros() / 1000, new["b"].1);
+    assert_eq!(window.state().playhead_instant().instant_micros() / 1000, new["b"].1);
 }
 
 #[test]
@@ -223,8 +197,7 @@ fn several_are_selected_by_click_and_frame_and_changed_together() {
     assert_eq!(values(&window, "Gloss"), ["x", "x", "c"]);
     assert_eq!(operations(&window), before + 1);
     until(&mut window, "what was done", |it| {
-        it.query_by_label_contains("2 glosses changed to x in ")
-            .is_some()
+        it.query_by_label_contains("2 glosses changed to x in ").is_some()
     });
     let old = says(&window, "Gloss");
     press(&mut window, CTRL | ALT, Key::U);
@@ -366,9 +339,7 @@ fn a_handshape_is_chosen_from_the_values_of_its_inventory() {
     assert!(has(&window, "The tier has no such value."));
     press(&mut window, NONE, Key::Escape);
     press(&mut window, NONE, Key::Enter);
-    window
-        .get_by_label("Value on Configuration RH")
-        .type_text("v");
+    window.get_by_label("Value on Configuration RH").type_text("v");
     window.run_steps(2);
     click(&mut window, "Value V");
     stored(&mut window, before);

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use chereme_corpus::{Corpus, FileStatus, ImportOptions, Progress, Step, unpack_starter};
+use chereme_corpus::{Corpus, FileStatus, ImportOptions, ProgressReceiver, ProgressStep, unpack_starter};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -53,8 +53,7 @@ fn row(takes: usize, capture: Option<&Path>) -> Result<String> {
     let starter = unpack_starter(&own.path().join("starter"))?;
     let named = |ending: &str| {
         let is = |path: &&PathBuf| {
-            path.file_stem().is_some_and(|it| it == "escargot")
-                && path.extension().is_some_and(|it| it == ending)
+            path.file_stem().is_some_and(|it| it == "escargot") && path.extension().is_some_and(|it| it == ending)
         };
         starter.iter().find(is).cloned()
     };
@@ -65,23 +64,20 @@ fn row(takes: usize, capture: Option<&Path>) -> Result<String> {
     let notes = named("eaf").ok_or("the starter corpus has no annotations")?;
     let folder = own.path().join("takes");
     let bytes = write_takes(&folder, takes, &capture, &notes)?;
-    let mut corpus = Corpus::create(&own.path().join("bulk.chereme"), "A")?;
+    let mut corpus = Corpus::create_corpus(&own.path().join("bulk.chereme"), "A")?;
     let before = memory();
     let begun = Instant::now();
     let mut steps = 0_u64;
-    let mut hear = |_: Step<'_>| {
+    let mut hear = |_: ProgressStep<'_>| {
         steps += 1;
         std::ops::ControlFlow::Continue(())
     };
     let options = ImportOptions::default();
-    let report = corpus.import(&[folder], &options, &mut Progress::new(&mut hear))?;
+    let report = corpus.import_paths(&[folder], &options, &mut ProgressReceiver::new(&mut hear))?;
     let seconds = begun.elapsed().as_secs_f64();
     let mebibytes = |it: Option<u64>| it.map_or("?".into(), |it| format!("{it} MiB"));
     let made = |kind: &str| report.created.get(kind).copied().unwrap_or_default();
-    let refused = report
-        .files
-        .iter()
-        .filter(|it| it.status == FileStatus::Refused);
+    let refused = report.files.iter().filter(|it| it.status == FileStatus::Refused);
     Ok(format!(
         "| {takes} | {:.0} MB | {seconds:.1} | {:.0} | {steps} | {} | {} | {} | {} | {} |\n",
         bytes as f64 / 1e6,
@@ -98,18 +94,9 @@ fn row(takes: usize, capture: Option<&Path>) -> Result<String> {
 fn write_takes(folder: &Path, takes: usize, capture: &Path, notes: &Path) -> Result<u64> {
     std::fs::create_dir_all(folder)?;
     let movement = std::fs::read_to_string(capture)?;
-    let head = movement
-        .find("Frame Time")
-        .ok_or("the capture has no movement")?;
-    let numbers = head
-        + movement[head..]
-            .find('\n')
-            .ok_or("the capture has no frames")?
-        + 1;
-    let first = numbers
-        + movement[numbers..]
-            .find(' ')
-            .ok_or("a frame has one number")?;
+    let head = movement.find("Frame Time").ok_or("the capture has no movement")?;
+    let numbers = head + movement[head..].find('\n').ok_or("the capture has no frames")? + 1;
+    let first = numbers + movement[numbers..].find(' ').ok_or("a frame has one number")?;
     let notes = std::fs::read_to_string(notes)?;
     let mut bytes = 0;
     for take in 0..takes {

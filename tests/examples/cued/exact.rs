@@ -1,10 +1,10 @@
 //! Rows of the table whose figures are exact: keys, spelling, alphabets, rigid fits and hostile input.
 
-use chereme_analysis::cue::generate::Random;
-use chereme_analysis::cue::rigid::Rigid;
+use chereme_analysis::cue::generate::RandomNumbers;
+use chereme_analysis::cue::rigid::RigidMotion;
 use chereme_corpus::{KeysOptions, cue_keys};
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::cue::Alphabet;
+use chereme_sign::cue::PhoneAlphabet;
 
 use super::table::Table;
 
@@ -24,15 +24,13 @@ fn lines_of(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
     lines.map(|line| line.split('\t').collect())
 }
 
-fn keys(text: &str, code: &str, phones: Option<Alphabet>) -> Vec<String> {
+fn keys(text: &str, code: &str, phones: Option<PhoneAlphabet>) -> Vec<String> {
     let options = KeysOptions {
         code: code.to_owned(),
         phones,
         ..KeysOptions::default()
     };
-    let found = cue_keys(text, &options)
-        .map(|found| found.keys)
-        .unwrap_or_default();
+    let found = cue_keys(text, &options).map(|found| found.keys).unwrap_or_default();
     found
         .iter()
         .map(|key| format!("{}-{}", key.shape, key.placement))
@@ -49,10 +47,10 @@ fn rows_of_keys(table: &mut Table) {
         };
         let expected: Vec<&str> = expected.split_whitespace().collect();
         all += 1;
-        right += usize::from(keys(sampa, code, Some(Alphabet::Sampa)) == expected);
+        right += usize::from(keys(sampa, code, Some(PhoneAlphabet::Sampa)) == expected);
         if code == "french" {
-            let ipa_keys = keys(ipa, code, Some(Alphabet::Ipa));
-            alphabets &= ipa_keys == expected && keys(ipa, code, Some(Alphabet::Mfa)) == expected;
+            let ipa_keys = keys(ipa, code, Some(PhoneAlphabet::Ipa));
+            alphabets &= ipa_keys == expected && keys(ipa, code, Some(PhoneAlphabet::Mfa)) == expected;
         }
         if code == "french" && text.ends_with(['.', '?']) {
             edits += distance(&keys(text, code, None), &expected);
@@ -73,17 +71,20 @@ fn rows_of_keys(table: &mut Table) {
     );
     let checks: Vec<Vec<&str>> = lines_of(SPELLING).collect();
     let spelled = |row: &&Vec<&str>| {
-        let spoken = chereme_sign::cue::french::phones(
+        let spoken = chereme_sign::cue::french::pronounce_french_text(
             row[0],
-            chereme_sign::cue::french::Options::default(),
+            chereme_sign::cue::french::PronunciationOptions::default(),
         );
-        spoken.phones().collect::<Vec<_>>().join(" ") == row[1]
+        spoken.spoken_phones().collect::<Vec<_>>().join(" ") == row[1]
     };
     let right = checks.iter().filter(spelled).count();
     let share = 100.0 * edits as f64 / f64::from(u32::try_from(sentences).unwrap_or(1)).max(1.0);
     table.row(
         "French text to keys",
-        &format!("{right} of {} words as the rules say; {share:.1} % of {sentences} keys of sentences differ", checks.len()),
+        &format!(
+            "{right} of {} words as the rules say; {share:.1} % of {sentences} keys of sentences differ",
+            checks.len()
+        ),
         "words exact, ≤ 1.5 %",
         right == checks.len() && share <= 1.5,
     );
@@ -104,27 +105,29 @@ fn distance(a: &[String], b: &[&str]) -> usize {
 }
 
 fn rows_of_fits(table: &mut Table) {
-    let mut random = Random::new(5);
-    let mut point = |sd: f64| DVec3::new(random.normal(), random.normal(), random.normal()) * sd;
+    let mut random = RandomNumbers::new(5);
+    let mut point = |sd: f64| DVec3::new(random.random_normal(), random.random_normal(), random.random_normal()) * sd;
     let mut worst = [0.0f64; 3];
     let mut sums = [0.0f64; 2];
     const TIMES: usize = 200;
     for noise in [0.0, 0.3] {
         for _ in 0..TIMES {
-            let motion = Rigid {
+            let motion = RigidMotion {
                 rotation: DQuat::from_scaled_axis(point(1.2)),
                 translation: point(300.0),
             };
             let from: Vec<DVec3> = (0..9).map(|_| point(60.0)).collect();
             let to: Vec<Option<DVec3>> = from
                 .iter()
-                .map(|at| Some(motion.apply(*at) + point(noise)))
+                .map(|at| Some(motion.apply_rigid_motion(*at) + point(noise)))
                 .collect();
-            let Ok(found) = Rigid::fit(&from, &to) else {
+            let Ok(found) = RigidMotion::fit_rigid_motion(&from, &to) else {
                 continue;
             };
             let middle = from.iter().sum::<DVec3>() / 9.0;
-            let off = found.apply(middle).distance(motion.apply(middle));
+            let off = found
+                .apply_rigid_motion(middle)
+                .distance(motion.apply_rigid_motion(middle));
             let turn = found.rotation.angle_between(motion.rotation).to_degrees();
             if noise == 0.0 {
                 worst[0] = worst[0].max(off);
@@ -136,7 +139,8 @@ fn rows_of_fits(table: &mut Table) {
     }
     let line: Vec<DVec3> = (0..5).map(|n| DVec3::X * f64::from(n)).collect();
     let seen: Vec<Option<DVec3>> = line.iter().copied().map(Some).collect();
-    let refused = Rigid::fit(&line, &seen).is_err() && Rigid::fit(&line[..2], &seen[..2]).is_err();
+    let refused = RigidMotion::fit_rigid_motion(&line, &seen).is_err()
+        && RigidMotion::fit_rigid_motion(&line[..2], &seen[..2]).is_err();
     table.row(
         "rigid fit of nine markers, exact and with 0.3 mm of noise",
         &format!(

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use chereme_analysis::cue::gauss::Recogniser;
-use chereme_analysis::cue::generate::{RATE, Take, TrueKey};
-use chereme_analysis::cue::hand::HandModel;
-use chereme_compose::cue::dikey::{Costs, Dictionary, Dikey, DikeyEnd};
+use chereme_analysis::cue::cue_hand::HandModel;
+use chereme_analysis::cue::gauss::GaussianRecogniser;
+use chereme_analysis::cue::generate::{GENERATED_FRAME_RATE, GeneratedTake, TrueKey};
+use chereme_compose::cue::dikey::{DikeyCostWeights, DikeyDictionary, DikeyEnd, KeyTransition};
 use chereme_corpus::{Corpus, CueOptions};
 
 use super::table::{Table, at_targets, clean, takes};
@@ -20,33 +20,38 @@ fn end(key: &TrueKey) -> DikeyEnd {
 }
 
 /// The seven distances and both tips in the head's space, as the parameters of a frame.
-fn parameters(take: &Take) -> Vec<Vec<f64>> {
+fn parameters(take: &GeneratedTake) -> Vec<Vec<f64>> {
     let frames = take.true_hand.iter().zip(&take.head);
     frames
         .map(|(points, head)| {
-            let mut row = HandModel::distances(points).unwrap_or_default().to_vec();
+            let mut row = HandModel::shape_distances(points).unwrap_or_default().to_vec();
             for shape in [1, 4] {
-                let tip = HandModel::tip(points, shape).unwrap_or_default();
-                row.extend(head.undo(tip).to_array());
+                let tip = HandModel::pointing_fingertip(points, shape).unwrap_or_default();
+                row.extend(head.undo_rigid_motion(tip).to_array());
             }
             row
         })
         .collect()
 }
 
-fn goals(take: &Take) -> Vec<(DikeyEnd, usize)> {
+fn goals(take: &GeneratedTake) -> Vec<(DikeyEnd, usize)> {
     let last = take.true_hand.len() - 1;
     let each = take.keys.iter();
-    each.map(|key| (end(key), ((key.times[1] * RATE).round() as usize).min(last)))
-        .collect()
+    each.map(|key| {
+        (
+            end(key),
+            ((key.times[1] * GENERATED_FRAME_RATE).round() as usize).min(last),
+        )
+    })
+    .collect()
 }
 
 pub(crate) fn dictionary(table: &mut Table) {
     let settings = clean();
     let first = takes(&settings, 0..238);
-    let mut dikeys: Vec<Dikey> = Vec::new();
+    let mut dikeys: Vec<KeyTransition> = Vec::new();
     for (n, take) in first.iter().enumerate() {
-        dikeys.extend(Dictionary::cut(
+        dikeys.extend(DikeyDictionary::cut_dikeys(
             &parameters(take),
             &goals(take),
             &format!("sentence {n}"),
@@ -64,17 +69,17 @@ pub(crate) fn dictionary(table: &mut Table) {
             .map(|(place, (sum, count))| (place, sum.map(|x| x / count)))
             .collect()
     };
-    let book = Dictionary::new(dikeys, RATE, &[1.0; 13], places);
-    let costs = Costs::default();
+    let book = DikeyDictionary::new(dikeys, GENERATED_FRAME_RATE, &[1.0; 13], places);
+    let costs = DikeyCostWeights::default();
     let own = &first[5];
     let wanted: Vec<(DikeyEnd, f64)> = goals(own)
         .into_iter()
-        .map(|(key, frame)| (key, frame as f64 / RATE))
+        .map(|(key, frame)| (key, frame as f64 / GENERATED_FRAME_RATE))
         .collect();
-    let pieces = book.select(&wanted, &costs);
-    let made = book.render(&pieces, &wanted);
+    let pieces = book.select_dikeys(&wanted, &costs);
+    let made = book.render_dikeys(&pieces, &wanted);
     let truth = parameters(own);
-    let from = (wanted[0].1 * RATE).round() as usize;
+    let from = (wanted[0].1 * GENERATED_FRAME_RATE).round() as usize;
     let off = made
         .iter()
         .zip(&truth[from..])
@@ -94,13 +99,7 @@ pub(crate) fn dictionary(table: &mut Table) {
     let speed_of = |rows: &[Vec<f64>]| -> Vec<f64> {
         let pairs = rows.windows(2);
         pairs
-            .map(|pair| {
-                (10..13)
-                    .map(|k| (pair[1][k] - pair[0][k]).powi(2))
-                    .sum::<f64>()
-                    .sqrt()
-                    * RATE
-            })
+            .map(|pair| (10..13).map(|k| (pair[1][k] - pair[0][k]).powi(2)).sum::<f64>().sqrt() * GENERATED_FRAME_RATE)
             .collect()
     };
     let mut usual: Vec<f64> = Vec::new();
@@ -116,12 +115,12 @@ pub(crate) fn dictionary(table: &mut Table) {
     for take in takes(&settings, 1000..1030) {
         let wanted: Vec<(DikeyEnd, f64)> = goals(&take)
             .into_iter()
-            .map(|(key, frame)| (key, frame as f64 / RATE))
+            .map(|(key, frame)| (key, frame as f64 / GENERATED_FRAME_RATE))
             .collect();
-        let pieces = book.select(&wanted, &costs);
-        let speeds = speed_of(&book.render(&pieces, &wanted));
+        let pieces = book.select_dikeys(&wanted, &costs);
+        let speeds = speed_of(&book.render_dikeys(&pieces, &wanted));
         for (_, time) in &wanted[1..wanted.len() - 1] {
-            let at = ((time - wanted[0].1) * RATE).round() as usize;
+            let at = ((time - wanted[0].1) * GENERATED_FRAME_RATE).round() as usize;
             if at > 0 && at < speeds.len() {
                 let jump = (speeds[at] - speeds[at - 1]).abs();
                 joins += 1;
@@ -140,31 +139,28 @@ pub(crate) fn dictionary(table: &mut Table) {
         over == 0,
     );
     let (shapes, spots) = at_targets(&first);
-    let by_shape = Recogniser::learn(&shapes, 0.25).expect("shapes");
-    let by_place = Recogniser::learn(&spots, 0.25).expect("places");
+    let by_shape = GaussianRecogniser::learn_gaussian_classes(&shapes, 0.25).expect("shapes");
+    let by_place = GaussianRecogniser::learn_gaussian_classes(&spots, 0.25).expect("places");
     let (mut right, mut all, mut instead, mut ramps, mut wrong) = ([0, 0], 0, 0, 0, Vec::new());
     for (n, take) in takes(&settings, 1000..1114).iter().enumerate() {
         let wanted: Vec<(DikeyEnd, f64)> = goals(take)
             .into_iter()
-            .map(|(key, frame)| (key, frame as f64 / RATE))
+            .map(|(key, frame)| (key, frame as f64 / GENERATED_FRAME_RATE))
             .collect();
-        let pieces = book.select(&wanted, &costs);
-        instead += pieces
-            .iter()
-            .filter(|piece| piece.instead.is_some())
-            .count();
+        let pieces = book.select_dikeys(&wanted, &costs);
+        instead += pieces.iter().filter(|piece| piece.instead.is_some()).count();
         ramps += pieces.iter().filter(|piece| piece.dikey.is_none()).count();
-        let made = book.render(&pieces, &wanted);
+        let made = book.render_dikeys(&pieces, &wanted);
         for (k, (key, time)) in wanted.iter().enumerate() {
-            let frame = (((time - wanted[0].1) * RATE).round() as usize).min(made.len() - 1);
+            let frame = (((time - wanted[0].1) * GENERATED_FRAME_RATE).round() as usize).min(made.len() - 1);
             let row = &made[frame];
-            let shape = by_shape.best(&row[..7]);
+            let shape = by_shape.most_probable_class(&row[..7]);
             let tip = if matches!(key.shape, 1 | 6) {
                 &row[7..10]
             } else {
                 &row[10..13]
             };
-            let place = by_place.best(tip);
+            let place = by_place.most_probable_class(tip);
             all += 1;
             right[0] += usize::from(shape == key.shape);
             right[1] += usize::from(place == key.placement);
@@ -176,11 +172,13 @@ pub(crate) fn dictionary(table: &mut Table) {
             }
         }
     }
-    let rate =
-        right.map(|right| 100.0 * f64::from(u32::try_from(right).unwrap_or(0)) / f64::from(all));
+    let rate = right.map(|right| 100.0 * f64::from(u32::try_from(right).unwrap_or(0)) / f64::from(all));
     table.row(
         "114 unseen sentences synthesised and recognised again",
-        &format!("shapes {:.1} %, placements {:.1} % of {all}; {instead} dikeys stood in for others, {ramps} ramps", rate[0], rate[1]),
+        &format!(
+            "shapes {:.1} %, placements {:.1} % of {all}; {instead} dikeys stood in for others, {ramps} ramps",
+            rate[0], rate[1]
+        ),
         "≥ 95 % each",
         rate[0] >= 95.0 && rate[1] >= 95.0,
     );
@@ -189,13 +187,13 @@ pub(crate) fn dictionary(table: &mut Table) {
 
 pub(crate) fn cuer(table: &mut Table) {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("a corpus");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("a corpus");
     let text = "maître corbeau sur un arbre perché tenait en son bec un fromage, maître renard par l'odeur alléché";
     let mut options = CueOptions::default();
     options.reading.pace = Some(1.6);
-    let done = corpus.cue(text, &options, None).expect("cued");
+    let done = corpus.generate_cued_speech(text, &options, None).expect("cued");
     let start = Instant::now();
-    let done = corpus.cue(text, &options, None).unwrap_or(done);
+    let done = corpus.generate_cued_speech(text, &options, None).unwrap_or(done);
     let took = start.elapsed().as_secs_f64();
     let seconds = done.duration_us as f64 / 1e6;
     table.row(
@@ -204,12 +202,7 @@ pub(crate) fn cuer(table: &mut Table) {
         "< 1 s for 10 s",
         took * 10.0 / seconds < 1.0,
     );
-    let lips = done
-        .report
-        .warnings
-        .iter()
-        .filter(|it| it.contains("lips"))
-        .count();
+    let lips = done.report.warnings.iter().filter(|it| it.contains("lips")).count();
     table.row(
         "lips stay free by 6 mm",
         if lips == 0 { "yes" } else { "no" },

@@ -21,12 +21,11 @@ mod table;
 use std::path::Path;
 use std::process::ExitCode;
 
-use chereme_analysis::cue::generate::Settings;
+use chereme_analysis::cue::generate::CueGeneratorSettings;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let number =
-        |at: usize, usual: u64| words.get(at).map_or(Some(usual), |word| word.parse().ok());
+    let number = |at: usize, usual: u64| words.get(at).map_or(Some(usual), |word| word.parse().ok());
     match words.first().map(String::as_str) {
         Some("table") => {
             let text = table::made();
@@ -49,9 +48,9 @@ fn main() -> ExitCode {
                 sentences,
                 words: session::USUAL_WORDS,
                 times: 2,
-                settings: Settings {
+                settings: CueGeneratorSettings {
                     seed,
-                    ..Settings::default()
+                    ..CueGeneratorSettings::default()
                 },
             };
             match session::write(Path::new(&words[1]), &plan) {
@@ -71,13 +70,9 @@ fn main() -> ExitCode {
                 match chereme_corpus::cue_keys(line, &chereme_corpus::KeysOptions::default()) {
                     Ok(read) => {
                         let keys = read.keys.iter();
-                        let keys: Vec<String> = keys
-                            .map(|key| format!("{}-{}", key.placement, key.shape))
-                            .collect();
+                        let keys: Vec<String> = keys.map(|key| format!("{}-{}", key.placement, key.shape)).collect();
                         println!("{line}\n    {}", keys.join(" "));
-                        read.findings
-                            .iter()
-                            .for_each(|finding| println!("    {finding}"));
+                        read.findings.iter().for_each(|finding| println!("    {finding}"));
                     }
                     Err(error) => eprintln!("{line}: {error}"),
                 }

@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
-use chereme_analysis::cue::face::FaceModel;
-use chereme_analysis::cue::gauss::{Confusion, Recogniser};
-use chereme_analysis::cue::generate::{self, RATE, Settings, Take};
-use chereme_analysis::cue::hand::{HandModel, Restored};
-use chereme_analysis::cue::labels::{HAND, THROAT, finger};
-use chereme_analysis::cue::session::{self, Followed, KeySounds};
-use chereme_analysis::cue::targets::Quartiles;
+use chereme_analysis::cue::cue_face::FaceModel;
+use chereme_analysis::cue::cue_hand::{HandModel, RestoredHand};
+use chereme_analysis::cue::cue_labels::{HAND_MARKER_COUNT, THROAT_MARKERS, first_finger_marker};
+use chereme_analysis::cue::cue_targets::GestureQuartiles;
+use chereme_analysis::cue::gauss::{GaussianRecogniser, RecognitionConfusion};
+use chereme_analysis::cue::generate::{self, CueGeneratorSettings, GENERATED_FRAME_RATE, GeneratedTake};
+use chereme_analysis::cue::session::{self, FollowedTake, KeySounds};
 use chereme_motion::glam::DVec3;
 
 use super::{exact, made};
@@ -34,8 +34,7 @@ impl Table {
 /// Returns the whole table, with the confusion tables of the recognisers below it.
 pub(crate) fn made() -> String {
     let mut table = Table {
-        text: "| on generated sessions | found | wanted | reached |\n|---|---|---|---|\n"
-            .to_owned(),
+        text: "| on generated sessions | found | wanted | reached |\n|---|---|---|---|\n".to_owned(),
         passed: 0,
         rows: 0,
     };
@@ -48,28 +47,23 @@ pub(crate) fn made() -> String {
     made::dictionary(&mut table);
     made::cuer(&mut table);
     let mut text = table.text;
-    text += &format!(
-        "\n{} of {} rows reach what is wanted.\n",
-        table.passed, table.rows
-    );
+    text += &format!("\n{} of {} rows reach what is wanted.\n", table.passed, table.rows);
     for (name, confusion) in tables {
-        text += &format!(
-            "\n{name}, produced in rows and recognised in columns:\n\n```\n{confusion}\n```\n"
-        );
+        text += &format!("\n{name}, produced in rows and recognised in columns:\n\n```\n{confusion}\n```\n");
     }
     text
 }
 
-pub(crate) fn takes(settings: &Settings, numbers: std::ops::Range<u64>) -> Vec<Take> {
+pub(crate) fn takes(settings: &CueGeneratorSettings, numbers: std::ops::Range<u64>) -> Vec<GeneratedTake> {
     numbers
-        .map(|n| generate::sentence(settings, n, 14))
+        .map(|n| generate::generate_random_sentence(settings, n, 14))
         .collect()
 }
 
-pub(crate) fn clean() -> Settings {
-    Settings {
+pub(crate) fn clean() -> CueGeneratorSettings {
+    CueGeneratorSettings {
         hidden: 0.0,
-        ..Settings::default()
+        ..CueGeneratorSettings::default()
     }
 }
 
@@ -85,15 +79,15 @@ fn mean(all: &[f64]) -> f64 {
     all.iter().sum::<f64>() / all.len().max(1) as f64
 }
 
-fn errors(model: &HandModel, takes: &[Take]) -> Errors {
+fn errors(model: &HandModel, takes: &[GeneratedTake]) -> Errors {
     let mut found = Errors::default();
     for take in takes {
-        let mut before: Option<Restored> = None;
+        let mut before: Option<RestoredHand> = None;
         for (frame, truth) in take.hand.iter().zip(&take.true_hand) {
-            let Some(restored) = model.restore(frame, before.as_ref()) else {
+            let Some(restored) = model.restore_hand_markers(frame, before.as_ref()) else {
                 continue;
             };
-            for marker in 0..HAND {
+            for marker in 0..HAND_MARKER_COUNT {
                 match frame[marker] {
                     Some(at) => {
                         let apart = restored.points[marker] - at;
@@ -116,16 +110,13 @@ fn errors(model: &HandModel, takes: &[Take]) -> Errors {
 
 /// Trains both models, and compares them with numpy if `CHEREME_PYTHON` names a Python that has it.
 fn training(table: &mut Table) -> (HandModel, FaceModel) {
-    let free = generate::transitions(&Settings::default(), 2);
-    let whole: Vec<_> = takes(&clean(), 0..12)
-        .into_iter()
-        .flat_map(|it| it.face)
-        .collect();
+    let free = generate::generate_shape_transitions(&CueGeneratorSettings::default(), 2);
+    let whole: Vec<_> = takes(&clean(), 0..12).into_iter().flat_map(|it| it.face).collect();
     let start = Instant::now();
-    let hand = HandModel::learn(&free.hand, 12).expect("a model");
+    let hand = HandModel::learn_hand_model(&free.hand, 12).expect("a model");
     let own = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let face = FaceModel::learn(&whole).expect("a face");
+    let face = FaceModel::learn_face_model(&whole).expect("a face");
     let took = [own, start.elapsed().as_secs_f64()];
     let frames = [free.hand.len(), whole.len()];
     let peer = numpy(frames);
@@ -167,9 +158,9 @@ fn numpy(frames: [usize; 2]) -> Result<[f64; 2], &'static str> {
 }
 
 fn hand(table: &mut Table, model: &HandModel) {
-    let free = generate::transitions(&Settings::default(), 2);
-    let train = errors(model, &takes(&Settings::default(), 0..4));
-    let test = errors(model, &takes(&Settings::default(), 100..108));
+    let free = generate::generate_shape_transitions(&CueGeneratorSettings::default(), 2);
+    let train = errors(model, &takes(&CueGeneratorSettings::default(), 0..4));
+    let test = errors(model, &takes(&CueGeneratorSettings::default(), 100..108));
     let (seen, axis) = (mean(&test.seen), mean(&test.axis));
     table.row(
         "hand, 12 components, visible markers, unseen sentences",
@@ -198,8 +189,8 @@ fn hand(table: &mut Table, model: &HandModel) {
         "90–100 %",
         covered >= 90.0,
     );
-    let wide = HandModel::learn(&free.hand, 20).expect("a model");
-    let wide = errors(&wide, &takes(&Settings::default(), 100..108));
+    let wide = HandModel::learn_hand_model(&free.hand, 20).expect("a model");
+    let wide = errors(&wide, &takes(&CueGeneratorSettings::default(), 100..108));
     let far = wide.hidden[wide.hidden.len() * 95 / 100];
     let (seen, hidden) = (mean(&wide.seen), mean(&wide.hidden));
     table.row(
@@ -208,13 +199,13 @@ fn hand(table: &mut Table, model: &HandModel) {
         "≤ 2.0 mm; ≤ 3.5 mm, 95 % within 10",
         seen <= 2.0 && hidden <= 3.5 && far <= 10.0,
     );
-    let take = generate::sentence(&clean(), 300, 8);
+    let take = generate::generate_random_sentence(&clean(), 300, 8);
     let mut grown = Vec::new();
     for share in [0.2, 0.4, 0.6] {
         let mut hidden = take.clone();
-        let mut random = generate::Random::new(9);
+        let mut random = generate::RandomNumbers::new(9);
         for at in hidden.hand.iter_mut().flatten() {
-            if random.share() < share {
+            if random.random_share() < share {
                 *at = None;
             }
         }
@@ -227,10 +218,10 @@ fn hand(table: &mut Table, model: &HandModel) {
         grown[0] <= grown[1] && grown[1] <= grown[2],
     );
     let mut gone = take.hand[120].clone();
-    gone[finger(2)..finger(2) + 8].fill(None);
+    gone[first_finger_marker(2)..first_finger_marker(2) + 8].fill(None);
     let sd = model
-        .restore(&gone, None)
-        .map_or(0.0, |it| it.sd[finger(2) + 7] * 3f64.sqrt());
+        .restore_hand_markers(&gone, None)
+        .map_or(0.0, |it| it.sd[first_finger_marker(2) + 7] * 3f64.sqrt());
     table.row(
         "a finger wholly hidden: predicted sd of its tip",
         &format!("{sd:.1} mm"),
@@ -241,8 +232,8 @@ fn hand(table: &mut Table, model: &HandModel) {
     scrambled[20] = Some(DVec3::NAN);
     let mut hidden = take.hand[120].clone();
     hidden[20] = None;
-    let same = model.restore(&scrambled, None).map(|it| it.points)
-        == model.restore(&hidden, None).map(|it| it.points);
+    let same = model.restore_hand_markers(&scrambled, None).map(|it| it.points)
+        == model.restore_hand_markers(&hidden, None).map(|it| it.points);
     table.row(
         "hidden values are not looked at",
         if same { "bit by bit" } else { "differ" },
@@ -252,16 +243,16 @@ fn hand(table: &mut Table, model: &HandModel) {
 }
 
 fn face(table: &mut Table, model: &FaceModel) {
-    let settings = Settings::default();
+    let settings = CueGeneratorSettings::default();
     let mut frames = Vec::new();
     for take in takes(&settings, 0..12) {
         frames.extend(take.face.into_iter().step_by(5));
     }
-    let error = |frames: &[chereme_analysis::cue::face::Frame]| {
+    let error = |frames: &[chereme_analysis::cue::cue_face::FaceMarkerFrame]| {
         let mut all = Vec::new();
         for frame in frames {
-            if let Some((motion, own)) = model.invert(frame) {
-                let said = model.place(&motion, &own);
+            if let Some((motion, own)) = model.estimate_face_parameters(frame) {
+                let said = model.place_face_markers(&motion, &own);
                 all.extend(
                     frame
                         .iter()
@@ -285,7 +276,7 @@ fn face(table: &mut Table, model: &FaceModel) {
     );
     let off = generate::throat_weights().into_iter().enumerate();
     let off = off
-        .map(|(n, truth)| (model.weights[THROAT.start + n] - truth).abs())
+        .map(|(n, truth)| (model.weights[THROAT_MARKERS.start + n] - truth).abs())
         .fold(0.0, f64::max);
     table.row(
         "weights of the throat, the worst",
@@ -297,20 +288,20 @@ fn face(table: &mut Table, model: &FaceModel) {
 
 pub(crate) type Examples = Vec<(u8, Vec<f64>)>;
 
-pub(crate) fn at_targets(takes: &[Take]) -> (Examples, Examples) {
+pub(crate) fn at_targets(takes: &[GeneratedTake]) -> (Examples, Examples) {
     let (mut shapes, mut places) = (Vec::new(), Vec::new());
     for take in takes {
         for key in &take.keys {
-            let frame = ((key.times[1] * RATE).round() as usize).min(take.true_hand.len() - 1);
+            let frame = ((key.times[1] * GENERATED_FRAME_RATE).round() as usize).min(take.true_hand.len() - 1);
             let points = &take.true_hand[frame];
             if let (Some(seven), Some(tip)) = (
-                HandModel::distances(points),
-                HandModel::tip(points, key.shape),
+                HandModel::shape_distances(points),
+                HandModel::pointing_fingertip(points, key.shape),
             ) {
                 shapes.push((key.shape, seven.to_vec()));
                 places.push((
                     key.placement,
-                    take.head[frame].undo(tip).to_array().to_vec(),
+                    take.head[frame].undo_rigid_motion(tip).to_array().to_vec(),
                 ));
             }
         }
@@ -318,47 +309,47 @@ pub(crate) fn at_targets(takes: &[Take]) -> (Examples, Examples) {
     (shapes, places)
 }
 
-fn recognisers(table: &mut Table) -> Vec<(&'static str, Confusion)> {
+fn recognisers(table: &mut Table) -> Vec<(&'static str, RecognitionConfusion)> {
     let rates = |scatter: f64| {
-        let settings = Settings { scatter, ..clean() };
+        let settings = CueGeneratorSettings { scatter, ..clean() };
         let (shapes, places) = at_targets(&takes(&settings, 0..68));
         let (new_shapes, new_places) = at_targets(&takes(&settings, 100..180));
-        let shape = Confusion::of(
-            &Recogniser::learn(&shapes, 0.25).expect("shapes"),
+        let shape = RecognitionConfusion::count_confusions(
+            &GaussianRecogniser::learn_gaussian_classes(&shapes, 0.25).expect("shapes"),
             &new_shapes,
         );
-        let place = Confusion::of(
-            &Recogniser::learn(&places, 0.25).expect("places"),
+        let place = RecognitionConfusion::count_confusions(
+            &GaussianRecogniser::learn_gaussian_classes(&places, 0.25).expect("places"),
             &new_places,
         );
         (shape, place)
     };
     let ((shape, place), (still, _)) = (rates(8.0), rates(4.0));
-    let percent = |confusion: &Confusion| 100.0 * confusion.rate();
+    let percent = |confusion: &RecognitionConfusion| 100.0 * confusion.correct_recognition_rate();
     table.row(
         "shapes, angles scattered by 8°",
         &format!("{:.1} %", percent(&shape)),
         "≥ 96 %",
-        shape.rate() >= 0.96,
+        shape.correct_recognition_rate() >= 0.96,
     );
     table.row(
         "shapes, angles scattered by 4°",
         &format!("{:.1} %", percent(&still)),
         "≥ 99.5 %",
-        still.rate() >= 0.995,
+        still.correct_recognition_rate() >= 0.995,
     );
     table.row(
         "placements, one cuer",
         &format!("{:.1} %", percent(&place)),
         "≥ 98 %",
-        place.rate() >= 0.98,
+        place.correct_recognition_rate() >= 0.98,
     );
     vec![("Shapes at 8°", shape), ("Placements", place)]
 }
 
-fn sounds_of(take: &Take) -> Vec<session::Key> {
-    let keys = take.keys.iter().map(|key| session::Key {
-        kind: KeySounds::ALL[key.kind],
+fn sounds_of(take: &GeneratedTake) -> Vec<session::ExpectedCueKey> {
+    let keys = take.keys.iter().map(|key| session::ExpectedCueKey {
+        kind: KeySounds::ALL_KEY_SOUNDS[key.kind],
         placement: key.placement,
         shape: key.shape,
         a1: key.sound[0],
@@ -371,22 +362,22 @@ fn sounds_of(take: &Take) -> Vec<session::Key> {
 /// Targets found from markers as cameras see them: the kind of key, the start of its sound, and the true and the found
 /// begin and end of the hand's movement.
 fn found_phases(
-    settings: &Settings,
+    settings: &CueGeneratorSettings,
     sentences: std::ops::Range<u64>,
 ) -> Vec<(KeySounds, f64, [f64; 2], [f64; 2])> {
     let takes = takes(settings, sentences);
     let rigid = session::rigid_set(takes.iter().flat_map(|take| take.face.iter()));
-    let keys: Vec<Vec<session::Key>> = takes.iter().map(sounds_of).collect();
-    let followed: Vec<Followed> = takes
+    let keys: Vec<Vec<session::ExpectedCueKey>> = takes.iter().map(sounds_of).collect();
+    let followed: Vec<FollowedTake> = takes
         .iter()
-        .map(|take| Followed::of_seen(&take.hand, &take.face, rigid.as_deref(), RATE))
+        .map(|take| FollowedTake::of_seen(&take.hand, &take.face, rigid.as_deref(), GENERATED_FRAME_RATE))
         .collect();
-    let pairs: Vec<(&Followed, &[session::Key])> = followed
+    let pairs: Vec<(&FollowedTake, &[session::ExpectedCueKey])> = followed
         .iter()
         .zip(&keys)
         .map(|(take, keys)| (take, keys.as_slice()))
         .collect();
-    let Ok((_, shown)) = session::find(&pairs) else {
+    let Ok((_, shown)) = session::find_key_gestures(&pairs) else {
         return Vec::new();
     };
     let mut all = Vec::new();
@@ -416,17 +407,11 @@ fn phases(table: &mut Table) {
         .into_iter()
         .enumerate()
     {
-        let off = found
-            .iter()
-            .map(|it| (it.3[n] - it.2[n]).abs() * 1000.0)
-            .collect();
+        let off = found.iter().map(|it| (it.3[n] - it.2[n]).abs() * 1000.0).collect();
         let (half, most) = half_and_most(off);
         table.row(
             name,
-            &format!(
-                "half within {half:.1} ms, 90 % within {most:.1} (n = {})",
-                found.len()
-            ),
+            &format!("half within {half:.1} ms, 90 % within {most:.1} (n = {})", found.len()),
             "8.3 and 16.7 ms",
             half <= 8.4 && most <= 16.7,
         );
@@ -436,7 +421,7 @@ fn phases(table: &mut Table) {
         let phases: Vec<f64> = own
             .map(|it| 1000.0 * (if truth { it.2[1] } else { it.3[1] } - it.1))
             .collect();
-        Quartiles::of(&phases)
+        GestureQuartiles::quartiles_from_numbers(&phases)
     };
     for (kind, name) in [
         (KeySounds::Pair, "pairs"),
@@ -459,15 +444,15 @@ fn phases(table: &mut Table) {
     }
     let planted = [[0.5, 0.0, 0.0], [0.3, 0.21, 0.1], [0.33, -0.6, -0.3]];
     let median = |phase: [f64; 3], seeds: std::ops::Range<u64>, truth: bool| {
-        let settings = Settings { phase, ..clean() };
+        let settings = CueGeneratorSettings { phase, ..clean() };
         let found = found_phases(&settings, seeds);
-        KeySounds::ALL.map(|kind| {
+        KeySounds::ALL_KEY_SOUNDS.map(|kind| {
             let own: Vec<f64> = found
                 .iter()
                 .filter(|it| it.0 == kind)
                 .map(|it| if truth { it.2[1] } else { it.3[1] } - it.1)
                 .collect();
-            let median = Quartiles::of(&own).map_or(0.0, |it| it.median);
+            let median = GestureQuartiles::quartiles_from_numbers(&own).map_or(0.0, |it| it.median);
             (own.len() as f64, median)
         })
     };
@@ -480,8 +465,7 @@ fn phases(table: &mut Table) {
             // A kind with many keys has a better median, and counts more.
             let apart = |at: &[(f64, f64); 3]| -> f64 {
                 let both = at.iter().zip(own);
-                both.map(|(a, (count, b))| count * (a.1 - b) * (a.1 - b))
-                    .sum()
+                both.map(|(a, (count, b))| count * (a.1 - b) * (a.1 - b)).sum()
             };
             let best = known
                 .iter()

@@ -2,14 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use chereme_motion::{Finger, Part, Side};
+use chereme_motion::{BodyPart, BodySide, HandFinger};
 
 /// The form in which one program writes a body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dialect {
     pub(crate) name: &'static str,
     /// Its name for a part.
-    pub(crate) part: fn(Part) -> String,
+    pub(crate) part: fn(BodyPart) -> String,
     /// Prefix of every name, such as `Anna:`.
     pub(crate) space: &'static str,
     /// Units per metre.
@@ -208,154 +208,146 @@ pub(crate) fn all() -> Vec<Dialect> {
     ]
 }
 
-fn cap(side: Side) -> &'static str {
-    if side == Side::Left { "Left" } else { "Right" }
+fn cap(side: BodySide) -> &'static str {
+    if side == BodySide::Left { "Left" } else { "Right" }
 }
 
-fn letter(side: Side) -> &'static str {
-    if side == Side::Left { "l" } else { "r" }
+fn letter(side: BodySide) -> &'static str {
+    if side == BodySide::Left { "l" } else { "r" }
 }
 
-fn finger(finger: Finger) -> &'static str {
+fn finger(finger: HandFinger) -> &'static str {
     match finger {
-        Finger::Index => "Index",
-        Finger::Middle => "Middle",
-        Finger::Ring => "Ring",
-        Finger::Little => "Pinky",
+        HandFinger::Index => "Index",
+        HandFinger::Middle => "Middle",
+        HandFinger::Ring => "Ring",
+        HandFinger::Little => "Pinky",
     }
 }
 
-fn motionbuilder(part: Part) -> String {
+fn motionbuilder(part: BodyPart) -> String {
     match part {
-        Part::Hips => "Hips".into(),
-        Part::Spine => "Spine".into(),
-        Part::Chest => "Spine2".into(),
-        Part::Neck => "Neck".into(),
-        Part::Head => "Head".into(),
-        Part::Jaw => "Jaw".into(),
-        Part::Eye(s) => format!("{}Eye", cap(s)),
-        Part::Clavicle(s) => format!("{}Shoulder", cap(s)),
-        Part::UpperArm(s) => format!("{}Arm", cap(s)),
-        Part::Forearm(s) => format!("{}ForeArm", cap(s)),
-        Part::Hand(s) => format!("{}Hand", cap(s)),
-        Part::Thumb(s, n) => format!("{}HandThumb{}", cap(s), n + 1),
-        Part::Finger(s, f, 0) => format!("{}InHand{}", cap(s), finger(f)),
-        Part::Finger(s, f, n) => format!("{}Hand{}{n}", cap(s), finger(f)),
-        Part::Thigh(s) => format!("{}UpLeg", cap(s)),
-        Part::Shin(s) => format!("{}Leg", cap(s)),
-        Part::Foot(s) => format!("{}Foot", cap(s)),
-        Part::Toes(s) => format!("{}ToeBase", cap(s)),
+        BodyPart::Hips => "Hips".into(),
+        BodyPart::Spine => "Spine".into(),
+        BodyPart::Chest => "Spine2".into(),
+        BodyPart::Neck => "Neck".into(),
+        BodyPart::Head => "Head".into(),
+        BodyPart::Jaw => "Jaw".into(),
+        BodyPart::Eye(s) => format!("{}Eye", cap(s)),
+        BodyPart::Clavicle(s) => format!("{}Shoulder", cap(s)),
+        BodyPart::UpperArm(s) => format!("{}Arm", cap(s)),
+        BodyPart::Forearm(s) => format!("{}ForeArm", cap(s)),
+        BodyPart::Hand(s) => format!("{}Hand", cap(s)),
+        BodyPart::Thumb(s, n) => format!("{}HandThumb{}", cap(s), n + 1),
+        BodyPart::Finger(s, f, 0) => format!("{}InHand{}", cap(s), finger(f)),
+        BodyPart::Finger(s, f, n) => format!("{}Hand{}{n}", cap(s), finger(f)),
+        BodyPart::Thigh(s) => format!("{}UpLeg", cap(s)),
+        BodyPart::Shin(s) => format!("{}Leg", cap(s)),
+        BodyPart::Foot(s) => format!("{}Foot", cap(s)),
+        BodyPart::Toes(s) => format!("{}ToeBase", cap(s)),
     }
 }
 
-fn mixamo(part: Part) -> String {
+fn mixamo(part: BodyPart) -> String {
     format!("mixamorig:{}", motionbuilder(part))
 }
 
-fn unreal(part: Part) -> String {
-    let sided = |name: &str, s: Side| format!("{name}_{}", letter(s));
+fn unreal(part: BodyPart) -> String {
+    let sided = |name: &str, s: BodySide| format!("{name}_{}", letter(s));
     match part {
-        Part::Hips => "pelvis".into(),
-        Part::Spine => "spine_01".into(),
-        Part::Chest => "spine_03".into(),
-        Part::Neck => "neck_01".into(),
-        Part::Head => "head".into(),
-        Part::Jaw => "jaw".into(),
-        Part::Eye(s) => sided("eye", s),
-        Part::Clavicle(s) => sided("clavicle", s),
-        Part::UpperArm(s) => sided("upperarm", s),
-        Part::Forearm(s) => sided("lowerarm", s),
-        Part::Hand(s) => sided("hand", s),
-        Part::Thumb(s, n) => sided(&format!("thumb_0{}", n + 1), s),
-        Part::Finger(s, f, 0) => sided(&format!("{}_metacarpal", finger(f).to_lowercase()), s),
-        Part::Finger(s, f, n) => sided(&format!("{}_0{n}", finger(f).to_lowercase()), s),
-        Part::Thigh(s) => sided("thigh", s),
-        Part::Shin(s) => sided("calf", s),
-        Part::Foot(s) => sided("foot", s),
-        Part::Toes(s) => sided("ball", s),
+        BodyPart::Hips => "pelvis".into(),
+        BodyPart::Spine => "spine_01".into(),
+        BodyPart::Chest => "spine_03".into(),
+        BodyPart::Neck => "neck_01".into(),
+        BodyPart::Head => "head".into(),
+        BodyPart::Jaw => "jaw".into(),
+        BodyPart::Eye(s) => sided("eye", s),
+        BodyPart::Clavicle(s) => sided("clavicle", s),
+        BodyPart::UpperArm(s) => sided("upperarm", s),
+        BodyPart::Forearm(s) => sided("lowerarm", s),
+        BodyPart::Hand(s) => sided("hand", s),
+        BodyPart::Thumb(s, n) => sided(&format!("thumb_0{}", n + 1), s),
+        BodyPart::Finger(s, f, 0) => sided(&format!("{}_metacarpal", finger(f).to_lowercase()), s),
+        BodyPart::Finger(s, f, n) => sided(&format!("{}_0{n}", finger(f).to_lowercase()), s),
+        BodyPart::Thigh(s) => sided("thigh", s),
+        BodyPart::Shin(s) => sided("calf", s),
+        BodyPart::Foot(s) => sided("foot", s),
+        BodyPart::Toes(s) => sided("ball", s),
     }
 }
 
-fn rigify(part: Part) -> String {
-    let sided = |name: &str, s: Side| format!("{name}.{}", letter(s).to_uppercase());
+fn rigify(part: BodyPart) -> String {
+    let sided = |name: &str, s: BodySide| format!("{name}.{}", letter(s).to_uppercase());
     match part {
-        Part::Hips => "hips".into(),
-        Part::Spine => "spine".into(),
-        Part::Chest => "chest".into(),
-        Part::Neck => "neck".into(),
-        Part::Head => "head".into(),
-        Part::Jaw => "jaw".into(),
-        Part::Eye(s) => sided("eye", s),
-        Part::Clavicle(s) => sided("shoulder", s),
-        Part::UpperArm(s) => sided("upper_arm", s),
-        Part::Forearm(s) => sided("forearm", s),
-        Part::Hand(s) => sided("hand", s),
-        Part::Thumb(s, n) => sided(&format!("thumb.0{}", n + 1), s),
-        Part::Finger(s, f, 0) => sided(&format!("palm.0{}", f.index() + 1), s),
-        Part::Finger(s, f, n) => sided(&format!("f_{}.0{n}", finger(f).to_lowercase()), s),
-        Part::Thigh(s) => sided("thigh", s),
-        Part::Shin(s) => sided("shin", s),
-        Part::Foot(s) => sided("foot", s),
-        Part::Toes(s) => sided("toe", s),
+        BodyPart::Hips => "hips".into(),
+        BodyPart::Spine => "spine".into(),
+        BodyPart::Chest => "chest".into(),
+        BodyPart::Neck => "neck".into(),
+        BodyPart::Head => "head".into(),
+        BodyPart::Jaw => "jaw".into(),
+        BodyPart::Eye(s) => sided("eye", s),
+        BodyPart::Clavicle(s) => sided("shoulder", s),
+        BodyPart::UpperArm(s) => sided("upper_arm", s),
+        BodyPart::Forearm(s) => sided("forearm", s),
+        BodyPart::Hand(s) => sided("hand", s),
+        BodyPart::Thumb(s, n) => sided(&format!("thumb.0{}", n + 1), s),
+        BodyPart::Finger(s, f, 0) => sided(&format!("palm.0{}", f.index() + 1), s),
+        BodyPart::Finger(s, f, n) => sided(&format!("f_{}.0{n}", finger(f).to_lowercase()), s),
+        BodyPart::Thigh(s) => sided("thigh", s),
+        BodyPart::Shin(s) => sided("shin", s),
+        BodyPart::Foot(s) => sided("foot", s),
+        BodyPart::Toes(s) => sided("toe", s),
     }
 }
 
-fn biped(part: Part) -> String {
-    let sided = |name: &str, s: Side| format!("Bip01 {} {name}", letter(s).to_uppercase());
+fn biped(part: BodyPart) -> String {
+    let sided = |name: &str, s: BodySide| format!("Bip01 {} {name}", letter(s).to_uppercase());
     match part {
-        Part::Hips => "Bip01 Pelvis".into(),
-        Part::Spine => "Bip01 Spine".into(),
-        Part::Chest => "Bip01 Spine2".into(),
-        Part::Neck => "Bip01 Neck".into(),
-        Part::Head => "Bip01 Head".into(),
-        Part::Jaw => "Bip01 Jaw".into(),
-        Part::Eye(s) => sided("Eye", s),
-        Part::Clavicle(s) => sided("Clavicle", s),
-        Part::UpperArm(s) => sided("UpperArm", s),
-        Part::Forearm(s) => sided("Forearm", s),
-        Part::Hand(s) => sided("Hand", s),
-        Part::Thumb(s, 0) => sided("Finger0", s),
-        Part::Thumb(s, n) => sided(&format!("Finger0{n}"), s),
-        Part::Finger(s, f, 0) => sided(&format!("Palm{}", f.index() + 1), s),
-        Part::Finger(s, f, 1) => sided(&format!("Finger{}", f.index() + 1), s),
-        Part::Finger(s, f, n) => sided(&format!("Finger{}{}", f.index() + 1, n - 1), s),
-        Part::Thigh(s) => sided("Thigh", s),
-        Part::Shin(s) => sided("Calf", s),
-        Part::Foot(s) => sided("Foot", s),
-        Part::Toes(s) => sided("Toe0", s),
+        BodyPart::Hips => "Bip01 Pelvis".into(),
+        BodyPart::Spine => "Bip01 Spine".into(),
+        BodyPart::Chest => "Bip01 Spine2".into(),
+        BodyPart::Neck => "Bip01 Neck".into(),
+        BodyPart::Head => "Bip01 Head".into(),
+        BodyPart::Jaw => "Bip01 Jaw".into(),
+        BodyPart::Eye(s) => sided("Eye", s),
+        BodyPart::Clavicle(s) => sided("Clavicle", s),
+        BodyPart::UpperArm(s) => sided("UpperArm", s),
+        BodyPart::Forearm(s) => sided("Forearm", s),
+        BodyPart::Hand(s) => sided("Hand", s),
+        BodyPart::Thumb(s, 0) => sided("Finger0", s),
+        BodyPart::Thumb(s, n) => sided(&format!("Finger0{n}"), s),
+        BodyPart::Finger(s, f, 0) => sided(&format!("Palm{}", f.index() + 1), s),
+        BodyPart::Finger(s, f, 1) => sided(&format!("Finger{}", f.index() + 1), s),
+        BodyPart::Finger(s, f, n) => sided(&format!("Finger{}{}", f.index() + 1, n - 1), s),
+        BodyPart::Thigh(s) => sided("Thigh", s),
+        BodyPart::Shin(s) => sided("Calf", s),
+        BodyPart::Foot(s) => sided("Foot", s),
+        BodyPart::Toes(s) => sided("Toe0", s),
     }
 }
 
-fn vrm(part: Part) -> String {
-    let sided = |name: &str, s: Side| format!("{}{name}", cap(s).to_lowercase());
-    let segment =
-        |n: u8| ["Metacarpal", "Proximal", "Intermediate", "Distal"][usize::from(n.min(3))];
+fn vrm(part: BodyPart) -> String {
+    let sided = |name: &str, s: BodySide| format!("{}{name}", cap(s).to_lowercase());
+    let segment = |n: u8| ["Metacarpal", "Proximal", "Intermediate", "Distal"][usize::from(n.min(3))];
     match part {
-        Part::Thumb(s, n) => sided(
-            &format!(
-                "Thumb{}",
-                ["Metacarpal", "Proximal", "Distal"][usize::from(n.min(2))]
-            ),
+        BodyPart::Thumb(s, n) => sided(
+            &format!("Thumb{}", ["Metacarpal", "Proximal", "Distal"][usize::from(n.min(2))]),
             s,
         ),
-        Part::Finger(s, f, n) => {
-            let name = if f == Finger::Little {
-                "Little"
-            } else {
-                finger(f)
-            };
+        BodyPart::Finger(s, f, n) => {
+            let name = if f == HandFinger::Little { "Little" } else { finger(f) };
             sided(&format!("{name}{}", segment(n)), s)
         }
-        Part::Clavicle(s) => sided("Shoulder", s),
-        Part::UpperArm(s) => sided("UpperArm", s),
-        Part::Forearm(s) => sided("LowerArm", s),
-        Part::Hand(s) => sided("Hand", s),
-        Part::Thigh(s) => sided("UpperLeg", s),
-        Part::Shin(s) => sided("LowerLeg", s),
-        Part::Foot(s) => sided("Foot", s),
-        Part::Toes(s) => sided("Toes", s),
-        Part::Eye(s) => sided("Eye", s),
-        Part::Chest => "chest".into(),
+        BodyPart::Clavicle(s) => sided("Shoulder", s),
+        BodyPart::UpperArm(s) => sided("UpperArm", s),
+        BodyPart::Forearm(s) => sided("LowerArm", s),
+        BodyPart::Hand(s) => sided("Hand", s),
+        BodyPart::Thigh(s) => sided("UpperLeg", s),
+        BodyPart::Shin(s) => sided("LowerLeg", s),
+        BodyPart::Foot(s) => sided("Foot", s),
+        BodyPart::Toes(s) => sided("Toes", s),
+        BodyPart::Eye(s) => sided("Eye", s),
+        BodyPart::Chest => "chest".into(),
         other => motionbuilder(other).to_lowercase(),
     }
 }

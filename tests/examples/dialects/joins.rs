@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_compose::on_body;
-use chereme_corpus::{Corpus, ImportOptions, Moving, Progress, Recombination, unheard};
+use chereme_corpus::{
+    Corpus, DisplayedMovement, ImportOptions, ProgressReceiver, RecombinationResult, ignore_progress_step,
+};
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side, Skeleton};
-use chereme_sign::Handedness;
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, ModelPose, Skeleton};
+use chereme_sign::SignerHandedness;
 
 use crate::Result;
 use crate::dialect::{self, Dialect};
@@ -27,26 +29,29 @@ pub(crate) struct JoinMeasure {
 }
 
 impl JoinMeasure {
-    fn of_join(made: &Recombination) -> Result<Self> {
+    fn of_join(made: &RecombinationResult) -> Result<Self> {
         let clip = &made.clip;
         let transition = made.notes.iter().find(|note| note.about == "transition");
         let transition = transition.ok_or("the recipe has no transition")?;
-        let frame = |us: i64| (us as f64 / 1e6 * clip.rate().per_second()).round() as usize;
+        let frame = |us: i64| (us as f64 / 1e6 * clip.clip_frame_rate().per_second()).round() as usize;
         let (leave, enter) = (frame(transition.start_us) - 1, frame(transition.end_us));
-        let joint = |part| made.anatomy.joint(part).ok_or("a part is not found");
-        let hips = joint(Part::Hips)?;
-        let feet = [Part::Foot(Side::Right), Part::Foot(Side::Left)].map(joint);
+        let joint = |part| made.anatomy.part_joint(part).ok_or("a part is not found");
+        let hips = joint(BodyPart::Hips)?;
+        let feet = [BodyPart::Foot(BodySide::Right), BodyPart::Foot(BodySide::Left)].map(joint);
         let feet = [feet[0]?, feet[1]?];
-        let models: Vec<ModelPose> = (0..clip.frames()).map(|n| clip.model_pose(n)).collect();
-        let (start, end) = (models[leave].position(hips), models[enter].position(hips));
+        let models: Vec<ModelPose> = (0..clip.clip_frame_count()).map(|n| clip.model_pose(n)).collect();
+        let (start, end) = (
+            models[leave].model_joint_position(hips),
+            models[enter].model_joint_position(hips),
+        );
         let off = |model: &ModelPose| {
-            let own = model.position(hips) - start;
+            let own = model.model_joint_position(hips) - start;
             let line = end - start;
             let share = own.dot(line) / line.length_squared().max(1e-12);
             (own - line * share.clamp(0.0, 1.0)).length()
         };
         let height = |model: &ModelPose| {
-            let [right, left] = feet.map(|foot| model.position(foot).y);
+            let [right, left] = feet.map(|foot| model.model_joint_position(foot).y);
             right.min(left)
         };
         let mut first: Vec<f64> = models[..=leave].iter().map(height).collect();
@@ -83,7 +88,7 @@ pub(crate) fn worst_joins(
     let mut rows = Vec::new();
     for dialect in dialects {
         let name = dialect.name;
-        let mut corpus = Corpus::create(&folder.join(format!("{name}-joins.chereme")), name)?;
+        let mut corpus = Corpus::create_corpus(&folder.join(format!("{name}-joins.chereme")), name)?;
         let mut files = Vec::new();
         for (capture, source) in captures.iter().zip(&sources) {
             let staged = Staged {
@@ -96,12 +101,12 @@ pub(crate) fn worst_joins(
             files.push(path);
         }
         for file in files.iter().chain(captures) {
-            let mut hear = unheard;
+            let mut hear = ignore_progress_step;
             let options = ImportOptions::default();
-            corpus.import(
+            corpus.import_paths(
                 std::slice::from_ref(file),
                 &options,
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )?;
         }
         let count = captures.len();
@@ -122,7 +127,7 @@ fn worst_join(corpus: &mut Corpus, pairs: &[(usize, usize)], count: usize) -> Re
     for &(one, other) in pairs {
         for (first, second) in [(one, other), (one, count + other), (count + one, other)] {
             let recipe = format!("(recording:{first} | trim) then (recording:{second} | trim)");
-            match corpus.preview(&recipe) {
+            match corpus.preview_recipe(&recipe) {
                 Ok(made) => worst = worst.larger(JoinMeasure::of_join(&made)?),
                 Err(_) => worst.refused += 1,
             }
@@ -135,41 +140,33 @@ fn worst_join(corpus: &mut Corpus, pairs: &[(usize, usize)], count: usize) -> Re
 struct DialectBody {
     name: &'static str,
     clip: Clip,
-    anatomy: Arc<Anatomy>,
+    anatomy: Arc<BodyAnatomy>,
 }
 
 /// The number of frames in which bones are compared.
 const FRAMES: usize = 4;
 
 impl DialectBody {
-    fn with_frames(name: &'static str, moving: &Moving) -> Result<Self> {
+    fn with_frames(name: &'static str, moving: &DisplayedMovement) -> Result<Self> {
         let clip = &moving.clip;
-        let last = clip.frames() - 1;
-        let poses = (1..=FRAMES).map(|n| clip.pose(n * last / FRAMES));
+        let last = clip.clip_frame_count() - 1;
+        let poses = (1..=FRAMES).map(|n| clip.clip_pose_at(n * last / FRAMES));
         let poses: Vec<_> = poses.collect();
         Ok(Self {
             name,
-            clip: Clip::from_poses(clip.skeleton().clone(), clip.rate(), &poses)?,
+            clip: Clip::from_poses(clip.clip_skeleton().clone(), clip.clip_frame_rate(), &poses)?,
             anatomy: Arc::new(moving.anatomy.clone()),
         })
     }
 
     /// Returns the largest angle by which a bone of foot or thumb points elsewhere on another body, and its name.
     fn turned_on(&self, other: &Self) -> Result<(f64, String)> {
-        let onto = (other.clip.skeleton(), &other.anatomy);
-        let made = on_body((&self.clip, &self.anatomy), Handedness::Right, onto)?;
+        let onto = (other.clip.clip_skeleton(), &other.anatomy);
+        let made = on_body((&self.clip, &self.anatomy), SignerHandedness::Right, onto)?;
         let mut worst = (0.0, String::new());
         for frame in 0..FRAMES {
-            let before = bones(
-                self.clip.skeleton(),
-                &self.anatomy,
-                &self.clip.model_pose(frame),
-            );
-            let after = bones(
-                other.clip.skeleton(),
-                &other.anatomy,
-                &made.clip.model_pose(frame),
-            );
+            let before = bones(self.clip.clip_skeleton(), &self.anatomy, &self.clip.model_pose(frame));
+            let after = bones(other.clip.clip_skeleton(), &other.anatomy, &made.clip.model_pose(frame));
             for (part, bone) in &before {
                 let same = after.iter().find(|(other, _)| other == part);
                 let angle = same.map_or(0.0, |(_, other)| bone.angle_between(*other));
@@ -208,27 +205,27 @@ pub(crate) fn turned_bones(capture: &Path, folder: &Path) -> Result<Vec<TurnedBo
 type TurnedBone = (&'static str, &'static str, f64, String);
 
 /// Returns the directions of the bones of feet and thumbs in model space.
-fn bones(skeleton: &Skeleton, anatomy: &Anatomy, model: &ModelPose) -> Vec<(Part, DVec3)> {
+fn bones(skeleton: &Skeleton, anatomy: &BodyAnatomy, model: &ModelPose) -> Vec<(BodyPart, DVec3)> {
     let mut bones = Vec::new();
-    for side in Side::BOTH {
-        let foot = [Part::Foot(side), Part::Toes(side)];
-        let thumb = [0, 1, 2].map(|n| Part::Thumb(side, n));
+    for side in BodySide::BOTH_SIDES {
+        let foot = [BodyPart::Foot(side), BodyPart::Toes(side)];
+        let thumb = [0, 1, 2].map(|n| BodyPart::Thumb(side, n));
         for chain in [&foot[..], &thumb[..]] {
-            let joints: Vec<(Part, usize)> = chain
+            let joints: Vec<(BodyPart, usize)> = chain
                 .iter()
-                .filter_map(|&part| Some((part, anatomy.joint(part)?)))
+                .filter_map(|&part| Some((part, anatomy.part_joint(part)?)))
                 .collect();
             for (n, &(part, joint)) in joints.iter().enumerate() {
-                let below = skeleton.children(joint);
+                let below = skeleton.joint_children(joint);
                 let end = match joints.get(n + 1) {
-                    Some(&(_, next)) => Some(model.position(next)),
-                    None => match (anatomy.tip(skeleton, joint), below) {
-                        (Some(tip), _) => Some(model.point(joint, tip)),
-                        (None, [child]) => Some(model.position(*child)),
+                    Some(&(_, next)) => Some(model.model_joint_position(next)),
+                    None => match (anatomy.joint_tip(skeleton, joint), below) {
+                        (Some(tip), _) => Some(model.joint_point_to_model(joint, tip)),
+                        (None, [child]) => Some(model.model_joint_position(*child)),
                         _ => None,
                     },
                 };
-                let bone = end.and_then(|end| (end - model.position(joint)).try_normalize());
+                let bone = end.and_then(|end| (end - model.model_joint_position(joint)).try_normalize());
                 bones.extend(bone.map(|bone| (part, bone)));
             }
         }

@@ -19,7 +19,7 @@ mod rig;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -86,9 +86,9 @@ fn table(capture: &Path, folder: &Path) -> Result<String> {
     }
     text += &match worst {
         Some((0, _)) | None => format!("\n{right} of {all} readings are right.\n"),
-        Some((wrong, name)) => format!(
-            "\n{right} of {all} readings are right. The worst dialect is {name}: {wrong} readings are wrong.\n"
-        ),
+        Some((wrong, name)) => {
+            format!("\n{right} of {all} readings are right. The worst dialect is {name}: {wrong} readings are wrong.\n")
+        }
     };
     Ok(text)
 }
@@ -131,10 +131,7 @@ fn joins_table(folder: &Path) -> Result<String> {
 fn captures(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut all = vec![starter(folder)?];
     if let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") {
-        let names = [
-            "upf-gti-performs/NGT Thanks.bvh",
-            "upf-gti-animics/create_db_m.bvh",
-        ];
+        let names = ["upf-gti-performs/NGT Thanks.bvh", "upf-gti-animics/create_db_m.bvh"];
         all.extend(names.map(|name| Path::new(&data).join("motion/bvh").join(name)));
     }
     Ok(all)
@@ -143,9 +140,7 @@ fn captures(folder: &Path) -> Result<Vec<PathBuf>> {
 /// Returns the capture of the starter corpus, unpacked.
 fn starter(folder: &Path) -> Result<PathBuf> {
     let mut found = starters(folder, &["escargot"])?;
-    found
-        .pop()
-        .ok_or_else(|| "the starter corpus has no capture".into())
+    found.pop().ok_or_else(|| "the starter corpus has no capture".into())
 }
 
 /// Returns recordings of the starter corpus, unpacked; all of them if no names are given.
@@ -161,12 +156,12 @@ fn starters(folder: &Path, names: &[&str]) -> Result<Vec<PathBuf>> {
 
 /// Imports a file into a new corpus, without progress.
 fn corpus_of(folder: &Path, name: &str, file: &Path) -> Result<Corpus> {
-    let mut corpus = Corpus::create(&folder.join(format!("{name}.chereme")), name)?;
-    let mut hear = unheard;
-    let report = corpus.import(
+    let mut corpus = Corpus::create_corpus(&folder.join(format!("{name}.chereme")), name)?;
+    let mut hear = ignore_progress_step;
+    let report = corpus.import_paths(
         &[file.to_owned()],
         &ImportOptions::default(),
-        &mut Progress::new(&mut hear),
+        &mut ProgressReceiver::new(&mut hear),
     )?;
     if report.has_refusals() {
         return Err(format!("{name} is refused: {:?}", report.files).into());

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{Address, Name};
-use chereme_motion::{HandAngles, HandCorrection, Side};
+use chereme_corpus::{CorpusAddress, RowName};
+use chereme_motion::{BodySide, HandAngles, HandCorrection};
 
 use crate::Result;
 use crate::read::{known, known_distance, shapes};
@@ -48,12 +48,12 @@ pub(crate) fn rows(data: &Path) -> Result<String> {
         let Ok(corpus) = crate::corpus_of(own.path(), "capture", &file) else {
             continue;
         };
-        let name = Name::Number(1);
-        let Ok(moving) = corpus.movement(&Address::Recording(name.clone())) else {
+        let name = RowName::Number(1);
+        let Ok(moving) = corpus.movement_at_address(&CorpusAddress::Recording(name.clone())) else {
             continue;
         };
         let corrections = corpus.hand_corrections(&name)?;
-        for (side, correction) in Side::BOTH.into_iter().zip(corrections) {
+        for (side, correction) in BodySide::BOTH_SIDES.into_iter().zip(corrections) {
             if moving.anatomy.has_fingers(side)
                 && let Some(row) = row(&file, &moving, side, correction)
             {
@@ -72,27 +72,25 @@ fn bent(angles: &HandAngles) -> f64 {
 
 fn row(
     file: &Path,
-    moving: &chereme_corpus::Moving,
-    side: Side,
+    moving: &chereme_corpus::DisplayedMovement,
+    side: BodySide,
     correction: HandCorrection,
 ) -> Option<String> {
     let clip = &moving.clip;
     let known = known(&moving.anatomy, side);
-    let step = clip.frames().div_ceil(FRAMES).max(1);
+    let step = clip.clip_frame_count().div_ceil(FRAMES).max(1);
     let read = |frame: usize| {
-        let pose = clip.pose(frame);
-        moving.anatomy.hand_angles(clip.skeleton(), side, &pose)
+        let pose = clip.clip_pose_at(frame);
+        moving.anatomy.hand_angles(clip.clip_skeleton(), side, &pose)
     };
-    let raw: Vec<HandAngles> = (0..clip.frames()).step_by(step).filter_map(read).collect();
+    let raw: Vec<HandAngles> = (0..clip.clip_frame_count()).step_by(step).filter_map(read).collect();
     let straightest = raw.iter().min_by(|a, b| bent(a).total_cmp(&bent(b)))?;
     let middle = median(&raw);
-    let moves = (0..HandAngles::LEN)
+    let moves = (0..HandAngles::HAND_ANGLE_COUNT)
         .filter(|angle| known[*angle])
         .map(|angle| {
             let values = raw.iter().map(|it| it.to_array()[angle]);
-            let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), it| {
-                (low.min(it), high.max(it))
-            });
+            let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), it| (low.min(it), high.max(it)));
             high - low
         })
         .fold(0.0, f64::max)
@@ -111,11 +109,11 @@ fn row(
     Some(format!(
         "| `{}` | {} | {count} | {moved} | {} | {} | {} | {:.0}° |\n",
         file.file_name()?.to_string_lossy(),
-        side.name(),
+        side.body_side_name(),
         named(straightest)?,
-        named(&correction.of(straightest))?,
-        named(&correction.of(&middle))?,
-        bent(&correction.of(straightest))
+        named(&correction.correct_hand_angles(straightest))?,
+        named(&correction.correct_hand_angles(&middle))?,
+        bent(&correction.correct_hand_angles(straightest))
     ))
 }
 

@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Address, Choice, ChooseOptions, Corpus, Function, ImportOptions, MilestoneOptions, Name,
-    Progress, Rank, unheard,
+    ChooseOptions, Corpus, CorpusAddress, ExpressionFunction, ImportOptions, MilestoneOptions, PerformanceChoice,
+    ProgressReceiver, RankingCriterion, RowName, ignore_progress_step,
 };
 
 use sentence::{Numbers, Sentence};
@@ -76,8 +76,8 @@ fn main() -> Result<(), Failure> {
 }
 
 /// Returns the address of a sentence's recording.
-fn address(name: &str) -> Address {
-    Address::Recording(Name::Text(name.to_owned()))
+fn address(name: &str) -> CorpusAddress {
+    CorpusAddress::Recording(RowName::Text(name.to_owned()))
 }
 
 /// Writes every sentence as a capture file, imports it, and annotates its signs and its function.
@@ -86,16 +86,16 @@ fn captured(folder: &Path, all: &[Sentence]) -> Result<Corpus, Failure> {
     if path.exists() {
         std::fs::remove_file(&path)?;
     }
-    let mut corpus = Corpus::create(&path, "faces")?;
+    let mut corpus = Corpus::create_corpus(&path, "faces")?;
     let mut files = Vec::new();
     for sentence in all {
         let path = folder.join(format!("{}.fap", sentence.name));
         std::fs::write(&path, sentence.fap())?;
         files.push(path);
     }
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    corpus.import(&files, &ImportOptions::default(), progress)?;
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    corpus.import_paths(&files, &ImportOptions::default(), progress)?;
     for sentence in all {
         sentence.annotate(&mut corpus)?;
     }
@@ -103,14 +103,10 @@ fn captured(folder: &Path, all: &[Sentence]) -> Result<Corpus, Failure> {
 }
 
 /// Derives the milestones and compares them with those that the generator used.
-fn find_milestones(
-    corpus: &mut Corpus,
-    all: &[Sentence],
-    tables: &mut Tables,
-) -> Result<(), Failure> {
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    let found = corpus.milestones(&MilestoneOptions::default(), progress)?;
+fn find_milestones(corpus: &mut Corpus, all: &[Sentence], tables: &mut Tables) -> Result<(), Failure> {
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let found = corpus.derive_face_milestones(&MilestoneOptions::default(), progress)?;
     let mut rows = Vec::new();
     let mut right = 0;
     for sentence in all {
@@ -192,22 +188,22 @@ fn choose(
     corpus: &Corpus,
     all: &[Sentence],
     tables: &mut Tables,
-) -> Result<BTreeMap<String, [Choice; 2]>, Failure> {
+) -> Result<BTreeMap<String, [PerformanceChoice; 2]>, Failure> {
     let mut choices = BTreeMap::new();
     let mut rows = Vec::new();
     let (mut right, mut widened) = (0, 0);
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     for sentence in all {
-        let function = Function::of(sentence.function);
+        let function = ExpressionFunction::from_function_name(sentence.function);
         let mut of = |rank| {
             let options = ChooseOptions {
                 rank,
                 ..ChooseOptions::default()
             };
-            corpus.choose(&function, &address(&sentence.name), &options, progress)
+            corpus.choose_performances(&function, &address(&sentence.name), &options, progress)
         };
-        let (near, far) = (of(Rank::Nearest)?, of(Rank::Farthest)?);
+        let (near, far) = (of(RankingCriterion::Nearest)?, of(RankingCriterion::Farthest)?);
         let others = all
             .iter()
             .filter(|it| it.function == sentence.function && it.name != sentence.name);
@@ -256,7 +252,7 @@ fn choose(
 fn animate(
     corpus: &mut Corpus,
     all: &[Sentence],
-    choices: &BTreeMap<String, [Choice; 2]>,
+    choices: &BTreeMap<String, [PerformanceChoice; 2]>,
     tables: &mut Tables,
 ) -> Result<(), Failure> {
     let (mut made, mut worst) = (0, 0.0_f64);
@@ -297,15 +293,18 @@ fn animate(
 /// Returns the difference of the brows, within a frame of the sentence's M2, M3 and M4, from the donor's brows at its
 /// own milestones.
 fn off(sentence: &Sentence, donor: &Sentence, brows: &[f64]) -> f64 {
-    let (own, theirs) = (sentence.milestones.times(), donor.milestones.times());
+    let (own, theirs) = (
+        sentence.milestones.milestone_times(),
+        donor.milestones.milestone_times(),
+    );
     let mut off = 0.0_f64;
     for n in 1..4 {
         // If signs touch, the expression begins or ends at once, and has no single value there.
         if own[n] == own[n - 1] || own[n] == own[n + 1] {
             continue;
         }
-        let want = donor.brow(theirs[n].seconds());
-        let at = own[n].seconds() * 30.0;
+        let want = donor.brow(theirs[n].instant_seconds());
+        let at = own[n].instant_seconds() * 30.0;
         let first = (at.floor() as usize).saturating_sub(1).min(brows.len());
         let last = (at.ceil() as usize + 2).min(brows.len());
         let around = &brows[first..last];
@@ -321,10 +320,7 @@ fn simulate(pairs: &[Pair], tables: &mut Tables) {
     let mut numbers = Numbers(8);
     let mut rows = Vec::new();
     let scores: Vec<f64> = pairs.iter().map(|pair| pair.score).collect();
-    for (name, weight) in [
-        ("ratings follow the score", -1.0),
-        ("ratings are noise", 0.0),
-    ] {
+    for (name, weight) in [("ratings follow the score", -1.0), ("ratings are noise", 0.0)] {
         let rating = |score: &f64| {
             let rating: f64 = 5.0 + weight * score + 1.5 * numbers.normal();
             rating.clamp(1.0, 7.0).round()
@@ -359,10 +355,7 @@ fn propose(tables: &mut Tables) {
     });
     let rows = rows.collect();
     let least = |of: fn(&proposals::Count) -> f64| all.values().map(of).fold(1.0, f64::min);
-    let (precision, recall) = (
-        least(proposals::Count::precision),
-        least(proposals::Count::recall),
-    );
+    let (precision, recall) = (least(proposals::Count::precision), least(proposals::Count::recall));
     tables.add(
         "Proposals for non-manuals, over 30 generated takes of 40 s with noise, drift and what only looks alike",
         &["part and value", "there", "proposed", "precision", "recall"],
@@ -380,11 +373,9 @@ fn propose(tables: &mut Tables) {
 
 /// Measures when faces begin and end relative to the signs, for each function.
 fn time(corpus: &Corpus, tables: &mut Tables) -> Result<(), Failure> {
-    let mut hear = unheard;
-    let onsets = corpus.onsets(None, &mut Progress::new(&mut hear))?;
-    let said = |it: &chereme_corpus::Quartiles| {
-        format!("{:+.3} ({:+.3} to {:+.3})", it.median, it.q1, it.q3)
-    };
+    let mut hear = ignore_progress_step;
+    let onsets = corpus.measure_nonmanual_onsets(None, &mut ProgressReceiver::new(&mut hear))?;
+    let said = |it: &chereme_corpus::NumberQuartiles| format!("{:+.3} ({:+.3} to {:+.3})", it.median, it.q1, it.q3);
     let rows = onsets.rows.iter().map(|row| {
         vec![
             row.function.to_string(),

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use chereme_corpus::{
-    ChooseOptions, Corpus, Function, ImportOptions, Name, NewTier, Progress, unheard,
+    ChooseOptions, Corpus, ExpressionFunction, ImportOptions, NewTier, ProgressReceiver, RowName, ignore_progress_step,
 };
 use chereme_sign::TierRole;
 
@@ -39,17 +39,22 @@ pub(crate) fn run(folder: &Path, count: usize) -> Result<String, Failure> {
         paths.push(path);
     }
     let frames = frames / (count + 1) as f64;
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    let mut corpus = Corpus::create(&path, "faces")?;
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&path, "faces")?;
     let begun = Instant::now();
-    corpus.import(&paths, &ImportOptions::default(), progress)?;
+    corpus.import_paths(&paths, &ImportOptions::default(), progress)?;
     let imported = begun.elapsed();
     let target = address("P00000");
     let mut choose = |corpus: &Corpus| -> Result<(f64, String), Failure> {
         let begun = Instant::now();
         let options = ChooseOptions::default();
-        let choice = corpus.choose(&Function::of("wh"), &target, &options, progress)?;
+        let choice = corpus.choose_performances(
+            &ExpressionFunction::from_function_name("wh"),
+            &target,
+            &options,
+            progress,
+        )?;
         let took = begun.elapsed().as_secs_f64();
         let first = &choice.ranking[0];
         let found = format!(
@@ -61,7 +66,7 @@ pub(crate) fn run(folder: &Path, count: usize) -> Result<String, Failure> {
     let (first, found) = choose(&corpus)?;
     let (mut opened, mut again) = (Vec::new(), Vec::new());
     for _ in 0..TIMES {
-        corpus = Corpus::open(&path, "faces")?;
+        corpus = Corpus::open_corpus(&path, "faces")?;
         for times in [&mut opened, &mut again] {
             let (took, same) = choose(&corpus)?;
             if same != found {
@@ -73,9 +78,9 @@ pub(crate) fn run(folder: &Path, count: usize) -> Result<String, Failure> {
     // Each change touches one recording, and changes none of its performances.
     let (mut changed, mut held) = (Vec::new(), Vec::new());
     for n in 0..TIMES {
-        corpus = Corpus::open(&path, "faces")?;
+        corpus = Corpus::open_corpus(&path, "faces")?;
         for (step, times) in [&mut changed, &mut held].into_iter().enumerate() {
-            let recording = Name::Text(format!("P{:05}", 2 * n + step + 1));
+            let recording = RowName::Text(format!("P{:05}", 2 * n + step + 1));
             corpus.add_tier(&NewTier::new(recording, "topics", TierRole::Free))?;
             let (took, same) = choose(&corpus)?;
             if same != found {

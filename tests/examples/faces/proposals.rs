@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_analysis::nonmanuals::{Curves, proposals};
+use chereme_analysis::nonmanuals::{ObservedFaceCurves, propose_face_actions};
 
 /// Frames a second, and the seconds of a take.
 const RATE: f64 = 50.0;
@@ -91,19 +91,13 @@ impl Take {
         }
         for curve in [&mut it.pitch, &mut it.yaw] {
             swing(curve, (0.0, SECONDS), 0.07, drift);
-            curve
-                .iter_mut()
-                .for_each(|value| *value += degrees * numbers.normal());
+            curve.iter_mut().for_each(|value| *value += degrees * numbers.normal());
         }
         it
     }
 
     /// Calls `event` with spans one after the other.
-    fn spans(
-        numbers: &mut Numbers,
-        length: (f64, f64),
-        mut event: impl FnMut(&mut Numbers, (f64, f64)),
-    ) {
+    fn spans(numbers: &mut Numbers, length: (f64, f64), mut event: impl FnMut(&mut Numbers, (f64, f64))) {
         let mut at = numbers.between(0.5, 2.0);
         loop {
             let end = at + numbers.between(length.0, length.1);
@@ -133,15 +127,11 @@ impl Take {
                 }
                 3 => {
                     // Below the threshold of a proposal.
-                    self.brows
-                        .iter_mut()
-                        .for_each(|it| add(it, span, 0.1, 0.12));
+                    self.brows.iter_mut().for_each(|it| add(it, span, 0.1, 0.12));
                     return;
                 }
                 _ => {
-                    self.brows
-                        .iter_mut()
-                        .for_each(|it| add(it, span, 0.1, size));
+                    self.brows.iter_mut().for_each(|it| add(it, span, 0.1, size));
                     "raised"
                 }
             };
@@ -209,8 +199,8 @@ impl Take {
         });
     }
 
-    fn curves(&self) -> Curves<'_> {
-        Curves {
+    fn curves(&self) -> ObservedFaceCurves<'_> {
+        ObservedFaceCurves {
             rate: RATE,
             brow_raise: [Some(&self.brows[0]), Some(&self.brows[1])],
             brow_squeeze: Some(&self.squeeze),
@@ -258,13 +248,10 @@ pub(crate) fn counted(takes: usize) -> BTreeMap<(&'static str, &'static str), Co
             all.entry((*part, *value)).or_default().there += 1;
         }
         let mut open = take.truth.clone();
-        for found in proposals(&take.curves()) {
+        for found in propose_face_actions(&take.curves()) {
             let count = all.entry((found.feature, found.value)).or_default();
             count.proposed += 1;
-            let (from, to) = (
-                found.frames.start as f64 / RATE,
-                found.frames.end as f64 / RATE,
-            );
+            let (from, to) = (found.frames.start as f64 / RATE, found.frames.end as f64 / RATE);
             let shares = |event: &Event| {
                 let both = to.min(event.3) - from.max(event.2);
                 both / (to.max(event.3) - from.min(event.2)) >= 0.5

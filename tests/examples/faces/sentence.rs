@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use chereme_corpus::{
-    AnnotateOptions, AnnotationAction, Corpus, Function, Instant, Milestones, Moment, Name,
-    NewTier, Progress, TierName, TierRole, unheard,
+    AnnotateOptions, AnnotationAction, Corpus, ExpressionFunction, ExpressionMilestones, NewTier, ProgressReceiver,
+    RecordingInstant, RowName, TableMoment, TierRequestName, TierRole, ignore_progress_step,
 };
-use chereme_formats::eaf::convert::{Annotation, Tier, Timing, Transcript};
-use chereme_formats::textgrid::{self, Form, INTERVALS};
-use chereme_motion::Span;
-use chereme_sign::milestones::{EDGE, milestones};
+use chereme_formats::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+use chereme_formats::textgrid::{self, INTERVAL_TIER_KIND, TextGridForm};
+use chereme_motion::TimeSpan;
+use chereme_sign::milestones::{UTTERANCE_EDGE_MICROS, find_expression_milestones};
 
 /// A small generator of numbers (splitmix64), which gives the same numbers in every run.
 pub(crate) struct Numbers(pub(crate) u64);
@@ -51,10 +51,10 @@ struct Manner {
 pub(crate) struct Sentence {
     pub(crate) name: String,
     pub(crate) function: &'static str,
-    pub(crate) milestones: Milestones,
+    pub(crate) milestones: ExpressionMilestones,
     seconds: f64,
-    signs: Vec<(String, Span)>,
-    body: Span,
+    signs: Vec<(String, TimeSpan)>,
+    body: TimeSpan,
     manner: Manner,
 }
 
@@ -68,11 +68,7 @@ impl Sentence {
         let mut all = Vec::new();
         for (letter, function, first) in [("N", "negation", 1), ("W", "wh", 1), ("Y", "yn", 2)] {
             for number in first..first + 6 {
-                all.push(Self::new(
-                    format!("{letter}{number}"),
-                    function,
-                    &mut numbers,
-                ));
+                all.push(Self::new(format!("{letter}{number}"), function, &mut numbers));
             }
         }
         all
@@ -87,14 +83,22 @@ impl Sentence {
         let mut signs = Vec::new();
         for n in 0..before + inside + after {
             let end = at + 300 + (numbers.next() * 400.0) as i64;
-            let span = Span::between(Instant::from_millis(at), Instant::from_millis(end));
+            let span = TimeSpan::span_between(RecordingInstant::from_millis(at), RecordingInstant::from_millis(end));
             signs.push((format!("S{}", n + 1), span));
             at = end + 40 + (numbers.next() * 120.0) as i64;
         }
-        let spans: Vec<Span> = signs.iter().map(|(_, span)| *span).collect();
+        let spans: Vec<TimeSpan> = signs.iter().map(|(_, span)| *span).collect();
         let range = before..before + inside;
-        let found = milestones(&spans, range.clone(), &Function::of(function), EDGE);
-        let body = Span::between(spans[range.start].start(), spans[range.end - 1].end());
+        let found = find_expression_milestones(
+            &spans,
+            range.clone(),
+            &ExpressionFunction::from_function_name(function),
+            UTTERANCE_EDGE_MICROS,
+        );
+        let body = TimeSpan::span_between(
+            spans[range.start].span_start_instant(),
+            spans[range.end - 1].span_end_instant(),
+        );
         let manner = match function {
             "negation" => Manner {
                 brows: [numbers.between(-0.4, 0.0), numbers.between(-0.3, 0.0)],
@@ -118,7 +122,7 @@ impl Sentence {
         Self {
             name,
             function,
-            milestones: found.unwrap_or_else(|| Milestones::of_times([Instant::ZERO; 5])),
+            milestones: found.unwrap_or_else(|| ExpressionMilestones::of_times([RecordingInstant::RECORDING_START; 5])),
             seconds: (at + 700) as f64 / 1000.0,
             signs,
             body,
@@ -128,7 +132,7 @@ impl Sentence {
 
     /// Returns the strength of the expression at a moment, and the elapsed share of its middle part.
     fn course(&self, seconds: f64) -> (f64, f64) {
-        let [m1, m2, m3, m4, m5] = self.milestones.times().map(Instant::seconds);
+        let [m1, m2, m3, m4, m5] = self.milestones.milestone_times().map(RecordingInstant::instant_seconds);
         let smooth = |share: f64| {
             let share = share.clamp(0.0, 1.0);
             share * share * (3.0 - 2.0 * share)
@@ -149,40 +153,46 @@ impl Sentence {
     /// Returns the same performance in another tempo: one that lasts about `seconds` from M1 to M5, because the half
     /// seconds at the edges of an utterance do not stretch.
     pub(crate) fn lasting(mut self, seconds: f64) -> Self {
-        let factor = seconds / self.milestones.span().seconds();
-        let at = |time: Instant| Instant::from_millis((time.seconds() * factor * 1000.0) as i64);
-        let slower = |span: &Span| Span::between(at(span.start()), at(span.end()));
+        let factor = seconds / self.milestones.milestone_span().span_seconds();
+        let at =
+            |time: RecordingInstant| RecordingInstant::from_millis((time.instant_seconds() * factor * 1000.0) as i64);
+        let slower =
+            |span: &TimeSpan| TimeSpan::span_between(at(span.span_start_instant()), at(span.span_end_instant()));
         for (_, span) in &mut self.signs {
             *span = slower(span);
         }
         self.body = slower(&self.body);
-        let spans: Vec<Span> = self.signs.iter().map(|(_, span)| *span).collect();
-        let inside = |span: &Span| self.body.contains(span.start());
+        let spans: Vec<TimeSpan> = self.signs.iter().map(|(_, span)| *span).collect();
+        let inside = |span: &TimeSpan| self.body.has_instant(span.span_start_instant());
         let first = spans.iter().position(inside).unwrap_or(0);
         let count = spans.iter().filter(|span| inside(span)).count();
-        let function = Function::of(self.function);
-        if let Some(found) = milestones(&spans, first..first + count, &function, EDGE) {
+        let function = ExpressionFunction::from_function_name(self.function);
+        if let Some(found) = find_expression_milestones(&spans, first..first + count, &function, UTTERANCE_EDGE_MICROS)
+        {
             self.milestones = found;
         }
-        self.seconds = spans.last().map_or(0.0, |span| span.end().seconds()) + 0.7;
+        self.seconds = spans
+            .last()
+            .map_or(0.0, |span| span.span_end_instant().instant_seconds())
+            + 0.7;
         self
     }
 
     /// Returns the number of frames from M1 to M5.
     pub(crate) fn frames(&self) -> f64 {
-        self.milestones.span().seconds() * RATE
+        self.milestones.milestone_span().span_seconds() * RATE
     }
 
     /// Returns the signs and the function as a TextGrid, so that they are imported with the capture file of that name.
     pub(crate) fn text_grid(&self) -> String {
         let mut next = 0;
-        let mut tier = |name: &str, of: &[(String, Span)]| {
+        let mut tier = |name: &str, of: &[(String, TimeSpan)]| {
             let annotations = of.iter().map(|(value, span)| {
                 next += 1;
-                Annotation {
+                TranscriptAnnotation {
                     id: format!("a{next}"),
                     span: *span,
-                    timing: Timing::Own,
+                    timing: AnnotationTiming::Own,
                     parent: None,
                     order: 0,
                     value: value.clone(),
@@ -192,20 +202,20 @@ impl Sentence {
                     millis: None,
                 }
             });
-            Tier {
+            TranscriptTier {
                 name: name.to_owned(),
-                kind: INTERVALS.to_owned(),
+                kind: INTERVAL_TIER_KIND.to_owned(),
                 annotations: annotations.collect(),
-                ..Tier::default()
+                ..TranscriptTier::default()
             }
         };
         let function = [(self.function.to_owned(), self.body)];
-        let both = Transcript {
+        let both = AnnotationTranscript {
             tiers: vec![tier("gloss", &self.signs), tier("function", &function)],
-            ..Transcript::default()
+            ..AnnotationTranscript::default()
         };
-        let end = Instant::from_seconds(self.seconds);
-        textgrid::write(&both, Form::Short, end).0
+        let end = RecordingInstant::from_seconds(self.seconds);
+        textgrid::write_textgrid(&both, TextGridForm::Short, end).0
     }
 
     /// Returns the raised brow at a moment.
@@ -218,9 +228,7 @@ impl Sentence {
     /// Returns the difference of two performances' manners, in the units that count as 1 in scores.
     pub(crate) fn difference(&self, other: &Self) -> f64 {
         let (a, b) = (self.manner, other.manner);
-        let brows: f64 = (0..2)
-            .map(|n| ((a.brows[n] - b.brows[n]) / 0.25).powi(2))
-            .sum();
+        let brows: f64 = (0..2).map(|n| ((a.brows[n] - b.brows[n]) / 0.25).powi(2)).sum();
         let squeeze = ((a.squeeze - b.squeeze) / 0.25).powi(2);
         let shake = ((a.shake - b.shake) / 10.0).powi(2) / 2.0;
         let head = ((a.pitch - b.pitch) / 10.0).powi(2) + shake;
@@ -241,27 +249,18 @@ impl Sentence {
             let squeeze = (300.0 * much * self.manner.squeeze).round();
             let degree = 100_000.0_f64.to_radians();
             let pitch = (degree * much * self.manner.pitch).round();
-            let from = seconds - self.body.start().seconds();
+            let from = seconds - self.body.span_start_instant().instant_seconds();
             let swing = (from * 2.2 * std::f64::consts::TAU).sin();
             let yaw = (degree * much * self.manner.shake * swing).round();
             let brows = [brow; 6].map(|it| it.to_string()).join(" ");
-            let _ = writeln!(
-                text,
-                "{mask}\n{frame} {brows} {squeeze} {squeeze} {pitch} {yaw} 0"
-            );
+            let _ = writeln!(text, "{mask}\n{frame} {brows} {squeeze} {squeeze} {pitch} {yaw} 0");
         }
         text
     }
 
     /// Writes the signs and the function of the sentence onto tiers.
-    pub(crate) fn annotate(&self, corpus: &mut Corpus) -> chereme_corpus::Result<()> {
-        add(
-            corpus,
-            &self.name,
-            "gloss",
-            TierRole::Gloss,
-            self.signs.clone(),
-        )?;
+    pub(crate) fn annotate(&self, corpus: &mut Corpus) -> chereme_corpus::CorpusResult<()> {
+        add(corpus, &self.name, "gloss", TierRole::Gloss, self.signs.clone())?;
         let function = vec![(self.function.to_owned(), self.body)];
         add(corpus, &self.name, "function", TierRole::Free, function)
     }
@@ -272,18 +271,18 @@ fn add(
     recording: &str,
     tier: &str,
     role: TierRole,
-    spans: Vec<(String, Span)>,
-) -> chereme_corpus::Result<()> {
-    let name = Name::Text(recording.to_owned());
+    spans: Vec<(String, TimeSpan)>,
+) -> chereme_corpus::CorpusResult<()> {
+    let name = RowName::Text(recording.to_owned());
     corpus.add_tier(&NewTier::new(name.clone(), tier, role))?;
-    let change = |(value, span): (String, Span)| {
+    let change = |(value, span): (String, TimeSpan)| {
         AnnotationAction::Add {
-            tier: TierName::Of {
+            tier: TierRequestName::Of {
                 recording: name.clone(),
                 tier: tier.to_owned(),
             },
-            start: Some(Moment::Time(span.start())),
-            end: Some(Moment::Time(span.end())),
+            start: Some(TableMoment::Time(span.span_start_instant())),
+            end: Some(TableMoment::Time(span.span_end_instant())),
             parent: None,
             order: None,
             value,
@@ -292,11 +291,11 @@ fn add(
         .into()
     };
     let changes: Vec<_> = spans.into_iter().map(change).collect();
-    let mut hear = unheard;
-    corpus.annotate(
+    let mut hear = ignore_progress_step;
+    corpus.annotate_corpus(
         &changes,
         &AnnotateOptions::default(),
-        &mut Progress::new(&mut hear),
+        &mut ProgressReceiver::new(&mut hear),
     )?;
     Ok(())
 }

@@ -6,13 +6,7 @@ pub(crate) struct Tables(String);
 
 impl Tables {
     /// Adds a table with notes on what it shows and cannot show.
-    pub(crate) fn add(
-        &mut self,
-        title: &str,
-        head: &[&str],
-        rows: Vec<Vec<String>>,
-        says: [&str; 2],
-    ) {
+    pub(crate) fn add(&mut self, title: &str, head: &[&str], rows: Vec<Vec<String>>, says: [&str; 2]) {
         let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
         let head: Vec<String> = head.iter().map(|it| (*it).to_owned()).collect();
         let rule = vec!["---".to_owned(); head.len()];
@@ -22,9 +16,8 @@ impl Tables {
             self.0.push_str(&line(&row));
         }
         let [shows, not] = says;
-        self.0.push_str(&format!(
-            "\n**Shows:** {shows}\n\n**Does not show:** {not}\n\n"
-        ));
+        self.0
+            .push_str(&format!("\n**Shows:** {shows}\n\n**Does not show:** {not}\n\n"));
     }
 
     /// Returns the whole text.

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use chereme_formats::bvh::convert::{self, ClipBuilder};
-use chereme_formats::bvh::raw::{Block, ChannelFix, Reader};
-use chereme_motion::{Anatomy, Clip, Side};
+use chereme_formats::bvh::bvh_convert::{self, ClipBuilder};
+use chereme_formats::bvh::raw::{BvhReader, ChannelFix, MotionBlock};
+use chereme_motion::{BodyAnatomy, BodySide, Clip};
 
 use crate::Result;
 
@@ -15,14 +15,14 @@ pub(crate) struct Capture {
     /// The file's name without its ending.
     pub(crate) name: String,
     pub(crate) clip: Clip,
-    pub(crate) anatomy: Arc<Anatomy>,
+    pub(crate) anatomy: Arc<BodyAnatomy>,
 }
 
 impl Capture {
     /// Returns the sides that have an arm.
-    pub(crate) fn sides(&self) -> Vec<Side> {
-        let has = |side: &Side| self.anatomy.arm(*side).is_some();
-        Side::BOTH.into_iter().filter(has).collect()
+    pub(crate) fn sides(&self) -> Vec<BodySide> {
+        let has = |side: &BodySide| self.anatomy.arm_chain(*side).is_some();
+        BodySide::BOTH_SIDES.into_iter().filter(has).collect()
     }
 }
 
@@ -45,9 +45,7 @@ pub(crate) fn read_folder(folder: &Path) -> Result<(Vec<Capture>, Vec<String>)> 
 fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
-        let is_bvh = path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
+        let is_bvh = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
         if path.is_dir() {
             find(&path, paths)?;
         } else if is_bvh {
@@ -61,7 +59,7 @@ fn usable(capture: Capture) -> Result<Capture> {
     if capture.sides().is_empty() {
         return Err("no arm was found in its skeleton".into());
     }
-    if capture.clip.frames() < 10 {
+    if capture.clip.clip_frame_count() < 10 {
         return Err("it has fewer than ten frames".into());
     }
     Ok(capture)
@@ -72,11 +70,11 @@ fn read(path: &Path) -> Result<Capture> {
         (_, Some(fix)) => build(path, Some(fix))?.0,
         (clip, None) => clip,
     };
-    let skeleton = clip.skeleton();
-    let pose = (clip.frames() > 0).then(|| clip.model_pose(0));
-    let guess = Anatomy::detect(skeleton).convention(skeleton, pose.as_ref());
-    let clip = guess.convention.clip(&clip);
-    let anatomy = Anatomy::detect(clip.skeleton()).with_clip(&clip);
+    let skeleton = clip.clip_skeleton();
+    let pose = (clip.clip_frame_count() > 0).then(|| clip.model_pose(0));
+    let guess = BodyAnatomy::detect_anatomy(skeleton).guess_convention(skeleton, pose.as_ref());
+    let clip = guess.convention.file_clip_to_model(&clip);
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton()).with_clip(&clip);
     let name = path.file_stem().unwrap_or_default();
     Ok(Capture {
         name: name.to_string_lossy().into_owned(),
@@ -88,13 +86,13 @@ fn read(path: &Path) -> Result<Capture> {
 /// Reads a file, in its own unit and axes, and finds out whether its root's columns must be read in
 /// another order.
 fn build(path: &Path, fix: Option<ChannelFix>) -> Result<(Clip, Option<ChannelFix>)> {
-    let mut reader = Reader::open(File::open(path)?)?;
-    let rate = convert::rate(reader.header().frame_time.as_ref())?;
-    let mut builder = ClipBuilder::new(reader.hierarchy(), fix)?;
-    let mut block = Block::default();
+    let mut reader = BvhReader::open_bvh(File::open(path)?)?;
+    let rate = bvh_convert::rate_from_frame_time(reader.bvh_motion_header().frame_time.as_ref())?;
+    let mut builder = ClipBuilder::new(reader.bvh_hierarchy(), fix)?;
+    let mut block = MotionBlock::default();
     while reader.next_block(&mut block)? {
-        builder.push(0..block.frames, |at| block.columns.get(at));
+        builder.push_block_rows(0..block.frames, |at| block.columns.get(at));
     }
-    let found = reader.finish().root_fix;
-    Ok((builder.finish(rate)?, found))
+    let found = reader.finish_bvh_reading().root_fix;
+    Ok((builder.finish_bvh_clip(rate)?, found))
 }

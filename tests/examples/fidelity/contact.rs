@@ -1,7 +1,7 @@
 //! Contacts of hands with each other and with the body: kept, reported, or lost without a report.
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Clip, Side};
+use chereme_motion::{BodySide, Clip};
 
 use crate::Result;
 use crate::capture::Capture;
@@ -16,14 +16,7 @@ const SLACK: f64 = 0.005;
 /// Contacts with a shorter pause than this (s) between them count as one.
 const PAUSE: f64 = 0.1;
 
-const POINTS: [&str; 6] = [
-    "palm",
-    "thumb-tip",
-    "index-tip",
-    "middle-tip",
-    "ring-tip",
-    "little-tip",
-];
+const POINTS: [&str; 6] = ["palm", "thumb-tip", "index-tip", "middle-tip", "ring-tip", "little-tip"];
 const PLACES: [&str; 8] = [
     "forehead",
     "nose",
@@ -45,8 +38,8 @@ const STEPS: [(&str, bool); 6] = [
 
 /// A contact at its nearest frame.
 struct Contact {
-    side: Side,
-    other: Option<Side>,
+    side: BodySide,
+    other: Option<BodySide>,
     place: &'static str,
     frame: usize,
 }
@@ -67,11 +60,7 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
             };
             for contact in contacts {
                 let kept = touches(capture, &made.clip, contact);
-                let reported = made
-                    .report
-                    .contacts
-                    .iter()
-                    .any(|text| is_about(text, contact));
+                let reported = made.report.contacts.iter().any(|text| is_about(text, contact));
                 let what = if kept {
                     0
                 } else if reported {
@@ -90,20 +79,10 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
         } else {
             "none"
         };
-        rows.push([
-            format!("`{step}`"),
-            asks.into(),
-            cell(counts[0]),
-            cell(counts[1]),
-        ]);
+        rows.push([format!("`{step}`"), asks.into(), cell(counts[0]), cell(counts[1])]);
     }
-    let with = two
-        .iter()
-        .zip(&sources)
-        .filter(|(_, found)| !found.is_empty());
-    let named: Vec<String> = with
-        .map(|(c, found)| format!("{} {}", c.name, found.len()))
-        .collect();
+    let with = two.iter().zip(&sources).filter(|(_, found)| !found.is_empty());
+    let named: Vec<String> = with.map(|(c, found)| format!("{} {}", c.name, found.len())).collect();
     Ok(format!(
         "### Contacts\n\nIn the sources ({}): points of hands within {:.1} cm of each other, or within \
          {:.0} cm of a place on the body. Where they were nearest: still touch · the report says that \
@@ -111,22 +90,19 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
         named.join(", "),
         NEAR[0] * 100.0,
         NEAR[1] * 100.0,
-        markdown(
-            &["operator", "is to keep", "hand and hand", "hand and body"],
-            rows
-        )
+        markdown(&["operator", "is to keep", "hand and hand", "hand and body"], rows)
     ))
 }
 
 /// Returns whether the report mentions this contact of the hand.
 fn is_about(text: &str, contact: &Contact) -> bool {
-    let (side, hand) = (contact.side, contact.side.other());
+    let (side, hand) = (contact.side, contact.side.opposite_side());
     let is_hand = POINTS
         .iter()
-        .any(|point| text.contains(&format!("touched {}-{point}", hand.name())));
+        .any(|point| text.contains(&format!("touched {}-{point}", hand.body_side_name())));
     POINTS
         .iter()
-        .any(|point| text.contains(&format!("{}-{point} touched", side.name())))
+        .any(|point| text.contains(&format!("{}-{point} touched", side.body_side_name())))
         && is_hand == contact.other.is_some()
 }
 
@@ -141,13 +117,17 @@ fn touches(capture: &Capture, clip: &Clip, contact: &Contact) -> bool {
 fn places(
     capture: &Capture,
     clip: &Clip,
-    side: Side,
-    other: Option<Side>,
+    side: BodySide,
+    other: Option<BodySide>,
     frame: usize,
 ) -> Vec<(&'static str, f64)> {
     let model = clip.model_pose(frame);
-    let at = |name: &str| capture.anatomy.landmark(clip.skeleton(), &model, name);
-    let of = |side: Side| POINTS.map(|point| at(&format!("{}-{point}", side.name())));
+    let at = |name: &str| {
+        capture
+            .anatomy
+            .landmark_place_position(clip.clip_skeleton(), &model, name)
+    };
+    let of = |side: BodySide| POINTS.map(|point| at(&format!("{}-{point}", side.body_side_name())));
     let hand: Vec<DVec3> = of(side).into_iter().flatten().collect();
     let things: Vec<(&'static str, Option<DVec3>)> = match other {
         Some(other) => POINTS.into_iter().zip(of(other)).collect(),
@@ -166,15 +146,15 @@ fn places(
 
 fn contacts(capture: &Capture) -> Vec<Contact> {
     let clip = &capture.clip;
-    let pause = (PAUSE * clip.rate().per_second()).round().max(1.0) as usize;
+    let pause = (PAUSE * clip.clip_frame_rate().per_second()).round().max(1.0) as usize;
     let mut found = Vec::new();
     for (side, other) in [
-        (Side::Right, Some(Side::Left)),
-        (Side::Right, None),
-        (Side::Left, None),
+        (BodySide::Right, Some(BodySide::Left)),
+        (BodySide::Right, None),
+        (BodySide::Left, None),
     ] {
         let limit = NEAR[usize::from(other.is_none())];
-        let close = (0..clip.frames()).filter_map(|frame| {
+        let close = (0..clip.clip_frame_count()).filter_map(|frame| {
             let all = places(capture, clip, side, other, frame).into_iter();
             let (place, distance) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
             (distance < limit).then_some((frame, place, distance))

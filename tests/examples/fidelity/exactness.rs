@@ -1,8 +1,8 @@
 //! Table of exactness: operators followed by their inverse, and the lengths of bones.
 
-use chereme_compose::Generated;
+use chereme_compose::GeneratedMovement;
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Clip, Side};
+use chereme_motion::{BodySide, Clip};
 
 use crate::Result;
 use crate::capture::Capture;
@@ -35,7 +35,7 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
 fn row(capture: &Capture) -> Result<Vec<String>> {
     let (clip, both) = (&capture.clip, capture.sides().len() == 2);
     let source = Shelf::new(clip.clone(), &capture.anatomy);
-    let after = |first: &str, second: &str| -> Result<[Generated; 2]> {
+    let after = |first: &str, second: &str| -> Result<[GeneratedMovement; 2]> {
         let one = source.make(first)?;
         let two = Shelf::new(one.clip.clone(), &one.anatomy).make(second)?;
         Ok([one, two])
@@ -54,9 +54,7 @@ fn row(capture: &Capture) -> Result<Vec<String>> {
         }
         let [one, two] = after(first, second)?;
         let to = if to_source { clip } else { &one.clip };
-        bones = bones
-            .max(stretched(clip, &one.clip))
-            .max(stretched(clip, &two.clip));
+        bones = bones.max(stretched(clip, &one.clip)).max(stretched(clip, &two.clip));
         let apart = fingertips(capture, to, &two.clip).into_iter();
         cells.push(small(apart.map(|(_, far)| far).fold(0.0, f64::max)));
     }
@@ -65,16 +63,14 @@ fn row(capture: &Capture) -> Result<Vec<String>> {
         let hands = if both {
             "both"
         } else {
-            capture.sides()[0].name()
+            capture.sides()[0].body_side_name()
         };
         let place = |direction: &str| format!("place {hands} by {direction} 10cm");
         let [one, two] = after(&place(there), &place(back))?;
-        bones = bones
-            .max(stretched(clip, &one.clip))
-            .max(stretched(clip, &two.clip));
+        bones = bones.max(stretched(clip, &one.clip)).max(stretched(clip, &two.clip));
         let moved = moved(capture, &one.clip);
         for ((side, far), shift) in fingertips(capture, clip, &two.clip).into_iter().zip(moved) {
-            all += usize::from(capture.anatomy.arm(side).is_some());
+            all += usize::from(capture.anatomy.arm_chain(side).is_some());
             if (shift.length() - 0.1).abs() < 1e-6 {
                 reached += 1;
                 worst = worst.max(far);
@@ -82,28 +78,26 @@ fn row(capture: &Capture) -> Result<Vec<String>> {
         }
     }
     cells.push(small(worst));
-    cells.push(format!(
-        "{:.0} %",
-        100.0 * reached as f64 / all.max(1) as f64
-    ));
+    cells.push(format!("{:.0} %", 100.0 * reached as f64 / all.max(1) as f64));
     cells.push(small(bones));
     Ok(cells)
 }
 
 /// Returns for each frame and side the largest distance between the ends of the same fingers, or
 /// between the wrists of hands without fingers.
-fn fingertips(capture: &Capture, a: &Clip, b: &Clip) -> Vec<(Side, f64)> {
-    let skeleton = a.skeleton();
+fn fingertips(capture: &Capture, a: &Clip, b: &Clip) -> Vec<(BodySide, f64)> {
+    let skeleton = a.clip_skeleton();
     let mut found = Vec::new();
-    for frame in 0..a.frames() {
+    for frame in 0..a.clip_frame_count() {
         let models = [a, b].map(|clip| clip.model_pose(frame));
         for side in capture.sides() {
-            let mut joints = capture.anatomy.fingers(side);
-            joints.extend(capture.anatomy.arm(side).map(|arm| arm.hand));
+            let mut joints = capture.anatomy.finger_joints(side);
+            joints.extend(capture.anatomy.arm_chain(side).map(|arm| arm.hand));
             let far = joints.iter().map(|&joint| {
-                let [a, b] = models
-                    .each_ref()
-                    .map(|m| m.tip(skeleton, joint).unwrap_or(m.position(joint)));
+                let [a, b] = models.each_ref().map(|m| {
+                    m.bone_tip_position(skeleton, joint)
+                        .unwrap_or(m.model_joint_position(joint))
+                });
                 a.distance(b)
             });
             found.push((side, far.fold(0.0, f64::max)));
@@ -117,13 +111,13 @@ fn moved(capture: &Capture, made: &Clip) -> Vec<DVec3> {
     let hands: Vec<usize> = capture
         .sides()
         .into_iter()
-        .filter_map(|side| capture.anatomy.arm(side))
+        .filter_map(|side| capture.anatomy.arm_chain(side))
         .map(|arm| arm.hand)
         .collect();
-    (0..made.frames())
+    (0..made.clip_frame_count())
         .flat_map(|frame| {
             let [was, is] = [&capture.clip, made].map(|clip| clip.model_pose(frame));
-            let shift = move |hand: usize| is.position(hand) - was.position(hand);
+            let shift = move |hand: usize| is.model_joint_position(hand) - was.model_joint_position(hand);
             hands.iter().copied().map(shift).collect::<Vec<DVec3>>()
         })
         .collect()
@@ -131,21 +125,21 @@ fn moved(capture: &Capture, made: &Clip) -> Vec<DVec3> {
 
 /// Returns the largest change of a bone's length.
 fn stretched(was: &Clip, is: &Clip) -> f64 {
-    let skeleton = was.skeleton();
+    let skeleton = was.clip_skeleton();
     let mut worst: f64 = 0.0;
-    for frame in 0..was.frames().min(is.frames()) {
+    for frame in 0..was.clip_frame_count().min(is.clip_frame_count()) {
         // A reversed or mirrored clip has the bones of other frames if joints also move.
         let models = [was, is].map(|clip| clip.model_pose(frame));
         for joint in 1..skeleton.len() {
-            let Some(parent) = skeleton.parent(joint) else {
+            let Some(parent) = skeleton.joint_parent(joint) else {
                 continue;
             };
-            if was.channel(joint).translations.is_some() {
+            if was.joint_channel(joint).translations.is_some() {
                 continue;
             }
             let [a, b] = models
                 .each_ref()
-                .map(|m| m.position(joint).distance(m.position(parent)));
+                .map(|m| m.model_joint_position(joint).distance(m.model_joint_position(parent)));
             worst = worst.max((a - b).abs());
         }
     }

@@ -1,8 +1,8 @@
 //! Table that compares the courses of generated transitions with captured ones.
 
-use chereme_analysis::strokes::Mover;
-use chereme_compose::recipe::Profile;
-use chereme_compose::{Stretch, bridge, learn_course};
+use chereme_analysis::strokes::MovingPart;
+use chereme_compose::recipe::TransitionProfile;
+use chereme_compose::{CapturedStretch, bridge_captured_stretch, learn_course};
 use chereme_motion::Clip;
 use chereme_motion::glam::DVec3;
 
@@ -46,12 +46,9 @@ impl Error {
 pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut text = String::new();
     for (kind, name) in [
+        (MovingPart::Wrist, "Strokes of a wrist between two minima of its speed"),
         (
-            Mover::Wrist,
-            "Strokes of a wrist between two minima of its speed",
-        ),
-        (
-            Mover::Fingers,
+            MovingPart::Fingers,
             "Changes of handshape between two minima of the fingers' speed",
         ),
     ] {
@@ -71,12 +68,8 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
 }
 
 fn table(captures: &[Capture], found: &[Transition]) -> String {
-    let errors: Vec<[Option<Error>; COURSES.len()]> =
-        (0..found.len()).map(|n| tried(found, n)).collect();
-    let head: Vec<&str> = ["capture", "transitions"]
-        .into_iter()
-        .chain(COURSES)
-        .collect();
+    let errors: Vec<[Option<Error>; COURSES.len()]> = (0..found.len()).map(|n| tried(found, n)).collect();
+    let head: Vec<&str> = ["capture", "transitions"].into_iter().chain(COURSES).collect();
     let row = |name: String, numbers: &[usize]| {
         let cells = (0..COURSES.len()).map(|course| {
             let mut sum = Error::default();
@@ -97,9 +90,7 @@ fn table(captures: &[Capture], found: &[Transition]) -> String {
     };
     let mut rows = Vec::new();
     for (at, capture) in captures.iter().enumerate() {
-        let own: Vec<usize> = (0..found.len())
-            .filter(|&n| found[n].capture == at)
-            .collect();
+        let own: Vec<usize> = (0..found.len()).filter(|&n| found[n].capture == at).collect();
         if !own.is_empty() {
             rows.push(row(capture.name.clone(), &own));
         }
@@ -146,38 +137,37 @@ fn tried(found: &[Transition], n: usize) -> [Option<Error>; COURSES.len()] {
     let all_others = learn(&|other| other != n);
     let other_files = learn(&|other| found[other].capture != one.capture);
     let error = |profile, learned: Option<&Vec<f64>>| {
-        let made = bridge(&stretch(one), profile, learned.map(Vec::as_slice))?;
+        let made = bridge_captured_stretch(&stretch(one), profile, learned.map(Vec::as_slice))?;
         Some(compare(one, &made))
     };
     [
-        error(Profile::Slerp, None),
-        error(Profile::Cosine, None),
-        error(Profile::Sigmoid, None),
-        error(Profile::MinimumJerk, None),
-        error(Profile::Learned, all_others.as_ref()),
-        error(Profile::Learned, other_files.as_ref()),
+        error(TransitionProfile::Slerp, None),
+        error(TransitionProfile::Cosine, None),
+        error(TransitionProfile::Sigmoid, None),
+        error(TransitionProfile::MinimumJerk, None),
+        error(TransitionProfile::Learned, all_others.as_ref()),
+        error(TransitionProfile::Learned, other_files.as_ref()),
     ]
 }
 
-fn stretch(one: &Transition) -> Stretch<'_> {
-    Stretch {
+fn stretch(one: &Transition) -> CapturedStretch<'_> {
+    CapturedStretch {
         clip: &one.clip,
         joints: &one.joints,
-        frames: 0..one.clip.frames(),
+        frames: 0..one.clip.clip_frame_count(),
     }
 }
 
 fn compare(one: &Transition, made: &Clip) -> Error {
     let mut error = Error::default();
-    let per_second = made.rate().per_second();
+    let per_second = made.clip_frame_rate().per_second();
     for &joint in &one.points {
         let [was, is] = [&one.clip, made].map(|clip| {
-            (0..clip.frames())
+            (0..clip.clip_frame_count())
                 .map(|frame| strokes::point(clip, joint, one.base, frame))
                 .collect::<Vec<DVec3>>()
         });
-        let speeds = [&was, &is]
-            .map(|path| strokes::speeds(path, per_second, |a: &DVec3, b| a.distance(*b)));
+        let speeds = [&was, &is].map(|path| strokes::speeds(path, per_second, |a: &DVec3, b| a.distance(*b)));
         for frame in 0..was.len() {
             error.add(Error {
                 position: was[frame].distance_squared(is[frame]),

@@ -3,24 +3,24 @@
 use std::sync::Arc;
 
 use chereme_compose::{
-    Example, Generated, Letter, MakeError, Material, Meaning, Recipe, SourceError, Sources, Value,
-    evaluate, resolve,
+    AlphabetLetter, ComponentValue, GeneratedMovement, MakeError, MovementMaterial, Recipe, RecipeSources, SourceError,
+    TokenExample, ValueMeaning, evaluate_recipe, resolve_recipe,
 };
-use chereme_motion::{Anatomy, Clip, HandAngles};
-use chereme_sign::{Component, Handedness};
+use chereme_motion::{BodyAnatomy, Clip, HandAngles};
+use chereme_sign::{SignComponent, SignerHandedness};
 
 /// One sign, named `A`, and two hand shapes: a `fist` and a `flat` hand.
-pub(crate) struct Shelf(Material);
+pub(crate) struct Shelf(MovementMaterial);
 
 impl Shelf {
-    pub(crate) fn new(clip: Clip, anatomy: &Arc<Anatomy>) -> Self {
-        Self(Material {
+    pub(crate) fn new(clip: Clip, anatomy: &Arc<BodyAnatomy>) -> Self {
+        Self(MovementMaterial {
             curves: Vec::new(),
             address: "token:1".into(),
             hash: "1".into(),
             gloss: "A".into(),
             signer: None,
-            handedness: Handedness::Right,
+            handedness: SignerHandedness::Right,
             clip,
             anatomy: Arc::clone(anatomy),
             held: Vec::new(),
@@ -28,16 +28,16 @@ impl Shelf {
     }
 
     /// Evaluates the recipe `A | operators`.
-    pub(crate) fn make(&self, operators: &str) -> Result<Generated, MakeError> {
+    pub(crate) fn make(&self, operators: &str) -> Result<GeneratedMovement, MakeError> {
         let recipe: Recipe = match format!("A | {operators}").parse() {
             Ok(recipe) => recipe,
             Err(error) => unreachable!("{operators} is a recipe: {error}"),
         };
-        evaluate(&resolve(&recipe, self)?)
+        evaluate_recipe(&resolve_recipe(&recipe, self)?)
     }
 }
 
-fn unknown(component: Component, text: &str) -> SourceError {
+fn unknown(component: SignComponent, text: &str) -> SourceError {
     SourceError::UnknownValue {
         component,
         text: text.to_owned(),
@@ -45,23 +45,23 @@ fn unknown(component: Component, text: &str) -> SourceError {
     }
 }
 
-impl Sources for Shelf {
-    fn material(&self, _: &str) -> Result<Material, SourceError> {
+impl RecipeSources for Shelf {
+    fn find_material(&self, _: &str) -> Result<MovementMaterial, SourceError> {
         Ok(self.0.clone())
     }
 
-    fn stage(&self, _: Option<&str>) -> Result<Material, SourceError> {
+    fn stage(&self, _: Option<&str>) -> Result<MovementMaterial, SourceError> {
         Ok(self.0.clone())
     }
 
-    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
-        let mut all = self.values(component).into_iter();
+    fn find_component_value(&self, component: SignComponent, text: &str) -> Result<ComponentValue, SourceError> {
+        let mut all = self.list_component_values(component).into_iter();
         all.find(|value| value.id == text)
             .ok_or_else(|| unknown(component, text))
     }
 
-    fn values(&self, component: Component) -> Vec<Value> {
-        if component != Component::Configuration {
+    fn list_component_values(&self, component: SignComponent) -> Vec<ComponentValue> {
+        if component != SignComponent::Configuration {
             return Vec::new();
         }
         let value = |id: &str, bend: f64| {
@@ -69,24 +69,24 @@ impl Sources for Shelf {
             for finger in &mut angles.fingers {
                 finger.flexion = [bend; 3];
             }
-            Value {
+            ComponentValue {
                 id: id.to_owned(),
                 inventory: "shapes".into(),
-                meaning: Some(Meaning::Hand(angles)),
+                meaning: Some(ValueMeaning::Hand(angles)),
             }
         };
         vec![value("fist", 1.4), value("flat", 0.0)]
     }
 
-    fn holding(&self, _: Component, _: &str) -> Result<Vec<Example>, SourceError> {
+    fn holding(&self, _: SignComponent, _: &str) -> Result<Vec<TokenExample>, SourceError> {
         Ok(Vec::new())
     }
 
-    fn best(&self, _: &str, _: Option<&str>) -> Result<Vec<Example>, SourceError> {
+    fn find_best_examples(&self, _: &str, _: Option<&str>) -> Result<Vec<TokenExample>, SourceError> {
         Ok(Vec::new())
     }
 
-    fn letters(&self, _: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
-        Err(unknown(Component::Configuration, word))
+    fn find_alphabet_letters(&self, _: Option<&str>, word: &str) -> Result<Vec<AlphabetLetter>, SourceError> {
+        Err(unknown(SignComponent::Configuration, word))
     }
 }

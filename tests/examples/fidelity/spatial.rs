@@ -1,8 +1,8 @@
 //! Table for hands placed elsewhere: the rest of the path, the rotation of hands, the movement of elbows.
 
-use chereme_compose::Generated;
+use chereme_compose::GeneratedMovement;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{ArmChain, Clip, ModelPose, Rate, Side};
+use chereme_motion::{ArmChain, BodySide, Clip, FrameRate, ModelPose};
 
 use crate::Result;
 use crate::capture::Capture;
@@ -52,7 +52,7 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut rows = Vec::new();
     for capture in captures {
         let mut found = Found::default();
-        let clip = capture.clip.resampled(Rate::new(120, 1)?);
+        let clip = capture.clip.resample_clip(FrameRate::new(120, 1)?);
         for direction in ["left", "right", "up", "down"] {
             for centimetres in [10, 25] {
                 one(capture, &clip, direction, centimetres, &mut found)?;
@@ -101,10 +101,7 @@ impl Found {
         vec![
             name.to_owned(),
             self.targets.to_string(),
-            format!(
-                "{:.0} %",
-                100.0 * self.in_reach as f64 / self.targets.max(1) as f64
-            ),
+            format!("{:.0} %", 100.0 * self.in_reach as f64 / self.targets.max(1) as f64),
             format!("{:.2}", self.residual[0] * 1000.0),
             format!("{:.2}", self.residual[1] * 1000.0),
             format!("{:.4}", self.turned.to_degrees()),
@@ -117,18 +114,12 @@ impl Found {
     }
 }
 
-fn one(
-    capture: &Capture,
-    clip: &Clip,
-    direction: &str,
-    cm: usize,
-    found: &mut Found,
-) -> Result<()> {
+fn one(capture: &Capture, clip: &Clip, direction: &str, cm: usize, found: &mut Found) -> Result<()> {
     let sides = capture.sides();
     let hands = if sides.len() == 2 {
         "both"
     } else {
-        sides[0].name()
+        sides[0].body_side_name()
     };
     let shelf = Shelf::new(clip.clone(), &capture.anatomy);
     let made = match shelf.make(&format!("place {hands} by {direction} {cm}cm")) {
@@ -160,7 +151,7 @@ fn one(
     Ok(())
 }
 
-fn is_reported(made: &Generated) -> bool {
+fn is_reported(made: &GeneratedMovement) -> bool {
     let did = made.report.steps.iter().flat_map(|step| &step.did);
     did.into_iter().any(|did| did.contains("out of reach"))
 }
@@ -170,17 +161,14 @@ fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
     let hands = capture
         .sides()
         .into_iter()
-        .filter_map(|side| capture.anatomy.arm(side));
+        .filter_map(|side| capture.anatomy.arm_chain(side));
     let mut moved: Vec<DVec3> = Vec::new();
     for arm in hands {
-        let [was, is] = [clip, made].map(|clip| clip.path(arm.hand));
+        let [was, is] = [clip, made].map(|clip| clip.joint_path(arm.hand));
         moved.extend(was.iter().zip(&is).map(|(was, is)| *is - *was));
     }
     let middle = |axis: usize| {
-        let mut values: Vec<f64> = moved
-            .iter()
-            .map(|displacement| displacement[axis])
-            .collect();
+        let mut values: Vec<f64> = moved.iter().map(|displacement| displacement[axis]).collect();
         values.sort_unstable_by(f64::total_cmp);
         values[values.len() / 2]
     };
@@ -188,24 +176,17 @@ fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
 }
 
 /// Measures one arm; returns whether a target was out of reach and missed.
-fn arm(
-    capture: &Capture,
-    clip: &Clip,
-    made: &Clip,
-    side: Side,
-    by: DVec3,
-    found: &mut Found,
-) -> bool {
-    let Some(arm) = capture.anatomy.arm(side) else {
+fn arm(capture: &Capture, clip: &Clip, made: &Clip, side: BodySide, by: DVec3, found: &mut Found) -> bool {
+    let Some(arm) = capture.anatomy.arm_chain(side) else {
         return false;
     };
     let mut beyond = false;
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.clip_frame_count() {
         let [was, is]: [ModelPose; 2] = [clip, made].map(|clip| clip.model_pose(frame));
-        let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| was.position(j));
+        let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| was.model_joint_position(j));
         let (first, second) = (shoulder.distance(elbow), elbow.distance(wrist));
         let distance = shoulder.distance(wrist + by);
-        let residual = is.position(arm.hand).distance(wrist + by);
+        let residual = is.model_joint_position(arm.hand).distance(wrist + by);
         found.targets += 1;
         if distance <= first + second && distance >= (first - second).abs() {
             found.in_reach += 1;
@@ -217,7 +198,7 @@ fn arm(
         } else {
             beyond |= residual > 1e-3;
         }
-        let turn = was.rotation(arm.hand).inverse() * is.rotation(arm.hand);
+        let turn = was.model_joint_rotation(arm.hand).inverse() * is.model_joint_rotation(arm.hand);
         let turned = 2.0 * turn.xyz().length().atan2(turn.w.abs());
         found.turned = found.turned.max(turned);
     }
@@ -227,20 +208,16 @@ fn arm(
 /// Counts the jumps of upper arm and forearm that the operator causes.
 ///
 /// The upper arm is measured in the space of the trunk, the forearm in that of the upper arm.
-fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Found, far: usize) {
-    let Some(arm) = capture.anatomy.arm(side) else {
+fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: BodySide, found: &mut Found, far: usize) {
+    let Some(arm) = capture.anatomy.arm_chain(side) else {
         return;
     };
-    let skeleton = clip.skeleton();
-    let top = skeleton.parent(arm.clavicle.unwrap_or(arm.upper));
+    let skeleton = clip.clip_skeleton();
+    let top = skeleton.joint_parent(arm.clavicle.unwrap_or(arm.upper));
     let joints = [(arm.upper, top), (arm.forearm, Some(arm.upper))];
     let whole = turns(clip, arm.upper, None);
     let forearm = turns(clip, arm.forearm, Some(arm.upper));
-    let fastest: Vec<f64> = whole
-        .into_iter()
-        .zip(forearm)
-        .map(|(a, b)| a.max(b))
-        .collect();
+    let fastest: Vec<f64> = whole.into_iter().zip(forearm).map(|(a, b)| a.max(b)).collect();
     for (joint, base) in joints {
         let [was, is] = [clip, made].map(|clip| turns(clip, joint, base));
         for (frame, (source, turn)) in was.into_iter().zip(is).enumerate() {
@@ -278,8 +255,7 @@ struct Bend {
 impl Bend {
     fn of(clip: &Clip, arm: &ArmChain, frame: usize) -> Self {
         let model = clip.model_pose(frame);
-        let [shoulder, elbow, wrist] =
-            [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
+        let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| model.model_joint_position(j));
         let (line, upper) = (wrist - shoulder, elbow - shoulder);
         Self {
             line,
@@ -300,13 +276,13 @@ impl Bend {
 /// Returns the rotation of a joint from each frame to the next, in the space of a joint above it.
 fn turns(clip: &Clip, joint: usize, base: Option<usize>) -> Vec<f64> {
     let chain: Vec<usize> = clip
-        .skeleton()
-        .ancestors(joint)
+        .clip_skeleton()
+        .joint_ancestors(joint)
         .take_while(|&above| Some(above) != base)
         .collect();
-    let turned: Vec<DQuat> = (0..clip.frames())
+    let turned: Vec<DQuat> = (0..clip.clip_frame_count())
         .map(|frame| {
-            let local = |&joint: &usize| clip.channel(joint).rotations[frame];
+            let local = |&joint: &usize| clip.joint_channel(joint).rotations[frame];
             chain.iter().rev().map(local).product()
         })
         .collect();

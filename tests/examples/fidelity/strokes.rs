@@ -1,6 +1,6 @@
 //! Finds transitions in captured movement: strokes of wrists and changes of handshape.
 
-use chereme_analysis::strokes::{Mover, place_in, strokes};
+use chereme_analysis::strokes::{MovingPart, find_transition_strokes, place_in};
 use chereme_motion::Clip;
 use chereme_motion::glam::DVec3;
 
@@ -25,13 +25,10 @@ impl Transition {
     pub(crate) fn is_direct(&self) -> bool {
         let (mut along, mut across) = (0.0, 0.0);
         for &joint in &self.points {
-            let path: Vec<DVec3> = (0..self.clip.frames())
+            let path: Vec<DVec3> = (0..self.clip.clip_frame_count())
                 .map(|frame| point(&self.clip, joint, self.base, frame))
                 .collect();
-            along += path
-                .windows(2)
-                .map(|two| two[0].distance(two[1]))
-                .sum::<f64>();
+            along += path.windows(2).map(|two| two[0].distance(two[1])).sum::<f64>();
             across += path[0].distance(path[path.len() - 1]);
         }
         across >= 0.7 * along
@@ -39,32 +36,32 @@ impl Transition {
 }
 
 /// Returns every transition of a kind in a capture.
-pub(crate) fn find(number: usize, capture: &Capture, mover: Mover) -> Vec<Transition> {
+pub(crate) fn find(number: usize, capture: &Capture, mover: MovingPart) -> Vec<Transition> {
     let mut found = Vec::new();
     let (clip, anatomy) = (&capture.clip, &capture.anatomy);
-    let skeleton = clip.skeleton();
+    let skeleton = clip.clip_skeleton();
     for side in capture.sides() {
-        let Some(arm) = anatomy.arm(side) else {
+        let Some(arm) = anatomy.arm_chain(side) else {
             continue;
         };
-        let joints = mover.joints(anatomy, side);
+        let joints = mover.moving_joints(anatomy, side);
         let (points, base) = match mover {
-            Mover::Wrist => {
+            MovingPart::Wrist => {
                 let top = arm.clavicle.unwrap_or(arm.upper);
-                (vec![arm.hand], skeleton.parent(top))
+                (vec![arm.hand], skeleton.joint_parent(top))
             }
-            Mover::Fingers => {
-                let is_end = |&joint: &usize| skeleton.children(joint).is_empty();
+            MovingPart::Fingers => {
+                let is_end = |&joint: &usize| skeleton.joint_children(joint).is_empty();
                 let ends = joints.iter().copied().filter(is_end).collect();
                 (ends, Some(arm.hand))
             }
         };
         found.extend(
-            strokes(clip, anatomy, side, mover)
+            find_transition_strokes(clip, anatomy, side, mover)
                 .into_iter()
                 .map(|frames| Transition {
                     capture: number,
-                    clip: clip.slice(frames),
+                    clip: clip.slice_clip_frames(frames),
                     joints: joints.clone(),
                     points: points.clone(),
                     base,
@@ -76,9 +73,9 @@ pub(crate) fn find(number: usize, capture: &Capture, mover: Mover) -> Vec<Transi
 
 /// Returns the end of `joint` in the space of `base`, or of the model.
 pub(crate) fn point(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DVec3 {
-    let skeleton = clip.skeleton();
-    let tip = skeleton.joint(joint).tip;
-    let is_end = skeleton.children(joint).is_empty();
+    let skeleton = clip.clip_skeleton();
+    let tip = skeleton.joint_at(joint).tip;
+    let is_end = skeleton.joint_children(joint).is_empty();
     let end = tip.filter(|_| is_end).unwrap_or(DVec3::ZERO);
     place_in(clip, joint, end, base, frame)
 }

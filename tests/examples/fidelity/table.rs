@@ -1,10 +1,7 @@
 //! Prints Markdown tables.
 
 /// Returns a table; the first column is to the left, the others are to the right.
-pub(crate) fn markdown<R: IntoIterator<Item = String>>(
-    head: &[&str],
-    rows: impl IntoIterator<Item = R>,
-) -> String {
+pub(crate) fn markdown<R: IntoIterator<Item = String>>(head: &[&str], rows: impl IntoIterator<Item = R>) -> String {
     let mut text = format!("| {} |\n|---|", head.join(" | "));
     text.push_str(&"--:|".repeat(head.len() - 1));
     text.push('\n');

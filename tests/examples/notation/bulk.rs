@@ -1,9 +1,9 @@
 //! The bulk of hands and head: bones with their flesh and an ellipsoid, measured from joints alone.
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, ModelPose, Side, Skeleton};
+use chereme_motion::{BodyAnatomy, BodySide, ModelPose, Skeleton};
 use chereme_sign::hamnosys::sites::digit_joint;
-use chereme_sign::hamnosys::{Digit, HandClass, HandLocation, HandSite, Handshape, ThumbPosition};
+use chereme_sign::hamnosys::{HandClass, HandDigit, HandLocation, HandSite, Handshape, ThumbPosition};
 
 /// Half the thickness of a finger, in hand lengths: 8 mm at 19 cm.
 const FINGER: f64 = 0.042;
@@ -33,24 +33,16 @@ pub(crate) struct Hand {
 }
 
 impl Hand {
-    pub(crate) fn of(
-        anatomy: &Anatomy,
-        skeleton: &Skeleton,
-        model: &ModelPose,
-        side: Side,
-    ) -> Option<Self> {
-        let arm = anatomy.arm(side)?;
-        let wrist = model.position(arm.hand);
-        let length = anatomy.measures()?.hand;
-        let (along, palm) = (
-            anatomy.hand_direction(side, model)?,
-            anatomy.palm_normal(side, model)?,
-        );
+    pub(crate) fn of(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose, side: BodySide) -> Option<Self> {
+        let arm = anatomy.arm_chain(side)?;
+        let wrist = model.model_joint_position(arm.hand);
+        let length = anatomy.anatomy_measures()?.hand;
+        let (along, palm) = (anatomy.hand_direction(side, model)?, anatomy.palm_normal(side, model)?);
         let mut tubes = Vec::new();
         let mut palm_end = wrist + along * (0.5 * length);
-        for (digit, which) in Digit::ALL.into_iter().enumerate() {
+        for (digit, which) in HandDigit::ALL_HAND_DIGITS.into_iter().enumerate() {
             let joints: Vec<usize> = (1..=3)
-                .filter_map(|n| anatomy.joint(digit_joint(side, which, n)))
+                .filter_map(|n| anatomy.part_joint(digit_joint(side, which, n)))
                 .fold(Vec::new(), |mut all, joint| {
                     if !all.contains(&joint) {
                         all.push(joint);
@@ -58,8 +50,8 @@ impl Hand {
                     all
                 });
             let mut joints = joints;
-            if which == Digit::Thumb
-                && let Some(last) = anatomy.joint(chereme_motion::Part::Thumb(side, 3))
+            if which == HandDigit::Thumb
+                && let Some(last) = anatomy.part_joint(chereme_motion::BodyPart::Thumb(side, 3))
                 && !joints.contains(&last)
             {
                 joints.push(last);
@@ -67,24 +59,23 @@ impl Hand {
             let (Some(&first), Some(&last)) = (joints.first(), joints.last()) else {
                 continue;
             };
-            let mut points: Vec<DVec3> =
-                joints.iter().map(|&joint| model.position(joint)).collect();
-            let tip = match (skeleton.joint(last).tip, skeleton.children(last)) {
-                (Some(tip), _) => points[points.len() - 1] + model.rotation(last) * tip,
-                (None, &[child]) => model.position(child),
+            let mut points: Vec<DVec3> = joints.iter().map(|&joint| model.model_joint_position(joint)).collect();
+            let tip = match (skeleton.joint_at(last).tip, skeleton.joint_children(last)) {
+                (Some(tip), _) => points[points.len() - 1] + model.model_joint_rotation(last) * tip,
+                (None, &[child]) => model.model_joint_position(child),
                 _ => {
                     let before = skeleton
-                        .parent(last)
-                        .map_or(wrist, |before| model.position(before));
+                        .joint_parent(last)
+                        .map_or(wrist, |before| model.model_joint_position(before));
                     points[points.len() - 1] + (points[points.len() - 1] - before) * 0.8
                 }
             };
             points.push(tip);
-            let base = model.position(first);
-            if which == Digit::Middle {
+            let base = model.model_joint_position(first);
+            if which == HandDigit::Middle {
                 palm_end = base;
             }
-            if which != Digit::Thumb {
+            if which != HandDigit::Thumb {
                 tubes.push(Tube {
                     digit,
                     bone: 0,
@@ -111,7 +102,7 @@ impl Hand {
                 });
             }
         }
-        let radial = palm.cross(along) * side.sign();
+        let radial = palm.cross(along) * side.side_sign();
         Some(Self {
             tubes,
             wrist,
@@ -123,22 +114,18 @@ impl Hand {
     }
 
     fn bone(&self, digit: usize, bone: usize) -> Option<&Tube> {
-        self.tubes
-            .iter()
-            .find(|tube| tube.digit == digit && tube.bone == bone)
+        self.tubes.iter().find(|tube| tube.digit == digit && tube.bone == bone)
     }
 
     /// Returns a point near a part of the hand; the tip of the index finger if none is named.
     pub(crate) fn part(&self, named: Option<&HandSite>) -> Option<DVec3> {
         let digits = named.map(|site| &site.digits);
-        let among = |digit: &Digit| digits.is_some_and(|digits| digits.contains(*digit));
-        let digit = Digit::ALL.iter().position(among).unwrap_or(1);
+        let among = |digit: &HandDigit| digits.is_some_and(|digits| digits.contains_digit(*digit));
+        let digit = HandDigit::ALL_HAND_DIGITS.iter().position(among).unwrap_or(1);
         Some(match named.and_then(|site| site.at) {
             Some(HandLocation::MidJoint) => self.bone(digit, 2)?.ends[0],
             Some(HandLocation::Base) => self.bone(digit, 1)?.ends[0],
-            None | Some(HandLocation::Tip | HandLocation::Nail | HandLocation::Pad) => {
-                self.bone(digit, 3)?.ends[1]
-            }
+            None | Some(HandLocation::Tip | HandLocation::Nail | HandLocation::Pad) => self.bone(digit, 3)?.ends[1],
             _ => self.palm_end,
         })
     }
@@ -163,10 +150,7 @@ impl Hand {
                 let short = (tip - self.wrist).dot(self.radial) - middle;
                 Some(over.abs().max(short.max(0.0)))
             }
-            HandClass::Fist
-            | HandClass::Finger2
-            | HandClass::Finger23
-            | HandClass::Finger23Spread => {
+            HandClass::Fist | HandClass::Finger2 | HandClass::Finger23 | HandClass::Finger23Spread => {
                 let folded = folded(shape);
                 let of = |digit: usize| {
                     let on = self.bone(digit, 2)?;
@@ -188,11 +172,11 @@ impl Hand {
 
 /// Returns the folded fingers on which a thumb across lies: the first two of them.
 fn folded(shape: &Handshape) -> Vec<usize> {
-    let selected = chereme_sign::hamnosys::angles::selected(shape.form.class, &shape.special.0);
+    let selected = chereme_sign::hamnosys::angles::selected_fingers(shape.form.class, &shape.special.0);
     let fist = shape.form.class == HandClass::Fist;
     let all = (1..5).filter(|&digit| {
         let out = !fist && selected[digit - 1];
-        let exempt = fist && shape.exempt.contains(Digit::ALL[digit]);
+        let exempt = fist && shape.exempt.contains_digit(HandDigit::ALL_HAND_DIGITS[digit]);
         !out && !exempt
     });
     all.take(2).collect()
@@ -207,8 +191,7 @@ pub(crate) fn deepest(a: &Hand, b: &Hand) -> f64 {
         .tubes
         .iter()
         .flat_map(|one| b.tubes.iter().map(move |other| (one, other)));
-    let deep =
-        pairs.map(|(one, other)| one.radius + other.radius - between(one.ends, other.ends).0);
+    let deep = pairs.map(|(one, other)| one.radius + other.radius - between(one.ends, other.ends).0);
     deep.fold(0.0, f64::max)
 }
 
@@ -243,10 +226,10 @@ pub(crate) struct Skull {
 }
 
 impl Skull {
-    pub(crate) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
-        let size = anatomy.measures()?.head;
+    pub(crate) fn of(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+        let size = anatomy.anatomy_measures()?.head;
         let axes = anatomy.head_axes(model)?;
-        let top = anatomy.landmark(skeleton, model, "head-top")?;
+        let top = anatomy.landmark_place_position(skeleton, model, "head-top")?;
         Some(Self {
             middle: top - axes[1] * (0.5 * size),
             axes,

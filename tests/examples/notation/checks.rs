@@ -1,9 +1,9 @@
 //! Measures generated movement from its joints alone: lengths, limits, depths, speeds.
 
-use chereme_compose::Generated;
+use chereme_compose::GeneratedMovement;
 use chereme_motion::anatomy::BodyFrame;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, ModelPose, Part, Side, Skeleton};
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, ModelPose, Skeleton};
 
 /// The worst values in a movement.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -30,51 +30,59 @@ pub(crate) struct Worst {
 }
 
 /// Measures a movement frame by frame.
-pub(crate) fn worst(made: &Generated) -> Worst {
+pub(crate) fn worst(made: &GeneratedMovement) -> Worst {
     let (clip, anatomy) = (&made.clip, &made.anatomy);
-    let skeleton = clip.skeleton();
+    let skeleton = clip.clip_skeleton();
     let mut worst = Worst::default();
     let mut before: Option<ModelPose> = None;
     let rest = clip.model_pose(0);
     let still = Trunk::of(anatomy, skeleton, &rest);
-    let per_second = clip.rate().per_second();
-    for frame in 0..clip.frames() {
+    let per_second = clip.clip_frame_rate().per_second();
+    for frame in 0..clip.clip_frame_count() {
         let model = clip.model_pose(frame);
         for joint in 0..skeleton.len() {
-            let (at, turned) = (model.position(joint), model.rotation(joint));
+            let (at, turned) = (model.model_joint_position(joint), model.model_joint_rotation(joint));
             worst.nan += usize::from(!at.is_finite() || !turned.is_finite());
-            if let Some(parent) = skeleton.parent(joint) {
-                let length =
-                    |model: &ModelPose| model.position(joint).distance(model.position(parent));
+            if let Some(parent) = skeleton.joint_parent(joint) {
+                let length = |model: &ModelPose| {
+                    model
+                        .model_joint_position(joint)
+                        .distance(model.model_joint_position(parent))
+                };
                 worst.bone = worst.bone.max((length(&model) - length(&rest)).abs());
             }
         }
         let trunk = still.as_ref().map(|still| still.moved(&rest, &model));
         let depth = |at: DVec3| trunk.as_ref().map_or(0.0, |trunk| trunk.depth(at));
         let known = worst.hand_depth.max(worst.elbow_depth);
-        for side in Side::BOTH {
-            let Some(arm) = anatomy.arm(side) else {
+        for side in BodySide::BOTH_SIDES {
+            let Some(arm) = anatomy.arm_chain(side) else {
                 continue;
             };
             let (bend, turn) = wrist(anatomy, &model, side);
             worst.wrist = worst.wrist.max(bend);
             worst.turn = worst.turn.max(turn);
-            let mut hand = anatomy.fingers(side);
+            let mut hand = anatomy.finger_joints(side);
             hand.push(arm.hand);
             for joint in hand {
-                worst.hand_depth = worst.hand_depth.max(depth(model.position(joint)));
+                worst.hand_depth = worst.hand_depth.max(depth(model.model_joint_position(joint)));
             }
-            worst.elbow_depth = worst.elbow_depth.max(depth(model.position(arm.forearm)));
-            let [shoulder, elbow] = [arm.upper, arm.forearm].map(|joint| model.position(joint).y);
+            worst.elbow_depth = worst.elbow_depth.max(depth(model.model_joint_position(arm.forearm)));
+            let [shoulder, elbow] = [arm.upper, arm.forearm].map(|joint| model.model_joint_position(joint).y);
             worst.above = worst.above.max(elbow - shoulder);
             if let Some(before) = &before {
                 let speed = |joint: usize| {
-                    model.position(joint).distance(before.position(joint)) * per_second
+                    model
+                        .model_joint_position(joint)
+                        .distance(before.model_joint_position(joint))
+                        * per_second
                 };
                 worst.speed = worst.speed.max(speed(arm.hand));
                 worst.elbow_speed = worst.elbow_speed.max(speed(arm.forearm));
                 for joint in [arm.upper, arm.forearm, arm.hand] {
-                    let turn = model.rotation(joint).angle_between(before.rotation(joint));
+                    let turn = model
+                        .model_joint_rotation(joint)
+                        .angle_between(before.model_joint_rotation(joint));
                     worst.turning = worst.turning.max(turn * per_second);
                 }
             }
@@ -88,18 +96,18 @@ pub(crate) fn worst(made: &Generated) -> Worst {
 }
 
 /// Returns the bend of a wrist and the rotation of a forearm, 1 at the limits of the body language.
-fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
-    let language = chereme_sign::hamnosys::BodyLanguage::usual();
+fn wrist(anatomy: &BodyAnatomy, model: &ModelPose, side: BodySide) -> (f64, f64) {
+    let language = chereme_sign::hamnosys::BodyLanguage::default_body_language();
     let (Some(arm), Some(along), Some(palm)) = (
-        anatomy.arm(side),
+        anatomy.arm_chain(side),
         anatomy.hand_direction(side, model),
         anatomy.palm_normal(side, model),
     ) else {
         return (0.0, 0.0);
     };
-    let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
+    let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| model.model_joint_position(j));
     let forearm = (wrist - elbow).normalize();
-    let radial = palm.cross(along) * side.sign();
+    let radial = palm.cross(along) * side.side_sign();
     let flexion = (-forearm.dot(palm)).atan2(forearm.dot(along)).to_degrees();
     let deviation = (-forearm.dot(radial)).asin().to_degrees();
     let part = |angle: f64, less: f64, more: f64| angle / if angle > 0.0 { more } else { less };
@@ -117,14 +125,10 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     else {
         return (bend, 0.0);
     };
-    let inner = forearm.cross(out) * -side.sign();
+    let inner = forearm.cross(out) * -side.side_sign();
     let aligned = DQuat::from_rotation_arc(along, forearm) * palm;
-    let turn = forearm.dot(inner.cross(aligned)).atan2(inner.dot(aligned)) * -side.sign();
-    let turn = part(
-        turn.to_degrees(),
-        language.limit_pronation,
-        language.limit_supination,
-    );
+    let turn = forearm.dot(inner.cross(aligned)).atan2(inner.dot(aligned)) * -side.side_sign();
+    let turn = part(turn.to_degrees(), language.limit_pronation, language.limit_supination);
     (bend, turn)
 }
 
@@ -138,28 +142,17 @@ pub(crate) struct Trunk {
 }
 
 impl Trunk {
-    pub(crate) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+    pub(crate) fn of(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
         let frame = anatomy.body_frame(model)?;
-        let names = [
-            "throat",
-            "upper-chest",
-            "chest",
-            "stomach",
-            "belly",
-            "abdomen",
-        ];
+        let names = ["throat", "upper-chest", "chest", "stomach", "belly", "abdomen"];
         let front = names
             .iter()
-            .filter_map(|name| anatomy.landmark(skeleton, model, name))
+            .filter_map(|name| anatomy.landmark_place_position(skeleton, model, name))
             .map(|at| frame.to_body(at))
             .collect();
-        let arm = anatomy.arm(Side::Right).or(anatomy.arm(Side::Left));
-        let joint = arm.and_then(|arm| skeleton.parent(arm.clavicle.unwrap_or(arm.upper)));
-        Some(Self {
-            frame,
-            front,
-            joint,
-        })
+        let arm = anatomy.arm_chain(BodySide::Right).or(anatomy.arm_chain(BodySide::Left));
+        let joint = arm.and_then(|arm| skeleton.joint_parent(arm.clavicle.unwrap_or(arm.upper)));
+        Some(Self { frame, front, joint })
     }
 
     /// Returns the surface in a frame, moved from its state at rest.
@@ -167,11 +160,11 @@ impl Trunk {
         let Some(joint) = self.joint else {
             return self.clone();
         };
-        let turn = model.rotation(joint) * rest.rotation(joint).inverse();
+        let turn = model.model_joint_rotation(joint) * rest.model_joint_rotation(joint).inverse();
         let frame = &self.frame;
         Self {
             frame: BodyFrame {
-                origin: model.position(joint) + turn * (frame.origin - rest.position(joint)),
+                origin: model.model_joint_position(joint) + turn * (frame.origin - rest.model_joint_position(joint)),
                 left: turn * frame.left,
                 up: turn * frame.up,
                 forward: turn * frame.forward,
@@ -215,8 +208,8 @@ impl Trunk {
 
 /// Returns whether the skeleton has a wrist.
 #[allow(dead_code, reason = "the test uses it, the example does not")]
-pub(crate) fn has_hand(anatomy: &Anatomy) -> bool {
-    Side::BOTH
+pub(crate) fn has_hand(anatomy: &BodyAnatomy) -> bool {
+    BodySide::BOTH_SIDES
         .iter()
-        .any(|&side| anatomy.joint(Part::Hand(side)).is_some())
+        .any(|&side| anatomy.part_joint(BodyPart::Hand(side)).is_some())
 }

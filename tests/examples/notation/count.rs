@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use chereme_compose::notation::Settings;
-use chereme_motion::Rate;
+use chereme_compose::notation::AnimatorSettings;
+use chereme_motion::FrameRate;
 
 use crate::faults::{FAULTS, see, stroke_share};
 use crate::{Result, bodies};
@@ -29,16 +29,11 @@ pub(crate) struct Table<'a> {
 }
 
 /// Counts every fault over the signs of a folder on a body. `every` thins the signs out.
-pub(crate) fn faults(
-    folder: &Path,
-    body: &str,
-    every: usize,
-    into: Option<Table<'_>>,
-) -> Result<()> {
+pub(crate) fn faults(folder: &Path, body: &str, every: usize, into: Option<Table<'_>>) -> Result<()> {
     let stage = bodies::stage(Path::new(body))?;
-    let settings = Settings {
-        rate: Rate::new(60, 1)?,
-        ..Settings::default()
+    let settings = AnimatorSettings {
+        rate: FrameRate::new(60, 1)?,
+        ..AnimatorSettings::default()
     };
     let mut counts = vec![Count::default(); FAULTS.len()];
     let mut times: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
@@ -64,10 +59,7 @@ pub(crate) fn faults(
             );
             if let Some(span) = seen.approach() {
                 add("peak of the approach, m/s", seen.peak(own, span));
-                add(
-                    "duration of the approach, s",
-                    (span.1 - span.0) as f64 / seen.rate,
-                );
+                add("duration of the approach, s", (span.1 - span.0) as f64 / seen.rate);
             }
             if let Some(share) = stroke_share(&seen) {
                 add("share of the strokes", share);
@@ -82,12 +74,7 @@ pub(crate) fn faults(
             .step_by(1 + count.names.len() / 8)
             .map(String::as_str)
             .collect();
-        println!(
-            "{what}: {} of {}: {}",
-            count.found,
-            count.of,
-            some.join(", ")
-        );
+        println!("{what}: {} of {}: {}", count.found, count.of, some.join(", "));
     }
     let times: Vec<String> = times.into_iter().map(spread).collect();
     let times = times.join("; ");
@@ -114,12 +101,8 @@ fn spread((what, mut all): (&str, Vec<f64>)) -> String {
 /// animator come from `before`, the output of this program then, or else from the table in the text.
 fn written(text: &str, said: &str, counts: &[Count], before: Option<&str>) -> Result<String> {
     let [open, close] = MARKS;
-    let (head, rest) = text
-        .split_once(open)
-        .ok_or("the file has no mark <!-- faults -->")?;
-    let (old, tail) = rest
-        .split_once(close)
-        .ok_or("the file has no mark <!-- /faults -->")?;
+    let (head, rest) = text.split_once(open).ok_or("the file has no mark <!-- faults -->")?;
+    let (old, tail) = rest.split_once(close).ok_or("the file has no mark <!-- /faults -->")?;
     let known: BTreeMap<&str, &str> = match before {
         Some(printed) => printed
             .lines()
@@ -140,9 +123,7 @@ fn written(text: &str, said: &str, counts: &[Count], before: Option<&str>) -> Re
         Some(_) => "before",
         None => "before, of 325",
     };
-    let mut table = format!(
-        "\n| fault | {earlier} | today | signs in which it can occur |\n|---|--:|--:|--:|\n"
-    );
+    let mut table = format!("\n| fault | {earlier} | today | signs in which it can occur |\n|---|--:|--:|--:|\n");
     for ((what, _), count) in FAULTS.iter().zip(counts) {
         let now = count.found.to_string();
         let before = known.get(what).copied().unwrap_or("–");

@@ -5,8 +5,8 @@ use std::io::BufWriter;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use chereme_compose::notation::{Settings, animate};
-use chereme_figure::sheet::{Frames, SheetOptions, contact_sheet};
+use chereme_compose::notation::{AnimatorSettings, animate_signs};
+use chereme_figure::sheet::{SheetFrames, SheetOptions, contact_sheet};
 use chereme_figure::writer::write_png;
 
 use crate::{Result, bodies};
@@ -35,37 +35,28 @@ pub(crate) enum Shown {
 }
 
 /// Draws a sheet `GLOSS.png` in `out` for each of these signs.
-pub(crate) fn sheets(
-    folder: &Path,
-    body: &Path,
-    out: &Path,
-    (glosses, what): (&[&str], Shown),
-) -> Result<()> {
+pub(crate) fn sheets(folder: &Path, body: &Path, out: &Path, (glosses, what): (&[&str], Shown)) -> Result<()> {
     std::fs::create_dir_all(out)?;
     let stage = bodies::stage(body)?;
     for (name, notated) in bodies::signs(folder)? {
         if !glosses.contains(&name.as_str()) {
             continue;
         }
-        let made = animate(&[&notated], &stage, &Settings::default())?;
+        let made = animate_signs(&[&notated], &stage, &AnimatorSettings::default())?;
         let span = made
             .notes
             .iter()
-            .find(|note| note.about == chereme_compose::About::Gloss)
-            .map(|note| made.clip.rate().frames_in(note.span));
+            .find(|note| note.about == chereme_compose::NoteSubject::Gloss)
+            .map(|note| made.clip.clip_frame_rate().frames_in(note.span));
         let frames = span
             .filter(|span| span.len() > 1 && what == Shown::Sign)
-            .unwrap_or(0..made.clip.frames());
+            .unwrap_or(0..made.clip.clip_frame_count());
         let most = if what == Shown::Sign { 7 } else { 12 };
         let count = most.min(frames.len());
         let shown = (0..count).map(|n| frames.start + n * (frames.len() - 1) / (count - 1).max(1));
         let options = SheetOptions {
             title: name.clone(),
-            frames: Frames::At(
-                shown
-                    .map(|frame| frame.min(made.clip.frames() - 1))
-                    .collect(),
-            ),
+            frames: SheetFrames::At(shown.map(|frame| frame.min(made.clip.clip_frame_count() - 1)).collect()),
             cell_height: 230,
             ..SheetOptions::default()
         };
@@ -75,7 +66,7 @@ pub(crate) fn sheets(
         write_png(&sheet, BufWriter::new(file))?;
         println!(
             "{name}: {} frames; {}",
-            made.clip.frames(),
+            made.clip.clip_frame_count(),
             made.report.warnings.join("; ")
         );
     }

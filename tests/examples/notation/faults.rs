@@ -3,12 +3,12 @@
 mod arms;
 
 use arms::{akimbo, behind, folded, lifted, pumping, raised, standing_out, wandering};
-use chereme_compose::notation::{Settings, animate};
-use chereme_compose::{About, Generated, Material};
+use chereme_compose::notation::{AnimatorSettings, animate_signs};
+use chereme_compose::{GeneratedMovement, MovementMaterial, NoteSubject};
 use chereme_motion::glam::DVec3;
-use chereme_motion::{ModelPose, Part, Side, Span};
-use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, Place, WristMotion};
-use chereme_sign::{Component, Reading};
+use chereme_motion::{BodyPart, BodySide, ModelPose, TimeSpan};
+use chereme_sign::hamnosys::{HandPlace, MotionKind, NonmanualPart, NotatedSign, PlaceContact, WristMotion};
+use chereme_sign::{ComponentReading, SignComponent};
 
 use crate::Result;
 use crate::bulk::{Hand, Skull, Tube, deepest};
@@ -19,10 +19,7 @@ use crate::walk::{each_motion, interlocked, places, with_motions};
 pub(crate) type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
 
 pub(crate) const FAULTS: [Judge; 25] = [
-    (
-        "a thumb across lies more than 3 mm off its finger or palm",
-        thumb_off,
-    ),
+    ("a thumb across lies more than 3 mm off its finger or palm", thumb_off),
     ("the approach is faster than the stroke", hasty),
     (
         "strokes take less than 30 % of the time from first movement to last",
@@ -30,16 +27,10 @@ pub(crate) const FAULTS: [Judge; 25] = [
     ),
     ("head or trunk stand still", frozen),
     ("lids never move", unblinking),
-    (
-        "hands pass 8 mm or more into each other, unreported",
-        merged,
-    ),
+    ("hands pass 8 mm or more into each other, unreported", merged),
     ("the same, reported or not", merged_at_all),
     ("an elbow's path is over 1.5 of its wrist's", pumping),
-    (
-        "an elbow stands out by more than 60° with the hand low",
-        standing_out,
-    ),
+    ("an elbow stands out by more than 60° with the hand low", standing_out),
     (
         "an elbow stands out by more than 45° on the way from rest or back, with the hand low",
         akimbo,
@@ -51,10 +42,7 @@ pub(crate) const FAULTS: [Judge; 25] = [
     ),
     ("an elbow is more than 10 cm behind its shoulder", behind),
     ("a wrist is folded by more than 65° for 0.2 s", folded),
-    (
-        "a wrist's way from rest is over 1.25 of the straight one",
-        wandering,
-    ),
+    ("a wrist's way from rest is over 1.25 of the straight one", wandering),
     ("a head turns faster than 400° a second", whipped),
     ("flesh of a hand more than 5 mm in the trunk", buried),
     ("a finger's bone more than 1 cm in the head", in_head),
@@ -78,13 +66,13 @@ pub(crate) const FAULTS: [Judge; 25] = [
 
 /// A sign with its movement.
 pub(crate) struct Seen<'a> {
-    notated: &'a Notated,
+    notated: &'a NotatedSign,
     findings: usize,
-    made: Generated,
+    made: GeneratedMovement,
     /// The same without its non-manuals, if it has some.
-    plain: Option<Generated>,
+    plain: Option<GeneratedMovement>,
     /// The same with neither fast nor slow movement, if it has some.
-    usual: Option<Generated>,
+    usual: Option<GeneratedMovement>,
     /// The model in each frame.
     models: Vec<ModelPose>,
     /// Frames per second.
@@ -93,42 +81,38 @@ pub(crate) struct Seen<'a> {
 
 impl Seen<'_> {
     fn sign(&self) -> Option<(usize, usize)> {
-        let gloss = self
-            .made
-            .notes
-            .iter()
-            .find(|note| note.about == About::Gloss)?;
+        let gloss = self.made.notes.iter().find(|note| note.about == NoteSubject::Gloss)?;
         Some(self.frames(gloss.span))
     }
 
-    fn frames(&self, span: Span) -> (usize, usize) {
+    fn frames(&self, span: TimeSpan) -> (usize, usize) {
         let at = |n: usize| n.min(self.models.len() - 1);
-        let rate = self.made.clip.rate();
+        let rate = self.made.clip.clip_frame_rate();
         (
-            at(rate.frame_at(span.start())),
-            at(rate.frame_at(span.end())),
+            at(rate.nearest_frame_at(span.span_start_instant())),
+            at(rate.nearest_frame_at(span.span_end_instant())),
         )
     }
 
-    fn phases(&self, name: &str) -> Vec<(Side, (usize, usize))> {
-        let phase = About::Component(Component::Movement, Some("phase".into()));
+    fn phases(&self, name: &str) -> Vec<(BodySide, (usize, usize))> {
+        let phase = NoteSubject::Component(SignComponent::Movement, Some("phase".into()));
         let notes = self.made.notes.iter().filter(|note| match name {
-            "transition" => note.about == About::Transition,
-            _ => note.about == phase && note.value == Reading::Value(name.into()),
+            "transition" => note.about == NoteSubject::Transition,
+            _ => note.about == phase && note.value == ComponentReading::Value(name.into()),
         });
         notes
             .filter_map(|note| Some((note.hand?, self.frames(note.span))))
             .collect()
     }
 
-    fn wrist(&self, side: Side, frame: usize) -> Option<DVec3> {
-        Some(self.models[frame].position(self.made.anatomy.arm(side)?.hand))
+    fn wrist(&self, side: BodySide, frame: usize) -> Option<DVec3> {
+        Some(self.models[frame].model_joint_position(self.made.anatomy.arm_chain(side)?.hand))
     }
 
-    pub(crate) fn dominant(&self) -> Side {
+    pub(crate) fn dominant(&self) -> BodySide {
         match self.made.handedness {
-            chereme_sign::Handedness::Left => Side::Left,
-            _ => Side::Right,
+            chereme_sign::SignerHandedness::Left => BodySide::Left,
+            _ => BodySide::Right,
         }
     }
 
@@ -136,20 +120,24 @@ impl Seen<'_> {
     fn path(&self, joint: usize, (from, to): (usize, usize)) -> f64 {
         let steps = self.models[from..=to].windows(2);
         steps
-            .map(|two| two[0].position(joint).distance(two[1].position(joint)))
+            .map(|two| {
+                two[0]
+                    .model_joint_position(joint)
+                    .distance(two[1].model_joint_position(joint))
+            })
             .sum()
     }
 
     /// Returns the highest speed of a wrist between two frames, in metres per second.
-    pub(crate) fn peak(&self, side: Side, (from, to): (usize, usize)) -> f64 {
-        let Some(arm) = self.made.anatomy.arm(side) else {
+    pub(crate) fn peak(&self, side: BodySide, (from, to): (usize, usize)) -> f64 {
+        let Some(arm) = self.made.anatomy.arm_chain(side) else {
             return 0.0;
         };
         let steps = self.models[from..=to].windows(2);
         let steps = steps.map(|two| {
             two[0]
-                .position(arm.hand)
-                .distance(two[1].position(arm.hand))
+                .model_joint_position(arm.hand)
+                .distance(two[1].model_joint_position(arm.hand))
         });
         steps.fold(0.0, f64::max) * self.rate
     }
@@ -165,20 +153,16 @@ impl Seen<'_> {
     pub(crate) fn approach(&self) -> Option<(usize, usize)> {
         let own = self.dominant();
         let all = self.phases("transition").into_iter();
-        all.filter(|(side, _)| *side == own)
-            .map(|(_, span)| span)
-            .min()
+        all.filter(|(side, _)| *side == own).map(|(_, span)| span).min()
     }
 
     /// Returns whether the stroke moves the wrist and is not played by fingers or wrist alone.
     pub(crate) fn moves(&self) -> bool {
         let own = self.dominant();
-        let Some(arm) = self.made.anatomy.arm(own) else {
+        let Some(arm) = self.made.anatomy.arm_chain(own) else {
             return false;
         };
-        self.strokes()
-            .iter()
-            .any(|&span| self.path(arm.hand, span) > 0.05)
+        self.strokes().iter().any(|&span| self.path(arm.hand, span) > 0.05)
     }
 }
 
@@ -186,12 +170,12 @@ fn thumb_off(seen: &Seen<'_>) -> Option<bool> {
     let (at, _) = seen.sign()?;
     let mut judged = None;
     for part in seen.notated.sign.parts.iter().take(1) {
-        let sides = [seen.dominant(), seen.dominant().other()];
+        let sides = [seen.dominant(), seen.dominant().opposite_side()];
         let both = matches!(part.hands, chereme_sign::hamnosys::HandsUsed::Both(_));
         let shapes = [
-            part.posture.shape.dominant(),
-            part.posture.shape.other().or(if both {
-                part.posture.shape.dominant()
+            part.posture.shape.dominant_value(),
+            part.posture.shape.other_value().or(if both {
+                part.posture.shape.dominant_value()
             } else {
                 None
             }),
@@ -200,7 +184,7 @@ fn thumb_off(seen: &Seen<'_>) -> Option<bool> {
             let Some(shape) = shape else { continue };
             let Some(hand) = Hand::of(
                 &seen.made.anatomy,
-                seen.made.clip.skeleton(),
+                seen.made.clip.clip_skeleton(),
                 &seen.models[at],
                 side,
             ) else {
@@ -240,29 +224,23 @@ pub(crate) fn stroke_share(seen: &Seen<'_>) -> Option<f64> {
 
 fn frozen(seen: &Seen<'_>) -> Option<bool> {
     let anatomy = &seen.made.anatomy;
-    let joints = [Part::Head, Part::Chest];
+    let joints = [BodyPart::Head, BodyPart::Chest];
     let still = joints
         .into_iter()
-        .filter_map(|part| anatomy.joint(part))
+        .filter_map(|part| anatomy.part_joint(part))
         .any(|joint| {
-            let first = seen.models[0].rotation(joint);
+            let first = seen.models[0].model_joint_rotation(joint);
             let turned = seen
                 .models
                 .iter()
-                .map(|model| model.rotation(joint).angle_between(first));
+                .map(|model| model.model_joint_rotation(joint).angle_between(first));
             turned.fold(0.0, f64::max) < 0.3_f64.to_radians()
         });
     Some(still)
 }
 
 fn unblinking(seen: &Seen<'_>) -> Option<bool> {
-    Some(
-        !seen
-            .made
-            .curves
-            .iter()
-            .any(|curve| curve.name.starts_with("lids.")),
-    )
+    Some(!seen.made.curves.iter().any(|curve| curve.name.starts_with("lids.")))
 }
 
 fn merged(seen: &Seen<'_>) -> Option<bool> {
@@ -281,29 +259,26 @@ fn merged_at_all(seen: &Seen<'_>) -> Option<bool> {
     }
     let (from, to) = seen.sign()?;
     let hands = |model: &ModelPose| {
-        let skeleton = seen.made.clip.skeleton();
-        let hands = Side::BOTH.map(|side| Hand::of(&seen.made.anatomy, skeleton, model, side));
+        let skeleton = seen.made.clip.clip_skeleton();
+        let hands = BodySide::BOTH_SIDES.map(|side| Hand::of(&seen.made.anatomy, skeleton, model, side));
         match hands {
             [Some(a), Some(b)] => deepest(&a, &b),
             _ => 0.0,
         }
     };
     let steps = (from..=to).step_by(2);
-    Some(
-        steps
-            .map(|frame| hands(&seen.models[frame]))
-            .fold(0.0, f64::max)
-            > 0.008,
-    )
+    Some(steps.map(|frame| hands(&seen.models[frame])).fold(0.0, f64::max) > 0.008)
 }
 
 /// Fastest turn of a head, in degrees a second: people who shake it in speech reach half of that.
 const WHIPS: f64 = 400.0;
 
 fn whipped(seen: &Seen<'_>) -> Option<bool> {
-    let head = seen.made.anatomy.joint(Part::Head)?;
+    let head = seen.made.anatomy.part_joint(BodyPart::Head)?;
     let fast = seen.models.windows(2).any(|two| {
-        let turned = two[0].rotation(head).angle_between(two[1].rotation(head));
+        let turned = two[0]
+            .model_joint_rotation(head)
+            .angle_between(two[1].model_joint_rotation(head));
         turned.to_degrees() * seen.rate > WHIPS
     });
     Some(fast)
@@ -312,18 +287,18 @@ fn whipped(seen: &Seen<'_>) -> Option<bool> {
 fn buried(seen: &Seen<'_>) -> Option<bool> {
     let (from, to) = seen.sign()?;
     let anatomy = &seen.made.anatomy;
-    let skeleton = seen.made.clip.skeleton();
+    let skeleton = seen.made.clip.clip_skeleton();
     let still = Trunk::of(anatomy, skeleton, &seen.models[0])?;
     let deep = (from..=to).step_by(3).any(|n| {
         let model = &seen.models[n];
         let trunk = still.moved(&seen.models[0], model);
-        let hands = Side::BOTH
+        let hands = BodySide::BOTH_SIDES
             .into_iter()
             .filter_map(|side| Hand::of(anatomy, skeleton, model, side));
         hands.into_iter().any(|hand| {
-            hand.tubes.iter().any(|Tube { ends, radius, .. }| {
-                ends.iter().any(|&at| trunk.depth_with(at, *radius) > 0.005)
-            })
+            hand.tubes
+                .iter()
+                .any(|Tube { ends, radius, .. }| ends.iter().any(|&at| trunk.depth_with(at, *radius) > 0.005))
         })
     });
     Some(deep)
@@ -332,42 +307,36 @@ fn buried(seen: &Seen<'_>) -> Option<bool> {
 fn in_head(seen: &Seen<'_>) -> Option<bool> {
     let (from, to) = seen.sign()?;
     let anatomy = &seen.made.anatomy;
-    let skeleton = seen.made.clip.skeleton();
+    let skeleton = seen.made.clip.clip_skeleton();
     let deep = (from..=to).step_by(3).any(|n| {
         let model = &seen.models[n];
         let Some(skull) = Skull::of(anatomy, skeleton, model) else {
             return false;
         };
-        let hands = Side::BOTH
+        let hands = BodySide::BOTH_SIDES
             .into_iter()
             .filter_map(|side| Hand::of(anatomy, skeleton, model, side));
         let tubes = hands.flat_map(|hand| hand.tubes);
-        tubes
-            .flat_map(|tube| tube.ends)
-            .any(|at| skull.depth(at) > 0.01)
+        tubes.flat_map(|tube| tube.ends).any(|at| skull.depth(at) > 0.01)
     });
     Some(deep)
 }
 
 fn off_face(seen: &Seen<'_>) -> Option<bool> {
     let plain = seen.plain.as_ref()?;
-    let turned = seen.notated.nonmanual.acts().any(|(_, act)| {
+    let turned = seen.notated.nonmanual.acts_by_tier().any(|(_, act)| {
         use NonmanualPart as P;
-        matches!(act.part, P::Head | P::Body | P::Shoulders)
-            && !matches!(act.code(), "NO" | "ND" | "SH" | "ST")
+        matches!(act.part, P::Head | P::Body | P::Shoulders) && !matches!(act.act_code(), "NO" | "ND" | "SH" | "ST")
     });
-    let head = seen.made.anatomy.joint(Part::Head)?;
+    let head = seen.made.anatomy.part_joint(BodyPart::Head)?;
     use chereme_sign::hamnosys::BodyLocation as B;
     let on_head = |at: B| {
-        (B::Head as u8..=B::UnderChin as u8).contains(&(at as u8))
-            || matches!(at, B::Ear | B::EarLobe | B::Cheek)
+        (B::Head as u8..=B::UnderChin as u8).contains(&(at as u8)) || matches!(at, B::Ear | B::EarLobe | B::Cheek)
     };
     let touching = places(seen.notated).into_iter().find(|place| {
         // A place half-way to the trunk follows the head by half.
         let mut sites = place.site.iter().chain(&place.second).peekable();
-        place.contact == Some(Contact::Touch)
-            && sites.peek().is_some()
-            && sites.all(|site| on_head(site.at))
+        place.contact == Some(PlaceContact::Touch) && sites.peek().is_some() && sites.all(|site| on_head(site.at))
     });
     let part = touching?.by.as_ref();
     if !turned {
@@ -375,22 +344,18 @@ fn off_face(seen: &Seen<'_>) -> Option<bool> {
     }
     let side = seen.dominant();
     let (first, _) = seen.sign()?;
-    let span = plain
-        .notes
-        .iter()
-        .find(|note| note.about == About::Gloss)?
-        .span;
+    let span = plain.notes.iter().find(|note| note.about == NoteSubject::Gloss)?.span;
     let other = plain.clip.model_pose(
         plain
             .clip
-            .rate()
-            .frame_at(span.start())
-            .min(plain.clip.frames() - 1),
+            .clip_frame_rate()
+            .nearest_frame_at(span.span_start_instant())
+            .min(plain.clip.clip_frame_count() - 1),
     );
     let hand = |model: &ModelPose| {
-        let hand = Hand::of(&seen.made.anatomy, seen.made.clip.skeleton(), model, side)?;
+        let hand = Hand::of(&seen.made.anatomy, seen.made.clip.clip_skeleton(), model, side)?;
         let at = hand.part(part)?;
-        Some(model.rotation(head).inverse() * (at - model.position(head)))
+        Some(model.model_joint_rotation(head).inverse() * (at - model.model_joint_position(head)))
     };
     Some(hand(&seen.models[first])?.distance(hand(&other)?) > 0.015)
 }
@@ -419,7 +384,7 @@ fn trembling(seen: &Seen<'_>) -> Option<bool> {
 
 impl Seen<'_> {
     /// Returns the frequency (Hz) with which a wrist moves to and fro across its path; `None` if it hardly does.
-    fn frequency(&self, side: Side, (from, to): (usize, usize)) -> Option<f64> {
+    fn frequency(&self, side: BodySide, (from, to): (usize, usize)) -> Option<f64> {
         let at = |n: usize| self.wrist(side, n);
         let (first, last) = (at(from)?, at(to)?);
         let along = (last - first).try_normalize().unwrap_or(DVec3::ZERO);
@@ -457,19 +422,19 @@ impl Seen<'_> {
 fn faint(seen: &Seen<'_>) -> Option<bool> {
     let mut any = false;
     each_motion(seen.notated, &mut |motion| {
-        any |= matches!(&motion.kind, MotionKind::Wrist { motion: WristMotion::Swinging, size } if *size != Some(chereme_sign::hamnosys::Size::Small));
+        any |= matches!(&motion.kind, MotionKind::Wrist { motion: WristMotion::Swinging, size } if *size != Some(chereme_sign::hamnosys::MotionSize::Small));
     });
     if !any {
         return None;
     }
     let side = seen.dominant();
-    let skeleton = seen.made.clip.skeleton();
+    let skeleton = seen.made.clip.clip_skeleton();
     let (from, to) = seen.sign()?;
     let tips: Vec<DVec3> = (from..=to)
         .filter_map(|n| {
             let hand = Hand::of(&seen.made.anatomy, skeleton, &seen.models[n], side)?;
-            let arm = seen.made.anatomy.arm(side)?;
-            let turned = seen.models[n].rotation(arm.forearm);
+            let arm = seen.made.anatomy.arm_chain(side)?;
+            let turned = seen.models[n].model_joint_rotation(arm.forearm);
             Some(turned.inverse() * (hand.palm_end - hand.wrist))
         })
         .collect();
@@ -496,19 +461,18 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
         && directed.zigzag.is_none()
         && matches!(
             seen.notated.sign.parts[0].hands,
-            chereme_sign::hamnosys::HandsUsed::Dominant
-                | chereme_sign::hamnosys::HandsUsed::Both(_)
+            chereme_sign::hamnosys::HandsUsed::Dominant | chereme_sign::hamnosys::HandsUsed::Both(_)
         )
     {
-        let v = DVec3::from(directed.direction.vector());
+        let v = DVec3::from(directed.direction.spatial_direction_vector());
         let second = directed
             .second
-            .map_or(v, |second| DVec3::from(second.vector()));
+            .map_or(v, |second| DVec3::from(second.spatial_direction_vector()));
         // The part of the hand that reaches the target goes there, not the wrist.
         let part = match posture.place.as_ref() {
-            Some(Place::Body(place)) => place.by.as_ref(),
-            Some(Place::Hand(site)) => site.by.as_deref(),
-            Some(Place::Hands(hands)) => hands.dominant.as_ref(),
+            Some(HandPlace::Body(place)) => place.by.as_ref(),
+            Some(HandPlace::Hand(site)) => site.by.as_deref(),
+            Some(HandPlace::Hands(hands)) => hands.dominant.as_ref(),
             _ => None,
         };
         found = Some(((v + second).normalize_or(v), part));
@@ -516,7 +480,7 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
     let (expected, part) = found?;
     let frame = seen.made.anatomy.body_frame(&seen.models[0])?;
     let side = seen.dominant();
-    let left = if side == Side::Left {
+    let left = if side == BodySide::Left {
         -expected.x
     } else {
         expected.x
@@ -525,7 +489,7 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
     let &(from, to) = seen.strokes().first()?;
     let at = |n: usize| {
         let wrist = seen.wrist(side, n)?;
-        let skeleton = seen.made.clip.skeleton();
+        let skeleton = seen.made.clip.clip_skeleton();
         let hand = Hand::of(&seen.made.anatomy, skeleton, &seen.models[n], side);
         Some(match part {
             Some(part) => hand?.part(Some(part))?,
@@ -542,9 +506,7 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
         .collect();
     let whole = *gone.last()?;
     let early = gone.iter().position(|gone| *gone > 0.25 * whole)?;
-    let went = (path[early + 1] - path[0])
-        .try_normalize()
-        .filter(|_| whole > 0.03)?;
+    let went = (path[early + 1] - path[0]).try_normalize().filter(|_| whole > 0.03)?;
     Some(went.angle_between(expected) > 45_f64.to_radians())
 }
 
@@ -567,19 +529,20 @@ fn unreported(seen: &Seen<'_>) -> Option<bool> {
     if !seen.moves() {
         return None;
     }
-    let arm = seen.made.anatomy.arm(seen.dominant())?.hand;
-    let strokes = |made: &Generated| -> Vec<(f64, f64)> {
-        let phase = About::Component(Component::Movement, Some("phase".into()));
-        let stroke = Reading::Value("stroke".into());
-        let own = made.notes.iter().filter(|note| {
-            note.about == phase && note.value == stroke && note.hand == Some(seen.dominant())
-        });
+    let arm = seen.made.anatomy.arm_chain(seen.dominant())?.hand;
+    let strokes = |made: &GeneratedMovement| -> Vec<(f64, f64)> {
+        let phase = NoteSubject::Component(SignComponent::Movement, Some("phase".into()));
+        let stroke = ComponentReading::Value("stroke".into());
+        let own = made
+            .notes
+            .iter()
+            .filter(|note| note.about == phase && note.value == stroke && note.hand == Some(seen.dominant()));
         own.map(|note| {
-            let frames = made.clip.rate().frames_in(note.span);
-            let at = |frame: usize| made.clip.model_pose(frame).position(arm);
-            let steps = frames.start..frames.end.min(made.clip.frames()).saturating_sub(1);
+            let frames = made.clip.clip_frame_rate().frames_in(note.span);
+            let at = |frame: usize| made.clip.model_pose(frame).model_joint_position(arm);
+            let steps = frames.start..frames.end.min(made.clip.clip_frame_count()).saturating_sub(1);
             let steps = steps.map(|frame| at(frame).distance(at(frame + 1)) * seen.rate);
-            (steps.fold(0.0, f64::max), note.span.seconds())
+            (steps.fold(0.0, f64::max), note.span.span_seconds())
         })
         .collect()
     };
@@ -601,17 +564,17 @@ fn dropped(seen: &Seen<'_>) -> Option<bool> {
 
 /// Animates a sign and collects the data by which its faults are judged.
 pub(crate) fn see<'a>(
-    notated: &'a Notated,
+    notated: &'a NotatedSign,
     findings: usize,
-    stage: &Material,
-    settings: &Settings,
+    stage: &MovementMaterial,
+    settings: &AnimatorSettings,
 ) -> Result<Seen<'a>> {
-    let made = animate(&[notated], stage, settings)?;
-    let plain = (notated.nonmanual.acts().next().is_some())
+    let made = animate_signs(&[notated], stage, settings)?;
+    let plain = (notated.nonmanual.acts_by_tier().next().is_some())
         .then(|| {
             let mut bare = notated.clone();
             bare.nonmanual.tiers.clear();
-            animate(&[&bare], stage, settings)
+            animate_signs(&[&bare], stage, settings)
         })
         .transpose()?;
     let even = with_motions(notated, &mut |motion| {
@@ -619,9 +582,9 @@ pub(crate) fn see<'a>(
         motion.manner.slow = false;
     });
     let usual = (even.sign != notated.sign)
-        .then(|| animate(&[&even], stage, settings))
+        .then(|| animate_signs(&[&even], stage, settings))
         .transpose()?;
-    let models = (0..made.clip.frames())
+    let models = (0..made.clip.clip_frame_count())
         .map(|n| made.clip.model_pose(n))
         .collect();
     Ok(Seen {

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::time::Instant;
 
-use chereme_compose::notation::{Settings, animate};
-use chereme_motion::Rate;
+use chereme_compose::notation::{AnimatorSettings, animate_signs};
+use chereme_motion::FrameRate;
 
 use crate::checks::{Worst, worst};
 use crate::{Result, bodies};
@@ -34,13 +34,13 @@ impl Worst {
 /// Prints a line for each sign, with tabs between.
 pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
     let stage = bodies::stage(Path::new(path))?;
-    let settings = Settings {
-        rate: Rate::new(120, 1)?,
-        ..Settings::default()
+    let settings = AnimatorSettings {
+        rate: FrameRate::new(120, 1)?,
+        ..AnimatorSettings::default()
     };
     println!("sign\thand depth\telbow depth\tdeepest\twrist\tforearm\tspeed\tturning\tabove\tsaid");
     for (name, notated) in &bodies::signs(folder)? {
-        let made = animate(&[notated], &stage, &settings)?;
+        let made = animate_signs(&[notated], &stage, &settings)?;
         let own = worst(&made);
         println!(
             "{name}\t{:.4}\t{:.4}\t{:.2}\t{:.3}\t{:.3}\t{:.2}\t{:.1}\t{:.3}\t{}",
@@ -72,9 +72,9 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
     let signs = bodies::signs(folder)?;
     for path in paths {
         let stage = bodies::stage(Path::new(path))?;
-        let settings = Settings {
-            rate: Rate::new(120, 1)?,
-            ..Settings::default()
+        let settings = AnimatorSettings {
+            rate: FrameRate::new(120, 1)?,
+            ..AnimatorSettings::default()
         };
         let mut all = Worst::default();
         let (mut frames, mut failed, mut short, mut off) = (0, 0, 0, 0);
@@ -83,7 +83,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
         let mut list: Vec<(String, Worst)> = Vec::new();
         for (name, notated) in &signs {
             let start = Instant::now();
-            let made = match animate(&[notated], &stage, &settings) {
+            let made = match animate_signs(&[notated], &stage, &settings) {
                 Ok(made) => made,
                 Err(error) => {
                     println!("{name}: {error}");
@@ -92,9 +92,8 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
                 }
             };
             spent += start.elapsed();
-            frames += made.clip.frames();
-            let warned =
-                |word: &str| usize::from(made.report.warnings.iter().any(|w| w.contains(word)));
+            frames += made.clip.clip_frame_count();
+            let warned = |word: &str| usize::from(made.report.warnings.iter().any(|w| w.contains(word)));
             short += warned("short of its contact");
             off += warned("off its path");
             let most = turned_by(&made.report.warnings);
@@ -106,7 +105,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             list.push((name.clone(), own));
             all = all.and(own);
         }
-        println!("{path}: {} joints", stage.clip.skeleton().len());
+        println!("{path}: {} joints", stage.clip.clip_skeleton().len());
         println!(
             "  {} signs, {failed} failed, {frames} frames, {:.0} frames a second",
             signs.len(),

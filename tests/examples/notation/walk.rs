@@ -1,16 +1,16 @@
 //! Finds motions, places and interlocked hands in the tree of a sign.
 
-use chereme_sign::hamnosys::{BodyPlace, Contact, Motion, MotionKind, Notated, Place};
+use chereme_sign::hamnosys::{BodyPlace, HandPlace, MotionKind, NotatedMotion, NotatedSign, PlaceContact};
 
 /// Returns whether hands interlock or cross somewhere in a sign.
-pub(crate) fn interlocked(notated: &Notated) -> bool {
-    fn has(place: &Place) -> bool {
+pub(crate) fn interlocked(notated: &NotatedSign) -> bool {
+    fn has(place: &HandPlace) -> bool {
         match place {
-            Place::Hands(hands) => {
-                matches!(hands.contact, Some(Contact::Interlock | Contact::Cross))
+            HandPlace::Hands(hands) => {
+                matches!(hands.contact, Some(PlaceContact::Interlock | PlaceContact::Cross))
             }
-            Place::Hand(site) => site.contact == Some(Contact::Interlock),
-            Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| has(place)),
+            HandPlace::Hand(site) => site.contact == Some(PlaceContact::Interlock),
+            HandPlace::Split(a, b) => [a, b].into_iter().flatten().any(|place| has(place)),
             _ => false,
         }
     }
@@ -28,23 +28,19 @@ pub(crate) fn interlocked(notated: &Notated) -> bool {
 }
 
 /// Returns the places on the body at which the parts of a sign begin.
-pub(crate) fn places(notated: &Notated) -> Vec<&BodyPlace> {
-    let firsts = notated
-        .sign
-        .parts
-        .iter()
-        .filter_map(|part| part.posture.place.as_ref());
+pub(crate) fn places(notated: &NotatedSign) -> Vec<&BodyPlace> {
+    let firsts = notated.sign.parts.iter().filter_map(|part| part.posture.place.as_ref());
     firsts
         .filter_map(|place| match place {
-            Place::Body(body) => Some(body),
+            HandPlace::Body(body) => Some(body),
             _ => None,
         })
         .collect()
 }
 
 /// Visits every motion of a sign, outer ones first.
-pub(crate) fn each_motion(notated: &Notated, see: &mut impl FnMut(&Motion)) {
-    fn walk(motion: &Motion, see: &mut impl FnMut(&Motion)) {
+pub(crate) fn each_motion(notated: &NotatedSign, see: &mut impl FnMut(&NotatedMotion)) {
+    fn walk(motion: &NotatedMotion, see: &mut impl FnMut(&NotatedMotion)) {
         see(motion);
         match &motion.kind {
             MotionKind::Split(a, b) => {
@@ -58,8 +54,7 @@ pub(crate) fn each_motion(notated: &Notated, see: &mut impl FnMut(&Motion)) {
                 }
             }
             MotionKind::Target {
-                motion: Some(motion),
-                ..
+                motion: Some(motion), ..
             }
             | MotionKind::Repeated { motion, .. } => walk(motion, see),
             _ => {}
@@ -73,8 +68,8 @@ pub(crate) fn each_motion(notated: &Notated, see: &mut impl FnMut(&Motion)) {
 }
 
 /// Returns the sign with every motion changed, inner ones first.
-pub(crate) fn with_motions(notated: &Notated, change: &mut impl FnMut(&mut Motion)) -> Notated {
-    fn walk(motion: &mut Motion, change: &mut impl FnMut(&mut Motion)) {
+pub(crate) fn with_motions(notated: &NotatedSign, change: &mut impl FnMut(&mut NotatedMotion)) -> NotatedSign {
+    fn walk(motion: &mut NotatedMotion, change: &mut impl FnMut(&mut NotatedMotion)) {
         match &mut motion.kind {
             MotionKind::Split(a, b) => {
                 for motion in [a, b].into_iter().flatten() {
@@ -87,8 +82,7 @@ pub(crate) fn with_motions(notated: &Notated, change: &mut impl FnMut(&mut Motio
                 }
             }
             MotionKind::Target {
-                motion: Some(motion),
-                ..
+                motion: Some(motion), ..
             }
             | MotionKind::Repeated { motion, .. } => walk(motion, change),
             _ => {}

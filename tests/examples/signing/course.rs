@@ -1,6 +1,6 @@
 //! Measures the distance of the courses of formulas from strokes of real signing.
 
-use chereme_motion::Interpolation;
+use chereme_motion::InterpolationKind;
 use chereme_motion::glam::DVec3;
 
 use crate::phases::phases;
@@ -63,15 +63,15 @@ pub(crate) fn table(takes: &[Take]) -> String {
         .filter(|it| it.path[0].distance(it.path[it.path.len() - 1]) > LEAST)
         .collect();
     let formulas = [
-        ("slerp", Interpolation::Slerp),
-        ("cosine", Interpolation::Cosine),
-        ("sigmoid", Interpolation::Sigmoid),
-        ("minimum jerk", Interpolation::MinimumJerk),
+        ("slerp", InterpolationKind::Slerp),
+        ("cosine", InterpolationKind::Cosine),
+        ("sigmoid", InterpolationKind::Sigmoid),
+        ("minimum jerk", InterpolationKind::MinimumJerk),
     ];
     let mut rows: Vec<(String, [f64; 2])> = formulas
         .into_iter()
         .map(|(name, formula)| {
-            let off = strokes.iter().map(|it| it.off(&|w| formula.share(w)));
+            let off = strokes.iter().map(|it| it.off(&|w| formula.interpolation_share(w)));
             (name.to_owned(), mean(off))
         })
         .collect();

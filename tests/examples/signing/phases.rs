@@ -67,12 +67,7 @@ fn stretches(take: &Take) -> Vec<Stretch> {
     let mut cuts = vec![0];
     cuts.extend((1..last).filter(|&n| speeds[n] <= speeds[n - 1] && speeds[n] < speeds[n + 1]));
     cuts.push(last);
-    let peak = |range: &Range<usize>| {
-        speeds[range.start..=range.end]
-            .iter()
-            .copied()
-            .fold(0.0, f64::max)
-    };
+    let peak = |range: &Range<usize>| speeds[range.start..=range.end].iter().copied().fold(0.0, f64::max);
     let mut parts: Vec<Range<usize>> = cuts.windows(2).map(|two| two[0]..two[1]).collect();
     let mut n = 0;
     while n + 1 < parts.len() {
@@ -115,18 +110,10 @@ pub(crate) fn table(takes: &[Take]) -> String {
     let approaches: Vec<&Stretch> = all.iter().filter_map(|it| it.approach.as_ref()).collect();
     let backs: Vec<&Stretch> = all.iter().filter_map(|it| it.back.as_ref()).collect();
     let strokes: Vec<&Stretch> = all.iter().flat_map(|it| &it.strokes).collect();
-    let short: Vec<&Stretch> = strokes
-        .iter()
-        .copied()
-        .filter(|it| it.length < 0.1)
-        .collect();
+    let short: Vec<&Stretch> = strokes.iter().copied().filter(|it| it.length < 0.1).collect();
     let mid = |it: &&&Stretch| (0.1..0.2).contains(&it.length);
     let middle: Vec<&Stretch> = strokes.iter().filter(mid).copied().collect();
-    let long: Vec<&Stretch> = strokes
-        .iter()
-        .copied()
-        .filter(|it| it.length >= 0.2)
-        .collect();
+    let long: Vec<&Stretch> = strokes.iter().copied().filter(|it| it.length >= 0.2).collect();
     let mut text = format!(
         "{} hands of {} files; medians with quartiles.\n\n\
          | phase | count | duration, s | top speed, m/s | path, m | top speed against mean |\n\
@@ -142,9 +129,8 @@ pub(crate) fn table(takes: &[Take]) -> String {
         ("stroke over 20 cm", &long),
         ("return to rest", &backs),
     ] {
-        let of = |value: &dyn Fn(&Stretch) -> f64, digits: usize| {
-            spread(some.iter().map(|it| value(it)).collect(), digits)
-        };
+        let of =
+            |value: &dyn Fn(&Stretch) -> f64, digits: usize| spread(some.iter().map(|it| value(it)).collect(), digits);
         text.push_str(&format!(
             "| {name} | {} | {} | {} | {} | {} |\n",
             some.len(),
@@ -198,10 +184,5 @@ pub(crate) fn spread(mut values: Vec<f64>, digits: usize) -> String {
     }
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
-    format!(
-        "{:.digits$} ({:.digits$} to {:.digits$})",
-        at(0.5),
-        at(0.25),
-        at(0.75)
-    )
+    format!("{:.digits$} ({:.digits$} to {:.digits$})", at(0.5), at(0.25), at(0.75))
 }

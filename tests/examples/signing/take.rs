@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use chereme_formats::tracks::Content;
+use chereme_formats::tracks::CapturedTrackContent;
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, Markers, Side};
+use chereme_motion::{BodyAnatomy, BodySide, MarkerTrack};
 
 use crate::Result;
 
@@ -39,11 +39,7 @@ struct Wrist {
 pub(crate) fn read(path: &Path) -> Result<Vec<Take>> {
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let is_pose = path.extension().is_some_and(|ending| ending == "pose");
-    let (rate, wrists) = if is_pose {
-        film(path)?
-    } else {
-        skeleton(path)?
-    };
+    let (rate, wrists) = if is_pose { film(path)? } else { skeleton(path)? };
     let takes = wrists.into_iter().filter_map(|wrist| {
         let path = smoothed(&resampled(&wrist.path, rate));
         let last = path.len().checked_sub(1)?;
@@ -65,13 +61,14 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Take>> {
 
 /// Returns the frames a second of a film, and the positions of its wrists.
 fn film(path: &Path) -> Result<(f64, Vec<Wrist>)> {
-    let (tracks, _) = chereme_formats::pose::read(&std::fs::read(path)?)?;
+    let (tracks, _) = chereme_formats::pose::read_pose_file(&std::fs::read(path)?)?;
     let track = tracks.tracks.first().ok_or("no track")?;
-    let Content::Markers(markers) = &track.content else {
+    let CapturedTrackContent::Markers(markers) = &track.content else {
         return Err("no points".into());
     };
-    let rate = (markers.frames().saturating_sub(1)) as f64 / markers.span().seconds().max(1e-6);
-    let rate = if markers.frames() < 2 { 25.0 } else { rate };
+    let rate =
+        (markers.marker_frame_count().saturating_sub(1)) as f64 / markers.marker_track_span().span_seconds().max(1e-6);
+    let rate = if markers.marker_frame_count() < 2 { 25.0 } else { rate };
     let shoulders = ["LEFT_SHOULDER", "RIGHT_SHOULDER"]
         .map(|name| places(markers, name))
         .into_iter()
@@ -113,25 +110,27 @@ fn film(path: &Path) -> Result<(f64, Vec<Wrist>)> {
 }
 
 /// Returns the position of a point in each frame.
-fn places(markers: &Markers, name: &str) -> Option<Vec<Option<DVec3>>> {
+fn places(markers: &MarkerTrack, name: &str) -> Option<Vec<Option<DVec3>>> {
     let named = |known: &str| known == name || known.ends_with(&format!("/{name}"));
     let ends = |known: &str| known.ends_with(name);
-    let points = markers.points();
+    let points = markers.marker_points();
     let marker = points
         .iter()
         .find(|it| named(&it.name))
         .or_else(|| points.iter().find(|it| ends(&it.name)))?;
-    let at = (0..markers.frames()).map(|frame| Some(markers.space().shown(marker.at(frame)?)));
+    let at = (0..markers.marker_frame_count()).map(|frame| {
+        Some(
+            markers
+                .marker_space()
+                .displayed_position(marker.marker_position(frame)?),
+        )
+    });
     Some(at.collect())
 }
 
 /// Fills gaps by straight lines; `None` if the point is seen in less than half of the frames.
 fn filled(all: &[Option<DVec3>]) -> Option<Vec<DVec3>> {
-    let known: Vec<(usize, DVec3)> = all
-        .iter()
-        .enumerate()
-        .filter_map(|(n, at)| Some((n, (*at)?)))
-        .collect();
+    let known: Vec<(usize, DVec3)> = all.iter().enumerate().filter_map(|(n, at)| Some((n, (*at)?))).collect();
     if known.len() < 2 || 2 * known.len() < all.len() {
         return None;
     }
@@ -148,26 +147,24 @@ fn filled(all: &[Option<DVec3>]) -> Option<Vec<DVec3>> {
 /// Returns the frames a second of a captured clip, and its wrists in the space of the trunk.
 fn skeleton(path: &Path) -> Result<(f64, Vec<Wrist>)> {
     let whole = crate::take::bodies::movement(path)?;
-    let (clip, anatomy): (_, &Anatomy) = (&whole.clip, &whole.anatomy);
+    let (clip, anatomy): (_, &BodyAnatomy) = (&whole.clip, &whole.anatomy);
     let mut wrists = Vec::new();
-    for side in Side::BOTH {
-        let Some(arm) = anatomy.arm(side) else {
+    for side in BodySide::BOTH_SIDES {
+        let Some(arm) = anatomy.arm_chain(side) else {
             continue;
         };
-        let at = (0..clip.frames()).map(|frame| {
+        let at = (0..clip.clip_frame_count()).map(|frame| {
             let model = clip.model_pose(frame);
             let body = anatomy.body_frame(&model)?;
-            let offset = model.position(arm.hand) - body.origin;
+            let offset = model.model_joint_position(arm.hand) - body.origin;
             let axes = [body.left, body.up, body.forward];
             Some(DVec3::from_array(axes.map(|axis| offset.dot(axis))))
         });
-        let heights = (0..clip.frames()).map(|frame| {
+        let heights = (0..clip.clip_frame_count()).map(|frame| {
             let model = clip.model_pose(frame);
             let [shoulder, elbow, wrist] =
-                [arm.upper, arm.forearm, arm.hand].map(|joint| model.position(joint).y);
-            let wide = anatomy
-                .body_frame(&model)
-                .map_or(SHOULDERS, |body| body.scale);
+                [arm.upper, arm.forearm, arm.hand].map(|joint| model.model_joint_position(joint).y);
+            let wide = anatomy.body_frame(&model).map_or(SHOULDERS, |body| body.scale);
             [elbow - shoulder, wrist - shoulder].map(|it| it * SHOULDERS / wide)
         });
         let heights = heights.collect();
@@ -175,7 +172,7 @@ fn skeleton(path: &Path) -> Result<(f64, Vec<Wrist>)> {
             wrists.push(Wrist { path, heights });
         }
     }
-    Ok((clip.rate().per_second(), wrists))
+    Ok((clip.clip_frame_rate().per_second(), wrists))
 }
 
 /// Returns a path with [`RATE`] samples per second.

@@ -1,11 +1,11 @@
 //! Compares two notations of one sign feature by feature.
 
-use chereme_analysis::transcribe::{Options, off_place};
-use chereme_motion::Side;
+use chereme_analysis::transcribe::{TranscribeOptions, off_place};
+use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::{
-    Aim, BodyLanguage, BodyPlace, Direction, Each, HandsUsed, Handshape, Manner, Manual, Motion,
-    MotionKind, Place, Posture, Repeat, Size, WristMotion, orientation,
+    BodyLanguage, BodyPlace, DirectionAim, EachHand, HandPlace, HandsUsed, Handshape, ManualPart, MotionKind,
+    MotionManner, MotionSize, NotatedMotion, NotatedPosture, RepeatKind, SpatialDirection, WristMotion, orientation,
 };
 
 use crate::notation::Again;
@@ -20,7 +20,7 @@ pub(crate) struct Verdict {
 }
 
 /// Compares a part as written with the part that was found.
-pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
+pub(crate) fn compare(written: &ManualPart, again: &Again) -> Vec<Verdict> {
     let found = &again.found.sign.parts.first().cloned().unwrap_or_default();
     let mut all = Vec::new();
     let mut say = |feature, agrees, written: String, found: String| {
@@ -41,8 +41,7 @@ pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
     }
     held(&written.posture, &found.posture, again, &mut say);
     let moves = !written.actions.is_empty();
-    if let (Some(begins), Some(feature), true) = (again.begins, again.found.features.first(), moves)
-    {
+    if let (Some(begins), Some(feature), true) = (again.begins, again.found.features.first(), moves) {
         let off = feature.frame as i64 - begins as i64;
         let (a, b) = (begins.to_string(), format!("{off:+}"));
         say("first frame", off.abs() <= 1, a, b);
@@ -50,24 +49,16 @@ pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
     let symmetric = matches!(written.hands, HandsUsed::Both(_));
     let off = |a: &BodyPlace, b: Option<&BodyPlace>| -> Option<(f64, f64)> {
         let feature = again.found.features.first()?;
-        let options = Options::made();
+        let options = TranscribeOptions::synthesised_options();
         let places = (a, b);
-        off_place(
-            &again.clip,
-            &again.anatomy,
-            &options,
-            feature.frame,
-            places,
-            symmetric,
-        )
-        .ok()?
+        off_place(&again.clip, &again.anatomy, &options, feature.frame, places, symmetric).ok()?
     };
     place(&written.posture, &found.posture, &off, &mut say);
     movement(written, found, &mut say);
     all
 }
 
-fn hands(part: &Manual) -> String {
+fn hands(part: &ManualPart) -> String {
     let posture = &part.posture;
     match part.hands {
         HandsUsed::Both(symmetry) => {
@@ -77,68 +68,50 @@ fn hands(part: &Manual) -> String {
                 (symmetry.out_in, "oi"),
                 (symmetry.out_of_phase, "alternating"),
             ];
-            let words: Vec<&str> = marks
-                .iter()
-                .filter_map(|(is, word)| is.then_some(*word))
-                .collect();
+            let words: Vec<&str> = marks.iter().filter_map(|(is, word)| is.then_some(*word)).collect();
             format!("both {}", words.join(" "))
         }
         _ => {
-            let two = posture.shape.other().is_some()
-                || posture.extended.other().is_some()
-                || posture.palm.other().is_some()
-                || matches!(
-                    posture.place,
-                    Some(Place::Hands(_) | Place::Split(_, Some(_)))
-                );
+            let two = posture.shape.other_value().is_some()
+                || posture.extended.other_value().is_some()
+                || posture.palm.other_value().is_some()
+                || matches!(posture.place, Some(HandPlace::Hands(_) | HandPlace::Split(_, Some(_))));
             let two = two || part.actions.iter().any(names_other);
             if two { "two" } else { "one" }.to_owned()
         }
     }
 }
 
-fn names_other(motion: &Motion) -> bool {
+fn names_other(motion: &NotatedMotion) -> bool {
     match &motion.kind {
         MotionKind::Split(_, other) => other.is_some(),
-        MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => {
-            motions.iter().any(names_other)
-        }
+        MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => motions.iter().any(names_other),
         MotionKind::Target { motion, posture } => {
             motion.as_deref().is_some_and(names_other)
-                || matches!(
-                    posture.place,
-                    Some(Place::Hands(_) | Place::Split(_, Some(_)))
-                )
-                || posture.shape.other().is_some()
+                || matches!(posture.place, Some(HandPlace::Hands(_) | HandPlace::Split(_, Some(_))))
+                || posture.shape.other_value().is_some()
         }
         MotionKind::Repeated { motion, .. } => names_other(motion),
         _ => false,
     }
 }
 
-fn of<T>(each: &Each<T>, n: usize) -> Option<&T> {
+fn of<T>(each: &EachHand<T>, n: usize) -> Option<&T> {
     match each {
-        Each::Split(a, b) => [a, b][n].as_ref(),
-        shared if n == 0 => shared.dominant(),
+        EachHand::Split(a, b) => [a, b][n].as_ref(),
+        shared if n == 0 => shared.dominant_value(),
         _ => None,
     }
 }
 
 fn posture(
     n: usize,
-    written: &Posture,
-    found: &Posture,
+    written: &NotatedPosture,
+    found: &NotatedPosture,
     say: &mut impl FnMut(&'static str, bool, String, String),
 ) {
     let names = [
-        [
-            "class",
-            "handshape",
-            "direction",
-            "direction near",
-            "palm",
-            "palm near",
-        ],
+        ["class", "handshape", "direction", "direction near", "palm", "palm near"],
         [
             "other class",
             "other handshape",
@@ -148,7 +121,7 @@ fn posture(
             "other palm near",
         ],
     ][n];
-    let language = BodyLanguage::usual();
+    let language = BodyLanguage::default_body_language();
     if let Some(shape) = of(&written.shape, n) {
         let other = of(&found.shape, n);
         let same = other.is_some_and(|other| {
@@ -169,9 +142,7 @@ fn posture(
     }
     if let Some(aim) = of(&written.extended, n) {
         let other = of(&found.extended, n);
-        let off = other.map_or(180.0, |other| {
-            vector(aim).angle_between(vector(other)).to_degrees()
-        });
+        let off = other.map_or(180.0, |other| vector(aim).angle_between(vector(other)).to_degrees());
         let (a, b) = (aimed(Some(aim)), aimed(other));
         say(names[2], off < 1.0, a.clone(), b.clone());
         say(names[3], off < 31.0, a, b);
@@ -179,7 +150,7 @@ fn posture(
     if let Some(aim) = of(&written.palm, n) {
         let other = of(&found.palm, n);
         let off = other.map_or(180.0, |other| {
-            let apart = (aim.angle() - other.angle()).to_degrees();
+            let apart = (aim.aim_angle() - other.aim_angle()).to_degrees();
             ((apart + 180.0).rem_euclid(360.0) - 180.0).abs()
         });
         let (a, b) = (aimed(Some(aim)), aimed(other));
@@ -194,8 +165,8 @@ const HELD: f64 = 11.25;
 /// Writes the direction of the dominant hand and of its palm again, for the parts in which the body follows the
 /// notation: losses here are losses of the transcriber.
 fn held(
-    written: &Posture,
-    found: &Posture,
+    written: &NotatedPosture,
+    found: &NotatedPosture,
     again: &Again,
     say: &mut impl FnMut(&'static str, bool, String, String),
 ) -> Option<()> {
@@ -205,25 +176,24 @@ fn held(
     let forward = DVec3::new(body.forward.x, 0.0, body.forward.z).try_normalize()?;
     let left = DVec3::Y.cross(forward);
     let level = |v: DVec3| DVec3::new(v.dot(left), v.y, v.dot(forward));
-    let along = level(again.anatomy.hand_direction(Side::Right, &model)?);
+    let along = level(again.anatomy.hand_direction(BodySide::Right, &model)?);
     let aim = of(&written.extended, 0)?;
     if along.angle_between(vector(aim)).to_degrees() > HELD {
         return None;
     }
     let inferred = of(&found.extended, 0);
-    let agrees =
-        inferred.is_some_and(|inferred| vector(inferred).angle_between(vector(aim)) < 0.02);
+    let agrees = inferred.is_some_and(|inferred| vector(inferred).angle_between(vector(aim)) < 0.02);
     let (a, b) = (aimed(Some(aim)), aimed(inferred));
     say("direction where held", agrees, a, b);
     let palm = of(&written.palm, 0)?;
-    let normal = level(again.anatomy.palm_normal(Side::Right, &model)?);
-    let want = orientation::palm(vector(aim).to_array(), palm.angle());
+    let normal = level(again.anatomy.palm_normal(BodySide::Right, &model)?);
+    let want = orientation::palm_direction_vector(vector(aim).to_array(), palm.aim_angle());
     if normal.angle_between(want.into()).to_degrees() > HELD {
         return None;
     }
     let inferred = of(&found.palm, 0);
     let agrees = inferred.is_some_and(|inferred| {
-        let apart = (palm.angle() - inferred.angle()).to_degrees();
+        let apart = (palm.aim_angle() - inferred.aim_angle()).to_degrees();
         ((apart + 180.0).rem_euclid(360.0) - 180.0).abs() < 1.0
     });
     let (a, b) = (aimed(Some(palm)), aimed(inferred));
@@ -235,7 +205,7 @@ fn words(shape: Option<&Handshape>) -> String {
     let Some(shape) = shape else {
         return "none".to_owned();
     };
-    let form = |form: &chereme_sign::hamnosys::Form| {
+    let form = |form: &chereme_sign::hamnosys::HandshapeForm| {
         let mut words = format!("{:?}", form.class);
         if let Some(thumb) = form.thumb {
             words += &format!(" {thumb:?}");
@@ -270,15 +240,15 @@ fn words(shape: Option<&Handshape>) -> String {
     words
 }
 
-fn vector(aim: &Aim<Direction>) -> DVec3 {
-    let of = |direction: Direction| DVec3::from(direction.vector());
+fn vector(aim: &DirectionAim<SpatialDirection>) -> DVec3 {
+    let of = |direction: SpatialDirection| DVec3::from(direction.spatial_direction_vector());
     match aim.second {
         Some(second) => (of(aim.first) + of(second)).normalize_or(of(aim.first)),
         None => of(aim.first),
     }
 }
 
-fn aimed<D: std::fmt::Display>(aim: Option<&Aim<D>>) -> String {
+fn aimed<D: std::fmt::Display>(aim: Option<&DirectionAim<D>>) -> String {
     match aim {
         None => "none".to_owned(),
         Some(aim) => match &aim.second {
@@ -295,28 +265,25 @@ type Off<'a> = dyn Fn(&BodyPlace, Option<&BodyPlace>) -> Option<(f64, f64)> + 'a
 const ONE_POINT: f64 = 0.01;
 
 fn place(
-    written: &Posture,
-    found: &Posture,
+    written: &NotatedPosture,
+    found: &NotatedPosture,
     off: &Off<'_>,
     say: &mut impl FnMut(&'static str, bool, String, String),
 ) {
     let Some(a) = &written.place else { return };
-    let (text, other) = (
-        placed(a),
-        found.place.as_ref().map_or("none".into(), placed),
-    );
-    let bodies = |place: &Place| match place {
-        Place::Body(body) => Some(body.clone()),
-        Place::Split(Some(first), _) => match first.as_ref() {
-            Place::Body(body) => Some(body.clone()),
+    let (text, other) = (placed(a), found.place.as_ref().map_or("none".into(), placed));
+    let bodies = |place: &HandPlace| match place {
+        HandPlace::Body(body) => Some(body.clone()),
+        HandPlace::Split(Some(first), _) => match first.as_ref() {
+            HandPlace::Body(body) => Some(body.clone()),
             _ => None,
         },
-        Place::Hands(hands) => hands.at.clone(),
+        HandPlace::Hands(hands) => hands.at.clone(),
         _ => None,
     };
     let found_place = &found.place;
     match a {
-        Place::Body(_) | Place::Split(..) => {
+        HandPlace::Body(_) | HandPlace::Split(..) => {
             let Some(body) = bodies(a) else { return };
             let found = found.place.as_ref().and_then(bodies);
             let same = found.as_ref().is_some_and(|found| one_place(found, &body));
@@ -333,11 +300,7 @@ fn place(
                 say("location where held", same, a, b);
             }
             if let Some((off, apart)) = distances {
-                found_at += &format!(
-                    "\t[off {:.1} cm, apart {:.1} cm]",
-                    100.0 * off,
-                    100.0 * apart
-                );
+                found_at += &format!("\t[off {:.1} cm, apart {:.1} cm]", 100.0 * off, 100.0 * apart);
             }
             say("location", same, at.clone(), found_at.clone());
             let point = same || distances.is_some_and(|(_, apart)| apart < ONE_POINT);
@@ -346,9 +309,9 @@ fn place(
             let contact = found.is_some_and(|found| found.contact == body.contact);
             say("contact", contact, text, other);
         }
-        Place::Hands(hands) => {
+        HandPlace::Hands(hands) => {
             let found = match &found.place {
-                Some(Place::Hands(found)) => Some(found),
+                Some(HandPlace::Hands(found)) => Some(found),
                 _ => None,
             };
             let contact = found.is_some_and(|found| found.contact == hands.contact);
@@ -386,7 +349,7 @@ fn spoken(place: Option<&BodyPlace>) -> String {
             by: None,
             ..place.clone()
         };
-        placed(&Place::Body(plain))
+        placed(&HandPlace::Body(plain))
     })
 }
 
@@ -411,13 +374,10 @@ fn sites(place: &BodyPlace) -> Vec<(String, String)> {
         .iter()
         .flatten()
         .map(|site| {
-            use chereme_sign::hamnosys::{BodyLocation, Side};
+            use chereme_sign::hamnosys::{BodyLocation, LocationSide};
             // A place that exists twice means the own side by default.
-            let twice = matches!(
-                site.at,
-                BodyLocation::Cheek | BodyLocation::Ear | BodyLocation::EarLobe
-            );
-            let side = site.side.or(twice.then_some(Side::RightAt));
+            let twice = matches!(site.at, BodyLocation::Cheek | BodyLocation::Ear | BodyLocation::EarLobe);
+            let side = site.side.or(twice.then_some(LocationSide::RightAt));
             (format!("{:?}", site.at), format!("{side:?}"))
         })
         .collect();
@@ -426,37 +386,28 @@ fn sites(place: &BodyPlace) -> Vec<(String, String)> {
     all
 }
 
-fn placed(place: &Place) -> String {
+fn placed(place: &HandPlace) -> String {
     match place {
-        Place::Body(body) => {
+        HandPlace::Body(body) => {
             let names: Vec<String> = [body.site, body.second]
                 .iter()
                 .flatten()
                 .map(|site| format!("{:?} {:?}", site.at, site.side).replace(" None", ""))
                 .collect();
-            let by = body
-                .by
-                .as_ref()
-                .map(|by| format!(" by {:?}{:?}", by.at, by.digits.0));
-            format!(
-                "{} {:?}{}",
-                names.join("|"),
-                body.contact,
-                by.unwrap_or_default()
-            )
+            let by = body.by.as_ref().map(|by| format!(" by {:?}{:?}", by.at, by.digits.0));
+            format!("{} {:?}{}", names.join("|"), body.contact, by.unwrap_or_default())
         }
-        Place::Split(a, b) => {
-            let of =
-                |place: &Option<Box<Place>>| place.as_deref().map_or("none".to_owned(), placed);
+        HandPlace::Split(a, b) => {
+            let of = |place: &Option<Box<HandPlace>>| place.as_deref().map_or("none".to_owned(), placed);
             format!("{} + {}", of(a), of(b))
         }
-        Place::Hands(hands) => {
+        HandPlace::Hands(hands) => {
             let site = |site: &Option<chereme_sign::hamnosys::HandSite>| {
                 site.as_ref().map_or("none".to_owned(), |site| {
                     format!("{:?}{:?}{:?}", site.at, site.digits.0, site.side)
                 })
             };
-            let at = hands.at.as_ref().map(|at| placed(&Place::Body(at.clone())));
+            let at = hands.at.as_ref().map(|at| placed(&HandPlace::Body(at.clone())));
             format!(
                 "hands {} {} {:?} at {}",
                 site(&hands.dominant),
@@ -465,8 +416,8 @@ fn placed(place: &Place) -> String {
                 at.unwrap_or_default()
             )
         }
-        Place::Hand(site) => format!("hand {:?}", site.at),
-        Place::Named(n) => format!("named {n}"),
+        HandPlace::Hand(site) => format!("hand {:?}", site.at),
+        HandPlace::Named(n) => format!("named {n}"),
     }
 }
 
@@ -474,20 +425,16 @@ fn placed(place: &Place) -> String {
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Done {
     kind: &'static str,
-    course: Option<Direction>,
-    size: Option<Option<Size>>,
-    repeat: Option<Repeat>,
+    course: Option<SpatialDirection>,
+    size: Option<Option<MotionSize>>,
+    repeat: Option<RepeatKind>,
     changes: bool,
     meets: bool,
-    manner: Manner,
+    manner: MotionManner,
 }
 
-fn movement(
-    written: &Manual,
-    found: &Manual,
-    say: &mut impl FnMut(&'static str, bool, String, String),
-) {
-    let flat = |part: &Manual| -> Vec<Done> {
+fn movement(written: &ManualPart, found: &ManualPart, say: &mut impl FnMut(&'static str, bool, String, String)) {
+    let flat = |part: &ManualPart| -> Vec<Done> {
         let mut at = part.posture.place.clone();
         let actions = part.actions.iter();
         actions.flat_map(|action| flat(action, &mut at)).collect()
@@ -555,17 +502,12 @@ fn movement(
             say("manner said", a == b, words(a, x), words(b, y));
         }
         let rests = |done: &Done| if done.manner.rest { "rest" } else { "no rest" };
-        say(
-            "rest",
-            rests(x) == rests(y),
-            rests(x).into(),
-            rests(y).into(),
-        );
+        say("rest", rests(x) == rests(y), rests(x).into(), rests(y).into());
     }
 }
 
 /// Returns the actions of the dominant hand, in order; `at` is its last written place.
-fn flat(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
+fn flat(motion: &NotatedMotion, at: &mut Option<HandPlace>) -> Vec<Done> {
     let mut all = named(motion, at);
     let own = &motion.manner;
     for done in &mut all {
@@ -582,7 +524,7 @@ fn flat(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
     all
 }
 
-fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
+fn named(motion: &NotatedMotion, at: &mut Option<HandPlace>) -> Vec<Done> {
     let done = |kind: &'static str| Done {
         kind,
         ..Done::default()
@@ -620,9 +562,7 @@ fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
         MotionKind::Still => Vec::new(),
         MotionKind::Body(_) => Vec::new(),
         MotionKind::Split(own, _) => own.as_deref().map(|own| flat(own, at)).unwrap_or_default(),
-        MotionKind::Sequence { motions, .. } => {
-            motions.iter().flat_map(|motion| flat(motion, at)).collect()
-        }
+        MotionKind::Sequence { motions, .. } => motions.iter().flat_map(|motion| flat(motion, at)).collect(),
         MotionKind::Parallel(motions) => {
             let mut all: Vec<Done> = motions.iter().flat_map(|motion| flat(motion, at)).collect();
             let change = all.iter().any(|done| done.changes);
@@ -641,13 +581,8 @@ fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
             // A change to the place where the hand already is adds no path.
             let place = posture.place.is_some() && posture.place != *at;
             *at = posture.place.clone().or_else(|| at.take());
-            let change = !posture.shape.is_unset()
-                || !posture.extended.is_unset()
-                || !posture.palm.is_unset();
-            let mut all = motion
-                .as_deref()
-                .map(|motion| flat(motion, at))
-                .unwrap_or_default();
+            let change = !posture.shape.is_unset() || !posture.extended.is_unset() || !posture.palm.is_unset();
+            let mut all = motion.as_deref().map(|motion| flat(motion, at)).unwrap_or_default();
             // A hand that waits for the other one does not move.
             let waits = motion.as_deref().is_some_and(|motion| match &motion.kind {
                 MotionKind::Split(own, _) => {

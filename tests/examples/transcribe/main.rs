@@ -29,7 +29,7 @@ mod notation;
 use std::error::Error;
 use std::path::Path;
 
-use chereme_compose::notation::Settings;
+use chereme_compose::notation::AnimatorSettings;
 use notation::More;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -80,14 +80,12 @@ fn closed(folder: &str, body: &str, words: &[&str], more: More<'_>) -> Result<()
 
 /// Reads the words behind the body: the animator's settings, the frame rate, and how many signs stand for one in the
 /// sample.
-fn settings(words: &[&str]) -> Result<(Settings, Option<u32>, usize)> {
-    let mut settings = Settings::default();
+fn settings(words: &[&str]) -> Result<(AnimatorSettings, Option<u32>, usize)> {
+    let mut settings = AnimatorSettings::default();
     let (mut rate, mut every) = (None, 1);
     for word in words {
         if word.ends_with(".json") {
-            settings.language = settings
-                .language
-                .with_file(&std::fs::read_to_string(word)?)?;
+            settings.language = settings.language.with_file(&std::fs::read_to_string(word)?)?;
         } else if let Some(n) = word.strip_prefix("1/") {
             every = n.parse::<usize>()?.max(1);
         } else {

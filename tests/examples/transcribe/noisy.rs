@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
-use chereme_analysis::transcribe::{Options, transcribe};
-use chereme_compose::Generated;
-use chereme_compose::notation::Settings;
+use chereme_analysis::transcribe::{TranscribeOptions, transcribe_clip};
+use chereme_compose::GeneratedMovement;
+use chereme_compose::notation::AnimatorSettings;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
+use chereme_motion::{Clip, FrameRate, JointChannel, Skeleton, SkeletonJoint};
 
 use crate::Result;
 use crate::bodies;
@@ -89,10 +89,8 @@ impl Disturbance {
             Noise(degrees) => noisy(clip, degrees.to_radians(), &mut random)?,
             Wobble(degrees) => wobbling(clip, degrees.to_radians(), &mut random)?,
             NoEnds => without_ends(clip)?,
-            WobbleNoEnds(degrees) => {
-                without_ends(&wobbling(clip, degrees.to_radians(), &mut random)?)?
-            }
-            Self::Rate(rate) => clip.resampled(Rate::new(rate, 1)?),
+            WobbleNoEnds(degrees) => without_ends(&wobbling(clip, degrees.to_radians(), &mut random)?)?,
+            Self::Rate(rate) => clip.resample_clip(FrameRate::new(rate, 1)?),
         })
     }
 }
@@ -118,15 +116,15 @@ impl Random {
 
 /// Returns the clip with each joint's rotations turned further by `by(joint, frame)`, in its own space.
 fn turned(clip: &Clip, mut by: impl FnMut(usize, usize) -> DVec3) -> Result<Clip> {
-    let mut channels = clip.channels().to_vec();
+    let mut channels = clip.joint_channels().to_vec();
     for (joint, channel) in channels.iter_mut().enumerate() {
         for (frame, rotation) in channel.rotations.iter_mut().enumerate() {
             *rotation = (*rotation * DQuat::from_scaled_axis(by(joint, frame))).normalize();
         }
     }
     Ok(Clip::new(
-        Arc::clone(clip.skeleton()),
-        clip.rate(),
+        Arc::clone(clip.clip_skeleton()),
+        clip.clip_frame_rate(),
         channels,
     )?)
 }
@@ -139,36 +137,36 @@ fn noisy(clip: &Clip, by: f64, random: &mut Random) -> Result<Clip> {
 
 fn wobbling(clip: &Clip, by: f64, random: &mut Random) -> Result<Clip> {
     let mut swings = || [0; 3].map(|_| (1.0 + 2.0 * random.share(), TAU * random.share()));
-    let all: Vec<[(f64, f64); 3]> = clip.channels().iter().map(|_| swings()).collect();
+    let all: Vec<[(f64, f64); 3]> = clip.joint_channels().iter().map(|_| swings()).collect();
     turned(clip, |joint, frame| {
-        let seconds = frame as f64 * clip.rate().frame_time();
+        let seconds = frame as f64 * clip.clip_frame_rate().frame_time();
         let swing = |(hertz, phase): (f64, f64)| (TAU * hertz * seconds + phase).sin();
         DVec3::from_array(all[joint].map(swing)) * by
     })
 }
 
 fn without_ends(clip: &Clip) -> Result<Clip> {
-    let joints = clip.skeleton().joints().iter();
-    let joints = joints.map(|joint| Joint {
+    let joints = clip.clip_skeleton().skeleton_joints().iter();
+    let joints = joints.map(|joint| SkeletonJoint {
         tip: None,
         ..joint.clone()
     });
     let skeleton = Arc::new(Skeleton::new(joints.collect())?);
-    let channels: Vec<Channel> = clip.channels().to_vec();
-    Ok(Clip::new(skeleton, clip.rate(), channels)?)
+    let channels: Vec<JointChannel> = clip.joint_channels().to_vec();
+    Ok(Clip::new(skeleton, clip.clip_frame_rate(), channels)?)
 }
 
 /// Prints how often each feature is found again in movement disturbed in each manner.
 pub(crate) fn table(
     (folder, every): (&Path, usize),
     body: &Path,
-    (rate, settings): (Option<u32>, Settings),
+    (rate, settings): (Option<u32>, AnimatorSettings),
 ) -> Result<()> {
     let stage = bodies::stage(body)?;
-    let settings = Settings {
+    let settings = AnimatorSettings {
         rate: match rate {
-            Some(rate) => Rate::new(rate, 1)?,
-            None => stage.clip.rate(),
+            Some(rate) => FrameRate::new(rate, 1)?,
+            None => stage.clip.clip_frame_rate(),
         },
         ..settings
     };
@@ -183,9 +181,7 @@ pub(crate) fn table(
         let all = ALL.iter().map(|disturbance| {
             let again = again(&made, *disturbance, seed)?;
             let verdicts = compare(part, &again);
-            let kept = verdicts
-                .into_iter()
-                .filter(|it| FEATURES.contains(&it.feature));
+            let kept = verdicts.into_iter().filter(|it| FEATURES.contains(&it.feature));
             Some(kept.map(|it| (it.feature, it.agrees)).collect::<Vec<_>>())
         });
         Some(all.collect::<Vec<_>>())
@@ -213,21 +209,20 @@ pub(crate) fn table(
         });
         println!("| {} | {} |", disturbance.name(), shares.join(" | "));
         if unread > 0 {
-            println!(
-                "{unread} parts could not be read with {}",
-                disturbance.name()
-            );
+            println!("{unread} parts could not be read with {}", disturbance.name());
         }
     }
     Ok(())
 }
 
 /// Disturbs movement, exports it as BVH, imports it without its notation, and transcribes it like a capture.
-fn again(made: &Generated, disturbance: Disturbance, seed: u64) -> Option<Again> {
+fn again(made: &GeneratedMovement, disturbance: Disturbance, seed: u64) -> Option<Again> {
     let disturbed = disturbance.of(&made.clip, seed).ok()?;
     let (clip, anatomy) = bodies::again(&disturbed, disturbance.decimals()).ok()?;
-    let found = transcribe(&clip, &anatomy, &Options::default()).ok()?;
-    let begins = clip.rate().frame_at(sign_span(made)?.start());
+    let found = transcribe_clip(&clip, &anatomy, &TranscribeOptions::default()).ok()?;
+    let begins = clip
+        .clip_frame_rate()
+        .nearest_frame_at(sign_span(made)?.span_start_instant());
     Some(Again {
         found,
         clip,

@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant as Clock;
 
 use chereme_analysis::transcribe::{
-    Options, Performs, Transcription, transcribe, transcribe_proven,
+    NotationSynthesiser, TokenTranscription, TranscribeOptions, transcribe_clip, transcribe_proven,
 };
-use chereme_compose::notation::{Performer, Settings, animate};
-use chereme_compose::{Generated, Material};
-use chereme_motion::{Anatomy, Clip, Rate, Span};
-use chereme_sign::hamnosys::{Manual, Notated, Sign, parse};
+use chereme_compose::notation::{AnimatorSettings, SignPerformer, animate_signs};
+use chereme_compose::{GeneratedMovement, MovementMaterial};
+use chereme_motion::{BodyAnatomy, Clip, FrameRate, TimeSpan};
+use chereme_sign::hamnosys::{HamnosysSign, ManualPart, NotatedSign, parse_hamnosys};
 
 use crate::Result;
 use crate::bodies;
@@ -43,18 +43,12 @@ pub(crate) enum More<'a> {
 impl More<'_> {
     /// Returns whether the whole movement is exported and read like any other capture.
     fn is_blind(self) -> bool {
-        matches!(
-            self,
-            Self::Blind | Self::BlindWhy(_) | Self::BlindConfusions(_)
-        )
+        matches!(self, Self::Blind | Self::BlindWhy(_) | Self::BlindConfusions(_))
     }
 
     /// Returns whether places are read without re-synthesis.
     fn is_plain(self) -> bool {
-        matches!(
-            self,
-            Self::Plain | Self::PlainWhy(_) | Self::PlainConfusions(_)
-        )
+        matches!(self, Self::Plain | Self::PlainWhy(_) | Self::PlainConfusions(_))
     }
 }
 
@@ -80,20 +74,20 @@ impl Counts {
 pub(crate) fn table(
     (folder, every): (&Path, usize),
     body: &Path,
-    (rate, settings): (Option<u32>, Settings),
+    (rate, settings): (Option<u32>, AnimatorSettings),
     more: More<'_>,
 ) -> Result<()> {
     let stage = bodies::stage(body)?;
-    let settings = Settings {
+    let settings = AnimatorSettings {
         rate: match rate {
-            Some(rate) => Rate::new(rate, 1)?,
-            None => stage.clip.rate(),
+            Some(rate) => FrameRate::new(rate, 1)?,
+            None => stage.clip.clip_frame_rate(),
         },
         ..settings
     };
     let options = match more.is_blind() {
-        true => Options::default(),
-        false => Options::made(),
+        true => TranscribeOptions::default(),
+        false => TranscribeOptions::synthesised_options(),
     };
     let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
@@ -176,7 +170,7 @@ pub(crate) fn table(
 }
 
 /// Reads the signs of a folder or of a text file.
-pub(crate) fn read_signs(folder: &Path) -> Result<Vec<(String, Notated)>> {
+pub(crate) fn read_signs(folder: &Path) -> Result<Vec<(String, NotatedSign)>> {
     match folder.is_dir() {
         true => bodies::signs(folder),
         false => lines(folder),
@@ -185,10 +179,10 @@ pub(crate) fn read_signs(folder: &Path) -> Result<Vec<(String, Notated)>> {
 
 /// Returns the parts of one sign in `every`, of those whose name is wanted.
 pub(crate) fn parts_of(
-    signs: &[(String, Notated)],
+    signs: &[(String, NotatedSign)],
     every: usize,
     wanted: impl Fn(&str) -> bool,
-) -> Vec<(&str, &Notated, &Manual)> {
+) -> Vec<(&str, &NotatedSign, &ManualPart)> {
     let some = signs.iter().step_by(every).filter(|(name, _)| wanted(name));
     let parts = some.flat_map(|(name, entry)| {
         let parts = entry.sign.parts.iter();
@@ -198,20 +192,20 @@ pub(crate) fn parts_of(
 }
 
 /// Reads the signs of a text file with one sign in HamNoSys characters on each line; the rest of a line is ignored.
-fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
+fn lines(file: &Path) -> Result<Vec<(String, NotatedSign)>> {
     let text = std::fs::read_to_string(file)?;
     let mut all = Vec::new();
     for line in text.lines() {
         let of_hamnosys = |symbol: &char| ('\u{e000}'..='\u{f0ff}').contains(symbol);
         let symbols: String = line.chars().filter(of_hamnosys).collect();
         let known = all.iter().any(|(name, _)| *name == symbols);
-        if let Ok(parsed) = parse(&symbols)
+        if let Ok(parsed) = parse_hamnosys(&symbols)
             && !symbols.is_empty()
             && !known
         {
-            let sign = Notated {
+            let sign = NotatedSign {
                 sign: parsed.sign,
-                ..Notated::default()
+                ..NotatedSign::default()
             };
             all.push((symbols, sign));
         }
@@ -254,24 +248,24 @@ pub(crate) fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -
 }
 
 /// Performs notation for the transcriber.
-struct Performed(Performer);
+struct Performed(SignPerformer);
 
-impl Performs for Performed {
-    fn begins(&self, sign: &Notated) -> Option<Clip> {
-        self.0.begins(sign).ok()
+impl NotationSynthesiser for Performed {
+    fn synthesise_first_posture(&self, sign: &NotatedSign) -> Option<Clip> {
+        self.0.perform_first_posture(sign).ok()
     }
 
-    fn performs(&self, sign: &Notated) -> Option<Clip> {
-        self.0.performs(sign).ok()
+    fn synthesise_notated_sign(&self, sign: &NotatedSign) -> Option<Clip> {
+        self.0.perform_sign(sign).ok()
     }
 }
 
 /// The result for a part of a sign.
 pub(crate) struct Again {
-    pub(crate) found: Transcription,
+    pub(crate) found: TokenTranscription,
     /// The sign without the movements from and to rest.
     pub(crate) clip: Clip,
-    pub(crate) anatomy: Arc<Anatomy>,
+    pub(crate) anatomy: Arc<BodyAnatomy>,
     /// Whether the body could not perform the notation completely.
     pub(crate) short: bool,
     /// The frame in which the animator reaches the first posture, if the transcriber had to find it.
@@ -282,34 +276,34 @@ pub(crate) struct Again {
 
 /// Animates a part of a sign alone.
 pub(crate) fn made(
-    part: &Manual,
-    entry: &Notated,
-    stage: &Material,
-    settings: &Settings,
-) -> Option<Generated> {
+    part: &ManualPart,
+    entry: &NotatedSign,
+    stage: &MovementMaterial,
+    settings: &AnimatorSettings,
+) -> Option<GeneratedMovement> {
     let mut alone = entry.clone();
-    alone.sign = Sign {
-        parts: vec![Manual {
+    alone.sign = HamnosysSign {
+        parts: vec![ManualPart {
             holdover: false,
             ..part.clone()
         }],
     };
-    animate(&[&alone], stage, settings).ok()
+    animate_signs(&[&alone], stage, settings).ok()
 }
 
 /// Returns the span of the sign itself, without the movements from and to rest.
-pub(crate) fn sign_span(made: &Generated) -> Option<Span> {
+pub(crate) fn sign_span(made: &GeneratedMovement) -> Option<TimeSpan> {
     let mut notes = made.notes.iter();
-    let gloss = notes.find(|note| note.about == chereme_compose::About::Gloss);
+    let gloss = notes.find(|note| note.about == chereme_compose::NoteSubject::Gloss);
     gloss.map(|note| note.span)
 }
 
 /// Animates a part of a sign alone and transcribes it.
 fn again(
-    part: &Manual,
-    entry: &Notated,
-    stage: &Material,
-    (settings, options): (&Settings, &Options),
+    part: &ManualPart,
+    entry: &NotatedSign,
+    stage: &MovementMaterial,
+    (settings, options): (&AnimatorSettings, &TranscribeOptions),
     more: More<'_>,
 ) -> Option<Again> {
     let made = made(part, entry, stage, settings)?;
@@ -317,13 +311,16 @@ fn again(
     if more.is_blind() {
         return blind(made, span, options);
     }
-    let rate = made.clip.rate();
-    let (first, last) = (rate.frame_at(span.start()), rate.frame_at(span.end()));
-    let clip = made.clip.slice(first..last + 1);
+    let rate = made.clip.clip_frame_rate();
+    let (first, last) = (
+        rate.nearest_frame_at(span.span_start_instant()),
+        rate.nearest_frame_at(span.span_end_instant()),
+    );
+    let clip = made.clip.slice_clip_frames(first..last + 1);
     let began = Clock::now();
-    let performs = Performed(Performer::new(stage.clone(), settings.clone()).ok()?);
+    let performs = Performed(SignPerformer::new(stage.clone(), settings.clone()).ok()?);
     let found = match more.is_plain() {
-        true => transcribe(&clip, &made.anatomy, options).ok()?,
+        true => transcribe_clip(&clip, &made.anatomy, options).ok()?,
         false => transcribe_proven(&clip, &made.anatomy, options, &performs).ok()?,
     };
     let seconds = began.elapsed().as_secs_f64();
@@ -339,12 +336,12 @@ fn again(
 }
 
 /// Exports movement as BVH, imports it without its notation, and transcribes it like a capture.
-fn blind(made: Generated, span: Span, options: &Options) -> Option<Again> {
+fn blind(made: GeneratedMovement, span: TimeSpan, options: &TranscribeOptions) -> Option<Again> {
     let short = is_short(&made);
-    let begins = made.clip.rate().frame_at(span.start());
+    let begins = made.clip.clip_frame_rate().nearest_frame_at(span.span_start_instant());
     let (clip, anatomy) = bodies::again(&made.clip, bodies::DECIMALS).ok()?;
     let began = Clock::now();
-    let found = transcribe(&clip, &anatomy, options).ok()?;
+    let found = transcribe_clip(&clip, &anatomy, options).ok()?;
     let seconds = began.elapsed().as_secs_f64();
     Some(Again {
         found,
@@ -357,19 +354,15 @@ fn blind(made: Generated, span: Span, options: &Options) -> Option<Again> {
 }
 
 /// Returns whether the animator reports that the body fell short of the notation.
-pub(crate) fn is_short(made: &Generated) -> bool {
+pub(crate) fn is_short(made: &GeneratedMovement) -> bool {
     made.report.warnings.iter().any(|warning| {
-        [
-            "less than written",
-            "short of its place",
-            "out of the trunk",
-        ]
-        .iter()
-        .any(|words| warning.contains(words))
+        ["less than written", "short of its place", "out of the trunk"]
+            .iter()
+            .any(|words| warning.contains(words))
     })
 }
 
-fn show(name: &str, part: &Manual, again: &Again) -> String {
+fn show(name: &str, part: &ManualPart, again: &Again) -> String {
     let mut text = format!("== {name}\n");
     for verdict in compare(part, again) {
         let mark = if verdict.agrees { ' ' } else { '*' };
@@ -388,10 +381,10 @@ fn show(name: &str, part: &Manual, again: &Again) -> String {
             feature.action,
             feature.frame,
             feature.hand,
-            feature.kind.name(),
+            feature.kind.feature_kind_name(),
             feature.value,
             feature.residual,
-            feature.unit.sign(),
+            feature.unit.residual_unit_symbol(),
             next.unwrap_or_default()
         );
     }

@@ -9,9 +9,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use chereme_corpus::{Address, Audience, ConsentChange, Corpus, KeptSearch, Name, NewTrack, Track};
-use chereme_motion::column::{Column, Gaps};
-use chereme_motion::{Convention, Curve, Curves, Marker, Markers, Rate, Space, Times};
+use chereme_corpus::{
+    ConsentAudience, ConsentChange, Corpus, CorpusAddress, KeptSearch, NewTrack, RowName, TrackContent,
+};
+use chereme_motion::column::{ColumnGaps, FrameNumberColumn};
+use chereme_motion::{
+    CurveTrack, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, MotionMarker, ScalarCurve, SpaceConvention,
+};
 use chereme_tests::{repository, study, workers};
 
 fn main() -> ExitCode {
@@ -34,27 +38,23 @@ fn main() -> ExitCode {
 /// Returns markers and curves, with numbers of several forms and gaps.
 fn tracks() -> Result<Vec<NewTrack>, Box<dyn Error>> {
     let wave = |frame: u16, phase: f32| (f32::from(frame) * 0.05 + phase).sin();
-    let floats = |phase| Column::singles((0..600).map(|at| wave(at, phase)).collect());
+    let floats = |phase| FrameNumberColumn::from_single_floats((0..600).map(|at| wave(at, phase)).collect());
     let whole = (0..600).map(|at| (wave(at, 0.5) * 3000.0) as i32).collect();
-    let whole = Column::integers(whole, 0.0, 0.1)?.with_gaps(&Gaps::at(20..40))?;
-    let point = |name, phase| {
-        Marker::new(
-            name,
-            vec![floats(phase), floats(phase + 1.0), whole.clone()],
-        )
-    };
+    let whole =
+        FrameNumberColumn::from_scaled_integers(whole, 0.0, 0.1)?.with_gaps(&ColumnGaps::from_gap_frames(20..40))?;
+    let point = |name, phase| MotionMarker::new(name, vec![floats(phase), floats(phase + 1.0), whole.clone()]);
     let points = vec![point("LWRA", 0.0), point("RWRA", 2.0)];
-    let markers = Markers::new(
-        Times::Even(Rate::new(120, 1)?),
-        Space::World(Convention::MODEL),
+    let markers = MarkerTrack::new(
+        FrameTimes::Even(FrameRate::new(120, 1)?),
+        MarkerSpace::World(SpaceConvention::MODEL_CONVENTION),
         points,
     )?;
     let seconds = (0..600).map(|at| f64::from(at) * 0.0167 + f64::from(at % 5) * 0.001);
-    let times = Times::listed(Column::doubles(seconds.collect()))?;
-    let curves = Curves::new(times, vec![Curve::new("JawOpen", floats(0.25))])?;
+    let times = FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(seconds.collect()))?;
+    let curves = CurveTrack::new(times, vec![ScalarCurve::new("JawOpen", floats(0.25))])?;
     Ok(vec![
-        NewTrack::new("markers", Track::Markers(markers)),
-        NewTrack::new("face", Track::Curves(curves)),
+        NewTrack::new("markers", TrackContent::Markers(markers)),
+        NewTrack::new("face", TrackContent::Curves(curves)),
     ])
 }
 
@@ -62,24 +62,24 @@ fn tracks() -> Result<Vec<NewTrack>, Box<dyn Error>> {
 fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let desk = tempfile::tempdir()?;
     let path = workers::small_corpus(desk.path(), "store.chereme")?;
-    let mut corpus = Corpus::open(&path, "maker")?;
+    let mut corpus = Corpus::open_corpus(&path, "maker")?;
     corpus.keep_searches(&[KeptSearch {
         name: "chin".to_owned(),
         query: "right.configuration=S placement=chin".to_owned(),
     }])?;
-    corpus.add_tracks(&Name::Text("bowl and cat".to_owned()), &tracks()?)?;
+    corpus.add_tracks(&RowName::Text("bowl and cat".to_owned()), &tracks()?)?;
     study::small_study(&mut corpus, desk.path())?;
     let change = ConsentChange {
-        movement: Some(Some(Audience::Research)),
+        movement: Some(Some(ConsentAudience::Research)),
         ..ConsentChange::default()
     };
-    let recording = Address::Recording(Name::Text("bowl and cat".to_owned()));
+    let recording = CorpusAddress::Recording(RowName::Text("bowl and cat".to_owned()));
     corpus.change_consent(&[recording], &change)?;
-    corpus.recombine("BOL | reverse", "LOB")?;
-    corpus.undo()?;
-    corpus.redo()?;
-    corpus.recombine("CHAT | reverse", "TAHC")?;
-    corpus.undo()?;
+    corpus.recombine_recipe("BOL | reverse", "LOB")?;
+    corpus.undo_operation()?;
+    corpus.redo_operation()?;
+    corpus.recombine_recipe("CHAT | reverse", "TAHC")?;
+    corpus.undo_operation()?;
     drop(corpus);
     let version = repository::schema_steps().len();
     let to = folder.join(format!("{version:04}.chereme.zst"));

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use chereme_corpus::{AnnotateOptions, Corpus, ImportOptions, Name, Progress, unheard};
+use chereme_corpus::{AnnotateOptions, Corpus, ImportOptions, ProgressReceiver, RowName, ignore_progress_step};
 use chereme_tests::files;
 
 fn main() -> ExitCode {
@@ -44,7 +44,7 @@ impl Job {
         if task == "create" {
             return self.create(count);
         }
-        let mut corpus = Corpus::open(&self.path, &self.author)?;
+        let mut corpus = Corpus::open_corpus(&self.path, &self.author)?;
         say("ready")?;
         for step in 0..count {
             match task {
@@ -52,13 +52,13 @@ impl Job {
                 "annotate" => self.annotate(&mut corpus, step)?,
                 "recombine" => {
                     let gloss = format!("{}-{step}", self.author);
-                    corpus.recombine("BOL | place right by left 5cm", &gloss)?;
+                    corpus.recombine_recipe("BOL | place right by left 5cm", &gloss)?;
                 }
                 "history" => {
-                    corpus.redo().or_else(|_| corpus.undo())?;
+                    corpus.redo_operation().or_else(|_| corpus.undo_operation())?;
                 }
                 "read" => {
-                    corpus.log(usize::MAX)?;
+                    corpus.operation_log(usize::MAX)?;
                 }
                 other => return Err(format!("the task {other:?} is unknown").into()),
             }
@@ -74,7 +74,7 @@ impl Job {
         say("ready")?;
         for step in 0..count {
             let path = self.folder.join(format!("{}-{step}.chereme", self.author));
-            Corpus::create(&path, &self.author)?;
+            Corpus::create_corpus(&path, &self.author)?;
             say(&format!("done {step}"))?;
         }
         say("end")
@@ -83,9 +83,9 @@ impl Job {
     /// Imports a recording with its annotations as one operation.
     fn import(&self, corpus: &mut Corpus, step: usize) -> Done {
         let stem = format!("{}-{step}", self.author);
-        let seed = stem.bytes().fold(7u32, |sum, byte| {
-            sum.wrapping_mul(31).wrapping_add(u32::from(byte))
-        });
+        let seed = stem
+            .bytes()
+            .fold(7u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(u32::from(byte)));
         let write = |name: String, text: String| -> io::Result<PathBuf> {
             let path = self.folder.join(name);
             std::fs::write(&path, text)?;
@@ -94,10 +94,10 @@ impl Job {
         let motion = write(format!("{stem}.bvh"), files::bvh(60, seed))?;
         let said = files::two_signs().replace("BOL", &stem);
         let said = write(format!("{stem}.eaf"), said)?;
-        let report = corpus.import(
+        let report = corpus.import_paths(
             &[motion, said],
             &ImportOptions::default(),
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )?;
         if report.has_refusals() {
             return Err(format!("{:?}", report.files).into());
@@ -115,20 +115,20 @@ impl Job {
              set,a4,{end}ms,{handshape}\n\
              set,a9,,step {step} of {author}\n"
         );
-        let recording = Name::Text("bowl and cat".to_owned());
+        let recording = RowName::Text("bowl and cat".to_owned());
         corpus.annotate_table(
             table.as_bytes(),
             "changes",
             Some(&recording),
             &AnnotateOptions::default(),
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )?;
         Ok(())
     }
 
     /// Prints the newest operation of this worker.
     fn print_newest(&self, corpus: &Corpus) -> Done {
-        let log = corpus.log(200)?;
+        let log = corpus.operation_log(200)?;
         let own = log.iter().find(|row| row.author == self.author);
         let own = own.ok_or("the operation is not in the log")?;
         say(&format!("done {}", own.id))

@@ -8,36 +8,36 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 /// The candidates of each row: a column, and the cost of the pair relative to both staying alone, below 0.
-pub(super) type Edges = Vec<Vec<(usize, f64)>>;
+pub(super) type AssignmentEdges = Vec<Vec<(usize, f64)>>;
 
 /// A distance with the place that it leads to.
 #[derive(PartialEq)]
-struct Reach(f64, Goal);
+struct GoalDistance(f64, AssignmentGoal);
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Goal {
+enum AssignmentGoal {
     /// A row stays alone.
     Alone(usize),
     Column(usize),
 }
 
-impl Eq for Reach {}
+impl Eq for GoalDistance {}
 
-impl PartialOrd for Reach {
+impl PartialOrd for GoalDistance {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Reach {
+impl Ord for GoalDistance {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.total_cmp(&other.0).then(self.1.cmp(&other.1))
     }
 }
 
 /// Returns the column of each row in the assignment of least cost; a row may stay alone at cost 0.
-pub(super) fn assign(edges: &Edges, columns: usize) -> Vec<Option<usize>> {
-    let mut work = Work {
+pub(super) fn assign_least_cost(edges: &AssignmentEdges, columns: usize) -> Vec<Option<usize>> {
+    let mut work = AssignmentWork {
         edges,
         row_price: vec![0.0; edges.len()],
         column_price: vec![0.0; columns],
@@ -47,13 +47,13 @@ pub(super) fn assign(edges: &Edges, columns: usize) -> Vec<Option<usize>> {
         from: vec![usize::MAX; columns],
     };
     for row in 0..edges.len() {
-        work.insert(row);
+        work.insert_assignment_row(row);
     }
     work.column_of
 }
 
-struct Work<'a> {
-    edges: &'a Edges,
+struct AssignmentWork<'a> {
+    edges: &'a AssignmentEdges,
     row_price: Vec<f64>,
     column_price: Vec<f64>,
     column_of: Vec<Option<usize>>,
@@ -63,23 +63,23 @@ struct Work<'a> {
     from: Vec<usize>,
 }
 
-impl Work<'_> {
+impl AssignmentWork<'_> {
     /// Adds a row to the assignment of least cost of the rows before it.
-    fn insert(&mut self, row: usize) {
+    fn insert_assignment_row(&mut self, row: usize) {
         let costs = self.edges[row].iter();
         let cheapest = costs.map(|(column, cost)| cost - self.column_price[*column]);
         self.row_price[row] = cheapest.fold(0.0, f64::min);
         let mut heap = BinaryHeap::new();
         let (mut touched, mut settled) = (Vec::new(), Vec::new());
-        self.leave(row, 0.0, &mut heap, &mut touched);
+        self.push_reachable_goals(row, 0.0, &mut heap, &mut touched);
         let mut end = None;
-        while let Some(Reverse(Reach(reached, goal))) = heap.pop() {
+        while let Some(Reverse(GoalDistance(reached, goal))) = heap.pop() {
             match goal {
-                Goal::Alone(_) => {
+                AssignmentGoal::Alone(_) => {
                     end = Some((reached, goal));
                     break;
                 }
-                Goal::Column(column) => {
+                AssignmentGoal::Column(column) => {
                     if reached > self.distance[column] {
                         continue;
                     }
@@ -88,7 +88,7 @@ impl Work<'_> {
                         break;
                     };
                     settled.push((column, next, reached));
-                    self.leave(next, reached, &mut heap, &mut touched);
+                    self.push_reachable_goals(next, reached, &mut heap, &mut touched);
                 }
             }
         }
@@ -98,7 +98,7 @@ impl Work<'_> {
                 self.column_price[column] -= total - reached;
                 self.row_price[next] += total - reached;
             }
-            self.shift(row, goal);
+            self.shift_assigned_rows(row, goal);
         }
         for column in touched {
             self.distance[column] = f64::INFINITY;
@@ -106,15 +106,15 @@ impl Work<'_> {
     }
 
     /// Puts what a row can reach onto the heap.
-    fn leave(
+    fn push_reachable_goals(
         &mut self,
         row: usize,
         reached: f64,
-        heap: &mut BinaryHeap<Reverse<Reach>>,
+        heap: &mut BinaryHeap<Reverse<GoalDistance>>,
         touched: &mut Vec<usize>,
     ) {
         let price = self.row_price[row];
-        heap.push(Reverse(Reach(reached - price, Goal::Alone(row))));
+        heap.push(Reverse(GoalDistance(reached - price, AssignmentGoal::Alone(row))));
         for &(column, cost) in &self.edges[row] {
             let through = reached + (cost - price - self.column_price[column]).max(0.0);
             if self.column_of[row] != Some(column) && through < self.distance[column] {
@@ -123,16 +123,16 @@ impl Work<'_> {
                 }
                 self.distance[column] = through;
                 self.from[column] = row;
-                heap.push(Reverse(Reach(through, Goal::Column(column))));
+                heap.push(Reverse(GoalDistance(through, AssignmentGoal::Column(column))));
             }
         }
     }
 
     /// Moves the rows along the path that ends at `goal`.
-    fn shift(&mut self, start: usize, goal: Goal) {
+    fn shift_assigned_rows(&mut self, start: usize, goal: AssignmentGoal) {
         let mut column = match goal {
-            Goal::Column(column) => column,
-            Goal::Alone(row) => match self.column_of[row].take() {
+            AssignmentGoal::Column(column) => column,
+            AssignmentGoal::Alone(row) => match self.column_of[row].take() {
                 // A row that leaves its column hands it to the row before it.
                 Some(column) => column,
                 None => return,

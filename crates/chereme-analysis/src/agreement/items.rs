@@ -5,14 +5,14 @@
 
 use std::collections::BTreeMap;
 
-use super::{Measure, Undefined, below_chance, beyond_chance};
+use super::{AgreementMeasure, UndefinedAgreement, below_chance, beyond_chance};
 
 /// The values of one item, one place for each annotator.
-pub type Item = Vec<Option<usize>>;
+pub type AnnotatedItem = Vec<Option<usize>>;
 
 /// The weight of a disagreement in weighted kappa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Weight {
+pub enum DisagreementWeight {
     /// The distance of the two positions.
     Linear,
     /// Its square.
@@ -21,7 +21,7 @@ pub enum Weight {
 
 /// The squared difference of two values in alpha.
 #[derive(Clone, Copy)]
-pub enum Scale<'a> {
+pub enum AlphaScale<'a> {
     /// 0 for equal values, otherwise 1.
     Nominal,
     /// Krippendorff's ordinal difference: the pooled counts of values between the two.
@@ -34,8 +34,8 @@ pub enum Scale<'a> {
 
 /// Returns the pairs of two annotators who both gave a value.
 #[must_use]
-pub fn pairs(items: &[Item]) -> Vec<(usize, usize)> {
-    let pair = |item: &Item| match item[..] {
+pub fn annotator_value_pairs(items: &[AnnotatedItem]) -> Vec<(usize, usize)> {
+    let pair = |item: &AnnotatedItem| match item[..] {
         [Some(a), Some(b), ..] => Some((a, b)),
         _ => None,
     };
@@ -45,8 +45,8 @@ pub fn pairs(items: &[Item]) -> Vec<(usize, usize)> {
 /// Returns the share of equal pairs among all pairs of values of one item.
 ///
 /// # Errors
-/// [`Undefined::NoPair`].
-pub fn raw(items: &[Item]) -> Measure {
+/// [`UndefinedAgreement::NoPair`].
+pub fn item_raw_agreement(items: &[AnnotatedItem]) -> AgreementMeasure {
     let (mut equal, mut all) = (0_u64, 0_u64);
     for item in items {
         let values: Vec<usize> = item.iter().flatten().copied().collect();
@@ -58,14 +58,14 @@ pub fn raw(items: &[Item]) -> Measure {
         }
     }
     if all == 0 {
-        return Err(Undefined::NoPair);
+        return Err(UndefinedAgreement::NoPair);
     }
     Ok(equal as f64 / all as f64)
 }
 
 /// The counts of a square table of two annotators: its margins and its diagonal.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Counts {
+pub struct AgreementCounts {
     /// The sum of each row, by the values of the first.
     pub rows: Vec<f64>,
     /// The sum of each column, by the values of the second.
@@ -74,10 +74,10 @@ pub struct Counts {
     pub equal: Vec<f64>,
 }
 
-impl Counts {
+impl AgreementCounts {
     /// Returns counts of zero for so many values.
     #[must_use]
-    pub fn none(values: usize) -> Self {
+    pub fn with_zero_counts(values: usize) -> Self {
         Self {
             rows: vec![0.0; values],
             columns: vec![0.0; values],
@@ -87,17 +87,17 @@ impl Counts {
 
     /// Returns the counts of pairs.
     #[must_use]
-    pub fn of(pairs: &[(usize, usize)]) -> Self {
+    pub fn from_value_pairs(pairs: &[(usize, usize)]) -> Self {
         let most = pairs.iter().map(|(a, b)| 1 + a.max(b)).max();
-        let mut counts = Self::none(most.unwrap_or(0));
+        let mut counts = Self::with_zero_counts(most.unwrap_or(0));
         for (a, b) in pairs {
-            counts.add(*a, *b, 1.0);
+            counts.add_counted_pair(*a, *b, 1.0);
         }
         counts
     }
 
     /// Adds a pair so many times.
-    pub fn add(&mut self, a: usize, b: usize, times: f64) {
+    pub fn add_counted_pair(&mut self, a: usize, b: usize, times: f64) {
         self.rows[a] += times;
         self.columns[b] += times;
         if a == b {
@@ -107,53 +107,53 @@ impl Counts {
 
     /// Returns the number of pairs.
     #[must_use]
-    pub fn total(&self) -> f64 {
+    pub fn total_pair_count(&self) -> f64 {
         self.rows.iter().sum()
     }
 
     /// Returns the share of equal pairs.
     ///
     /// # Errors
-    /// [`Undefined::NoPair`].
-    pub fn raw(&self) -> Measure {
-        let total = self.total();
+    /// [`UndefinedAgreement::NoPair`].
+    pub fn counted_raw_agreement(&self) -> AgreementMeasure {
+        let total = self.total_pair_count();
         if total == 0.0 {
-            return Err(Undefined::NoPair);
+            return Err(UndefinedAgreement::NoPair);
         }
         Ok(self.equal.iter().sum::<f64>() / total)
     }
 
     /// Returns the agreement that is expected if each annotator keeps the own shares of values.
     #[must_use]
-    pub fn chance(&self) -> f64 {
+    pub fn chance_agreement(&self) -> f64 {
         let both = self.rows.iter().zip(&self.columns);
-        both.map(|(a, b)| a * b).sum::<f64>() / (self.total() * self.total())
+        both.map(|(a, b)| a * b).sum::<f64>() / (self.total_pair_count() * self.total_pair_count())
     }
 
     /// Returns Cohen's kappa (1960).
     ///
     /// # Errors
-    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
-    pub fn cohen(&self) -> Measure {
-        beyond_chance(self.raw()?, self.chance())
+    /// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+    pub fn cohen_kappa(&self) -> AgreementMeasure {
+        beyond_chance(self.counted_raw_agreement()?, self.chance_agreement())
     }
 
     /// Returns Scott's pi (1955): chance from the shares of both together.
     ///
     /// # Errors
-    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
-    pub fn scott(&self) -> Measure {
-        let (raw, total) = (self.raw()?, 2.0 * self.total());
+    /// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+    pub fn scott_pi(&self) -> AgreementMeasure {
+        let (raw, total) = (self.counted_raw_agreement()?, 2.0 * self.total_pair_count());
         let both = self.rows.iter().zip(&self.columns);
         beyond_chance(raw, both.map(|(a, b)| ((a + b) / total).powi(2)).sum())
     }
 
-    /// Returns Gwet's AC1 (2008) of two annotators, see [`gwet`].
+    /// Returns Gwet's AC1 (2008) of two annotators, see [`item_gwet_ac1`].
     ///
     /// # Errors
-    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
-    pub fn gwet(&self) -> Measure {
-        let (raw, total) = (self.raw()?, 2.0 * self.total());
+    /// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+    pub fn counted_gwet_ac1(&self) -> AgreementMeasure {
+        let (raw, total) = (self.counted_raw_agreement()?, 2.0 * self.total_pair_count());
         let both = self.rows.iter().zip(&self.columns);
         gwet_of(raw, both.map(|(a, b)| (a + b) / total))
     }
@@ -161,34 +161,34 @@ impl Counts {
     /// Returns Krippendorff's nominal alpha of two annotators.
     ///
     /// # Errors
-    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
-    pub fn alpha(&self) -> Measure {
-        let (raw, values) = (self.raw()?, 2.0 * self.total());
+    /// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+    pub fn counted_nominal_alpha(&self) -> AgreementMeasure {
+        let (raw, values) = (self.counted_raw_agreement()?, 2.0 * self.total_pair_count());
         let both = self.rows.iter().zip(&self.columns);
         let equal: f64 = both.map(|(a, b)| (a + b) * (a + b - 1.0)).sum();
         let expected = 1.0 - equal / (values * (values - 1.0));
         if expected.abs() < 1e-12 {
-            return Err(Undefined::OneValue);
+            return Err(UndefinedAgreement::OneValue);
         }
-        below_chance(1.0 - raw, expected, Undefined::OneValue)
+        below_chance(1.0 - raw, expected, UndefinedAgreement::OneValue)
     }
 }
 
 /// Returns weighted kappa (Cohen 1968): `1 - Σ w O / Σ w E` over positions in an order.
 ///
 /// # Errors
-/// [`Undefined::NoPair`], [`Undefined::OneValue`].
-pub fn weighted_kappa(items: &[Item], weight: Weight) -> Measure {
-    let pairs = pairs(items);
+/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+pub fn weighted_kappa(items: &[AnnotatedItem], weight: DisagreementWeight) -> AgreementMeasure {
+    let pairs = annotator_value_pairs(items);
     if pairs.is_empty() {
-        return Err(Undefined::NoPair);
+        return Err(UndefinedAgreement::NoPair);
     }
-    let counts = Counts::of(&pairs);
+    let counts = AgreementCounts::from_value_pairs(&pairs);
     let cost = |a: usize, b: usize| {
         let apart = a.abs_diff(b) as f64;
         match weight {
-            Weight::Linear => apart,
-            Weight::Quadratic => apart * apart,
+            DisagreementWeight::Linear => apart,
+            DisagreementWeight::Quadratic => apart * apart,
         }
     };
     let observed: f64 = pairs.iter().map(|(a, b)| cost(*a, *b)).sum();
@@ -198,26 +198,30 @@ pub fn weighted_kappa(items: &[Item], weight: Weight) -> Measure {
             expected += cost(a, b) * row * column;
         }
     }
-    below_chance(observed, expected / counts.total(), Undefined::OneValue)
+    below_chance(
+        observed,
+        expected / counts.total_pair_count(),
+        UndefinedAgreement::OneValue,
+    )
 }
 
 /// Returns the kappa of Fleiss (1971) for any number of annotators who all gave a value to each item.
 ///
 /// # Errors
-/// [`Undefined::NoPair`], [`Undefined::Missing`], [`Undefined::OneValue`].
-pub fn fleiss(items: &[Item]) -> Measure {
+/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::Missing`], [`UndefinedAgreement::OneValue`].
+pub fn fleiss_kappa(items: &[AnnotatedItem]) -> AgreementMeasure {
     let each = items.first().map_or(0, Vec::len);
     if each < 2 {
-        return Err(Undefined::NoPair);
+        return Err(UndefinedAgreement::NoPair);
     }
-    let full = |item: &Item| item.len() == each && item.iter().all(Option::is_some);
+    let full = |item: &AnnotatedItem| item.len() == each && item.iter().all(Option::is_some);
     if !items.iter().all(full) {
-        return Err(Undefined::Missing);
+        return Err(UndefinedAgreement::Missing);
     }
-    let counts = pooled(items);
+    let counts = count_given_values(items);
     let all = (items.len() * each) as f64;
     let chance = counts.values().map(|count| (count / all).powi(2)).sum();
-    beyond_chance(raw(items)?, chance)
+    beyond_chance(item_raw_agreement(items)?, chance)
 }
 
 /// Returns Gwet's AC1 (2008) for any number of annotators: chance is `Σ p (1 - p) / (q - 1)` over the q used values.
@@ -225,8 +229,8 @@ pub fn fleiss(items: &[Item]) -> Measure {
 /// The agreement is the mean over the items with two values; shares of values are means over items with any.
 ///
 /// # Errors
-/// [`Undefined::NoPair`], [`Undefined::OneValue`].
-pub fn gwet(items: &[Item]) -> Measure {
+/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+pub fn item_gwet_ac1(items: &[AnnotatedItem]) -> AgreementMeasure {
     let (mut agreed, mut several, mut any) = (0.0, 0.0, 0.0);
     let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
     for item in items {
@@ -249,15 +253,15 @@ pub fn gwet(items: &[Item]) -> Measure {
         }
     }
     if several == 0.0 {
-        return Err(Undefined::NoPair);
+        return Err(UndefinedAgreement::NoPair);
     }
     gwet_of(agreed / several, shares.values().map(|share| share / any))
 }
 
-fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> Measure {
+fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> AgreementMeasure {
     let used: Vec<f64> = shares.filter(|share| *share > 0.0).collect();
     if used.len() < 2 {
-        return Err(Undefined::OneValue);
+        return Err(UndefinedAgreement::OneValue);
     }
     let spread: f64 = used.iter().map(|share| share * (1.0 - share)).sum();
     beyond_chance(raw, spread / (used.len() - 1) as f64)
@@ -266,27 +270,27 @@ fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> Measure {
 /// Returns Krippendorff's alpha (2011) for any number of annotators and missing values.
 ///
 /// # Errors
-/// [`Undefined::NoPair`], [`Undefined::OneValue`].
-pub fn alpha(items: &[Item], scale: Scale<'_>) -> Measure {
-    let several = |item: &&Item| item.iter().flatten().count() >= 2;
-    let items: Vec<Item> = items.iter().filter(several).cloned().collect();
+/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
+pub fn krippendorff_alpha(items: &[AnnotatedItem], scale: AlphaScale<'_>) -> AgreementMeasure {
+    let several = |item: &&AnnotatedItem| item.iter().flatten().count() >= 2;
+    let items: Vec<AnnotatedItem> = items.iter().filter(several).cloned().collect();
     if items.is_empty() {
-        return Err(Undefined::NoPair);
+        return Err(UndefinedAgreement::NoPair);
     }
-    let counts = pooled(&items);
+    let counts = count_given_values(&items);
     let total: f64 = counts.values().sum();
     let delta = |a: usize, b: usize| -> f64 {
         let apart = a.abs_diff(b) as f64;
         match scale {
             _ if a == b => 0.0,
-            Scale::Nominal => 1.0,
-            Scale::Interval => apart * apart,
-            Scale::Ordinal => {
+            AlphaScale::Nominal => 1.0,
+            AlphaScale::Interval => apart * apart,
+            AlphaScale::Ordinal => {
                 let ends = |value: usize| counts.get(&value).copied().unwrap_or(0.0);
                 let between: f64 = counts.range(a.min(b)..=a.max(b)).map(|(_, n)| n).sum();
                 (between - (ends(a) + ends(b)) / 2.0).powi(2)
             }
-            Scale::Distance(distance) => distance(a, b),
+            AlphaScale::Distance(distance) => distance(a, b),
         }
     };
     let mut observed = 0.0;
@@ -307,12 +311,12 @@ pub fn alpha(items: &[Item], scale: Scale<'_>) -> Measure {
     below_chance(
         observed / total,
         expected / (total * (total - 1.0)),
-        Undefined::OneValue,
+        UndefinedAgreement::OneValue,
     )
 }
 
 /// Returns how many times each value was given.
-fn pooled(items: &[Item]) -> BTreeMap<usize, f64> {
+fn count_given_values(items: &[AnnotatedItem]) -> BTreeMap<usize, f64> {
     let mut counts = BTreeMap::new();
     for value in items.iter().flatten().flatten() {
         *counts.entry(*value).or_default() += 1.0;

@@ -1,13 +1,13 @@
 //! Two tiers as ELAN 6 compares them: the ratio of overlap to extent, and the modified kappa of Holle and Rein (2015).
 
-use super::items::Counts;
-use super::{Measure, Undefined, Unit, beyond_chance};
+use super::items::AgreementCounts;
+use super::{AgreementMeasure, AnnotatedUnit, UndefinedAgreement, beyond_chance};
 
 /// The share of the longer of two units that must overlap for a match, if nobody chooses another: ELAN's 60 %.
-pub const SHARE: f64 = 0.6;
+pub const DEFAULT_OVERLAP_SHARE: f64 = 0.6;
 
 /// The rounds of proportional fitting, and the number in place of zeros, as in ELAN.
-const ROUNDS: usize = 20;
+const PROPORTIONAL_FITTING_ROUNDS: usize = 20;
 const NEARLY_ZERO: f64 = 0.001;
 
 /// Returns ELAN's average ratio of overlap to extent; 0 for unmatched units.
@@ -16,15 +16,15 @@ const NEARLY_ZERO: f64 = 0.001;
 /// partner. Hence the two directions can differ.
 ///
 /// # Errors
-/// [`Undefined::BothEmpty`].
-pub fn overlap_ratio(first: &[Unit], second: &[Unit]) -> Measure {
+/// [`UndefinedAgreement::BothEmpty`].
+pub fn overlap_ratio(first: &[AnnotatedUnit], second: &[AnnotatedUnit]) -> AgreementMeasure {
     let mut used = vec![false; second.len()];
     let (mut sum, mut matched) = (0.0, 0_usize);
-    let near = Near::new(second);
+    let near = TimeSortedUnits::new(second);
     for unit in first {
         let mut best: Option<usize> = None;
-        for at in near.overlapping(unit) {
-            let larger = |known: usize| unit.shared(&second[at]) > unit.shared(&second[known]);
+        for at in near.find_overlapping_units(unit) {
+            let larger = |known: usize| unit.shared_unit_time(&second[at]) > unit.shared_unit_time(&second[known]);
             if !used[at] && best.is_none_or(larger) {
                 best = Some(at);
             }
@@ -34,26 +34,26 @@ pub fn overlap_ratio(first: &[Unit], second: &[Unit]) -> Measure {
             used[at] = true;
             matched += 1;
             let extent = unit.end.max(other.end) - unit.start.min(other.start);
-            sum += unit.shared(other) as f64 / extent as f64;
+            sum += unit.shared_unit_time(other) as f64 / extent as f64;
         }
     }
     let all = first.len() + second.len() - matched;
     if all == 0 {
-        return Err(Undefined::BothEmpty);
+        return Err(UndefinedAgreement::BothEmpty);
     }
     Ok(sum / all as f64)
 }
 
 /// The units of a tier by time, for looking up those that overlap.
-struct Near<'a> {
-    units: &'a [Unit],
+struct TimeSortedUnits<'a> {
+    units: &'a [AnnotatedUnit],
     /// The latest end of the units up to each.
     ends: Vec<i64>,
 }
 
-impl<'a> Near<'a> {
-    fn new(units: &'a [Unit]) -> Self {
-        let latest = |end: &mut i64, unit: &Unit| {
+impl<'a> TimeSortedUnits<'a> {
+    fn new(units: &'a [AnnotatedUnit]) -> Self {
+        let latest = |end: &mut i64, unit: &AnnotatedUnit| {
             *end = unit.end.max(*end);
             Some(*end)
         };
@@ -61,11 +61,11 @@ impl<'a> Near<'a> {
         Self { units, ends }
     }
 
-    fn overlapping(&self, unit: &Unit) -> impl Iterator<Item = usize> + use<'_> {
+    fn find_overlapping_units(&self, unit: &AnnotatedUnit) -> impl Iterator<Item = usize> + use<'_> {
         let first = self.ends.partition_point(|end| *end <= unit.start);
-        let last = self.units.partition_point(|it| it.start < unit.end);
+        let last = self.units.partition_point(|other| other.start < unit.end);
         let unit = *unit;
-        (first..last.max(first)).filter(move |at| unit.shared(&self.units[*at]) > 0)
+        (first..last.max(first)).filter(move |at| unit.shared_unit_time(&self.units[*at]) > 0)
     }
 }
 
@@ -74,26 +74,26 @@ impl<'a> Near<'a> {
 /// Units of one tier do not overlap as a rule; then no unit has two candidates if `share` is above one half, and the
 /// match does not depend on the order of the tiers. Of overlapping units the largest share is matched first.
 #[must_use]
-pub fn matched(first: &[Unit], second: &[Unit], share: f64) -> Vec<(usize, usize)> {
-    let near = Near::new(second);
-    let mut found: Vec<(f64, i64, usize, usize)> = Vec::new();
+pub fn match_overlapping_units(first: &[AnnotatedUnit], second: &[AnnotatedUnit], share: f64) -> Vec<(usize, usize)> {
+    let near = TimeSortedUnits::new(second);
+    let mut candidates: Vec<(f64, i64, usize, usize)> = Vec::new();
     for (at, unit) in first.iter().enumerate() {
-        for other in near.overlapping(unit) {
-            let shared = unit.shared(&second[other]);
-            let longer = unit.length().max(second[other].length());
+        for other in near.find_overlapping_units(unit) {
+            let shared = unit.shared_unit_time(&second[other]);
+            let longer = unit.unit_length().max(second[other].unit_length());
             let part = shared as f64 / longer as f64;
             if part >= share {
-                found.push((part, shared, at, other));
+                candidates.push((part, shared, at, other));
             }
         }
     }
-    found.sort_by(|a, b| {
+    candidates.sort_by(|a, b| {
         let larger = b.0.total_cmp(&a.0).then(b.1.cmp(&a.1));
         larger.then((a.2, a.3).cmp(&(b.2, b.3)))
     });
     let (mut of_first, mut of_second) = (vec![false; first.len()], vec![false; second.len()]);
     let mut pairs = Vec::new();
-    for (_, _, a, b) in found {
+    for (_, _, a, b) in candidates {
         if !of_first[a] && !of_second[b] {
             (of_first[a], of_second[b]) = (true, true);
             pairs.push((a, b));
@@ -104,51 +104,53 @@ pub fn matched(first: &[Unit], second: &[Unit], share: f64) -> Vec<(usize, usize
 }
 
 /// An item of the table of Holle and Rein: the values of a matched pair, or of one unit alone.
-pub type Row = (Option<usize>, Option<usize>);
+pub type HolleReinRow = (Option<usize>, Option<usize>);
 
 /// Returns the items of two tiers for matched pairs: the pairs first, then the units alone.
 #[must_use]
-pub fn rows(first: &[Unit], second: &[Unit], pairs: &[(usize, usize)]) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::with_capacity(first.len() + second.len());
+pub fn build_matching_rows(
+    first: &[AnnotatedUnit],
+    second: &[AnnotatedUnit],
+    pairs: &[(usize, usize)],
+) -> Vec<HolleReinRow> {
+    let mut rows: Vec<HolleReinRow> = Vec::with_capacity(first.len() + second.len());
     let (mut of_first, mut of_second) = (vec![false; first.len()], vec![false; second.len()]);
     for &(a, b) in pairs {
         rows.push((Some(first[a].value), Some(second[b].value)));
         (of_first[a], of_second[b]) = (true, true);
     }
-    let alone = |units: &[Unit], used: &[bool]| -> Vec<usize> {
+    let alone = |units: &[AnnotatedUnit], used: &[bool]| -> Vec<usize> {
         let all = units.iter().zip(used);
-        all.filter(|(_, used)| !**used)
-            .map(|(it, _)| it.value)
-            .collect()
+        all.filter(|(_, used)| !**used).map(|(unit, _)| unit.value).collect()
     };
-    rows.extend(alone(first, &of_first).iter().map(|it| (Some(*it), None)));
-    rows.extend(alone(second, &of_second).iter().map(|it| (None, Some(*it))));
+    rows.extend(alone(first, &of_first).iter().map(|value| (Some(*value), None)));
+    rows.extend(alone(second, &of_second).iter().map(|value| (None, Some(*value))));
     rows
 }
 
 /// The table of Holle and Rein as margins and diagonal: a matched pair counts twice, a unit alone once, so that the
 /// total is the number of annotations. The last place is *unmatched*.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table {
-    counts: Counts,
-    inner: Counts,
+pub struct HolleReinTable {
+    counts: AgreementCounts,
+    inner: AgreementCounts,
 }
 
-impl Table {
+impl HolleReinTable {
     /// Returns the table of items with so many values.
-    pub fn of(rows: impl IntoIterator<Item = Row>, values: usize) -> Self {
+    pub fn from_matching_rows(rows: impl IntoIterator<Item = HolleReinRow>, values: usize) -> Self {
         let mut table = Self {
-            counts: Counts::none(values + 1),
-            inner: Counts::none(values),
+            counts: AgreementCounts::with_zero_counts(values + 1),
+            inner: AgreementCounts::with_zero_counts(values),
         };
         for row in rows {
             match row {
                 (Some(a), Some(b)) => {
-                    table.counts.add(a, b, 2.0);
-                    table.inner.add(a, b, 1.0);
+                    table.counts.add_counted_pair(a, b, 2.0);
+                    table.inner.add_counted_pair(a, b, 1.0);
                 }
-                (Some(a), None) => table.counts.add(a, values, 1.0),
-                (None, Some(b)) => table.counts.add(values, b, 1.0),
+                (Some(a), None) => table.counts.add_counted_pair(a, values, 1.0),
+                (None, Some(b)) => table.counts.add_counted_pair(values, b, 1.0),
                 (None, None) => {}
             }
         }
@@ -157,30 +159,32 @@ impl Table {
 
     /// Returns the counts of matched pairs alone, each once.
     #[must_use]
-    pub fn matched(&self) -> &Counts {
+    pub fn matched_pair_counts(&self) -> &AgreementCounts {
         &self.inner
     }
 
     /// Returns the number of annotations.
     #[must_use]
-    pub fn total(&self) -> f64 {
-        self.counts.total()
+    pub fn annotation_total(&self) -> f64 {
+        self.counts.total_pair_count()
     }
 
     /// Returns the agreement with unmatched units: the share of annotations that are matched and equal.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`].
-    pub fn raw(&self) -> Measure {
-        self.counts.raw().map_err(|_| Undefined::BothEmpty)
+    /// [`UndefinedAgreement::BothEmpty`].
+    pub fn raw_agreement_with_unmatched(&self) -> AgreementMeasure {
+        self.counts
+            .counted_raw_agreement()
+            .map_err(|_| UndefinedAgreement::BothEmpty)
     }
 
     /// Returns kappa with unmatched units and ordinary chance.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`], [`Undefined::OneValue`].
-    pub fn kappa(&self) -> Measure {
-        beyond_chance(self.raw()?, self.counts.chance())
+    /// [`UndefinedAgreement::BothEmpty`], [`UndefinedAgreement::OneValue`].
+    pub fn kappa_with_unmatched(&self) -> AgreementMeasure {
+        beyond_chance(self.raw_agreement_with_unmatched()?, self.counts.chance_agreement())
     }
 
     /// Returns the agreement that chance gives if two annotators can't both have no unit: the diagonal of a table that
@@ -190,14 +194,14 @@ impl Table {
     /// of a number for each row and each column, and no cell is stored.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`].
-    pub fn chance_ipf(&self) -> Measure {
-        let total = self.total();
+    /// [`UndefinedAgreement::BothEmpty`].
+    pub fn chance_ipf(&self) -> AgreementMeasure {
+        let total = self.annotation_total();
         if total == 0.0 {
-            return Err(Undefined::BothEmpty);
+            return Err(UndefinedAgreement::BothEmpty);
         }
         let filled = |sums: &[f64]| -> Vec<f64> {
-            let fill = |it: &f64| if *it == 0.0 { NEARLY_ZERO } else { *it };
+            let fill = |number: &f64| if *number == 0.0 { NEARLY_ZERO } else { *number };
             sums.iter().map(fill).collect()
         };
         let (rows, columns) = (filled(&self.counts.rows), filled(&self.counts.columns));
@@ -206,15 +210,15 @@ impl Table {
         let scale = |wanted: &[f64], own: &mut [f64], other: &[f64]| {
             let sum: f64 = other.iter().sum();
             for (at, (own, wanted)) in own.iter_mut().zip(wanted).enumerate() {
-                let whole = if at == last {
+                let target_sum = if at == last {
                     sum - other[last] * (1.0 - NEARLY_ZERO)
                 } else {
                     sum
                 };
-                *own = wanted / whole;
+                *own = wanted / target_sum;
             }
         };
-        for _ in 0..ROUNDS {
+        for _ in 0..PROPORTIONAL_FITTING_ROUNDS {
             scale(&rows, &mut of_rows, &of_columns);
             scale(&columns, &mut of_columns, &of_rows);
         }
@@ -226,25 +230,25 @@ impl Table {
     /// who is the first annotator.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`], [`Undefined::OneValue`].
-    pub fn kappa_ipf(&self) -> Measure {
-        beyond_chance(self.raw()?, self.chance_ipf()?)
+    /// [`UndefinedAgreement::BothEmpty`], [`UndefinedAgreement::OneValue`].
+    pub fn kappa_ipf(&self) -> AgreementMeasure {
+        beyond_chance(self.raw_agreement_with_unmatched()?, self.chance_ipf()?)
     }
 
     /// Returns the largest kappa that these margins permit.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`], [`Undefined::OneValue`].
-    pub fn kappa_max(&self) -> Measure {
-        self.raw()?;
+    /// [`UndefinedAgreement::BothEmpty`], [`UndefinedAgreement::OneValue`].
+    pub fn kappa_max(&self) -> AgreementMeasure {
+        self.raw_agreement_with_unmatched()?;
         let both = self.counts.rows.iter().zip(&self.counts.columns);
         let most: f64 = both.map(|(a, b)| a.min(*b)).sum();
-        beyond_chance(most / self.total(), self.counts.chance())
+        beyond_chance(most / self.annotation_total(), self.counts.chance_agreement())
     }
 
     /// Returns the table of one value against all others: both, the second alone, the first alone, neither.
     #[must_use]
-    pub fn value(&self, value: usize) -> TwoByTwo {
+    pub fn value_two_by_two(&self, value: usize) -> TwoByTwo {
         let both = self.counts.equal[value];
         let first = self.counts.rows[value] - both;
         let second = self.counts.columns[value] - both;
@@ -252,7 +256,7 @@ impl Table {
             both,
             second,
             first,
-            neither: self.total() - both - first - second,
+            neither: self.annotation_total() - both - first - second,
         }
     }
 }
@@ -274,11 +278,11 @@ impl TwoByTwo {
     /// Returns the share on which the two agree.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`].
-    pub fn raw(&self) -> Measure {
+    /// [`UndefinedAgreement::BothEmpty`].
+    pub fn two_by_two_agreement(&self) -> AgreementMeasure {
         let total = self.both + self.second + self.first + self.neither;
         if total == 0.0 {
-            return Err(Undefined::BothEmpty);
+            return Err(UndefinedAgreement::BothEmpty);
         }
         Ok((self.both + self.neither) / total)
     }
@@ -286,9 +290,9 @@ impl TwoByTwo {
     /// Returns kappa of the value against all others.
     ///
     /// # Errors
-    /// [`Undefined::BothEmpty`], [`Undefined::OneValue`].
-    pub fn kappa(&self) -> Measure {
-        let raw = self.raw()?;
+    /// [`UndefinedAgreement::BothEmpty`], [`UndefinedAgreement::OneValue`].
+    pub fn two_by_two_kappa(&self) -> AgreementMeasure {
+        let raw = self.two_by_two_agreement()?;
         let total = self.both + self.second + self.first + self.neither;
         let (of_first, of_second) = (self.both + self.first, self.both + self.second);
         let others = (total - of_first) * (total - of_second);

@@ -7,9 +7,9 @@
 //! | [`unitizing`] | alpha over time: alpha_U, the u-alpha family, frames |
 //! | [`gamma`] | alignment of least disorder, gamma and gamma_cat |
 //! | [`segments`] | boundary similarity, WindowDiff, Pk |
-//! | [`resample`] | percentile intervals from a seed |
+//! | [`agreement_resample`] | percentile intervals from a seed |
 //!
-//! A figure that is undefined is an [`Undefined`] with its reason, never NaN, 0 or 1. Times are whole numbers of any unit;
+//! A figure that is undefined is an [`UndefinedAgreement`] with its reason, never NaN, 0 or 1. Times are whole numbers of any unit;
 //! alpha_U counts in this unit, and its authors count milliseconds.
 //!
 //! Limits. Gamma's chance is drawn as in pygamma-agreement, where the paper shifts real units: numbers of other programs
@@ -24,11 +24,11 @@
 //! assert_eq!(Counts::of(&[(0, 0)]).cohen(), Err(Undefined::OneValue));
 //! ```
 
+pub mod agreement_resample;
 mod assignment;
 pub mod gamma;
 pub mod items;
 pub mod matching;
-pub mod resample;
 pub mod segments;
 #[cfg(test)]
 mod tests;
@@ -37,11 +37,11 @@ pub mod unitizing;
 use thiserror::Error;
 
 /// A figure, or the reason why it is undefined.
-pub type Measure = Result<f64, Undefined>;
+pub type AgreementMeasure = Result<f64, UndefinedAgreement>;
 
 /// The reason why a figure is undefined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum Undefined {
+pub enum UndefinedAgreement {
     /// No tier has a unit.
     #[error("both tiers empty")]
     BothEmpty,
@@ -70,7 +70,7 @@ pub enum Undefined {
 
 /// A span with a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Unit {
+pub struct AnnotatedUnit {
     /// The start.
     pub start: i64,
     /// The first moment after it.
@@ -79,7 +79,7 @@ pub struct Unit {
     pub value: usize,
 }
 
-impl Unit {
+impl AnnotatedUnit {
     /// Returns the unit of a span with a value.
     #[must_use]
     pub fn new(start: i64, end: i64, value: usize) -> Self {
@@ -88,13 +88,13 @@ impl Unit {
 
     /// Returns the length.
     #[must_use]
-    pub fn length(&self) -> i64 {
+    pub fn unit_length(&self) -> i64 {
         self.end - self.start
     }
 
     /// Returns the time that both cover; touching units share none.
     #[must_use]
-    pub fn shared(&self, other: &Self) -> i64 {
+    pub fn shared_unit_time(&self, other: &Self) -> i64 {
         (self.end.min(other.end) - self.start.max(other.start)).max(0)
     }
 }
@@ -104,31 +104,31 @@ const MOST_TIME: i64 = 1 << 40;
 
 /// The units of each annotator over one stretch of time.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Continuum {
+pub struct AnnotationContinuum {
     start: i64,
     end: i64,
-    tiers: Vec<Vec<Unit>>,
+    tiers: Vec<Vec<AnnotatedUnit>>,
 }
 
-impl Continuum {
+impl AnnotationContinuum {
     /// Creates the continuum of a stretch of time from the units of each annotator.
     ///
     /// Units are put in the order of time; units without length are left out; the stretch is extended to hold every
     /// unit.
     #[must_use]
-    pub fn new((start, end): (i64, i64), tiers: Vec<Vec<Unit>>) -> Self {
+    pub fn new((start, end): (i64, i64), tiers: Vec<Vec<AnnotatedUnit>>) -> Self {
         let within = |time: i64| time.clamp(-MOST_TIME, MOST_TIME);
-        let cleaned = |units: Vec<Unit>| {
-            let units = units.into_iter().map(|it| Unit {
-                start: within(it.start),
-                end: within(it.end),
-                ..it
+        let cleaned = |units: Vec<AnnotatedUnit>| {
+            let clipped_units = units.into_iter().map(|unit| AnnotatedUnit {
+                start: within(unit.start),
+                end: within(unit.end),
+                ..unit
             });
-            let mut units: Vec<Unit> = units.filter(|it| it.end > it.start).collect();
+            let mut units: Vec<AnnotatedUnit> = clipped_units.filter(|unit| unit.end > unit.start).collect();
             units.sort_unstable();
             units
         };
-        let tiers: Vec<Vec<Unit>> = tiers.into_iter().map(cleaned).collect();
+        let tiers: Vec<Vec<AnnotatedUnit>> = tiers.into_iter().map(cleaned).collect();
         let (mut start, mut end) = (within(start), within(end));
         for unit in tiers.iter().flatten() {
             start = start.min(unit.start);
@@ -140,66 +140,58 @@ impl Continuum {
 
     /// Returns the start of the stretch.
     #[must_use]
-    pub fn start(&self) -> i64 {
+    pub fn continuum_start(&self) -> i64 {
         self.start
     }
 
     /// Returns the first moment after the stretch.
     #[must_use]
-    pub fn end(&self) -> i64 {
+    pub fn continuum_end(&self) -> i64 {
         self.end
     }
 
     /// Returns the units of each annotator, by time.
     #[must_use]
-    pub fn tiers(&self) -> &[Vec<Unit>] {
+    pub fn annotator_tiers(&self) -> &[Vec<AnnotatedUnit>] {
         &self.tiers
     }
 
     /// Returns the number of units of all annotators.
     #[must_use]
-    pub fn units(&self) -> usize {
+    pub fn annotated_unit_count(&self) -> usize {
         self.tiers.iter().map(Vec::len).sum()
     }
 
     /// Returns the continua one after another as one.
     #[must_use]
-    pub fn joined(all: &[Self]) -> Self {
-        let annotators = all.iter().map(|it| it.tiers.len()).max().unwrap_or(0);
+    pub fn join_continua(all: &[Self]) -> Self {
+        let annotators = all.iter().map(|continuum| continuum.tiers.len()).max().unwrap_or(0);
         let mut tiers = vec![Vec::new(); annotators];
         let mut end = 0_i64;
         for one in all {
             for (tier, units) in tiers.iter_mut().zip(&one.tiers) {
-                let moved = |it: &Unit| {
-                    Unit::new(
-                        it.start - one.start + end,
-                        it.end - one.start + end,
-                        it.value,
-                    )
+                let moved = |unit: &AnnotatedUnit| {
+                    AnnotatedUnit::new(unit.start - one.start + end, unit.end - one.start + end, unit.value)
                 };
                 tier.extend(units.iter().map(moved));
             }
             end += one.end - one.start;
         }
-        Self {
-            start: 0,
-            end,
-            tiers,
-        }
+        Self { start: 0, end, tiers }
     }
 }
 
 /// Returns `(observed - expected) / (1 - expected)`.
-fn beyond_chance(observed: f64, expected: f64) -> Measure {
+fn beyond_chance(observed: f64, expected: f64) -> AgreementMeasure {
     let room = 1.0 - expected;
     if room.abs() < 1e-12 {
-        return Err(Undefined::OneValue);
+        return Err(UndefinedAgreement::OneValue);
     }
     Ok((observed - expected) / room)
 }
 
 /// Returns `1 - observed / expected` of disagreements.
-fn below_chance(observed: f64, expected: f64, reason: Undefined) -> Measure {
+fn below_chance(observed: f64, expected: f64, reason: UndefinedAgreement) -> AgreementMeasure {
     if expected.abs() < 1e-300 {
         return Err(reason);
     }

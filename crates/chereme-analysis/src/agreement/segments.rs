@@ -1,13 +1,13 @@
 //! Agreement of two segmentations without gaps: boundary similarity (Fournier 2013), WindowDiff, Pk.
 
-use super::{Measure, Undefined};
+use super::{AgreementMeasure, UndefinedAgreement};
 
 /// A segmentation: the lengths of its segments, in whole steps such as frames of 40 ms.
-pub type Masses = [usize];
+pub type SegmentMasses = [usize];
 
 /// The edits that turn one segmentation into another.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Edits {
+pub struct SegmentationEdits {
     /// Boundaries that both have.
     pub matches: usize,
     /// Boundaries that one has and the other lacks.
@@ -20,9 +20,9 @@ pub struct Edits {
     pub places: usize,
 }
 
-impl Edits {
+impl SegmentationEdits {
     /// Adds the edits of another stretch.
-    pub fn add(&mut self, other: &Self) {
+    pub fn add_segmentation_edits(&mut self, other: &Self) {
         self.matches += other.matches;
         self.additions += other.additions;
         self.transpositions += other.transpositions;
@@ -33,13 +33,13 @@ impl Edits {
     /// Returns the boundary similarity of the edits, see [`boundary_similarity`].
     ///
     /// # Errors
-    /// [`Undefined::NoBoundary`].
-    pub fn boundary_similarity(&self, near: usize) -> Measure {
+    /// [`UndefinedAgreement::NoBoundary`].
+    pub fn boundary_similarity(&self, near: usize) -> AgreementMeasure {
         let all = self.additions + self.transpositions + self.matches;
         if all == 0 {
-            return Err(Undefined::NoBoundary);
+            return Err(UndefinedAgreement::NoBoundary);
         }
-        Ok(1.0 - cost(self, near) / all as f64)
+        Ok(1.0 - segmentation_edit_cost(self, near) / all as f64)
     }
 }
 
@@ -47,30 +47,27 @@ impl Edits {
 ///
 /// The nearest boundaries are paired first, earlier ones before later ones.
 #[must_use]
-pub fn edits(first: &Masses, second: &Masses, near: usize) -> Edits {
-    let (a, b) = (boundaries(first), boundaries(second));
-    let length = first
-        .iter()
-        .sum::<usize>()
-        .max(second.iter().sum::<usize>());
-    let mut found: Vec<(usize, usize, usize)> = Vec::new();
+pub fn count_segmentation_edits(first: &SegmentMasses, second: &SegmentMasses, near: usize) -> SegmentationEdits {
+    let (a, b) = (boundary_places(first), boundary_places(second));
+    let length = first.iter().sum::<usize>().max(second.iter().sum::<usize>());
+    let mut near_pairs: Vec<(usize, usize, usize)> = Vec::new();
     for (at, place) in a.iter().enumerate() {
-        let from = b.partition_point(|it| it + near <= *place);
+        let from = b.partition_point(|boundary| boundary + near <= *place);
         for (other, it) in b.iter().enumerate().skip(from) {
             if *it >= place + near.max(1) {
                 break;
             }
-            found.push((place.abs_diff(*it), at, other));
+            near_pairs.push((place.abs_diff(*it), at, other));
         }
     }
-    found.sort_unstable();
+    near_pairs.sort_unstable();
     let (mut of_a, mut of_b) = (vec![false; a.len()], vec![false; b.len()]);
-    let mut edits = Edits {
+    let mut edits = SegmentationEdits {
         places: length.saturating_sub(1),
         additions: a.len() + b.len(),
-        ..Edits::default()
+        ..SegmentationEdits::default()
     };
-    for (distance, at, other) in found {
+    for (distance, at, other) in near_pairs {
         if of_a[at] || of_b[other] {
             continue;
         }
@@ -86,7 +83,7 @@ pub fn edits(first: &Masses, second: &Masses, near: usize) -> Edits {
 }
 
 /// Returns the places of the boundaries, without the two ends.
-fn boundaries(masses: &Masses) -> Vec<usize> {
+fn boundary_places(masses: &SegmentMasses) -> Vec<usize> {
     let mut ends: Vec<usize> = masses
         .iter()
         .scan(0, |end, mass| {
@@ -102,24 +99,24 @@ fn boundaries(masses: &Masses) -> Vec<usize> {
 /// proportion to their distance.
 ///
 /// # Errors
-/// [`Undefined::NoBoundary`].
-pub fn boundary_similarity(first: &Masses, second: &Masses, near: usize) -> Measure {
-    edits(first, second, near).boundary_similarity(near)
+/// [`UndefinedAgreement::NoBoundary`].
+pub fn boundary_similarity(first: &SegmentMasses, second: &SegmentMasses, near: usize) -> AgreementMeasure {
+    count_segmentation_edits(first, second, near).boundary_similarity(near)
 }
 
 /// Returns segmentation similarity (Fournier and Inkpen 2012): as boundary similarity, over all places for a boundary.
 ///
 /// # Errors
-/// [`Undefined::NoBoundary`].
-pub fn segmentation_similarity(first: &Masses, second: &Masses, near: usize) -> Measure {
-    let edits = edits(first, second, near);
+/// [`UndefinedAgreement::NoBoundary`].
+pub fn segmentation_similarity(first: &SegmentMasses, second: &SegmentMasses, near: usize) -> AgreementMeasure {
+    let edits = count_segmentation_edits(first, second, near);
     if edits.additions + edits.transpositions + edits.matches == 0 {
-        return Err(Undefined::NoBoundary);
+        return Err(UndefinedAgreement::NoBoundary);
     }
-    Ok(1.0 - cost(&edits, near) / edits.places as f64)
+    Ok(1.0 - segmentation_edit_cost(&edits, near) / edits.places as f64)
 }
 
-fn cost(edits: &Edits, near: usize) -> f64 {
+fn segmentation_edit_cost(edits: &SegmentationEdits, near: usize) -> f64 {
     edits.additions as f64 + edits.distance as f64 / near.max(1) as f64
 }
 
@@ -127,28 +124,32 @@ fn cost(edits: &Edits, near: usize) -> f64 {
 /// half a mean segment of the second segmentation long.
 ///
 /// # Errors
-/// [`Undefined::NoBoundary`] if no window fits.
-pub fn window_diff(first: &Masses, second: &Masses) -> Measure {
-    windows(first, second, |a, b| a != b)
+/// [`UndefinedAgreement::NoBoundary`] if no window fits.
+pub fn window_diff(first: &SegmentMasses, second: &SegmentMasses) -> AgreementMeasure {
+    compare_segmentation_windows(first, second, |a, b| a != b)
 }
 
 /// Returns Pk (Beeferman, Berger and Lafferty 1999): the share of windows whose two ends are in one segment for one of
 /// the two only.
 ///
 /// # Errors
-/// [`Undefined::NoBoundary`] if no window fits.
-pub fn pk(first: &Masses, second: &Masses) -> Measure {
-    windows(first, second, |a, b| (a == 0) != (b == 0))
+/// [`UndefinedAgreement::NoBoundary`] if no window fits.
+pub fn segmentation_pk(first: &SegmentMasses, second: &SegmentMasses) -> AgreementMeasure {
+    compare_segmentation_windows(first, second, |a, b| (a == 0) != (b == 0))
 }
 
-fn windows(first: &Masses, second: &Masses, differ: impl Fn(usize, usize) -> bool) -> Measure {
+fn compare_segmentation_windows(
+    first: &SegmentMasses,
+    second: &SegmentMasses,
+    differ: impl Fn(usize, usize) -> bool,
+) -> AgreementMeasure {
     let length: usize = second.iter().sum();
     let half = length as f64 / second.len().max(1) as f64 / 2.0;
     let window = (half.round_ties_even() as usize).max(2);
     if first.iter().sum::<usize>() != length || window >= length {
-        return Err(Undefined::NoBoundary);
+        return Err(UndefinedAgreement::NoBoundary);
     }
-    let (a, b) = (boundaries(first), boundaries(second));
+    let (a, b) = (boundary_places(first), boundary_places(second));
     let within = |places: &[usize], start: usize| {
         let before = |end: usize| places.partition_point(|place| *place <= end);
         before(start + window) - before(start)

@@ -3,24 +3,24 @@
 
 use std::collections::BTreeMap;
 
-use super::{Continuum, Measure, Undefined, Unit, below_chance, beyond_chance};
+use super::{AgreementMeasure, AnnotatedUnit, AnnotationContinuum, UndefinedAgreement, below_chance, beyond_chance};
 
 /// The disagreements of one value in alpha_U, observed and expected by chance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Disagreement {
+pub struct UnitizingDisagreement {
     /// Observed.
     pub observed: f64,
     /// Expected.
     pub expected: f64,
 }
 
-impl Disagreement {
+impl UnitizingDisagreement {
     /// Returns alpha.
     ///
     /// # Errors
-    /// [`Undefined::NoChance`].
-    pub fn alpha(&self) -> Measure {
-        below_chance(self.observed, self.expected, Undefined::NoChance)
+    /// [`UndefinedAgreement::NoChance`].
+    pub fn unitizing_alpha(&self) -> AgreementMeasure {
+        below_chance(self.observed, self.expected, UndefinedAgreement::NoChance)
     }
 }
 
@@ -29,10 +29,10 @@ impl Disagreement {
 /// Two overlapping units of a value differ by the squares of the distances of their starts and of their ends; a unit
 /// during which the other annotator has no unit of that value costs the square of its length.
 #[must_use]
-pub fn disagreements(continuum: &Continuum) -> BTreeMap<usize, Disagreement> {
-    let mut by_value: BTreeMap<usize, Vec<Vec<Unit>>> = BTreeMap::new();
-    let annotators = continuum.tiers().len();
-    for (at, units) in continuum.tiers().iter().enumerate() {
+pub fn unitizing_disagreements(continuum: &AnnotationContinuum) -> BTreeMap<usize, UnitizingDisagreement> {
+    let mut by_value: BTreeMap<usize, Vec<Vec<AnnotatedUnit>>> = BTreeMap::new();
+    let annotators = continuum.annotator_tiers().len();
+    for (at, units) in continuum.annotator_tiers().iter().enumerate() {
         for unit in units {
             let tiers = by_value
                 .entry(unit.value)
@@ -40,40 +40,39 @@ pub fn disagreements(continuum: &Continuum) -> BTreeMap<usize, Disagreement> {
             tiers[at].push(*unit);
         }
     }
-    let disagreement = |tiers: &Vec<Vec<Unit>>| Disagreement {
-        observed: observed(tiers, (continuum.end() - continuum.start()) as f64),
-        expected: expected(tiers, continuum),
+    let disagreement = |tiers: &Vec<Vec<AnnotatedUnit>>| UnitizingDisagreement {
+        observed: observed(tiers, (continuum.continuum_end() - continuum.continuum_start()) as f64),
+        expected: expected_unit_difference(tiers, continuum),
     };
     let all = by_value.iter();
-    all.map(|(value, tiers)| (*value, disagreement(tiers)))
-        .collect()
+    all.map(|(value, tiers)| (*value, disagreement(tiers))).collect()
 }
 
 /// Returns alpha_U over all values.
 ///
 /// # Errors
-/// [`Undefined::BothEmpty`], [`Undefined::NoChance`], [`Undefined::Missing`] for fewer than two annotators.
-pub fn alpha_u(continuum: &Continuum) -> Measure {
-    if continuum.tiers().len() < 2 {
-        return Err(Undefined::Missing);
+/// [`UndefinedAgreement::BothEmpty`], [`UndefinedAgreement::NoChance`], [`UndefinedAgreement::Missing`] for fewer than two annotators.
+pub fn alpha_u(continuum: &AnnotationContinuum) -> AgreementMeasure {
+    if continuum.annotator_tiers().len() < 2 {
+        return Err(UndefinedAgreement::Missing);
     }
-    let all = disagreements(continuum);
+    let all = unitizing_disagreements(continuum);
     if all.is_empty() {
-        return Err(Undefined::BothEmpty);
+        return Err(UndefinedAgreement::BothEmpty);
     }
-    let mut sum = Disagreement::default();
+    let mut sum = UnitizingDisagreement::default();
     for one in all.values() {
         sum.observed += one.observed;
         sum.expected += one.expected;
     }
-    sum.alpha()
+    sum.unitizing_alpha()
 }
 
-fn observed(tiers: &[Vec<Unit>], length: f64) -> f64 {
+fn observed(tiers: &[Vec<AnnotatedUnit>], length: f64) -> f64 {
     let mut sum = 0.0;
     for (at, first) in tiers.iter().enumerate() {
         for second in &tiers[at + 1..] {
-            sum += difference(first, second);
+            sum += observed_unit_difference(first, second);
         }
     }
     let annotators = tiers.len() as f64;
@@ -81,7 +80,7 @@ fn observed(tiers: &[Vec<Unit>], length: f64) -> f64 {
 }
 
 /// Returns the squared differences of the units of one value by two annotators.
-fn difference(first: &[Unit], second: &[Unit]) -> f64 {
+fn observed_unit_difference(first: &[AnnotatedUnit], second: &[AnnotatedUnit]) -> f64 {
     let square = |time: i64| (time as f64).powi(2);
     let mut alone = vec![true; second.len()];
     let mut sum = 0.0;
@@ -90,34 +89,34 @@ fn difference(first: &[Unit], second: &[Unit]) -> f64 {
         while begin < second.len() && second[begin].end <= unit.start {
             begin += 1;
         }
-        let mut found = false;
+        let mut has_overlap = false;
         for (at, other) in second.iter().enumerate().skip(begin) {
             if other.start >= unit.end {
                 break;
             }
-            if unit.shared(other) > 0 {
-                (found, alone[at]) = (true, false);
+            if unit.shared_unit_time(other) > 0 {
+                (has_overlap, alone[at]) = (true, false);
                 sum += square(unit.start - other.start) + square(unit.end - other.end);
             }
         }
-        if !found {
-            sum += square(unit.length());
+        if !has_overlap {
+            sum += square(unit.unit_length());
         }
     }
     let rest = second.iter().zip(&alone).filter(|(_, alone)| **alone);
-    sum + rest.map(|(it, _)| square(it.length())).sum::<f64>()
+    sum + rest.map(|(unit, _)| square(unit.unit_length())).sum::<f64>()
 }
 
-fn expected(tiers: &[Vec<Unit>], continuum: &Continuum) -> f64 {
-    let length = (continuum.end() - continuum.start()) as f64;
+fn expected_unit_difference(tiers: &[Vec<AnnotatedUnit>], continuum: &AnnotationContinuum) -> f64 {
+    let length = (continuum.continuum_end() - continuum.continuum_start()) as f64;
     let mut gaps: Vec<i64> = Vec::new();
     for units in tiers {
-        let mut end = continuum.start();
+        let mut end = continuum.continuum_start();
         for unit in units {
             gaps.push(unit.start - end);
             end = end.max(unit.end);
         }
-        gaps.push(continuum.end() - end);
+        gaps.push(continuum.continuum_end() - end);
     }
     gaps.retain(|gap| *gap > 0);
     gaps.sort_unstable();
@@ -129,16 +128,16 @@ fn expected(tiers: &[Vec<Unit>], continuum: &Continuum) -> f64 {
     let count: usize = tiers.iter().map(Vec::len).sum();
     let (mut sum, mut own) = (0.0, 0.0);
     for unit in tiers.iter().flatten() {
-        let l = unit.length() as f64;
-        let from = gaps.partition_point(|gap| *gap < unit.length());
+        let l = unit.unit_length() as f64;
+        let from = gaps.partition_point(|gap| *gap < unit.unit_length());
         let fitting = (gaps.len() - from) as f64;
         let others = (count as f64 - 1.0) / 3.0;
         sum += others * (2.0 * l.powi(3) - 3.0 * l * l + l);
         sum += l * l * (sums[from] - fitting * (l - 1.0));
         own += l * (l - 1.0);
     }
-    let whole = tiers.len() as f64 * length;
-    let room = whole * (whole - 1.0) - own;
+    let total_length = tiers.len() as f64 * length;
+    let room = total_length * (total_length - 1.0) - own;
     if room <= 0.0 || length <= 0.0 {
         return 0.0;
     }
@@ -147,7 +146,7 @@ fn expected(tiers: &[Vec<Unit>], continuum: &Continuum) -> f64 {
 
 /// A piece of time during which no annotator's value changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Slice {
+struct ConstantValueSlice {
     start: i64,
     end: i64,
     /// The value of each annotator; `None` in a gap.
@@ -155,31 +154,36 @@ struct Slice {
 }
 
 /// Cuts the time at every start and end; where units of an annotator overlap, the earlier one counts.
-fn slices(continuum: &Continuum) -> Vec<Slice> {
-    let mut cuts: Vec<i64> = vec![continuum.start(), continuum.end()];
+fn slices(continuum: &AnnotationContinuum) -> Vec<ConstantValueSlice> {
+    let mut cuts: Vec<i64> = vec![continuum.continuum_start(), continuum.continuum_end()];
     cuts.extend(
         continuum
-            .tiers()
+            .annotator_tiers()
             .iter()
             .flatten()
-            .flat_map(|it| [it.start, it.end]),
+            .flat_map(|unit| [unit.start, unit.end]),
     );
     cuts.sort_unstable();
     cuts.dedup();
-    let mut at = vec![0; continuum.tiers().len()];
+    let mut tier_positions = vec![0; continuum.annotator_tiers().len()];
     let mut slices = Vec::with_capacity(cuts.len());
     for pair in cuts.windows(2) {
-        let value = |(tier, at): (&Vec<Unit>, &mut usize)| {
+        let value = |(tier, at): (&Vec<AnnotatedUnit>, &mut usize)| {
             while *at < tier.len() && tier[*at].end <= pair[0] {
                 *at += 1;
             }
-            let unit = tier.get(*at).filter(|it| it.start <= pair[0]);
-            unit.map(|it| it.value)
+            let unit = tier.get(*at).filter(|unit| unit.start <= pair[0]);
+            unit.map(|unit| unit.value)
         };
-        slices.push(Slice {
+        slices.push(ConstantValueSlice {
             start: pair[0],
             end: pair[1],
-            values: continuum.tiers().iter().zip(&mut at).map(value).collect(),
+            values: continuum
+                .annotator_tiers()
+                .iter()
+                .zip(&mut tier_positions)
+                .map(value)
+                .collect(),
         });
     }
     slices
@@ -189,48 +193,48 @@ fn slices(continuum: &Continuum) -> Vec<Slice> {
 ///
 /// Long units dominate it, and so do long gaps: it should never be the only figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frames {
+pub struct FrameAgreement {
     /// The share of equal pairs.
-    pub raw: Measure,
+    pub raw: AgreementMeasure,
     /// Cohen's kappa, for two annotators.
-    pub kappa: Measure,
+    pub kappa: AgreementMeasure,
     /// Krippendorff's nominal alpha.
-    pub alpha: Measure,
+    pub alpha: AgreementMeasure,
 }
 
 /// Returns the agreement of frames of this length; a frame has the value that holds at its start.
 #[must_use]
-pub fn frames(continuum: &Continuum, frame: i64) -> Frames {
+pub fn measure_frame_agreement(continuum: &AnnotationContinuum, frame: i64) -> FrameAgreement {
     let frame = frame.max(1);
-    let annotators = continuum.tiers().len();
-    let first = |time: i64| (time - continuum.start() + frame - 1).div_euclid(frame);
+    let annotators = continuum.annotator_tiers().len();
+    let first = |time: i64| (time - continuum.continuum_start() + frame - 1).div_euclid(frame);
     let mut counts: Vec<BTreeMap<Option<usize>, f64>> = vec![BTreeMap::new(); annotators];
     let (mut all, mut equal) = (0.0, 0.0);
     for slice in slices(continuum) {
         let number = (first(slice.end) - first(slice.start)) as f64;
         for (nth, (value, counts)) in slice.values.iter().zip(&mut counts).enumerate() {
             *counts.entry(*value).or_default() += number;
-            let same = slice.values[nth + 1..].iter().filter(|it| *it == value);
+            let same = slice.values[nth + 1..].iter().filter(|other| *other == value);
             equal += number * same.count() as f64;
         }
         all += number * (annotators * annotators.saturating_sub(1) / 2) as f64;
     }
     if all == 0.0 {
-        return Frames {
-            raw: Err(Undefined::NoPair),
-            kappa: Err(Undefined::NoPair),
-            alpha: Err(Undefined::NoPair),
+        return FrameAgreement {
+            raw: Err(UndefinedAgreement::NoPair),
+            kappa: Err(UndefinedAgreement::NoPair),
+            alpha: Err(UndefinedAgreement::NoPair),
         };
     }
     let raw = equal / all;
     let kappa = match &counts[..] {
         [first, second] => {
             let total: f64 = first.values().sum();
-            let chance = |(value, n): (&Option<usize>, &f64)| n * second.get(value).unwrap_or(&0.0);
-            let chance: f64 = first.iter().map(chance).sum();
+            let chance_term = |(value, n): (&Option<usize>, &f64)| n * second.get(value).unwrap_or(&0.0);
+            let chance: f64 = first.iter().map(chance_term).sum();
             beyond_chance(raw, chance / (total * total))
         }
-        _ => Err(Undefined::Missing),
+        _ => Err(UndefinedAgreement::Missing),
     };
     let mut pooled: BTreeMap<Option<usize>, f64> = BTreeMap::new();
     for (value, count) in counts.iter().flatten() {
@@ -239,14 +243,14 @@ pub fn frames(continuum: &Continuum, frame: i64) -> Frames {
     let values: f64 = pooled.values().sum();
     let alike: f64 = pooled.values().map(|count| count * (count - 1.0)).sum();
     let alpha = match pooled.values().filter(|count| **count > 0.0).count() {
-        0 | 1 => Err(Undefined::OneValue),
+        0 | 1 => Err(UndefinedAgreement::OneValue),
         _ => below_chance(
             1.0 - raw,
             1.0 - alike / (values * (values - 1.0)),
-            Undefined::OneValue,
+            UndefinedAgreement::OneValue,
         ),
     };
-    Frames {
+    FrameAgreement {
         raw: Ok(raw),
         kappa,
         alpha,
@@ -258,39 +262,39 @@ pub fn frames(continuum: &Continuum, frame: i64) -> Frames {
 /// Intersections can't show a cut between touching units of one value. The expected term of `values` is the limit of
 /// units that can be divided at will.
 #[derive(Debug, Clone, PartialEq)]
-pub struct UAlpha {
+pub struct UAlphaAgreement {
     /// uα: spans and values, gaps too.
-    pub all: Measure,
+    pub all: AgreementMeasure,
     /// |uα: spans alone.
-    pub spans: Measure,
+    pub spans: AgreementMeasure,
     /// cuα: values where both have a unit.
-    pub values: Measure,
+    pub values: AgreementMeasure,
     /// (k)uα: each value against everything else.
-    pub each: BTreeMap<usize, Measure>,
+    pub each: BTreeMap<usize, AgreementMeasure>,
 }
 
 /// Returns the u-alpha family.
 #[must_use]
-pub fn u_alpha(continuum: &Continuum) -> UAlpha {
-    if continuum.units() == 0 || continuum.tiers().len() < 2 {
-        let none = match continuum.units() {
-            0 => Err(Undefined::BothEmpty),
-            _ => Err(Undefined::Missing),
+pub fn u_alpha(continuum: &AnnotationContinuum) -> UAlphaAgreement {
+    if continuum.annotated_unit_count() == 0 || continuum.annotator_tiers().len() < 2 {
+        let none = match continuum.annotated_unit_count() {
+            0 => Err(UndefinedAgreement::BothEmpty),
+            _ => Err(UndefinedAgreement::Missing),
         };
-        return UAlpha {
+        return UAlphaAgreement {
             all: none,
             spans: none,
             values: none,
             each: BTreeMap::new(),
         };
     }
-    let merge = |it: &Vec<Unit>| it.iter().map(|it| Unit { value: 0, ..*it }).collect();
-    let merged = continuum.tiers().iter().map(merge).collect();
-    let merged = Continuum::new((continuum.start(), continuum.end()), merged);
-    let shares = Shares::of(continuum);
-    UAlpha {
-        all: shares.alpha(),
-        spans: Shares::of(&merged).alpha(),
+    let merge = |tier: &Vec<AnnotatedUnit>| tier.iter().map(|unit| AnnotatedUnit { value: 0, ..*unit }).collect();
+    let merged_tiers = continuum.annotator_tiers().iter().map(merge).collect();
+    let merged = AnnotationContinuum::new((continuum.continuum_start(), continuum.continuum_end()), merged_tiers);
+    let shares = IntersectionShares::from_unit_intersections(continuum);
+    UAlphaAgreement {
+        all: shares.intersection_alpha(),
+        spans: IntersectionShares::from_unit_intersections(&merged).intersection_alpha(),
         values: shares.alpha_of_values(),
         each: shares.alpha_of_each(),
     }
@@ -298,7 +302,7 @@ pub fn u_alpha(continuum: &Continuum) -> UAlpha {
 
 /// The lengths of intersections by value, gaps under `None`.
 #[derive(Default)]
-struct Shares {
+struct IntersectionShares {
     /// The length of each value, l_c.
     lengths: BTreeMap<Option<usize>, f64>,
     /// The length of intersections of equal values, l_cc.
@@ -310,10 +314,10 @@ struct Shares {
     total: f64,
 }
 
-impl Shares {
-    fn of(continuum: &Continuum) -> Self {
+impl IntersectionShares {
+    fn from_unit_intersections(continuum: &AnnotationContinuum) -> Self {
         let mut shares = Self::default();
-        let annotators = continuum.tiers().len();
+        let annotators = continuum.annotator_tiers().len();
         for slice in slices(continuum) {
             let length = (slice.end - slice.start) as f64;
             let part = length / (annotators as f64 - 1.0);
@@ -334,16 +338,16 @@ impl Shares {
                 }
             }
         }
-        for unit in continuum.tiers().iter().flatten() {
-            *shares.own.entry(Some(unit.value)).or_default() += (unit.length() as f64).powi(2);
+        for unit in continuum.annotator_tiers().iter().flatten() {
+            *shares.own.entry(Some(unit.value)).or_default() += (unit.unit_length() as f64).powi(2);
         }
         shares
     }
 
     /// Returns the length of equal intersections that chance gives a value, ε_cc.
-    fn expected(&self, value: &Option<usize>) -> f64 {
-        let own: f64 = self.own.values().sum();
-        let room = self.total * self.total - own;
+    fn expected_equal_length(&self, value: &Option<usize>) -> f64 {
+        let own_sum: f64 = self.own.values().sum();
+        let room = self.total * self.total - own_sum;
         let (length, weight) = (
             self.lengths.get(value).unwrap_or(&0.0),
             self.own.get(value).unwrap_or(&0.0),
@@ -354,35 +358,35 @@ impl Shares {
         self.total * (length * length - weight) / room
     }
 
-    fn alpha(&self) -> Measure {
+    fn intersection_alpha(&self) -> AgreementMeasure {
         let equal: f64 = self.equal.values().sum();
-        let expected: f64 = self.lengths.keys().map(|value| self.expected(value)).sum();
+        let expected: f64 = self.lengths.keys().map(|value| self.expected_equal_length(value)).sum();
         let room = self.total - expected;
         if room.abs() < 1e-9 * self.total {
-            return Err(Undefined::NoChance);
+            return Err(UndefinedAgreement::NoChance);
         }
         Ok(1.0 - (self.total - equal) / room)
     }
 
-    fn alpha_of_values(&self) -> Measure {
+    fn alpha_of_values(&self) -> AgreementMeasure {
         let total: f64 = self.valued.values().sum();
         if total == 0.0 {
-            return Err(Undefined::NoPair);
+            return Err(UndefinedAgreement::NoPair);
         }
         let valued = self.equal.iter().filter(|(value, _)| value.is_some());
         let equal: f64 = valued.map(|(_, length)| length).sum();
-        let alike: f64 = self.valued.values().map(|it| it * it / total).sum();
+        let alike: f64 = self.valued.values().map(|length| length * length / total).sum();
         if (total - alike).abs() < 1e-9 * total {
-            return Err(Undefined::OneValue);
+            return Err(UndefinedAgreement::OneValue);
         }
         Ok(1.0 - (total - equal) / (total - alike))
     }
 
-    fn alpha_of_each(&self) -> BTreeMap<usize, Measure> {
+    fn alpha_of_each(&self) -> BTreeMap<usize, AgreementMeasure> {
         let each = self.lengths.iter().filter_map(|(value, length)| {
             let equal = self.equal.get(value).unwrap_or(&0.0);
-            let room = length - self.expected(value);
-            let alpha = below_chance(length - equal, room, Undefined::NoChance);
+            let room = length - self.expected_equal_length(value);
+            let alpha = below_chance(length - equal, room, UndefinedAgreement::NoChance);
             Some(((*value)?, alpha))
         });
         each.collect()

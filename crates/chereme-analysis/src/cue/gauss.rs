@@ -1,32 +1,32 @@
 //! Recognisers with one Gaussian for each class, and their confusion tables.
 
 use super::ModelError;
-use super::linear::Matrix;
-use super::pca::covariance;
+use super::linear::DenseMatrix;
+use super::pca::row_covariance;
 
 /// A recogniser with one Gaussian for each class.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Recogniser {
-    classes: Vec<Class>,
+pub struct GaussianRecogniser {
+    classes: Vec<GaussianClass>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Class {
+struct GaussianClass {
     number: u8,
     mean: Vec<f64>,
-    factor: Matrix,
+    factor: DenseMatrix,
     log_norm: f64,
 }
 
 /// The fewest examples for which a class gets a covariance of its own; other classes share one.
-const OWN: usize = 20;
+const MIN_OWN_COVARIANCE_EXAMPLES: usize = 20;
 
-impl Recogniser {
+impl GaussianRecogniser {
     /// Learns a Gaussian for each class that has an example; `floor` is added to every variance.
     ///
     /// # Errors
     /// [`ModelError`] if there are fewer than two examples, or their rows differ in length.
-    pub fn learn(examples: &[(u8, Vec<f64>)], floor: f64) -> Result<Self, ModelError> {
+    pub fn learn_gaussian_classes(examples: &[(u8, Vec<f64>)], floor: f64) -> Result<Self, ModelError> {
         let width = examples.first().map_or(0, |(_, row)| row.len());
         let legal = |row: &Vec<f64>| row.len() == width && row.iter().all(|x| x.is_finite());
         if examples.len() < 2 || width == 0 || !examples.iter().all(|(_, row)| legal(row)) {
@@ -39,14 +39,14 @@ impl Recogniser {
         numbers.sort_unstable();
         numbers.dedup();
         let of = |number: u8| -> Vec<Vec<f64>> {
-            let own = examples.iter().filter(|(own, _)| *own == number);
-            own.map(|(_, row)| row.clone()).collect()
+            let class_examples = examples.iter().filter(|(own, _)| *own == number);
+            class_examples.map(|(_, row)| row.clone()).collect()
         };
-        let mut pooled = Matrix::zeros(width, width);
+        let mut pooled = DenseMatrix::zero_matrix(width, width);
         let each: Vec<_> = numbers
             .iter()
             .map(|number| (*number, of(*number)))
-            .map(|(number, rows)| (number, rows.len(), covariance(&rows)))
+            .map(|(number, rows)| (number, rows.len(), row_covariance(&rows)))
             .collect();
         for (_, count, (_, matrix)) in &each {
             let share = *count as f64 / examples.len() as f64;
@@ -58,13 +58,17 @@ impl Recogniser {
         }
         let mut classes = Vec::with_capacity(each.len());
         for (number, count, (mean, matrix)) in each {
-            let mut own = if count >= OWN { matrix } else { pooled.clone() };
+            let mut class_covariance = if count >= MIN_OWN_COVARIANCE_EXAMPLES {
+                matrix
+            } else {
+                pooled.clone()
+            };
             for i in 0..width {
-                own[(i, i)] += floor;
+                class_covariance[(i, i)] += floor;
             }
-            let factor = own.cholesky().ok_or(ModelError::Singular)?;
+            let factor = class_covariance.cholesky_factor().ok_or(ModelError::Singular)?;
             let log_norm = (0..width).map(|i| factor[(i, i)].ln()).sum::<f64>();
-            classes.push(Class {
+            classes.push(GaussianClass {
                 number,
                 mean,
                 factor,
@@ -76,8 +80,8 @@ impl Recogniser {
 
     /// Returns the logarithm of the posterior probability of each class, with equal priors, in order of their numbers.
     #[must_use]
-    pub fn posteriors(&self, row: &[f64]) -> Vec<(u8, f64)> {
-        let score = |class: &Class| {
+    pub fn class_log_posteriors(&self, row: &[f64]) -> Vec<(u8, f64)> {
+        let score = |class: &GaussianClass| {
             let apart: Vec<f64> = row.iter().zip(&class.mean).map(|(x, m)| x - m).collect();
             let solved = class.factor.solve_factored(&apart);
             let distance: f64 = apart.iter().zip(&solved).map(|(a, s)| a * s).sum();
@@ -92,8 +96,8 @@ impl Recogniser {
 
     /// Returns the most probable class; in a tie that with the lower number.
     #[must_use]
-    pub fn best(&self, row: &[f64]) -> u8 {
-        let all = self.posteriors(row).into_iter();
+    pub fn most_probable_class(&self, row: &[f64]) -> u8 {
+        let all = self.class_log_posteriors(row).into_iter();
         all.reduce(|best, next| if next.1 > best.1 { next } else { best })
             .map_or(0, |(number, _)| number)
     }
@@ -101,30 +105,30 @@ impl Recogniser {
     /// Returns the logarithm of the probability of one class; minus infinity if it was never learned.
     #[must_use]
     pub fn log_of(&self, row: &[f64], number: u8) -> f64 {
-        let found = self
-            .posteriors(row)
+        let posterior = self
+            .class_log_posteriors(row)
             .into_iter()
             .find(|(own, _)| *own == number);
-        found.map_or(f64::NEG_INFINITY, |(_, log)| log)
+        posterior.map_or(f64::NEG_INFINITY, |(_, log)| log)
     }
 }
 
 /// Confusion table: how often each class was recognised as each.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Confusion {
+pub struct RecognitionConfusion {
     /// The number of examples by produced and recognised class, in order.
     pub counts: std::collections::BTreeMap<(u8, u8), usize>,
 }
 
-impl Confusion {
+impl RecognitionConfusion {
     /// Recognises examples and counts the results.
     #[must_use]
-    pub fn of(recogniser: &Recogniser, examples: &[(u8, Vec<f64>)]) -> Self {
+    pub fn count_confusions(recogniser: &GaussianRecogniser, examples: &[(u8, Vec<f64>)]) -> Self {
         let mut confusion = Self::default();
         for (number, row) in examples {
             *confusion
                 .counts
-                .entry((*number, recogniser.best(row)))
+                .entry((*number, recogniser.most_probable_class(row)))
                 .or_default() += 1;
         }
         confusion
@@ -132,27 +136,20 @@ impl Confusion {
 
     /// Returns the share of correct recognitions.
     #[must_use]
-    pub fn rate(&self) -> f64 {
+    pub fn correct_recognition_rate(&self) -> f64 {
         let all: usize = self.counts.values().sum();
-        let right: usize = self
-            .counts
-            .iter()
-            .filter(|((a, b), _)| a == b)
-            .map(|(_, n)| n)
-            .sum();
+        let right: usize = self.counts.iter().filter(|((a, b), _)| a == b).map(|(_, n)| n).sum();
         right as f64 / all.max(1) as f64
     }
 }
 
-impl std::fmt::Display for Confusion {
+impl std::fmt::Display for RecognitionConfusion {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut classes: Vec<u8> = self.counts.keys().flat_map(|(a, b)| [*a, *b]).collect();
         classes.sort_unstable();
         classes.dedup();
         write!(f, "     ")?;
-        classes
-            .iter()
-            .try_for_each(|class| write!(f, "{class:>6}"))?;
+        classes.iter().try_for_each(|class| write!(f, "{class:>6}"))?;
         for own in &classes {
             write!(f, "\n{own:>5}")?;
             for other in &classes {

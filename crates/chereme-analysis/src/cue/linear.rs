@@ -4,29 +4,29 @@ use std::ops::{Index, IndexMut};
 
 /// A matrix, row by row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Matrix {
+pub struct DenseMatrix {
     rows: usize,
     cols: usize,
     data: Vec<f64>,
 }
 
-impl Index<(usize, usize)> for Matrix {
+impl Index<(usize, usize)> for DenseMatrix {
     type Output = f64;
     fn index(&self, (row, col): (usize, usize)) -> &f64 {
         &self.data[row * self.cols + col]
     }
 }
 
-impl IndexMut<(usize, usize)> for Matrix {
+impl IndexMut<(usize, usize)> for DenseMatrix {
     fn index_mut(&mut self, (row, col): (usize, usize)) -> &mut f64 {
         &mut self.data[row * self.cols + col]
     }
 }
 
-impl Matrix {
+impl DenseMatrix {
     /// Returns a matrix of zeros.
     #[must_use]
-    pub fn zeros(rows: usize, cols: usize) -> Self {
+    pub fn zero_matrix(rows: usize, cols: usize) -> Self {
         Self {
             rows,
             cols,
@@ -36,19 +36,19 @@ impl Matrix {
 
     /// Returns the number of rows.
     #[must_use]
-    pub fn rows(&self) -> usize {
+    pub fn matrix_row_count(&self) -> usize {
         self.rows
     }
 
     /// Returns the number of columns.
     #[must_use]
-    pub fn cols(&self) -> usize {
+    pub fn matrix_column_count(&self) -> usize {
         self.cols
     }
 
     /// Returns a row.
     #[must_use]
-    pub fn row(&self, row: usize) -> &[f64] {
+    pub fn matrix_row(&self, row: usize) -> &[f64] {
         &self.data[row * self.cols..(row + 1) * self.cols]
     }
 
@@ -66,9 +66,9 @@ impl Matrix {
 
     /// Returns the lower triangle of the Cholesky factor; nothing if the matrix is not positive definite.
     #[must_use]
-    pub fn cholesky(&self) -> Option<Self> {
+    pub fn cholesky_factor(&self) -> Option<Self> {
         let n = self.rows;
-        let mut lower = Self::zeros(n, n);
+        let mut lower = Self::zero_matrix(n, n);
         for i in 0..n {
             for j in 0..=i {
                 let below: f64 = (0..j).map(|k| lower[(i, k)] * lower[(j, k)]).sum();
@@ -86,7 +86,7 @@ impl Matrix {
         Some(lower)
     }
 
-    /// Solves `L Lᵀ x = b` for a factor of [`cholesky`](Self::cholesky).
+    /// Solves `L Lᵀ x = b` for a factor of [`cholesky_factor`](Self::cholesky_factor).
     #[must_use]
     pub fn solve_factored(&self, b: &[f64]) -> Vec<f64> {
         let n = self.rows;
@@ -107,15 +107,15 @@ impl Matrix {
 ///
 /// Uses cyclic Jacobi rotations. The largest entry of each vector is positive; in a tie the first counts.
 #[must_use]
-pub fn eigen(symmetric: &Matrix) -> (Vec<f64>, Matrix) {
+pub fn symmetric_eigenvectors(symmetric: &DenseMatrix) -> (Vec<f64>, DenseMatrix) {
     let n = symmetric.rows;
     let mut a = symmetric.clone();
-    let mut v = Matrix::zeros(n, n);
+    let mut v = DenseMatrix::zero_matrix(n, n);
     for i in 0..n {
         v[(i, i)] = 1.0;
     }
-    const SWEEPS: usize = 40;
-    for _ in 0..SWEEPS {
+    const MAX_JACOBI_SWEEPS: usize = 40;
+    for _ in 0..MAX_JACOBI_SWEEPS {
         let off: f64 = (0..n)
             .flat_map(|i| (0..i).map(move |j| (i, j)))
             .map(|at| a[at] * a[at])
@@ -132,17 +132,16 @@ pub fn eigen(symmetric: &Matrix) -> (Vec<f64>, Matrix) {
     }
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|x, y| a[(*y, *y)].total_cmp(&a[(*x, *x)]).then(x.cmp(y)));
-    let mut vectors = Matrix::zeros(n, n);
+    let mut vectors = DenseMatrix::zero_matrix(n, n);
     let mut values = Vec::with_capacity(n);
     for (row, own) in order.into_iter().enumerate() {
         values.push(a[(own, own)]);
-        let largest = v.row(own).iter().copied().fold(0.0, |most: f64, x| {
-            if x.abs() > most.abs() + 1e-12 {
-                x
-            } else {
-                most
-            }
-        });
+        let largest = v.matrix_row(own).iter().copied().fold(
+            0.0,
+            |most: f64, x| {
+                if x.abs() > most.abs() + 1e-12 { x } else { most }
+            },
+        );
         let sign = if largest < 0.0 { -1.0 } else { 1.0 };
         for col in 0..n {
             vectors[(row, col)] = sign * v[(own, col)];
@@ -152,14 +151,14 @@ pub fn eigen(symmetric: &Matrix) -> (Vec<f64>, Matrix) {
 }
 
 /// Rotates rows and columns `p` and `q` so that their off-diagonal entry vanishes; the rows of `v` are rotated too.
-fn rotate(a: &mut Matrix, v: &mut Matrix, p: usize, q: usize) {
+fn rotate(a: &mut DenseMatrix, v: &mut DenseMatrix, p: usize, q: usize) {
     let mixed = a[(p, q)];
     if mixed.abs() < 1e-300 {
         return;
     }
     let theta = (a[(q, q)] - a[(p, p)]) / (2.0 * mixed);
-    let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-    let t = if theta == 0.0 { 1.0 } else { t };
+    let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let t = if theta == 0.0 { 1.0 } else { tangent };
     let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
     let n = a.rows;

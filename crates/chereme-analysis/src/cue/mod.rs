@@ -5,32 +5,32 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`labels`] | the names of the markers of hand and face |
+//! | [`cue_labels`] | the names of the markers of hand and face |
 //! | [`rigid`] | the motion of head and forearm |
 //! | [`pca`] | components, plain and guided |
-//! | [`hand`] | markers from angles, and restoration of hidden markers with a predicted error |
-//! | [`face`] | seven guided components, and the weights of the throat |
+//! | [`cue_hand`] | markers from angles, and restoration of hidden markers with a predicted error |
+//! | [`cue_face`] | seven guided components, and the weights of the throat |
 //! | [`gauss`] | recognisers of shapes and placements, with confusion tables |
 //! | [`session`] | takes of one cuer: fingertips, bends, gestures of keys, recognition |
-//! | [`phases`](mod@phases) | begin and arrival of hand and fingers against the sounds |
-//! | [`targets`](mod@targets) | target frames of keys, arrival of the hand, quartiles |
+//! | [`cue_phases`] | begin and arrival of hand and fingers against the sounds |
+//! | [`cue_targets`] | target frames of keys, arrival of the hand, quartiles |
 //! | [`generate`] | generated sessions with known truth, from a seed |
 //! | `linear`, `terms` | small matrices; the terms of the hand's regression |
 
-pub mod face;
+pub mod cue_face;
+pub mod cue_hand;
+pub mod cue_labels;
+pub mod cue_phases;
+pub mod cue_targets;
+mod cue_terms;
 pub mod gauss;
 pub mod generate;
-pub mod hand;
-pub mod labels;
 pub mod linear;
 pub mod pca;
 #[cfg(test)]
 mod phase_tests;
-pub mod phases;
 pub mod rigid;
 pub mod session;
-pub mod targets;
-mod terms;
 #[cfg(test)]
 mod tests;
 

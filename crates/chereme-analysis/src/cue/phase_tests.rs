@@ -2,10 +2,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::hand::Frame;
-use super::session::{Followed, Key, KeyGestures, KeySounds, find};
-use super::targets::Quartiles;
-use crate::random::Random;
+use super::cue_hand::HandMarkerFrame;
+use super::cue_targets::GestureQuartiles;
+use super::session::{ExpectedCueKey, FollowedTake, KeyGestures, KeySounds, find_key_gestures};
+use crate::random::RandomNumbers;
 
 /// The straight fingers of each shape from index to little finger, and whether the thumb is out.
 const SHAPES: [([bool; 4], bool); 9] = [
@@ -71,11 +71,7 @@ fn markers(bends: &Bends, wrist: DVec3) -> Vec<DVec3> {
         let bones = [(41.0, 0.0), (25.0, second), (19.0, third)];
         for (bone, (length, bend)) in bones.into_iter().enumerate() {
             turn *= DQuat::from_rotation_y(bend);
-            let places: &[f64] = if bone == 2 {
-                &[0.3, 0.95]
-            } else {
-                &[0.25, 0.5, 0.8]
-            };
+            let places: &[f64] = if bone == 2 { &[0.3, 0.95] } else { &[0.25, 0.5, 0.8] };
             let on_skin = |part: &f64| joint + turn * DVec3::new(length * part, 0.0, 6.0);
             all.extend(places.iter().map(on_skin));
             joint += turn * DVec3::X * length;
@@ -99,30 +95,28 @@ fn minimum_jerk(share: f64) -> f64 {
 }
 
 fn half_a_sine(share: f64) -> f64 {
-    (std::f64::consts::FRAC_PI_2 * share.clamp(0.0, 1.0))
-        .sin()
-        .powi(2)
+    (std::f64::consts::FRAC_PI_2 * share.clamp(0.0, 1.0)).sin().powi(2)
 }
 
 /// The number of keys of a take.
 const KEYS: usize = 90;
 
 /// Returns keys at uneven times, and the planted start and end of the movement to each of them.
-fn planted() -> (Vec<Key>, Vec<[f64; 2]>) {
-    let mut random = Random::new(42);
-    let (mut keys, mut moves, mut at) = (Vec::<Key>::new(), Vec::new(), 1.0);
+fn planted() -> (Vec<ExpectedCueKey>, Vec<[f64; 2]>) {
+    let mut random = RandomNumbers::new(42);
+    let (mut keys, mut moves, mut at) = (Vec::<ExpectedCueKey>::new(), Vec::new(), 1.0);
     for n in 0..KEYS {
         let before = keys.last().map_or((0, 0), |key| (key.placement, key.shape));
         let mut draw = |count: f64, other: u8| loop {
-            let own = 1 + (random.share() * count) as u8;
+            let own = 1 + (random.random_share() * count) as u8;
             if own != other {
                 return own;
             }
         };
         let (placement, shape) = (draw(5.0, before.0), draw(8.0, before.1));
-        let (consonant, vowel) = (0.12 + 0.03 * random.share(), 0.26 + 0.07 * random.share());
+        let (consonant, vowel) = (0.12 + 0.03 * random.random_share(), 0.26 + 0.07 * random.random_share());
         let a2 = at + consonant;
-        keys.push(Key {
+        keys.push(ExpectedCueKey {
             kind: KeySounds::Pair,
             placement,
             shape,
@@ -138,9 +132,9 @@ fn planted() -> (Vec<Key>, Vec<[f64; 2]>) {
 }
 
 /// Returns the markers of the keys' movements, at `rate` frames a second.
-fn filmed(rate: f64, course: fn(f64) -> f64) -> (Vec<Frame>, Vec<Key>, Vec<[f64; 2]>) {
+fn filmed(rate: f64, course: fn(f64) -> f64) -> (Vec<HandMarkerFrame>, Vec<ExpectedCueKey>, Vec<[f64; 2]>) {
     let (keys, moves) = planted();
-    let mut random = Random::new(7);
+    let mut random = RandomNumbers::new(7);
     let last = keys.last().map_or(0.0, |key| key.a3) + 0.5;
     let frames = (0..(last * rate) as usize).map(|frame| {
         let time = frame as f64 / rate;
@@ -158,7 +152,7 @@ fn filmed(rate: f64, course: fn(f64) -> f64) -> (Vec<Frame>, Vec<Key>, Vec<[f64;
                 *own += (to - *own) * share;
             }
         }
-        let mut noise = || DVec3::from([0; 3].map(|_| 0.2 * random.normal()));
+        let mut noise = || DVec3::from([0; 3].map(|_| 0.2 * random.random_normal()));
         let points = markers(&now, at).into_iter();
         points.map(|at| Some(at + noise())).collect()
     });
@@ -169,35 +163,29 @@ fn filmed(rate: f64, course: fn(f64) -> f64) -> (Vec<Frame>, Vec<Key>, Vec<[f64;
 /// The share of a movement that is done at a share of its time.
 type MovementCourse = fn(f64) -> f64;
 /// The gesture of one part of the hand.
-type GestureOf = fn(&KeyGestures) -> super::session::Gesture;
+type GestureOf = fn(&KeyGestures) -> super::session::MeasuredGesture;
 
 #[test]
 fn hand_and_fingers_arrive_when_they_do_at_every_rate_and_course() {
-    let courses: [(&str, MovementCourse); 2] =
-        [("minimum jerk", minimum_jerk), ("half a sine", half_a_sine)];
+    let courses: [(&str, MovementCourse); 2] = [("minimum jerk", minimum_jerk), ("half a sine", half_a_sine)];
     for (name, course) in courses {
         for rate in [25.0, 30.0, 60.0, 120.0] {
             let (frames, keys, moves) = filmed(rate, course);
-            let take = Followed::of_seen(&frames, &[], None, rate);
-            let (_, shown) = find(&[(&take, &keys)]).expect("keys to learn from");
-            let parts: [(&str, GestureOf); 2] =
-                [("hand", |key| key.hand), ("fingers", |key| key.fingers)];
+            let take = FollowedTake::of_seen(&frames, &[], None, rate);
+            let (_, shown) = find_key_gestures(&[(&take, &keys)]).expect("keys to learn from");
+            let parts: [(&str, GestureOf); 2] = [("hand", |key| key.hand), ("fingers", |key| key.fingers)];
             for (part, of) in parts {
                 if part == "hand" && name != "minimum jerk" {
                     continue;
                 }
-                let own = shown[0]
-                    .iter()
-                    .map(of)
-                    .zip(&moves)
-                    .filter(|pair| pair.0.measured);
+                let own = shown[0].iter().map(of).zip(&moves).filter(|pair| pair.0.measured);
                 let late: Vec<[f64; 2]> = own
                     .map(|(own, [start, end])| [own.movement.start - start, own.movement.end - end])
                     .collect();
                 assert!(late.len() > KEYS * 8 / 10, "{part}: {}", late.len());
                 for (n, of) in ["starts", "arrives"].into_iter().enumerate() {
                     let all: Vec<f64> = late.iter().map(|pair| 1000.0 * pair[n]).collect();
-                    let q = Quartiles::of(&all).expect("gestures");
+                    let q = GestureQuartiles::quartiles_from_numbers(&all).expect("gestures");
                     assert!(q.median.abs() < 5.0, "{name} {rate} {part} {of}: {q:?} ms");
                 }
             }

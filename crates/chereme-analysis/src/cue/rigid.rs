@@ -2,18 +2,18 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::linear::{Matrix, eigen};
+use super::linear::{DenseMatrix, symmetric_eigenvectors};
 
 /// A rotation and a translation: `x` is moved to `rotation · x + translation`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rigid {
+pub struct RigidMotion {
     /// The rotation.
     pub rotation: DQuat,
     /// The translation, in the unit of the points.
     pub translation: DVec3,
 }
 
-impl Default for Rigid {
+impl Default for RigidMotion {
     fn default() -> Self {
         Self {
             rotation: DQuat::IDENTITY,
@@ -33,16 +33,16 @@ pub enum RigidError {
     Line,
 }
 
-impl Rigid {
+impl RigidMotion {
     /// Returns the moved position of a point.
     #[must_use]
-    pub fn apply(&self, x: DVec3) -> DVec3 {
+    pub fn apply_rigid_motion(&self, x: DVec3) -> DVec3 {
         self.rotation * x + self.translation
     }
 
     /// Returns the original position of a moved point.
     #[must_use]
-    pub fn undo(&self, x: DVec3) -> DVec3 {
+    pub fn undo_rigid_motion(&self, x: DVec3) -> DVec3 {
         self.rotation.inverse() * (x - self.translation)
     }
 
@@ -53,7 +53,7 @@ impl Rigid {
     ///
     /// # Errors
     /// [`RigidError`] if fewer than three points are visible, or all of them lie on one line.
-    pub fn fit(from: &[DVec3], to: &[Option<DVec3>]) -> Result<Self, RigidError> {
+    pub fn fit_rigid_motion(from: &[DVec3], to: &[Option<DVec3>]) -> Result<Self, RigidError> {
         let seen: Vec<(DVec3, DVec3)> = from
             .iter()
             .zip(to)
@@ -65,18 +65,18 @@ impl Rigid {
         let count = seen.len() as f64;
         let middle = |of: fn(&(DVec3, DVec3)) -> DVec3| seen.iter().map(of).sum::<DVec3>() / count;
         let (a, b) = (middle(|pair| pair.0), middle(|pair| pair.1));
-        let mut own = DMat3::ZERO;
+        let mut covariance = DMat3::ZERO;
         let mut s = [[0.0; 3]; 3];
         for (from, to) in &seen {
             let (x, y) = (*from - a, *to - b);
-            own += DMat3::from_cols(x * x.x, x * x.y, x * x.z);
+            covariance += DMat3::from_cols(x * x.x, x * x.y, x * x.z);
             for (i, row) in s.iter_mut().enumerate() {
                 for (j, value) in row.iter_mut().enumerate() {
                     *value += x[i] * y[j];
                 }
             }
         }
-        if is_line(&own) {
+        if is_line(&covariance) {
             return Err(RigidError::Line);
         }
         let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = s;
@@ -86,19 +86,19 @@ impl Rigid {
             [zx - xz, xy + yx, yy - xx - zz, yz + zy],
             [xy - yx, zx + xz, yz + zy, zz - xx - yy],
         ];
-        let mut matrix = Matrix::zeros(4, 4);
+        let mut matrix = DenseMatrix::zero_matrix(4, 4);
         for (i, row) in horn.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 matrix[(i, j)] = *value;
             }
         }
-        let (_, vectors) = eigen(&matrix);
-        let q = vectors.row(0);
+        let (_, vectors) = symmetric_eigenvectors(&matrix);
+        let q = vectors.matrix_row(0);
         // A quaternion and its negative rotate alike; the one with a positive real part has the smaller angle;
         // callers take shares of it.
         let sign = if q[0] < 0.0 { -1.0 } else { 1.0 };
-        let rotation = DQuat::from_xyzw(q[1] * sign, q[2] * sign, q[3] * sign, q[0] * sign);
-        let rotation = rotation.normalize();
+        let raw_rotation = DQuat::from_xyzw(q[1] * sign, q[2] * sign, q[3] * sign, q[0] * sign);
+        let rotation = raw_rotation.normalize();
         Ok(Self {
             rotation,
             translation: b - rotation * a,
@@ -108,12 +108,12 @@ impl Rigid {
 
 /// Returns whether points with this scatter lie on one line: the second eigenvalue is nearly zero.
 fn is_line(scatter: &DMat3) -> bool {
-    let mut matrix = Matrix::zeros(3, 3);
+    let mut matrix = DenseMatrix::zero_matrix(3, 3);
     for i in 0..3 {
         for j in 0..3 {
             matrix[(i, j)] = scatter.col(j)[i];
         }
     }
-    let (values, _) = eigen(&matrix);
+    let (values, _) = symmetric_eigenvectors(&matrix);
     values[1] <= 1e-9 * values[0] || values[0] <= 0.0
 }

@@ -2,29 +2,26 @@
 
 use std::fmt;
 
-use super::{StepPattern, Window};
+use super::{AlignmentWindow, StepPattern};
 
 /// The reason why there is no path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Obstacle {
+pub enum PathObstacle {
     /// The window leaves out the last pair of frames, or the first.
-    Window(Window),
+    Window(AlignmentWindow),
     /// The step pattern cannot stretch one length to the other.
     Slope(StepPattern),
     /// Window and pattern each allow a path, but not together.
-    Together(Window, StepPattern),
+    Together(AlignmentWindow, StepPattern),
 }
 
-impl fmt::Display for Obstacle {
+impl fmt::Display for PathObstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Window(window) => write!(f, "the window {window} does not reach both corners"),
             Self::Slope(pattern) => write!(f, "{pattern:?} steps cannot stretch so far"),
             Self::Together(window, pattern) => {
-                write!(
-                    f,
-                    "{pattern:?} steps find no path inside the window {window}"
-                )
+                write!(f, "{pattern:?} steps find no path inside the window {window}")
             }
         }
     }
@@ -109,7 +106,7 @@ pub enum DtwError {
         /// Frames of the reference.
         reference: usize,
         /// The obstacle.
-        reason: Obstacle,
+        reason: PathObstacle,
         /// A change of pattern, window or lengths under which a path exists.
         remedy: String,
     },

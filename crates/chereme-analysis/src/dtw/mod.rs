@@ -2,7 +2,7 @@
 //! corresponding frames.
 //!
 //! Exact, multivariate, in `f64`; the results equal those of dtw-python and R's `dtw`, which the field
-//! uses. [`align`] gives the path, [`distance`] the cost alone in the memory of one row, and [`nearest`]
+//! uses. [`align_series`] gives the path, [`dtw_distance`] the cost alone in the memory of one row, and [`find_nearest_candidates`]
 //! the best of many.
 //!
 //! ```
@@ -17,36 +17,36 @@
 //! ```
 //!
 //! **If no path exists** (a window narrower than the difference in length, a pattern that cannot stretch
-//! that far), there is no distance either. [`Policy`] decides what happens then; the default refuses, and
-//! [`Cost::made`] reports any other policy that was applied.
+//! that far), there is no distance either. [`DtwPathPolicy`] decides what happens then; the default refuses, and
+//! [`DtwCost::made`] reports any other policy that was applied.
 
+mod dtw_pattern;
+mod dtw_rows;
+mod dtw_table;
 mod error;
 mod nearest;
-mod pattern;
-mod rows;
 mod series;
 mod skew;
-mod table;
 mod window;
 
-pub use error::{DtwError, Obstacle};
-pub use nearest::{Nearest, Neighbour, nearest};
-pub use pattern::StepPattern;
-pub use series::Series;
-pub use window::Window;
+pub use dtw_pattern::StepPattern;
+pub use error::{DtwError, PathObstacle};
+pub use nearest::{DtwNeighbour, NearestCandidates, find_nearest_candidates};
+pub use series::ChannelSeries;
+pub use window::AlignmentWindow;
 
 use std::fmt;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use pattern::Norm;
-use table::Table;
+use dtw_pattern::CostNorm;
+use dtw_table::DtwTable;
 
 /// The local distance of two frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Local {
+pub enum LocalDistance {
     /// The Euclidean distance over all channels.
     #[default]
     Euclidean,
@@ -57,7 +57,7 @@ pub enum Local {
 /// The policy for series that no path connects under the requested pattern and window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Policy {
+pub enum DtwPathPolicy {
     /// Refuse with [`DtwError::NoPath`], as dtw-python and R do.
     #[default]
     Refuse,
@@ -71,14 +71,14 @@ pub enum Policy {
 
 /// Limits that keep two long recordings from filling memory or running for hours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Limits {
-    /// Most cells for which [`align`] keeps a step, one byte each.
+pub struct DtwLimits {
+    /// Most cells for which [`align_series`] keeps a step, one byte each.
     pub kept: u64,
-    /// Most cells to compute, in [`align`] and in [`distance`].
+    /// Most cells to compute, in [`align_series`] and in [`dtw_distance`].
     pub cells: u64,
 }
 
-impl Default for Limits {
+impl Default for DtwLimits {
     /// 256 MiB of steps (16,000 by 16,000 frames), 2^36 cells (about two minutes of work).
     fn default() -> Self {
         Self {
@@ -92,13 +92,13 @@ impl Default for Limits {
 /// path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Options {
+pub struct DtwOptions {
     /// The steps a path may take.
     pub pattern: StepPattern,
     /// The cells a path may visit.
-    pub window: Window,
+    pub window: AlignmentWindow,
     /// The distance of two frames.
-    pub local: Local,
+    pub local: LocalDistance,
     /// Whether the path may start at any frame of the reference; only for patterns normalised by the
     /// query's length. The window still counts from the first frames of both (dtw-python's is one frame
     /// off there). All but the plain asymmetric pattern then leave out the reference's first frame, as a
@@ -108,9 +108,9 @@ pub struct Options {
     /// distance, the earliest of several; not for symmetric1.
     pub open_end: bool,
     /// The policy if there is no path.
-    pub policy: Policy,
+    pub policy: DtwPathPolicy,
     /// Limits of work and memory.
-    pub limits: Limits,
+    pub limits: DtwLimits,
 }
 
 /// The method by which a cost was computed.
@@ -119,9 +119,9 @@ pub struct Options {
 pub enum CostMethod {
     /// Under the requested pattern and window.
     AsAsked,
-    /// After resampling the reference to the query's length, by [`Policy::Resample`].
+    /// After resampling the reference to the query's length, by [`DtwPathPolicy::Resample`].
     Resampled,
-    /// In a slanted band of this half width, by [`Policy::SlantedBand`].
+    /// In a slanted band of this half width, by [`DtwPathPolicy::SlantedBand`].
     SlantedBand(usize),
 }
 
@@ -137,7 +137,7 @@ impl fmt::Display for CostMethod {
 
 /// The cost of the best alignment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Cost {
+pub struct DtwCost {
     /// Weighted sum of the local distances along the path.
     pub distance: f64,
     /// The distance divided by the path's total weight: the query's length, or the sum of both lengths,
@@ -149,67 +149,75 @@ pub struct Cost {
 
 /// The best alignment of a query with a reference.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Alignment {
+pub struct DtwAlignment {
     /// Its cost.
-    pub cost: Cost,
+    pub cost: DtwCost,
     /// Corresponding frames of the query and of the reference, in order; neither ever decreases.
     pub path: Vec<(usize, usize)>,
 }
 
 /// Returns the best alignment of `query` with `reference` and its path.
 ///
-/// Memory is one byte per cell inside the window; see [`Limits`].
+/// Memory is one byte per cell inside the window; see [`DtwLimits`].
 ///
 /// # Errors
 /// [`DtwError::Channels`], [`DtwError::OpenEnd`], [`DtwError::TooLarge`], and [`DtwError::NoPath`] if the
 /// policy refuses.
-pub fn align(query: &Series, reference: &Series, options: &Options) -> Result<Alignment, DtwError> {
+pub fn align_series(
+    query: &ChannelSeries,
+    reference: &ChannelSeries,
+    options: &DtwOptions,
+) -> Result<DtwAlignment, DtwError> {
     let limit = options.limits.kept.min(options.limits.cells);
-    check(query, reference, options, limit)?;
+    check_dtw_input(query, reference, options, limit)?;
     with_policy(query, reference, options, |query, reference, options| {
-        let table = Table::fill::<true>(query, reference, options)?;
-        let (end, cost) = finish(table.last(), query.frames(), options)?;
-        let path = table.path(query.frames(), end, options);
-        Some(Alignment { cost, path })
+        let table = DtwTable::fill_dtw_table::<true>(query, reference, options)?;
+        let (end, cost) = choose_path_end(table.last_row_costs(), query.series_frame_count(), options)?;
+        let path = table.trace_alignment_path(query.series_frame_count(), end, options);
+        Some(DtwAlignment { cost, path })
     })
 }
 
 /// Returns the cost of the best alignment of `query` with `reference`, without its path.
 ///
-/// Equal to that of [`align`] to the last digit or two; memory grows with the lengths only.
+/// Equal to that of [`align_series`] to the last digit or two; memory grows with the lengths only.
 ///
 /// # Errors
-/// The same as [`align`]'s.
-pub fn distance(query: &Series, reference: &Series, options: &Options) -> Result<Cost, DtwError> {
-    check(query, reference, options, options.limits.cells)?;
-    let found = with_policy(query, reference, options, |query, reference, options| {
-        let table = Table::fill::<false>(query, reference, options)?;
-        let (_, cost) = finish(table.last(), query.frames(), options)?;
+/// The same as [`align_series`]'s.
+pub fn dtw_distance(
+    query: &ChannelSeries,
+    reference: &ChannelSeries,
+    options: &DtwOptions,
+) -> Result<DtwCost, DtwError> {
+    check_dtw_input(query, reference, options, options.limits.cells)?;
+    let outcome = with_policy(query, reference, options, |query, reference, options| {
+        let table = DtwTable::fill_dtw_table::<false>(query, reference, options)?;
+        let (_, cost) = choose_path_end(table.last_row_costs(), query.series_frame_count(), options)?;
         let path = Vec::new();
-        Some(Alignment { cost, path })
+        Some(DtwAlignment { cost, path })
     });
-    found.map(|alignment| alignment.cost)
+    outcome.map(|alignment| alignment.cost)
 }
 
 /// Returns the divisor of the cost of a path to frame `end` of the reference.
-fn norm(pattern: StepPattern, query: usize, end: usize) -> Option<f64> {
-    match pattern.norm() {
-        Norm::None => None,
-        Norm::Query => Some(query as f64),
-        Norm::Both => Some((query + end + 1) as f64),
+fn path_cost_divisor(pattern: StepPattern, query: usize, end: usize) -> Option<f64> {
+    match pattern.cost_norm() {
+        CostNorm::None => None,
+        CostNorm::Query => Some(query as f64),
+        CostNorm::Both => Some((query + end + 1) as f64),
     }
 }
 
 /// Chooses the frame of the reference at which the path ends; `None` if no frame is reached.
-fn finish(last: &[f64], query: usize, options: &Options) -> Option<(usize, Cost)> {
-    let normalized = |end: usize| norm(options.pattern, query, end).map(|norm| last[end] / norm);
+fn choose_path_end(last: &[f64], query: usize, options: &DtwOptions) -> Option<(usize, DtwCost)> {
+    let normalized = |end: usize| path_cost_divisor(options.pattern, query, end).map(|norm| last[end] / norm);
     let end = if options.open_end {
         let least = |end: &usize| normalized(*end).unwrap_or(last[*end]);
         (0..last.len()).min_by(|a, b| least(a).total_cmp(&least(b)))?
     } else {
         last.len() - 1
     };
-    let cost = Cost {
+    let cost = DtwCost {
         distance: last[end],
         normalized: normalized(end),
         made: CostMethod::AsAsked,
@@ -217,13 +225,13 @@ fn finish(last: &[f64], query: usize, options: &Options) -> Option<(usize, Cost)
     cost.distance.is_finite().then_some((end, cost))
 }
 
-fn check(
-    query: &Series,
-    reference: &Series,
-    options: &Options,
+fn check_dtw_input(
+    query: &ChannelSeries,
+    reference: &ChannelSeries,
+    options: &DtwOptions,
     limit: u64,
 ) -> Result<(), DtwError> {
-    let (channels, other) = (query.channels(), reference.channels());
+    let (channels, other) = (query.series_channel_count(), reference.series_channel_count());
     if channels != other {
         return Err(DtwError::Channels {
             query: channels,
@@ -231,24 +239,20 @@ fn check(
         });
     }
     let pattern = options.pattern;
-    if options.open_begin && pattern.norm() != Norm::Query {
-        return Err(DtwError::OpenEnd {
-            pattern,
-            end: "begin",
-        });
+    if options.open_begin && pattern.cost_norm() != CostNorm::Query {
+        return Err(DtwError::OpenEnd { pattern, end: "begin" });
     }
-    if options.open_end && pattern.norm() == Norm::None {
-        return Err(DtwError::OpenEnd {
-            pattern,
-            end: "end",
-        });
+    if options.open_end && pattern.cost_norm() == CostNorm::None {
+        return Err(DtwError::OpenEnd { pattern, end: "end" });
     }
-    let cells = options.window.cells(query.frames(), reference.frames());
+    let cells = options
+        .window
+        .count_window_cells(query.series_frame_count(), reference.series_frame_count());
     if cells > limit {
         return Err(too_large(
             cells,
             limit,
-            query.frames(),
+            query.series_frame_count(),
             limit < options.limits.cells,
         ));
     }
@@ -267,43 +271,39 @@ fn too_large(cells: u64, limit: u64, frames: usize, kept: bool) -> DtwError {
     } else {
         format!("cut the recordings into signs or lower their frame rate{without_path}")
     };
-    DtwError::TooLarge {
-        cells,
-        limit,
-        remedy,
-    }
+    DtwError::TooLarge { cells, limit, remedy }
 }
 
 /// Calls `run` as requested and, if it finds no path, once more according to the policy.
 fn with_policy(
-    query: &Series,
-    reference: &Series,
-    options: &Options,
-    run: impl Fn(&Series, &Series, &Options) -> Option<Alignment>,
-) -> Result<Alignment, DtwError> {
+    query: &ChannelSeries,
+    reference: &ChannelSeries,
+    options: &DtwOptions,
+    run: impl Fn(&ChannelSeries, &ChannelSeries, &DtwOptions) -> Option<DtwAlignment>,
+) -> Result<DtwAlignment, DtwError> {
     if let Some(found) = run(query, reference, options) {
         return Ok(found);
     }
-    let (n, m) = (query.frames(), reference.frames());
+    let (n, m) = (query.series_frame_count(), reference.series_frame_count());
     let remedied = match options.policy {
-        Policy::Refuse => None,
-        Policy::Resample => run(query, &reference.resampled(n), options).map(|mut found| {
+        DtwPathPolicy::Refuse => None,
+        DtwPathPolicy::Resample => run(query, &reference.resample_series_frames(n), options).map(|mut found| {
             for (_, j) in &mut found.path {
-                *j = series::place(*j, n, m).round() as usize;
+                *j = series::resampled_frame_position(*j, n, m).round() as usize;
             }
             found.cost.made = CostMethod::Resampled;
             found
         }),
-        Policy::SlantedBand => {
+        DtwPathPolicy::SlantedBand => {
             let half_width = slanted_width(options.window, n, m);
-            let window = Window::SlantedBand(half_width);
-            check(
+            let window = AlignmentWindow::SlantedBand(half_width);
+            check_dtw_input(
                 query,
                 reference,
-                &Options { window, ..*options },
+                &DtwOptions { window, ..*options },
                 options.limits.kept,
             )?;
-            run(query, reference, &Options { window, ..*options }).map(|mut found| {
+            run(query, reference, &DtwOptions { window, ..*options }).map(|mut found| {
                 found.cost.made = CostMethod::SlantedBand(half_width);
                 found
             })
@@ -313,35 +313,35 @@ fn with_policy(
 }
 
 /// Returns the half width of a slanted band no narrower than `window` that holds both corners.
-fn slanted_width(window: Window, n: usize, m: usize) -> usize {
+fn slanted_width(window: AlignmentWindow, n: usize, m: usize) -> usize {
     let asked = match window {
-        Window::None => m,
-        Window::SakoeChiba(w) | Window::SlantedBand(w) => w,
+        AlignmentWindow::None => m,
+        AlignmentWindow::SakoeChiba(w) | AlignmentWindow::SlantedBand(w) => w,
     };
     asked.max(m.div_ceil(n))
 }
 
-fn no_path(query: usize, reference: usize, options: &Options) -> DtwError {
+fn no_path(query: usize, reference: usize, options: &DtwOptions) -> DtwError {
     let (pattern, window) = (options.pattern, options.window);
-    let rows: Vec<Range<usize>> = window.rows(query, reference);
-    let (reason, remedy) = if !pattern.spans(query, reference) && !options.open_end {
+    let rows: Vec<Range<usize>> = window.window_row_ranges(query, reference);
+    let (reason, remedy) = if !pattern.may_span_frames(query, reference) && !options.open_end {
         let remedy = "use a symmetric pattern, or resample one of them (policy resample)";
-        (Obstacle::Slope(pattern), remedy.to_owned())
-    } else if !window::connected(&rows, reference) {
+        (PathObstacle::Slope(pattern), remedy.to_owned())
+    } else if !window::is_window_connected(&rows, reference) {
         let remedy = match window {
-            Window::SakoeChiba(_) => format!(
+            AlignmentWindow::SakoeChiba(_) => format!(
                 "use a window of at least {} frames, a slanted band, or the policy resample",
                 query.abs_diff(reference)
             ),
             _ => format!(
                 "use a slanted band of at least {} frames, or the policy resample",
-                slanted_width(Window::SlantedBand(0), query, reference)
+                slanted_width(AlignmentWindow::SlantedBand(0), query, reference)
             ),
         };
-        (Obstacle::Window(window), remedy)
+        (PathObstacle::Window(window), remedy)
     } else {
         let remedy = "widen the window, use a symmetric pattern, or the policy resample";
-        (Obstacle::Together(window, pattern), remedy.to_owned())
+        (PathObstacle::Together(window, pattern), remedy.to_owned())
     };
     DtwError::NoPath {
         query,

@@ -4,29 +4,29 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap, VecDeque};
 use std::ops::Range;
 
-use super::skew::{self, Ask, Reversed, SLACK};
-use super::window::{connected, transposed};
-use super::{DtwError, Local, Options, Policy, Series, check, distance};
+use super::skew::{self, LOWER_BOUND_SLACK, ReversedSeries, SkewKernelRequest};
+use super::window::{is_window_connected, transpose_row_ranges};
+use super::{ChannelSeries, DtwError, DtwOptions, DtwPathPolicy, LocalDistance, check_dtw_input, dtw_distance};
 
 /// Frames of a candidate whose bounds are computed together.
-const RUN: usize = 16;
+const BOUND_RUN_FRAMES: usize = 16;
 /// Distance in frames between the runs whose bounds are computed first, as a sample.
-const SAMPLED: usize = 4 * RUN;
+const BOUND_SAMPLE_FRAMES: usize = 4 * BOUND_RUN_FRAMES;
 
 /// A candidate with its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Neighbour {
+pub struct DtwNeighbour {
     /// Its index among the candidates.
     pub index: usize,
-    /// The distance of its best alignment, as [`distance`] gives it (not normalised).
+    /// The dtw_distance of its best alignment, as [`dtw_distance`] gives it (not normalised).
     pub distance: f64,
 }
 
 /// The candidates nearest to a query, and counts of the work done to find them.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Nearest {
+pub struct NearestCandidates {
     /// Nearest first, equal distances by index; fewer than requested if fewer have a path.
-    pub neighbours: Vec<Neighbour>,
+    pub neighbours: Vec<DtwNeighbour>,
     /// The number of candidates whose alignment was computed to the end; the others were ruled out
     /// earlier.
     pub completed: usize,
@@ -36,25 +36,25 @@ pub struct Nearest {
 
 /// Returns the `k` candidates with the least alignment distance to `query`.
 ///
-/// The answer equals that of [`distance`] on every candidate. For the symmetric patterns with closed ends
+/// The answer equals that of [`dtw_distance`] on every candidate. For the symmetric patterns with closed ends
 /// a lower bound of each (Keogh and Ratanamahatana 2005, doi 10.1007/s10115-004-0154-9; on each channel,
 /// with the window's own envelope) determines the order of work and excludes most candidates, and a
 /// running alignment is abandoned once it cannot win.
 ///
 /// # Errors
-/// The same as [`distance`]'s, but candidates without a path are counted instead of refused.
-pub fn nearest(
-    query: &Series,
-    candidates: &[Series],
+/// The same as [`dtw_distance`]'s, but candidates without a path are counted instead of refused.
+pub fn find_nearest_candidates(
+    query: &ChannelSeries,
+    candidates: &[ChannelSeries],
     k: usize,
-    options: &Options,
-) -> Result<Nearest, DtwError> {
+    options: &DtwOptions,
+) -> Result<NearestCandidates, DtwError> {
     for candidate in candidates {
-        check(query, candidate, options, options.limits.cells)?;
+        check_dtw_input(query, candidate, options, options.limits.cells)?;
     }
     let closed = !options.open_begin && !options.open_end;
-    match options.pattern.diagonal() {
-        Some(diagonal) if closed && options.policy == Policy::Refuse => {
+    match options.pattern.diagonal_weight() {
+        Some(diagonal) if closed && options.policy == DtwPathPolicy::Refuse => {
             Ok(pruned(query, candidates, k, options, diagonal))
         }
         _ => every(query, candidates, k, options),
@@ -62,15 +62,15 @@ pub fn nearest(
 }
 
 fn every(
-    query: &Series,
-    candidates: &[Series],
+    query: &ChannelSeries,
+    candidates: &[ChannelSeries],
     k: usize,
-    options: &Options,
-) -> Result<Nearest, DtwError> {
-    let mut best = Best::new(k);
+    options: &DtwOptions,
+) -> Result<NearestCandidates, DtwError> {
+    let mut best = BestCandidates::new(k);
     for (index, candidate) in candidates.iter().enumerate() {
-        match distance(query, candidate, options) {
-            Ok(cost) => best.offer(index, cost.distance),
+        match dtw_distance(query, candidate, options) {
+            Ok(cost) => best.offer_candidate(index, cost.distance),
             Err(DtwError::NoPath { .. }) => best.found.without_path += 1,
             Err(error) => return Err(error),
         }
@@ -81,97 +81,95 @@ fn every(
 /// Processes the candidate with the least bound: first from a sample of its frames, then from all of them,
 /// then by its alignment.
 fn pruned(
-    query: &Series,
-    candidates: &[Series],
+    query: &ChannelSeries,
+    candidates: &[ChannelSeries],
     k: usize,
-    options: &Options,
+    options: &DtwOptions,
     diagonal: f64,
-) -> Nearest {
-    let mut best = Best::new(k);
-    let mut envelopes: BTreeMap<usize, Option<Envelope>> = BTreeMap::new();
+) -> NearestCandidates {
+    let mut best = BestCandidates::new(k);
+    let mut envelopes: BTreeMap<usize, Option<QueryEnvelope>> = BTreeMap::new();
     let mut queue = Vec::with_capacity(candidates.len());
     let mut bounds = Vec::new();
     for (index, candidate) in candidates.iter().enumerate() {
         let envelope = envelopes
-            .entry(candidate.frames())
-            .or_insert_with_key(|frames| Envelope::of(query, *frames, options));
+            .entry(candidate.series_frame_count())
+            .or_insert_with_key(|frames| QueryEnvelope::envelope_for_length(query, *frames, options));
         let Some(envelope) = envelope else {
             best.found.without_path += 1;
             continue;
         };
-        envelope.bounds(candidate, options.local, SAMPLED, &mut bounds);
-        queue.push(Reverse(Bound {
-            least: total(&bounds),
+        envelope.write_frame_bounds(candidate, options.local, BOUND_SAMPLE_FRAMES, &mut bounds);
+        queue.push(Reverse(DistanceBound {
+            least: sum_frame_bounds(&bounds),
             index,
             sampled: true,
         }));
     }
     let mut queue = BinaryHeap::from(queue);
-    let reversed = Reversed::of(query);
+    let reversed = ReversedSeries::reverse_series(query);
     while let Some(Reverse(bound)) = queue.pop() {
-        if bound.least * SLACK > best.limit() {
+        if bound.least * LOWER_BOUND_SLACK > best.useful_distance_limit() {
             break;
         }
         let candidate = &candidates[bound.index];
-        let Some(Some(envelope)) = envelopes.get(&candidate.frames()) else {
+        let Some(Some(envelope)) = envelopes.get(&candidate.series_frame_count()) else {
             continue;
         };
-        envelope.bounds(candidate, options.local, RUN, &mut bounds);
+        envelope.write_frame_bounds(candidate, options.local, BOUND_RUN_FRAMES, &mut bounds);
         if bound.sampled {
-            queue.push(Reverse(Bound {
-                least: total(&bounds),
+            queue.push(Reverse(DistanceBound {
+                least: sum_frame_bounds(&bounds),
                 sampled: false,
                 ..bound
             }));
             continue;
         }
-        remaining(&mut bounds);
-        let ask = Ask {
+        accumulate_later_bounds(&mut bounds);
+        let ask = SkewKernelRequest {
             rows: &envelope.rows,
             diagonal,
             local: options.local,
-            limit: best.limit(),
+            limit: best.useful_distance_limit(),
             rest: &bounds,
         };
-        if let Some(table) = skew::fill::<false>(candidate, &reversed, &ask) {
-            best.offer(bound.index, table.last[query.frames() - 1]);
+        if let Some(table) = skew::fill_skew_table::<false>(candidate, &reversed, &ask) {
+            best.offer_candidate(bound.index, table.last[query.series_frame_count() - 1]);
         }
     }
     best.found
 }
 
 /// A lower bound of a candidate's distance.
-struct Bound {
+struct DistanceBound {
     least: f64,
     index: usize,
     /// Whether it comes from a sample of the frames.
     sampled: bool,
 }
 
-impl Ord for Bound {
+impl Ord for DistanceBound {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.least
-            .total_cmp(&other.least)
-            .then(self.index.cmp(&other.index))
+        self.least.total_cmp(&other.least).then(self.index.cmp(&other.index))
     }
 }
 
-impl PartialOrd for Bound {
+impl PartialOrd for DistanceBound {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Bound {
+impl PartialEq for DistanceBound {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Bound {}
+impl Eq for DistanceBound {}
 
 /// Returns the sum, by eight independent sums.
-fn total(bounds: &[f64]) -> f64 {
+fn sum_frame_bounds(bounds: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (chunks, rest) = bounds.as_chunks::<8>();
     for chunk in chunks {
@@ -183,17 +181,17 @@ fn total(bounds: &[f64]) -> f64 {
 }
 
 /// Replaces the bound of each frame by the sum of those of all later frames.
-fn remaining(bounds: &mut [f64]) {
+fn accumulate_later_bounds(bounds: &mut [f64]) {
     let mut sum = 0.0;
     for bound in bounds.iter_mut().rev() {
-        let own = *bound;
+        let bound_value = *bound;
         *bound = sum;
-        sum += own;
+        sum += bound_value;
     }
 }
 
 /// The range of the query's values that each frame of a candidate may meet, for one length.
-struct Envelope {
+struct QueryEnvelope {
     /// Frames of the query that each frame of the candidate may be aligned with.
     rows: Vec<Range<usize>>,
     /// Least and greatest value, channel by channel.
@@ -201,17 +199,17 @@ struct Envelope {
     upper: Vec<f64>,
 }
 
-impl Envelope {
+impl QueryEnvelope {
     /// Returns the envelope for candidates of `length` frames; `None` if they have no path.
-    fn of(query: &Series, length: usize, options: &Options) -> Option<Self> {
-        let window = options.window.rows(query.frames(), length);
-        if !connected(&window, length) {
+    fn envelope_for_length(query: &ChannelSeries, length: usize, options: &DtwOptions) -> Option<Self> {
+        let window = options.window.window_row_ranges(query.series_frame_count(), length);
+        if !is_window_connected(&window, length) {
             return None;
         }
-        let rows = transposed(&window, length);
+        let rows = transpose_row_ranges(&window, length);
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for channel in 0..query.channels() {
-            let column = query.column(channel);
+        for channel in 0..query.series_channel_count() {
+            let column = query.channel_values(channel);
             lower.extend(sliding(column, &rows, |a, b| a <= b));
             upper.extend(sliding(column, &rows, |a, b| a >= b));
         }
@@ -219,9 +217,9 @@ impl Envelope {
     }
 
     /// Writes for frames of `candidate` the least distance from any frame they may be aligned with: for
-    /// the first [`RUN`] frames in every `stride`.
-    fn bounds(&self, candidate: &Series, local: Local, stride: usize, out: &mut Vec<f64>) {
-        pulp::Arch::new().dispatch(Bounds {
+    /// the first [`BOUND_RUN_FRAMES`] frames in every `stride`.
+    fn write_frame_bounds(&self, candidate: &ChannelSeries, local: LocalDistance, stride: usize, out: &mut Vec<f64>) {
+        pulp::Arch::new().dispatch(EnvelopeSumsCall {
             envelope: self,
             candidate,
             local,
@@ -231,27 +229,25 @@ impl Envelope {
     }
 
     #[inline(always)]
-    fn sums(&self, candidate: &Series, local: Local, stride: usize, out: &mut Vec<f64>) {
-        let frames = candidate.frames();
+    fn sums(&self, candidate: &ChannelSeries, local: LocalDistance, stride: usize, out: &mut Vec<f64>) {
+        let frames = candidate.series_frame_count();
         out.clear();
         for start in (0..frames).step_by(stride) {
-            let run = RUN.min(frames - start);
-            let mut sums = [0.0; RUN];
-            for channel in 0..candidate.channels() {
-                let values = &candidate.column(channel)[start..][..run];
+            let run = BOUND_RUN_FRAMES.min(frames - start);
+            let mut sums = [0.0; BOUND_RUN_FRAMES];
+            for channel in 0..candidate.series_channel_count() {
+                let values = &candidate.channel_values(channel)[start..][..run];
                 let envelope = channel * frames + start;
                 let lower = &self.lower[envelope..][..run];
                 let upper = &self.upper[envelope..][..run];
-                for (((sum, value), lower), upper) in
-                    sums.iter_mut().zip(values).zip(lower).zip(upper)
-                {
+                for (((sum, value), lower), upper) in sums.iter_mut().zip(values).zip(lower).zip(upper) {
                     let (below, above) = (lower - value, value - upper);
-                    let outside = if below > above { below } else { above };
-                    let outside = if outside > 0.0 { outside } else { 0.0 };
+                    let excess = if below > above { below } else { above };
+                    let outside = if excess > 0.0 { excess } else { 0.0 };
                     *sum += outside * outside;
                 }
             }
-            if local == Local::Euclidean {
+            if local == LocalDistance::Euclidean {
                 sums = sums.map(f64::sqrt);
             }
             out.extend_from_slice(&sums[..run]);
@@ -259,23 +255,22 @@ impl Envelope {
     }
 }
 
-/// The arguments of a call of [`Envelope::sums`]; `pulp` compiles the call for several instruction sets and selects one
+/// The arguments of a call of [`QueryEnvelope::sums`]; `pulp` compiles the call for several instruction sets and selects one
 /// of them at run time.
-struct Bounds<'a> {
-    envelope: &'a Envelope,
-    candidate: &'a Series,
-    local: Local,
+struct EnvelopeSumsCall<'a> {
+    envelope: &'a QueryEnvelope,
+    candidate: &'a ChannelSeries,
+    local: LocalDistance,
     stride: usize,
     out: &'a mut Vec<f64>,
 }
 
-impl pulp::NullaryFnOnce for Bounds<'_> {
+impl pulp::NullaryFnOnce for EnvelopeSumsCall<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        self.envelope
-            .sums(self.candidate, self.local, self.stride, self.out);
+        self.envelope.sums(self.candidate, self.local, self.stride, self.out);
     }
 }
 
@@ -288,10 +283,7 @@ fn sliding(column: &[f64], ranges: &[Range<usize>], before: fn(f64, f64) -> bool
         .iter()
         .map(|range| {
             while next < range.end {
-                while queue
-                    .back()
-                    .is_some_and(|last| before(column[next], column[*last]))
-                {
+                while queue.back().is_some_and(|last| before(column[next], column[*last])) {
                     queue.pop_back();
                 }
                 queue.push_back(next);
@@ -306,21 +298,21 @@ fn sliding(column: &[f64], ranges: &[Range<usize>], before: fn(f64, f64) -> bool
 }
 
 /// The best candidates so far.
-struct Best {
+struct BestCandidates {
     k: usize,
-    found: Nearest,
+    found: NearestCandidates,
 }
 
-impl Best {
+impl BestCandidates {
     fn new(k: usize) -> Self {
         Self {
             k,
-            found: Nearest::default(),
+            found: NearestCandidates::default(),
         }
     }
 
     /// Returns the distance that a useful candidate must not exceed.
-    fn limit(&self) -> f64 {
+    fn useful_distance_limit(&self) -> f64 {
         let kept = &self.found.neighbours;
         match kept.last() {
             _ if self.k == 0 => f64::NEG_INFINITY,
@@ -329,16 +321,11 @@ impl Best {
         }
     }
 
-    fn offer(&mut self, index: usize, distance: f64) {
+    fn offer_candidate(&mut self, index: usize, distance: f64) {
         self.found.completed += 1;
         let kept = &mut self.found.neighbours;
-        let place = kept.partition_point(|n| {
-            n.distance
-                .total_cmp(&distance)
-                .then(n.index.cmp(&index))
-                .is_lt()
-        });
-        kept.insert(place, Neighbour { index, distance });
+        let place = kept.partition_point(|n| n.distance.total_cmp(&distance).then(n.index.cmp(&index)).is_lt());
+        kept.insert(place, DtwNeighbour { index, distance });
         kept.truncate(self.k);
     }
 }

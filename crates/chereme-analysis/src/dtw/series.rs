@@ -4,18 +4,18 @@ use super::DtwError;
 
 /// Largest allowed magnitude of a value; its square, summed over any series that fits in memory, stays
 /// finite.
-const LARGEST: f64 = 1e140;
+const MAX_SERIES_VALUE: f64 = 1e140;
 
 /// A checked multivariate time series of at least one frame and one channel, all values finite.
 ///
 /// Values are kept channel by channel, so that a local distance runs over contiguous numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct ChannelSeries {
     frames: usize,
     values: Vec<f64>,
 }
 
-impl Series {
+impl ChannelSeries {
     /// Returns the series whose frames are `rows`, each with one value per channel.
     ///
     /// # Errors
@@ -29,15 +29,15 @@ impl Series {
         }
         let ragged = rows.iter().position(|row| row.as_ref().len() != channels);
         if let Some(frame) = ragged {
-            let found = rows[frame].as_ref().len();
+            let row_length = rows[frame].as_ref().len();
             return Err(DtwError::Ragged {
                 frame,
-                found,
+                found: row_length,
                 expected: channels,
             });
         }
         let column = |c| rows.iter().map(move |row| row.as_ref()[c]);
-        Self::checked(rows.len(), (0..channels).flat_map(column).collect())
+        Self::check_series_values(rows.len(), (0..channels).flat_map(column).collect())
     }
 
     /// Returns the series whose channels are `columns`, each with one value per frame.
@@ -50,30 +50,20 @@ impl Series {
         if frames == 0 {
             return Err(DtwError::Empty);
         }
-        if let Some(other) = columns
-            .iter()
-            .map(|c| c.as_ref().len())
-            .find(|len| *len != frames)
-        {
-            let found = columns
-                .iter()
-                .filter(|c| c.as_ref().len() > frames.min(other))
-                .count();
+        if let Some(other) = columns.iter().map(|c| c.as_ref().len()).find(|len| *len != frames) {
+            let longer_count = columns.iter().filter(|c| c.as_ref().len() > frames.min(other)).count();
             return Err(DtwError::Ragged {
                 frame: frames.min(other),
-                found,
+                found: longer_count,
                 expected: columns.len(),
             });
         }
-        let values = columns
-            .iter()
-            .flat_map(|c| c.as_ref().iter().copied())
-            .collect();
-        Self::checked(frames, values)
+        let values = columns.iter().flat_map(|c| c.as_ref().iter().copied()).collect();
+        Self::check_series_values(frames, values)
     }
 
-    fn checked(frames: usize, values: Vec<f64>) -> Result<Self, DtwError> {
-        let sound = |v: f64| v.abs() <= LARGEST;
+    fn check_series_values(frames: usize, values: Vec<f64>) -> Result<Self, DtwError> {
+        let sound = |v: f64| v.abs() <= MAX_SERIES_VALUE;
         match values.iter().position(|v| !sound(*v)) {
             Some(at) => Err(DtwError::Value {
                 frame: at % frames,
@@ -90,11 +80,11 @@ impl Series {
     /// # Errors
     /// [`DtwError::Scales`] if the numbers of scales and channels differ, [`DtwError::Scale`] if a scale
     /// is not a positive finite number, [`DtwError::Value`] if a quotient is too large.
-    pub fn scaled(&self, scales: &[f64]) -> Result<Self, DtwError> {
-        if scales.len() != self.channels() {
+    pub fn scale_channels(&self, scales: &[f64]) -> Result<Self, DtwError> {
+        if scales.len() != self.series_channel_count() {
             return Err(DtwError::Scales {
                 found: scales.len(),
-                channels: self.channels(),
+                channels: self.series_channel_count(),
             });
         }
         let bad = scales.iter().position(|s| !(s.is_finite() && *s > 0.0));
@@ -108,15 +98,17 @@ impl Series {
         let values = columns
             .flat_map(|(column, s)| column.iter().map(move |v| v / s))
             .collect();
-        Self::checked(self.frames, values)
+        Self::check_series_values(self.frames, values)
     }
 
     /// Returns the series stretched or squeezed to `frames` frames (at least one) by linear interpolation,
     /// first on first and last on last; a single frame comes from the middle.
     #[must_use]
-    pub fn resampled(&self, frames: usize) -> Self {
+    pub fn resample_series_frames(&self, frames: usize) -> Self {
         let frames = frames.max(1);
-        let places: Vec<f64> = (0..frames).map(|i| place(i, frames, self.frames)).collect();
+        let places: Vec<f64> = (0..frames)
+            .map(|i| resampled_frame_position(i, frames, self.frames))
+            .collect();
         let sample = |column: &[f64], at: f64| {
             let (first, share) = (at.floor() as usize, at.fract());
             let second = (first + 1).min(column.len() - 1);
@@ -131,13 +123,13 @@ impl Series {
 
     /// Returns the number of frames.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn series_frame_count(&self) -> usize {
         self.frames
     }
 
     /// Returns the number of channels.
     #[must_use]
-    pub fn channels(&self) -> usize {
+    pub fn series_channel_count(&self) -> usize {
         self.values.len() / self.frames
     }
 
@@ -146,18 +138,18 @@ impl Series {
     /// # Panics
     /// Panics if there is no such channel.
     #[must_use]
-    pub fn column(&self, channel: usize) -> &[f64] {
+    pub fn channel_values(&self, channel: usize) -> &[f64] {
         &self.values[channel * self.frames..][..self.frames]
     }
 
     /// Returns the values of one frame, a value per channel.
-    pub(crate) fn frame(&self, frame: usize) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn frame_values(&self, frame: usize) -> impl Iterator<Item = f64> + '_ {
         self.values.iter().skip(frame).step_by(self.frames).copied()
     }
 }
 
 /// Returns the position of frame `i` of `frames` in a series of `source` frames, in frames.
-pub(crate) fn place(i: usize, frames: usize, source: usize) -> f64 {
+pub(crate) fn resampled_frame_position(i: usize, frames: usize, source: usize) -> f64 {
     let last = (source - 1) as f64;
     if frames == 1 {
         (last / 2.0).floor()

@@ -3,55 +3,51 @@
 
 use std::ops::Range;
 
-use super::{Local, Series};
+use super::{ChannelSeries, LocalDistance};
 
 /// Factor on lower bounds: it lowers them by far more than rounding can raise them.
-pub(super) const SLACK: f64 = 1.0 - 1e-9;
+pub(super) const LOWER_BOUND_SLACK: f64 = 1.0 - 1e-9;
 
 /// Rows that are processed together.
-const LANES: usize = 8;
+const SKEW_LANE_ROWS: usize = 8;
 /// Anti-diagonals whose local distances are computed before their costs.
-const TILE: usize = 32;
+const SKEW_TILE_DIAGONALS: usize = 32;
 
-type Lane = [f64; LANES];
+type CostLane = [f64; SKEW_LANE_ROWS];
 
 /// A series with its frames reversed and padded, so that the cells of an anti-diagonal lie side
 /// by side.
-pub(super) struct Reversed {
+pub(super) struct ReversedSeries {
     frames: usize,
     stride: usize,
     values: Vec<f64>,
 }
 
-impl Reversed {
-    pub(super) fn of(series: &Series) -> Self {
-        let frames = series.frames();
-        let stride = frames + 2 * LANES;
-        let mut values = vec![0.0; stride * series.channels()];
+impl ReversedSeries {
+    pub(super) fn reverse_series(series: &ChannelSeries) -> Self {
+        let frames = series.series_frame_count();
+        let stride = frames + 2 * SKEW_LANE_ROWS;
+        let mut values = vec![0.0; stride * series.series_channel_count()];
         for (channel, out) in values.chunks_exact_mut(stride).enumerate() {
-            for (out, value) in out[LANES..]
+            for (out, value) in out[SKEW_LANE_ROWS..]
                 .iter_mut()
-                .zip(series.column(channel).iter().rev())
+                .zip(series.channel_values(channel).iter().rev())
             {
                 *out = *value;
             }
         }
-        Self {
-            frames,
-            stride,
-            values,
-        }
+        Self { frames, stride, values }
     }
 }
 
 /// The request for one run of the kernel.
-pub(super) struct Ask<'a> {
+pub(super) struct SkewKernelRequest<'a> {
     /// Columns that each row may reach.
     pub(super) rows: &'a [Range<usize>],
     /// Weight of a diagonal step.
     pub(super) diagonal: f64,
     /// Distance between two frames.
-    pub(super) local: Local,
+    pub(super) local: LocalDistance,
     /// The cost above which the result is useless.
     pub(super) limit: f64,
     /// For every row a lower bound of the cost of the later rows; may be empty.
@@ -59,74 +55,78 @@ pub(super) struct Ask<'a> {
 }
 
 /// The last row of a table, and each cell's step if kept.
-pub(super) struct Table {
+pub(super) struct SkewCostTable {
     /// Least cost of reaching each column with the last row; infinite if no path leads there.
     pub(super) last: Vec<f64>,
     /// Steps of all blocks, anti-diagonal by anti-diagonal.
-    steps: Vec<[u8; LANES]>,
+    steps: Vec<[u8; SKEW_LANE_ROWS]>,
     /// For each block, the index at which its steps begin, and the column they begin at.
     blocks: Vec<(usize, usize)>,
 }
 
-impl Table {
+impl SkewCostTable {
     /// Returns the step that leads to a cell: 0 across, 1 along the columns, 2 along the rows.
-    pub(super) fn step(&self, i: usize, j: usize) -> u8 {
-        let (offset, start) = self.blocks[i / LANES];
-        self.steps[offset + j + i % LANES - start][i % LANES]
+    pub(super) fn skew_table_step(&self, i: usize, j: usize) -> u8 {
+        let (offset, start) = self.blocks[i / SKEW_LANE_ROWS];
+        self.steps[offset + j + i % SKEW_LANE_ROWS - start][i % SKEW_LANE_ROWS]
     }
 }
 
 /// Fills the table, with about a byte per cell for its steps if `KEEP`; `None` if the least cost exceeds
 /// the limit.
-pub(super) fn fill<const KEEP: bool>(
-    rows: &Series,
-    columns: &Reversed,
-    ask: &Ask<'_>,
-) -> Option<Table> {
-    pulp::Arch::new().dispatch(Run::<KEEP> { rows, columns, ask })
+pub(super) fn fill_skew_table<const KEEP: bool>(
+    rows: &ChannelSeries,
+    columns: &ReversedSeries,
+    ask: &SkewKernelRequest<'_>,
+) -> Option<SkewCostTable> {
+    pulp::Arch::new().dispatch(SkewTableFill::<KEEP> { rows, columns, ask })
 }
 
 /// A call of [`blocks`] that is compiled for each instruction set and selected at run time.
-struct Run<'a, const KEEP: bool> {
-    rows: &'a Series,
-    columns: &'a Reversed,
-    ask: &'a Ask<'a>,
+struct SkewTableFill<'a, const KEEP: bool> {
+    rows: &'a ChannelSeries,
+    columns: &'a ReversedSeries,
+    ask: &'a SkewKernelRequest<'a>,
 }
 
-impl<const KEEP: bool> pulp::NullaryFnOnce for Run<'_, KEEP> {
-    type Output = Option<Table>;
+impl<const KEEP: bool> pulp::NullaryFnOnce for SkewTableFill<'_, KEEP> {
+    type Output = Option<SkewCostTable>;
 
     #[inline(always)]
-    fn call(self) -> Option<Table> {
-        blocks::<KEEP>(self.rows, self.columns, self.ask)
+    fn call(self) -> Option<SkewCostTable> {
+        fill_row_blocks::<KEEP>(self.rows, self.columns, self.ask)
     }
 }
 
 #[inline(always)]
-fn blocks<const KEEP: bool>(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<Table> {
-    let (n, m) = (rows.frames(), columns.frames);
-    let mut above = vec![f64::INFINITY; m + LANES + 1];
+fn fill_row_blocks<const KEEP: bool>(
+    rows: &ChannelSeries,
+    columns: &ReversedSeries,
+    ask: &SkewKernelRequest<'_>,
+) -> Option<SkewCostTable> {
+    let (n, m) = (rows.series_frame_count(), columns.frames);
+    let mut above = vec![f64::INFINITY; m + SKEW_LANE_ROWS + 1];
     let (mut steps, mut offsets) = (Vec::new(), Vec::new());
-    let mut values = vec![[0.0; LANES]; rows.channels()];
-    load(rows, 0, &mut values);
-    let mut corner = [[0.0; LANES]];
+    let mut values = vec![[0.0; SKEW_LANE_ROWS]; rows.series_channel_count()];
+    load_lane_frames(rows, 0, &mut values);
+    let mut corner = [[0.0; SKEW_LANE_ROWS]];
     local_costs(&values, columns, 0, ask.local, &mut corner);
     // The first cell weighs 1 whatever a diagonal step weighs.
     above[0] = -(ask.diagonal - 1.0) * corner[0][0];
-    for first in (0..n).step_by(LANES) {
-        load(rows, first, &mut values);
-        let rows = &ask.rows[first..n.min(first + LANES)];
+    for first in (0..n).step_by(SKEW_LANE_ROWS) {
+        load_lane_frames(rows, first, &mut values);
+        let rows = &ask.rows[first..n.min(first + SKEW_LANE_ROWS)];
         if KEEP {
             offsets.push((steps.len(), rows[0].start));
         }
-        let least = block::<KEEP>(&values, columns, rows, ask, &mut above, &mut steps);
+        let least = advance_row_block::<KEEP>(&values, columns, rows, ask, &mut above, &mut steps);
         let rest = ask.rest.get(first + rows.len() - 1).copied().unwrap_or(0.0);
-        if (least + rest) * SLACK > ask.limit {
+        if (least + rest) * LOWER_BOUND_SLACK > ask.limit {
             return None;
         }
     }
     above[..=ask.rows[n - 1].start].fill(f64::INFINITY);
-    Some(Table {
+    Some(SkewCostTable {
         last: above[1..=m].to_vec(),
         steps,
         blocks: offsets,
@@ -135,9 +135,9 @@ fn blocks<const KEEP: bool>(rows: &Series, columns: &Reversed, ask: &Ask<'_>) ->
 
 /// Gathers the eight frames from `first` on, channel by channel; past the end the last frame is repeated.
 #[inline(always)]
-fn load(rows: &Series, first: usize, values: &mut [Lane]) {
+fn load_lane_frames(rows: &ChannelSeries, first: usize, values: &mut [CostLane]) {
     for (channel, lane) in values.iter_mut().enumerate() {
-        let column = rows.column(channel);
+        let column = rows.channel_values(channel);
         for (r, value) in lane.iter_mut().enumerate() {
             *value = column[(first + r).min(column.len() - 1)];
         }
@@ -147,32 +147,32 @@ fn load(rows: &Series, first: usize, values: &mut [Lane]) {
 /// Advances the row of costs `above` (from one column before the first) by the block's rows and
 /// returns the least cost in the new row.
 #[inline(always)]
-fn block<const KEEP: bool>(
-    values: &[Lane],
-    columns: &Reversed,
+fn advance_row_block<const KEEP: bool>(
+    values: &[CostLane],
+    columns: &ReversedSeries,
     rows: &[Range<usize>],
-    ask: &Ask<'_>,
+    ask: &SkewKernelRequest<'_>,
     above: &mut [f64],
-    steps: &mut Vec<[u8; LANES]>,
+    steps: &mut Vec<[u8; SKEW_LANE_ROWS]>,
 ) -> f64 {
     let last = rows.len() - 1;
     let (start, end) = (rows[0].start, rows[last].end + last);
-    let mut diagonal = [f64::INFINITY; LANES];
+    let mut diagonal = [f64::INFINITY; SKEW_LANE_ROWS];
     diagonal[0] = std::mem::replace(&mut above[start], f64::INFINITY);
-    let mut left = [f64::INFINITY; LANES];
+    let mut left = [f64::INFINITY; SKEW_LANE_ROWS];
     let mut least = f64::INFINITY;
-    let mut tile = [[0.0; LANES]; TILE];
+    let mut tile = [[0.0; SKEW_LANE_ROWS]; SKEW_TILE_DIAGONALS];
     let mut from = start;
     while from < end {
-        let count = TILE.min(end - from);
+        let count = SKEW_TILE_DIAGONALS.min(end - from);
         let tile = &mut tile[..count];
         local_costs(values, columns, from, ask.local, tile);
         mask(rows, from, tile);
         for (s, d) in (from..).zip(tile.iter()) {
-            let mut up = [above[s + 1]; LANES];
-            up[1..].copy_from_slice(&left[..LANES - 1]);
-            let mut codes = [0; LANES];
-            for r in 0..LANES {
+            let mut up = [above[s + 1]; SKEW_LANE_ROWS];
+            up[1..].copy_from_slice(&left[..SKEW_LANE_ROWS - 1]);
+            let mut codes = [0; SKEW_LANE_ROWS];
+            for r in 0..SKEW_LANE_ROWS {
                 let (across, along) = (diagonal[r] + ask.diagonal * d[r], left[r] + d[r]);
                 left[r] = lesser(lesser(up[r], left[r]) + d[r], across);
                 if KEEP {
@@ -197,21 +197,24 @@ fn block<const KEEP: bool>(
 /// Writes the local distances of the anti-diagonals from step `from`: lane `r` of step `s` is row `r`,
 /// column `s - r`.
 #[inline(always)]
-fn local_costs(values: &[Lane], columns: &Reversed, from: usize, local: Local, tile: &mut [Lane]) {
-    let base = LANES + columns.frames - 1 - from;
+fn local_costs(
+    values: &[CostLane],
+    columns: &ReversedSeries,
+    from: usize,
+    local: LocalDistance,
+    tile: &mut [CostLane],
+) {
+    let base = SKEW_LANE_ROWS + columns.frames - 1 - from;
     for (t, out) in tile.iter_mut().enumerate() {
-        let mut sums = [0.0; LANES];
-        for (value, column) in values
-            .iter()
-            .zip(columns.values.chunks_exact(columns.stride))
-        {
-            let column = &column[base - t..][..LANES];
-            for r in 0..LANES {
+        let mut sums = [0.0; SKEW_LANE_ROWS];
+        for (value, column) in values.iter().zip(columns.values.chunks_exact(columns.stride)) {
+            let column = &column[base - t..][..SKEW_LANE_ROWS];
+            for r in 0..SKEW_LANE_ROWS {
                 let difference = value[r] - column[r];
                 sums[r] += difference * difference;
             }
         }
-        *out = if local == Local::Euclidean {
+        *out = if local == LocalDistance::Euclidean {
             sums.map(f64::sqrt)
         } else {
             sums
@@ -221,9 +224,9 @@ fn local_costs(values: &[Lane], columns: &Reversed, from: usize, local: Local, t
 
 /// Makes the cells of a tile that lie outside their row's range unreachable.
 #[inline(always)]
-fn mask(rows: &[Range<usize>], from: usize, tile: &mut [Lane]) {
+fn mask(rows: &[Range<usize>], from: usize, tile: &mut [CostLane]) {
     let count = tile.len();
-    for r in 0..LANES {
+    for r in 0..SKEW_LANE_ROWS {
         let (start, end) = rows
             .get(r)
             .map_or((count + from, 0), |row| (row.start + r, row.end + r));

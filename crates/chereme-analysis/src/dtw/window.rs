@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The largest distance of an alignment from a diagonal, in frames of the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Window {
+pub enum AlignmentWindow {
     /// Unlimited.
     #[default]
     None,
@@ -21,7 +21,7 @@ pub enum Window {
     SlantedBand(usize),
 }
 
-impl fmt::Display for Window {
+impl fmt::Display for AlignmentWindow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::None => f.write_str("without a limit"),
@@ -33,9 +33,9 @@ impl fmt::Display for Window {
     }
 }
 
-impl Window {
+impl AlignmentWindow {
     /// Returns the frames of a reference of `m` frames that frame `i` of `n` may be aligned with.
-    pub(crate) fn row(self, i: usize, n: usize, m: usize) -> Range<usize> {
+    pub(crate) fn window_row_range(self, i: usize, n: usize, m: usize) -> Range<usize> {
         match self {
             Self::None => 0..m,
             Self::SakoeChiba(w) => i.saturating_sub(w).min(m)..i.saturating_add(w).min(m - 1) + 1,
@@ -50,17 +50,17 @@ impl Window {
     }
 
     /// Returns [`row`](Self::row) for every frame of the query; starts and ends never decrease.
-    pub(crate) fn rows(self, n: usize, m: usize) -> Vec<Range<usize>> {
+    pub(crate) fn window_row_ranges(self, n: usize, m: usize) -> Vec<Range<usize>> {
         (0..n)
             .map(|i| {
-                let row = self.row(i, n, m);
+                let row = self.window_row_range(i, n, m);
                 row.start.min(row.end)..row.end
             })
             .collect()
     }
 
     /// Returns the number of cells in the window, without listing them.
-    pub(crate) fn cells(self, n: usize, m: usize) -> u64 {
+    pub(crate) fn count_window_cells(self, n: usize, m: usize) -> u64 {
         match self {
             Self::None => (n as u64).saturating_mul(m as u64),
             Self::SakoeChiba(w) | Self::SlantedBand(w) => {
@@ -72,7 +72,7 @@ impl Window {
 }
 
 /// Returns whether single steps along, up and across can lead from the first to the last cell.
-pub(crate) fn connected(rows: &[Range<usize>], m: usize) -> bool {
+pub(crate) fn is_window_connected(rows: &[Range<usize>], m: usize) -> bool {
     let first = rows.first().is_some_and(|row| row.contains(&0));
     let last = rows.last().is_some_and(|row| row.contains(&(m - 1)));
     let steps = rows
@@ -82,7 +82,7 @@ pub(crate) fn connected(rows: &[Range<usize>], m: usize) -> bool {
 }
 
 /// Returns, for every column of `m`, the rows whose ranges include it.
-pub(crate) fn transposed(rows: &[Range<usize>], m: usize) -> Vec<Range<usize>> {
+pub(crate) fn transpose_row_ranges(rows: &[Range<usize>], m: usize) -> Vec<Range<usize>> {
     let mut columns = Vec::with_capacity(m);
     let (mut start, mut end) = (0, 0);
     for j in 0..m {
@@ -107,14 +107,14 @@ mod tests {
 
         #[test]
         fn rows_hold_the_cells_that_the_window_definition_allows(n in 1usize..30, m in 1usize..30, w in 0usize..12) {
-            for window in [Window::None, Window::SakoeChiba(w), Window::SlantedBand(w)] {
-                let rows = window.rows(n, m);
-                let columns = transposed(&rows, m);
+            for window in [AlignmentWindow::None, AlignmentWindow::SakoeChiba(w), AlignmentWindow::SlantedBand(w)] {
+                let rows = window.window_row_ranges(n, m);
+                let columns = transpose_row_ranges(&rows, m);
                 for (i, j) in (0..n).flat_map(|i| (0..m).map(move |j| (i, j))) {
                     let inside = match window {
-                        Window::None => true,
-                        Window::SakoeChiba(w) => i.abs_diff(j) <= w,
-                        Window::SlantedBand(w) => {
+                        AlignmentWindow::None => true,
+                        AlignmentWindow::SakoeChiba(w) => i.abs_diff(j) <= w,
+                        AlignmentWindow::SlantedBand(w) => {
                             let run = (n - 1).max(1);
                             (j * run).abs_diff(i * (m - 1)) <= w * run
                         }
@@ -123,7 +123,7 @@ mod tests {
                     prop_assert_eq!(columns[j].contains(&i), inside);
                 }
                 prop_assert!(rows.windows(2).all(|r| r[0].start <= r[1].start && r[0].end <= r[1].end));
-                prop_assert!(window.cells(n, m) >= rows.iter().map(|r| r.len() as u64).sum());
+                prop_assert!(window.count_window_cells(n, m) >= rows.iter().map(|r| r.len() as u64).sum());
             }
         }
     }

@@ -2,17 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Undefined;
-use crate::random::Random;
+use super::UndefinedStatistic;
+use crate::random::RandomNumbers;
 
 /// The most cells of a table that is counted in one piece; a larger one is counted from sorted pairs.
-const WHOLE: usize = 1 << 22;
+const MAX_WHOLE_TABLE_CELLS: usize = 1 << 22;
 /// The share by which a statistic of a permutation may be smaller and still counts as equal: the order of a sum.
-const ROUNDING: f64 = 1e-9;
+const PERMUTATION_ROUNDING: f64 = 1e-9;
 
 /// How far two fields go together.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Association {
+pub struct ValueAssociation {
     /// The number of things.
     pub n: usize,
     /// The number of different values of the first field.
@@ -27,22 +27,22 @@ pub struct Association {
     pub df: usize,
 }
 
-impl Association {
+impl ValueAssociation {
     /// Returns the association of two fields, from the values of each thing.
     ///
     /// # Errors
-    /// [`Undefined::Unequal`]; [`Undefined::Empty`] without things.
-    pub fn of(first: &[u32], second: &[u32]) -> Result<Self, Undefined> {
-        Ok(Table::of(first, second)?.association())
+    /// [`UndefinedStatistic::Unequal`]; [`UndefinedStatistic::Empty`] without things.
+    pub fn from_field_values(first: &[u32], second: &[u32]) -> Result<Self, UndefinedStatistic> {
+        Ok(ValuePairTable::from_value_columns(first, second)?.current_association())
     }
 
     /// Returns Cramér's V, the root of chi-square divided by its largest value, from 0 to 1.
     ///
     /// # Errors
-    /// [`Undefined::NoSpread`] if a field has one value.
-    pub fn cramers_v(&self) -> Result<f64, Undefined> {
+    /// [`UndefinedStatistic::NoSpread`] if a field has one value.
+    pub fn cramers_v(&self) -> Result<f64, UndefinedStatistic> {
         match self.rows.min(self.columns) {
-            0 | 1 => Err(Undefined::NoSpread),
+            0 | 1 => Err(UndefinedStatistic::NoSpread),
             least => {
                 let most = (self.n * (least - 1)) as f64;
                 Ok((self.chi_square / most).max(0.0).sqrt().min(1.0))
@@ -53,7 +53,7 @@ impl Association {
 
 /// The association of two fields compared with that of shuffled values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Shuffled {
+pub struct ShuffledAssociation {
     /// The number of shuffles.
     pub samples: usize,
     /// The mean mutual information of shuffled values in bits: how much of it rare values bring about by themselves.
@@ -66,46 +66,46 @@ pub struct Shuffled {
     pub p_chi_square: f64,
 }
 
-impl Shuffled {
+impl ShuffledAssociation {
     /// Shuffles the values of the second field `samples` times; the same seed gives the same result.
     ///
     /// `hear` is called before each shuffle with the number of those that are done; its error ends the work. Source of
     /// p: Phipson and Smyth 2010, (b + 1) / (samples + 1).
     ///
     /// # Errors
-    /// [`Undefined::TooFew`] for 0 samples; [`Undefined::NoSpread`] if a field has one value, so that every arrangement
-    /// is the same; those of [`Association::of`]; those of `hear`.
-    pub fn of<E: From<Undefined>>(
+    /// [`UndefinedStatistic::TooFew`] for 0 samples; [`UndefinedStatistic::NoSpread`] if a field has one value, so that every arrangement
+    /// is the same; those of [`ValueAssociation::from_field_values`]; those of `hear`.
+    pub fn from_shuffled_values<E: From<UndefinedStatistic>>(
         first: &[u32],
         second: &[u32],
         samples: usize,
         seed: u64,
         mut hear: impl FnMut(usize) -> Result<(), E>,
     ) -> Result<Self, E> {
-        let mut table = Table::of(first, second)?;
-        let observed = table.association();
+        let mut table = ValuePairTable::from_value_columns(first, second)?;
+        let observed = table.current_association();
         if samples == 0 {
-            return Err(Undefined::TooFew.into());
+            return Err(UndefinedStatistic::TooFew.into());
         }
         if observed.df == 0 {
-            return Err(Undefined::NoSpread.into());
+            return Err(UndefinedStatistic::NoSpread.into());
         }
-        let mut random = Random::new(seed);
+        let mut random = RandomNumbers::new(seed);
         let mut sums = [0.0; 2];
         let mut as_large = [0_usize; 2];
         for done in 0..samples {
             hear(done)?;
             for at in (1..table.second.len()).rev() {
-                table.second.swap(at, random.below(at + 1));
+                table.second.swap(at, random.random_below(at + 1));
             }
-            let own = table.association();
+            let resampled = table.current_association();
             let both = [
-                (own.bits, observed.bits),
-                (own.chi_square, observed.chi_square),
+                (resampled.bits, observed.bits),
+                (resampled.chi_square, observed.chi_square),
             ];
             for (at, (own, observed)) in both.into_iter().enumerate() {
                 sums[at] += own;
-                as_large[at] += usize::from(own >= observed * (1.0 - ROUNDING));
+                as_large[at] += usize::from(own >= observed * (1.0 - PERMUTATION_ROUNDING));
             }
         }
         let p = as_large.map(|count| (count + 1) as f64 / (samples + 1) as f64);
@@ -120,7 +120,7 @@ impl Shuffled {
 }
 
 /// The values of two fields, as numbers from 0 without gaps, with room to count their pairs.
-struct Table {
+struct ValuePairTable {
     first: Vec<usize>,
     second: Vec<usize>,
     rows: Vec<usize>,
@@ -128,19 +128,19 @@ struct Table {
     counts: Vec<u32>,
 }
 
-impl Table {
-    fn of(first: &[u32], second: &[u32]) -> Result<Self, Undefined> {
+impl ValuePairTable {
+    fn from_value_columns(first: &[u32], second: &[u32]) -> Result<Self, UndefinedStatistic> {
         if first.len() != second.len() {
-            return Err(Undefined::Unequal);
+            return Err(UndefinedStatistic::Unequal);
         }
         if first.is_empty() {
-            return Err(Undefined::Empty);
+            return Err(UndefinedStatistic::Empty);
         }
-        let (first, rows) = numbered(first);
-        let (second, columns) = numbered(second);
+        let (first, rows) = number_distinct_values(first);
+        let (second, columns) = number_distinct_values(second);
         let cells = rows.len().saturating_mul(columns.len());
         Ok(Self {
-            counts: vec![0; if cells <= WHOLE { cells } else { 0 }],
+            counts: vec![0; if cells <= MAX_WHOLE_TABLE_CELLS { cells } else { 0 }],
             first,
             second,
             rows,
@@ -149,7 +149,7 @@ impl Table {
     }
 
     /// Returns the association of the values as they are now.
-    fn association(&mut self) -> Association {
+    fn current_association(&mut self) -> ValueAssociation {
         let n = self.first.len() as f64;
         // Observed² / (row × column), and observed × log2(observed × n / (row × column)), over the cells that are not 0.
         let (mut squares, mut bits) = (0.0, 0.0);
@@ -159,14 +159,18 @@ impl Table {
             squares += observed * observed / expected;
             bits += observed * (observed / expected).log2();
         };
-        let cells = self.first.iter().zip(&self.second);
-        let cells = cells.map(|(row, column)| row * columns.len() + column);
+        let value_pairs = self.first.iter().zip(&self.second);
+        let cells = value_pairs.map(|(row, column)| row * columns.len() + column);
         if self.counts.is_empty() {
             let mut cells: Vec<usize> = cells.collect();
             cells.sort_unstable();
             for same in cells.chunk_by(|a, b| a == b) {
-                let at = same[0];
-                add(at / columns.len(), at % columns.len(), same.len() as f64);
+                let shared_cell = same[0];
+                add(
+                    shared_cell / columns.len(),
+                    shared_cell % columns.len(),
+                    same.len() as f64,
+                );
             }
         } else {
             for cell in cells.clone() {
@@ -179,7 +183,7 @@ impl Table {
                 }
             }
         }
-        Association {
+        ValueAssociation {
             n: self.first.len(),
             rows: rows.len(),
             columns: columns.len(),
@@ -191,13 +195,13 @@ impl Table {
 }
 
 /// Returns values as numbers from 0 without gaps, and how often each occurs.
-fn numbered(values: &[u32]) -> (Vec<usize>, Vec<usize>) {
-    let mut known = values.to_vec();
-    known.sort_unstable();
-    known.dedup();
-    let mut counts = vec![0; known.len()];
+fn number_distinct_values(values: &[u32]) -> (Vec<usize>, Vec<usize>) {
+    let mut distinct_values = values.to_vec();
+    distinct_values.sort_unstable();
+    distinct_values.dedup();
+    let mut counts = vec![0; distinct_values.len()];
     let number = |value: &u32| {
-        let number = known.partition_point(|it| it < value);
+        let number = distinct_values.partition_point(|other| other < value);
         counts[number] += 1;
         number
     };

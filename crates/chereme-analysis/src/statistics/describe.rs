@@ -2,18 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Undefined, checked};
+use super::{UndefinedStatistic, check_finite_values};
 
 /// The ranks of values, counted from 1; equal values share the mean of their ranks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ranks {
+pub struct ValueRanks {
     /// The rank of each value, in the order of the values.
     pub ranks: Vec<f64>,
     /// The sizes of groups of equal values, from the lowest value to the highest; a single value counts 1.
     pub ties: Vec<usize>,
 }
 
-impl Ranks {
+impl ValueRanks {
     /// Returns the sum of t³ - t over groups of t equal values, by which variances are corrected.
     #[must_use]
     pub fn tie_term(&self) -> f64 {
@@ -28,9 +28,9 @@ impl Ranks {
 /// Returns the mid-ranks of values.
 ///
 /// # Errors
-/// [`Undefined::Empty`], [`Undefined::NotANumber`].
-pub fn mid_ranks(values: &[f64]) -> Result<Ranks, Undefined> {
-    checked(values)?;
+/// [`UndefinedStatistic::Empty`], [`UndefinedStatistic::NotANumber`].
+pub fn mid_ranks(values: &[f64]) -> Result<ValueRanks, UndefinedStatistic> {
+    check_finite_values(values)?;
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
     let mut ranks = vec![0.0; values.len()];
@@ -44,26 +44,26 @@ pub fn mid_ranks(values: &[f64]) -> Result<Ranks, Undefined> {
         }
         ties.push(tied.len());
     }
-    Ok(Ranks { ranks, ties })
+    Ok(ValueRanks { ranks, ties })
 }
 
 /// Returns the value below which the share `level` of sorted values lies: quartiles of type 7, as in R and numpy.
 ///
 /// # Errors
-/// [`Undefined::Empty`], [`Undefined::OutOfRange`] if `level` does not lie in 0 to 1.
-pub fn quantile(sorted: &[f64], level: f64) -> Result<f64, Undefined> {
-    let last = sorted.len().checked_sub(1).ok_or(Undefined::Empty)?;
+/// [`UndefinedStatistic::Empty`], [`UndefinedStatistic::OutOfRange`] if `level` does not lie in 0 to 1.
+pub fn sorted_quantile(sorted: &[f64], level: f64) -> Result<f64, UndefinedStatistic> {
+    let last = sorted.len().checked_sub(1).ok_or(UndefinedStatistic::Empty)?;
     if !(0.0..=1.0).contains(&level) {
-        return Err(Undefined::OutOfRange);
+        return Err(UndefinedStatistic::OutOfRange);
     }
-    let at = last as f64 * level;
-    let (low, high) = (at.floor() as usize, at.ceil() as usize);
-    Ok(sorted[low] + (at - low as f64) * (sorted[high] - sorted[low]))
+    let position = last as f64 * level;
+    let (low, high) = (position.floor() as usize, position.ceil() as usize);
+    Ok(sorted[low] + (position - low as f64) * (sorted[high] - sorted[low]))
 }
 
 /// A description of one group, as a box plot shows it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Description {
+pub struct GroupDescription {
     /// The number of values.
     pub n: usize,
     /// The mean.
@@ -84,19 +84,19 @@ pub struct Description {
     pub outliers: Vec<f64>,
 }
 
-impl Description {
+impl GroupDescription {
     /// Describes values.
     ///
     /// # Errors
-    /// [`Undefined::Empty`], [`Undefined::NotANumber`].
-    pub fn of(values: &[f64]) -> Result<Self, Undefined> {
-        checked(values)?;
+    /// [`UndefinedStatistic::Empty`], [`UndefinedStatistic::NotANumber`].
+    pub fn describe_values(values: &[f64]) -> Result<Self, UndefinedStatistic> {
+        check_finite_values(values)?;
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let n = sorted.len();
         let mean = sorted.iter().sum::<f64>() / n as f64;
         let squares: f64 = sorted.iter().map(|x| (x - mean).powi(2)).sum();
-        let (q1, q3) = (quantile(&sorted, 0.25)?, quantile(&sorted, 0.75)?);
+        let (q1, q3) = (sorted_quantile(&sorted, 0.25)?, sorted_quantile(&sorted, 0.75)?);
         let fence = 1.5 * (q3 - q1);
         let inside = |x: &f64| (q1 - fence..=q3 + fence).contains(x);
         let mut kept = sorted.iter().copied().filter(inside);
@@ -106,7 +106,7 @@ impl Description {
             mean,
             sd: (n > 1).then(|| (squares / (n as f64 - 1.0)).sqrt()),
             q1,
-            median: quantile(&sorted, 0.5)?,
+            median: sorted_quantile(&sorted, 0.5)?,
             q3,
             whisker_low,
             whisker_high: kept.next_back().unwrap_or(whisker_low),

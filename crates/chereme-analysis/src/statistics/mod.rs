@@ -1,20 +1,20 @@
 //! Statistics of ratings and choices in perceptual studies, for answers with few values and many ties, and of lexica.
 //!
-//! Every function takes plain numbers and is pure. A statistic without a value is [`Undefined`], with the reason; no function
+//! Every function takes plain numbers and is pure. A statistic without a value is [`UndefinedStatistic`], with the reason; no function
 //! returns a NaN, and none accepts one: leave such values out, and count them.
 //!
 //! | for | use |
 //! |---|---|
-//! | one group | [`Description`], [`mid_ranks`] |
-//! | two groups | [`mann_whitney`], [`Effect`] |
-//! | several groups | [`kruskal_wallis`] (with Dunn's comparisons), [`holm`] |
-//! | two conditions, same people | [`wilcoxon`] |
-//! | several conditions, same people | [`friedman`] |
-//! | shares | [`wilson`], [`fisher`], [`mcnemar`] |
-//! | two measures of the same things | [`spearman`], [`kendall`] |
-//! | intervals and sameness | [`Resamples`], [`jackknife`], [`equivalence`] |
-//! | values without an order | [`Classes`] (entropy), [`functional_load`], [`contrasts`], [`Association`], [`Shuffled`] |
-//! | a model of answers on a scale | [`ordinal::fit`] |
+//! | one group | [`GroupDescription`], [`mid_ranks`] |
+//! | two groups | [`mann_whitney`], [`GroupEffect`] |
+//! | several groups | [`kruskal_wallis`] (with Dunn's comparisons), [`holm_p_values`] |
+//! | two conditions, same people | [`wilcoxon_test`] |
+//! | several conditions, same people | [`friedman_test`] |
+//! | shares | [`wilson_interval`], [`fisher_exact_test`], [`mcnemar_exact_test`] |
+//! | two measures of the same things | [`spearman_correlation`], [`kendall_tau`] |
+//! | intervals and sameness | [`ParticipantResamples`], [`jackknife_interval`], [`conclude_equivalence`] |
+//! | values without an order | [`EqualityClasses`] (entropy), [`functional_load`], [`find_value_contrasts`], [`ValueAssociation`], [`ShuffledAssociation`] |
+//! | a model of answers on a scale | [`ordinal::fit_ordinal_model`] |
 //!
 //! ```
 //! use chereme_analysis::statistics::{Alternative, Effect, mann_whitney};
@@ -32,30 +32,34 @@ use statrs::distribution::{ContinuousCDF, Normal};
 mod association;
 mod correlation;
 mod describe;
-mod groups;
 mod information;
 pub mod ordinal;
-mod pairs;
-mod resample;
 mod shares;
+mod statistics_groups;
+mod statistics_pairs;
+mod statistics_resample;
 #[cfg(test)]
 mod tests;
 
-pub use association::{Association, Shuffled};
-pub use correlation::{Correlation, kendall, spearman};
-pub use describe::{Description, Ranks, mid_ranks, quantile};
-pub use groups::{
-    Comparison, Effect, KruskalWallis, MannWhitney, Size, holm, kruskal_wallis, mann_whitney,
+pub use association::{ShuffledAssociation, ValueAssociation};
+pub use correlation::{RankCorrelation, kendall_tau, spearman_correlation};
+pub use describe::{GroupDescription, ValueRanks, mid_ranks, sorted_quantile};
+pub use information::{
+    EqualityClasses, ValueContrast, find_value_contrasts, functional_load, functional_load_interval,
 };
-pub use information::{Classes, Contrast, contrasts, functional_load, functional_load_interval};
-pub use pairs::{Friedman, Wilcoxon, Zeros, friedman, wilcoxon};
-pub use resample::{Equivalence, Interval, Resamples, equivalence, jackknife};
-pub use shares::{Fisher, fisher, mcnemar, wilson};
+pub use shares::{FisherResult, fisher_exact_test, mcnemar_exact_test, wilson_interval};
+pub use statistics_groups::{
+    EffectComparison, EffectSize, GroupEffect, KruskalWallis, MannWhitney, holm_p_values, kruskal_wallis, mann_whitney,
+};
+pub use statistics_pairs::{FriedmanResult, WilcoxonResult, ZeroTreatment, friedman_test, wilcoxon_test};
+pub use statistics_resample::{
+    EquivalenceConclusion, ParticipantResamples, ResampleIntervalRule, conclude_equivalence, jackknife_interval,
+};
 
 /// The reason why a statistic has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[serde(rename_all = "kebab-case")]
-pub enum Undefined {
+pub enum UndefinedStatistic {
     /// A value is not a finite number.
     #[error("a value is not a number")]
     NotANumber,
@@ -94,7 +98,7 @@ pub enum Undefined {
 /// The direction in which a test looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Alternative {
+pub enum TestAlternative {
     /// The groups differ, in any direction.
     #[default]
     TwoSided,
@@ -107,7 +111,7 @@ pub enum Alternative {
 /// The computation of a p-value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum PValueMethod {
     /// The distribution over all equally likely arrangements of the values, ties included.
     Exact,
     /// The normal approximation with a correction for continuity.
@@ -117,16 +121,16 @@ pub enum Method {
 }
 
 /// Returns the share of the standard normal distribution above `z`.
-pub(crate) fn above(z: f64) -> f64 {
+pub(crate) fn normal_tail_share(z: f64) -> f64 {
     standard().sf(z)
 }
 
 /// Returns the point of the standard normal distribution below which the share `level` lies.
-pub(crate) fn normal_point(level: f64) -> Result<f64, Undefined> {
+pub(crate) fn normal_point(level: f64) -> Result<f64, UndefinedStatistic> {
     if level > 0.0 && level < 1.0 {
         Ok(standard().inverse_cdf(level))
     } else {
-        Err(Undefined::OutOfRange)
+        Err(UndefinedStatistic::OutOfRange)
     }
 }
 
@@ -137,49 +141,44 @@ fn standard() -> Normal {
 /// Returns p of a statistic by the normal approximation: `distance` is the statistic minus its expectation.
 ///
 /// With `continuity` half a unit is taken off towards the expectation; without it a deviation of 0 has no p.
-fn normal_p(
-    distance: f64,
-    deviation: f64,
-    side: Alternative,
-    continuity: bool,
-) -> Result<f64, Undefined> {
+fn normal_p(distance: f64, deviation: f64, side: TestAlternative, continuity: bool) -> Result<f64, UndefinedStatistic> {
     if deviation <= 0.0 {
         return if continuity {
             Ok(1.0)
         } else {
-            Err(Undefined::NoSpread)
+            Err(UndefinedStatistic::NoSpread)
         };
     }
     let half = if continuity { 0.5 } else { 0.0 };
     Ok(match side {
-        Alternative::TwoSided => (2.0 * above((distance.abs() - half) / deviation)).min(1.0),
-        Alternative::Less => above(-(distance + half) / deviation),
-        Alternative::Greater => above((distance - half) / deviation),
+        TestAlternative::TwoSided => (2.0 * normal_tail_share((distance.abs() - half) / deviation)).min(1.0),
+        TestAlternative::Less => normal_tail_share(-(distance + half) / deviation),
+        TestAlternative::Greater => normal_tail_share((distance - half) / deviation),
     })
 }
 
 /// Returns p of an observed sum from the weights of all its values `0, 1, 2, …`.
 ///
 /// Two-sided p counts the sums that are at least as far from the expectation, which is `twice_mean / 2`.
-fn exact_p(weights: &[f64], observed: usize, twice_mean: usize, side: Alternative) -> f64 {
+fn exact_p(weights: &[f64], observed: usize, twice_mean: usize, side: TestAlternative) -> f64 {
     let all: f64 = weights.iter().sum();
     let distance = |at: usize| (2 * at).abs_diff(twice_mean);
-    let extreme = weights.iter().enumerate().filter(|(at, _)| match side {
-        Alternative::TwoSided => distance(*at) >= distance(observed),
-        Alternative::Less => *at <= observed,
-        Alternative::Greater => *at >= observed,
+    let extreme_weights = weights.iter().enumerate().filter(|(at, _)| match side {
+        TestAlternative::TwoSided => distance(*at) >= distance(observed),
+        TestAlternative::Less => *at <= observed,
+        TestAlternative::Greater => *at >= observed,
     });
-    let extreme: f64 = extreme.map(|(_, weight)| weight).sum();
+    let extreme: f64 = extreme_weights.map(|(_, weight)| weight).sum();
     (extreme / all).min(1.0)
 }
 
 /// Refuses values that are not finite, and groups without values.
-fn checked(values: &[f64]) -> Result<(), Undefined> {
+fn check_finite_values(values: &[f64]) -> Result<(), UndefinedStatistic> {
     if values.is_empty() {
-        return Err(Undefined::Empty);
+        return Err(UndefinedStatistic::Empty);
     }
     if values.iter().any(|x| !x.is_finite()) {
-        return Err(Undefined::NotANumber);
+        return Err(UndefinedStatistic::NotANumber);
     }
     Ok(())
 }

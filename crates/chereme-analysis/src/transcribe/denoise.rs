@@ -4,19 +4,19 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use chereme_motion::{Channel, Clip};
+use chereme_motion::{Clip, JointChannel};
 use glam::{DQuat, DVec4};
 
-use crate::transcribe::tuned::tuned;
+use crate::transcribe::transcribe_tuned::tuned;
 
 /// The fewest frames from which noise can be estimated.
-const FEWEST: usize = 12;
+const MIN_NOISE_FRAMES: usize = 12;
 
 /// Kernel widths that are tried, as shares of the widest.
-const WIDTHS: [f64; 7] = [0.15, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
+const KERNEL_WIDTH_SHARES: [f64; 7] = [0.15, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
 
 /// A clip whose trembling joints were smoothed.
-pub(super) struct Steadied {
+pub(super) struct SteadiedClip {
     pub(super) clip: Clip,
     /// The noise of the worst joint, in degrees.
     pub(super) most: f64,
@@ -25,10 +25,10 @@ pub(super) struct Steadied {
 }
 
 /// Smooths the joints of a clip that tremble; `None` if no joint does.
-pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
+pub(super) fn steady_trembling_clip(clip: &Clip) -> Option<SteadiedClip> {
     let (mut most, mut joints) = (0.0_f64, 0);
-    let mut channels = Vec::with_capacity(clip.channels().len());
-    for channel in clip.channels() {
+    let mut channels = Vec::with_capacity(clip.joint_channels().len());
+    for channel in clip.joint_channels() {
         let trembles = noise(&channel.rotations);
         if trembles < tuned().denoise.trembles {
             channels.push(channel.clone());
@@ -36,24 +36,24 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
         }
         most = most.max(trembles.to_degrees());
         joints += 1;
-        channels.push(Channel {
-            rotations: calmed(&channel.rotations, trembles, clip.rate().per_second()),
+        channels.push(JointChannel {
+            rotations: calm_joint_rotations(&channel.rotations, trembles, clip.clip_frame_rate().per_second()),
             translations: channel.translations.clone(),
         });
     }
     if joints == 0 {
         return None;
     }
-    let clip = Clip::new(Arc::clone(clip.skeleton()), clip.rate(), channels).ok()?;
-    Some(Steadied { clip, most, joints })
+    let clip = Clip::new(Arc::clone(clip.clip_skeleton()), clip.clip_frame_rate(), channels).ok()?;
+    Some(SteadiedClip { clip, most, joints })
 }
 
 /// Returns the noise of rotations about each axis (rad), by the median product of successive fourth differences: noise
 /// turns them round from frame to frame, and movement does not.
 fn noise(rotations: &[DQuat]) -> f64 {
     // Ratio of that median, for normally distributed vectors, to their variance along one axis.
-    const MEDIAN: f64 = -128.3;
-    if rotations.len() < FEWEST {
+    const MEDIAN_VARIANCE_RATIO: f64 = -128.3;
+    if rotations.len() < MIN_NOISE_FRAMES {
         return 0.0;
     }
     let mut last = DVec4::ZERO;
@@ -61,11 +61,7 @@ fn noise(rotations: &[DQuat]) -> f64 {
         .iter()
         .map(|turned| {
             let turned = DVec4::from(*turned);
-            last = if turned.dot(last) < 0.0 {
-                -turned
-            } else {
-                turned
-            };
+            last = if turned.dot(last) < 0.0 { -turned } else { turned };
             last
         })
         .collect();
@@ -78,18 +74,18 @@ fn noise(rotations: &[DQuat]) -> f64 {
     let middle = products.len() / 2;
     let (_, median, _) = products.select_nth_unstable_by(middle, f64::total_cmp);
     // A quaternion has half of the angle.
-    2.0 * (*median / MEDIAN).max(0.0).sqrt()
+    2.0 * (*median / MEDIAN_VARIANCE_RATIO).max(0.0).sqrt()
 }
 
 /// Returns rotations without most of their noise (rad about each axis): the mean of what a kernel leaves of them, and
 /// of the stretches in which they stay within their noise, each by the frames that it averages.
-fn calmed(rotations: &[DQuat], noise: f64, per_second: f64) -> Vec<DQuat> {
+fn calm_joint_rotations(rotations: &[DQuat], noise: f64, per_second: f64) -> Vec<DQuat> {
     let (moving, frames) = least_wrong(rotations, noise, per_second);
     let mut sums: Vec<DVec4> = moving
         .iter()
         .map(|turned| DVec4::from(*turned) * frames.powi(2))
         .collect();
-    for (stretch, mean) in holds(rotations, noise, per_second) {
+    for (stretch, mean) in longest_still_stretches(rotations, noise, per_second) {
         let weight = (stretch.len() as f64).powi(2);
         for n in stretch {
             let sign = moving[n].dot(DQuat::from_vec4(mean)).signum();
@@ -107,9 +103,9 @@ fn least_wrong(rotations: &[DQuat], noise: f64, per_second: f64) -> (Vec<DQuat>,
     let widest = tuned().denoise.widest * per_second;
     // Without a kernel the error is the noise about three axes.
     let mut best = (rotations.to_vec(), 1.0, 3.0 * noise * noise);
-    for share in WIDTHS {
+    for share in KERNEL_WIDTH_SHARES {
         let wide = share * widest;
-        let smooth = smoothed(rotations, wide);
+        let smooth = smooth_rotations(rotations, wide);
         let squares: f64 = smooth
             .iter()
             .zip(rotations)
@@ -117,11 +113,11 @@ fn least_wrong(rotations: &[DQuat], noise: f64, per_second: f64) -> (Vec<DQuat>,
             .sum();
         let bell = bell(wide);
         let all = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
-        let own = bell[0] / all;
-        let wrong = squares / rotations.len() as f64 + 3.0 * noise * noise * (2.0 * own - 1.0);
+        let central_share = bell[0] / all;
+        let wrong = squares / rotations.len() as f64 + 3.0 * noise * noise * (2.0 * central_share - 1.0);
         if wrong < best.2 {
-            let again = bell[0].powi(2) + 2.0 * bell[1..].iter().map(|it| it * it).sum::<f64>();
-            best = (smooth, all * all / again, wrong);
+            let square_sum = bell[0].powi(2) + 2.0 * bell[1..].iter().map(|weight| weight * weight).sum::<f64>();
+            best = (smooth, all * all / square_sum, wrong);
         }
     }
     (best.0, best.1)
@@ -129,7 +125,7 @@ fn least_wrong(rotations: &[DQuat], noise: f64, per_second: f64) -> (Vec<DQuat>,
 
 /// Returns, for each frame, the longest stretch from it on in which rotations differ by no more than their noise, with
 /// their mean.
-fn holds(
+fn longest_still_stretches(
     rotations: &[DQuat],
     noise: f64,
     per_second: f64,
@@ -157,7 +153,7 @@ fn holds(
 
 /// Smooths rotations by a kernel `wide` frames wide that preserves parabolas (Wand and Jones, *Kernel
 /// smoothing*, 2.8: the Gaussian kernel of fourth order).
-fn smoothed(rotations: &[DQuat], wide: f64) -> Vec<DQuat> {
+fn smooth_rotations(rotations: &[DQuat], wide: f64) -> Vec<DQuat> {
     let bell = bell(wide);
     let reach = bell.len() - 1;
     (0..rotations.len())
@@ -227,11 +223,9 @@ mod tests {
     fn a_rotation_and_its_negative_quaternion_count_as_one() {
         let plain = turning(120, 0.03);
         let each = plain.iter().enumerate();
-        let mixed: Vec<DQuat> = each
-            .map(|(n, turn)| if n % 3 == 1 { -*turn } else { *turn })
-            .collect();
+        let mixed: Vec<DQuat> = each.map(|(n, turn)| if n % 3 == 1 { -*turn } else { *turn }).collect();
         assert!((noise(&plain) - noise(&mixed)).abs() < 1e-12);
-        let [one, two] = [&plain, &mixed].map(|turns| smoothed(turns, 4.0));
+        let [one, two] = [&plain, &mixed].map(|turns| smooth_rotations(turns, 4.0));
         for (a, b) in one.iter().zip(&two) {
             assert!(a.angle_between(*b) < 1e-6);
         }
@@ -242,28 +236,18 @@ mod tests {
         let clean = turning(200, 0.0);
         let shaken = turning(200, 0.035);
         let off = |some: &[DQuat]| {
-            let sum: f64 = some
-                .iter()
-                .zip(&clean)
-                .map(|(a, b)| a.angle_between(*b).powi(2))
-                .sum();
+            let sum: f64 = some.iter().zip(&clean).map(|(a, b)| a.angle_between(*b).powi(2)).sum();
             (sum / clean.len() as f64).sqrt()
         };
-        let smooth = smoothed(&shaken, tuned().denoise.widest * 60.0);
-        assert!(
-            off(&smooth) < 0.7 * off(&shaken),
-            "{} {}",
-            off(&smooth),
-            off(&shaken)
-        );
+        let smooth = smooth_rotations(&shaken, tuned().denoise.widest * 60.0);
+        assert!(off(&smooth) < 0.7 * off(&shaken), "{} {}", off(&smooth), off(&shaken));
     }
 
     #[test]
     fn holds_lose_most_of_their_noise_and_strokes_keep_their_shape() {
-        let skeleton =
-            chereme_motion::Skeleton::new(vec![chereme_motion::Joint::new("Hips", None, DVec3::Y)]);
+        let skeleton = chereme_motion::Skeleton::new(vec![chereme_motion::SkeletonJoint::new("Hips", None, DVec3::Y)]);
         let skeleton = Arc::new(skeleton.expect("a joint"));
-        let rate = chereme_motion::Rate::new(30, 1).expect("a rate");
+        let rate = chereme_motion::FrameRate::new(30, 1).expect("a rate");
         // A hold of 0.6 s, a stroke of 0.4 s, and another hold.
         let clean = |frame: usize| {
             let share = ((frame as f64 - 18.0) / 12.0).clamp(0.0, 1.0);
@@ -278,14 +262,14 @@ mod tests {
                     let by = DVec3::new(noisy(&mut seed), noisy(&mut seed), noisy(&mut seed));
                     clean(frame) * DQuat::from_scaled_axis(by * sd)
                 };
-                let channel = Channel {
+                let channel = JointChannel {
                     rotations: (0..48).map(&mut shaken).collect(),
                     translations: None,
                 };
                 let clip = Clip::new(Arc::clone(&skeleton), rate, vec![channel]).expect("a clip");
-                let steady = steadied(&clip).expect("it trembles");
+                let steady = steady_trembling_clip(&clip).expect("it trembles");
                 assert_eq!(steady.joints, 1);
-                let turned = &steady.clip.channel(0).rotations;
+                let turned = &steady.clip.joint_channel(0).rotations;
                 let off = |n: usize| turned[n].angle_between(clean(n)).powi(2) / (3.0 * sd * sd);
                 held += (3..15).map(off).sum::<f64>() / 240.0;
                 moved += (18..31).map(off).sum::<f64>() / 260.0;
@@ -294,11 +278,11 @@ mod tests {
             assert!(held < 0.5, "{degrees}: {held}");
             assert!(moved < 1.1, "{degrees}: {moved}");
         }
-        let still = Channel {
+        let still = JointChannel {
             rotations: (0..48).map(clean).collect(),
             translations: None,
         };
         let clip = Clip::new(skeleton, rate, vec![still]).expect("a clip");
-        assert!(steadied(&clip).is_none());
+        assert!(steady_trembling_clip(&clip).is_none());
     }
 }

@@ -1,6 +1,6 @@
 //! Transcribes movement: infers the HamNoSys with which a captured or synthesised sign would be written.
 //!
-//! [`transcribe`] reads one token (a few seconds of a clip) and returns each feature of the notation with
+//! [`transcribe_clip`] reads one token (a few seconds of a clip) and returns each feature of the notation with
 //! its residual and its runner-up: handshapes by joint angles, the hand's axis and palm by directions,
 //! places by the distance to where the animator would put the hand, movement by the stretches between
 //! minima of speed. The meaning of each category in numbers comes from the tables that the animator uses
@@ -27,36 +27,36 @@
 mod acts;
 mod aim;
 mod denoise;
-mod hands;
-pub(crate) mod path;
-mod place;
 mod precision;
 mod resynthesis;
-mod scene;
-mod shape;
-mod tree;
-mod tuned;
-mod words;
+mod transcribe_hands;
+pub(crate) mod transcribe_path;
+mod transcribe_place;
+mod transcribe_scene;
+mod transcribe_shape;
+mod transcribe_tree;
+mod transcribe_tuned;
+mod transcribe_words;
 
 #[cfg(test)]
 mod table_tests;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use chereme_motion::{Anatomy, Clip, HandCorrection, Side};
-use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Nonmanual, Notated, Sign};
+use chereme_motion::{BodyAnatomy, BodySide, Clip, HandCorrection};
+use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, HamnosysSign, NonmanualActs, NotatedSign};
 use serde::Serialize;
 
 pub use resynthesis::MOST_TRIALS;
 
-use tuned::tuned;
+use transcribe_tuned::tuned;
 
 /// Settings of a transcription.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Options {
+pub struct TranscribeOptions {
     /// The dominant hand. The notation of a left-handed signer is that of a right-handed one: left and
     /// right are exchanged.
-    pub dominant: Side,
+    pub dominant: BodySide,
     /// The body language: the meaning of each category of notation in numbers.
     pub language: BodyLanguage,
     /// Whether directions or palms half-way between two are candidates.
@@ -70,14 +70,14 @@ pub struct Options {
     pub hands: [HandCorrection; 2],
 }
 
-impl Default for Options {
+impl Default for TranscribeOptions {
     /// Settings for a captured signer: right-handed, the program's own body language, half-way directions,
     /// tokens of at most 60 seconds, and 2 cm of slack about places; less if the hands keep their
     /// directions as exactly as synthesised ones.
     fn default() -> Self {
         Self {
-            dominant: Side::Right,
-            language: BodyLanguage::usual().clone(),
+            dominant: BodySide::Right,
+            language: BodyLanguage::default_body_language().clone(),
             between: true,
             longest: 60.0,
             slack: 0.02,
@@ -86,10 +86,10 @@ impl Default for Options {
     }
 }
 
-impl Options {
+impl TranscribeOptions {
     /// Returns the settings for synthesised movement, whose hands are within 4 mm of their places.
     #[must_use]
-    pub fn made() -> Self {
+    pub fn synthesised_options() -> Self {
         Self {
             slack: tuned().reading.made,
             ..Self::default()
@@ -104,9 +104,7 @@ pub enum TranscribeError {
     #[error("the clip has no frames; transcribe a stretch of at least one")]
     Empty,
     /// The clip is longer than a token may be.
-    #[error(
-        "{seconds:.0} s are too long for one sign; give the span of a token of at most {most:.0} s"
-    )]
+    #[error("{seconds:.0} s are too long for one sign; give the span of a token of at most {most:.0} s")]
     TooLong {
         /// Its length in seconds.
         seconds: f64,
@@ -114,40 +112,38 @@ pub enum TranscribeError {
         most: f64,
     },
     /// The skeleton has no arm on a trunk.
-    #[error(
-        "the skeleton has no arm with shoulder, elbow and wrist on a trunk; name them in a roles file"
-    )]
+    #[error("the skeleton has no arm with shoulder, elbow and wrist on a trunk; name them in a roles file")]
     NoBody,
 }
 
 /// The notation of a token, with the error of each feature.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Transcription {
+pub struct TokenTranscription {
     /// The notation.
-    pub sign: Sign,
+    pub sign: HamnosysSign,
     /// The features, in the order of the notation.
-    pub features: Vec<Feature>,
+    pub features: Vec<NotationFeature>,
     /// The first posture and then each action, in the order of the notation.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<TranscriptionStage>,
     /// The frames of the sign itself, without the paths from and to rest: its first, and the one after its
     /// last.
     pub frames: (usize, usize),
     /// The acts of trunk, head and shoulders. Only re-synthesis reads them.
-    #[serde(skip_serializing_if = "Nonmanual::is_empty")]
-    pub nonmanual: Nonmanual,
+    #[serde(skip_serializing_if = "NonmanualActs::is_empty")]
+    pub nonmanual: NonmanualActs,
     /// Warnings: features that could not be read, with the reasons.
     pub findings: Vec<String>,
 }
 
 /// The posture that a sign begins with, or one of its actions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stage {
+pub struct TranscriptionStage {
     /// The number of the action, from 1; `None` for the first posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub action: Option<usize>,
     /// The hand, if each hand acts for itself.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// Its first frame, and the one after its last, repetitions included.
     pub frames: (usize, usize),
     /// Its HamNoSys.
@@ -156,12 +152,12 @@ pub struct Stage {
 
 /// One feature of the notation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Feature {
+pub struct NotationFeature {
     /// The kind of feature.
     pub kind: FeatureKind,
     /// The hand; `None` if the feature concerns both.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub hand: Option<Side>,
+    pub hand: Option<BodySide>,
     /// The frame in which it was measured, or the first frame of a movement.
     pub frame: usize,
     /// The frames of the posture or action that it belongs to: the first, and the one after the last.
@@ -177,7 +173,7 @@ pub struct Feature {
     /// how far the re-synthesised hands are from the observed ones, on average; the first value is the runner-up.
     pub residual: f64,
     /// The unit of residuals.
-    pub unit: Unit,
+    pub unit: ResidualUnit,
     /// The second best value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runner_up: Option<RunnerUp>,
@@ -214,7 +210,7 @@ pub enum FeatureKind {
 impl FeatureKind {
     /// Returns its name.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn feature_kind_name(self) -> &'static str {
         match self {
             Self::Hands => "hands",
             Self::Handshape => "handshape",
@@ -233,7 +229,7 @@ impl FeatureKind {
 
 /// The unit of a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum Unit {
+pub enum ResidualUnit {
     /// Degrees.
     #[serde(rename = "deg")]
     Degrees,
@@ -245,10 +241,10 @@ pub enum Unit {
     Share,
 }
 
-impl Unit {
+impl ResidualUnit {
     /// Returns the unit's symbol.
     #[must_use]
-    pub fn sign(self) -> &'static str {
+    pub fn residual_unit_symbol(self) -> &'static str {
         match self {
             Self::Degrees => "°",
             Self::Centimetres => " cm",
@@ -275,36 +271,36 @@ pub struct RunnerUp {
 ///
 /// # Errors
 /// [`TranscribeError`]: no frames, longer than a token, or no arm on a trunk.
-pub fn transcribe(
+pub fn transcribe_clip(
     clip: &Clip,
-    anatomy: &Anatomy,
-    options: &Options,
-) -> Result<Transcription, TranscribeError> {
+    anatomy: &BodyAnatomy,
+    options: &TranscribeOptions,
+) -> Result<TokenTranscription, TranscribeError> {
     looked_at(clip, anatomy, options, None)
 }
 
 /// Synthesises movement from notation, on the body that is transcribed.
-pub trait Performs {
+pub trait NotationSynthesiser {
     /// Returns the body at the moment when it reaches the first posture of a sign, as a clip of one frame;
     /// `None` if that cannot be synthesised.
-    fn begins(&self, sign: &Notated) -> Option<Clip>;
+    fn synthesise_first_posture(&self, sign: &NotatedSign) -> Option<Clip>;
 
-    /// Like [`begins`](Self::begins), for many signs; implementations may work on several at once.
-    fn begin_all(&self, signs: &[Notated]) -> Vec<Option<Clip>> {
-        signs.iter().map(|sign| self.begins(sign)).collect()
+    /// Like [`synthesise_first_posture`](Self::synthesise_first_posture), for many signs; implementations may work on several at once.
+    fn begin_all(&self, signs: &[NotatedSign]) -> Vec<Option<Clip>> {
+        signs.iter().map(|sign| self.synthesise_first_posture(sign)).collect()
     }
 
     /// Returns the movement of a sign without the paths from and to rest; `None` if that cannot be
     /// synthesised.
-    fn performs(&self, sign: &Notated) -> Option<Clip>;
+    fn synthesise_notated_sign(&self, sign: &NotatedSign) -> Option<Clip>;
 
-    /// Like [`performs`](Self::performs), for many signs; implementations may work on several at once.
-    fn perform_all(&self, signs: &[Notated]) -> Vec<Option<Clip>> {
-        signs.iter().map(|sign| self.performs(sign)).collect()
+    /// Like [`performs`](Self::synthesise_notated_sign), for many signs; implementations may work on several at once.
+    fn perform_all(&self, signs: &[NotatedSign]) -> Vec<Option<Clip>> {
+        signs.iter().map(|sign| self.synthesise_notated_sign(sign)).collect()
     }
 }
 
-/// Like [`transcribe`], for movement that was synthesised from notation: verifies movements and places by
+/// Like [`transcribe_clip`], for movement that was synthesised from notation: verifies movements and places by
 /// re-synthesis.
 ///
 /// Right notation, animated again, moves the hands exactly as observed. If the first reading does not, similar movements
@@ -320,51 +316,51 @@ pub trait Performs {
 /// of their observed positions is reported; or, since a misread movement displaces them, one whose first posture alone does so,
 /// or one that misses them by much less than the first. If other orientations bring the hands much nearer to the observed
 /// ones, they are read. Findings report what is not explained. Captured movement is never reproduced that exactly: use
-/// [`transcribe`] for it.
+/// [`transcribe_clip`] for it.
 ///
 /// # Errors
 ///
-/// The same as [`transcribe`]'s.
+/// The same as [`transcribe_clip`]'s.
 pub fn transcribe_proven(
     clip: &Clip,
-    anatomy: &Anatomy,
-    options: &Options,
-    performs: &dyn Performs,
-) -> Result<Transcription, TranscribeError> {
+    anatomy: &BodyAnatomy,
+    options: &TranscribeOptions,
+    performs: &dyn NotationSynthesiser,
+) -> Result<TokenTranscription, TranscribeError> {
     looked_at(clip, anatomy, options, Some(performs))
 }
 
 fn looked_at(
     clip: &Clip,
-    anatomy: &Anatomy,
-    options: &Options,
-    performs: Option<&dyn Performs>,
-) -> Result<Transcription, TranscribeError> {
+    anatomy: &BodyAnatomy,
+    options: &TranscribeOptions,
+    performs: Option<&dyn NotationSynthesiser>,
+) -> Result<TokenTranscription, TranscribeError> {
     // Synthesised movement has no noise, but its fast repetitions look like some.
     let steadied = match performs {
         Some(_) => None,
-        None => denoise::steadied(clip),
+        None => denoise::steady_trembling_clip(clip),
     };
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
-    let scene = scene::Scene::of(clip, anatomy, options)?;
-    let sight = tree::Sight::new(&scene, options);
-    let slack = precision::slack(&scene, &sight);
-    let mut found = if options.slack > slack {
-        let closer = Options {
+    let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, options)?;
+    let sight = transcribe_tree::SceneReadings::new(&scene, options);
+    let slack = precision::expected_place_slack(&scene, &sight);
+    let mut transcription = if options.slack > slack {
+        let closer = TranscribeOptions {
             slack,
             ..options.clone()
         };
-        let scene = scene::Scene::of(clip, anatomy, &closer)?;
-        resynthesis::written(&tree::Sight::new(&scene, &closer), performs)
+        let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, &closer)?;
+        resynthesis::write_verified_notation(&transcribe_tree::SceneReadings::new(&scene, &closer), performs)
     } else {
-        resynthesis::written(&sight, performs)
+        resynthesis::write_verified_notation(&sight, performs)
     };
-    if let Some(denoise::Steadied { most, joints, .. }) = steadied {
-        found.findings.push(format!(
+    if let Some(denoise::SteadiedClip { most, joints, .. }) = steadied {
+        transcription.findings.push(format!(
             "{joints} joints tremble from frame to frame, by {most:.1}° at most: they were smoothed"
         ));
     }
-    Ok(found)
+    Ok(transcription)
 }
 
 /// Returns whether two handshapes look the same: their angles differ by less than a degree, which is below
@@ -375,34 +371,34 @@ pub fn looks_the_same(
     b: &chereme_sign::hamnosys::Handshape,
     language: &BodyLanguage,
 ) -> bool {
-    shape::is_same(a, b, language)
+    transcribe_shape::is_same(a, b, language)
 }
 
 /// Returns the distance (m) between a hand in a frame and a notated place, and the distance between the
 /// goals of that place and of a second one; `symmetric` if both hands act alike.
 pub fn off_place(
     clip: &Clip,
-    anatomy: &Anatomy,
-    options: &Options,
+    anatomy: &BodyAnatomy,
+    options: &TranscribeOptions,
     frame: usize,
     places: (&BodyPlace, Option<&BodyPlace>),
     symmetric: bool,
 ) -> Result<Option<(f64, f64)>, TranscribeError> {
-    let scene = scene::Scene::of(clip, anatomy, options)?;
-    Ok(tree::off_place(&scene, options, frame, places, symmetric))
+    let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, options)?;
+    Ok(transcribe_tree::off_place(&scene, options, frame, places, symmetric))
 }
 
 /// The best of many candidates, with its residual and the runner-up.
 #[derive(Debug, Clone, PartialEq)]
-struct Found<T> {
+struct BestReading<T> {
     best: T,
     residual: f64,
     runner_up: Option<(T, f64)>,
 }
 
-impl<T: Clone> Found<T> {
+impl<T: Clone> BestReading<T> {
     /// Picks the lowest score among values with residuals and scores; the list must not be empty.
-    fn of(mut all: Vec<(T, f64, f64)>) -> Self {
+    fn pick_best_reading(mut all: Vec<(T, f64, f64)>) -> Self {
         all.sort_by(|a, b| a.2.total_cmp(&b.2));
         Self {
             best: all[0].0.clone(),
@@ -412,12 +408,10 @@ impl<T: Clone> Found<T> {
     }
 
     /// Converts the residuals from radians to degrees.
-    fn degrees(self) -> Self {
+    fn residuals_to_degrees(self) -> Self {
         Self {
             residual: self.residual.to_degrees(),
-            runner_up: self
-                .runner_up
-                .map(|(value, residual)| (value, residual.to_degrees())),
+            runner_up: self.runner_up.map(|(value, residual)| (value, residual.to_degrees())),
             ..self
         }
     }

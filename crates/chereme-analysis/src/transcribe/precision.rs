@@ -5,22 +5,22 @@
 //! exporter of the movement need not state which it is: the share of exact frames exceeds chance only in synthesised
 //! movement.
 
-use super::acts::signing;
-use super::scene::{HandTrajectory, Scene};
-use super::tree::Sight;
-use crate::transcribe::tuned::tuned;
+use super::acts::find_signing_frames;
+use super::transcribe_scene::{HandTrajectory, SignerScene};
+use super::transcribe_tree::SceneReadings;
+use crate::transcribe::transcribe_tuned::tuned;
 
 /// Returns the expected distance (m) between the hands and their places: that of synthesised movement, and as much more as
 /// the hands are off directions or handshapes, at most that of the options. Captured hands keep these so exactly by
 /// chance only.
-pub(super) fn slack(scene: &Scene<'_>, sight: &Sight<'_>) -> f64 {
+pub(super) fn expected_place_slack(scene: &SignerScene<'_>, sight: &SceneReadings<'_>) -> f64 {
     let mut errors = Vec::new();
     for track in scene.hands.iter().flatten() {
         // Transitions from and to rest have no intended direction.
-        let signs: Vec<usize> = signing(scene, track).filter(|&n| !track.rests[n]).collect();
+        let signs: Vec<usize> = find_signing_frames(scene, track).filter(|&n| !track.rests[n]).collect();
         let step = signs.len().div_ceil(tuned().precision.looked_at).max(1);
         let frames = signs.iter().step_by(step);
-        errors.extend(frames.map(|&frame| error(sight, track, frame)));
+        errors.extend(frames.map(|&frame| hand_reading_error(sight, track, frame)));
     }
     errors.sort_by(f64::total_cmp);
     // Many hands are at least as exact as this.
@@ -32,14 +32,15 @@ pub(super) fn slack(scene: &Scene<'_>, sight: &Sight<'_>) -> f64 {
 
 /// Returns the error of a hand's direction and palm, or of its handshape, in a frame, as a multiple of the error with which
 /// synthesised hands hold them.
-fn error(sight: &Sight<'_>, track: &HandTrajectory, frame: usize) -> f64 {
-    let seen = sight.see(track, frame);
+fn hand_reading_error(sight: &SceneReadings<'_>, track: &HandTrajectory, frame: usize) -> f64 {
+    let seen = sight.read_hand_posture(track, frame);
     let [along, about] = tuned().precision.turned;
     let turned = seen.palm.as_ref().map_or(f64::INFINITY, |palm| {
         (seen.extended.residual / along).max(palm.residual / about)
     });
-    let shaped = seen.shape.as_ref().map_or(f64::INFINITY, |shape| {
-        shape.residual / tuned().precision.shaped
-    });
+    let shaped = seen
+        .shape
+        .as_ref()
+        .map_or(f64::INFINITY, |shape| shape.residual / tuned().precision.shaped);
     turned.min(shaped)
 }

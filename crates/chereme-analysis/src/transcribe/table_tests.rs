@@ -2,23 +2,23 @@
 
 use std::f64::consts::TAU;
 
-use chereme_motion::Side as BodySide;
+use chereme_motion::BodySide;
 use chereme_sign::hamnosys::{
-    Aim, Compass, Digit, Digits, Directed, Direction, HandClass, Handshape, Manual, MotionKind,
-    Place, Posture, Size, ThumbPosition, WristMotion, parse, to_names,
+    CompassDirection, DigitList, DirectedPath, DirectionAim, HandClass, HandDigit, HandPlace, Handshape, ManualPart,
+    MotionKind, MotionSize, NotatedPosture, SpatialDirection, ThumbPosition, WristMotion, parse_hamnosys, to_names,
 };
 use glam::{DQuat, DVec3};
 
-use super::scene::Scene;
 use super::tests::{ARM, Held, before_chest, clip, ease, read};
+use super::transcribe_scene::SignerScene;
 use super::*;
 
 const DIRECTIONS: [&str; 26] = [
-    "u", "ur", "r", "dr", "d", "dl", "l", "ul", "ol", "o", "or", "il", "i", "ir", "ui", "di", "do",
-    "uo", "uor", "dor", "dol", "uol", "uir", "dir", "dil", "uil",
+    "u", "ur", "r", "dr", "d", "dl", "l", "ul", "ol", "o", "or", "il", "i", "ir", "ui", "di", "do", "uo", "uor", "dor",
+    "dol", "uol", "uir", "dir", "dil", "uil",
 ];
 
-fn actions(part: &Manual) -> Vec<String> {
+fn actions(part: &ManualPart) -> Vec<String> {
     let kinds = part.actions.iter();
     kinds.map(|action| format!("{:?}", action.kind)).collect()
 }
@@ -37,20 +37,14 @@ fn movement(seconds: f64, by: impl Fn(f64) -> DVec3) -> MotionKind {
 fn hands_are_read_as_they_point_and_face() {
     let mut wrong = Vec::new();
     for (n, along) in DIRECTIONS.into_iter().enumerate() {
-        for palm in ["u", "l", "d", "r", "ul", "dr"]
-            .into_iter()
-            .skip(n % 2)
-            .step_by(2)
-        {
+        for palm in ["u", "l", "d", "r", "ul", "dr"].into_iter().skip(n % 2).step_by(2) {
             let own = Held::new([-0.15, -0.12, 0.30], along, palm, HandClass::Flat);
             let part = read(0.3, |_| [Some(own.clone()), None]);
-            let direction = part.posture.extended.dominant().expect("a direction");
-            let facing = part.posture.palm.dominant().expect("a palm");
-            let meant: (Direction, Compass) = (
-                along.parse().expect("a direction"),
-                palm.parse().expect("a palm"),
-            );
-            if (*direction, *facing) != (Aim::at(meant.0), Aim::at(meant.1)) {
+            let direction = part.posture.extended.dominant_value().expect("a direction");
+            let facing = part.posture.palm.dominant_value().expect("a palm");
+            let meant: (SpatialDirection, CompassDirection) =
+                (along.parse().expect("a direction"), palm.parse().expect("a palm"));
+            if (*direction, *facing) != (DirectionAim::aim_at(meant.0), DirectionAim::aim_at(meant.1)) {
                 wrong.push(format!("{along} {palm}: {direction:?} {facing:?}"));
             }
         }
@@ -60,19 +54,19 @@ fn hands_are_read_as_they_point_and_face() {
 
 #[test]
 fn straight_paths_are_read_with_direction_and_size() {
-    let l = BodyLanguage::usual();
+    let l = BodyLanguage::default_body_language();
     let sizes = [
-        (l.move_small, Some(Size::Small)),
+        (l.move_small, Some(MotionSize::Small)),
         (l.move_normal, None),
-        (l.move_big, Some(Size::Big)),
+        (l.move_big, Some(MotionSize::Big)),
     ];
     for (n, text) in DIRECTIONS.into_iter().enumerate() {
-        let to: Direction = text.parse().expect("a direction");
+        let to: SpatialDirection = text.parse().expect("a direction");
         // A long way inwards would end at the body.
         let (length, size) = sizes[if text.contains('i') { 0 } else { n % 3 }];
-        let by = DVec3::from(to.vector()) * (length * ARM);
+        let by = DVec3::from(to.spatial_direction_vector()) * (length * ARM);
         let kind = movement(0.2 + length, |time| by * ease(time));
-        let MotionKind::Directed(Directed {
+        let MotionKind::Directed(DirectedPath {
             direction,
             second,
             size: found,
@@ -91,7 +85,7 @@ fn straight_paths_are_read_with_direction_and_size() {
 
 #[test]
 fn arcs_are_read_with_the_direction_of_their_bulge() {
-    let l = BodyLanguage::usual();
+    let l = BodyLanguage::default_body_language();
     let length = l.move_normal * ARM;
     for (along, bulge, compass) in [
         (DVec3::X, DVec3::Y, "u"),
@@ -106,13 +100,12 @@ fn arcs_are_read_with_the_direction_of_their_bulge() {
         let half = (length / 2.0 / radius).asin();
         let kind = movement(0.5, |time| {
             let angle = half * (2.0 * ease(time) - 1.0);
-            along * (length / 2.0 + radius * angle.sin())
-                + bulge * (radius * angle.cos() - radius + deep)
+            along * (length / 2.0 + radius * angle.sin()) + bulge * (radius * angle.cos() - radius + deep)
         });
         let MotionKind::Directed(directed) = &kind else {
             panic!("{kind:?}");
         };
-        let course: DVec3 = directed.direction.vector().into();
+        let course: DVec3 = directed.direction.spatial_direction_vector().into();
         assert!(course.distance(along) < 1e-9, "{along}: {kind:?}");
         let curve = directed.curve.as_ref().expect("an arc");
         assert_eq!(curve.to.to_string(), compass, "{along} {bulge}");
@@ -122,23 +115,19 @@ fn arcs_are_read_with_the_direction_of_their_bulge() {
 
 #[test]
 fn circles_are_read_with_their_axis_and_size() {
-    let l = BodyLanguage::usual();
+    let l = BodyLanguage::default_body_language();
     for (axis, radius, size) in [
         ("o", l.circle_normal, None),
         ("i", l.circle_normal, None),
         ("l", l.circle_normal, None),
-        ("r", l.circle_big, Some(Size::Big)),
-        ("u", l.circle_small, Some(Size::Small)),
+        ("r", l.circle_big, Some(MotionSize::Big)),
+        ("u", l.circle_small, Some(MotionSize::Small)),
         ("d", l.circle_normal, None),
     ] {
-        let to: Direction = axis.parse().expect("an axis");
-        let about: DVec3 = to.vector().into();
+        let to: SpatialDirection = axis.parse().expect("an axis");
+        let about: DVec3 = to.spatial_direction_vector().into();
         // A level circle begins at its near end, so that it does not come near the body.
-        let start = if about.y.abs() > 0.5 {
-            DVec3::NEG_Z
-        } else {
-            DVec3::Y
-        };
+        let start = if about.y.abs() > 0.5 { DVec3::NEG_Z } else { DVec3::Y };
         let kind = movement(0.7, |time| {
             let spoke = start * (radius * ARM);
             DQuat::from_axis_angle(about, TAU * ease(time)) * spoke - spoke
@@ -176,10 +165,10 @@ fn movements_of_the_wrist_are_distinguished_by_their_axes() {
 #[test]
 fn handshapes_are_read_as_they_are_written() {
     let mut wrong = Vec::new();
-    let shape = |class: HandClass, thumb: Option<ThumbPosition>, special: &[Digit]| {
+    let shape = |class: HandClass, thumb: Option<ThumbPosition>, special: &[HandDigit]| {
         let mut shape = Handshape::default();
         (shape.form.class, shape.form.thumb) = (class, thumb);
-        shape.special = Digits(special.to_vec());
+        shape.special = DigitList(special.to_vec());
         shape
     };
     for meant in [
@@ -189,7 +178,7 @@ fn handshapes_are_read_as_they_are_written() {
         shape(HandClass::Flat, Some(ThumbPosition::Out), &[]),
         shape(HandClass::Finger2, None, &[]),
         shape(HandClass::Finger2, Some(ThumbPosition::Out), &[]),
-        shape(HandClass::Finger2, None, &[Digit::Little]),
+        shape(HandClass::Finger2, None, &[HandDigit::Little]),
         shape(HandClass::Finger23, None, &[]),
         shape(HandClass::Finger23Spread, None, &[]),
         shape(HandClass::Finger2345, None, &[]),
@@ -201,7 +190,7 @@ fn handshapes_are_read_as_they_are_written() {
         let mut own = before_chest(HandClass::Fist);
         own.shape = meant.clone();
         let part = read(0.3, |_| [Some(own.clone()), None]);
-        let found = part.posture.shape.dominant().expect("a shape");
+        let found = part.posture.shape.dominant_value().expect("a shape");
         let plain = |shape: &Handshape| (shape.form, shape.special.clone(), shape.between);
         if plain(found) != plain(&meant) {
             wrong.push(format!("{:?}: {:?}", plain(&meant), plain(found)));
@@ -221,16 +210,17 @@ fn features_in_symbols_are_read_back_as_the_same_features() {
         "hamneutralspace hamarmextended",
     ] {
         let text = chereme_sign::hamnosys::from_names(names.split(' ')).expect("symbols");
-        let posture = parse(&text).expect("a place").sign.parts[0].posture.clone();
-        let Some(Place::Body(place)) = posture.place else {
+        let posture = parse_hamnosys(&text).expect("a place").sign.parts[0].posture.clone();
+        let Some(HandPlace::Body(place)) = posture.place else {
             panic!("{names}");
         };
-        let again = words::place(&place).text + &words::nearness(&place).text;
+        let again =
+            transcribe_words::describe_body_place(&place).text + &transcribe_words::describe_place_contact(&place).text;
         assert_eq!(to_names(&again).expect("symbols").join(" "), names);
     }
-    let text = words::begun(
+    let text = transcribe_words::begun_posture_hamnosys(
         chereme_sign::hamnosys::HandsUsed::Dominant,
-        Posture::default(),
+        NotatedPosture::default(),
     );
     assert_eq!(text, "");
 }
@@ -240,28 +230,23 @@ fn a_point_of_the_hand_keeps_its_place_in_the_hand_s_own_space() {
     let own = before_chest(HandClass::Flat);
     let (clip, anatomy) = clip(0.3, |time| {
         let turned = own.turned(DQuat::from_rotation_z(0.8 * time));
-        [
-            Some(turned.moved(DVec3::new(0.1, -0.05, 0.08) * time)),
-            None,
-        ]
+        [Some(turned.moved(DVec3::new(0.1, -0.05, 0.08) * time)), None]
     });
-    let options = Options::made();
-    let scene = Scene::of(&clip, &anatomy, &options).expect("a scene");
+    let options = TranscribeOptions::synthesised_options();
+    let scene = SignerScene::read_signer_scene(&clip, &anatomy, &options).expect("a scene");
     let hands = scene.hands.iter().flatten();
-    let track = hands
-        .into_iter()
-        .find(|track| track.side == BodySide::Right);
+    let track = hands.into_iter().find(|track| track.side == BodySide::Right);
     let track = track.expect("a hand");
     let (first, last) = (0, track.wrist.len() - 1);
     let at = track.wrist[first] + DVec3::new(0.02, 0.11, -0.03);
-    let carried = track.carried(at, first);
+    let carried = track.carried_point_trajectory(at, first);
     assert!(carried[first].distance(at) < 1e-12);
     let turn = track.turned[last] * track.turned[first].inverse();
     let expected = track.wrist[last] + turn * (at - track.wrist[first]);
     assert!(carried[last].distance(expected) < 1e-12);
     for frame in [first, last / 2, last] {
-        let in_hand = acts::own(track, &[carried[frame]], frame)[0];
-        let at_first = acts::own(track, &[at], first)[0];
+        let in_hand = acts::to_hand_space(track, &[carried[frame]], frame)[0];
+        let at_first = acts::to_hand_space(track, &[at], first)[0];
         assert!(in_hand.distance(at_first) < 1e-12, "frame {frame}");
         assert!((in_hand.length() - at.distance(track.wrist[first])).abs() < 1e-12);
     }
@@ -275,18 +260,15 @@ fn handshapes_are_named_with_every_part_that_is_written() {
         ("hamflathand hamthumboutmod", "flat thumb out"),
         ("hamfinger2 hamfingerbendmod", "finger2 round"),
         ("hamfinger2 hamfingerhookmod", "finger2 hooked"),
-        (
-            "hamfinger23spread hamdoublebent",
-            "finger23spread double-bent",
-        ),
+        ("hamfinger23spread hamdoublebent", "finger23spread double-bent"),
         ("hamfinger2345 hamdoublehooked", "finger2345 double-hooked"),
         ("hamflathand hamfingerstraightmod", "flat bent"),
         ("hamfist hambetween hamflathand", "fist | flat"),
     ] {
         let text = chereme_sign::hamnosys::from_names(names.split(' ')).expect("symbols");
-        let posture = parse(&text).expect("a shape").sign.parts[0].posture.clone();
-        let shape = posture.shape.dominant().expect("a shape");
-        let named = words::shape(shape);
+        let posture = parse_hamnosys(&text).expect("a shape").sign.parts[0].posture.clone();
+        let shape = posture.shape.dominant_value().expect("a shape");
+        let named = transcribe_words::describe_handshape(shape);
         assert_eq!(named.words, said, "{names}");
         assert_eq!(to_names(&named.text).expect("symbols").join(" "), names);
     }

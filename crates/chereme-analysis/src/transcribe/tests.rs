@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use chereme_motion::{Channel, Clip, Finger, Joint, Rate, Side, Skeleton};
+use chereme_motion::{BodySide, Clip, FrameRate, HandFinger, JointChannel, Skeleton, SkeletonJoint};
 use chereme_sign::hamnosys::angles::hand_angles;
 use chereme_sign::hamnosys::{
-    Aim, BodyLocation, Compass, Contact, Directed, Direction, HandClass, HandsUsed, Handshape,
-    Manual, MotionKind, Place, Repeat, Size, ThumbPosition, WristMotion, orientation, to_names,
+    BodyLocation, CompassDirection, DirectedPath, DirectionAim, HandClass, HandPlace, HandsUsed, Handshape, ManualPart,
+    MotionKind, MotionSize, PlaceContact, RepeatKind, SpatialDirection, ThumbPosition, WristMotion, orientation,
+    to_names,
 };
 use glam::{DQuat, DVec3};
 
@@ -28,14 +29,14 @@ pub(super) struct Held {
 
 impl Held {
     pub(super) fn new(at: [f64; 3], along: &str, palm: &str, class: HandClass) -> Self {
-        let along: Direction = along.parse().expect("a direction");
-        let palm: Compass = palm.parse().expect("a palm");
+        let along: SpatialDirection = along.parse().expect("a direction");
+        let palm: CompassDirection = palm.parse().expect("a palm");
         let mut shape = Handshape::default();
         shape.form.class = class;
         Self {
             at: at.into(),
-            along: along.vector().into(),
-            palm: orientation::palm(along.vector(), palm.angle()).into(),
+            along: along.spatial_direction_vector().into(),
+            palm: orientation::palm_direction_vector(along.spatial_direction_vector(), palm.compass_angle()).into(),
             shape,
         }
     }
@@ -68,29 +69,21 @@ impl Held {
 
 /// A body with two arms of 52 cm and hands with all their fingers.
 fn body() -> Skeleton {
-    let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
+    let mut joints = vec![SkeletonJoint::new("Hips", None, DVec3::Y)];
     for (name, up) in [("Spine", 0.2), ("Neck", 0.3), ("Head", 0.1)] {
         let parent = joints.len() - 1;
-        joints.push(Joint::new(name, Some(parent), DVec3::Y * up));
+        joints.push(SkeletonJoint::new(name, Some(parent), DVec3::Y * up));
     }
-    for side in Side::BOTH {
-        let x = side.sign();
-        let name = if side == Side::Left { "Left" } else { "Right" };
+    for side in BodySide::BOTH_SIDES {
+        let x = side.side_sign();
+        let name = if side == BodySide::Left { "Left" } else { "Right" };
         let mut add = |name: String, parent: usize, at: DVec3| {
-            joints.push(Joint::new(name, Some(parent), at));
+            joints.push(SkeletonJoint::new(name, Some(parent), at));
             joints.len() - 1
         };
-        let collar = add(
-            format!("{name}Shoulder"),
-            1,
-            DVec3::new(0.04 * x, 0.25, 0.0),
-        );
+        let collar = add(format!("{name}Shoulder"), 1, DVec3::new(0.04 * x, 0.25, 0.0));
         let arm = add(format!("{name}Arm"), collar, DVec3::new(0.13 * x, 0.0, 0.0));
-        let fore = add(
-            format!("{name}ForeArm"),
-            arm,
-            DVec3::new(0.28 * x, 0.0, 0.0),
-        );
+        let fore = add(format!("{name}ForeArm"), arm, DVec3::new(0.28 * x, 0.0, 0.0));
         let hand = add(format!("{name}Hand"), fore, DVec3::new(0.24 * x, 0.0, 0.0));
         let digits = [
             ("Thumb", 0.03, 0.04),
@@ -112,32 +105,32 @@ fn body() -> Skeleton {
 
 /// Builds a clip: a hold of half a second, `seconds` of movement, and a hold. A hand that `at` leaves out
 /// hangs at rest.
-pub(super) fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) {
+pub(super) fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, BodyAnatomy) {
     let skeleton = Arc::new(body());
-    let anatomy = Anatomy::detect(&skeleton);
-    let rate = Rate::new(60, 1).expect("a rate");
+    let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
+    let rate = FrameRate::new(60, 1).expect("a rate");
     let hold = 10;
     let frames = (seconds * 60.0) as usize + 2 * hold;
     let mut poses = Vec::new();
     for frame in 0..frames {
         let time = (frame as f64 - hold as f64) / (frames - 2 * hold) as f64;
         let mut pose = skeleton.rest_pose();
-        for (side, held) in Side::BOTH.into_iter().zip(at(time.clamp(0.0, 1.0))) {
-            let arm = anatomy.arm(side).expect("an arm");
-            let model = chereme_motion::ModelPose::of(&skeleton, &pose);
+        for (side, held) in BodySide::BOTH_SIDES.into_iter().zip(at(time.clamp(0.0, 1.0))) {
+            let arm = anatomy.arm_chain(side).expect("an arm");
+            let model = chereme_motion::ModelPose::from_local_pose(&skeleton, &pose);
             let frame = anatomy.body_frame(&model).expect("a trunk");
             let Some(held) = held else {
-                let down = DQuat::from_rotation_arc(DVec3::X * side.sign(), DVec3::NEG_Y);
+                let down = DQuat::from_rotation_arc(DVec3::X * side.side_sign(), DVec3::NEG_Y);
                 pose.rotations[arm.upper] = down;
                 continue;
             };
-            let angles = hand_angles(&held.shape, BodyLanguage::usual());
+            let angles = hand_angles(&held.shape, BodyLanguage::default_body_language());
             anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
             let turn = anatomy.hand_rotation(side, held.along, held.palm);
             pose.rotations[arm.hand] = turn.expect("fingers");
             // The wrist follows the palm; nothing here reads the bones of the arm.
             let wrist = frame.origin + held.at - held.along * 0.05;
-            pose.translations[arm.hand] = wrist - model.position(arm.forearm);
+            pose.translations[arm.hand] = wrist - model.model_joint_position(arm.forearm);
         }
         poses.push(pose);
     }
@@ -145,9 +138,9 @@ pub(super) fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip
     (clip, anatomy)
 }
 
-pub(super) fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> Manual {
+pub(super) fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> ManualPart {
     let (clip, anatomy) = clip(seconds, at);
-    let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
+    let written = transcribe_clip(&clip, &anatomy, &TranscribeOptions::synthesised_options()).expect("a sign");
     written.sign.parts.into_iter().next().expect("one part")
 }
 
@@ -165,29 +158,26 @@ pub(super) fn before_chest(class: HandClass) -> Held {
 fn a_downward_movement_is_transcribed_with_its_posture() {
     let own = before_chest(HandClass::Flat);
     let part = read(0.3, |time| {
-        [
-            Some(own.moved(DVec3::NEG_Y * (0.25 * ARM * ease(time)))),
-            None,
-        ]
+        [Some(own.moved(DVec3::NEG_Y * (0.25 * ARM * ease(time)))), None]
     });
     assert_eq!(part.hands, HandsUsed::Dominant);
-    let shape = part.posture.shape.dominant().expect("a shape");
+    let shape = part.posture.shape.dominant_value().expect("a shape");
     assert_eq!(shape.form.class, HandClass::Flat);
     assert_eq!(
-        part.posture.extended.dominant(),
-        Some(&Aim::at(Direction::UP))
+        part.posture.extended.dominant_value(),
+        Some(&DirectionAim::aim_at(SpatialDirection::UP_DIRECTION))
     );
-    assert_eq!(part.posture.palm.dominant(), Some(&Aim::at(Compass::L)));
+    assert_eq!(
+        part.posture.palm.dominant_value(),
+        Some(&DirectionAim::aim_at(CompassDirection::L))
+    );
     let [motion] = part.actions.as_slice() else {
         panic!("{:?}", part.actions);
     };
-    let MotionKind::Directed(Directed {
-        direction, size, ..
-    }) = &motion.kind
-    else {
+    let MotionKind::Directed(DirectedPath { direction, size, .. }) = &motion.kind else {
         panic!("{motion:?}");
     };
-    assert_eq!((*direction, size.first), (Direction::DOWN, None));
+    assert_eq!((*direction, size.first), (SpatialDirection::DOWN_DIRECTION, None));
 }
 
 #[test]
@@ -197,11 +187,7 @@ fn repeated_strokes_become_one_repeated_movement() {
         // Out, back, and out again, each with its stop.
         let third = (time * 3.0).min(2.999);
         let share = ease(third.fract());
-        if third as usize == 1 {
-            1.0 - share
-        } else {
-            share
-        }
+        if third as usize == 1 { 1.0 - share } else { share }
     };
     let part = read(0.9, |time| {
         [Some(own.moved(DVec3::Z * (0.13 * ARM * there(time)))), None]
@@ -212,12 +198,12 @@ fn repeated_strokes_become_one_repeated_movement() {
     let MotionKind::Repeated { motion, repetition } = &motion.kind else {
         panic!("{motion:?}");
     };
-    assert_eq!(repetition.repeat, Repeat::FromStart);
+    assert_eq!(repetition.repeat, RepeatKind::FromStart);
     let MotionKind::Directed(directed) = &motion.kind else {
         panic!("{motion:?}");
     };
-    assert_eq!(directed.direction, Direction::OUT);
-    assert_eq!(directed.size.first, Some(Size::Small));
+    assert_eq!(directed.direction, SpatialDirection::OUT_DIRECTION);
+    assert_eq!(directed.size.first, Some(MotionSize::Small));
 
     let part = read(1.1, |time| {
         let (sin, cos) = (TAU * 2.0 * ease(time)).sin_cos();
@@ -230,7 +216,10 @@ fn repeated_strokes_become_one_repeated_movement() {
     let MotionKind::Circular(circle) = &motion.kind else {
         panic!("{motion:?}");
     };
-    assert_eq!((circle.axis, circle.size.first), (Direction::OUT, None));
+    assert_eq!(
+        (circle.axis, circle.size.first),
+        (SpatialDirection::OUT_DIRECTION, None)
+    );
 }
 
 #[test]
@@ -247,17 +236,11 @@ fn wrist_motions_and_handshape_changes_are_distinguished_from_paths() {
 
     let flat = before_chest(HandClass::Flat);
     let (a, b) = (own.clone(), flat);
-    let part = read(0.3, |time| {
-        [Some(if time < 0.5 { a.clone() } else { b.clone() }), None]
-    });
-    let MotionKind::Target {
-        motion: None,
-        posture,
-    } = &part.actions[0].kind
-    else {
+    let part = read(0.3, |time| [Some(if time < 0.5 { a.clone() } else { b.clone() }), None]);
+    let MotionKind::Target { motion: None, posture } = &part.actions[0].kind else {
         panic!("{:?}", part.actions);
     };
-    let shape = posture.shape.dominant().expect("a shape");
+    let shape = posture.shape.dominant_value().expect("a shape");
     assert_eq!(shape.form.class, HandClass::Flat);
 }
 
@@ -273,7 +256,7 @@ fn mirrored_hands_are_transcribed_once() {
         panic!("{:?}", part.hands);
     };
     assert!(symmetry.left_right && !symmetry.up_down && !symmetry.out_of_phase);
-    assert!(part.posture.palm.other().is_none());
+    assert!(part.posture.palm.other_value().is_none());
     assert_eq!(part.actions.len(), 1);
 }
 
@@ -283,11 +266,11 @@ fn the_left_handed_sign_is_written_as_the_right_handed_one() {
     let course = |time: f64| own.moved(DVec3::new(-0.1, 0.02, 0.03) * ease(time));
     let right = read(0.3, |time| [Some(course(time)), None]);
     let (clip, anatomy) = clip(0.3, |time| [None, Some(course(time).mirrored())]);
-    let options = Options {
-        dominant: Side::Left,
-        ..Options::made()
+    let options = TranscribeOptions {
+        dominant: BodySide::Left,
+        ..TranscribeOptions::synthesised_options()
     };
-    let left = transcribe(&clip, &anatomy, &options).expect("a sign");
+    let left = transcribe_clip(&clip, &anatomy, &options).expect("a sign");
     assert_eq!(left.sign.parts, vec![right]);
 }
 
@@ -295,13 +278,11 @@ fn the_left_handed_sign_is_written_as_the_right_handed_one() {
 fn the_nondominant_hand_alone_is_recognised_even_with_its_arm_stretched_out() {
     let own = Held::new([0.15, -0.12, 0.30], "or", "dr", HandClass::Finger2);
     let sideways = DVec3::new(0.50, 0.08, -0.27);
-    let found = read(0.5, |time| {
-        [None, Some(own.moved(sideways * ease(time / 0.5)))]
-    });
+    let found = read(0.5, |time| [None, Some(own.moved(sideways * ease(time / 0.5)))]);
     assert_eq!(found.hands, HandsUsed::Nondominant);
-    let shape = found.posture.shape.dominant().expect("a shape");
+    let shape = found.posture.shape.dominant_value().expect("a shape");
     assert_eq!(shape.form.class, HandClass::Finger2);
-    let direction = found.posture.extended.dominant().expect("a direction");
+    let direction = found.posture.extended.dominant_value().expect("a direction");
     assert_eq!(direction.first.to_string(), "or");
     assert!(!found.actions.is_empty());
 }
@@ -311,7 +292,7 @@ fn a_finger_at_the_chin_touches_it() {
     let (clip, anatomy) = clip(0.3, |_| [None, None]);
     let model = clip.model_pose(0);
     let chin = anatomy
-        .landmark(clip.skeleton(), &model, "chin")
+        .landmark_place_position(clip.clip_skeleton(), &model, "chin")
         .expect("a chin");
     let origin = anatomy.body_frame(&model).expect("a trunk").origin;
     // The tip of a straight index finger is 17.5 cm from the wrist and 2.5 cm to the thumb's side.
@@ -319,11 +300,11 @@ fn a_finger_at_the_chin_touches_it() {
     own.shape.form.thumb = Some(ThumbPosition::Across);
     let tip = DVec3::Y * 0.125 - DVec3::Z * 0.025;
     let part = read(0.3, |_| [Some(own.moved(chin - origin - tip)), None]);
-    let Some(Place::Body(place)) = &part.posture.place else {
+    let Some(HandPlace::Body(place)) = &part.posture.place else {
         panic!("{:?}", part.posture.place);
     };
     assert_eq!(place.site.map(|site| site.at), Some(BodyLocation::Chin));
-    assert_eq!(place.contact, Some(Contact::Touch));
+    assert_eq!(place.contact, Some(PlaceContact::Touch));
     assert!(place.by.is_some());
     assert!(part.actions.is_empty(), "{:?}", part.actions);
 }
@@ -333,7 +314,7 @@ fn a_place_touched_only_in_passing_is_brushed() {
     let (clip, anatomy) = clip(0.3, |_| [None, None]);
     let model = clip.model_pose(0);
     let chin = anatomy
-        .landmark(clip.skeleton(), &model, "chin")
+        .landmark_place_position(clip.clip_skeleton(), &model, "chin")
         .expect("a chin");
     let origin = anatomy.body_frame(&model).expect("a trunk").origin;
     let mut own = Held::new([0.0; 3], "u", "l", HandClass::Finger2);
@@ -347,10 +328,10 @@ fn a_place_touched_only_in_passing_is_brushed() {
     let MotionKind::Target { posture, .. } = &part.actions[0].kind else {
         panic!("{:?}", part.actions);
     };
-    let Some(Place::Body(place)) = &posture.place else {
+    let Some(HandPlace::Body(place)) = &posture.place else {
         panic!("{posture:?}");
     };
-    assert_eq!(place.contact, Some(Contact::Brushing));
+    assert_eq!(place.contact, Some(PlaceContact::Brushing));
     assert_eq!(place.site.map(|site| site.at), Some(BodyLocation::Chin));
 }
 
@@ -366,10 +347,7 @@ fn a_repetition_that_grows_each_time_is_increasing() {
             let share = ease(fifth.fract());
             let there = if stroke % 2 == 1 { 1.0 - share } else { share };
             let size = if stroke % 2 == 1 { far / by } else { far };
-            [
-                Some(own.moved(DVec3::Z * (0.13 * ARM * size * there))),
-                None,
-            ]
+            [Some(own.moved(DVec3::Z * (0.13 * ARM * size * there))), None]
         });
         match &part.actions[0].kind {
             MotionKind::Repeated { repetition, .. } => repetition.growth.map(|it| it.increasing),
@@ -385,12 +363,9 @@ fn a_repetition_that_grows_each_time_is_increasing() {
 fn every_feature_and_stage_is_reported_in_symbols_with_its_frames() {
     let own = before_chest(HandClass::Flat);
     let (clip, anatomy) = clip(0.3, |time| {
-        [
-            Some(own.moved(DVec3::NEG_Y * (0.13 * ARM * ease(time)))),
-            None,
-        ]
+        [Some(own.moved(DVec3::NEG_Y * (0.13 * ARM * ease(time)))), None]
     });
-    let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
+    let written = transcribe_clip(&clip, &anatomy, &TranscribeOptions::synthesised_options()).expect("a sign");
     let names = |text: &str| to_names(text).expect("symbols").join(" ");
     let reading = |kind: FeatureKind| {
         let feature = written.features.iter().find(|it| it.kind == kind);
@@ -405,17 +380,14 @@ fn every_feature_and_stage_is_reported_in_symbols_with_its_frames() {
     assert_eq!(reading(FeatureKind::Course).0, "hammoved");
     assert_eq!(reading(FeatureKind::Movement).0, "hammoved hamsmallmod");
     assert!(reading(FeatureKind::Movement).1.contains("hamarc"));
-    assert_eq!(
-        reading(FeatureKind::Size),
-        ("hamsmallmod".into(), String::new())
-    );
+    assert_eq!(reading(FeatureKind::Size), ("hamsmallmod".into(), String::new()));
     let [posture, action] = written.stages.as_slice() else {
         panic!("{:?}", written.stages);
     };
     assert_eq!((posture.action, action.action), (None, Some(1)));
     assert!(posture.frames.0 < posture.frames.1 && posture.frames.1 <= action.frames.0 + 1);
-    assert!(action.frames.1 <= clip.frames() && names(&action.text).starts_with("hammoved"));
-    let of = |feature: &Feature| match feature.action {
+    assert!(action.frames.1 <= clip.clip_frame_count() && names(&action.text).starts_with("hammoved"));
+    let of = |feature: &NotationFeature| match feature.action {
         None => posture.frames,
         Some(_) => action.frames,
     };
@@ -430,21 +402,24 @@ fn transitions_from_and_to_rest_are_left_out() {
     });
     let (rest, _) = clip(0.1, |_| [None, None]);
     let transition = |a: &Clip, b: &Clip| -> Vec<_> {
-        let (from, to) = (a.pose(a.frames() - 1), b.pose(0));
+        let (from, to) = (a.clip_pose_at(a.clip_frame_count() - 1), b.clip_pose_at(0));
         (1..24)
             .map(|n| {
                 let share = ease(f64::from(n) / 24.0);
                 let mut pose = from.clone();
                 for joint in 0..pose.rotations.len() {
                     pose.rotations[joint] = from.rotations[joint].slerp(to.rotations[joint], share);
-                    pose.translations[joint] =
-                        from.translations[joint].lerp(to.translations[joint], share);
+                    pose.translations[joint] = from.translations[joint].lerp(to.translations[joint], share);
                 }
                 pose
             })
             .collect()
     };
-    let all = |clip: &Clip| (0..clip.frames()).map(|n| clip.pose(n)).collect::<Vec<_>>();
+    let all = |clip: &Clip| {
+        (0..clip.clip_frame_count())
+            .map(|n| clip.clip_pose_at(n))
+            .collect::<Vec<_>>()
+    };
     let poses = [
         all(&rest),
         transition(&rest, &sign),
@@ -453,9 +428,9 @@ fn transitions_from_and_to_rest_are_left_out() {
         all(&rest),
     ]
     .concat();
-    let long = Clip::from_poses(Arc::clone(sign.skeleton()), sign.rate(), &poses).expect("a clip");
-    let short = transcribe(&sign, &anatomy, &Options::made()).expect("a sign");
-    let long = transcribe(&long, &anatomy, &Options::made()).expect("a sign");
+    let long = Clip::from_poses(Arc::clone(sign.clip_skeleton()), sign.clip_frame_rate(), &poses).expect("a clip");
+    let short = transcribe_clip(&sign, &anatomy, &TranscribeOptions::synthesised_options()).expect("a sign");
+    let long = transcribe_clip(&long, &anatomy, &TranscribeOptions::synthesised_options()).expect("a sign");
     assert_eq!(long.sign.parts[0].actions, short.sign.parts[0].actions);
     assert!(long.frames.0 > 20, "{:?}", long.frames);
 }
@@ -465,7 +440,7 @@ fn drift_and_small_bends_of_captured_hands_are_no_separate_movement() {
     let own = before_chest(HandClass::Flat);
     let actions = |by: &dyn Fn(f64) -> DVec3| {
         let (made, anatomy) = clip(0.9, |time| [Some(own.moved(by(time))), None]);
-        let found = transcribe(&made, &anatomy, &Options::default()).expect("a sign");
+        let found = transcribe_clip(&made, &anatomy, &TranscribeOptions::default()).expect("a sign");
         let mut parts = found.sign.parts.into_iter();
         parts.next().expect("one part").actions
     };
@@ -481,19 +456,19 @@ fn drift_and_small_bends_of_captured_hands_are_no_separate_movement() {
     };
     assert!(matches!(
         motion.kind,
-        MotionKind::Directed(Directed { curve: None, .. })
+        MotionKind::Directed(DirectedPath { curve: None, .. })
     ));
 }
 
 #[test]
 fn resting_hands_are_reported_as_a_finding() {
     let (clip, anatomy) = clip(0.4, |_| [None, None]);
-    for clip in [clip.slice(0..1), clip] {
-        let found = transcribe(&clip, &anatomy, &Options::default()).expect("a posture");
+    for clip in [clip.slice_clip_frames(0..1), clip] {
+        let found = transcribe_clip(&clip, &anatomy, &TranscribeOptions::default()).expect("a posture");
         assert!(found.findings.iter().any(|it| it.contains("rest")));
         assert!(found.sign.parts[0].actions.is_empty());
         // A hand is never placed at its own arm.
-        let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
+        let Some(HandPlace::Body(place)) = &found.sign.parts[0].posture.place else {
             panic!("{:?}", found.sign);
         };
         assert_ne!(place.site.map(|it| it.at), Some(BodyLocation::LowerArm));
@@ -509,59 +484,53 @@ fn a_hand_that_trembles_in_the_lap_is_not_transcribed() {
         [Some(right), Some(lap.moved(tremble))]
     });
     assert!(matches!(found.hands, HandsUsed::Dominant));
-    assert!(found.posture.shape.other().is_none(), "{:?}", found.posture);
+    assert!(found.posture.shape.other_value().is_none(), "{:?}", found.posture);
 }
 
 #[test]
 fn clips_that_are_no_token_are_refused_and_missing_joints_reported() {
     let (whole, anatomy) = clip(0.3, |_| [Some(before_chest(HandClass::Flat)), None]);
-    let empty = whole.slice(0..0);
-    let outcome = |clip: &Clip, options: &Options| transcribe(clip, &anatomy, options).map(|_| ());
+    let empty = whole.slice_clip_frames(0..0);
+    let outcome = |clip: &Clip, options: &TranscribeOptions| transcribe_clip(clip, &anatomy, options).map(|_| ());
     assert_eq!(
-        outcome(&empty, &Options::made()),
+        outcome(&empty, &TranscribeOptions::synthesised_options()),
         Err(TranscribeError::Empty)
     );
-    let short = Options {
+    let short = TranscribeOptions {
         longest: 0.2,
-        ..Options::made()
+        ..TranscribeOptions::synthesised_options()
     };
-    assert!(matches!(
-        outcome(&whole, &short),
-        Err(TranscribeError::TooLong { .. })
-    ));
+    assert!(matches!(outcome(&whole, &short), Err(TranscribeError::TooLong { .. })));
 
-    let bone = Skeleton::new(vec![Joint::new("bone", None, DVec3::ZERO)]).expect("a tree");
-    let nothing = Anatomy::detect(&bone);
-    let clip = Clip::still(Arc::new(bone), whole.rate(), 9);
-    let error = transcribe(&clip, &nothing, &Options::made());
+    let bone = Skeleton::new(vec![SkeletonJoint::new("bone", None, DVec3::ZERO)]).expect("a tree");
+    let nothing = BodyAnatomy::detect_anatomy(&bone);
+    let clip = Clip::from_rest_pose(Arc::new(bone), whole.clip_frame_rate(), 9);
+    let error = transcribe_clip(&clip, &nothing, &TranscribeOptions::synthesised_options());
     assert_eq!(error.map(|_| ()), Err(TranscribeError::NoBody));
 
     // Fingers without their outer joints: the inner ones suffice, and the lack is reported.
-    let keep = |joint: &Joint| !(joint.name.contains("Hand") && joint.name.ends_with(['3', '4']));
-    let joints: Vec<Joint> = body().joints().to_vec();
+    let keep = |joint: &SkeletonJoint| !(joint.name.contains("Hand") && joint.name.ends_with(['3', '4']));
+    let joints: Vec<SkeletonJoint> = body().skeleton_joints().to_vec();
     let kept: Vec<usize> = (0..joints.len()).filter(|&n| keep(&joints[n])).collect();
     let place = |old: usize| kept.iter().position(|&n| n == old).expect("kept");
-    let fewer: Vec<Joint> = kept
+    let fewer: Vec<SkeletonJoint> = kept
         .iter()
-        .map(|&n| Joint {
+        .map(|&n| SkeletonJoint {
             parent: joints[n].parent.map(place),
             ..joints[n].clone()
         })
         .collect();
-    let channels: Vec<Channel> = kept.iter().map(|&n| whole.channel(n).clone()).collect();
+    let channels: Vec<JointChannel> = kept.iter().map(|&n| whole.joint_channel(n).clone()).collect();
     let skeleton = Arc::new(Skeleton::new(fewer).expect("a tree"));
-    let anatomy = Anatomy::detect(&skeleton);
-    let clip = Clip::new(skeleton, whole.rate(), channels).expect("a clip");
-    let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
+    let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
+    let clip = Clip::new(skeleton, whole.clip_frame_rate(), channels).expect("a clip");
+    let written = transcribe_clip(&clip, &anatomy, &TranscribeOptions::synthesised_options()).expect("a sign");
     let part = &written.sign.parts[0];
-    let shape = part.posture.shape.dominant().expect("a shape");
+    let shape = part.posture.shape.dominant_value().expect("a shape");
     assert_eq!(shape.form.class, HandClass::Flat);
-    let missing = format!("{} end", Finger::Index.name());
+    let missing = format!("{} end", HandFinger::Index.finger_name());
     assert!(
-        written
-            .findings
-            .iter()
-            .any(|finding| finding.contains(&missing)),
+        written.findings.iter().any(|finding| finding.contains(&missing)),
         "{:?}",
         written.findings
     );
@@ -581,10 +550,7 @@ fn manners_are_recognised_by_duration_and_speed_profile() {
         part.actions[0].manner
     };
     let usual = manner(0.27, &late);
-    assert!(
-        !usual.fast && !usual.slow && !usual.tense && !usual.halt,
-        "{usual:?}"
-    );
+    assert!(!usual.fast && !usual.slow && !usual.tense && !usual.halt, "{usual:?}");
     assert!(manner(0.16, &late).fast);
     assert!(manner(0.54, &late).slow);
     assert!(manner(0.56, &even).tense);
@@ -597,26 +563,16 @@ fn manners_are_recognised_by_duration_and_speed_profile() {
 fn the_residual_of_a_location_is_the_distance_of_the_hand_from_it() {
     let own = before_chest(HandClass::Flat);
     let (clip, anatomy) = clip(0.5, |_| [Some(own.clone()), None]);
-    let options = Options::made();
-    let found = transcribe(&clip, &anatomy, &options).expect("transcribed");
-    let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
+    let options = TranscribeOptions::synthesised_options();
+    let found = transcribe_clip(&clip, &anatomy, &options).expect("transcribed");
+    let Some(HandPlace::Body(place)) = &found.sign.parts[0].posture.place else {
         panic!("{:?}", found.sign);
     };
-    let location = found
-        .features
-        .iter()
-        .find(|it| it.kind == FeatureKind::Location);
+    let location = found.features.iter().find(|it| it.kind == FeatureKind::Location);
     let location = location.expect("a location");
-    let (off, apart) = off_place(
-        &clip,
-        &anatomy,
-        &options,
-        location.frame,
-        (place, Some(place)),
-        false,
-    )
-    .expect("it has a body")
-    .expect("it has the place");
+    let (off, apart) = off_place(&clip, &anatomy, &options, location.frame, (place, Some(place)), false)
+        .expect("it has a body")
+        .expect("it has the place");
     assert!(
         apart < 1e-12 && off * 100.0 + 1e-9 >= location.residual,
         "{off} {}",
@@ -631,7 +587,7 @@ fn noise_in_every_joint_adds_no_movement() {
         let down = DVec3::NEG_Y * (0.25 * ARM * ease(time));
         [Some(own.moved(down)), None]
     });
-    let plain = transcribe(&made, &anatomy, &Options::default()).expect("a sign");
+    let plain = transcribe_clip(&made, &anatomy, &TranscribeOptions::default()).expect("a sign");
     let mut seed = 3_u64;
     let mut next = || {
         seed = seed
@@ -639,19 +595,19 @@ fn noise_in_every_joint_adds_no_movement() {
             .wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as f64 / 2f64.powi(31) - 0.5
     };
-    let channels = made.channels().iter().map(|channel| {
+    let channels = made.joint_channels().iter().map(|channel| {
         let shaken = channel.rotations.iter().map(|rotation| {
             let by = DVec3::new(next(), next(), next()) * 0.07;
             (*rotation * DQuat::from_scaled_axis(by)).normalize()
         });
-        Channel {
+        JointChannel {
             rotations: shaken.collect(),
             translations: channel.translations.clone(),
         }
     });
     let channels = channels.collect();
-    let shaken = Clip::new(made.skeleton().clone(), made.rate(), channels).expect("a clip");
-    let found = transcribe(&shaken, &anatomy, &Options::default()).expect("a sign");
+    let shaken = Clip::new(made.clip_skeleton().clone(), made.clip_frame_rate(), channels).expect("a clip");
+    let found = transcribe_clip(&shaken, &anatomy, &TranscribeOptions::default()).expect("a sign");
     assert_eq!(found.stages.len(), plain.stages.len(), "{:?}", found.stages);
     assert!(found.findings.iter().any(|it| it.contains("tremble")));
     assert!(!plain.findings.iter().any(|it| it.contains("tremble")));
@@ -659,17 +615,17 @@ fn noise_in_every_joint_adds_no_movement() {
 
 #[test]
 fn places_are_expected_as_exactly_as_hands_hold_their_directions_or_shapes() {
-    use chereme_sign::hamnosys::Bend;
-    let options = Options::default();
-    let slack = |turned: f64, bend: Option<Bend>| {
+    use chereme_sign::hamnosys::FingerBend;
+    let options = TranscribeOptions::default();
+    let slack = |turned: f64, bend: Option<FingerBend>| {
         let mut held = Held::new([-0.15, -0.25, 0.35], "ol", "l", HandClass::Flat);
         held.shape.bends = [None, bend, bend, None, bend];
         let held = held.turned(DQuat::from_rotation_y(turned.to_radians()));
         let (clip, anatomy) = clip(0.5, |_| [Some(held.clone()), None]);
-        let scene = scene::Scene::of(&clip, &anatomy, &options).expect("a scene");
-        precision::slack(&scene, &tree::Sight::new(&scene, &options))
+        let scene = transcribe_scene::SignerScene::read_signer_scene(&clip, &anatomy, &options).expect("a scene");
+        precision::expected_place_slack(&scene, &transcribe_tree::SceneReadings::new(&scene, &options))
     };
-    let odd = Some(Bend::Joints([0.9, 0.5, 0.3]));
+    let odd = Some(FingerBend::Joints([0.9, 0.5, 0.3]));
     let made = tuned().reading.made;
     assert!(slack(0.0, None) < 1.01 * made);
     assert!(slack(0.0, odd) < 1.01 * made, "by its direction");

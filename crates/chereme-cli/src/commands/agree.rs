@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    AgreeOptions, Agreement, Disagreement, DisagreementSide, Error, Figure, Moment, Name, Progress,
-    Quartiles, Step, USUAL_MEASURES,
+    AgreeOptions, AnnotatorAgreement, CorpusError, DisagreementSide, MeasureFigure, NumberQuartiles, ProgressReceiver,
+    ProgressStep, RowName, TableMoment, USUAL_MEASURES, ValueDisagreement,
 };
 use serde_json::json;
 
-use crate::args::Cli;
-use crate::output::{Bar, Output};
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Measure how far two annotators agree, on which values they differ, and where
 ///
@@ -42,7 +42,7 @@ Examples:
   chereme agree mine.chereme --a annotator:Anna --b annotator:Ben --confusion
   chereme agree mine.chereme --a tier:4 --b tier:19 --measure kappa_ipf --json
   chereme agree mine.chereme --a 'Gloss Anna' --b 'Gloss Ben' --into Gloss   (then decide: chereme conflicts mine.chereme)")]
-pub(crate) struct Args {
+pub(crate) struct AgreeArgs {
     /// The corpus
     corpus: PathBuf,
     /// The tier of the first annotator
@@ -59,7 +59,7 @@ pub(crate) struct Args {
     measures: Vec<String>,
     /// Starts or ends further apart than this are a disagreement
     #[arg(long, value_name = "TIME", default_value = "80ms")]
-    tolerance: Moment,
+    tolerance: TableMoment,
     /// The share of the longer unit, in percent, that must overlap for a match: 51 to 100
     #[arg(long, value_name = "PERCENT", default_value_t = 60)]
     overlap: u8,
@@ -93,31 +93,27 @@ pub(crate) struct Args {
 }
 
 /// The most rows of values that are printed.
-const MOST_ROWS: usize = 30;
+const MAX_PRINTED_VALUES: usize = 30;
 
-impl Args {
-    fn options(&self) -> Result<AgreeOptions> {
+impl AgreeArgs {
+    fn agreement_arg_options(&self) -> Result<AgreeOptions> {
         let tolerance_us = match self.tolerance {
-            Moment::Time(time) if time.micros() >= 0 => time.micros(),
+            TableMoment::Time(time) if time.instant_micros() >= 0 => time.instant_micros(),
             _ => {
-                return Err(Error::wrong("a tolerance is a time of 0 or more")
-                    .at("--tolerance")
-                    .advise("write 80ms, or 0.08s")
+                return Err(CorpusError::from_wrong_message("a tolerance is a time of 0 or more")
+                    .with_error_place("--tolerance")
+                    .with_advice("write 80ms, or 0.08s")
                     .into());
             }
         };
-        let all = self.measures.iter().any(|it| it == "all");
+        let all = self.measures.iter().any(|name| name == "all");
         Ok(AgreeOptions {
             recording: self
                 .recording
                 .as_deref()
-                .map(Name::of_recording)
+                .map(RowName::parse_recording_name)
                 .transpose()?,
-            measures: if all {
-                Vec::new()
-            } else {
-                self.measures.clone()
-            },
+            measures: if all { Vec::new() } else { self.measures.clone() },
             share: f64::from(self.overlap) / 100.0,
             tolerance_us,
             draws: self.bootstrap,
@@ -132,35 +128,35 @@ impl Args {
     fn prints(&self, measure: &str) -> bool {
         match self.measures.is_empty() {
             true => USUAL_MEASURES.contains(&measure),
-            false => self.measures.iter().any(|it| it == measure || it == "all"),
+            false => self.measures.iter().any(|name| name == measure || name == "all"),
         }
     }
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let mut corpus = cli.open(&args.corpus)?;
-    let options = args.options()?;
-    let mut bar = Bar::new();
-    let mut hear = |step: Step<'_>| bar.show(step);
-    let mut progress = Progress::new(&mut hear);
-    let found = corpus.agree(&options, &mut progress)?;
+pub(super) fn run(cli: &CommandLine, args: &AgreeArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    let options = args.agreement_arg_options()?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let mut progress = ProgressReceiver::new(&mut hear);
+    let agreement = corpus.compare_annotators(&options, &mut progress)?;
     let adjudicated = match &args.into {
-        Some(into) => Some(corpus.adjudicate(&options, into, &mut progress)?),
+        Some(into) => Some(corpus.adjudicate_tiers(&options, into, &mut progress)?),
         None => None,
     };
     drop(bar);
-    print(&found, args, output)?;
-    let mut document = serde_json::to_value(&found)?;
+    print_agreement(&agreement, args, output)?;
+    let mut document = serde_json::to_value(&agreement)?;
     if args.confusion {
-        confusion(&found, output)?;
-        document["confusion"] = json!(found.confusion);
+        print_annotator_confusion(&agreement, output)?;
+        document["confusion"] = json!(agreement.confusion);
     }
     if args.list {
-        list(&found.list, output)?;
-        document["list"] = json!(found.list);
+        print_disagreements(&agreement.list, output)?;
+        document["list"] = json!(agreement.list);
     }
     if let Some(path) = &args.to {
-        found.write_disagreements(path, args.force)?;
+        agreement.write_disagreements(path, args.force)?;
         output.filled_line("table of disagreements: {path}", &[&path.display()])?;
     }
     if let Some(it) = adjudicated {
@@ -168,19 +164,19 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             "on the tier {name}: {annotations} on which both agree; {conflicts} to decide",
             &[
                 &format_args!("{:?}", it.tier),
-                &output.counted(it.agreed, "annotations"),
-                &output.counted(it.conflicts, "conflicts"),
+                &output.format_counted_noun(it.agreed, "annotations"),
+                &output.format_counted_noun(it.conflicts, "conflicts"),
             ],
         )?;
         document["adjudicated"] = json!(it);
     }
-    output.document(document)
+    output.set_json_document(document)
 }
 
 /// Prints counts, measures, and the table of values.
-fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
+fn print_agreement(found: &AnnotatorAgreement, args: &AgreeArgs, output: &mut CommandOutput) -> Result<()> {
     for finding in &found.findings {
-        output.warn(finding)?;
+        output.write_warning(finding)?;
     }
     let counts = &found.counts;
     output.filled_line(
@@ -190,17 +186,12 @@ fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
             &counts.units_a,
             &format_args!("{:?}", found.b),
             &counts.units_b,
-            &output.counted(found.pairs.len() as u64, "pairs of tiers"),
+            &output.format_counted_noun(found.pairs.len() as u64, "pairs of tiers"),
         ],
     )?;
     output.filled_line(
         "matched: {n}, {equal} of them with equal values; only a: {a}, only b: {b}",
-        &[
-            &counts.matched,
-            &counts.equal,
-            &counts.unmatched_a,
-            &counts.unmatched_b,
-        ],
+        &[&counts.matched, &counts.equal, &counts.unmatched_a, &counts.unmatched_b],
     )?;
     let kinds = &found.disagreements;
     output.filled_line(
@@ -215,9 +206,7 @@ fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
         )?;
     }
     if found.counts_only {
-        output.line(
-            "too few units or values for figures; with --json they are computed all the same",
-        )?;
+        output.write_output_line("too few units or values for figures; with --json they are computed all the same")?;
         return Ok(());
     }
     let shown = found.measures.iter().filter(|(name, _)| args.prints(name));
@@ -225,47 +214,42 @@ fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
         .map(|(name, figure)| {
             vec![
                 (*name).to_owned(),
-                value(figure, output),
-                interval(figure),
-                drawn(figure, output),
+                format_figure_value(figure, output),
+                format_figure_interval(figure),
+                describe_drawn_samples(figure, output),
             ]
         })
         .collect();
-    output.table(&["measure", "value", "95 %", "draws"], &rows)?;
-    let rows = found.by_value.iter().take(MOST_ROWS);
-    let rows: Vec<Vec<String>> = rows
-        .map(|it| {
+    output.write_titled_table(&["measure", "value", "95 %", "draws"], &rows)?;
+    let shown_values = found.by_value.iter().take(MAX_PRINTED_VALUES);
+    let rows: Vec<Vec<String>> = shown_values
+        .map(|entry| {
             vec![
-                it.value.clone(),
-                it.a.to_string(),
-                it.b.to_string(),
-                it.both.to_string(),
-                it.other.to_string(),
-                it.alone.to_string(),
-                value(&it.kappa, output),
-                value(&it.alpha_u, output),
+                entry.value.clone(),
+                entry.a.to_string(),
+                entry.b.to_string(),
+                entry.both.to_string(),
+                entry.other.to_string(),
+                entry.alone.to_string(),
+                format_figure_value(&entry.kappa, output),
+                format_figure_value(&entry.alpha_u, output),
             ]
         })
         .collect();
     if !rows.is_empty() {
-        let titles = [
-            "value",
-            "a",
-            "b",
-            "both",
-            "other value",
-            "alone",
-            "kappa",
-            "alpha_u",
-        ];
-        output.table(&titles, &rows)?;
+        let titles = ["value", "a", "b", "both", "other value", "alone", "kappa", "alpha_u"];
+        output.write_titled_table(&titles, &rows)?;
     }
-    if found.by_value.len() > MOST_ROWS {
-        let more = found.by_value.len() - MOST_ROWS;
+    if found.by_value.len() > MAX_PRINTED_VALUES {
+        let more = found.by_value.len() - MAX_PRINTED_VALUES;
         output.filled_line("values that are not shown: {n}; --json has all", &[&more])?;
     }
     if found.pairs.len() > 1 {
-        let rows: Vec<Vec<String>> = found.pairs.iter().map(|it| pair(it, output)).collect();
+        let rows: Vec<Vec<String>> = found
+            .pairs
+            .iter()
+            .map(|entry| pair_agreement_row(entry, output))
+            .collect();
         let titles = [
             "recording",
             "tier a",
@@ -277,17 +261,17 @@ fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
             "kappa_ipf",
             "alpha_u",
         ];
-        output.table(&titles, &rows)?;
+        output.write_titled_table(&titles, &rows)?;
     }
     Ok(())
 }
 
-fn pair(it: &chereme_corpus::PairAgreement, output: &Output) -> Vec<String> {
+fn pair_agreement_row(it: &chereme_corpus::PairAgreement, output: &CommandOutput) -> Vec<String> {
     let figure = |name: &str| {
-        let found = it.measures.iter().find(|(own, _)| *own == name);
-        found
+        let matching_measure = it.measures.iter().find(|(own, _)| *own == name);
+        matching_measure
             .filter(|_| !it.counts.are_few())
-            .map(|(_, figure)| value(figure, output))
+            .map(|(_, figure)| format_figure_value(figure, output))
             .unwrap_or_default()
     };
     vec![
@@ -304,82 +288,80 @@ fn pair(it: &chereme_corpus::PairAgreement, output: &Output) -> Vec<String> {
 }
 
 /// Returns the value of a measure, or the reason why it has none.
-fn value(figure: &Figure, output: &Output) -> String {
-    match (figure.text(), &figure.why) {
+fn format_figure_value(figure: &MeasureFigure, output: &CommandOutput) -> String {
+    match (figure.figure_text(), &figure.why) {
         (Some(value), _) => value,
-        (None, Some(why)) => format!("- ({})", output.spoken(why)),
+        (None, Some(why)) => format!("- ({})", output.translate_message(why)),
         (None, None) => String::new(),
     }
 }
 
-fn interval(figure: &Figure) -> String {
+fn format_figure_interval(figure: &MeasureFigure) -> String {
     let shown = figure
         .interval
-        .map(|it| format!("{:.3} … {:.3}", it.low, it.high));
+        .map(|range| format!("{:.3} … {:.3}", range.low, range.high));
     shown.unwrap_or_default()
 }
 
 /// Returns how many draws an interval comes from, and what was drawn.
-fn drawn(figure: &Figure, output: &Output) -> String {
-    let shown = figure.interval.map(|it| {
-        let of = chereme_corpus::words::numbered(2, it.of, output.language());
-        format!("{} × {of}", it.draws)
+fn describe_drawn_samples(figure: &MeasureFigure, output: &CommandOutput) -> String {
+    let shown = figure.interval.map(|range| {
+        let of = chereme_corpus::words::noun_form_for_count(2, range.of, output.output_language());
+        format!("{} × {of}", range.draws)
     });
     shown.unwrap_or_default()
 }
 
-fn quartiles(it: &Quartiles) -> String {
-    let [q1, median, q3] = [it.q1, it.median, it.q3].map(|it| format!("{:+.0}", it * 1000.0));
+fn quartiles(it: &NumberQuartiles) -> String {
+    let [q1, median, q3] = [it.q1, it.median, it.q3].map(|seconds| format!("{:+.0}", seconds * 1000.0));
     format!("{median} ({q1} … {q3})")
 }
 
-fn confusion(found: &Agreement, output: &mut Output) -> Result<()> {
+fn print_annotator_confusion(found: &AnnotatorAgreement, output: &mut CommandOutput) -> Result<()> {
     let rows: Vec<Vec<String>> = found
         .confusion
         .iter()
-        .map(|it| {
+        .map(|entry| {
             vec![
-                it.count.to_string(),
-                it.a.clone(),
-                it.b.clone(),
-                it.only_a.join(" "),
-                it.only_b.join(" "),
+                entry.count.to_string(),
+                entry.a.clone(),
+                entry.b.clone(),
+                entry.only_a.join(" "),
+                entry.only_b.join(" "),
             ]
         })
         .collect();
-    output.table(
-        &[
-            "times",
-            "a",
-            "b",
-            "features of a alone",
-            "features of b alone",
-        ],
+    output.write_titled_table(
+        &["times", "a", "b", "features of a alone", "features of b alone"],
         &rows,
     )
 }
 
-fn list(found: &[Disagreement], output: &mut Output) -> Result<()> {
-    let side =
-        |it: &Option<DisagreementSide>| it.as_ref().map(|it| it.value.clone()).unwrap_or_default();
+fn print_disagreements(found: &[ValueDisagreement], output: &mut CommandOutput) -> Result<()> {
+    let side = |optional_side: &Option<DisagreementSide>| {
+        optional_side
+            .as_ref()
+            .map(|side| side.value.clone())
+            .unwrap_or_default()
+    };
     let rows: Vec<Vec<String>> = found
         .iter()
-        .map(|it| {
-            let apart = |of: fn(&DisagreementSide) -> i64| match (&it.a, &it.b) {
+        .map(|disagreement| {
+            let apart = |of: fn(&DisagreementSide) -> i64| match (&disagreement.a, &disagreement.b) {
                 (Some(a), Some(b)) => format!("{:+.0}", (of(b) - of(a)) as f64 / 1000.0),
                 _ => String::new(),
             };
             let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
             vec![
-                it.recording.clone(),
-                seconds(it.start_us),
-                seconds(it.end_us),
-                it.kind.name().to_owned(),
-                side(&it.a),
-                side(&it.b),
-                apart(|it| it.start_us),
-                apart(|it| it.end_us),
-                format!("{:.2}", it.cost),
+                disagreement.recording.clone(),
+                seconds(disagreement.start_us),
+                seconds(disagreement.end_us),
+                disagreement.kind.disagreement_kind_name().to_owned(),
+                side(&disagreement.a),
+                side(&disagreement.b),
+                apart(|side| side.start_us),
+                apart(|side| side.end_us),
+                format!("{:.2}", disagreement.cost),
             ]
         })
         .collect();
@@ -394,23 +376,23 @@ fn list(found: &[Disagreement], output: &mut Output) -> Result<()> {
         "end (ms)",
         "cost",
     ];
-    output.table(&titles, &rows)
+    output.write_titled_table(&titles, &rows)
 }
 
 #[cfg(test)]
 mod tests {
-    use chereme_corpus::MEASURES;
+    use chereme_corpus::MEASURE_NAMES;
 
     use super::*;
 
     #[test]
     fn the_help_names_every_measure() {
-        let mut command = <crate::args::Cli as clap::CommandFactory>::command();
+        let mut command = <crate::args::CommandLine as clap::CommandFactory>::command();
         let agree = command.find_subcommand_mut("agree").expect("the command");
         let help = agree.render_long_help().to_string();
-        for measure in MEASURES {
+        for measure in MEASURE_NAMES {
             assert!(help.contains(measure), "{measure}");
         }
-        assert!(USUAL_MEASURES.iter().all(|it| MEASURES.contains(it)));
+        assert!(USUAL_MEASURES.iter().all(|it| MEASURE_NAMES.contains(it)));
     }
 }

@@ -3,18 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::paste::PasteOptions;
-use chereme_corpus::words::history::annotation_sentence;
-use chereme_corpus::words::{fill, trouble};
+use chereme_corpus::annotate_paste::PasteOptions;
+use chereme_corpus::words::history_words::annotation_sentence;
+use chereme_corpus::words::{fill_text_braces, trouble_words};
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    Corpus, Error, Find, Mode, Moment, Name, Progress, ReportFinding, TierName, TimeUnit, Within,
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Corpus, CorpusAddress,
+    CorpusError, NeighbourMode, ProgressReceiver, ReportFinding, RowName, TableMoment, TableTimeUnit, TierRequestName,
+    TierSelection, ValueSearch,
 };
 use clap::{Subcommand, ValueEnum};
 
-use super::tiers;
-use crate::args::Cli;
-use crate::output::{Bar, Output};
+use super::tiers_command;
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
 use crate::streams;
 
 /// Add, change, move, split, merge, replace and remove annotations and tiers; in bulk from a table
@@ -26,7 +27,7 @@ use crate::streams;
 /// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier,
 /// add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct AnnotateArgs {
     /// The corpus
     corpus: PathBuf,
     /// The recording of the named tiers and annotations: recording:3 or its name
@@ -42,7 +43,7 @@ pub(crate) struct Args {
     #[arg(long, global = true)]
     ids: bool,
     #[command(subcommand)]
-    action: Action,
+    action: AnnotateCommand,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -56,17 +57,17 @@ enum ModeWord {
 }
 
 impl ModeWord {
-    fn mode(self) -> Mode {
+    fn mode(self) -> NeighbourMode {
         match self {
-            Self::Normal => Mode::Normal,
-            Self::Bulldozer => Mode::Bulldozer,
-            Self::Shift => Mode::Shift,
+            Self::Normal => NeighbourMode::Normal,
+            Self::Bulldozer => NeighbourMode::Bulldozer,
+            Self::Shift => NeighbourMode::Shift,
         }
     }
 }
 
 #[derive(Debug, Subcommand)]
-enum Action {
+enum AnnotateCommand {
     /// Add an annotation
     Add {
         /// The tier
@@ -75,10 +76,10 @@ enum Action {
         value: String,
         /// Its start time
         #[arg(long)]
-        start: Option<Moment>,
+        start: Option<TableMoment>,
         /// Its end time
         #[arg(long)]
-        end: Option<Moment>,
+        end: Option<TableMoment>,
         /// Its parent annotation, on a tier whose annotations have no times of their own
         #[arg(long)]
         parent: Option<String>,
@@ -95,10 +96,10 @@ enum Action {
         value: Option<String>,
         /// Its new start time
         #[arg(long)]
-        start: Option<Moment>,
+        start: Option<TableMoment>,
         /// Its new end time
         #[arg(long)]
-        end: Option<Moment>,
+        end: Option<TableMoment>,
     },
     /// Cut an annotation in two
     Split {
@@ -106,7 +107,7 @@ enum Action {
         annotation: String,
         /// The time of the cut
         #[arg(long)]
-        at: Moment,
+        at: TableMoment,
     },
     /// Merge two neighbouring annotations into one
     Merge {
@@ -155,7 +156,7 @@ enum Action {
     /// Dependent tiers are shifted, too. Without --tier all tiers of the recording are shifted.
     Shift {
         /// The amount, such as 0.2s or -200ms; a negative amount shifts towards the start
-        #[arg(long, allow_hyphen_values = true, value_parser = signed)]
+        #[arg(long, allow_hyphen_values = true, value_parser = parse_signed_time)]
         by: i64,
         /// Only tiers with this name, where * stands for any letters; or tier:12
         #[arg(long = "tier", value_name = "TIER")]
@@ -174,7 +175,7 @@ enum Action {
         file: PathBuf,
         /// The unit of bare numbers: s, ms or frames
         #[arg(long)]
-        unit: Option<TimeUnit>,
+        unit: Option<TableTimeUnit>,
     },
     /// Paste annotations that the window or a spreadsheet copied, into the recording named by --in
     ///
@@ -188,59 +189,61 @@ enum Action {
         tier: Option<String>,
         /// The start of the first annotation; the others keep their distances from it
         #[arg(long)]
-        at: Option<Moment>,
+        at: Option<TableMoment>,
         /// Paste the annotations that have a place even if others have none
         #[arg(long)]
         partly: bool,
     },
     #[command(flatten)]
-    Other(tiers::Action),
+    Other(tiers_command::TierCommand),
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let mut corpus = cli.open(&args.corpus)?;
-    let recording = args.recording.as_deref().map(name).transpose()?;
-    let recording = recording.as_ref();
+pub(super) fn run(cli: &CommandLine, args: &AnnotateArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    let recording_name = args.recording.as_deref().map(parse_annotated_recording).transpose()?;
+    let recording = recording_name.as_ref();
     let options = AnnotateOptions {
         snap: args.snap,
         mode: args.mode.mode(),
         ..AnnotateOptions::default()
     };
     let actions = match &args.action {
-        Action::From { file, unit } => {
-            let options = AnnotateOptions {
-                unit: *unit,
-                ..options
-            };
-            let (report, findings) = table(&mut corpus, file, recording, &options)?;
+        AnnotateCommand::From { file, unit } => {
+            let options = AnnotateOptions { unit: *unit, ..options };
+            let (report, findings) = annotate_from_table(&mut corpus, file, recording, &options)?;
             for finding in &findings {
-                let line = finding
-                    .line
-                    .map(|line| format!("line {line}: "))
-                    .unwrap_or_default();
-                let said = output.spoken(&finding.message);
-                output.line(format!("{}: {line}{said}", finding.severity))?;
+                let line = finding.line.map(|line| format!("line {line}: ")).unwrap_or_default();
+                let message = output.translate_message(&finding.message);
+                output.write_output_line(format!("{}: {line}{message}", finding.severity))?;
             }
-            return print(report, args.ids, output);
+            return print_annotate_report(report, args.ids, output);
         }
-        Action::Replace { .. } => return replace(&mut corpus, &args.action, recording, output),
-        Action::Shift { .. } => return shift(&mut corpus, args, recording, output),
-        Action::Paste { .. } => return paste(&mut corpus, args, recording, output),
-        Action::Other(action) => return tiers::run(&mut corpus, action, recording, output),
-        action => changes(action, recording)?,
+        AnnotateCommand::Replace { .. } => {
+            return replace_annotation_texts(&mut corpus, &args.action, recording, output);
+        }
+        AnnotateCommand::Shift { .. } => {
+            return shift_annotations(&mut corpus, args, recording, output);
+        }
+        AnnotateCommand::Paste { .. } => {
+            return paste_annotation_table(&mut corpus, args, recording, output);
+        }
+        AnnotateCommand::Other(action) => {
+            return tiers_command::run(&mut corpus, action, recording, output);
+        }
+        action => to_annotation_actions(action, recording)?,
     };
     let changes: Vec<AnnotationChange> = actions.into_iter().map(AnnotationChange::from).collect();
-    let mut bar = Bar::new();
-    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let report = corpus.annotate(&changes, &options, &mut Progress::new(&mut hear))?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
+    let report = corpus.annotate_corpus(&changes, &options, &mut ProgressReceiver::new(&mut hear))?;
     drop(bar);
-    print(report, args.ids, output)
+    print_annotate_report(report, args.ids, output)
 }
 
-fn changes(action: &Action, recording: Option<&Name>) -> Result<Vec<AnnotationAction>> {
-    let named = |text: &String| AnnotationName::read(text, recording);
+fn to_annotation_actions(action: &AnnotateCommand, recording: Option<&RowName>) -> Result<Vec<AnnotationAction>> {
+    let named = |text: &String| AnnotationName::parse_annotation_name(text, recording);
     Ok(match action {
-        Action::Add {
+        AnnotateCommand::Add {
             tier,
             value,
             start,
@@ -248,7 +251,7 @@ fn changes(action: &Action, recording: Option<&Name>) -> Result<Vec<AnnotationAc
             parent,
             order,
         } => vec![AnnotationAction::Add {
-            tier: TierName::read(tier, recording)?,
+            tier: TierRequestName::parse_tier_name(tier, recording)?,
             start: *start,
             end: *end,
             parent: parent.as_ref().map(named),
@@ -256,7 +259,7 @@ fn changes(action: &Action, recording: Option<&Name>) -> Result<Vec<AnnotationAc
             value: value.clone(),
             confidence: None,
         }],
-        Action::Set {
+        AnnotateCommand::Set {
             annotation,
             value,
             start,
@@ -267,81 +270,73 @@ fn changes(action: &Action, recording: Option<&Name>) -> Result<Vec<AnnotationAc
             end: *end,
             value: value.clone(),
         }],
-        Action::Split { annotation, at } => {
+        AnnotateCommand::Split { annotation, at } => {
             vec![AnnotationAction::Split {
                 annotation: named(annotation),
                 at: *at,
             }]
         }
-        Action::Merge {
-            first,
-            second,
-            value,
-        } => vec![AnnotationAction::Merge {
+        AnnotateCommand::Merge { first, second, value } => vec![AnnotationAction::Merge {
             first: named(first),
             second: named(second),
             value: value.clone(),
             join: false,
         }],
-        Action::Reorder { annotation, order } => {
+        AnnotateCommand::Reorder { annotation, order } => {
             vec![AnnotationAction::Reorder {
                 annotation: named(annotation),
                 order: *order,
             }]
         }
-        Action::Remove { annotations } => annotations
+        AnnotateCommand::Remove { annotations } => annotations
             .iter()
             .map(|text| AnnotationAction::Remove {
                 annotation: named(text),
             })
             .collect(),
-        Action::From { .. }
-        | Action::Replace { .. }
-        | Action::Shift { .. }
-        | Action::Paste { .. }
-        | Action::Other(_) => Vec::new(),
+        AnnotateCommand::From { .. }
+        | AnnotateCommand::Replace { .. }
+        | AnnotateCommand::Shift { .. }
+        | AnnotateCommand::Paste { .. }
+        | AnnotateCommand::Other(_) => Vec::new(),
     })
 }
 
-fn table(
+fn annotate_from_table(
     corpus: &mut Corpus,
     file: &Path,
-    recording: Option<&Name>,
+    recording: Option<&RowName>,
     options: &AnnotateOptions,
 ) -> Result<(AnnotateReport, Vec<ReportFinding>)> {
     let bytes = bytes_of(file)?;
     let name = file.display().to_string();
-    let mut bar = Bar::new();
-    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let progress = &mut Progress::new(&mut hear);
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
+    let progress = &mut ProgressReceiver::new(&mut hear);
     Ok(corpus.annotate_table(&bytes, &name, recording, options, progress)?)
 }
 
 /// Returns the bytes of a file or of standard input.
 fn bytes_of(file: &Path) -> Result<Vec<u8>> {
     if streams::is_standard(file) {
-        return streams::read();
+        return streams::read_stdin_bytes();
     }
-    Ok(std::fs::read(file).map_err(|error| Error::file(file, error))?)
+    Ok(std::fs::read(file).map_err(|error| CorpusError::from_file_failure(file, error))?)
 }
 
-fn paste(
+fn paste_annotation_table(
     corpus: &mut Corpus,
-    args: &Args,
-    recording: Option<&Name>,
-    output: &mut Output,
+    args: &AnnotateArgs,
+    recording: Option<&RowName>,
+    output: &mut CommandOutput,
 ) -> Result<()> {
-    let Action::Paste {
-        file,
-        tier,
-        at,
-        partly,
-    } = &args.action
-    else {
+    let AnnotateCommand::Paste { file, tier, at, partly } = &args.action else {
         return Ok(());
     };
     let recording = recording.ok_or_else(which_recording)?;
-    let tier = tier.as_ref().map(|it| TierName::read(it, Some(recording)));
+    let tier = tier
+        .as_ref()
+        .map(|text| TierRequestName::parse_tier_name(text, Some(recording)));
     let options = PasteOptions {
         tier: tier.transpose()?,
         at: *at,
@@ -349,44 +344,44 @@ fn paste(
     };
     let name = file.display().to_string();
     let text = String::from_utf8(bytes_of(file)?).map_err(|_| {
-        Error::wrong("the text is not UTF-8")
-            .at(&name)
-            .advise("save it as UTF-8")
+        CorpusError::from_wrong_message("the text is not UTF-8")
+            .with_error_place(&name)
+            .with_advice("save it as UTF-8")
     })?;
-    let mut bar = Bar::new();
-    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let progress = &mut Progress::new(&mut hear);
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let text = (text.as_str(), name.as_str());
     let (report, odd) = corpus.paste_annotations(recording, text, &options, progress)?;
     drop(bar);
     for line in &odd {
-        let said = output.spoken(&line.fault());
-        let place = fill(output.say(trouble::LINE), &[("n", &line.line)]);
-        output.line_as_is(&format!("{place}{said}"))?;
+        let fault_text = output.translate_message(&line.odd_line_fault());
+        let place = fill_text_braces(output.output_text(trouble_words::LINE), &[("n", &line.line)]);
+        output.line_as_is(&format!("{place}{fault_text}"))?;
     }
-    print(report, args.ids, output)
+    print_annotate_report(report, args.ids, output)
 }
 
 /// Returns the error for an action that needs a recording.
-fn which_recording() -> Error {
-    Error::wrong("which recording?").advise("name it with --in")
+fn which_recording() -> CorpusError {
+    CorpusError::from_wrong_message("which recording?").with_advice("name it with --in")
 }
 
 /// Parses `recording:3` or a recording's name.
-pub(super) fn name(text: &str) -> Result<Name> {
+pub(super) fn parse_annotated_recording(text: &str) -> Result<RowName> {
     match text.parse()? {
-        Address::Recording(name) => Ok(name),
-        _ => Ok(Name::Text(text.trim().to_owned())),
+        CorpusAddress::Recording(name) => Ok(name),
+        _ => Ok(RowName::Text(text.trim().to_owned())),
     }
 }
 
 /// The numbers of ids in the text output and in JSON, unless `--ids` asks for all.
-const NAMED: usize = 20;
-const LISTED: usize = 100;
+const MAX_PRINTED_IDS: usize = 20;
+const MAX_JSON_IDS: usize = 100;
 
-fn print(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<()> {
+fn print_annotate_report(mut report: AnnotateReport, all: bool, output: &mut CommandOutput) -> Result<()> {
     let total = report.annotations.len();
-    let few = all || total <= NAMED;
+    let few = all || total <= MAX_PRINTED_IDS;
     let ids: Vec<String> = report
         .annotations
         .iter()
@@ -394,8 +389,8 @@ fn print(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<(
         .map(|id| format!("annotation:{id}"))
         .collect();
     let summary = match report.added + report.changed + report.removed {
-        0 => output.spoken("nothing changed"),
-        _ => annotation_sentence(&report.effect, output.language()),
+        0 => output.translate_message("nothing changed"),
+        _ => annotation_sentence(&report.effect, output.output_language()),
     };
     output.line_as_is(&format!(
         "{}{}{}",
@@ -404,32 +399,32 @@ fn print(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<(
         ids.join(", ")
     ))?;
     if !all {
-        report.annotations.truncate(LISTED);
+        report.annotations.truncate(MAX_JSON_IDS);
     }
     let mut document = serde_json::to_value(report)?;
     document["annotations_total"] = total.into();
-    output.document(document)
+    output.set_json_document(document)
 }
 
 /// Parses a time with a sign, such as -200ms; returns microseconds.
-fn signed(text: &str) -> Result<i64, String> {
+fn parse_signed_time(text: &str) -> Result<i64, String> {
     let (sign, rest) = match text.strip_prefix('-') {
         Some(rest) => (-1, rest),
         None => (1, text.strip_prefix('+').unwrap_or(text)),
     };
-    match rest.parse::<Moment>() {
-        Ok(Moment::Time(time)) => Ok(sign * time.micros()),
+    match rest.parse::<TableMoment>() {
+        Ok(TableMoment::Time(time)) => Ok(sign * time.instant_micros()),
         _ => Err("write a time such as 0.2s or -200ms".to_owned()),
     }
 }
 
-fn replace(
+fn replace_annotation_texts(
     corpus: &mut Corpus,
-    action: &Action,
-    recording: Option<&Name>,
-    output: &mut Output,
+    action: &AnnotateCommand,
+    recording: Option<&RowName>,
+    output: &mut CommandOutput,
 ) -> Result<()> {
-    let Action::Replace {
+    let AnnotateCommand::Replace {
         find,
         with,
         regex,
@@ -441,65 +436,65 @@ fn replace(
         return Ok(());
     };
     let find = match (regex, whole) {
-        (true, _) => Find::pattern(find)?,
-        (_, true) => Find::Whole(find.clone()),
-        _ => Find::Text(find.clone()),
+        (true, _) => ValueSearch::from_value_pattern(find)?,
+        (_, true) => ValueSearch::Whole(find.clone()),
+        _ => ValueSearch::Text(find.clone()),
     };
-    let within = Within {
+    let within = TierSelection {
         recording: recording.cloned(),
         tiers: tiers.clone(),
     };
-    let mut bar = Bar::new();
-    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let progress = &mut Progress::new(&mut hear);
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let done = corpus.replace_values(&find, with, &within, *dry_run, progress)?;
     drop(bar);
-    for value in done.values.iter().take(NAMED) {
-        let at = value.start_us as f64 / 1e6;
+    for value in done.values.iter().take(MAX_PRINTED_IDS) {
+        let start_seconds = value.start_us as f64 / 1e6;
         output.filled_line(
             "  {tier} of {recording} at {time} s: {from} -> {to}",
             &[
                 &value.tier,
                 &value.recording,
-                &format_args!("{:.3}", at),
+                &format_args!("{:.3}", start_seconds),
                 &format_args!("{:?}", value.from),
                 &format_args!("{:?}", value.to),
             ],
         )?;
     }
-    let more = done.values.len().saturating_sub(NAMED);
+    let more = done.values.len().saturating_sub(MAX_PRINTED_IDS);
     if more > 0 {
         output.filled_line("  and {n} more", &[&more])?;
     }
     let word = if *dry_run { "would change" } else { "changed" };
-    let count = output.counted(done.changed, "annotations");
-    output.line(format!("{word}: {count}"))?;
-    output.document(done)
+    let count = output.format_counted_noun(done.changed, "annotations");
+    output.write_output_line(format!("{word}: {count}"))?;
+    output.set_json_document(done)
 }
 
-fn shift(
+fn shift_annotations(
     corpus: &mut Corpus,
-    args: &Args,
-    recording: Option<&Name>,
-    output: &mut Output,
+    args: &AnnotateArgs,
+    recording: Option<&RowName>,
+    output: &mut CommandOutput,
 ) -> Result<()> {
-    let Action::Shift { by, tiers, dry_run } = &args.action else {
+    let AnnotateCommand::Shift { by, tiers, dry_run } = &args.action else {
         return Ok(());
     };
     let of_all = tiers.iter().all(|tier| !tier.starts_with("tier:"));
     if recording.is_none() && of_all {
         return Err(which_recording().into());
     }
-    let within = Within {
+    let within = TierSelection {
         recording: recording.cloned(),
         tiers: tiers.clone(),
     };
-    let mut bar = Bar::new();
-    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let report = corpus.shift_tiers(&within, *by, *dry_run, &mut Progress::new(&mut hear))?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
+    let report = corpus.shift_tiers(&within, *by, *dry_run, &mut ProgressReceiver::new(&mut hear))?;
     drop(bar);
     if *dry_run {
-        output.line("nothing is written; it would be:")?;
+        output.write_output_line("nothing is written; it would be:")?;
     }
-    print(report, args.ids, output)
+    print_annotate_report(report, args.ids, output)
 }

@@ -4,12 +4,12 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::Error;
+use chereme_corpus::CorpusError;
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use crate::args::Cli;
-use crate::output::Output;
+use crate::args::CommandLine;
+use crate::output::CommandOutput;
 
 /// Write the completion script of a shell to standard output
 #[derive(Debug, clap::Args)]
@@ -19,13 +19,13 @@ Examples:
   chereme completions zsh > ~/.zfunc/_chereme
   chereme completions fish > ~/.config/fish/completions/chereme.fish
   chereme completions powershell >> $PROFILE")]
-pub(crate) struct Args {
+pub(crate) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
     shell: Shell,
 }
 
-/// Write the manual pages for the program `man`
+/// Write the manual pages for the program `write_man_pages`
 #[derive(Debug, clap::Args)]
 pub(crate) struct ManArgs {
     /// The folder for the pages, one for each command; without it the page of the whole program goes to standard output
@@ -33,26 +33,26 @@ pub(crate) struct ManArgs {
     to: Option<PathBuf>,
 }
 
-pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+pub(super) fn run(_: &CommandLine, args: &CompletionsArgs, output: &mut CommandOutput) -> Result<()> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "chereme", &mut script);
+    clap_complete::generate(args.shell, &mut CommandLine::command(), "chereme", &mut script);
     let script = String::from_utf8(script)?;
     output.line_as_is(script.trim_end())?;
-    output.document(serde_json::json!({ "shell": args.shell.to_string(), "script": script }))
+    output.set_json_document(serde_json::json!({ "shell": args.shell.to_string(), "script": script }))
 }
 
-pub(super) fn man(_: &Cli, args: &ManArgs, output: &mut Output) -> Result<()> {
+pub(super) fn write_man_pages(_: &CommandLine, args: &ManArgs, output: &mut CommandOutput) -> Result<()> {
     let Some(folder) = &args.to else {
         let mut page = Vec::new();
-        clap_mangen::Man::new(Cli::command()).render(&mut page)?;
+        clap_mangen::Man::new(CommandLine::command()).render(&mut page)?;
         let page = String::from_utf8(page)?;
         output.line_as_is(page.trim_end())?;
-        return output.document(serde_json::json!({ "page": page }));
+        return output.set_json_document(serde_json::json!({ "page": page }));
     };
-    let fault = |error| Error::file(folder, error);
+    let fault = |error| CorpusError::from_file_failure(folder, error);
     std::fs::create_dir_all(folder).map_err(fault)?;
-    let mut whole = Cli::command();
-    whole.build();
+    let mut root_command = CommandLine::command();
+    root_command.build();
     let mut files = Vec::new();
     let mut write = |command: clap::Command| -> Result<()> {
         let page = clap_mangen::Man::new(command);
@@ -63,12 +63,12 @@ pub(super) fn man(_: &Cli, args: &ManArgs, output: &mut Output) -> Result<()> {
         files.push(path);
         Ok(())
     };
-    for command in whole.get_subcommands() {
+    for command in root_command.get_subcommands() {
         let name: &'static str = format!("chereme-{}", command.get_name()).leak();
         write(command.clone().name(name))?;
     }
-    write(whole)?;
-    let count = output.counted(files.len() as u64, "files");
+    write(root_command)?;
+    let count = output.format_counted_noun(files.len() as u64, "files");
     output.filled_line("wrote {n} to {path}", &[&count, &folder.display()])?;
-    output.document(serde_json::json!({ "files": files }))
+    output.set_json_document(serde_json::json!({ "files": files }))
 }

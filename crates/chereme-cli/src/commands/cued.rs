@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::recipe::PhaseRule;
 use chereme_corpus::{
-    CueConfusion, CueCosts, CueOptions, CuedOptions, FromDictionary, Name, Progress,
-    RestoreOptions, SlipKind, Step, read_marker_labels,
+    CueConfusion, CueCosts, CueOptions, CuedOptions, FromDictionary, ProgressReceiver, ProgressStep, RestoreOptions,
+    RowName, SlipKind, read_marker_labels,
 };
 use clap::Subcommand;
 
-use super::cue::RuleWord;
-use super::track::recording;
-use crate::args::Cli;
-use crate::output::{Bar, Output};
+use super::cue_command::RuleWord;
+use super::track_command::parse_recording_address;
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Work with captured cued speech: markers, restoration, recognition, targets, phases, dictionary, slips
 ///
@@ -33,7 +33,7 @@ Examples:
   chereme cued mine.chereme dictionary --script sentences.txt
   chereme cued mine.chereme say 'le chat dort' --as CHAT_DORT
   chereme cued mine.chereme slips recording:3 --text 'le chat dort'")]
-pub(crate) struct Args {
+pub(crate) struct CuedArgs {
     /// The corpus
     corpus: PathBuf,
     /// The code: french, english-us or english-gb
@@ -46,25 +46,25 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE", global = true)]
     labels: Option<PathBuf>,
     #[command(subcommand)]
-    action: Action,
+    action: CuedCommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum Action {
+enum CuedCommand {
     /// Report the known markers of a recording, and how often they are visible
     Markers {
         /// The recording
-        #[arg(value_parser = recording)]
-        recording: Name,
+        #[arg(value_parser = parse_recording_address)]
+        recording: RowName,
     },
     /// Restore hidden markers from models of hand and face, as a separate track with predicted errors
     Restore {
         /// The recordings whose markers are restored
-        #[arg(value_parser = recording)]
-        recordings: Vec<Name>,
+        #[arg(value_parser = parse_recording_address)]
+        recordings: Vec<RowName>,
         /// The recordings from which the models learn; without it those of the hand alone and of the face alone, or all
-        #[arg(long, value_name = "RECORDING", value_parser = recording)]
-        train: Vec<Name>,
+        #[arg(long, value_name = "RECORDING", value_parser = parse_recording_address)]
+        train: Vec<RowName>,
         /// The number of principal components of the hand's posture, from 1 to 25
         #[arg(long, default_value_t = 20, value_name = "N")]
         components: usize,
@@ -75,17 +75,17 @@ enum Action {
     /// Recognise shapes and placements at the targets of keys, with confusion tables
     Recognise {
         /// The recordings from which the recognisers learn; without it every second one
-        #[arg(long, value_name = "RECORDING", value_parser = recording)]
-        train: Vec<Name>,
+        #[arg(long, value_name = "RECORDING", value_parser = parse_recording_address)]
+        train: Vec<RowName>,
         /// The recordings that are recognised; without it all others
-        #[arg(long, value_name = "RECORDING", value_parser = recording)]
-        test: Vec<Name>,
+        #[arg(long, value_name = "RECORDING", value_parser = parse_recording_address)]
+        test: Vec<RowName>,
     },
     /// Find the movements, targets and gestural scores of keys
     Targets {
         /// The recordings
-        #[arg(value_parser = recording)]
-        recordings: Vec<Name>,
+        #[arg(value_parser = parse_recording_address)]
+        recordings: Vec<RowName>,
         /// Write them as tiers
         #[arg(long)]
         store: bool,
@@ -93,8 +93,8 @@ enum Action {
     /// Measure when hand and fingers start and arrive relative to the sounds, by kind of key
     Phases {
         /// The recordings
-        #[arg(value_parser = recording)]
-        recordings: Vec<Name>,
+        #[arg(value_parser = parse_recording_address)]
+        recordings: Vec<RowName>,
         /// Draw medians and quartiles to a picture (.svg)
         #[arg(long, value_name = "FILE")]
         draw: Option<PathBuf>,
@@ -105,8 +105,8 @@ enum Action {
     /// List the movements between keys in captured takes, and those that a script needs in addition
     Dictionary {
         /// The recordings
-        #[arg(value_parser = recording)]
-        recordings: Vec<Name>,
+        #[arg(value_parser = parse_recording_address)]
+        recordings: Vec<RowName>,
         /// The script, a text with one sentence on each line: report how much of it the takes cover, and which
         /// sentences would add most
         #[arg(long, value_name = "FILE")]
@@ -118,10 +118,10 @@ enum Action {
         text: String,
         /// Read the input as phones in this alphabet
         #[arg(long, value_enum, value_name = "ALPHABET")]
-        phones: Option<super::keys::AlphabetWord>,
+        phones: Option<super::keys_command::AlphabetWord>,
         /// The recordings from which the dictionary is cut
-        #[arg(long = "from", value_name = "RECORDING", value_parser = recording)]
-        recordings: Vec<Name>,
+        #[arg(long = "from", value_name = "RECORDING", value_parser = parse_recording_address)]
+        recordings: Vec<RowName>,
         /// The rule for the timing of hand and fingers
         #[arg(long, value_enum, default_value = "paper")]
         by: RuleWord,
@@ -141,8 +141,8 @@ enum Action {
     /// Compare the keys of a take with those that its phones or a text predict
     Slips {
         /// The recording
-        #[arg(value_parser = recording)]
-        recording: Name,
+        #[arg(value_parser = parse_recording_address)]
+        recording: RowName,
         /// The text that was cued; without it the tier of phones predicts the keys
         #[arg(long)]
         text: Option<String>,
@@ -152,42 +152,42 @@ enum Action {
     },
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let mut corpus = cli.open(&args.corpus)?;
+pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let labels = args.labels.as_deref().map(read_marker_labels).transpose()?;
     let options = CuedOptions {
         code: args.code.clone(),
         variants: args.variants.clone(),
         labels: labels.unwrap_or_default(),
     };
-    let mut bar = Bar::new();
-    let mut hear = |step: Step<'_>| bar.show(step);
-    let mut progress = Progress::new(&mut hear);
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let mut progress = ProgressReceiver::new(&mut hear);
     match &args.action {
-        Action::Markers { recording } => {
-            let found = corpus.cued_markers(recording, &options)?;
-            for (name, set) in [("hand", &found.hand), ("face", &found.face)] {
+        CuedCommand::Markers { recording } => {
+            let marker_sets = corpus.cued_markers(recording, &options)?;
+            for (name, set) in [("hand", &marker_sets.hand), ("face", &marker_sets.face)] {
                 let visible = format!(
                     "{name}: {} markers, {:.1} % of their positions visible",
                     set.found,
                     set.seen * 100.0
                 );
-                output.line(match set.missing.len() {
+                output.write_output_line(match set.missing.len() {
                     0 => visible,
                     1..=12 => format!("{visible}; missing: {}", set.missing.join(", ")),
                     count => format!("{visible}; {count} are missing"),
                 })?;
             }
-            if !found.unused.is_empty() {
-                output.filled_line("not used: {names}", &[&found.unused.join(", ")])?;
+            if !marker_sets.unused.is_empty() {
+                output.filled_line("not used: {names}", &[&marker_sets.unused.join(", ")])?;
             }
             output.filled_line(
                 "{n} frames at {rate} a second; {hidden} hidden places restored",
-                &[&found.frames, &found.rate, &found.restored],
+                &[&marker_sets.frames, &marker_sets.rate, &marker_sets.restored],
             )?;
-            output.document(found)
+            output.set_json_document(marker_sets)
         }
-        Action::Restore {
+        CuedCommand::Restore {
             recordings,
             train,
             components,
@@ -201,19 +201,19 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             };
             let done = corpus.restore_markers(recordings, &how, &mut progress)?;
             drop(bar);
-            let mm = |value: Option<f64>| value.map_or_else(String::new, |it| format!("{it:.2}"));
+            let mm = |value: Option<f64>| value.map_or_else(String::new, |number| format!("{number:.2}"));
             let rows: Vec<Vec<String>> = done
                 .iter()
-                .map(|it| {
+                .map(|row| {
                     vec![
-                        it.recording.clone(),
-                        it.frames.to_string(),
-                        it.hidden.to_string(),
-                        it.restored.to_string(),
-                        it.uncertain.to_string(),
-                        mm(it.hand_mm),
-                        mm(it.hand_axis_mm),
-                        mm(it.face_mm),
+                        row.recording.clone(),
+                        row.frames.to_string(),
+                        row.hidden.to_string(),
+                        row.restored.to_string(),
+                        row.uncertain.to_string(),
+                        mm(row.hand_mm),
+                        mm(row.hand_axis_mm),
+                        mm(row.face_mm),
                     ]
                 })
                 .collect();
@@ -227,87 +227,77 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 "hand_axis_mm",
                 "face_mm",
             ];
-            output.table(&titles, &rows)?;
+            output.write_titled_table(&titles, &rows)?;
             if let Some(first) = done.first() {
                 for finding in &first.findings {
-                    output.warn(finding)?;
+                    output.write_warning(finding)?;
                 }
             }
             if *dry_run {
-                output.line("nothing was stored")?;
+                output.write_output_line("nothing was stored")?;
             }
-            output.document(done)
+            output.set_json_document(done)
         }
-        Action::Recognise { train, test } => {
-            let found = corpus.recognise_cues(train, test, &options)?;
-            output.line(format!(
+        CuedCommand::Recognise { train, test } => {
+            let recognition = corpus.recognise_cues(train, test, &options)?;
+            output.write_output_line(format!(
                 "{} recognised after training on {}",
-                output.counted(found.tested_on.len() as u64, "recordings"),
-                output.counted(found.trained_on.len() as u64, "recordings"),
+                output.format_counted_noun(recognition.tested_on.len() as u64, "recordings"),
+                output.format_counted_noun(recognition.trained_on.len() as u64, "recordings"),
             ))?;
-            if found.same {
-                output.line(
-                    "warning: the recognisers were tested on the keys from which they learned",
-                )?;
+            if recognition.same {
+                output.write_output_line("warning: the recognisers were tested on the keys from which they learned")?;
             }
-            for finding in &found.findings {
-                output.warn(finding)?;
+            for finding in &recognition.findings {
+                output.write_warning(finding)?;
             }
-            confusion("shapes", &found.shapes, output)?;
-            confusion("placements", &found.placements, output)?;
-            output.document(found)
+            print_cue_confusion("shapes", &recognition.shapes, output)?;
+            print_cue_confusion("placements", &recognition.placements, output)?;
+            output.set_json_document(recognition)
         }
-        Action::Targets { recordings, store } => {
-            let found = corpus.find_cue_targets(recordings, *store, &options)?;
-            let rows: Vec<Vec<String>> = found
+        CuedCommand::Targets { recordings, store } => {
+            let take_targets = corpus.find_cue_targets(recordings, *store, &options)?;
+            let rows: Vec<Vec<String>> = take_targets
                 .iter()
-                .map(|it| {
-                    let hand = it.keys.iter().filter(|key| key.hand_us.is_some()).count();
-                    let fingers = it
-                        .keys
-                        .iter()
-                        .filter(|key| key.fingers_us.is_some())
-                        .count();
+                .map(|take| {
+                    let hand = take.keys.iter().filter(|key| key.hand_us.is_some()).count();
+                    let fingers = take.keys.iter().filter(|key| key.fingers_us.is_some()).count();
                     vec![
-                        it.recording.clone(),
-                        it.keys.len().to_string(),
+                        take.recording.clone(),
+                        take.keys.len().to_string(),
                         hand.to_string(),
                         fingers.to_string(),
-                        it.tiers.join(", "),
+                        take.tiers.join(", "),
                     ]
                 })
                 .collect();
-            output.table(&["recording", "keys", "hand", "fingers", "tiers"], &rows)?;
-            for finding in found.iter().flat_map(|it| &it.findings) {
-                output.warn(finding)?;
+            output.write_titled_table(&["recording", "keys", "hand", "fingers", "tiers"], &rows)?;
+            for finding in take_targets.iter().flat_map(|take| &take.findings) {
+                output.write_warning(finding)?;
             }
             if !store {
-                output.line("nothing was stored; --store writes tiers")?;
+                output.write_output_line("nothing was stored; --store writes tiers")?;
             }
-            output.document(found)
+            output.set_json_document(take_targets)
         }
-        Action::Phases {
+        CuedCommand::Phases {
             recordings,
             draw,
             force,
         } => {
-            let found = corpus.cue_phases(recordings, &options)?;
-            let range_text =
-                |it: [f64; 3]| format!("{:+.0} ({:+.0} to {:+.0})", it[1], it[0], it[2]);
-            let rows: Vec<Vec<String>> = found
+            let phase_table = corpus.cue_phases(recordings, &options)?;
+            let range_text = |range: [f64; 3]| format!("{:+.0} ({:+.0} to {:+.0})", range[1], range[0], range[2]);
+            let rows: Vec<Vec<String>> = phase_table
                 .rows
                 .iter()
-                .map(|it| {
+                .map(|row| {
                     vec![
-                        it.part.to_owned(),
-                        it.kind.to_owned(),
-                        it.n.to_string(),
-                        range_text(it.begins_ms),
-                        range_text(it.arrives_ms),
-                        format!(
-                            "{:.2} ({:.2} to {:.2})",
-                            it.share[1], it.share[0], it.share[2]
-                        ),
+                        row.part.to_owned(),
+                        row.kind.to_owned(),
+                        row.n.to_string(),
+                        range_text(row.begins_ms),
+                        range_text(row.arrives_ms),
+                        format!("{:.2} ({:.2} to {:.2})", row.share[1], row.share[0], row.share[2]),
                     ]
                 })
                 .collect();
@@ -319,43 +309,42 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 "arrives ms",
                 "share",
             ];
-            output.table(&titles, &rows)?;
-            for finding in &found.findings {
-                output.warn(finding)?;
+            output.write_titled_table(&titles, &rows)?;
+            for finding in &phase_table.findings {
+                output.write_warning(finding)?;
             }
             if let Some(path) = draw {
-                found.draw(path, *force)?;
+                phase_table.draw_cue_phases(path, *force)?;
                 output.filled_line("drew {path}", &[&path.display()])?;
             }
-            output.document(found)
+            output.set_json_document(phase_table)
         }
-        Action::Dictionary { recordings, script } => {
+        CuedCommand::Dictionary { recordings, script } => {
             let text = script
                 .as_ref()
                 .map(|path| {
                     std::fs::read_to_string(path)
-                        .map_err(|error| chereme_corpus::Error::file(path, error))
+                        .map_err(|error| chereme_corpus::CorpusError::from_file_failure(path, error))
                 })
                 .transpose()?;
-            let found =
-                corpus.cue_dictionary(recordings, text.as_deref(), &options, &mut progress)?;
+            let cue_book = corpus.cue_dictionary(recordings, text.as_deref(), &options, &mut progress)?;
             drop(bar);
             output.filled_line(
                 "{n} movements from {recordings}: {found} of {all} pairs of keys; components miss \
                  markers by {mm} mm",
                 &[
-                    &found.dikeys,
-                    &output.counted(found.recordings.len() as u64, "recordings"),
-                    &found.kinds,
-                    &found.of,
-                    &format_args!("{:.2}", found.missed_mm),
+                    &cue_book.dikeys,
+                    &output.format_counted_noun(cue_book.recordings.len() as u64, "recordings"),
+                    &cue_book.kinds,
+                    &cue_book.of,
+                    &format_args!("{:.2}", cue_book.missed_mm),
                 ],
             )?;
-            for left in &found.left_out {
-                let left = output.spoken(left);
+            for left in &cue_book.left_out {
+                let left = output.translate_message(left);
                 output.filled_line("left out: {what}", &[&left])?;
             }
-            if let Some(script) = &found.script {
+            if let Some(script) = &cue_book.script {
                 output.filled_line(
                     "the script: {n} sentences, {pairs} pairs, {share} % of them in the \
                      dictionary; {missing} different ones are missing",
@@ -369,23 +358,29 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 let rows: Vec<Vec<String>> = script
                     .worth
                     .iter()
-                    .map(|it| vec![it.line.to_string(), it.adds.to_string(), it.text.clone()])
-                    .collect();
-                output.table(&["line", "adds", "sentence"], &rows)?;
-            } else {
-                let rows: Vec<Vec<String>> = found
-                    .pairs
-                    .iter()
-                    .map(|it| {
-                        let first = it.sources.first().cloned().unwrap_or_default();
-                        vec![it.pair.clone(), it.count.to_string(), first]
+                    .map(|sentence| {
+                        vec![
+                            sentence.line.to_string(),
+                            sentence.adds.to_string(),
+                            sentence.text.clone(),
+                        ]
                     })
                     .collect();
-                output.table(&["pair", "count", "first source"], &rows)?;
+                output.write_titled_table(&["line", "adds", "sentence"], &rows)?;
+            } else {
+                let rows: Vec<Vec<String>> = cue_book
+                    .pairs
+                    .iter()
+                    .map(|row| {
+                        let first = row.sources.first().cloned().unwrap_or_default();
+                        vec![row.pair.clone(), row.count.to_string(), first]
+                    })
+                    .collect();
+                output.write_titled_table(&["pair", "count", "first source"], &rows)?;
             }
-            output.document(found)
+            output.set_json_document(cue_book)
         }
-        Action::Say {
+        CuedCommand::Say {
             text,
             phones,
             recordings,
@@ -416,22 +411,22 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             )?;
             drop(bar);
             print_comparison(&composed, output)?;
-            output.document(composed)
+            output.set_json_document(composed)
         }
-        Action::Slips {
+        CuedCommand::Slips {
             recording,
             text,
             recognised,
         } => {
-            let found = corpus.cue_slips(recording, text.as_deref(), *recognised, &options)?;
+            let slips = corpus.cue_slips(recording, text.as_deref(), *recognised, &options)?;
             output.filled_line(
                 "{n} keys predicted by {code}, {produced} produced ({rate}); {same} as predicted",
                 &[
-                    &found.predicted,
-                    &output.spoken(found.predicted_by),
-                    &found.produced,
-                    &output.spoken(found.produced_by),
-                    &found.right,
+                    &slips.predicted,
+                    &output.translate_message(slips.predicted_by),
+                    &slips.produced,
+                    &output.translate_message(slips.produced_by),
+                    &slips.right,
                 ],
             )?;
             for kind in [
@@ -441,31 +436,31 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 SlipKind::Shape,
                 SlipKind::Both,
             ] {
-                let count = found.count(kind);
+                let count = slips.count_slips_of(kind);
                 if count > 0 {
-                    output.line(format!("{}: {count}", kind.name()))?;
+                    output.write_output_line(format!("{}: {count}", kind.slip_kind_name()))?;
                 }
             }
-            let rows: Vec<Vec<String>> = found
+            let rows: Vec<Vec<String>> = slips
                 .slips
                 .iter()
-                .map(|it| {
-                    let seconds = it.at_us.map(|at| format!("{:.2}", at as f64 / 1e6));
+                .map(|slip| {
+                    let seconds = slip.at_us.map(|at| format!("{:.2}", at as f64 / 1e6));
                     vec![
                         seconds.unwrap_or_default(),
-                        it.kind.name().to_owned(),
-                        it.predicted.clone().unwrap_or_default(),
-                        it.produced.clone().unwrap_or_default(),
+                        slip.kind.slip_kind_name().to_owned(),
+                        slip.predicted.clone().unwrap_or_default(),
+                        slip.produced.clone().unwrap_or_default(),
                     ]
                 })
                 .collect();
-            output.table(&["seconds", "slip", "predicted", "produced"], &rows)?;
-            output.document(found)
+            output.write_titled_table(&["seconds", "slip", "predicted", "produced"], &rows)?;
+            output.set_json_document(slips)
         }
     }
 }
 
-fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
+fn print_cue_confusion(name: &str, of: &CueConfusion, output: &mut CommandOutput) -> Result<()> {
     output.filled_line(
         "{name}: {share} % right; shown in rows, recognised in columns",
         &[&name, &format_args!("{:.1}", of.rate * 100.0)],
@@ -483,22 +478,22 @@ fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
                 .collect()
         })
         .collect();
-    output.columns(&titles, &rows)
+    output.write_named_columns(&titles, &rows)
 }
 
-fn print_comparison(composed: &FromDictionary, output: &mut Output) -> Result<()> {
+fn print_comparison(composed: &FromDictionary, output: &mut CommandOutput) -> Result<()> {
     let rows: Vec<Vec<String>> = composed
         .pieces
         .iter()
-        .map(|it| {
+        .map(|row| {
             vec![
-                format!("{:.2}", it.at_us as f64 / 1e6),
-                it.wanted.clone(),
-                it.instead.clone().unwrap_or_default(),
-                it.source.clone(),
-                format!("{:.2}", it.duration_cost),
-                format!("{:.2}", it.join_cost),
-                it.read.clone().unwrap_or_default(),
+                format!("{:.2}", row.at_us as f64 / 1e6),
+                row.wanted.clone(),
+                row.instead.clone().unwrap_or_default(),
+                row.source.clone(),
+                format!("{:.2}", row.duration_cost),
+                format!("{:.2}", row.join_cost),
+                row.read.clone().unwrap_or_default(),
             ]
         })
         .collect();
@@ -511,7 +506,7 @@ fn print_comparison(composed: &FromDictionary, output: &mut Output) -> Result<()
         "join",
         "read back",
     ];
-    output.table(&titles, &rows)?;
+    output.write_titled_table(&titles, &rows)?;
     output.filled_line(
         "{n} keys in {seconds} s: {exact} exact, {others} stand in for others, \
          {synthetic} synthetic; cost {cost}",
@@ -534,10 +529,10 @@ fn print_comparison(composed: &FromDictionary, output: &mut Output) -> Result<()
         )?;
     }
     for finding in &composed.findings {
-        output.warn(finding)?;
+        output.write_warning(finding)?;
     }
     match &composed.recording {
         Some(name) => output.filled_line("stored as {name}", &[&name]),
-        None => output.line("nothing was stored; --as GLOSS stores it"),
+        None => output.write_output_line("nothing was stored; --as GLOSS stores it"),
     }
 }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
-use chereme_corpus::words::merge as words;
-use chereme_corpus::{CompareSide, Difference, Error};
+use chereme_corpus::words::merge_words as words;
+use chereme_corpus::{CompareSide, CorpusError, TranscriptDifference};
 
-use crate::args::Cli;
-use crate::output::Output;
+use crate::args::CommandLine;
+use crate::output::CommandOutput;
 use crate::streams;
 
 /// Compare two annotation files, or two recordings, by meaning
@@ -26,7 +26,7 @@ Examples:
   chereme diff mine.eaf theirs.eaf
   chereme diff mine.chereme recording:1 recording:2
   chereme diff mine.chereme recording:1 theirs.eaf --json")]
-pub(crate) struct Args {
+pub(crate) struct DiffArgs {
     /// Two files, or a corpus and then two recordings or files
     #[arg(required = true, num_args = 2..=3, value_name = "SIDE")]
     sides: Vec<PathBuf>,
@@ -35,43 +35,45 @@ pub(crate) struct Args {
     exit_code: bool,
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
-    let found = match args.sides.as_slice() {
-        [a, b] => file(a)?.diff(&file(b)?)?,
-        [corpus, a, b] => cli.open(corpus)?.diff(&side(a)?, &side(b)?)?,
-        _ => Difference::default(),
+pub(super) fn run(cli: &CommandLine, args: &DiffArgs, output: &mut CommandOutput) -> Result<ExitCode> {
+    let difference = match args.sides.as_slice() {
+        [a, b] => file_compare_side(a)?.diff_annotation_files(&file_compare_side(b)?)?,
+        [corpus, a, b] => cli
+            .open_cli_corpus(corpus)?
+            .diff_compare_sides(&parse_compare_side(a)?, &parse_compare_side(b)?)?,
+        _ => TranscriptDifference::default(),
     };
-    print(&found, output)?;
-    let differ = !found.is_empty();
-    output.document(found)?;
+    print_difference(&difference, output)?;
+    let differ = !difference.is_empty();
+    output.set_json_document(difference)?;
     Ok(ExitCode::from(u8::from(args.exit_code && differ)))
 }
 
 /// Returns a side of the comparison: a file with its bytes, or an address.
-fn side(path: &Path) -> Result<CompareSide> {
+fn parse_compare_side(path: &Path) -> Result<CompareSide> {
     if streams::is_standard(path) || path.is_file() {
-        return file(path);
+        return file_compare_side(path);
     }
     let text = path.to_string_lossy();
     Ok(CompareSide::Recording(text.parse()?))
 }
 
-pub(super) fn file(path: &Path) -> Result<CompareSide> {
+pub(super) fn file_compare_side(path: &Path) -> Result<CompareSide> {
     Ok(CompareSide::File {
         name: path.display().to_string(),
-        bytes: bytes(path)?,
+        bytes: read_compare_bytes(path)?,
     })
 }
 
-pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
+pub(super) fn read_compare_bytes(path: &Path) -> Result<Vec<u8>> {
     if streams::is_standard(path) {
-        return streams::read();
+        return streams::read_stdin_bytes();
     }
-    Ok(std::fs::read(path).map_err(|error| Error::file(path, error))?)
+    Ok(std::fs::read(path).map_err(|error| CorpusError::from_file_failure(path, error))?)
 }
 
 /// Prints one line for each difference.
-pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
+pub(super) fn print_difference(found: &TranscriptDifference, output: &mut CommandOutput) -> Result<()> {
     let time = |us: i64| format!("{:.3}", us as f64 / 1e6);
     let span = |from: i64, to: i64| format!("{}–{}", time(from), time(to));
     for it in &found.tiers {
@@ -89,8 +91,7 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
         let to = format!("{:?}", it.to.as_deref().unwrap_or_default());
         let tier = format!("{:?}", it.tier);
         let fields = fields.join(", ");
-        let parts: [(&str, &dyn std::fmt::Display); 3] =
-            [("tier", &tier), ("to", &to), ("what", &fields)];
+        let parts: [(&str, &dyn std::fmt::Display); 3] = [("tier", &tier), ("to", &to), ("what", &fields)];
         output.text_line(text, &parts)?;
     }
     for it in &found.removed {
@@ -106,19 +107,16 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
         let tier = it
             .to_tier
             .as_ref()
-            .map(|it| format!(" {it}"))
+            .map(|detail| format!(" {detail}"))
             .unwrap_or_default();
         output.line_as_is(&format!("> {} {from} → {to}{tier} {:?}", it.tier, it.value))?;
     }
     for it in &found.revalued {
         let times = span(it.start_us, it.end_us);
-        output.line_as_is(&format!(
-            "~ {} {times} {:?} → {:?}",
-            it.tier, it.from, it.to
-        ))?;
+        output.line_as_is(&format!("~ {} {times} {:?} → {:?}", it.tier, it.from, it.to))?;
     }
     for it in &found.document {
-        output.line(it)?;
+        output.write_output_line(it)?;
     }
     let line = format!(
         "{} +, {} -, {} >, {} ~, {}",
@@ -126,7 +124,7 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
         found.removed.len(),
         found.moved.len(),
         found.revalued.len(),
-        output.counted(found.tiers.len() as u64, "tiers")
+        output.format_counted_noun(found.tiers.len() as u64, "tiers")
     );
     output.line_as_is(&line)
 }

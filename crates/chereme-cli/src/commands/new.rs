@@ -6,18 +6,18 @@ use anyhow::Result;
 use chereme_corpus::Corpus;
 use serde_json::json;
 
-use crate::args::Cli;
-use crate::output::Output;
+use crate::args::CommandLine;
+use crate::output::CommandOutput;
 
 /// Create an empty corpus with the inventories of handshapes, placements, movements and the rest
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct NewCorpusArgs {
     /// The file to create, such as lsf.chereme; it must not exist yet
     corpus: PathBuf,
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let corpus = Corpus::create(&args.corpus, &cli.author())?;
-    output.document(json!({ "corpus": corpus.path() }))?;
-    output.filled_line("made {path}", &[&corpus.path().display()])
+pub(super) fn run(cli: &CommandLine, args: &NewCorpusArgs, output: &mut CommandOutput) -> Result<()> {
+    let corpus = Corpus::create_corpus(&args.corpus, &cli.history_author())?;
+    output.set_json_document(json!({ "corpus": corpus.corpus_file_path() }))?;
+    output.filled_line("made {path}", &[&corpus.corpus_file_path().display()])
 }

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{LeftOut, Progress, PublishOptions, Step, Withheld};
+use chereme_corpus::{LeftOutSigns, ProgressReceiver, ProgressStep, PublishOptions, WithheldReason};
 
-use crate::args::Cli;
-use crate::output::{Bar, Output};
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Publish a dictionary of signs: a folder of web pages that works without a server
 ///
@@ -41,7 +41,7 @@ Examples:
   chereme publish mine.chereme --to dictionary/
   chereme publish mine.chereme 'origin=captured not gloss=NAME*' --to dictionary/ --title 'Signs of Nantes' --contact signs@example.org
   chereme publish lexicon.chereme --to dictionary/ --terms 'CC BY-NC-SA 3.0, Global Signbank'")]
-pub(crate) struct Args {
+pub(crate) struct PublishArgs {
     /// The corpus
     corpus: PathBuf,
     /// The signs, as a query for their tokens as in `chereme search`; all signs without it
@@ -66,8 +66,8 @@ pub(crate) struct Args {
     own_body: bool,
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let mut corpus = cli.open(&args.corpus)?;
+pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = PublishOptions {
         query: (!args.query.is_empty()).then(|| args.query.join(" ")),
         title: args.title.clone(),
@@ -76,14 +76,14 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         notes: args.notes,
         own_body: args.own_body,
     };
-    let mut bar = Bar::new();
-    let mut hear = |step: Step<'_>| bar.show(step);
-    let done = corpus.publish(&args.to, &options, &mut Progress::new(&mut hear))?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let done = corpus.publish_dictionary(&args.to, &options, &mut ProgressReceiver::new(&mut hear))?;
     drop(bar);
     output.filled_line(
         "published {signs}, {moving} of them with movement: {path}",
         &[
-            &output.counted(done.signs as u64, "signs"),
+            &output.format_counted_noun(done.signs as u64, "signs"),
             &done.moving,
             &done.page.display(),
         ],
@@ -93,10 +93,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         &[&done.signers, &done.files, &done.bytes.div_ceil(1024)],
     )?;
     for (terms, signs) in &done.terms {
-        output.filled_line(
-            "terms {terms}: {n}",
-            &[&format_args!("{:?}", terms), &signs],
-        )?;
+        output.filled_line("terms {terms}: {n}", &[&format_args!("{:?}", terms), &signs])?;
     }
     if done.namesakes > 0 {
         output.filled_line(
@@ -112,16 +109,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         )?;
     }
     if done.armless > 0 {
-        output.filled_line(
-            "signs whose movement has no arms to show: {n}",
-            &[&done.armless],
-        )?;
+        output.filled_line("signs whose movement has no arms to show: {n}", &[&done.armless])?;
     }
     if !done.cut.is_empty() {
-        output.filled_line(
-            "movement cut after 3600 frames: {glosses}",
-            &[&done.cut.join(", ")],
-        )?;
+        output.filled_line("movement cut after 3600 frames: {glosses}", &[&done.cut.join(", ")])?;
     }
     if !done.apart.is_empty() {
         output.filled_line(
@@ -130,31 +121,33 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         )?;
     }
     if done.without_pairs {
-        output.line("minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields")?;
+        output.write_output_line(
+            "minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields",
+        )?;
     }
     for it in &done.left_out {
         print_left_out(it, output)?;
     }
-    output.document(done)
+    output.set_json_document(done)
 }
 
-fn print_left_out(it: &LeftOut, output: &mut Output) -> Result<()> {
-    let why = output.spoken(match it.why {
-        Withheld::ConsentUnknown => "it is not stated what the signers agreed to",
-        Withheld::NotPublic => "the signers did not agree to it",
-        Withheld::NoTerms => "no terms of use are stated",
-        Withheld::NoDerivatives => "the terms of a source forbid changes",
-        Withheld::Undecided => "two copies of the corpus disagree",
-        Withheld::InputGone => "a source is not known, or no longer there",
+fn print_left_out(it: &LeftOutSigns, output: &mut CommandOutput) -> Result<()> {
+    let why = output.translate_message(match it.why {
+        WithheldReason::ConsentUnknown => "it is not stated what the signers agreed to",
+        WithheldReason::NotPublic => "the signers did not agree to it",
+        WithheldReason::NoTerms => "no terms of use are stated",
+        WithheldReason::NoDerivatives => "the terms of a source forbid changes",
+        WithheldReason::Undecided => "two copies of the corpus disagree",
+        WithheldReason::InputGone => "a source is not known, or no longer there",
     });
     let mut first = it.first.join(", ");
     if it.signs > it.first.len() {
         first.push_str(", …");
     }
-    let signs = output.counted(it.signs as u64, "signs");
-    output.line(match it.movement {
+    let signs = output.format_counted_noun(it.signs as u64, "signs");
+    output.write_output_line(match it.movement {
         true => format!("without movement: {signs} ({first}): {why}"),
         false => format!("not published: {signs} ({first}): {why}"),
     })?;
-    output.line_as_is(&format!("  {}", output.spoken(it.remedy.text())))
+    output.line_as_is(&format!("  {}", output.translate_message(it.remedy.remedy_text())))
 }

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Address, Picture, PictureOptions, Progress, SPEEDS};
+use chereme_corpus::{ANIMATION_SPEEDS, CorpusAddress, DrawnPicture, PictureOptions, ProgressReceiver};
 
-use crate::args::{Cli, SideWord};
-use crate::output::{Bar, Output};
+use crate::args::{CommandLine, SideWord};
+use crate::output::{CommandOutput, CommandProgressBar};
 use crate::streams;
 
 /// Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)
@@ -28,7 +28,7 @@ Examples:
   chereme render ngt.chereme BABYSITTEN --to notation.svg
   chereme render mine.chereme inventory:configurations --to handshapes.png
   chereme render mine.chereme inventory:faces --to faces.png")]
-pub(crate) struct Args {
+pub(crate) struct RenderArgs {
     /// The corpus
     corpus: PathBuf,
     /// What to draw
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
     height: Option<u16>,
     /// The speed of an animation, from 0.05 to 20; 1 is the recorded speed
-    #[arg(long, default_value_t = 1.0, value_name = "FACTOR", value_parser = speed, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1.0, value_name = "FACTOR", value_parser = parse_animation_speed, allow_negative_numbers = true)]
     speed: f64,
     /// The number of pictures per second in a film, from 1 to 120
     #[arg(long, default_value_t = 25, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=120))]
@@ -71,19 +71,19 @@ pub(crate) struct Args {
 }
 
 /// Parses the speed of an animation.
-fn speed(text: &str) -> Result<f64, String> {
+fn parse_animation_speed(text: &str) -> Result<f64, String> {
     let speed: Option<f64> = text.parse().ok();
-    speed.filter(|speed| SPEEDS.contains(speed)).ok_or_else(|| {
+    speed.filter(|speed| ANIMATION_SPEEDS.contains(speed)).ok_or_else(|| {
         format!(
             "a speed is a number from {} to {}",
-            SPEEDS.start(),
-            SPEEDS.end()
+            ANIMATION_SPEEDS.start(),
+            ANIMATION_SPEEDS.end()
         )
     })
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let mut corpus = cli.open(&args.corpus)?;
+pub(super) fn run(cli: &CommandLine, args: &RenderArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = PictureOptions {
         frames: usize::from(args.frames),
         hands: !args.no_hands,
@@ -97,7 +97,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let stand = match streams::is_standard(&args.to) {
         true => {
             streams::not_with_json(output.is_json())?;
-            Some(streams::output("picture", &args.format)?)
+            Some(streams::stdout_stand_in("picture", &args.format)?)
         }
         false => None,
     };
@@ -112,32 +112,28 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 Some((inventory, value)) => (inventory, Some(value)),
                 None => (name, None),
             };
-            corpus.draw_handshapes(inventory, value, args.hand.side(), to, &options)?
+            corpus.draw_handshapes(inventory, value, args.hand.to_body_side(), to, &options)?
         }
         None => {
-            let addresses: Vec<Address> = args
-                .what
-                .iter()
-                .map(|what| what.parse())
-                .collect::<Result<_, _>>()?;
-            let mut bar = Bar::new();
-            let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-            corpus.draw_together(&addresses, to, &options, &mut Progress::new(&mut hear))?
+            let addresses: Vec<CorpusAddress> = args.what.iter().map(|what| what.parse()).collect::<Result<_, _>>()?;
+            let mut bar = CommandProgressBar::new();
+            let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
+            corpus.draw_together(&addresses, to, &options, &mut ProgressReceiver::new(&mut hear))?
         }
     };
     if let Some(stand) = &stand {
-        output.silence();
-        return streams::copy(stand);
+        output.silence_output();
+        return streams::copy_to_stdout(stand);
     }
-    say(&picture, output)?;
-    output.document(picture)
+    report_rendered_picture(&picture, output)?;
+    output.set_json_document(picture)
 }
 
-fn say(picture: &Picture, output: &mut Output) -> Result<()> {
+fn report_rendered_picture(picture: &DrawnPicture, output: &mut CommandOutput) -> Result<()> {
     if let Some(body) = &picture.animated_on {
         output.filled_line(
             "{name} has no movement of its own: its notation was animated on {body}",
-            &[&picture.title, &output.spoken(body)],
+            &[&picture.title, &output.translate_message(body)],
         )?;
     }
     if picture.transcribed {
@@ -155,7 +151,7 @@ fn say(picture: &Picture, output: &mut Output) -> Result<()> {
         &[
             &picture.title,
             &picture.path.display(),
-            &output.counted(picture.frames as u64, noun),
+            &output.format_counted_noun(picture.frames as u64, noun),
             &picture.bytes.div_ceil(1024),
         ],
     )

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Battison, Empty, Estimate, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue,
-    HandCondition, LexiconStatistics, Progress, StatsFinding, StatsOptions, Step,
+    BattisonConditions, EmptyCellTreatment, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue, HandCondition,
+    LexiconStatistics, ProgressReceiver, ProgressStep, StatsEstimate, StatsFinding, StatsOptions,
 };
 
-use super::pairs::EmptyWord;
-use crate::args::Cli;
-use crate::output::{Bar, Output};
+use super::pairs_command::EmptyWord;
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Describe a lexicon by numbers: entropy, functional load, association of fields, conditions on the hands
 ///
@@ -44,7 +44,7 @@ Examples:
   chereme stats mine.chereme --between dominant.configuration placement --to table.csv
   chereme stats mine.chereme --fields Handedness,'Handshape strong','Handshape weak' --battison
   chereme stats mine.chereme origin=captured   (tokens instead of signs)")]
-pub(crate) struct Args {
+pub(crate) struct StatsArgs {
     /// The corpus
     corpus: PathBuf,
     /// The tokens to count, as in `chereme search`
@@ -65,12 +65,7 @@ pub(crate) struct Args {
     #[arg(long)]
     battison: bool,
     /// The handshapes that count as unmarked; without it B, A, S, C, O, 1, 5
-    #[arg(
-        long,
-        value_name = "A,B,...",
-        value_delimiter = ',',
-        requires = "battison"
-    )]
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',', requires = "battison")]
     unmarked: Vec<String>,
     /// The most values, contrasts and glosses that are printed
     #[arg(long, value_name = "N", default_value_t = 20)]
@@ -89,11 +84,11 @@ pub(crate) struct Args {
     force: bool,
 }
 
-impl Args {
-    fn options(&self) -> StatsOptions {
+impl StatsArgs {
+    fn stats_options(&self) -> StatsOptions {
         StatsOptions {
             fields: self.fields.clone(),
-            empty: Empty::from(self.empty),
+            empty: EmptyCellTreatment::from(self.empty),
             query: (!self.query.is_empty()).then(|| self.query.join(" ")),
             of: self.of.clone(),
             between: self.between.clone().try_into().ok(),
@@ -106,70 +101,71 @@ impl Args {
 }
 
 /// The most columns of a cross table that are printed.
-const MOST_COLUMNS: usize = 12;
+const MAX_CROSS_TABLE_COLUMNS: usize = 12;
 /// The most glosses that a finding names.
 const MOST_GLOSSES: usize = 12;
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let mut corpus = cli.open(&args.corpus)?;
-    let mut bar = Bar::new();
-    let mut hear = |step: Step<'_>| bar.show(step);
-    let found = corpus.statistics(&args.options(), &mut Progress::new(&mut hear))?;
+pub(super) fn run(cli: &CommandLine, args: &StatsArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let lexicon_statistics = corpus.lexicon_statistics(&args.stats_options(), &mut ProgressReceiver::new(&mut hear))?;
     drop(bar);
-    if let Some(of) = &found.of {
+    if let Some(of) = &lexicon_statistics.of {
         in_depth(of, args.limit, output)?;
     }
-    if let Some(between) = &found.between {
-        association(between, args.limit, output)?;
+    if let Some(between) = &lexicon_statistics.between {
+        print_field_association(between, args.limit, output)?;
     }
-    if let Some(battison) = &found.battison {
-        conditions(battison, args.limit, output)?;
+    if let Some(battison) = &lexicon_statistics.battison {
+        print_battison_conditions(battison, args.limit, output)?;
     }
-    if found.of.is_none() && found.between.is_none() && found.battison.is_none() {
-        overview(&found, output)?;
+    if lexicon_statistics.of.is_none() && lexicon_statistics.between.is_none() && lexicon_statistics.battison.is_none()
+    {
+        print_lexicon_overview(&lexicon_statistics, output)?;
     }
-    for finding in &found.findings {
+    for finding in &lexicon_statistics.findings {
         print_finding(finding, output)?;
     }
     if let Some(path) = &args.to {
-        found.write_table(path, args.force)?;
+        lexicon_statistics.write_table(path, args.force)?;
         output.filled_line("table: {path}", &[&path.display()])?;
     }
-    output.document(found)
+    output.set_json_document(lexicon_statistics)
 }
 
-fn overview(found: &LexiconStatistics, output: &mut Output) -> Result<()> {
+fn print_lexicon_overview(found: &LexiconStatistics, output: &mut CommandOutput) -> Result<()> {
     output.filled_line(
         "entries: {n}, compared: {m}, different forms: {k}",
         &[&found.entries, &found.compared, &found.forms],
     )?;
     output.filled_line(
         "entropy of forms in bits: {number}",
-        &[&number(&found.entropy, 3, output)],
+        &[&format_estimate_interval(&found.entropy, 3, output)],
     )?;
-    let frequent = |it: &FieldStatistics| -> String {
-        let frequent = it.frequent.iter();
-        let frequent = frequent.map(|it| format!("{} {}", it.value, percent(it.share)));
+    let frequent_text = |field: &FieldStatistics| -> String {
+        let frequent = field.frequent.iter();
+        let frequent = frequent.map(|entry| format!("{} {}", entry.value, format_share_percent(entry.share)));
         frequent.collect::<Vec<String>>().join(", ")
     };
-    let row = |it: &FieldStatistics| {
+    let row = |field: &FieldStatistics| {
         vec![
-            it.field.clone(),
-            it.values.to_string(),
-            it.empty.to_string(),
-            value(&it.entropy, 3, output),
-            half(&it.entropy, 3),
-            value(&it.entropy_given, 3, output),
-            value(&it.load, 4, output),
-            half(&it.load, 4),
-            frequent(it),
+            field.field.clone(),
+            field.values.to_string(),
+            field.empty.to_string(),
+            format_estimate_value(&field.entropy, 3, output),
+            format_half_interval(&field.entropy, 3),
+            format_estimate_value(&field.entropy_given, 3, output),
+            format_estimate_value(&field.load, 4, output),
+            format_half_interval(&field.load, 4),
+            frequent_text(field),
         ]
     };
     let rows: Vec<Vec<String>> = found.fields.iter().map(row).collect();
     if rows.is_empty() {
         return Ok(());
     }
-    output.table(
+    output.write_titled_table(
         &[
             "field",
             "values",
@@ -185,40 +181,51 @@ fn overview(found: &LexiconStatistics, output: &mut Output) -> Result<()> {
     )
 }
 
-fn in_depth(of: &FieldInDepth, limit: usize, output: &mut Output) -> Result<()> {
-    let own = &of.statistics;
+fn in_depth(of: &FieldInDepth, limit: usize, output: &mut CommandOutput) -> Result<()> {
+    let field_statistics = &of.statistics;
     output.filled_line(
         "{field}: {n} values in {given} entries, {empty} entries without one",
-        &[&of.field, &own.values, &own.given, &own.empty],
+        &[
+            &of.field,
+            &field_statistics.values,
+            &field_statistics.given,
+            &field_statistics.empty,
+        ],
     )?;
     output.filled_line(
         "entropy in bits: {all}; without empty cells: {given}",
         &[
-            &number(&own.entropy, 4, output),
-            &number(&own.entropy_given, 4, output),
+            &format_estimate_interval(&field_statistics.entropy, 4, output),
+            &format_estimate_interval(&field_statistics.entropy_given, 4, output),
         ],
     )?;
     output.filled_line(
         "functional load: {number}",
-        &[&number(&own.load, 6, output)],
+        &[&format_estimate_interval(&field_statistics.load, 6, output)],
     )?;
-    let row = |it: &FieldValue| {
-        let ends = it.interval;
-        let ends = ends.map(|it| format!("{} … {}", percent(it.low), percent(it.high)));
+    let row = |value: &FieldValue| {
+        let value_interval = value.interval;
+        let ends = value_interval.map(|interval| {
+            format!(
+                "{} … {}",
+                format_share_percent(interval.low),
+                format_share_percent(interval.high)
+            )
+        });
         vec![
-            it.value.clone(),
-            it.count.to_string(),
-            percent(it.share),
+            value.value.clone(),
+            value.count.to_string(),
+            format_share_percent(value.share),
             ends.unwrap_or_default(),
         ]
     };
     let rows: Vec<Vec<String>> = of.values.iter().take(limit).map(row).collect();
-    output.table(&["value", "count", "share", "95 %"], &rows)?;
-    if let Some(more) = rest(of.values.len(), limit) {
+    output.write_titled_table(&["value", "count", "share", "95 %"], &rows)?;
+    if let Some(more) = hidden_row_count(of.values.len(), limit) {
         output.filled_line("values that are not shown: {n}; --json has all", &[&more])?;
     }
     if let Some(why) = of.why {
-        let why = output.spoken(why);
+        let why = output.translate_message(why);
         return output.filled_line("contrasts: - ({why})", &[&why]);
     }
     let cell = |text: &String| match text.is_empty() {
@@ -227,27 +234,24 @@ fn in_depth(of: &FieldInDepth, limit: usize, output: &mut Output) -> Result<()> 
     };
     let contrasts = of.contrasts.iter().take(limit);
     let rows: Vec<Vec<String>> = contrasts
-        .map(|it| {
+        .map(|pair| {
             vec![
-                cell(&it.a),
-                cell(&it.b),
-                it.pairs.to_string(),
-                format!("{:.6}", it.load),
+                cell(&pair.a),
+                cell(&pair.b),
+                pair.pairs.to_string(),
+                format!("{:.6}", pair.load),
             ]
         })
         .collect();
-    output.line("contrasts that distinguish signs, the largest load first; ∅ is the empty cell")?;
-    output.table(&["value", "other value", "minimal pairs", "load"], &rows)?;
-    if let Some(more) = rest(of.contrasts.len(), limit) {
-        output.filled_line(
-            "contrasts that are not shown: {n}; --json has all",
-            &[&more],
-        )?;
+    output.write_output_line("contrasts that distinguish signs, the largest load first; ∅ is the empty cell")?;
+    output.write_titled_table(&["value", "other value", "minimal pairs", "load"], &rows)?;
+    if let Some(more) = hidden_row_count(of.contrasts.len(), limit) {
+        output.filled_line("contrasts that are not shown: {n}; --json has all", &[&more])?;
     }
     Ok(())
 }
 
-fn association(it: &FieldAssociation, limit: usize, output: &mut Output) -> Result<()> {
+fn print_field_association(it: &FieldAssociation, limit: usize, output: &mut CommandOutput) -> Result<()> {
     let [one, other] = &it.fields;
     output.filled_line(
         "{one} × {other}: {n} entries with both, {m} left out",
@@ -255,28 +259,30 @@ fn association(it: &FieldAssociation, limit: usize, output: &mut Output) -> Resu
     )?;
     let (bits, chi_square) = it
         .chance
-        .map_or((None, None), |it| (Some(it.bits), Some(it.chi_square)));
-    let mean =
-        |it: Option<f64>, digits: usize| it.map_or("-".to_owned(), |it| format!("{it:.digits$}"));
+        .map_or((None, None), |measure| (Some(measure.bits), Some(measure.chi_square)));
+    let mean = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |number| format!("{number:.digits$}"));
     output.filled_line(
         "mutual information in bits: {bits} (shuffled: {mean}), p {p}",
         &[
-            &value(&it.bits, 4, output),
+            &format_estimate_value(&it.bits, 4, output),
             &mean(bits, 4),
-            &value(&it.p_bits, 4, output),
+            &format_estimate_value(&it.p_bits, 4, output),
         ],
     )?;
     output.filled_line(
         "chi-square: {value} (shuffled: {mean}), df {df}, p {p}",
         &[
-            &value(&it.chi_square, 2, output),
+            &format_estimate_value(&it.chi_square, 2, output),
             &mean(chi_square, 2),
             &it.df,
-            &value(&it.p, 4, output),
+            &format_estimate_value(&it.p, 4, output),
         ],
     )?;
-    output.filled_line("Cramér's V: {value}", &[&value(&it.cramers_v, 4, output)])?;
-    let columns: Vec<&FieldValue> = it.columns.iter().take(MOST_COLUMNS).collect();
+    output.filled_line(
+        "Cramér's V: {value}",
+        &[&format_estimate_value(&it.cramers_v, 4, output)],
+    )?;
+    let columns: Vec<&FieldValue> = it.columns.iter().take(MAX_CROSS_TABLE_COLUMNS).collect();
     let title = format!("{one} / {other}");
     let mut header = vec![title.as_str(), "all"];
     header.extend(columns.iter().map(|column| column.value.as_str()));
@@ -293,25 +299,20 @@ fn association(it: &FieldAssociation, limit: usize, output: &mut Output) -> Resu
         cells
     };
     let rows: Vec<Vec<String>> = it.rows.iter().take(limit).map(row).collect();
-    output.columns(&header, &rows)?;
-    if let Some(more) = rest(it.rows.len(), limit) {
+    output.write_named_columns(&header, &rows)?;
+    if let Some(more) = hidden_row_count(it.rows.len(), limit) {
         output.filled_line("rows that are not shown: {n}; --json has all", &[&more])?;
     }
-    if let Some(more) = rest(it.columns.len(), MOST_COLUMNS) {
+    if let Some(more) = hidden_row_count(it.columns.len(), MAX_CROSS_TABLE_COLUMNS) {
         output.filled_line("columns that are not shown: {n}; --json has all", &[&more])?;
     }
     Ok(())
 }
 
-fn conditions(it: &Battison, limit: usize, output: &mut Output) -> Result<()> {
+fn print_battison_conditions(it: &BattisonConditions, limit: usize, output: &mut CommandOutput) -> Result<()> {
     output.filled_line(
         "one-handed: {n}, symmetrical: {s}, asymmetrical: {a}, of no known type: {o}",
-        &[
-            &it.one_handed,
-            &it.symmetry.entries,
-            &it.dominance.entries,
-            &it.other,
-        ],
+        &[&it.one_handed, &it.symmetry.entries, &it.dominance.entries, &it.other],
     )?;
     output.filled_line("unmarked handshapes: {list}", &[&it.unmarked.join(", ")])?;
     output.filled_line(
@@ -320,7 +321,7 @@ fn conditions(it: &Battison, limit: usize, output: &mut Output) -> Result<()> {
             &it.symmetry.given,
             &it.symmetry.same,
             &it.symmetry.different,
-            &share(&it.symmetry.kept, output),
+            &format_estimate_share(&it.symmetry.kept, output),
         ],
     )?;
     output.filled_line(
@@ -331,37 +332,33 @@ fn conditions(it: &Battison, limit: usize, output: &mut Output) -> Result<()> {
             &it.dominance.same,
             &it.dominance.different,
             &it.dominance.different_unmarked,
-            &share(&it.dominance.kept, output),
-            &share(&it.dominance.unmarked_share, output),
+            &format_estimate_share(&it.dominance.kept, output),
+            &format_estimate_share(&it.dominance.unmarked_share, output),
         ],
     )?;
-    let [one, other] = [&it.symmetry, &it.dominance].map(|it| it.exceptions.len());
+    let [one, other] = [&it.symmetry, &it.dominance].map(|condition| condition.exceptions.len());
     let title = format!("entries that do not keep symmetry: {one}");
-    exceptions(&title, &it.symmetry, limit, output)?;
+    print_condition_exceptions(&title, &it.symmetry, limit, output)?;
     let title = format!("entries that do not keep dominance: {other}");
-    exceptions(&title, &it.dominance, limit, output)
+    print_condition_exceptions(&title, &it.dominance, limit, output)
 }
 
-fn exceptions(
+fn print_condition_exceptions(
     title: &str,
     condition: &HandCondition,
     limit: usize,
-    output: &mut Output,
+    output: &mut CommandOutput,
 ) -> Result<()> {
     let count = condition.exceptions.len();
     if count > 0 {
-        output.line(title)?;
+        output.write_output_line(title)?;
         let rows = condition.exceptions.iter().take(limit);
-        let row = |it: &chereme_corpus::TwoHands| {
-            vec![it.gloss.clone(), it.strong.clone(), it.weak.clone()]
-        };
+        let row =
+            |entry: &chereme_corpus::TwoHands| vec![entry.gloss.clone(), entry.strong.clone(), entry.weak.clone()];
         let rows: Vec<Vec<String>> = rows.map(row).collect();
-        output.table(&["gloss", "strong hand", "weak hand"], &rows)?;
-        if let Some(more) = rest(count, limit) {
-            output.filled_line(
-                "exceptions that are not shown: {n}; --json has all",
-                &[&more],
-            )?;
+        output.write_titled_table(&["gloss", "strong hand", "weak hand"], &rows)?;
+        if let Some(more) = hidden_row_count(count, limit) {
+            output.filled_line("exceptions that are not shown: {n}; --json has all", &[&more])?;
         }
     }
     if !condition.incomplete.is_empty() {
@@ -373,13 +370,13 @@ fn exceptions(
     Ok(())
 }
 
-fn print_finding(finding: &StatsFinding, output: &mut Output) -> Result<()> {
-    output.warn(&finding.message)?;
+fn print_finding(finding: &StatsFinding, output: &mut CommandOutput) -> Result<()> {
+    output.write_warning(&finding.message)?;
     if !finding.glosses.is_empty() {
         output.filled_line("  entries: {list}", &[&some_of(&finding.glosses)])?;
     }
     match &finding.remedy {
-        Some(remedy) => output.advise(remedy),
+        Some(remedy) => output.write_remedy(remedy),
         None => Ok(()),
     }
 }
@@ -394,44 +391,48 @@ fn some_of(glosses: &[String]) -> String {
 }
 
 /// Returns how many rows of a table are not shown, if some are not.
-fn rest(all: usize, limit: usize) -> Option<usize> {
+fn hidden_row_count(all: usize, limit: usize) -> Option<usize> {
     all.checked_sub(limit).filter(|more| *more > 0)
 }
 
 /// Returns a number with its interval, or the reason for its absence.
-fn number(of: &Estimate, digits: usize, output: &Output) -> String {
-    let ends = of.interval;
-    let ends = ends.map(|it| format!(" ({:.digits$} … {:.digits$})", it.low, it.high));
-    format!("{}{}", value(of, digits, output), ends.unwrap_or_default())
+fn format_estimate_interval(of: &StatsEstimate, digits: usize, output: &CommandOutput) -> String {
+    let estimate_interval = of.interval;
+    let ends = estimate_interval.map(|interval| format!(" ({:.digits$} … {:.digits$})", interval.low, interval.high));
+    format!(
+        "{}{}",
+        format_estimate_value(of, digits, output),
+        ends.unwrap_or_default()
+    )
 }
 
 /// Returns a number, or the reason for its absence.
-fn value(of: &Estimate, digits: usize, output: &Output) -> String {
+fn format_estimate_value(of: &StatsEstimate, digits: usize, output: &CommandOutput) -> String {
     match (of.value, of.why) {
         (Some(value), _) => format!("{value:.digits$}"),
-        (None, Some(why)) => format!("- ({})", output.spoken(why)),
+        (None, Some(why)) => format!("- ({})", output.translate_message(why)),
         (None, None) => String::new(),
     }
 }
 
 /// Returns half the width of an interval above the number; below it may be cut.
-fn half(of: &Estimate, digits: usize) -> String {
+fn format_half_interval(of: &StatsEstimate, digits: usize) -> String {
     let half = of.value.zip(of.interval);
     half.map(|(value, ends)| format!("{:.digits$}", ends.high - value))
         .unwrap_or_default()
 }
 
-fn percent(share: f64) -> String {
+fn format_share_percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
 /// Returns a share in percent with its interval, or the reason for its absence.
-fn share(of: &Estimate, output: &Output) -> String {
+fn format_estimate_share(of: &StatsEstimate, output: &CommandOutput) -> String {
     match (of.value, of.interval) {
         (Some(value), Some(ends)) => {
-            let (low, high) = (percent(ends.low), percent(ends.high));
-            format!("{} ({low} … {high})", percent(value))
+            let (low, high) = (format_share_percent(ends.low), format_share_percent(ends.high));
+            format!("{} ({low} … {high})", format_share_percent(value))
         }
-        _ => value(of, 4, output),
+        _ => format_estimate_value(of, 4, output),
     }
 }

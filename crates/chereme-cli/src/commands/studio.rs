@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 
 use anyhow::Result;
-use chereme_corpus::Error;
+use chereme_corpus::CorpusError;
 
-use crate::args::Cli;
-use crate::output::Output;
+use crate::args::CommandLine;
+use crate::output::CommandOutput;
 
 /// The program that opens the window. It is a program of its own, so that this one is built without a window's crates.
-const PROGRAM: &str = "chereme-studio";
+const STUDIO_PROGRAM: &str = "chereme-studio";
 
 /// Open the workbench: annotate, search and recombine in a window
 ///
@@ -22,7 +22,7 @@ const PROGRAM: &str = "chereme-studio";
 /// in the file chereme/studio.json of the platform's settings folder; --language changes the language there. F1 shows
 /// the keys: ELAN's, Praat's or a video editor's.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub(crate) struct StudioArgs {
     /// The corpus to open
     corpus: Option<PathBuf>,
     /// The folder for the settings and the starter corpus, instead of the platform's
@@ -30,15 +30,15 @@ pub(crate) struct Args {
     folder: Option<PathBuf>,
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, _: &mut Output) -> Result<ExitCode> {
+pub(super) fn run(cli: &CommandLine, args: &StudioArgs, _: &mut CommandOutput) -> Result<ExitCode> {
     if let Some(corpus) = &args.corpus {
-        fs::metadata(corpus).map_err(|error| Error::file(corpus, error))?;
+        fs::metadata(corpus).map_err(|error| CorpusError::from_file_failure(corpus, error))?;
     }
-    let own = env::current_exe().and_then(fs::canonicalize).ok();
-    let program = find(own.as_deref(), env::var_os("PATH").as_deref()).ok_or_else(|| {
-        Error::wrong("the window is a program of its own, chereme-studio, and neither the folder of this program nor the path has it")
-            .at(own.as_deref().and_then(Path::parent).unwrap_or(Path::new(PROGRAM)).display().to_string())
-            .advise("in a checkout, build it with `cargo build --release`; elsewhere, install it with `cargo install --path crates/chereme-studio`")
+    let program_path = env::current_exe().and_then(fs::canonicalize).ok();
+    let program = find_studio_program(program_path.as_deref(), env::var_os("PATH").as_deref()).ok_or_else(|| {
+        CorpusError::from_wrong_message("the window is a program of its own, chereme-studio, and neither the folder of this program nor the path has it")
+            .with_error_place(program_path.as_deref().and_then(Path::parent).unwrap_or(Path::new(STUDIO_PROGRAM)).display().to_string())
+            .with_advice("in a checkout, build it with `cargo build --release`; elsewhere, install it with `cargo install --path crates/chereme-studio`")
     })?;
     let mut command = process::Command::new(&program);
     command.args(cli.json.then_some("--json"));
@@ -51,19 +51,19 @@ pub(super) fn run(cli: &Cli, args: &Args, _: &mut Output) -> Result<ExitCode> {
     if let Some(corpus) = &args.corpus {
         command.arg("--").arg(corpus);
     }
-    hand_over(&mut command).map_err(|error| Error::file(program, error).into())
+    hand_over(&mut command).map_err(|error| CorpusError::from_file_failure(program, error).into())
 }
 
 /// Returns the program of the window: beside this program, whose path is `own`, or in a folder of `path`.
-fn find(own: Option<&Path>, path: Option<&OsStr>) -> Option<PathBuf> {
-    let name = format!("{PROGRAM}{}", env::consts::EXE_SUFFIX);
-    let beside = own.and_then(Path::parent).map(Path::to_owned);
+fn find_studio_program(own: Option<&Path>, path: Option<&OsStr>) -> Option<PathBuf> {
+    let name = format!("{STUDIO_PROGRAM}{}", env::consts::EXE_SUFFIX);
+    let own_folder = own.and_then(Path::parent).map(Path::to_owned);
     // An empty or relative folder of the path would be one of the user's current folder.
     let named = path.into_iter().flat_map(env::split_paths);
-    let folders = beside
+    let folders = own_folder
         .into_iter()
-        .chain(named.filter(|it| it.is_absolute()));
-    folders.map(|it| it.join(&name)).find(|it| it.is_file())
+        .chain(named.filter(|folder| folder.is_absolute()));
+    folders.map(|folder| folder.join(&name)).find(|file| file.is_file())
 }
 
 /// Replaces this program by the command; so signals, the terminal and the exit code are the window's.
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn the_window_is_found_beside_the_program_and_then_on_the_path() {
         let folder = tempfile::tempdir().expect("a folder");
-        let name = format!("{PROGRAM}{}", env::consts::EXE_SUFFIX);
+        let name = format!("{STUDIO_PROGRAM}{}", env::consts::EXE_SUFFIX);
         let at = |room: &str| folder.path().join(room);
         for room in ["beside", "first", "second"] {
             fs::create_dir_all(at(room).join("folder")).expect("a folder");
@@ -96,9 +96,9 @@ mod tests {
         let own = at("beside").join("chereme");
         let path = env::join_paths([PathBuf::new(), "here".into(), at("first"), at("second")]);
         let path = path.expect("a path");
-        let found = || find(Some(&own), Some(&path));
+        let found = || find_studio_program(Some(&own), Some(&path));
         assert_eq!(found(), None);
-        assert_eq!(find(None, None), None);
+        assert_eq!(find_studio_program(None, None), None);
         // A folder of that name is no program.
         fs::create_dir(at("first").join(&name)).expect("a folder");
         for room in ["second", "beside"] {

@@ -1,10 +1,10 @@
 //! French words for the kinds of rows that an overview counts.
 
 use chereme_corpus::TierRole;
-use chereme_corpus::words::Language;
+use chereme_corpus::words::InterfaceLanguage;
 
 /// Kinds besides roles of tiers, as commands and queries spell them, and in French: one, and several.
-const KINDS: [(&str, &str, &str); 10] = [
+const ROW_KIND_WORDS: [(&str, &str, &str); 10] = [
     ("captured", "capté", "captés"),
     ("annotated", "annoté", "annotés"),
     ("generated", "produit", "produits"),
@@ -18,15 +18,15 @@ const KINDS: [(&str, &str, &str); 10] = [
 ];
 
 /// Returns a number of rows of a kind in a language; in French the word of queries follows in brackets if it differs.
-pub(crate) fn counted(count: u64, kind: &str, language: Language) -> String {
-    let roles = TierRole::PLAIN.iter().map(|role| {
-        let [one, several] = role.words().counted;
-        (role.kind(), one, several)
+pub(crate) fn format_kind_count(count: u64, kind: &str, language: InterfaceLanguage) -> String {
+    let roles = TierRole::PLAIN_TIER_ROLES.iter().map(|role| {
+        let [one, several] = role.role_words().counted;
+        (role.role_kind_name(), one, several)
     });
-    let mut all = KINDS.iter().copied().chain(roles);
-    let known = all.find(|(english, ..)| *english == kind);
-    match (language, known) {
-        (Language::French, Some((english, one, several))) => {
+    let mut all = ROW_KIND_WORDS.iter().copied().chain(roles);
+    let known_kind = all.find(|(english, ..)| *english == kind);
+    match (language, known_kind) {
+        (InterfaceLanguage::French, Some((english, one, several))) => {
             let word = if count < 2 { one } else { several };
             match word.ends_with(english) {
                 true => format!("{count} {word}"),
@@ -50,8 +50,8 @@ mod tests {
             (2, "orientation", "2 d’orientation"),
             (3, "skeleton", "3 skeleton"),
         ] {
-            assert_eq!(counted(count, kind, Language::French), french);
+            assert_eq!(format_kind_count(count, kind, InterfaceLanguage::French), french);
         }
-        assert_eq!(counted(2, "made", Language::English), "2 made");
+        assert_eq!(format_kind_count(2, "made", InterfaceLanguage::English), "2 made");
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::{args::Cli, remedies};
+use crate::{args::CommandLine, remedies};
 use chereme_corpus::words::has_message;
 use chereme_tests::repository;
 use clap::CommandFactory;
@@ -13,10 +13,7 @@ fn texts(command: &Command, into: &mut BTreeMap<String, String>) {
     let mut take = |place: &str, text: Option<&StyledStr>| {
         let text = text.map(ToString::to_string).unwrap_or_default();
         for paragraph in text.split("\n\n").filter(|it| !it.trim().is_empty()) {
-            into.insert(
-                paragraph.to_owned(),
-                format!("{}, {place}", command.get_name()),
-            );
+            into.insert(paragraph.to_owned(), format!("{}, {place}", command.get_name()));
         }
     };
     take("about", command.get_about());
@@ -37,19 +34,12 @@ fn texts(command: &Command, into: &mut BTreeMap<String, String>) {
 #[test]
 fn all_help_has_a_french_form() {
     let mut all = BTreeMap::new();
-    texts(&Cli::command(), &mut all);
+    texts(&CommandLine::command(), &mut all);
     assert!(all.len() > 300, "{} texts are found", all.len());
-    let french = |text: &str| translated(&StyledStr::from(text.to_owned()), Language::French);
+    let french = |text: &str| translate_help_text(&StyledStr::from(text.to_owned()), InterfaceLanguage::French);
     let missing = all.iter().filter(|(text, _)| french(text) == **text);
-    let missing: Vec<String> = missing
-        .map(|(text, place)| format!("{place}: {text}"))
-        .collect();
-    assert!(
-        missing.is_empty(),
-        "{}\n{}",
-        missing.len(),
-        missing.join("\n")
-    );
+    let missing: Vec<String> = missing.map(|(text, place)| format!("{place}: {text}")).collect();
+    assert!(missing.is_empty(), "{}\n{}", missing.len(), missing.join("\n"));
 }
 
 /// Returns the guides below the help of commands, each with the name of its command.
@@ -68,9 +58,9 @@ fn guides(command: &Command, into: &mut Vec<(String, String)>) {
 #[test]
 fn every_note_behind_an_example_has_a_french_form() {
     let (mut all, mut missing, mut notes) = (Vec::new(), Vec::new(), 0);
-    guides(&Cli::command(), &mut all);
+    guides(&CommandLine::command(), &mut all);
     for (name, text) in &all {
-        let french = translated(&StyledStr::from(text.clone()), Language::French);
+        let french = translate_help_text(&StyledStr::from(text.clone()), InterfaceLanguage::French);
         assert_eq!(french.lines().count(), text.lines().count(), "{name}");
         for (line, french) in text.lines().zip(french.lines()) {
             let is_note = line.ends_with(')') && line.contains("  (") || !line.starts_with(' ');
@@ -101,13 +91,13 @@ fn every_line_and_error_of_a_command_has_a_french_form() {
         if !file.path.starts_with("crates/chereme-cli/src/") || file.path.contains("/words") {
             continue;
         }
-        for (before, text) in remedies::literals(&file.text) {
+        for (before, text) in remedies::source_string_literals(&file.text) {
             let before = before.trim_end().trim_end_matches("format!(").trim_end();
             if !opened.iter().any(|it| before.ends_with(it)) {
                 continue;
             }
             let is_line = before.ends_with(".filled_line(");
-            let has_line = is_line && has_message(&text, Language::French);
+            let has_line = is_line && has_message(&text, InterfaceLanguage::French);
             let text = filled(&text);
             // An address such as recording:7 is the same in both languages.
             let said = text.split_whitespace().filter(|it| !it.contains(":7"));
@@ -117,7 +107,7 @@ fn every_line_and_error_of_a_command_has_a_french_form() {
             found += usize::from(is_said);
             let is_known = match is_line {
                 true => has_line,
-                false => message(text.trim_start(), Language::French).is_some(),
+                false => localized_message(text.trim_start(), InterfaceLanguage::French).is_some(),
             };
             if is_said && !is_known {
                 missing.push(format!("{}: {text}", file.path));
@@ -125,12 +115,7 @@ fn every_line_and_error_of_a_command_has_a_french_form() {
         }
     }
     assert!(found > 150, "{found} lines are found");
-    assert!(
-        missing.is_empty(),
-        "{}\n{}",
-        missing.len(),
-        missing.join("\n")
-    );
+    assert!(missing.is_empty(), "{}\n{}", missing.len(), missing.join("\n"));
 }
 
 /// Returns the text of a format string with a number in each of its blanks.
@@ -153,14 +138,14 @@ fn filled(form: &str) -> String {
 
 #[test]
 fn titles_are_french_if_french_is_requested() {
-    assert_eq!(title("length", Language::French), "durée");
-    assert_eq!(title("length", Language::English), "length");
-    assert_eq!(title("offset_us", Language::French), "offset_us");
+    assert_eq!(title("length", InterfaceLanguage::French), "durée");
+    assert_eq!(title("length", InterfaceLanguage::English), "length");
+    assert_eq!(title("offset_us", InterfaceLanguage::French), "offset_us");
 }
 
 #[test]
 fn the_help_is_french_if_french_is_requested() {
-    let mut command = spoken(Cli::command(), Language::French);
+    let mut command = translate_command_help(CommandLine::command(), InterfaceLanguage::French);
     command.clone().debug_assert();
     let help = command.render_help().to_string();
     assert!(
@@ -172,10 +157,7 @@ fn the_help_is_french_if_french_is_requested() {
         "{help}"
     );
     assert!(help.contains("Annuler la dernière modification"), "{help}");
-    let mut annotate = command
-        .find_subcommand("annotate")
-        .expect("annotate")
-        .clone();
+    let mut annotate = command.find_subcommand("annotate").expect("annotate").clone();
     for help in [annotate.render_help(), annotate.render_long_help()] {
         let help = help.to_string();
         let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -183,23 +165,14 @@ fn the_help_is_french_if_french_is_requested() {
             help.contains("bulldozer") && help.contains("[défaut : normal]"),
             "{help}"
         );
-        for english in [
-            "default:",
-            "ossible values",
-            "Options:",
-            "Arguments:",
-            "<COMMAND>",
-        ] {
+        for english in ["default:", "ossible values", "Options:", "Arguments:", "<COMMAND>"] {
             assert!(!help.contains(english), "{english}: {help}");
         }
     }
     let add = annotate.find_subcommand_mut("add-tier").expect("add-tier");
     let help = add.render_help().to_string();
     let flat = help.split_whitespace().collect::<Vec<_>>().join(" ");
-    let part = format!(
-        "L’objet de ses annotations : {}, ou",
-        TierRole::plain_kinds()
-    );
+    let part = format!("L’objet de ses annotations : {}, ou", TierRole::plain_kinds());
     assert!(flat.contains(&part), "{help}");
     let mut import = command.find_subcommand("import").expect("import").clone();
     let long = import.render_long_help().to_string();
@@ -216,16 +189,10 @@ fn the_help_is_french_if_french_is_requested() {
     let long = undo.render_long_help().to_string();
     let flat: Vec<&str> = long.split_whitespace().collect();
     let flat = flat.join(" ");
-    assert!(
-        flat.contains("Toute modification peut être annulée"),
-        "{long}"
-    );
+    assert!(flat.contains("Toute modification peut être annulée"), "{long}");
     let error = command
         .try_get_matches_from(["chereme", "dance"])
         .expect_err("no command");
-    let said = usage(&error.render().to_string());
-    assert!(
-        said.starts_with("erreur : commande inconnue : 'dance'"),
-        "{said}"
-    );
+    let said = french_usage_message(&error.render().to_string());
+    assert!(said.starts_with("erreur : commande inconnue : 'dance'"), "{said}");
 }

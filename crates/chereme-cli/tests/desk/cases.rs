@@ -6,19 +6,8 @@ pub(crate) type Case = (&'static str, i32, &'static [&'static str]);
 pub(crate) const ERROR: &[&str] = &["/error/message", "/error/where", "/error/remedy"];
 const LOG: &[&str] = &["/total", "/rows"];
 const IMPORT: &[&str] = &["/created", "/files", "/dry_run"];
-const FILE: &[&str] = &[
-    "/created",
-    "/files/0/path",
-    "/files/0/status",
-    "/files/0/findings",
-];
-const CHANGED: &[&str] = &[
-    "/annotations",
-    "/added",
-    "/changed",
-    "/removed",
-    "/recordings",
-];
+const FILE: &[&str] = &["/created", "/files/0/path", "/files/0/status", "/files/0/findings"];
+const CHANGED: &[&str] = &["/annotations", "/added", "/changed", "/removed", "/recordings"];
 const DELETED: &[&str] = &[
     "/dry_run",
     "/recordings/0/recording",
@@ -114,11 +103,7 @@ pub(crate) const CASES: &[Case] = &[
     (
         "undo @c",
         0,
-        &[
-            "/operations/0/id",
-            "/operations/0/kind",
-            "/operations/0/target",
-        ],
+        &["/operations/0/id", "/operations/0/kind", "/operations/0/target"],
     ),
     ("undo @c --times 2", 0, &["/operations/0", "/left"]),
     ("redo @c --times 2", 1, ERROR),
@@ -129,13 +114,7 @@ pub(crate) const CASES: &[Case] = &[
     (
         "log @c",
         0,
-        &[
-            "/total",
-            "/rows/0/id",
-            "/rows/0/at",
-            "/rows/0/author",
-            "/rows/0/stands",
-        ],
+        &["/total", "/rows/0/id", "/rows/0/at", "/rows/0/author", "/rows/0/stands"],
     ),
     ("log @c --limit 0", 0, LOG),
     (
@@ -171,11 +150,7 @@ pub(crate) const CASES: &[Case] = &[
     ("info @d/none.chereme", 1, ERROR),
     ("list @c recordings", 0, ROWS),
     ("list @c signs", 0, ROWS),
-    (
-        "list @c tokens --sort gloss --descending --limit 2",
-        0,
-        ROWS,
-    ),
+    ("list @c tokens --sort gloss --descending --limit 2", 0, ROWS),
     ("list @c tiers --where role=component", 0, ROWS),
     ("list @c annotations --where recording=recording:1", 0, ROWS),
     ("list @c inventories", 0, ROWS),
@@ -201,11 +176,7 @@ pub(crate) const CASES: &[Case] = &[
         ERROR,
     ),
     ("study new @c s --plan @more/changes.csv", 1, ERROR),
-    (
-        "study new @c s --trials @more/changes.csv --ask realism",
-        1,
-        ERROR,
-    ),
+    ("study new @c s --trials @more/changes.csv --ask realism", 1, ERROR),
     ("study show @c nosuch", 1, ERROR),
     ("study build @c nosuch --to @d/q", 1, ERROR),
     ("study import @c nosuch @more", 1, ERROR),
@@ -233,11 +204,7 @@ pub(crate) const CASES: &[Case] = &[
     ("list @c elephants", 2, ERROR),
     ("search @c gloss=CHAT", 0, HITS),
     ("search @c 'right.configuration=S placement=chin'", 0, HITS),
-    (
-        "search @c gloss=NONE",
-        0,
-        &["/query", "/total", "/hits", "/facets"],
-    ),
+    ("search @c gloss=NONE", 0, &["/query", "/total", "/hits", "/facets"]),
     (
         "search @c gloss=CHAT --no-facets --limit 1",
         0,
@@ -260,17 +227,9 @@ pub(crate) const CASES: &[Case] = &[
     (
         "search @c 'tier(nosuch)=x'",
         0,
-        &[
-            "/findings/0/kind",
-            "/findings/0/names/0",
-            "/findings/0/message",
-        ],
+        &["/findings/0/kind", "/findings/0/names/0", "/findings/0/message"],
     ),
-    (
-        "list @c values --inventory placements",
-        0,
-        &["/rows/0/uses"],
-    ),
+    ("list @c values --inventory placements", 0, &["/rows/0/uses"]),
     (
         "pairs @c --empty unknown --list",
         0,
@@ -371,11 +330,7 @@ pub(crate) const CASES: &[Case] = &[
     ("search @c @kept", 1, ERROR),
     ("search @c --forget cats", 1, ERROR),
     ("search @c gloss=CHAT --forget cats", 2, ERROR),
-    (
-        "annotate @c --in bowl add Gloss JOUR --start 1.6 --end 1.8",
-        0,
-        CHANGED,
-    ),
+    ("annotate @c --in bowl add Gloss JOUR --start 1.6 --end 1.8", 0, CHANGED),
     ("annotate @c --in bowl set a1 --value TASSE", 0, CHANGED),
     ("annotate @c --in bowl split a1 --at 0.4", 0, CHANGED),
     ("annotate @c --in bowl remove a8", 0, CHANGED),
@@ -390,11 +345,7 @@ pub(crate) const CASES: &[Case] = &[
     ("delete @c CHAT", 1, ERROR),
     ("delete @c recording:none", 1, ERROR),
     ("annotate @c from @more/changes.csv", 0, CHANGED),
-    (
-        "annotate @c --in bowl add Gloss JOUR --start 0.2 --end 0.4",
-        1,
-        ERROR,
-    ),
+    ("annotate @c --in bowl add Gloss JOUR --start 0.2 --end 0.4", 1, ERROR),
     ("annotate @c --in bowl set a99 --value X", 1, ERROR),
     ("annotate @c --in cup set a1 --value X", 1, ERROR),
     ("annotate @c from @more/none.csv", 1, ERROR),
@@ -405,11 +356,7 @@ pub(crate) const CASES: &[Case] = &[
         0,
         &["/dry_run", "/changed", "/values/0/from", "/values/0/to"],
     ),
-    (
-        "annotate @c replace '^(.)O' '$1A' --regex",
-        0,
-        &["/values/0/to"],
-    ),
+    ("annotate @c replace '^(.)O' '$1A' --regex", 0, &["/values/0/to"]),
     ("annotate @c replace '(' x --regex", 1, ERROR),
     ("annotate @c replace a b --tier nosuch", 1, ERROR),
     ("annotate @c --in bowl shift --by 1ms --dry-run", 0, CHANGED),
@@ -424,11 +371,7 @@ pub(crate) const CASES: &[Case] = &[
     ("annotate @c", 2, ERROR),
     ("annotate @c change a1", 2, ERROR),
     ("annotate @c --in bowl add-tier X --role nonsense", 2, ERROR),
-    (
-        "annotate @c --in bowl add-tiers",
-        0,
-        &["/0/name", "/0/role"],
-    ),
+    ("annotate @c --in bowl add-tiers", 0, &["/0/name", "/0/role"]),
     ("annotate @c --in bowl add-tiers --like nobody", 1, ERROR),
     ("annotate @c add-tiers", 1, ERROR),
     (
@@ -445,11 +388,7 @@ pub(crate) const CASES: &[Case] = &[
     ("recombine @c BOL --replace LOB --as LOB", 2, ERROR),
     ("recombine @c 'BOLL | reverse' --as LOB", 1, ERROR),
     ("recombine @c 'BOL | dance' --as LOB", 1, ERROR),
-    (
-        "recombine @c 'BOL | configure right no-such-value' --as LOB",
-        1,
-        ERROR,
-    ),
+    ("recombine @c 'BOL | configure right no-such-value' --as LOB", 1, ERROR),
     (
         "animate @c MERCI --as MERCI-SIGNED",
         0,
@@ -534,11 +473,7 @@ pub(crate) const CASES: &[Case] = &[
     ("choose @c --for recording:bowl", 2, ERROR),
     ("onsets @c", 1, ERROR),
     ("search @c nonmanual.ears>1", 1, ERROR),
-    (
-        "search @c nonmanual.head_yaw>1 --limit 1",
-        0,
-        &["/query", "/total"],
-    ),
+    ("search @c nonmanual.head_yaw>1 --limit 1", 0, &["/query", "/total"]),
     ("suggest @c LIMACE", 0, &["/token", "/partners", "/unused"]),
     ("suggest @c NONE", 1, ERROR),
     (
@@ -580,11 +515,7 @@ pub(crate) const CASES: &[Case] = &[
     ("export @c all --to @d/all", 0, WRITTEN),
     ("export @c all --to @d/all.sigml", 0, WRITTEN),
     ("export @c sign:MERCI --to @d/merci.hsigml", 0, WRITTEN),
-    (
-        "export @c query:placement=chin --to @d/chin.hns",
-        0,
-        WRITTEN,
-    ),
+    ("export @c query:placement=chin --to @d/chin.hns", 0, WRITTEN),
     (
         "export @c recording:1 BOL --to @d/takes --format bvh",
         0,
@@ -622,11 +553,7 @@ pub(crate) const CASES: &[Case] = &[
     (
         "words",
         0,
-        &[
-            "/languages/0/language",
-            "/languages/0/name",
-            "/languages/0/phrases",
-        ],
+        &["/languages/0/language", "/languages/0/name", "/languages/0/phrases"],
     ),
     (
         "words --missing de",

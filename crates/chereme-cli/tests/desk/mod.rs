@@ -34,11 +34,7 @@ impl Desk {
             fs::write(inbox.join(name), text).expect("written");
         }
         let made = desk.folder.path().join("template");
-        let line = format!(
-            "import {} {} --author maker",
-            made.display(),
-            inbox.display()
-        );
+        let line = format!("import {} {} --author maker", made.display(), inbox.display());
         let done = desk.run(&line);
         assert!(done.status.success(), "{}", text(&done.stderr));
         for (name, text) in [
@@ -129,8 +125,8 @@ impl Desk {
         let done = self.run(&format!("{} --json", self.words(line)));
         expect_code(&done, *code)?;
         let out = text(&done.stdout);
-        let document: Value = serde_json::from_str(&out)
-            .map_err(|error| format!("not one JSON document ({error}): {out}"))?;
+        let document: Value =
+            serde_json::from_str(&out).map_err(|error| format!("not one JSON document ({error}): {out}"))?;
         for key in *keys {
             if document.pointer(key).is_none() {
                 return Err(format!("lacks {key}: {document}"));

@@ -4,41 +4,45 @@ use std::f64::consts::TAU;
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::free_angle::{Circle, Turned, eased};
-use super::smooth::Angles;
-use super::{Source, Step, Turns, least_turn, line, off_line};
+use super::free_angle::{FreelyTurnedRotation, RotatingDirection, ease_free_angles};
+use super::smooth::TrustedAngles;
+use super::{ArmJointTurns, ArmSource, ArmStep, least_turn, off_line, shoulder_wrist_direction};
 
 /// The speed of an elbow about its shoulder beyond the source's, in radians per second: 3.5 degrees per frame at 120
 /// Hz.
-const SWING: f64 = 7.3;
+const MAX_ELBOW_SWING_SPEED: f64 = 7.3;
 /// The rotation speed of upper arm and forearm beyond the source's, in radians per second: 4.3 degrees per frame at 120
 /// Hz.
-const TURN: f64 = 9.0;
+const MAX_ARM_TURN_SPEED: f64 = 9.0;
 
 /// Rotates arms about the line from shoulder to wrist so that they move steadily: first the whole arm, then the elbow
 /// alone, if it is not in the direction of its natural bend.
-pub(super) fn swivel(steps: &mut [Step], frame_time: f64) {
-    let was = swivels(steps.iter().map(|step| (line(step.was), step.pole)));
+pub(super) fn swivel_arm_steps(steps: &mut [ArmStep], frame_time: f64) {
+    let was = swivels(steps.iter().map(|step| (shoulder_wrist_direction(step.was), step.pole)));
     let is = swivels(
         steps
             .iter()
-            .map(|step| (line(step.is), step.carry * step.pole)),
+            .map(|step| (shoulder_wrist_direction(step.is), step.carry * step.pole)),
     );
-    if let Some(changes) = calmed(steps, &was, is, |_| 1.0, frame_time) {
+    if let Some(changes) = calm_line_angles(steps, &was, is, |_| 1.0, frame_time) {
         for (step, change) in steps.iter_mut().zip(changes).filter(|(step, _)| step.moves) {
-            step.carry = DQuat::from_axis_angle(line(step.is), change) * step.carry;
+            step.carry = DQuat::from_axis_angle(shoulder_wrist_direction(step.is), change) * step.carry;
         }
     }
-    let was = swivels(steps.iter().map(|step| (line(step.was), step.stands)));
+    let was = swivels(
+        steps
+            .iter()
+            .map(|step| (shoulder_wrist_direction(step.was), step.stands)),
+    );
     let is = swivels(
         steps
             .iter()
-            .map(|step| (line(step.is), step.carry * step.bends)),
+            .map(|step| (shoulder_wrist_direction(step.is), step.carry * step.bends)),
     );
-    let seen = |step: &Step| (off_line(step.was) / off_line(step.is).max(1e-9)).min(1.0);
-    let changes = calmed(steps, &was, is, seen, frame_time);
+    let seen = |step: &ArmStep| (off_line(step.was) / off_line(step.is).max(1e-9)).min(1.0);
+    let changes = calm_line_angles(steps, &was, is, seen, frame_time);
     for (n, step) in steps.iter_mut().enumerate().filter(|(_, step)| step.moves) {
-        let line = line(step.is);
+        let line = shoulder_wrist_direction(step.is);
         let mut out = step.carry * step.bends;
         if let Some(changes) = &changes {
             out = DQuat::from_axis_angle(line, changes[n]) * out;
@@ -51,25 +55,25 @@ pub(super) fn swivel(steps: &mut [Step], frame_time: f64) {
 
 /// Smooths the angles `is` about the new lines; the share `seen` of the changes of `was`, the angles about the old
 /// lines, counts as their own change.
-fn calmed(
-    steps: &[Step],
+fn calm_line_angles(
+    steps: &[ArmStep],
     was: &[f64],
     is: Vec<f64>,
-    seen: impl Fn(&Step) -> f64,
+    seen: impl Fn(&ArmStep) -> f64,
     frame_time: f64,
 ) -> Option<Vec<f64>> {
-    let own = own(was).into_iter().enumerate().map(|(n, turn)| {
+    let trusted_turns = own_angle_changes(was).into_iter().enumerate().map(|(n, turn)| {
         let trust = steps[n.saturating_sub(1)].trust.min(steps[n].trust);
         turn * trust.min(1.0) * seen(&steps[n])
     });
-    let own = own.collect();
+    let own_turns = trusted_turns.collect();
     let trust = steps.iter().map(|step| step.trust).collect();
-    Angles {
+    TrustedAngles {
         values: is,
         trust,
-        own,
+        own: own_turns,
     }
-    .calmed(frame_time)
+    .calming_corrections(frame_time)
 }
 
 /// Returns the angle of each direction about its line, relative to a reference that follows the lines by shortest
@@ -77,11 +81,11 @@ fn calmed(
 fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
     let mut carried: Option<(DVec3, DVec3)> = None;
     arms.map(|(line, out)| {
-        let across = match carried {
+        let carried_across = match carried {
             Some((before, across)) => carried_along(before, line, across),
             None => line.any_orthonormal_vector(),
         };
-        let across = across
+        let across = carried_across
             .reject_from_normalized(line)
             .normalize_or(line.any_orthonormal_vector());
         carried = Some((line, across));
@@ -100,7 +104,7 @@ fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
 }
 
 /// Returns the change of each angle from the one before, in the shorter direction.
-fn own(angles: &[f64]) -> Vec<f64> {
+fn own_angle_changes(angles: &[f64]) -> Vec<f64> {
     let turned = |n: usize| match n.checked_sub(1) {
         Some(before) => {
             let turn = angles[n] - angles[before];
@@ -112,49 +116,46 @@ fn own(angles: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the angle of a rotation.
-fn angle(q: DQuat) -> f64 {
+fn swivel_rotation_angle(q: DQuat) -> f64 {
     2.0 * q.xyz().length().atan2(q.w.abs())
 }
 
 /// Returns the largest allowed change of each frame from the one before: `more` than the change in the source.
 fn most(frames: usize, more: f64, source: impl Fn(usize, usize) -> f64) -> Vec<f64> {
-    let most = |n: usize| {
-        n.checked_sub(1)
-            .map_or(0.0, |before| source(before, n) + more)
-    };
+    let most = |n: usize| n.checked_sub(1).map_or(0.0, |before| source(before, n) + more);
     (0..frames).map(most).collect()
 }
 
-fn stay(steps: &[Step]) -> Vec<bool> {
+fn stay(steps: &[ArmStep]) -> Vec<bool> {
     steps.iter().map(|step| !step.moves).collect()
 }
 
 /// Rotates arms about their lines if an elbow would jump and can avoid it.
-pub(super) fn ease(source: &Source, steps: &mut [Step], frame_time: f64) {
+pub(super) fn ease_elbow_jumps(source: &ArmSource, steps: &mut [ArmStep], frame_time: f64) {
     let trunk: Vec<DQuat> = source.trunks(steps.len());
-    let circles = steps.iter().zip(&trunk).map(|(step, trunk)| Circle {
-        line: *trunk * line(step.is),
-        start: *trunk * bones(step.is)[0],
+    let arm_circles = steps.iter().zip(&trunk).map(|(step, trunk)| RotatingDirection {
+        line: *trunk * shoulder_wrist_direction(step.is),
+        start: *trunk * arm_bone_directions(step.is)[0],
     });
-    let circles: Vec<Circle> = circles.collect();
-    if Circle::is_calm(&circles, SWING * frame_time) {
+    let circles: Vec<RotatingDirection> = arm_circles.collect();
+    if RotatingDirection::is_calm(&circles, MAX_ELBOW_SWING_SPEED * frame_time) {
         return;
     }
     let was: Vec<DVec3> = (0..steps.len())
-        .map(|n| trunk[n] * bones(steps[n].was)[0])
+        .map(|n| trunk[n] * arm_bone_directions(steps[n].was)[0])
         .collect();
-    let most = most(steps.len(), SWING * frame_time, |before, n| {
+    let most = most(steps.len(), MAX_ELBOW_SWING_SPEED * frame_time, |before, n| {
         was[before].angle_between(was[n])
     });
-    let changes = eased(&stay(steps), frame_time, |n, angles| {
+    let changes = ease_free_angles(&stay(steps), frame_time, |n, angles| {
         let two = [&circles[n - 1], &circles[n]];
-        [Circle::excess(two, angles, most[n]), None]
+        [RotatingDirection::direction_excess_rotation(two, angles, most[n]), None]
     });
     let Some(changes) = changes else {
         return;
     };
     for (step, change) in steps.iter_mut().zip(changes).filter(|(step, _)| step.moves) {
-        let turn = DQuat::from_axis_angle(line(step.is), change);
+        let turn = DQuat::from_axis_angle(shoulder_wrist_direction(step.is), change);
         step.is[1] = step.is[0] + turn * (step.is[1] - step.is[0]);
         step.carry = turn * step.carry;
     }
@@ -162,31 +163,31 @@ pub(super) fn ease(source: &Source, steps: &mut [Step], frame_time: f64) {
 
 /// Rotates the bones about their length so that neither jumps: the upper arm in the space of the trunk, the forearm in
 /// that of the upper arm.
-pub(super) fn twist(source: &Source, steps: &[Step], turns: &mut [Turns], frame_time: f64) {
+pub(super) fn twist_arm_bones(source: &ArmSource, steps: &[ArmStep], turns: &mut [ArmJointTurns], frame_time: f64) {
     let stay = stay(steps);
-    let more = TURN * frame_time;
+    let more = MAX_ARM_TURN_SPEED * frame_time;
     twist_upper(source, steps, turns, &stay, frame_time);
-    let seen = |turn: &Turns| turn.old[0].inverse() * turn.old[1];
+    let seen = |turn: &ArmJointTurns| turn.old[0].inverse() * turn.old[1];
     let was: Vec<DQuat> = turns.iter().map(seen).collect();
     calm_forearm(&was, turns, &stay, frame_time);
     let turned = turns.iter().map(|turn| {
         let seen = turn.upper.inverse() * turn.forearm;
         let line = seen * turn.bone;
-        Turned {
+        FreelyTurnedRotation {
             line,
             start: DQuat::from_axis_angle(line, turn.twist) * seen,
         }
     });
-    let turned: Vec<Turned> = turned.collect();
-    if Turned::is_calm(&turned, more) {
+    let turned: Vec<FreelyTurnedRotation> = turned.collect();
+    if FreelyTurnedRotation::is_calm(&turned, more) {
         return;
     }
     let most = most(turns.len(), more, |before, n| {
-        angle(was[before].inverse() * was[n])
+        swivel_rotation_angle(was[before].inverse() * was[n])
     });
-    let changes = eased(&stay, frame_time, |n, angles| {
+    let changes = ease_free_angles(&stay, frame_time, |n, angles| {
         let two = [&turned[n - 1], &turned[n]];
-        [Turned::excess(two, angles, most[n]), None]
+        [FreelyTurnedRotation::turned_excess_rotation(two, angles, most[n]), None]
     });
     for (turn, change) in turns.iter_mut().zip(changes.into_iter().flatten()) {
         turn.twist += change;
@@ -194,59 +195,48 @@ pub(super) fn twist(source: &Source, steps: &[Step], turns: &mut [Turns], frame_
 }
 
 /// Rotates upper arms about their length if they, or forearms in their space, would jump.
-fn twist_upper(
-    source: &Source,
-    steps: &[Step],
-    turns: &mut [Turns],
-    stay: &[bool],
-    frame_time: f64,
-) {
-    let (trunk, more) = (source.trunks(steps.len()), TURN * frame_time);
-    let turned = (0..steps.len()).map(|n| Turned {
-        line: trunk[n] * bones(steps[n].is)[0],
+fn twist_upper(source: &ArmSource, steps: &[ArmStep], turns: &mut [ArmJointTurns], stay: &[bool], frame_time: f64) {
+    let (trunk, more) = (source.trunks(steps.len()), MAX_ARM_TURN_SPEED * frame_time);
+    let turned_arms = (0..steps.len()).map(|n| FreelyTurnedRotation {
+        line: trunk[n] * arm_bone_directions(steps[n].is)[0],
         start: trunk[n] * turns[n].upper,
     });
-    let turned: Vec<Turned> = turned.collect();
+    let turned: Vec<FreelyTurnedRotation> = turned_arms.collect();
     let circles = steps.iter().zip(turns.iter()).map(|(step, turn)| {
-        let [upper, forearm] = bones(step.is).map(|bone| turn.upper.inverse() * bone);
-        Circle {
+        let [upper, forearm] = arm_bone_directions(step.is).map(|bone| turn.upper.inverse() * bone);
+        RotatingDirection {
             line: -upper,
             start: forearm,
         }
     });
-    let circles: Vec<Circle> = circles.collect();
-    if Turned::is_calm(&turned, more) && Circle::is_calm(&circles, more) {
+    let circles: Vec<RotatingDirection> = circles.collect();
+    if FreelyTurnedRotation::is_calm(&turned, more) && RotatingDirection::is_calm(&circles, more) {
         return;
     }
     let uppers = most(steps.len(), more, |a, b| {
-        angle((trunk[a] * turns[a].old[0]).inverse() * trunk[b] * turns[b].old[0])
+        swivel_rotation_angle((trunk[a] * turns[a].old[0]).inverse() * trunk[b] * turns[b].old[0])
     });
-    let fore = |n: usize| turns[n].old[0].inverse() * bones(steps[n].was)[1];
+    let fore = |n: usize| turns[n].old[0].inverse() * arm_bone_directions(steps[n].was)[1];
     let forearms = most(steps.len(), more, |a, b| fore(a).angle_between(fore(b)));
-    let changes = eased(stay, frame_time, |n, angles| {
+    let changes = ease_free_angles(stay, frame_time, |n, angles| {
         [
-            Turned::excess([&turned[n - 1], &turned[n]], angles, uppers[n]),
-            Circle::excess([&circles[n - 1], &circles[n]], angles, forearms[n]),
+            FreelyTurnedRotation::turned_excess_rotation([&turned[n - 1], &turned[n]], angles, uppers[n]),
+            RotatingDirection::direction_excess_rotation([&circles[n - 1], &circles[n]], angles, forearms[n]),
         ]
     });
-    for (n, change) in changes
-        .into_iter()
-        .flatten()
-        .enumerate()
-        .filter(|(n, _)| !stay[*n])
-    {
-        let turn = DQuat::from_axis_angle(bones(steps[n].is)[0], change);
+    for (n, change) in changes.into_iter().flatten().enumerate().filter(|(n, _)| !stay[*n]) {
+        let turn = DQuat::from_axis_angle(arm_bone_directions(steps[n].is)[0], change);
         turns[n].upper = (turn * turns[n].upper).normalize();
     }
 }
 
 /// Makes forearms rotate about their length as steadily as the source's; `was` holds the source's rotations in the
 /// space of the upper arm.
-fn calm_forearm(was: &[DQuat], turns: &mut [Turns], stay: &[bool], frame_time: f64) {
+fn calm_forearm(was: &[DQuat], turns: &mut [ArmJointTurns], stay: &[bool], frame_time: f64) {
     let Some(mark) = turns.first().map(|turn| turn.bone.any_orthonormal_vector()) else {
         return;
     };
-    let own = own(&swivels(
+    let own_turns = own_angle_changes(&swivels(
         was.iter()
             .zip(turns.iter())
             .map(|(was, turn)| (*was * turn.bone, *was * mark)),
@@ -259,24 +249,24 @@ fn calm_forearm(was: &[DQuat], turns: &mut [Turns], stay: &[bool], frame_time: f
         true => 2.0,
         false => (2.0 * turn.reliability).min(1.0),
     });
-    let angles = Angles {
+    let angles = TrustedAngles {
         trust: trust.collect(),
         values: values
             .iter()
             .zip(turns.iter())
             .map(|(value, turn)| value + turn.twist)
             .collect(),
-        own,
+        own: own_turns,
     };
     for (turn, change) in turns
         .iter_mut()
-        .zip(angles.calmed(frame_time).into_iter().flatten())
+        .zip(angles.calming_corrections(frame_time).into_iter().flatten())
     {
         turn.twist += change;
     }
 }
 
 /// Returns the directions of upper arm and forearm.
-fn bones([shoulder, elbow, wrist]: [DVec3; 3]) -> [DVec3; 2] {
+fn arm_bone_directions([shoulder, elbow, wrist]: [DVec3; 3]) -> [DVec3; 2] {
     [elbow - shoulder, wrist - elbow].map(DVec3::normalize_or_zero)
 }

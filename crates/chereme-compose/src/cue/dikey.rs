@@ -25,7 +25,7 @@ impl std::fmt::Display for DikeyEnd {
 
 /// A captured movement from one key to the next.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Dikey {
+pub struct KeyTransition {
     /// The key at its first frame.
     pub from: DikeyEnd,
     /// The key at its last frame.
@@ -38,8 +38,8 @@ pub struct Dikey {
 
 /// A dictionary of dikeys.
 #[derive(Debug, Clone, Default)]
-pub struct Dictionary {
-    dikeys: Vec<Dikey>,
+pub struct DikeyDictionary {
+    dikeys: Vec<KeyTransition>,
     by_ends: BTreeMap<(DikeyEnd, DikeyEnd), Vec<usize>>,
     /// Frames per second.
     rate: f64,
@@ -52,14 +52,14 @@ pub struct Dictionary {
 
 /// The weights of the costs of candidates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Costs {
+pub struct DikeyCostWeights {
     /// The cost of a duration that differs by 100 ms.
     pub duration: f64,
     /// The cost of a join whose ends differ by the spread within one key.
     pub join: f64,
 }
 
-impl Default for Costs {
+impl Default for DikeyCostWeights {
     fn default() -> Self {
         Self {
             duration: 1.0,
@@ -70,7 +70,7 @@ impl Default for Costs {
 
 /// A piece of a sentence: a pair of keys with its dikey, and their cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Piece {
+pub struct DikeyPiece {
     /// The wanted pair of keys.
     pub wanted: (DikeyEnd, DikeyEnd),
     /// The index of the dikey; `None` for a synthetic ramp between the means of the two keys.
@@ -87,18 +87,18 @@ pub struct Piece {
 
 /// The strongest compression and the longest stretch of a dikey in time; beyond the latter the hand is held at the
 /// target.
-const STRETCH: (f64, f64) = (0.5, 2.5);
+const DIKEY_STRETCH_RANGE: (f64, f64) = (0.5, 2.5);
 
-impl Dictionary {
+impl DikeyDictionary {
     /// Cuts the dikeys between neighbouring targets from a take; `targets` holds the key and the frame of each, in
     /// order of time.
     #[must_use]
-    pub fn cut(rows: &[Vec<f64>], targets: &[(DikeyEnd, usize)], source: &str) -> Vec<Dikey> {
-        let mut found = Vec::new();
+    pub fn cut_dikeys(rows: &[Vec<f64>], targets: &[(DikeyEnd, usize)], source: &str) -> Vec<KeyTransition> {
+        let mut dikeys = Vec::new();
         for pair in targets.windows(2) {
             let ((from, start), (to, end)) = (pair[0], pair[1]);
             if start < end && end < rows.len() {
-                found.push(Dikey {
+                dikeys.push(KeyTransition {
                     from,
                     to,
                     frames: rows[start..=end].to_vec(),
@@ -106,27 +106,22 @@ impl Dictionary {
                 });
             }
         }
-        found
+        dikeys
     }
 
     /// Returns a dictionary; `weights` holds the variance that each parameter explains, `places` the position of each
     /// placement. Dikeys with fewer than two frames, or of another width, are left out.
     #[must_use]
-    pub fn new(
-        dikeys: Vec<Dikey>,
-        rate: f64,
-        weights: &[f64],
-        places: BTreeMap<u8, [f64; 3]>,
-    ) -> Self {
+    pub fn new(dikeys: Vec<KeyTransition>, rate: f64, weights: &[f64], places: BTreeMap<u8, [f64; 3]>) -> Self {
         let width = weights.len();
-        let legal = |dikey: &Dikey| {
+        let legal = |dikey: &KeyTransition| {
             dikey.frames.len() > 1
                 && dikey
                     .frames
                     .iter()
                     .all(|row| row.len() == width && row.iter().all(|x| x.is_finite()))
         };
-        let dikeys: Vec<Dikey> = dikeys.into_iter().filter(legal).collect();
+        let dikeys: Vec<KeyTransition> = dikeys.into_iter().filter(legal).collect();
         let mut by_ends: BTreeMap<_, Vec<usize>> = BTreeMap::new();
         let mut at_key: BTreeMap<DikeyEnd, Vec<&[f64]>> = BTreeMap::new();
         for (n, dikey) in dikeys.iter().enumerate() {
@@ -139,10 +134,7 @@ impl Dictionary {
             let sum = |n: usize| rows.iter().map(|row| row[n]).sum::<f64>();
             (0..width).map(|n| sum(n) / rows.len() as f64).collect()
         };
-        let keys: BTreeMap<DikeyEnd, Vec<f64>> = at_key
-            .iter()
-            .map(|(key, rows)| (*key, mean(rows)))
-            .collect();
+        let keys: BTreeMap<DikeyEnd, Vec<f64>> = at_key.iter().map(|(key, rows)| (*key, mean(rows))).collect();
         let mut squares = vec![0.0; width];
         let mut count: f64 = 0.0;
         for (key, rows) in &at_key {
@@ -170,19 +162,19 @@ impl Dictionary {
 
     /// Returns its dikeys.
     #[must_use]
-    pub fn dikeys(&self) -> &[Dikey] {
+    pub fn dictionary_dikeys(&self) -> &[KeyTransition] {
         &self.dikeys
     }
 
     /// Returns the number of different dikeys in it, of the 1,680 that 41 keys can have.
     #[must_use]
-    pub fn kinds(&self) -> usize {
+    pub fn count_dikey_kinds(&self) -> usize {
         self.by_ends.len()
     }
 
     /// Returns the pairs of keys of a script that the dictionary lacks, each with its number of occurrences.
     #[must_use]
-    pub fn missing(&self, script: &[Vec<DikeyEnd>]) -> BTreeMap<(DikeyEnd, DikeyEnd), usize> {
+    pub fn missing_dikeys(&self, script: &[Vec<DikeyEnd>]) -> BTreeMap<(DikeyEnd, DikeyEnd), usize> {
         let mut missing = BTreeMap::new();
         for pair in script.iter().flat_map(|keys| keys.windows(2)) {
             if !self.by_ends.contains_key(&(pair[0], pair[1])) {
@@ -196,7 +188,7 @@ impl Dictionary {
     /// of dikeys that it adds to the ones before it.
     #[must_use]
     pub fn worth_recording(&self, script: &[Vec<DikeyEnd>], most: usize) -> Vec<(usize, usize)> {
-        let mut known: BTreeSet<(DikeyEnd, DikeyEnd)> = self.by_ends.keys().copied().collect();
+        let mut known_pairs: BTreeSet<(DikeyEnd, DikeyEnd)> = self.by_ends.keys().copied().collect();
         let pairs: Vec<BTreeSet<(DikeyEnd, DikeyEnd)>> = script
             .iter()
             .map(|keys| keys.windows(2).map(|pair| (pair[0], pair[1])).collect())
@@ -206,16 +198,14 @@ impl Dictionary {
             let adds = pairs
                 .iter()
                 .enumerate()
-                .map(|(n, own)| (own.difference(&known).count(), n));
-            let Some((count, n)) =
-                adds.reduce(|best, next| if next.0 > best.0 { next } else { best })
-            else {
+                .map(|(n, own)| (own.difference(&known_pairs).count(), n));
+            let Some((count, n)) = adds.reduce(|best, next| if next.0 > best.0 { next } else { best }) else {
                 break;
             };
             if count == 0 {
                 break;
             }
-            known.extend(pairs[n].iter().copied());
+            known_pairs.extend(pairs[n].iter().copied());
             chosen.push((n, count));
         }
         chosen
@@ -224,26 +214,26 @@ impl Dictionary {
     /// Chooses dikeys for keys with the times of their targets, so that the sum of both costs is least; among equals,
     /// the lowest index wins.
     #[must_use]
-    pub fn select(&self, wanted: &[(DikeyEnd, f64)], costs: &Costs) -> Vec<Piece> {
-        let mut steps: Vec<Vec<Candidate>> = Vec::new();
+    pub fn select_dikeys(&self, wanted: &[(DikeyEnd, f64)], costs: &DikeyCostWeights) -> Vec<DikeyPiece> {
+        let mut steps: Vec<Vec<DikeyCandidate>> = Vec::new();
         for pair in wanted.windows(2) {
-            steps.push(self.candidates(pair[0].0, pair[1].0, pair[1].1 - pair[0].1, costs));
+            steps.push(self.dikey_candidates(pair[0].0, pair[1].0, pair[1].1 - pair[0].1, costs));
         }
-        let chosen = self.cheapest(&steps, costs);
-        let mut pieces: Vec<Piece> = Vec::with_capacity(steps.len());
+        let chosen = self.cheapest_dikey_path(&steps, costs);
+        let mut pieces: Vec<DikeyPiece> = Vec::with_capacity(steps.len());
         for (n, pair) in wanted.windows(2).enumerate() {
-            let own = &steps[n][chosen[n]];
+            let chosen_candidate = &steps[n][chosen[n]];
             let before = n.checked_sub(1).map(|n| &steps[n][chosen[n]]);
-            let join = before.map_or(0.0, |before| self.join(before, own, costs));
-            let dikey = own.dikey.map(|n| &self.dikeys[n]);
+            let join = before.map_or(0.0, |before| self.dikey_join_cost(before, chosen_candidate, costs));
+            let dikey = chosen_candidate.dikey.map(|n| &self.dikeys[n]);
             let ends = dikey.map(|dikey| (dikey.from, dikey.to));
             let asked = (pair[0].0, pair[1].0);
-            pieces.push(Piece {
+            pieces.push(DikeyPiece {
                 wanted: asked,
-                dikey: own.dikey,
-                source: dikey.map_or_else(|| "synthetic".to_owned(), |it| it.source.clone()),
+                dikey: chosen_candidate.dikey,
+                source: dikey.map_or_else(|| "synthetic".to_owned(), |piece| piece.source.clone()),
                 instead: ends.filter(|ends| *ends != asked),
-                duration_cost: own.duration,
+                duration_cost: chosen_candidate.duration,
                 join_cost: join,
             });
         }
@@ -252,27 +242,19 @@ impl Dictionary {
 
     /// Returns the candidates for a pair of keys: exact ones, else those whose second placement is the nearest to the
     /// wanted one, else those with the nearest first placement, else a ramp.
-    fn candidates(
+    fn dikey_candidates(
         &self,
         from: DikeyEnd,
         to: DikeyEnd,
         length: f64,
-        costs: &Costs,
-    ) -> Vec<Candidate> {
-        let found = self
+        costs: &DikeyCostWeights,
+    ) -> Vec<DikeyCandidate> {
+        let recorded_dikeys = self
             .by_ends
             .get(&(from, to))
             .or_else(|| {
-                let with = |place| {
-                    (
-                        from,
-                        DikeyEnd {
-                            placement: place,
-                            ..to
-                        },
-                    )
-                };
-                self.nearest(to.placement, with)
+                let with = |place| (from, DikeyEnd { placement: place, ..to });
+                self.nearest_placement_dikeys(to.placement, with)
             })
             .or_else(|| {
                 let with = |place| {
@@ -284,10 +266,10 @@ impl Dictionary {
                         to,
                     )
                 };
-                self.nearest(from.placement, with)
+                self.nearest_placement_dikeys(from.placement, with)
             });
-        let Some(found) = found else {
-            return vec![Candidate {
+        let Some(found) = recorded_dikeys else {
+            return vec![DikeyCandidate {
                 dikey: None,
                 duration: 0.0,
                 ends: [self.mean_of(from), self.mean_of(to)],
@@ -295,25 +277,24 @@ impl Dictionary {
         };
         let candidate = |n: &usize| {
             let frames = &self.dikeys[*n].frames;
-            let own = (frames.len() - 1) as f64 / self.rate;
-            Candidate {
+            let dikey_seconds = (frames.len() - 1) as f64 / self.rate;
+            DikeyCandidate {
                 dikey: Some(*n),
-                duration: costs.duration * (own - length).abs() / 0.1,
+                duration: costs.duration * (dikey_seconds - length).abs() / 0.1,
                 ends: [frames[0].clone(), frames[frames.len() - 1].clone()],
             }
         };
         found.iter().map(candidate).collect()
     }
 
-    fn nearest(
+    fn nearest_placement_dikeys(
         &self,
         placement: u8,
         with: impl Fn(u8) -> (DikeyEnd, DikeyEnd),
     ) -> Option<&Vec<usize>> {
-        let own = self.places.get(&placement)?;
-        let apart = |other: &[f64; 3]| -> f64 {
-            own.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum()
-        };
+        let placement_point = self.places.get(&placement)?;
+        let apart =
+            |other: &[f64; 3]| -> f64 { placement_point.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum() };
         let mut others: Vec<(f64, u8)> = self
             .places
             .iter()
@@ -321,21 +302,17 @@ impl Dictionary {
             .map(|(place, at)| (apart(at), *place))
             .collect();
         others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        others
-            .iter()
-            .find_map(|(_, place)| self.by_ends.get(&with(*place)))
+        others.iter().find_map(|(_, place)| self.by_ends.get(&with(*place)))
     }
 
     /// Returns the mean of the parameters at a key; if no dikey has that key, the mean at the most similar one.
     fn mean_of(&self, key: DikeyEnd) -> Vec<f64> {
-        let alike = |own: &DikeyEnd| {
-            u8::from(own.shape != key.shape) * 2 + u8::from(own.placement != key.placement)
-        };
-        let found = self.keys.iter().min_by_key(|(own, _)| alike(own));
-        found.map_or_else(|| vec![0.0; self.scale.len()], |(_, mean)| mean.clone())
+        let alike = |own: &DikeyEnd| u8::from(own.shape != key.shape) * 2 + u8::from(own.placement != key.placement);
+        let nearest_key = self.keys.iter().min_by_key(|(own, _)| alike(own));
+        nearest_key.map_or_else(|| vec![0.0; self.scale.len()], |(_, mean)| mean.clone())
     }
 
-    fn join(&self, before: &Candidate, own: &Candidate, costs: &Costs) -> f64 {
+    fn dikey_join_cost(&self, before: &DikeyCandidate, own: &DikeyCandidate, costs: &DikeyCostWeights) -> f64 {
         let all: f64 = self.scale.iter().map(|(weight, _)| weight).sum();
         let numbers = before.ends[1].iter().zip(&own.ends[0]).zip(&self.scale);
         let square: f64 = numbers
@@ -344,16 +321,16 @@ impl Dictionary {
         costs.join * (square / all.max(1e-12)).sqrt()
     }
 
-    fn cheapest(&self, steps: &[Vec<Candidate>], costs: &Costs) -> Vec<usize> {
+    fn cheapest_dikey_path(&self, steps: &[Vec<DikeyCandidate>], costs: &DikeyCostWeights) -> Vec<usize> {
         let mut table: Vec<Vec<(f64, usize)>> = Vec::with_capacity(steps.len());
         for (n, own) in steps.iter().enumerate() {
             let row = own.iter().map(|candidate| {
                 let Some(before) = n.checked_sub(1) else {
                     return (candidate.duration, 0);
                 };
-                let sums = steps[before].iter().zip(&table[before]).enumerate();
-                let sums = sums
-                    .map(|(at, (other, (sum, _)))| (sum + self.join(other, candidate, costs), at));
+                let previous_sums = steps[before].iter().zip(&table[before]).enumerate();
+                let sums = previous_sums
+                    .map(|(at, (other, (sum, _)))| (sum + self.dikey_join_cost(other, candidate, costs), at));
                 let best = sums.reduce(|best, next| if next.0 < best.0 { next } else { best });
                 let (sum, at) = best.unwrap_or((0.0, 0));
                 (sum + candidate.duration, at)
@@ -365,10 +342,10 @@ impl Dictionary {
             let ends = row.iter().enumerate().map(|(at, (sum, _))| (*sum, at));
             ends.reduce(|best, next| if next.0 < best.0 { next } else { best })
         });
-        let mut at = last.flatten().map_or(0, |(_, at)| at);
+        let mut candidate_index = last.flatten().map_or(0, |(_, at)| at);
         for n in (0..steps.len()).rev() {
-            chosen[n] = at;
-            at = table[n][at].1;
+            chosen[n] = candidate_index;
+            candidate_index = table[n][candidate_index].1;
         }
         chosen
     }
@@ -376,17 +353,11 @@ impl Dictionary {
     /// Returns the parameters frame by frame, from the first target to the last: each dikey is warped to the time
     /// between its targets, and the jump to the next one is spread over it as a linear ramp.
     #[must_use]
-    pub fn render(&self, pieces: &[Piece], wanted: &[(DikeyEnd, f64)]) -> Vec<Vec<f64>> {
+    pub fn render_dikeys(&self, pieces: &[DikeyPiece], wanted: &[(DikeyEnd, f64)]) -> Vec<Vec<f64>> {
         let ends = |n: usize| -> [Vec<f64>; 2] {
             match pieces[n].dikey.and_then(|n| self.dikeys.get(n)) {
-                Some(dikey) => [
-                    dikey.frames[0].clone(),
-                    dikey.frames[dikey.frames.len() - 1].clone(),
-                ],
-                None => [
-                    self.mean_of(pieces[n].wanted.0),
-                    self.mean_of(pieces[n].wanted.1),
-                ],
+                Some(dikey) => [dikey.frames[0].clone(), dikey.frames[dikey.frames.len() - 1].clone()],
+                None => [self.mean_of(pieces[n].wanted.0), self.mean_of(pieces[n].wanted.1)],
             }
         };
         let Some((first, last)) = wanted.first().zip(wanted.last()) else {
@@ -432,19 +403,19 @@ impl Dictionary {
 }
 
 /// Returns a dikey's parameters at a share of its new time; beyond the longest stretch it waits at its target.
-fn warped(dikey: &Dikey, share: f64, length: f64, rate: f64) -> Vec<f64> {
+fn warped(dikey: &KeyTransition, share: f64, length: f64, rate: f64) -> Vec<f64> {
     let last = dikey.frames.len() - 1;
-    let own = last as f64 / rate;
-    let moving = length.min(own * STRETCH.1);
+    let dikey_seconds = last as f64 / rate;
+    let moving = length.min(dikey_seconds * DIKEY_STRETCH_RANGE.1);
     let share = (share * length / moving.max(1e-9)).min(1.0);
-    let at = share * last as f64;
-    let first = (at.floor() as usize).min(last);
+    let frame_position = share * last as f64;
+    let first = (frame_position.floor() as usize).min(last);
     let next = (first + 1).min(last);
     let both = dikey.frames[first].iter().zip(&dikey.frames[next]);
-    both.map(|(a, b)| a + (b - a) * at.fract()).collect()
+    both.map(|(a, b)| a + (b - a) * frame_position.fract()).collect()
 }
 
-struct Candidate {
+struct DikeyCandidate {
     dikey: Option<usize>,
     duration: f64,
     ends: [Vec<f64>; 2],
@@ -486,7 +457,7 @@ mod tests {
                 for _ in 0..3 {
                     let frames = 2 + (random(&mut seed) * 20.0) as usize;
                     let row = |seed: &mut u64| vec![random(seed), random(seed)];
-                    dikeys.push(Dikey {
+                    dikeys.push(KeyTransition {
                         from: pair[0],
                         to: pair[1],
                         frames: (0..frames).map(|_| row(&mut seed)).collect(),
@@ -494,33 +465,28 @@ mod tests {
                     });
                 }
             }
-            let book = Dictionary::new(dikeys, 50.0, &[2.0, 1.0], places());
+            let book = DikeyDictionary::new(dikeys, 50.0, &[2.0, 1.0], places());
             let times: Vec<(DikeyEnd, f64)> = keys
                 .iter()
                 .zip([0.0, 0.2, 0.5, 0.7])
                 .map(|(key, time)| (*key, time))
                 .collect();
-            let costs = Costs::default();
-            let pieces = book.select(&times, &costs);
-            let sum: f64 = pieces
-                .iter()
-                .map(|piece| piece.duration_cost + piece.join_cost)
-                .sum();
-            let of = |n: usize| {
-                book.candidates(keys[n], keys[n + 1], times[n + 1].1 - times[n].1, &costs)
-            };
+            let costs = DikeyCostWeights::default();
+            let pieces = book.select_dikeys(&times, &costs);
+            let sum: f64 = pieces.iter().map(|piece| piece.duration_cost + piece.join_cost).sum();
+            let of = |n: usize| book.dikey_candidates(keys[n], keys[n + 1], times[n + 1].1 - times[n].1, &costs);
             let (a, b, c) = (of(0), of(1), of(2));
             let mut best = f64::INFINITY;
             for a in &a {
                 for b in &b {
                     for c in &c {
-                        let joins = book.join(a, b, &costs) + book.join(b, c, &costs);
+                        let joins = book.dikey_join_cost(a, b, &costs) + book.dikey_join_cost(b, c, &costs);
                         best = best.min(a.duration + b.duration + c.duration + joins);
                     }
                 }
             }
             assert!((sum - best).abs() < 1e-12, "{sum} {best}");
-            assert_eq!(pieces, book.select(&times, &costs));
+            assert_eq!(pieces, book.select_dikeys(&times, &costs));
         }
     }
 
@@ -528,10 +494,7 @@ mod tests {
     fn take(keys: &[DikeyEnd], seed: &mut u64) -> (Vec<Vec<f64>>, Vec<(DikeyEnd, usize)>) {
         let at = |key: DikeyEnd, seed: &mut u64| {
             let place = places()[&key.placement];
-            vec![
-                place[0] + random(seed),
-                f64::from(key.shape) * 10.0 + random(seed),
-            ]
+            vec![place[0] + random(seed), f64::from(key.shape) * 10.0 + random(seed)]
         };
         let goals: Vec<Vec<f64>> = keys.iter().map(|key| at(*key, seed)).collect();
         let mut rows = Vec::new();
@@ -539,21 +502,11 @@ mod tests {
             for step in 0..10 {
                 let share = f64::from(step) / 10.0;
                 let eased = share * share * (3.0 - 2.0 * share);
-                rows.push(
-                    pair[0]
-                        .iter()
-                        .zip(&pair[1])
-                        .map(|(a, b)| a + (b - a) * eased)
-                        .collect(),
-                );
+                rows.push(pair[0].iter().zip(&pair[1]).map(|(a, b)| a + (b - a) * eased).collect());
             }
         }
         rows.push(goals[goals.len() - 1].clone());
-        let targets = keys
-            .iter()
-            .enumerate()
-            .map(|(n, key)| (*key, 10 * n))
-            .collect();
+        let targets = keys.iter().enumerate().map(|(n, key)| (*key, 10 * n)).collect();
         (rows, targets)
     }
 
@@ -577,21 +530,21 @@ mod tests {
             key(0, 0),
         ];
         let (rows, targets) = take(&keys, &mut seed);
-        let book = Dictionary::new(
-            Dictionary::cut(&rows, &targets, "take 1"),
+        let book = DikeyDictionary::new(
+            DikeyDictionary::cut_dikeys(&rows, &targets, "take 1"),
             50.0,
             &[1.0, 1.0],
             places(),
         );
-        assert_eq!(book.kinds(), 6);
+        assert_eq!(book.count_dikey_kinds(), 6);
         let wanted = timed(&targets);
-        let pieces = book.select(&wanted, &Costs::default());
+        let pieces = book.select_dikeys(&wanted, &DikeyCostWeights::default());
         assert!(
             pieces
                 .iter()
                 .all(|piece| piece.instead.is_none() && piece.dikey.is_some())
         );
-        let made = book.render(&pieces, &wanted);
+        let made = book.render_dikeys(&pieces, &wanted);
         assert_eq!(made.len(), rows.len());
         for (made, row) in made.iter().zip(&rows) {
             for (a, b) in made.iter().zip(row) {
@@ -603,66 +556,52 @@ mod tests {
     #[test]
     fn a_missing_dikey_is_taken_from_the_nearest_placement_and_joins_the_next() {
         let mut seed = 9;
-        let (rows, targets) = take(
-            &[key(1, 1), key(2, 2), key(3, 3), key(4, 3), key(1, 1)],
-            &mut seed,
-        );
-        let book = Dictionary::new(
-            Dictionary::cut(&rows, &targets, "take 1"),
+        let (rows, targets) = take(&[key(1, 1), key(2, 2), key(3, 3), key(4, 3), key(1, 1)], &mut seed);
+        let book = DikeyDictionary::new(
+            DikeyDictionary::cut_dikeys(&rows, &targets, "take 1"),
             50.0,
             &[1.0, 1.0],
             places(),
         );
         // The pair from 22 to 33 exists, that to 53 does not; the chin is nearest to the throat.
         let wanted = timed(&[(key(1, 1), 0), (key(2, 2), 10), (key(5, 3), 25)]);
-        let pieces = book.select(&wanted, &Costs::default());
+        let pieces = book.select_dikeys(&wanted, &DikeyCostWeights::default());
         assert_eq!(pieces[1].instead, Some((key(2, 2), key(3, 3))));
         assert_eq!(pieces[0].instead, None);
-        let wanted = timed(&[
-            (key(1, 1), 0),
-            (key(2, 2), 10),
-            (key(3, 3), 20),
-            (key(4, 3), 30),
-        ]);
-        let pieces = book.select(&wanted, &Costs::default());
-        let made = book.render(&pieces, &wanted);
+        let wanted = timed(&[(key(1, 1), 0), (key(2, 2), 10), (key(3, 3), 20), (key(4, 3), 30)]);
+        let pieces = book.select_dikeys(&wanted, &DikeyCostWeights::default());
+        let made = book.render_dikeys(&pieces, &wanted);
         let jump = made
             .windows(2)
             .map(|pair| (pair[1][0] - pair[0][0]).abs())
             .fold(0.0, f64::max);
         assert!(jump < 20.0, "no jump at joins: {jump}");
         let none = timed(&[(key(5, 7), 0), (key(4, 8), 10)]);
-        let pieces = book.select(&none, &Costs::default());
+        let pieces = book.select_dikeys(&none, &DikeyCostWeights::default());
         assert_eq!((pieces[0].dikey, &*pieces[0].source), (None, "synthetic"));
-        assert_eq!(book.render(&pieces, &none).len(), 11);
-        let missing = book.missing(&[vec![key(1, 1), key(2, 2), key(5, 3)]]);
-        assert_eq!(
-            missing.into_iter().collect::<Vec<_>>(),
-            [((key(2, 2), key(5, 3)), 1)]
-        );
-        let script = [
-            vec![key(1, 1), key(2, 2)],
-            vec![key(2, 2), key(5, 3), key(1, 1)],
-        ];
+        assert_eq!(book.render_dikeys(&pieces, &none).len(), 11);
+        let missing = book.missing_dikeys(&[vec![key(1, 1), key(2, 2), key(5, 3)]]);
+        assert_eq!(missing.into_iter().collect::<Vec<_>>(), [((key(2, 2), key(5, 3)), 1)]);
+        let script = [vec![key(1, 1), key(2, 2)], vec![key(2, 2), key(5, 3), key(1, 1)]];
         assert_eq!(book.worth_recording(&script, 5), [(1, 2)]);
     }
 
     #[test]
     fn an_empty_dictionary_and_odd_rows_are_accepted() {
-        let book = Dictionary::new(Vec::new(), 50.0, &[1.0], places());
-        assert!(book.select(&[], &Costs::default()).is_empty());
-        assert!(book.render(&[], &[]).is_empty());
+        let book = DikeyDictionary::new(Vec::new(), 50.0, &[1.0], places());
+        assert!(book.select_dikeys(&[], &DikeyCostWeights::default()).is_empty());
+        assert!(book.render_dikeys(&[], &[]).is_empty());
         let wanted = [(key(1, 1), 0.0), (key(2, 2), 0.3)];
-        let pieces = book.select(&wanted, &Costs::default());
-        assert_eq!(book.render(&pieces, &wanted).len(), 16);
-        let odd = Dikey {
+        let pieces = book.select_dikeys(&wanted, &DikeyCostWeights::default());
+        assert_eq!(book.render_dikeys(&pieces, &wanted).len(), 16);
+        let odd = KeyTransition {
             from: key(1, 1),
             to: key(2, 2),
             frames: vec![vec![f64::NAN], vec![1.0]],
             source: String::new(),
         };
         assert_eq!(
-            Dictionary::new(vec![odd], 50.0, &[1.0], places()).kinds(),
+            DikeyDictionary::new(vec![odd], 50.0, &[1.0], places()).count_dikey_kinds(),
             0
         );
     }

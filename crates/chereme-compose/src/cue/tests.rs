@@ -4,41 +4,41 @@
 use std::sync::Arc;
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Rate, Side};
-use chereme_sign::Handedness;
+use chereme_motion::{BodyAnatomy, BodySide, Clip, FrameRate, HandAngles, ModelPose};
+use chereme_sign::SignerHandedness;
 
-use super::places::{Head, clearance};
+use super::cue_places::{CueHeadSpace, lip_clearance};
 use super::*;
 use crate::poses::PoseOrigin;
-use crate::sources::Material;
+use crate::sources::MovementMaterial;
 use crate::testing::{Axes, skeleton};
-use crate::units::{Factor, Hands};
+use crate::units::{HandChoice, RecipeFactor};
 
-fn work(axes: Axes, frames: u32) -> Work {
+fn work(axes: Axes, frames: u32) -> WorkingClip {
     let skeleton = Arc::new(skeleton(axes, 1.0));
-    let rate = Rate::new(frames, 1).expect("a rate");
-    Work::of(&Material {
+    let rate = FrameRate::new(frames, 1).expect("a rate");
+    WorkingClip::working_clip_from(&MovementMaterial {
         address: "stage".into(),
         hash: "stage".into(),
         gloss: "rest".into(),
         signer: None,
-        handedness: Handedness::Right,
-        clip: Clip::still(Arc::clone(&skeleton), rate, 1),
-        anatomy: Arc::new(Anatomy::detect(&skeleton)),
+        handedness: SignerHandedness::Right,
+        clip: Clip::from_rest_pose(Arc::clone(&skeleton), rate, 1),
+        anatomy: Arc::new(BodyAnatomy::detect_anatomy(&skeleton)),
         held: Vec::new(),
         curves: Vec::new(),
     })
 }
 
-fn settings(text: &str, phase: PhaseRule) -> Cue {
-    Cue {
+fn settings(text: &str, phase: PhaseRule) -> CueSettings {
+    CueSettings {
         text: text.to_owned(),
         phones: None,
         code: None,
         variants: Vec::new(),
-        hand: Hands::Dominant,
+        hand: HandChoice::Dominant,
         phase,
-        pace: Some(Factor(1.6)),
+        pace: Some(RecipeFactor(1.6)),
         on: None,
     }
 }
@@ -72,45 +72,39 @@ fn shapes() -> Vec<(u8, HandPose)> {
 }
 
 /// All eight shapes and five placements.
-const ALL: &str =
-    "bonjour le chat dort sur un beau fauteuil vert et gagne du pain blanc, puis il mange";
+const ALL: &str = "bonjour le chat dort sur un beau fauteuil vert et gagne du pain blanc, puis il mange";
 
 #[test]
 fn the_fingertip_reaches_every_target_on_any_axes_and_under_any_timing_rule() {
     for axes in [Axes::Plain, Axes::Odd] {
-        for phase in PhaseRule::ALL {
+        for phase in PhaseRule::ALL_PHASE_RULES {
             let mut work = work(axes, 120);
             let settings = settings(ALL, phase);
-            let done = cue(&mut work, &settings, &shapes(), &CuePhases::default()).expect("cued");
+            let done = perform_cues(&mut work, &settings, &shapes(), &CuePhases::default()).expect("cued");
             assert!(done.residual < 1e-3, "{axes:?} {phase:?} {}", done.residual);
-            let read = read(&settings).expect("read");
-            let model = ModelPose::of(&work.skeleton, &work.pose(0));
-            let head =
-                Head::of(&work.anatomy, &work.skeleton, &model, Side::Right).expect("a head");
-            let held: Vec<&Note> = work
+            let read = read_cue_utterance(&settings).expect("read");
+            let model = ModelPose::from_local_pose(&work.skeleton, &work.local_pose_at(0));
+            let head = CueHeadSpace::from_head_posture(&work.anatomy, &work.skeleton, &model, BodySide::Right)
+                .expect("a head");
+            let held: Vec<&GeneratedNote> = work
                 .notes
                 .iter()
-                .filter(|note| note.about == About::Component(Component::Placement, None))
+                .filter(|note| note.about == NoteSubject::Component(SignComponent::Placement, None))
                 .collect();
             assert_eq!(held.len(), read.keys.len());
             for (note, key) in held.iter().zip(&read.keys) {
-                let frame = work.rate.frame_at(note.span.start()) + 1;
-                let model = ModelPose::of(&work.skeleton, &work.pose(frame));
-                let shape = read.code.shape(key.shape).expect("a shape");
+                let frame = work.rate.nearest_frame_at(note.span.span_start_instant()) + 1;
+                let model = ModelPose::from_local_pose(&work.skeleton, &work.local_pose_at(frame));
+                let shape = read.code.find_cue_shape(key.shape).expect("a shape");
                 let name = format!("right-{}-tip", shape.points_with);
                 let tip = work
                     .anatomy
-                    .landmark(&work.skeleton, &model, &name)
+                    .landmark_place_position(&work.skeleton, &model, &name)
                     .expect("a tip");
-                let at = head.point(head.spot(&key.placement).expect("a place").at);
+                let at = head.head_to_model_point(head.find_cue_spot(&key.placement).expect("a place").at);
                 // Under rules other than the paper's the fingers may still be moving.
                 if phase == PhaseRule::Paper {
-                    assert!(
-                        tip.distance(at) < 0.01,
-                        "{} {}",
-                        key.placement,
-                        tip.distance(at)
-                    );
+                    assert!(tip.distance(at) < 0.01, "{} {}", key.placement, tip.distance(at));
                 }
             }
         }
@@ -121,60 +115,52 @@ fn the_fingertip_reaches_every_target_on_any_axes_and_under_any_timing_rule() {
 fn targets_keep_the_timing_rule_within_a_frame_and_leave_the_lips_free() {
     let mut work = work(Axes::Plain, 120);
     let settings = settings(ALL, PhaseRule::Paper);
-    let done = cue(&mut work, &settings, &shapes(), &CuePhases::default()).expect("cued");
+    let done = perform_cues(&mut work, &settings, &shapes(), &CuePhases::default()).expect("cued");
     assert!(done.warnings.is_empty(), "{:?}", done.warnings);
-    let read = read(&settings).expect("read");
+    let read = read_cue_utterance(&settings).expect("read");
     let of = |tier: CueTier| {
-        let own = work
-            .notes
-            .iter()
-            .filter(move |it| it.about == About::Cue(tier));
-        own.cloned().collect::<Vec<Note>>()
+        let own = work.notes.iter().filter(move |it| it.about == NoteSubject::Cue(tier));
+        own.cloned().collect::<Vec<GeneratedNote>>()
     };
     let keys = of(CueTier::Keys);
-    let hand: Vec<Note> = of(CueTier::Hand)
+    let hand: Vec<GeneratedNote> = of(CueTier::Hand)
         .into_iter()
-        .filter(|note| note.value.value().is_some_and(|it| !it.ends_with("rest-0")))
+        .filter(|note| note.value.reading_value().is_some_and(|it| !it.ends_with("rest-0")))
         .collect();
     assert_eq!((keys.len(), hand.len()), (read.keys.len(), read.keys.len()));
     let mut inside = 0;
     let mut pairs = 0;
     for ((key, hand), own) in keys.iter().zip(&hand).zip(&read.keys) {
-        let shift = key.span.start().micros() - own.span.expect("times").start().micros();
+        let shift = key.span.span_start_instant().instant_micros()
+            - own.span.expect("times").span_start_instant().instant_micros();
         let wanted = match own.vowel {
             Some(vowel) if own.phones.len() > 1 => {
-                let vowel = vowel.start().micros() + shift;
+                let vowel = vowel.span_start_instant().instant_micros() + shift;
                 pairs += 1;
-                let within = key.span.start().micros()..vowel;
-                inside += usize::from(within.contains(&hand.span.end().micros()));
-                (key.span.start().micros() + vowel) / 2
+                let within = key.span.span_start_instant().instant_micros()..vowel;
+                inside += usize::from(within.contains(&hand.span.span_end_instant().instant_micros()));
+                (key.span.span_start_instant().instant_micros() + vowel) / 2
             }
-            _ => key.span.start().micros(),
+            _ => key.span.span_start_instant().instant_micros(),
         };
-        let off = (hand.span.end().micros() - wanted).abs();
+        let off = (hand.span.span_end_instant().instant_micros() - wanted).abs();
         assert!(off <= 8_334, "{:?} is off by {off} us", own.phones);
     }
-    assert!(
-        inside * 100 >= pairs * 99,
-        "{inside} of {pairs} in their consonant"
-    );
-    let faces = crate::face::faces(&work.curves);
+    assert!(inside * 100 >= pairs * 99, "{inside} of {pairs} in their consonant");
+    let faces = crate::face::faces_from_curves(&work.curves);
     assert!(faces.iter().any(|face| face.jaw > 0.6) && faces.iter().any(|face| face.pressed > 0.4));
-    let model = ModelPose::of(&work.skeleton, &work.pose(0));
-    let head = Head::of(&work.anatomy, &work.skeleton, &model, Side::Right).expect("a head");
+    let model = ModelPose::from_local_pose(&work.skeleton, &work.local_pose_at(0));
+    let head = CueHeadSpace::from_head_posture(&work.anatomy, &work.skeleton, &model, BodySide::Right).expect("a head");
     let anatomy = &work.anatomy;
     for (frame, face) in faces.iter().enumerate().take(work.frames) {
-        let model = ModelPose::of(&work.skeleton, &work.pose(frame));
+        let model = ModelPose::from_local_pose(&work.skeleton, &work.local_pose_at(frame));
         for finger in ["index", "middle"] {
             let name = format!("right-{finger}-tip");
             let tip: DVec3 = anatomy
-                .landmark(&work.skeleton, &model, &name)
+                .landmark_place_position(&work.skeleton, &model, &name)
                 .expect("a tip");
-            let clear = clearance(head.local(tip), face, head.size);
-            assert!(
-                clear > -0.02,
-                "the {finger} finger covers the lips at {frame}: {clear}"
-            );
+            let clear = lip_clearance(head.model_to_head_point(tip), face, head.size);
+            assert!(clear > -0.02, "the {finger} finger covers the lips at {frame}: {clear}");
         }
     }
 }
@@ -183,7 +169,7 @@ fn targets_keep_the_timing_rule_within_a_frame_and_leave_the_lips_free() {
 fn sentences_that_cannot_be_cued_are_refused_with_a_reason() {
     let mut work = work(Axes::Plain, 60);
     for (text, message) in [("", "nothing"), ("!!!", "nothing"), ("…", "nothing")] {
-        let error = cue(
+        let error = perform_cues(
             &mut work,
             &settings(text, PhaseRule::Paper),
             &shapes(),
@@ -192,17 +178,14 @@ fn sentences_that_cannot_be_cued_are_refused_with_a_reason() {
         assert!(error.is_err(), "{text:?} {message}");
     }
     let long = "papa ".repeat(30_000);
-    let error = cue(
+    let error = perform_cues(
         &mut work,
         &settings(&long, PhaseRule::Paper),
         &shapes(),
         &CuePhases::default(),
     );
-    assert!(
-        matches!(error, Err(Cause::TooLong { .. })),
-        "hours are refused"
-    );
+    assert!(matches!(error, Err(StepError::TooLong { .. })), "hours are refused");
     let mut other = settings("a", PhaseRule::Paper);
     other.code = Some("klingon".into());
-    assert!(cue(&mut work, &other, &shapes(), &CuePhases::default()).is_err());
+    assert!(perform_cues(&mut work, &other, &shapes(), &CuePhases::default()).is_err());
 }

@@ -1,6 +1,6 @@
 //! Computes the times at which the hand and the fingers move for each key, by a rule of phases.
 
-use chereme_sign::cue::Key;
+use chereme_sign::cue::HandCueKey;
 use serde::{Deserialize, Serialize};
 
 /// The rule that decides when the hand moves.
@@ -22,17 +22,11 @@ pub enum PhaseRule {
 
 impl PhaseRule {
     /// Every rule.
-    pub const ALL: [Self; 5] = [
-        Self::Paper,
-        Self::Attina,
-        Self::Sppas,
-        Self::Duchnowski,
-        Self::Measured,
-    ];
+    pub const ALL_PHASE_RULES: [Self; 5] = [Self::Paper, Self::Attina, Self::Sppas, Self::Duchnowski, Self::Measured];
 
     /// Returns the word recipes print.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn phase_rule_name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Attina => "attina",
@@ -76,7 +70,7 @@ pub enum KeyType {
 
 /// The times of a key's sounds in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sound {
+pub struct KeySoundTimes {
     /// The type of the key.
     pub kind: KeyType,
     /// The acoustic start of the key.
@@ -101,17 +95,20 @@ pub struct KeyTimes {
 }
 
 /// The share of the key's length before its start at which the hand leaves for it (Attina 2005).
-const LEAVES: f64 = 0.62;
+const HAND_LEAVE_SHARE: f64 = 0.62;
 /// The least time between two targets, in seconds.
-const APART: f64 = 0.06;
+const MIN_TARGET_GAP_S: f64 = 0.06;
 
 /// Returns the sounds of keys; `None` if a key has no times.
 #[must_use]
-pub fn sounds(keys: &[Key]) -> Option<Vec<Sound>> {
-    let mut sounds: Vec<Sound> = Vec::with_capacity(keys.len());
+pub fn key_sound_times(keys: &[HandCueKey]) -> Option<Vec<KeySoundTimes>> {
+    let mut sounds: Vec<KeySoundTimes> = Vec::with_capacity(keys.len());
     for (n, key) in keys.iter().enumerate() {
         let span = key.span?;
-        let (mut a1, a3) = (span.start().seconds(), span.end().seconds());
+        let (mut a1, a3) = (
+            span.span_start_instant().instant_seconds(),
+            span.span_end_instant().instant_seconds(),
+        );
         let glides = n > 0 && key.from.len() == 1 && keys[n - 1].from.last() == key.from.first();
         if glides {
             // The second placement of a diphthong gets the second half of its time.
@@ -120,13 +117,13 @@ pub fn sounds(keys: &[Key]) -> Option<Vec<Sound>> {
                 before.a3 = a1;
             }
         }
-        let vowel = key.vowel.map(|vowel| vowel.start().seconds());
+        let vowel = key.vowel.map(|vowel| vowel.span_start_instant().instant_seconds());
         let (kind, a2) = match vowel {
             Some(start) if key.phones.len() > 1 => (KeyType::Pair, start.max(a1)),
             Some(_) => (KeyType::Vowel, a1),
             None => (KeyType::Consonant, a3),
         };
-        sounds.push(Sound { kind, a1, a2, a3 });
+        sounds.push(KeySoundTimes { kind, a1, a2, a3 });
     }
     Some(sounds)
 }
@@ -136,31 +133,30 @@ pub fn sounds(keys: &[Key]) -> Option<Vec<Sound>> {
 /// A movement never begins before the previous one has reached its target. Targets keep the times of the rule, unless
 /// the previous target is later or nearly as late.
 #[must_use]
-pub fn times(sounds: &[Sound], rule: PhaseRule, measured: &CuePhases) -> Vec<KeyTimes> {
-    let mean =
-        sounds.iter().map(|sound| sound.a3 - sound.a1).sum::<f64>() / sounds.len().max(1) as f64;
+pub fn plan_key_times(sounds: &[KeySoundTimes], rule: PhaseRule, measured: &CuePhases) -> Vec<KeyTimes> {
+    let mean = sounds.iter().map(|sound| sound.a3 - sound.a1).sum::<f64>() / sounds.len().max(1) as f64;
     let mut all: Vec<KeyTimes> = Vec::with_capacity(sounds.len());
     for (n, sound) in sounds.iter().enumerate() {
-        let mut own = wanted(sound, rule, measured, mean);
+        let mut key_times = ideal_key_times(sound, rule, measured, mean);
         if let Some(before) = n.checked_sub(1).and_then(|n| all.get(n)) {
-            own.m2 = own.m2.max(before.m2 + APART);
-            own.d2 = own.d2.max(before.d2 + APART);
-            own.m1 = own.m1.clamp(before.m2, own.m2);
-            own.d1 = own.d1.clamp(before.d2, own.d2);
+            key_times.m2 = key_times.m2.max(before.m2 + MIN_TARGET_GAP_S);
+            key_times.d2 = key_times.d2.max(before.d2 + MIN_TARGET_GAP_S);
+            key_times.m1 = key_times.m1.clamp(before.m2, key_times.m2);
+            key_times.d1 = key_times.d1.clamp(before.d2, key_times.d2);
         }
-        all.push(own);
+        all.push(key_times);
     }
     all
 }
 
 /// Returns the times that a rule gives for one key, regardless of other keys; `mean` is the mean length of keys.
-fn wanted(sound: &Sound, rule: PhaseRule, measured: &CuePhases, mean: f64) -> KeyTimes {
+fn ideal_key_times(sound: &KeySoundTimes, rule: PhaseRule, measured: &CuePhases, mean: f64) -> KeyTimes {
     let (a1, d) = (sound.a1, sound.a3 - sound.a1);
     let consonant = sound.a2 - a1;
     let together = |target: f64| KeyTimes {
-        m1: (a1 - LEAVES * d).min(target - APART),
+        m1: (a1 - HAND_LEAVE_SHARE * d).min(target - MIN_TARGET_GAP_S),
         m2: target,
-        d1: (a1 - LEAVES * d).min(target - APART),
+        d1: (a1 - HAND_LEAVE_SHARE * d).min(target - MIN_TARGET_GAP_S),
         d2: target,
     };
     let spread = |m1: f64, m2: f64, d1: f64, d2: f64| KeyTimes {
@@ -177,24 +173,13 @@ fn wanted(sound: &Sound, rule: PhaseRule, measured: &CuePhases, mean: f64) -> Ke
         (PhaseRule::Measured, KeyType::Consonant) => together(a1 + measured.consonant),
         (PhaseRule::Attina, KeyType::Vowel) => spread(-0.46 * d, 0.21 * d, -0.36 * d, 0.0),
         (PhaseRule::Attina, _) => spread(-0.62 * d, 0.10 * d, -0.54 * d, 0.0),
-        (PhaseRule::Sppas, KeyType::Pair) => spread(
-            -(0.8 * mean).max(0.35),
-            0.11 * mean,
-            -0.65 * mean,
-            -0.4 * mean,
-        ),
-        (PhaseRule::Sppas, KeyType::Consonant) => spread(
-            -(1.6 * mean).max(0.5),
-            -0.3 * mean,
-            -1.15 * mean,
-            -0.55 * mean,
-        ),
-        (PhaseRule::Sppas, KeyType::Vowel) => spread(
-            -(2.4 * mean).max(0.6),
-            -0.6 * mean,
-            -(1.8 * mean).max(0.4),
-            -1.2 * mean,
-        ),
+        (PhaseRule::Sppas, KeyType::Pair) => spread(-(0.8 * mean).max(0.35), 0.11 * mean, -0.65 * mean, -0.4 * mean),
+        (PhaseRule::Sppas, KeyType::Consonant) => {
+            spread(-(1.6 * mean).max(0.5), -0.3 * mean, -1.15 * mean, -0.55 * mean)
+        }
+        (PhaseRule::Sppas, KeyType::Vowel) => {
+            spread(-(2.4 * mean).max(0.6), -0.6 * mean, -(1.8 * mean).max(0.4), -1.2 * mean)
+        }
         (PhaseRule::Duchnowski, _) => spread(-0.25, -0.1, -0.25, -0.1),
     }
 }
@@ -204,8 +189,8 @@ mod tests {
     use super::*;
 
     /// A pair, a vowel alone and a consonant alone, 300 ms each.
-    fn three() -> Vec<Sound> {
-        let sound = |kind, a1: f64, a2: f64| Sound {
+    fn three() -> Vec<KeySoundTimes> {
+        let sound = |kind, a1: f64, a2: f64| KeySoundTimes {
             kind,
             a1,
             a2,
@@ -234,7 +219,7 @@ mod tests {
             (PhaseRule::Measured, [1.025, 1.32, 1.57]),
         ];
         for (rule, expected) in cases {
-            let found = times(&three(), rule, &measured);
+            let found = plan_key_times(&three(), rule, &measured);
             for (key, expected) in found.iter().zip(expected) {
                 assert!((key.m2 - expected).abs() < 1e-9, "{rule:?} {key:?}");
             }
@@ -243,13 +228,10 @@ mod tests {
 
     #[test]
     fn cued_movements_never_overlap() {
-        for rule in PhaseRule::ALL {
-            let found = times(&three(), rule, &CuePhases::default());
+        for rule in PhaseRule::ALL_PHASE_RULES {
+            let found = plan_key_times(&three(), rule, &CuePhases::default());
             for pair in found.windows(2) {
-                assert!(
-                    pair[1].m1 >= pair[0].m2 && pair[1].d1 >= pair[0].d2,
-                    "{rule:?}"
-                );
+                assert!(pair[1].m1 >= pair[0].m2 && pair[1].d1 >= pair[0].d2, "{rule:?}");
             }
             assert!(found.iter().all(|it| it.m1 <= it.m2 && it.d1 <= it.d2));
         }

@@ -1,54 +1,54 @@
 //! Tests of two hands beside each other, and of paths that would lead through the trunk or be lost in a turn.
 
-use chereme_motion::{ModelPose, Part, Side};
+use chereme_motion::{BodyPart, BodySide, ModelPose};
 use chereme_sign::hamnosys::{
-    BodyLanguage, BodyLocation, Constellation, Contact, HandClass, HandsUsed, Motion, MotionKind,
-    Notated, Place, Posture, WristMotion, from_names, parse,
+    BodyLanguage, BodyLocation, HandClass, HandConstellation, HandPlace, HandsUsed, MotionKind, NotatedMotion,
+    NotatedPosture, NotatedSign, PlaceContact, WristMotion, from_names, parse_hamnosys,
 };
 
-use super::skull::Skull;
-use super::stage::Stage;
+use super::notation_stage::StandingBody;
+use super::skull::SkullEllipsoid;
 use super::tests::{at, directed, mirrored, notated, posture, stage};
 use super::*;
-use crate::About;
+use crate::NoteSubject;
 use crate::testing::Axes;
 
 /// Animates a sign, given by the names of its symbols, on a body that does not sway.
-fn made(names: &str) -> Generated {
+fn made(names: &str) -> GeneratedMovement {
     let text = from_names(names.split(' ')).expect("names of symbols");
-    animated(&Notated {
-        sign: parse(&text).expect("HamNoSys").sign,
-        ..Notated::default()
+    animated(&NotatedSign {
+        sign: parse_hamnosys(&text).expect("HamNoSys").sign,
+        ..NotatedSign::default()
     })
 }
 
 /// Animates a sign on a body that does not sway.
-fn animated(sign: &Notated) -> Generated {
-    let settings = Settings {
-        language: BodyLanguage::usual().without_life(),
-        ..Settings::default()
+fn animated(sign: &NotatedSign) -> GeneratedMovement {
+    let settings = AnimatorSettings {
+        language: BodyLanguage::default_body_language().without_life(),
+        ..AnimatorSettings::default()
     };
-    animate(&[sign], &stage(Axes::Plain), &settings).expect("it can be animated")
+    animate_signs(&[sign], &stage(Axes::Plain), &settings).expect("it can be animated")
 }
 
 /// Returns the postures from the sign's first to its last.
-fn postures(made: &Generated) -> Vec<ModelPose> {
-    let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
+fn postures(made: &GeneratedMovement) -> Vec<ModelPose> {
+    let gloss = made.notes.iter().find(|note| note.about == NoteSubject::Gloss);
     let span = gloss.expect("the gloss is noted").span;
-    let rate = made.clip.rate();
-    let frames = rate.frame_at(span.start())..rate.frame_at(span.end());
+    let rate = made.clip.clip_frame_rate();
+    let frames = rate.nearest_frame_at(span.span_start_instant())..rate.nearest_frame_at(span.span_end_instant());
     frames.map(|frame| made.clip.model_pose(frame)).collect()
 }
 
 /// Returns the least distance (m) of a hand's joints from the signer's middle, to its own side.
-fn own_side(made: &Generated, side: Side) -> f64 {
-    let body = Stage::of(&stage(Axes::Plain)).expect("a body");
-    let outwards = body.left * side.sign();
-    let joints = made.anatomy.fingers(side);
+fn own_side(made: &GeneratedMovement, side: BodySide) -> f64 {
+    let body = StandingBody::body_from_material(&stage(Axes::Plain)).expect("a body");
+    let outwards = body.left * side.side_sign();
+    let joints = made.anatomy.finger_joints(side);
     let postures = postures(made);
     let all = postures.iter().flat_map(|model| {
-        let at = joints.iter().map(|joint| model.position(*joint));
-        at.map(|at| (at - body.middle()).dot(outwards))
+        let at = joints.iter().map(|joint| model.model_joint_position(*joint));
+        at.map(|at| (at - body.shoulder_middle()).dot(outwards))
     });
     all.fold(f64::INFINITY, f64::min)
 }
@@ -59,7 +59,7 @@ fn two_unlike_hands_at_one_place_are_beside_each_other() {
         "hamparbegin hamflathand hamextfingero hampalml hamplus hamflathand hamextfingero hampalmu hamparend \
          hamchest hammoved",
     );
-    for side in Side::BOTH {
+    for side in BodySide::BOTH_SIDES {
         let own = own_side(&made, side);
         assert!(own > 0.01, "{side:?}: {own} m");
     }
@@ -72,14 +72,12 @@ fn circles_of_hands_that_are_together_begin_at_each_other() {
             "hamsymmlr hamfinger2 hamextfingeruo hampalmd hamparbegin hamindexfinger hamfingertip hamplus \
              hamindexfinger hamfingertip hamparend hamclose {axis}"
         ));
-        for side in Side::BOTH {
+        for side in BodySide::BOTH_SIDES {
             let least = own_side(&made, side);
             assert!(least > -0.005, "{axis}, {side:?}: {least} m");
         }
         let said = &made.report.warnings;
-        let met = said
-            .iter()
-            .any(|said| said.contains("go through each other"));
+        let met = said.iter().any(|said| said.contains("go through each other"));
         assert!(!met, "{axis}: {said:?}");
     }
 }
@@ -87,7 +85,7 @@ fn circles_of_hands_that_are_together_begin_at_each_other() {
 #[test]
 fn mirrored_fists_lie_beside_each_other_on_the_chest() {
     let made = made("hamsymmlr hamfist hamextfingerl hampalmd hamchest hamtouch hamnomotion");
-    for side in Side::BOTH {
+    for side in BodySide::BOTH_SIDES {
         let least = own_side(&made, side);
         assert!(least > 0.0, "{side:?}: {least} m");
     }
@@ -103,11 +101,11 @@ fn palms_that_touch_each_other_stay_together_while_they_move() {
          hammovedo hamsmallmod hamrepeatfromstart",
     );
     let apart = postures(&made).into_iter().map(|model| {
-        let [right, left] = Side::BOTH.map(|side| {
-            let tip = format!("{}-middle-tip", side.name());
-            let skeleton = made.clip.skeleton();
+        let [right, left] = BodySide::BOTH_SIDES.map(|side| {
+            let tip = format!("{}-middle-tip", side.body_side_name());
+            let skeleton = made.clip.clip_skeleton();
             made.anatomy
-                .landmark(skeleton, &model, &tip)
+                .landmark_place_position(skeleton, &model, &tip)
                 .expect("a tip")
         });
         right.distance(left)
@@ -119,29 +117,25 @@ fn palms_that_touch_each_other_stay_together_while_they_move() {
 
 #[test]
 fn a_hand_without_movement_does_not_follow_the_other_to_its_place() {
-    let leads = Motion::new(MotionKind::Split(Some(Box::new(directed("ui"))), None));
-    let target = Motion::new(MotionKind::Target {
+    let leads = NotatedMotion::new(MotionKind::Split(Some(Box::new(directed("ui"))), None));
+    let target = NotatedMotion::new(MotionKind::Target {
         motion: Some(Box::new(leads)),
-        posture: Box::new(Posture {
-            place: Some(at(BodyLocation::Lips, Some(Contact::Touch))),
-            ..Posture::default()
+        posture: Box::new(NotatedPosture {
+            place: Some(at(BodyLocation::Lips, Some(PlaceContact::Touch))),
+            ..NotatedPosture::default()
         }),
     });
     let chest = Some(at(BodyLocation::Chest, None));
-    let sign = notated(
-        mirrored(),
-        posture(HandClass::Flat, "ol", "l", chest),
-        vec![target],
-    );
+    let sign = notated(mirrored(), posture(HandClass::Flat, "ol", "l", chest), vec![target]);
     let made = animated(&sign);
     let postures = postures(&made);
-    let far = Side::BOTH.map(|side| {
-        let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
+    let far = BodySide::BOTH_SIDES.map(|side| {
+        let hand = made.anatomy.part_joint(BodyPart::Hand(side)).expect("a hand");
         let [first, last] = [postures.first(), postures.last()];
         first
             .expect("some")
-            .position(hand)
-            .distance(last.expect("some").position(hand))
+            .model_joint_position(hand)
+            .distance(last.expect("some").model_joint_position(hand))
     });
     let [right, left] = far;
     assert!(right > 0.1 && left < 0.01, "{far:?} m");
@@ -156,10 +150,7 @@ fn a_big_level_circle_stays_before_the_trunk_as_a_whole() {
         let said = made.report.warnings.iter();
         let pushed = said.filter_map(|said| {
             let (_, rest) = said.split_once("was moved ")?;
-            rest.split_once(" cm out of the trunk")?
-                .0
-                .parse::<f64>()
-                .ok()
+            rest.split_once(" cm out of the trunk")?.0.parse::<f64>().ok()
         });
         let most = pushed.fold(0.0, f64::max);
         assert!(most < 3.0, "{start}: {most} cm");
@@ -172,11 +163,14 @@ fn a_turn_of_the_hand_does_not_consume_the_path_of_the_wrist() {
         "hamflathand hamextfingerui hampalmu hamear hamclose hamparbegin hammoveo hamlargemod hamreplace \
          hamextfingero hampalmd hamparend",
     );
-    let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
+    let hand = made
+        .anatomy
+        .part_joint(BodyPart::Hand(BodySide::Right))
+        .expect("a hand");
     let postures = postures(&made);
     let [first, last] = [postures.first(), postures.last()].map(|model| {
         let model = model.expect("some");
-        model.position(hand)
+        model.model_joint_position(hand)
     });
     let far = first.distance(last);
     assert!(far > 0.12, "{far} m");
@@ -185,14 +179,12 @@ fn a_turn_of_the_hand_does_not_consume_the_path_of_the_wrist() {
 #[test]
 fn fingers_that_play_in_a_pinch_stay_closed() {
     for shape in ["hampinch12", "hampinchall"] {
-        let made = made(&format!(
-            "{shape} hamextfingero hampalmu hamchest hamfingerplay"
-        ));
+        let made = made(&format!("{shape} hamextfingero hampalmu hamchest hamfingerplay"));
         let tip = |model: &ModelPose, digit: &str| {
-            let skeleton = made.clip.skeleton();
+            let skeleton = made.clip.clip_skeleton();
             let name = format!("right-{digit}-tip");
             made.anatomy
-                .landmark(skeleton, model, &name)
+                .landmark_place_position(skeleton, model, &name)
                 .expect("a tip")
         };
         let gaps: Vec<f64> = postures(&made)
@@ -207,34 +199,34 @@ fn fingers_that_play_in_a_pinch_stay_closed() {
 #[test]
 fn two_hands_close_to_each_other_stay_so_at_the_body() {
     let shoulders = || at(BodyLocation::Shoulders, None);
-    let near = Place::Hands(Constellation {
-        contact: Some(Contact::Close),
+    let near = HandPlace::Hands(HandConstellation {
+        contact: Some(PlaceContact::Close),
         at: match shoulders() {
-            Place::Body(place) => Some(place),
+            HandPlace::Body(place) => Some(place),
             _ => None,
         },
-        ..Constellation::default()
+        ..HandConstellation::default()
     });
-    let target = |place: Place| {
-        Motion::new(MotionKind::Target {
+    let target = |place: HandPlace| {
+        NotatedMotion::new(MotionKind::Target {
             motion: Some(Box::new(directed("i"))),
-            posture: Box::new(Posture {
+            posture: Box::new(NotatedPosture {
                 place: Some(place),
-                ..Posture::default()
+                ..NotatedPosture::default()
             }),
         })
     };
-    let apart = |first: Place, place: Place| {
+    let apart = |first: HandPlace, place: HandPlace| {
         let begun = posture(HandClass::Flat, "u", "l", Some(first));
         let made = animated(&notated(mirrored(), begun, vec![target(place)]));
         let last = postures(&made).pop().expect("some");
-        let [right, left] = Side::BOTH.map(|side| {
-            let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
-            last.position(hand)
+        let [right, left] = BodySide::BOTH_SIDES.map(|side| {
+            let hand = made.anatomy.part_joint(BodyPart::Hand(side)).expect("a hand");
+            last.model_joint_position(hand)
         });
         right.distance(left)
     };
-    let chest = at(BodyLocation::Chest, Some(Contact::Close));
+    let chest = at(BodyLocation::Chest, Some(PlaceContact::Close));
     let kept = apart(near, chest.clone());
     let own = apart(shoulders(), chest);
     assert!(kept < own - 0.05, "{kept} m of {own} m");
@@ -244,49 +236,39 @@ fn two_hands_close_to_each_other_stay_so_at_the_body() {
 fn fingers_go_round_the_head_unless_they_touch_it() {
     let inwards = || vec![directed("i")];
     for (contact, actions, most) in [
-        (Contact::Close, inwards(), 0.012),
-        (Contact::Touch, vec![], 0.1),
+        (PlaceContact::Close, inwards(), 0.012),
+        (PlaceContact::Touch, vec![], 0.1),
     ] {
         let sign = notated(
             HandsUsed::Dominant,
-            posture(
-                HandClass::Flat,
-                "i",
-                "l",
-                Some(at(BodyLocation::Nose, Some(contact))),
-            ),
+            posture(HandClass::Flat, "i", "l", Some(at(BodyLocation::Nose, Some(contact)))),
             actions,
         );
         let made = animated(&sign);
         let deep = postures(&made).into_iter().map(|model| {
-            let skeleton = made.clip.skeleton();
-            let skull = Skull::of(&made.anatomy, skeleton, &model).expect("a head");
+            let skeleton = made.clip.clip_skeleton();
+            let skull = SkullEllipsoid::skull_from_posture(&made.anatomy, skeleton, &model).expect("a head");
             let tip = made
                 .anatomy
-                .landmark(skeleton, &model, "right-middle-tip")
+                .landmark_place_position(skeleton, &model, "right-middle-tip")
                 .expect("a tip");
-            skull.offset_out(tip).length()
+            skull.offset_out_of_skull(tip).length()
         });
         let deep = deep.fold(0.0, f64::max);
         let said = &made.report.warnings;
         let reported = said.iter().any(|said| said.contains("through the head"));
         assert!(deep < most, "{deep} m, {said:?}");
-        assert_eq!(reported, contact == Contact::Close, "{said:?}");
+        assert_eq!(reported, contact == PlaceContact::Close, "{said:?}");
     }
 }
 
 #[test]
 fn a_hand_that_nods_at_the_skin_leaves_it_and_returns() {
-    let nods = |contact: Contact| {
+    let nods = |contact: PlaceContact| {
         let sign = notated(
             HandsUsed::Dominant,
-            posture(
-                HandClass::Flat,
-                "ul",
-                "r",
-                Some(at(BodyLocation::Chest, Some(contact))),
-            ),
-            vec![Motion::new(MotionKind::Wrist {
+            posture(HandClass::Flat, "ul", "r", Some(at(BodyLocation::Chest, Some(contact)))),
+            vec![NotatedMotion::new(MotionKind::Wrist {
                 motion: WristMotion::Nodding,
                 size: None,
             })],
@@ -295,63 +277,64 @@ fn a_hand_that_nods_at_the_skin_leaves_it_and_returns() {
         let ahead = postures(&made).into_iter().map(|model| {
             let tip = made
                 .anatomy
-                .landmark(made.clip.skeleton(), &model, "right-middle-tip")
+                .landmark_place_position(made.clip.clip_skeleton(), &model, "right-middle-tip")
                 .expect("a tip");
             let frame = made.anatomy.body_frame(&model).expect("a body");
             (tip - frame.origin).dot(frame.forward)
         });
         let all: Vec<f64> = ahead.collect();
         let first = all[0];
-        let [least, most] =
-            [f64::min, f64::max].map(|pick| all.iter().map(|at| at - first).fold(0.0, pick));
+        let [least, most] = [f64::min, f64::max].map(|pick| all.iter().map(|at| at - first).fold(0.0, pick));
         [least, most]
     };
-    let [least, most] = nods(Contact::Touch);
+    let [least, most] = nods(PlaceContact::Touch);
     assert!(least > -0.01 && most > 0.03, "{least} to {most} m");
-    let [least, most] = nods(Contact::ArmExtended);
+    let [least, most] = nods(PlaceContact::ArmExtended);
     assert!(least < -0.02 && most > 0.02, "{least} to {most} m");
 }
 
 #[test]
 fn a_resting_hand_does_not_take_the_posture_of_the_hand_that_comes_to_it() {
-    use chereme_sign::hamnosys::{Each, HandLocation, HandSite};
+    use chereme_sign::hamnosys::{EachHand, HandLocation, HandSite};
     let chest = || Some(Box::new(at(BodyLocation::Chest, None)));
-    let begun = Posture {
-        place: Some(Place::Split(chest(), chest())),
-        ..Posture::default()
+    let begun = NotatedPosture {
+        place: Some(HandPlace::Split(chest(), chest())),
+        ..NotatedPosture::default()
     };
     let shape = |class: HandClass| posture(class, "ol", "d", None);
     let [flat, fist] = [HandClass::Flat, HandClass::Fist].map(shape);
-    let begun = Posture {
-        shape: Each::Split(
-            flat.shape.dominant().cloned(),
-            fist.shape.dominant().cloned(),
+    let begun = NotatedPosture {
+        shape: EachHand::Split(
+            flat.shape.dominant_value().cloned(),
+            fist.shape.dominant_value().cloned(),
         ),
         extended: flat.extended.clone(),
         palm: flat.palm.clone(),
         ..begun
     };
-    let comes = Motion::new(MotionKind::Target {
+    let comes = NotatedMotion::new(MotionKind::Target {
         motion: Some(Box::new(directed("l"))),
-        posture: Box::new(Posture {
-            place: Some(Place::Hand(HandSite {
+        posture: Box::new(NotatedPosture {
+            place: Some(HandPlace::Hand(HandSite {
                 at: Some(HandLocation::WristBack),
-                contact: Some(Contact::Close),
+                contact: Some(PlaceContact::Close),
                 ..HandSite::default()
             })),
             ..flat
         }),
     });
-    let alone = Motion::new(MotionKind::Split(Some(Box::new(comes)), None));
+    let alone = NotatedMotion::new(MotionKind::Split(Some(Box::new(comes)), None));
     let made = animated(&notated(mirrored(), begun, vec![alone]));
     let postures = postures(&made);
     let bent = |model: &ModelPose| {
         let joint = made
             .anatomy
-            .joint(Part::Finger(Side::Left, chereme_motion::Finger::Middle, 2))
+            .part_joint(BodyPart::Finger(BodySide::Left, chereme_motion::HandFinger::Middle, 2))
             .expect("a finger");
-        let hand = made.anatomy.joint(Part::Hand(Side::Left)).expect("a hand");
-        model.rotation(joint).angle_between(model.rotation(hand))
+        let hand = made.anatomy.part_joint(BodyPart::Hand(BodySide::Left)).expect("a hand");
+        model
+            .model_joint_rotation(joint)
+            .angle_between(model.model_joint_rotation(hand))
     };
     let [first, last] = [postures.first(), postures.last()].map(|it| bent(it.expect("some")));
     assert!(first > 1.5 && (first - last).abs() < 0.01, "{first} {last}");

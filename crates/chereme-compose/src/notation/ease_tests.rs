@@ -1,11 +1,11 @@
 //! Tests that arms and heads move within what is comfortable: elbows, wrists, shakes of the head.
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Part, Side};
+use chereme_motion::{BodyPart, BodySide};
 use chereme_sign::hamnosys::{
-    Act, BodyLanguage, BodyLocation, BodyPlace, Constellation, Contact, Digit, Digits, HandClass,
-    HandLocation, HandSite, HandsUsed, Motion, MotionKind, NonmanualPart, Place, Posture, Site,
-    WristMotion,
+    BodyLanguage, BodyLocation, BodyPlace, DigitList, HandClass, HandConstellation, HandDigit, HandLocation, HandPlace,
+    HandSite, HandsUsed, MotionKind, NonmanualAct, NonmanualPart, NotatedMotion, NotatedPosture, PlaceContact,
+    SidedLocation, WristMotion,
 };
 
 use super::tests::{at, directed, mirrored, model, notated, posture, stage};
@@ -13,59 +13,53 @@ use super::*;
 use crate::testing::Axes;
 
 /// Animates a sign on a body that does not sway.
-fn still(sign: &Notated) -> Generated {
-    let settings = Settings {
-        language: BodyLanguage::usual().without_life(),
-        ..Settings::default()
+fn still(sign: &NotatedSign) -> GeneratedMovement {
+    let settings = AnimatorSettings {
+        language: BodyLanguage::default_body_language().without_life(),
+        ..AnimatorSettings::default()
     };
-    animate(&[sign], &stage(Axes::Plain), &settings).expect("it can be animated")
+    animate_signs(&[sign], &stage(Axes::Plain), &settings).expect("it can be animated")
 }
 
 /// Returns the positions of shoulder, elbow and wrist of the right arm at a share of the sign.
-fn arm(made: &Generated, share: f64) -> [DVec3; 3] {
-    let chain = made.anatomy.arm(Side::Right).expect("an arm");
+fn arm(made: &GeneratedMovement, share: f64) -> [DVec3; 3] {
+    let chain = made.anatomy.arm_chain(BodySide::Right).expect("an arm");
     let model = model(made, share);
-    [chain.upper, chain.forearm, chain.hand].map(|joint| model.position(joint))
+    [chain.upper, chain.forearm, chain.hand].map(|joint| model.model_joint_position(joint))
 }
 
 /// Returns the direction of a hand at a share of the sign.
-fn along(made: &Generated, side: Side, share: f64) -> DVec3 {
+fn along(made: &GeneratedMovement, side: BodySide, share: f64) -> DVec3 {
     let model = model(made, share);
-    made.anatomy
-        .hand_direction(side, &model)
-        .expect("a direction")
+    made.anatomy.hand_direction(side, &model).expect("a direction")
 }
 
 /// Returns the touch of a place in the middle of the body by a part of the hand.
-fn touched(location: BodyLocation, by: Option<HandSite>) -> Place {
-    match at(location, Some(Contact::Touch)) {
-        Place::Body(place) => Place::Body(BodyPlace { by, ..place }),
+fn touched(location: BodyLocation, by: Option<HandSite>) -> HandPlace {
+    match at(location, Some(PlaceContact::Touch)) {
+        HandPlace::Body(place) => HandPlace::Body(BodyPlace { by, ..place }),
         other => other,
     }
 }
 
-fn placed(location: BodyLocation, side: chereme_sign::hamnosys::Side) -> Place {
-    Place::Body(BodyPlace {
-        site: Some(Site {
+fn placed(location: BodyLocation, side: chereme_sign::hamnosys::LocationSide) -> HandPlace {
+    HandPlace::Body(BodyPlace {
+        site: Some(SidedLocation {
             at: location,
             side: Some(side),
             approx: false,
         }),
-        contact: Some(Contact::Close),
+        contact: Some(PlaceContact::Close),
         ..BodyPlace::default()
     })
 }
 
 #[test]
 fn an_elbow_stays_beside_the_trunk_if_its_hand_points_away_close_to_the_chest() {
-    let beside = chereme_sign::hamnosys::Side::RightBeside;
+    let beside = chereme_sign::hamnosys::LocationSide::RightBeside;
     for palm in ["d", "l", "ul"] {
         let place = Some(placed(BodyLocation::Chest, beside));
-        let made = still(&notated(
-            mirrored(),
-            posture(HandClass::Flat, "o", palm, place),
-            vec![],
-        ));
+        let made = still(&notated(mirrored(), posture(HandClass::Flat, "o", palm, place), vec![]));
         let [shoulder, elbow, _] = arm(&made, 0.5);
         let behind = shoulder.z - elbow.z;
         assert!(behind < 0.05, "{palm}: {behind} m");
@@ -81,22 +75,22 @@ fn an_elbow_goes_out_rather_than_the_wrist_to_its_limit() {
         vec![],
     ));
     let [_, elbow, wrist] = arm(&made, 0.5);
-    let bent = along(&made, Side::Right, 0.5).angle_between(wrist - elbow);
+    let bent = along(&made, BodySide::Right, 0.5).angle_between(wrist - elbow);
     assert!(bent.to_degrees() < 56.0, "{}", bent.to_degrees());
 }
 
 #[test]
 fn a_hand_close_to_the_head_is_before_the_face_and_not_beside_the_ear() {
-    let place = placed(BodyLocation::Head, chereme_sign::hamnosys::Side::RightAt);
+    let place = placed(BodyLocation::Head, chereme_sign::hamnosys::LocationSide::RightAt);
     let made = still(&notated(
         HandsUsed::Dominant,
         posture(HandClass::Fist, "u", "d", Some(place)),
         vec![],
     ));
     let model = model(&made, 0.5);
-    let skeleton = made.clip.skeleton();
+    let skeleton = made.clip.clip_skeleton();
     let point = |name: &str| {
-        let found = made.anatomy.landmark(skeleton, &model, name);
+        let found = made.anatomy.landmark_place_position(skeleton, &model, name);
         found.expect("a landmark")
     };
     let (palm, brows) = (point("right-palm"), point("eyebrows"));
@@ -107,60 +101,55 @@ fn a_hand_close_to_the_head_is_before_the_face_and_not_beside_the_ear() {
 
 #[test]
 fn a_hand_that_only_turns_leaves_its_wrist_where_it_is() {
-    let turned = Motion::new(MotionKind::Target {
+    let turned = NotatedMotion::new(MotionKind::Target {
         motion: None,
-        posture: Box::new(Posture {
+        posture: Box::new(NotatedPosture {
             place: None,
             ..posture(HandClass::Flat, "uo", "l", None)
         }),
     });
     let made = still(&notated(
         HandsUsed::Dominant,
-        posture(
-            HandClass::Flat,
-            "u",
-            "l",
-            Some(at(BodyLocation::Shoulders, None)),
-        ),
+        posture(HandClass::Flat, "u", "l", Some(at(BodyLocation::Shoulders, None))),
         vec![turned],
     ));
     let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2]);
     assert!(before.distance(after) < 0.015, "{before} {after}");
-    let turned = [0.0, 1.0].map(|share| along(&made, Side::Right, share));
+    let turned = [0.0, 1.0].map(|share| along(&made, BodySide::Right, share));
     assert!(turned[0].angle_between(turned[1]) > 0.5);
 }
 
 /// Returns a straight path and what happens at its end.
-fn to(direction: &str, then: Posture) -> Motion {
-    Motion::new(MotionKind::Target {
+fn to(direction: &str, then: NotatedPosture) -> NotatedMotion {
+    NotatedMotion::new(MotionKind::Target {
         motion: Some(Box::new(directed(direction))),
         posture: Box::new(then),
     })
 }
 
 /// Returns a part of a hand: the tip of the index finger, or a side.
-fn part(location: HandLocation, digit: Option<Digit>) -> HandSite {
+fn part(location: HandLocation, digit: Option<HandDigit>) -> HandSite {
     HandSite {
         at: Some(location),
-        digits: Digits(digit.into_iter().collect()),
+        digits: DigitList(digit.into_iter().collect()),
         ..HandSite::default()
     }
 }
 
 #[test]
 fn hands_that_meet_with_other_parts_than_before_stay_where_they_are() {
-    let tip = part(HandLocation::Tip, Some(Digit::Index));
+    let tip = part(HandLocation::Tip, Some(HandDigit::Index));
     let forehead = touched(BodyLocation::Forehead, Some(tip));
     let side = part(HandLocation::PinkySide, None);
-    let together = Constellation {
+    let together = HandConstellation {
         dominant: Some(side.clone()),
         other: Some(side),
-        contact: Some(Contact::Touch),
-        ..Constellation::default()
+        contact: Some(PlaceContact::Touch),
+        ..HandConstellation::default()
     };
-    let meet = Posture {
-        place: Some(Place::Hands(together)),
-        ..Posture::default()
+    let meet = NotatedPosture {
+        place: Some(HandPlace::Hands(together)),
+        ..NotatedPosture::default()
     };
     let made = still(&notated(
         mirrored(),
@@ -173,11 +162,11 @@ fn hands_that_meet_with_other_parts_than_before_stay_where_they_are() {
 
 #[test]
 fn a_hand_that_tips_while_it_leaves_the_skin_takes_its_wrist_along() {
-    let tip = part(HandLocation::Tip, Some(Digit::Middle));
+    let tip = part(HandLocation::Tip, Some(HandDigit::Middle));
     let chin = touched(BodyLocation::Chin, Some(tip));
-    let tipped = Motion::new(MotionKind::Target {
+    let tipped = NotatedMotion::new(MotionKind::Target {
         motion: None,
-        posture: Box::new(Posture {
+        posture: Box::new(NotatedPosture {
             place: None,
             ..posture(HandClass::Flat, "uo", "u", None)
         }),
@@ -186,7 +175,7 @@ fn a_hand_that_tips_while_it_leaves_the_skin_takes_its_wrist_along() {
     let made = still(&notated(
         HandsUsed::Dominant,
         posture(HandClass::Flat, "u", "u", Some(chin)),
-        vec![Motion::new(away)],
+        vec![NotatedMotion::new(away)],
     ));
     let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2].z);
     assert!(after > before + 0.04, "{before} {after}");
@@ -195,24 +184,24 @@ fn a_hand_that_tips_while_it_leaves_the_skin_takes_its_wrist_along() {
 #[test]
 fn a_hand_that_moves_to_touch_the_head_starts_on_the_side_from_which_it_comes() {
     let eyes = |contact| {
-        Place::Body(BodyPlace {
-            site: Some(Site {
+        HandPlace::Body(BodyPlace {
+            site: Some(SidedLocation {
                 at: BodyLocation::Eyes,
-                side: Some(chereme_sign::hamnosys::Side::RightAt),
+                side: Some(chereme_sign::hamnosys::LocationSide::RightAt),
                 approx: false,
             }),
             contact: Some(contact),
-            by: Some(part(HandLocation::Tip, Some(Digit::Index))),
+            by: Some(part(HandLocation::Tip, Some(HandDigit::Index))),
             ..BodyPlace::default()
         })
     };
-    let touch = Posture {
-        place: Some(eyes(Contact::Touch)),
-        ..Posture::default()
+    let touch = NotatedPosture {
+        place: Some(eyes(PlaceContact::Touch)),
+        ..NotatedPosture::default()
     };
     let made = still(&notated(
         HandsUsed::Dominant,
-        posture(HandClass::Finger2, "u", "l", Some(eyes(Contact::Close))),
+        posture(HandClass::Finger2, "u", "l", Some(eyes(PlaceContact::Close))),
         vec![to("l", touch)],
     ));
     let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2].x);
@@ -223,21 +212,21 @@ fn a_hand_that_moves_to_touch_the_head_starts_on_the_side_from_which_it_comes() 
 fn a_hand_that_moves_down_to_the_other_one_starts_above_it() {
     let palm = part(HandLocation::Palm, None);
     let near = |contact| {
-        Some(Place::Hands(Constellation {
+        Some(HandPlace::Hands(HandConstellation {
             dominant: Some(palm.clone()),
             other: Some(palm.clone()),
             contact: Some(contact),
-            ..Constellation::default()
+            ..HandConstellation::default()
         }))
     };
-    let touch = Posture {
-        place: near(Contact::Touch),
-        ..Posture::default()
+    let touch = NotatedPosture {
+        place: near(PlaceContact::Touch),
+        ..NotatedPosture::default()
     };
     for (direction, axis) in [("d", DVec3::NEG_Y), ("o", DVec3::Z), ("l", DVec3::X)] {
         let made = still(&notated(
             HandsUsed::Dominant,
-            posture(HandClass::Flat, "ol", "l", near(Contact::Close)),
+            posture(HandClass::Flat, "ol", "l", near(PlaceContact::Close)),
             vec![to(direction, touch.clone())],
         ));
         let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2]);
@@ -248,26 +237,21 @@ fn a_hand_that_moves_down_to_the_other_one_starts_above_it() {
 
 #[test]
 fn hands_that_nod_in_turn_nod_to_opposite_sides() {
-    let mut nod = Motion::new(MotionKind::Wrist {
+    let mut nod = NotatedMotion::new(MotionKind::Wrist {
         motion: WristMotion::Nodding,
         size: None,
     });
     nod.manner.alternating = true;
     let chest = Some(at(BodyLocation::Chest, None));
-    let sign = notated(
-        mirrored(),
-        posture(HandClass::Flat, "o", "d", chest),
-        vec![nod],
-    );
+    let sign = notated(mirrored(), posture(HandClass::Flat, "o", "d", chest), vec![nod]);
     let made = still(&sign);
-    let heights = |side: Side| -> Vec<f64> {
+    let heights = |side: BodySide| -> Vec<f64> {
         let shares = (0..60).map(|n| f64::from(n) / 60.0);
         shares.map(|share| along(&made, side, share).y).collect()
     };
-    let [right, left] = Side::BOTH.map(heights);
-    let spread = |all: &[f64]| {
-        all.iter().fold(f64::MIN, |a, b| a.max(*b)) - all.iter().fold(f64::MAX, |a, b| a.min(*b))
-    };
+    let [right, left] = BodySide::BOTH_SIDES.map(heights);
+    let spread =
+        |all: &[f64]| all.iter().fold(f64::MIN, |a, b| a.max(*b)) - all.iter().fold(f64::MAX, |a, b| a.min(*b));
     assert!(spread(&right) > 0.2 && spread(&left) > 0.2);
     let sum: Vec<f64> = right.iter().zip(&left).map(|(a, b)| a + b).collect();
     assert!(spread(&sum) < 0.4 * spread(&right), "{}", spread(&sum));
@@ -277,36 +261,26 @@ fn hands_that_nod_in_turn_nod_to_opposite_sides() {
 fn three_shakes_in_one_moment_are_three_shakes_and_no_whip() {
     let mut sign = notated(
         HandsUsed::Dominant,
-        posture(
-            HandClass::Flat,
-            "ol",
-            "d",
-            Some(at(BodyLocation::Chest, None)),
-        ),
+        posture(HandClass::Flat, "ol", "d", Some(at(BodyLocation::Chest, None))),
         vec![],
     );
     let part = NonmanualPart::Head;
-    let shake = || Act::new(part, "SH");
+    let shake = || NonmanualAct::new(part, "SH");
     sign.nonmanual
-        .push(part.tier(), vec![shake(), shake(), shake()]);
+        .push_act_group(part.sigml_tier(), vec![shake(), shake(), shake()]);
     let made = still(&sign);
-    let head = made.anatomy.joint(Part::Head).expect("a head");
-    let first = made.clip.model_pose(0).rotation(head);
-    let turned: Vec<f64> = (0..made.clip.frames())
+    let head = made.anatomy.part_joint(BodyPart::Head).expect("a head");
+    let first = made.clip.model_pose(0).model_joint_rotation(head);
+    let turned: Vec<f64> = (0..made.clip.clip_frame_count())
         .map(|frame| {
-            let now = made.clip.model_pose(frame).rotation(head);
+            let now = made.clip.model_pose(frame).model_joint_rotation(head);
             (now * first.inverse()).to_scaled_axis().y.to_degrees()
         })
         .collect();
     let fastest = turned.windows(2).map(|two| (two[1] - two[0]).abs() * 60.0);
     let fastest = fastest.fold(0.0, f64::max);
-    assert!(
-        (100.0..300.0).contains(&fastest),
-        "{fastest} degrees a second"
-    );
-    let farthest = turned
-        .iter()
-        .fold(0.0_f64, |most, angle| most.max(angle.abs()));
+    assert!((100.0..300.0).contains(&fastest), "{fastest} degrees a second");
+    let farthest = turned.iter().fold(0.0_f64, |most, angle| most.max(angle.abs()));
     assert!((10.0..17.0).contains(&farthest), "{farthest} degrees");
     let sides: Vec<bool> = turned
         .iter()

@@ -10,20 +10,20 @@ use std::sync::LazyLock;
 use chereme_motion::WristAngles;
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::{Bearing, Posed};
-use super::solve::{Arm, Want};
-use super::stage::HandOutline;
-use super::tuned::tuned;
+use super::notation_arm::{ArmBearing, ArmPosture};
+use super::notation_solve::{ArmSolver, WantedHand};
+use super::notation_stage::HandOutline;
+use super::notation_tuned::tuned;
 
 /// Candidate planes relative to the rule's: the first, the last and the step, in degrees.
-const PLANES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
+const ARM_PLANES_DEGREES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
 /// Candidate shrugs if the hand's orientation would suffer, as shares of the largest.
-const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
+const SHRUG_SHARES: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 
 /// A candidate posture of the arm at one moment.
 #[derive(Clone, Copy)]
-pub(crate) struct Choice {
-    pub(crate) bearing: Bearing,
+pub(crate) struct ArmPostureChoice {
+    pub(crate) bearing: ArmBearing,
     angles: WristAngles,
     pub(crate) high: bool,
     /// Whether the forearm stops at a limit, so that `high` makes a difference.
@@ -41,118 +41,115 @@ pub(crate) struct Choice {
 
 /// The leeway of a hand at one moment.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Leeway {
+pub(crate) struct HandLeeway {
     /// Whether the hand is between two notated orientations.
     pub(crate) free: bool,
     /// Whether the hand is on its way from rest or back.
     pub(crate) away: bool,
 }
 
-impl Arm<'_> {
+impl ArmSolver<'_> {
     /// Returns the cheapest posture for a hand that stays in place.
-    pub(crate) fn bearing(&self, wrist: DVec3, turned: DQuat) -> Bearing {
-        let want = Want {
+    pub(crate) fn cheapest_still_bearing(&self, wrist: DVec3, turned: DQuat) -> ArmBearing {
+        let wrist_target = WantedHand {
             point: wrist,
             offset: DVec3::ZERO,
             turned,
-            outlines: [HandOutline::NONE; 2],
+            outlines: [HandOutline::EMPTY_HAND_OUTLINE; 2],
             touch: 0.0,
         };
-        let mut choices = self.choices(&want, Leeway::default());
-        if choices[best(&choices)].amiss > tuned().freedom.shrugs_above {
-            self.shrug(&mut choices, &want, Leeway::default());
+        let mut choices = self.arm_plane_choices(&wrist_target, HandLeeway::default());
+        if choices[best_choice_index(&choices)].amiss > tuned().freedom.shrugs_above {
+            self.add_shrugged_choices(&mut choices, &wrist_target, HandLeeway::default());
         }
-        refined(&choices, best(&choices))
+        refined(&choices, best_choice_index(&choices))
     }
 
     /// Returns the cost of the best posture for a position of the wrist and a rotation of the hand; costs of
     /// at least `most` need not be exact.
-    pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat, most: f64) -> f64 {
-        let line = self.rig().line(wrist, self.limits);
+    pub(crate) fn best_posture_cost(&self, wrist: DVec3, turned: DQuat, most: f64) -> f64 {
+        let line = self.solver_arm_rig().fix_wrist_position(wrist, self.limits);
         // The postures in the planes tried so far, without a shrug.
-        let mut known: Vec<Posed> = Vec::with_capacity(EASIEST.len());
+        let mut posed_arms: Vec<ArmPosture> = Vec::with_capacity(EASIEST_ARM_PLANES.len());
         // Start with the rule's plane: planes whose deviation alone costs more than the best need no
         // evaluation.
-        let mut least = |shrug: f64, most: f64| {
+        let mut least_strain = |shrug: f64, most: f64| {
             let shrugged = tuned().freedom.shrugged * shrug * shrug;
             let mut least = most;
-            for (n, &(plane, off)) in EASIEST.iter().enumerate() {
+            for (n, &(plane, off)) in EASIEST_ARM_PLANES.iter().enumerate() {
                 if 0.3 * off + shrugged >= least {
                     break;
                 }
-                if n == known.len() {
-                    known.push(line.bent(plane));
+                if n == posed_arms.len() {
+                    posed_arms.push(line.posture_in_plane(plane));
                 }
-                let bearing = Bearing { plane, shrug };
-                let posed = self.rig().shrug(known[n], wrist, bearing, self.limits);
-                let strained = self.strained((wrist, turned), &posed, off, least - shrugged);
+                let bearing = ArmBearing { plane, shrug };
+                let posed = self
+                    .solver_arm_rig()
+                    .shrug_arm_posture(posed_arms[n], wrist, bearing, self.limits);
+                let strained = self.hand_rotation_cost((wrist, turned), &posed, off, least - shrugged);
                 least = least.min(strained + shrugged);
             }
             least
         };
-        let still = least(0.0, most.max(tuned().freedom.shrugs_above));
+        let still = least_strain(0.0, most.max(tuned().freedom.shrugs_above));
         if still < tuned().freedom.shrugs_above {
             return still;
         }
-        SHRUGS
+        SHRUG_SHARES
             .into_iter()
-            .fold(still.min(most), |known, shrug| least(shrug, known))
+            .fold(still.min(most), |known, shrug| least_strain(shrug, known))
     }
 
-    /// Returns the same as `strain`, for one posture whose plane costs `plane`; infinite if the cost surely exceeds
+    /// Returns the same as `best_posture_cost`, for one posture whose plane costs `plane`; infinite if the cost surely exceeds
     /// `most`.
-    fn strained(
-        &self,
-        (wrist, turned): (DVec3, DQuat),
-        posed: &Posed,
-        plane: f64,
-        most: f64,
-    ) -> f64 {
-        let rig = self.rig();
-        let missed = posed.wrist.distance(wrist) / rig.length();
-        let held = 0.3 * plane
-            + tuned().freedom.raised * self.height(posed).max(0.0).powi(2)
+    fn hand_rotation_cost(&self, (wrist, turned): (DVec3, DQuat), posed: &ArmPosture, plane: f64, most: f64) -> f64 {
+        let rig = self.solver_arm_rig();
+        let missed = posed.wrist.distance(wrist) / rig.rig_arm_length();
+        let held_strain = 0.3 * plane
+            + tuned().freedom.raised * self.elbow_height(posed).max(0.0).powi(2)
             + self.flared(posed)
-            + self.behind(posed)
+            + self.elbow_behind_cost(posed)
             + tuned().freedom.missed * missed * missed;
-        if held > most {
+        if held_strain > most {
             return f64::INFINITY;
         }
-        let held = held + self.within(posed);
-        if held > most {
+        let trunk_strain = held_strain + self.arm_in_trunk_cost(posed);
+        if trunk_strain > most {
             return f64::INFINITY;
         }
-        let asked = rig.wrist(posed, turned, &self.held);
-        let low = asked.allowed(&self.limits.wrist, false);
-        let held = held + self.bent(&low);
-        if held > most {
+        let asked = rig.wrist_angles(posed, turned, &self.held);
+        let low = asked.clamp_to_limits(&self.limits.wrist, false);
+        let bent_strain = trunk_strain + self.bent_wrist_cost(&low);
+        if bent_strain > most {
             return f64::INFINITY;
         }
         let off = |angles: WristAngles| {
             if angles == asked {
                 return 0.0;
             }
-            rig.hung(posed, &angles, &self.held).angle_between(turned)
+            rig.hand_rotation_from_angles(posed, &angles, &self.held)
+                .angle_between(turned)
         };
-        let over = asked.turned(&self.limits.wrist) > 1.0;
+        let over = asked.forearm_turn_share(&self.limits.wrist) > 1.0;
         let apart = if over {
-            off(low).min(off(asked.allowed(&self.limits.wrist, true)))
+            off(low).min(off(asked.clamp_to_limits(&self.limits.wrist, true)))
         } else {
             off(low)
         };
-        held + self.off(apart)
+        bent_strain + self.orientation_deviation_cost(apart)
     }
 
     /// Returns the cost of a bent wrist: more if it is folded towards the palm or the back of the hand.
-    fn bent(&self, angles: &WristAngles) -> f64 {
+    fn bent_wrist_cost(&self, angles: &WristAngles) -> f64 {
         let limits = &self.limits.wrist;
         let folded = angles.flexion.abs() / limits.flexion[usize::from(angles.flexion > 0.0)];
         let over = |share: f64, (free, cost): (f64, f64)| cost * (share - free).max(0.0).powi(2);
-        over(angles.bend(limits), tuned().freedom.bent) + over(folded, tuned().freedom.folded)
+        over(angles.wrist_bend_share(limits), tuned().freedom.bent) + over(folded, tuned().freedom.folded)
     }
 
     /// Returns the cost of a deviation from the notated orientation (rad).
-    fn off(&self, apart: f64) -> f64 {
+    fn orientation_deviation_cost(&self, apart: f64) -> f64 {
         let apart = apart / self.limits.tolerance;
         let over = (apart - 1.0).max(0.0);
         tuned().freedom.turned * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
@@ -160,33 +157,33 @@ impl Arm<'_> {
 
     /// Returns the usual height of the elbow above its shoulder (arm lengths) for a position of the wrist with the arm
     /// in the rule's plane.
-    fn usual(&self, wrist: DVec3, posed: &Posed) -> f64 {
-        let length = self.rig().length();
+    fn usual_elbow_height(&self, wrist: DVec3, posed: &ArmPosture) -> f64 {
+        let length = self.solver_arm_rig().rig_arm_length();
         let [elbow, hand] = [posed.elbow, wrist].map(|at| (at.y - posed.shoulder.y) / length);
-        let usual = -self.limits.below(hand);
+        let usual = -self.limits.usual_elbow_depth(hand);
         usual + (elbow - usual).max(0.0) * (hand / tuned().freedom.above).clamp(0.0, 1.0)
     }
 
     /// Returns the height of an elbow above its shoulder, in arm lengths.
-    fn height(&self, posed: &Posed) -> f64 {
-        (posed.elbow.y - posed.shoulder.y) / self.rig().length()
+    fn elbow_height(&self, posed: &ArmPosture) -> f64 {
+        (posed.elbow.y - posed.shoulder.y) / self.solver_arm_rig().rig_arm_length()
     }
 
     /// Returns the cost of an elbow that is higher than usual, or even above its shoulder.
-    fn raised(&self, posed: &Posed, usual: f64) -> f64 {
-        let height = self.height(posed);
+    fn raised(&self, posed: &ArmPosture, usual: f64) -> f64 {
+        let height = self.elbow_height(posed);
         let over = [height - usual.max(0.0), height - usual].map(|over| over.max(0.0).powi(2));
         tuned().freedom.raised * over[0] + tuned().freedom.lifted * over[1]
     }
 
     /// Returns the cost of an elbow that stands out beside a low hand.
-    fn flared(&self, posed: &Posed) -> f64 {
-        let low = (posed.shoulder.y - posed.wrist.y) / self.rig().length() - tuned().freedom.low;
+    fn flared(&self, posed: &ArmPosture) -> f64 {
+        let low = (posed.shoulder.y - posed.wrist.y) / self.solver_arm_rig().rig_arm_length() - tuned().freedom.low;
         if low <= 0.0 {
             return 0.0;
         }
         let upper = posed.elbow - posed.shoulder;
-        let outside = self.stage.left * self.rig().side.sign();
+        let outside = self.stage.left * self.solver_arm_rig().side.side_sign();
         let out = upper.dot(outside).atan2(-upper.y) - tuned().freedom.flared.0;
         if out <= 0.0 {
             return 0.0;
@@ -195,25 +192,26 @@ impl Arm<'_> {
     }
 
     /// Returns the cost of an elbow before the middle of the trunk.
-    fn crossed(&self, posed: &Posed) -> f64 {
-        let outside = self.stage.left * self.rig().side.sign();
-        let inwards = -(posed.elbow - posed.shoulder).dot(outside) / self.rig().length();
+    fn crossed_elbow_cost(&self, posed: &ArmPosture) -> f64 {
+        let outside = self.stage.left * self.solver_arm_rig().side.side_sign();
+        let inwards = -(posed.elbow - posed.shoulder).dot(outside) / self.solver_arm_rig().rig_arm_length();
         let over = (inwards - tuned().freedom.crossed.0).max(0.0);
         tuned().freedom.crossed.1 * over * over
     }
 
     /// Returns the cost of an elbow behind its shoulder.
-    fn behind(&self, posed: &Posed) -> f64 {
-        let back = -(posed.elbow - posed.shoulder).dot(self.stage.forward) / self.rig().length();
+    fn elbow_behind_cost(&self, posed: &ArmPosture) -> f64 {
+        let back = -(posed.elbow - posed.shoulder).dot(self.stage.forward) / self.solver_arm_rig().rig_arm_length();
         let over = (back - tuned().freedom.behind.0).max(0.0);
         tuned().freedom.behind.1 * over * over
     }
 
     /// Returns the cost of an upper arm inside the trunk.
-    fn within(&self, posed: &Posed) -> f64 {
+    fn arm_in_trunk_cost(&self, posed: &ArmPosture) -> f64 {
         let cost = |share: f64| {
-            let at = posed.shoulder.lerp(posed.elbow, share);
-            let deep = self.stage.torso.offset_out(at, 0.035).length() / self.rig().length();
+            let arm_point = posed.shoulder.lerp(posed.elbow, share);
+            let deep = self.stage.torso.offset_out_of_trunk(arm_point, 0.035).length()
+                / self.solver_arm_rig().rig_arm_length();
             tuned().freedom.within * deep * deep
         };
         cost(0.6) + cost(1.0)
@@ -221,20 +219,20 @@ impl Arm<'_> {
 
     /// Returns the cheapest course of postures over time; shrugs are tried only around moments at which
     /// the hand suffers without them.
-    pub(crate) fn choose<'w>(
+    pub(crate) fn choose_arm_postures<'w>(
         &self,
-        wants: impl Iterator<Item = (Want<'w>, Leeway)>,
+        wants: impl Iterator<Item = (WantedHand<'w>, HandLeeway)>,
         dt: f64,
-    ) -> Vec<Choice> {
-        let mut lists: Vec<((Want<'w>, Leeway), Vec<Choice>)> = Vec::new();
+    ) -> Vec<ArmPostureChoice> {
+        let mut lists: Vec<((WantedHand<'w>, HandLeeway), Vec<ArmPostureChoice>)> = Vec::new();
         let mut of: Vec<usize> = Vec::new();
         for want in wants {
             if lists.last().is_none_or(|(known, _)| *known != want) {
-                lists.push((want, self.choices(&want.0, want.1)));
+                lists.push((want, self.arm_plane_choices(&want.0, want.1)));
             }
             of.push(lists.len() - 1);
         }
-        let chosen = cheapest(&lists, &of, dt);
+        let chosen = cheapest_posture_course(&lists, &of, dt);
         let near = (tuned().freedom.around / dt) as usize;
         let mut shrugs = vec![false; lists.len()];
         for (n, choice) in chosen.iter().enumerate() {
@@ -246,28 +244,26 @@ impl Arm<'_> {
         if !shrugs.contains(&true) {
             return chosen;
         }
-        for (((want, leeway), list), _) in
-            lists.iter_mut().zip(shrugs).filter(|(_, shrugs)| *shrugs)
-        {
-            self.shrug(list, want, *leeway);
+        for (((want, leeway), list), _) in lists.iter_mut().zip(shrugs).filter(|(_, shrugs)| *shrugs) {
+            self.add_shrugged_choices(list, want, *leeway);
         }
-        cheapest(&lists, &of, dt)
+        cheapest_posture_course(&lists, &of, dt)
     }
 
     /// Returns the candidate planes with their costs, for either limit of the forearm.
-    fn choices(&self, want: &Want<'_>, leeway: Leeway) -> Vec<Choice> {
-        let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
-        let wrist = want.wrist();
-        let line = self.rig().line(wrist, self.limits);
-        let rule = line.bent(0.0);
-        let usual = self.usual(wrist, &rule);
-        let bearing = Bearing::default();
-        let held = self.held(&rule, bearing, usual);
-        let rule = self.choice(want, (bearing, rule, held), (false, leeway), usual);
-        let tried = planes().map(|plane| {
-            let bearing = Bearing { plane, shrug: 0.0 };
-            let posed = line.bent(plane);
-            (bearing, posed, self.held(&posed, bearing, usual))
+    fn arm_plane_choices(&self, want: &WantedHand<'_>, leeway: HandLeeway) -> Vec<ArmPostureChoice> {
+        let mut choices: Vec<ArmPostureChoice> = Vec::with_capacity(2 * candidate_arm_planes().count());
+        let wrist = want.wanted_wrist_position();
+        let line = self.solver_arm_rig().fix_wrist_position(wrist, self.limits);
+        let rule = line.posture_in_plane(0.0);
+        let usual = self.usual_elbow_height(wrist, &rule);
+        let bearing = ArmBearing::default();
+        let rule_strain = self.held_posture_cost(&rule, bearing, usual);
+        let rule = self.arm_posture_choice(want, (bearing, rule, rule_strain), (false, leeway), usual);
+        let tried = candidate_arm_planes().map(|plane| {
+            let bearing = ArmBearing { plane, shrug: 0.0 };
+            let posed = line.posture_in_plane(plane);
+            (bearing, posed, self.held_posture_cost(&posed, bearing, usual))
         });
         let tried: Vec<_> = tried.collect();
         for high in [false, true] {
@@ -280,16 +276,16 @@ impl Arm<'_> {
                     continue;
                 }
                 choices.push(match held.0 > rule.cost + tuned().freedom.untried {
-                    true => Choice {
+                    true => ArmPostureChoice {
                         bearing,
                         high,
                         over: false,
-                        elbow: posed.elbow / self.rig().length(),
-                        wrist: posed.wrist / self.rig().length(),
+                        elbow: posed.elbow / self.solver_arm_rig().rig_arm_length(),
+                        wrist: posed.wrist / self.solver_arm_rig().rig_arm_length(),
                         cost: held.0,
                         ..rule
                     },
-                    false => self.choice(want, (bearing, posed, held), (high, leeway), usual),
+                    false => self.arm_posture_choice(want, (bearing, posed, held), (high, leeway), usual),
                 });
             }
         }
@@ -298,43 +294,45 @@ impl Arm<'_> {
 
     /// Returns the cost of a posture whatever the orientation of its hand, and the part of it that stems from an upper
     /// arm inside the trunk.
-    fn held(&self, posed: &Posed, bearing: Bearing, usual: f64) -> (f64, f64) {
-        let within = self.within(posed);
+    fn held_posture_cost(&self, posed: &ArmPosture, bearing: ArmBearing, usual: f64) -> (f64, f64) {
+        let within = self.arm_in_trunk_cost(posed);
         let shrugged = tuned().freedom.shrugged * bearing.shrug * bearing.shrug;
         let cost = off_rule(bearing.plane.to_degrees())
             + self.raised(posed, usual)
             + self.flared(posed)
-            + self.crossed(posed)
-            + self.behind(posed)
+            + self.crossed_elbow_cost(posed)
+            + self.elbow_behind_cost(posed)
             + shrugged
             + within;
         (cost, within)
     }
 
     /// Adds shrugged postures for the planes in which the hand suffers.
-    fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, leeway: Leeway) {
+    fn add_shrugged_choices(&self, choices: &mut Vec<ArmPostureChoice>, want: &WantedHand<'_>, leeway: HandLeeway) {
         let still = choices.clone();
-        let wrist = want.wrist();
-        let line = self.rig().line(wrist, self.limits);
-        let usual = self.usual(wrist, &line.bent(0.0));
-        let least = choices[best(choices)].cost;
+        let wrist = want.wanted_wrist_position();
+        let line = self.solver_arm_rig().fix_wrist_position(wrist, self.limits);
+        let usual = self.usual_elbow_height(wrist, &line.posture_in_plane(0.0));
+        let least = choices[best_choice_index(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
-        let hopeful = |choice: &&Choice| {
+        let is_hopeful = |choice: &&ArmPostureChoice| {
             choice.amiss > 0.2 * tuned().freedom.shrugs_above
                 && choice.cost < tuned().freedom.hopeless.0 * least + tuned().freedom.hopeless.1
         };
-        let hopeful = still.iter().filter(hopeful);
-        let hopeful: Vec<(&Choice, Posed)> = hopeful
-            .map(|choice| (choice, line.bent(choice.bearing.plane)))
+        let hopeful = still.iter().filter(is_hopeful);
+        let hopeful: Vec<(&ArmPostureChoice, ArmPosture)> = hopeful
+            .map(|choice| (choice, line.posture_in_plane(choice.bearing.plane)))
             .collect();
-        for shrug in SHRUGS {
+        for shrug in SHRUG_SHARES {
             for &(choice, posed) in &hopeful {
                 let plane = choice.bearing.plane;
-                let bearing = Bearing { plane, shrug };
-                let posed = self.rig().shrug(posed, wrist, bearing, self.limits);
-                let held = self.held(&posed, bearing, usual);
-                let tried = (bearing, posed, held);
-                choices.push(self.choice(want, tried, (choice.high, leeway), usual));
+                let bearing = ArmBearing { plane, shrug };
+                let posed = self
+                    .solver_arm_rig()
+                    .shrug_arm_posture(posed, wrist, bearing, self.limits);
+                let posture_strain = self.held_posture_cost(&posed, bearing, usual);
+                let tried = (bearing, posed, posture_strain);
+                choices.push(self.arm_posture_choice(want, tried, (choice.high, leeway), usual));
             }
         }
     }
@@ -343,43 +341,43 @@ impl Arm<'_> {
     /// forearm to their limits, deviation of the hand's orientation, height of the elbow above its `usual` one, depth of
     /// the upper arm in the trunk, and distance from the goal. Between two notated orientations the
     /// hand's orientation hardly counts.
-    fn choice(
+    fn arm_posture_choice(
         &self,
-        want: &Want<'_>,
-        (bearing, posed, held): (Bearing, Posed, (f64, f64)),
-        (high, leeway): (bool, Leeway),
+        want: &WantedHand<'_>,
+        (bearing, posed, held): (ArmBearing, ArmPosture, (f64, f64)),
+        (high, leeway): (bool, HandLeeway),
         usual: f64,
-    ) -> Choice {
+    ) -> ArmPostureChoice {
         let given = match leeway {
-            Leeway { free: true, .. } => 0.02,
-            Leeway { away: true, .. } => tuned().freedom.away,
+            HandLeeway { free: true, .. } => 0.02,
+            HandLeeway { away: true, .. } => tuned().freedom.away,
             _ => 1.0,
         };
         // The whole outline of the hand counts only if it touches something.
         let (tries, outlines) = if want.touch > 0.0 {
             (4, want.outlines)
         } else {
-            (2, [HandOutline::NONE; 2])
+            (2, [HandOutline::EMPTY_HAND_OUTLINE; 2])
         };
-        let coarse = Want { outlines, ..*want };
-        let hung = self.hang_from(posed, &coarse, (bearing, high), tries);
-        let twist = (hung.angles.turned(&self.limits.wrist) - tuned().freedom.twisted.0).max(0.0);
-        let apart = hung.rotation.angle_between(want.turned);
-        let missed = hung.residual / self.rig().length();
-        let off = given * self.off(apart) + tuned().freedom.missed * missed * missed;
-        let (held, within) = match hung.posed.elbow == posed.elbow {
+        let coarse = WantedHand { outlines, ..*want };
+        let hung_hand = self.hang_from(posed, &coarse, (bearing, high), tries);
+        let twist = (hung_hand.angles.forearm_turn_share(&self.limits.wrist) - tuned().freedom.twisted.0).max(0.0);
+        let apart = hung_hand.rotation.angle_between(want.turned);
+        let missed = hung_hand.residual / self.solver_arm_rig().rig_arm_length();
+        let off = given * self.orientation_deviation_cost(apart) + tuned().freedom.missed * missed * missed;
+        let (held, within) = match hung_hand.posed.elbow == posed.elbow {
             true => held,
-            false => self.held(&hung.posed, bearing, usual),
+            false => self.held_posture_cost(&hung_hand.posed, bearing, usual),
         };
-        let cost = held + self.bent(&hung.angles) + tuned().freedom.twisted.1 * twist * twist + off;
+        let cost = held + self.bent_wrist_cost(&hung_hand.angles) + tuned().freedom.twisted.1 * twist * twist + off;
         let amiss = off + within;
-        Choice {
+        ArmPostureChoice {
             bearing,
-            angles: hung.angles,
+            angles: hung_hand.angles,
             high,
-            over: hung.angles.turned(&self.limits.wrist) >= 0.999,
-            elbow: hung.posed.elbow / self.rig().length(),
-            wrist: hung.posed.wrist / self.rig().length(),
+            over: hung_hand.angles.forearm_turn_share(&self.limits.wrist) >= 0.999,
+            elbow: hung_hand.posed.elbow / self.solver_arm_rig().rig_arm_length(),
+            wrist: hung_hand.posed.wrist / self.solver_arm_rig().rig_arm_length(),
             cost,
             amiss,
             away: leeway.away,
@@ -388,8 +386,8 @@ impl Arm<'_> {
 }
 
 /// Candidate planes (rad, relative to the rule's) with their costs, the cheapest first.
-static EASIEST: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    let mut all: Vec<(f64, f64)> = planes()
+static EASIEST_ARM_PLANES: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let mut all: Vec<(f64, f64)> = candidate_arm_planes()
         .map(|plane| (plane, off_rule(plane.to_degrees())))
         .collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -397,19 +395,19 @@ static EASIEST: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 /// Returns the candidate planes, in radians relative to the rule's.
-fn planes() -> impl Iterator<Item = f64> {
-    let (first, last, step) = PLANES;
+fn candidate_arm_planes() -> impl Iterator<Item = f64> {
+    let (first, last, step) = ARM_PLANES_DEGREES;
     let count = ((last - first) / step).round() as usize + 1;
     (0..count).map(move |n| (first + step * n as f64).to_radians())
 }
 
 /// Returns the cheapest course through the candidates of each moment.
-fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice> {
+fn cheapest_posture_course<K>(lists: &[(K, Vec<ArmPostureChoice>)], of: &[usize], dt: f64) -> Vec<ArmPostureChoice> {
     let mut sums: Vec<f64> = Vec::new();
     let mut came: Vec<Vec<usize>> = Vec::with_capacity(of.len());
-    let mut last: &[Choice] = &[];
+    let mut last: &[ArmPostureChoice] = &[];
     let mut order: Vec<usize> = Vec::new();
-    let changes = Changes::within(dt);
+    let changes = PostureChangeCosts::change_costs_within(dt);
     for &list in of {
         let choices = lists[list].1.as_slice();
         let mut next = Vec::with_capacity(choices.len());
@@ -424,7 +422,7 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
                 if sums[n] > least.1 {
                     break;
                 }
-                let Some(change) = changes.cost(&last[n], choice, least.1 - sums[n]) else {
+                let Some(change) = changes.posture_change_cost(&last[n], choice, least.1 - sums[n]) else {
                     continue;
                 };
                 let sum = sums[n] + change;
@@ -442,10 +440,10 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
     }
     let ends = sums.iter().enumerate();
     let mut n = ends.min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(n, _)| n);
-    let mut chosen: Vec<Choice> = Vec::with_capacity(of.len());
+    let mut chosen: Vec<ArmPostureChoice> = Vec::with_capacity(of.len());
     for (&list, from) in of.iter().zip(&came).rev() {
         let choices = &lists[list].1;
-        chosen.push(Choice {
+        chosen.push(ArmPostureChoice {
             bearing: refined(choices, n),
             ..choices[n]
         });
@@ -468,7 +466,7 @@ fn off_rule(degrees: f64) -> f64 {
 }
 
 /// The costs of changes from one candidate to another within a given time.
-struct Changes {
+struct PostureChangeCosts {
     /// Reciprocals of the usual changes in that time: of the plane and the wrist's angles (1/rad), the shrug, the
     /// elbow, and the elbow beyond the wrist (1/arm length).
     plane: f64,
@@ -480,9 +478,9 @@ struct Changes {
     pumped: (f64, f64),
 }
 
-impl Changes {
+impl PostureChangeCosts {
     /// Returns the costs for changes within `dt` seconds.
-    fn within(dt: f64) -> Self {
+    fn change_costs_within(dt: f64) -> Self {
         let freedom = &tuned().freedom;
         Self {
             plane: 1.0 / (freedom.swivel * dt),
@@ -495,7 +493,7 @@ impl Changes {
     }
 
     /// Returns the cost of a change; `None` if it surely exceeds `most`.
-    fn cost(&self, from: &Choice, to: &Choice, most: f64) -> Option<f64> {
+    fn posture_change_cost(&self, from: &ArmPostureChoice, to: &ArmPostureChoice, most: f64) -> Option<f64> {
         let over = |speed: f64| {
             let over = (speed - 1.0).max(0.0);
             over * over
@@ -503,13 +501,12 @@ impl Changes {
         let most = most * (1.0 + 1e-9) + 1e-9;
         let swivel = (to.bearing.plane - from.bearing.plane).abs() * self.plane;
         let shrug = (to.bearing.shrug - from.bearing.shrug).abs() * self.shrug;
-        let own =
-            0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel) + 20.0 * over(shrug);
-        if own > most {
+        let swivel_cost = 0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel) + 20.0 * over(shrug);
+        if swivel_cost > most {
             return None;
         }
-        let own = own + 6.0 * over(to.angles.apart(&from.angles) * self.bend);
-        if own > most {
+        let angle_cost = swivel_cost + 6.0 * over(to.angles.largest_angle_difference(&from.angles) * self.bend);
+        if angle_cost > most {
             return None;
         }
         let far = to.elbow.distance(from.elbow);
@@ -518,22 +515,19 @@ impl Changes {
             true => self.pumped.1,
             false => self.pumped.0,
         };
-        Some(own + pumped * pumps * pumps + 150.0 * over(far * self.elbow))
+        Some(angle_cost + pumped * pumps * pumps + 150.0 * over(far * self.elbow))
     }
 }
 
-fn best(choices: &[Choice]) -> usize {
-    let least = choices
-        .iter()
-        .enumerate()
-        .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
+fn best_choice_index(choices: &[ArmPostureChoice]) -> usize {
+    let least = choices.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
     least.map_or(0, |(n, _)| n)
 }
 
 /// Returns a candidate refined to the minimum of parabolas through the costs of its neighbours.
-fn refined(choices: &[Choice], n: usize) -> Bearing {
+fn refined(choices: &[ArmPostureChoice], n: usize) -> ArmBearing {
     let here = choices[n];
-    let step = PLANES.2.to_radians();
+    let step = ARM_PLANES_DEGREES.2.to_radians();
     let neighbour = |plane: f64, shrug: f64| {
         choices.iter().find(|other| {
             (other.high == here.high || !other.over)
@@ -541,7 +535,7 @@ fn refined(choices: &[Choice], n: usize) -> Bearing {
                 && (other.bearing.shrug - here.bearing.shrug - shrug).abs() < 1e-6
         })
     };
-    let by = |less: Option<&Choice>, more: Option<&Choice>| {
+    let by = |less: Option<&ArmPostureChoice>, more: Option<&ArmPostureChoice>| {
         let (Some(less), Some(more)) = (less, more) else {
             return 0.0;
         };
@@ -557,7 +551,7 @@ fn refined(choices: &[Choice], n: usize) -> Bearing {
     } else {
         by(neighbour(0.0, -0.5), neighbour(0.0, 0.5))
     };
-    Bearing {
+    ArmBearing {
         plane: here.bearing.plane + plane * step,
         shrug: here.bearing.shrug + shrug * 0.5,
     }

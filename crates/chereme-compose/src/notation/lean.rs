@@ -5,42 +5,42 @@
 //! long as it keeps this orientation.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::hamnosys::Motion;
-use chereme_sign::hamnosys::sites::HandPoint;
+use chereme_sign::hamnosys::NotatedMotion;
+use chereme_sign::hamnosys::sites::NotatedHandPoint;
 
-use super::comfort::{Stance, lowest};
-use super::plan::{Frame, Planner, Who, acting};
-use super::tuned::tuned;
+use super::comfort::{HandStance, find_lowest_cost_offset};
+use super::notation_plan::{ActingFrame, ActingHands, SignPlanner, iterate_acting_hands};
+use super::notation_tuned::tuned;
 
 /// The number of postures to evaluate: those that strain the arm most.
-const WEIGHED: usize = 3;
+const LEAN_POSTURE_COUNT: usize = 3;
 
-impl Planner<'_> {
+impl SignPlanner<'_> {
     /// Turns hands by a few degrees to where their arms are comfortable, now and during `follows`, while they keep
     /// their orientation. Only hands that strain their arm now turn. Hands that mirror each other turn alike; if they
     /// also meet, they only nod together.
-    pub(crate) fn lean(&mut self, named: Who, follows: Option<(&[Motion], Who)>) {
+    pub(crate) fn lean_strained_hands(&mut self, named: ActingHands, follows: Option<(&[NotatedMotion], ActingHands)>) {
         if self.trail.is_some() || self.trials > 0 {
             return;
         }
         let meet = self.together.is_some();
         // Palms on each other or on the skin stay as they are: they would part at their fingertips.
-        let flat = |n: usize, frame: Frame| {
-            let palm = self.hands().offset(n, &[HandPoint::Palm]);
+        let flat = |n: usize, frame: ActingFrame| {
+            let palm = self.planned_hands().mean_hand_point(n, &[NotatedHandPoint::Palm]);
             let on_palm = self.state[n].offset.distance(palm) < 1e-9;
-            on_palm && (meet || self.skin(n, frame).is_some())
+            on_palm && (meet || self.skin_normal_at_hand(n, frame).is_some())
         };
-        let mut free: Who = [None, None];
-        for (n, frame) in acting(named) {
+        let mut free: ActingHands = [None, None];
+        for (n, frame) in iterate_acting_hands(named) {
             let written = self.state[n].leaned == DQuat::IDENTITY;
             free[n] = Some(frame).filter(|frame| written && !flat(n, *frame));
         }
         match free {
-            [Some(own), Some(other)] if own.mirrors(&other) => self.lean_by(free, follows, meet),
+            [Some(own), Some(other)] if own.is_mirrored_by(&other) => self.lean_by(free, follows, meet),
             _ if meet => {}
             _ => {
-                for (n, frame) in acting(free) {
-                    let mut only: Who = [None, None];
+                for (n, frame) in iterate_acting_hands(free) {
+                    let mut only: ActingHands = [None, None];
                     only[n] = Some(frame);
                     self.lean_by(only, follows, false);
                 }
@@ -49,31 +49,29 @@ impl Planner<'_> {
     }
 
     /// Takes back the turn by which a hand leans: it has its written orientation again.
-    pub(crate) fn upright(&mut self, n: usize) {
+    pub(crate) fn restore_upright_hand(&mut self, n: usize) {
         let state = &mut self.state[n];
         state.rotation = (state.rotation * state.leaned.inverse()).normalize();
         state.leaned = DQuat::IDENTITY;
     }
 
-    fn lean_by(&mut self, named: Who, follows: Option<(&[Motion], Who)>, nods: bool) {
+    fn lean_by(&mut self, named: ActingHands, follows: Option<(&[NotatedMotion], ActingHands)>, nods: bool) {
         let strains = |n: usize| {
-            let stance = self.hands().stance(n);
-            self.signer.strain(n, &stance, DVec3::ZERO) > tuned().comfort.strained
+            let stance = self.planned_hands().current_hand_stance(n);
+            self.signer.arm_stance_strain(n, &stance, DVec3::ZERO) > tuned().comfort.strained
         };
-        if !acting(named).any(|(n, _)| strains(n)) {
+        if !iterate_acting_hands(named).any(|(n, _)| strains(n)) {
             return;
         }
         let begun = [0, 1].map(|n| self.state[n].rotation);
-        let same = |n: usize, stance: &Stance| {
-            named[n].is_some() && stance.rotation.angle_between(begun[n]) < 0.05
-        };
-        let mut seen = self.strained(named, follows, same);
-        seen.truncate(WEIGHED);
+        let same = |n: usize, stance: &HandStance| named[n].is_some() && stance.rotation.angle_between(begun[n]) < 0.05;
+        let mut seen = self.strained_stances(named, follows, same);
+        seen.truncate(LEAN_POSTURE_COUNT);
         let stage = self.signer.stage;
         let turn = |local: DVec3, n: usize| {
             let axes = named[n].map_or(DVec3::ONE, |frame| frame.axes);
             // An axis of rotation keeps its sign where a direction changes it.
-            let axis = stage.direction(local * axes * axes.element_product());
+            let axis = stage.body_to_model_direction(local * axes * axes.element_product());
             DQuat::from_scaled_axis(axis)
         };
         let most = tuned().comfort.most_leaned;
@@ -82,24 +80,22 @@ impl Planner<'_> {
         let cost = |local: DVec3, limit: f64| {
             let mut sum = tuned().comfort.leaned * (local.length() / most).powi(2);
             for (n, stance) in &seen {
-                let turned = Stance {
+                let turned = HandStance {
                     rotation: turn(local, *n) * stance.rotation,
                     ..*stance
                 };
-                sum += self
-                    .signer
-                    .strain_up_to(limit - sum, *n, &turned, DVec3::ZERO);
+                sum += self.signer.strain_up_to(limit - sum, *n, &turned, DVec3::ZERO);
                 if sum >= limit {
                     return f64::INFINITY;
                 }
             }
             sum
         };
-        let best = lowest(cost, room);
+        let best = find_lowest_cost_offset(cost, room);
         if best == DVec3::ZERO {
             return;
         }
-        for (n, _) in acting(named) {
+        for (n, _) in iterate_acting_hands(named) {
             let state = &mut self.state[n];
             let written = state.rotation;
             state.rotation = (turn(best, n) * written).normalize();
@@ -110,13 +106,13 @@ impl Planner<'_> {
 
 #[cfg(test)]
 mod tests {
-    use chereme_sign::Handedness;
-    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, HandClass, Posture};
+    use chereme_sign::SignerHandedness;
+    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, HandClass, NotatedPosture};
 
-    use super::super::pace::{Pace, Paces};
-    use super::super::stage::Stage;
+    use super::super::notation_stage::StandingBody;
+    use super::super::notation_track::follow_hand_events;
+    use super::super::pace::{MovementPace, PaceTables};
     use super::super::tests::{at, mirrored, posture, stage};
-    use super::super::track::goals;
     use super::*;
     use crate::testing::Axes;
 
@@ -124,26 +120,26 @@ mod tests {
     /// after.
     fn leaned(along: &str, palm: &str, both: bool) -> [([DQuat; 2], [f64; 2]); 2] {
         let material = stage(Axes::Plain);
-        let body = Stage::of(&material).expect("a body");
-        let paces = Paces::of(BodyLanguage::usual());
-        let language = (BodyLanguage::usual(), &paces);
-        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let body = StandingBody::body_from_material(&material).expect("a body");
+        let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
+        let language = (BodyLanguage::default_body_language(), &paces);
+        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
         let who = match both {
-            true => planner.who(mirrored()),
+            true => planner.acting_part_hands(mirrored()),
             false => [Some(planner.signer.own_frame()), None],
         };
         let place = at(BodyLocation::Chest, None);
         let begun = posture(HandClass::Flat, along, palm, Some(place));
-        planner.assume(&begun, who, false);
-        let seen = |planner: &Planner<'_>| {
+        planner.assume_posture(&begun, who, false);
+        let seen = |planner: &SignPlanner<'_>| {
             [0, 1].map(|n| {
-                let stance = planner.hands().stance(n);
-                let strain = planner.signer.strain(n, &stance, DVec3::ZERO);
+                let stance = planner.planned_hands().current_hand_stance(n);
+                let strain = planner.signer.arm_stance_strain(n, &stance, DVec3::ZERO);
                 (stance.rotation, strain)
             })
         };
         let before = seen(&planner);
-        planner.lean(who, None);
+        planner.lean_strained_hands(who, None);
         let after = seen(&planner);
         [0, 1].map(|n| {
             let [(was, strained), (is, eased)] = [before[n], after[n]];
@@ -157,35 +153,32 @@ mod tests {
         assert!(strained > tuned().comfort.strained, "{strained}");
         assert!(eased < 0.9 * strained, "{strained} {eased}");
         let angle = was.angle_between(is);
-        assert!(
-            angle > 0.02 && angle <= tuned().comfort.most_leaned + 1e-6,
-            "{angle}"
-        );
+        assert!(angle > 0.02 && angle <= tuned().comfort.most_leaned + 1e-6, "{angle}");
     }
 
     #[test]
     fn turns_do_not_add_up_from_one_place_to_the_next() {
         let material = stage(Axes::Plain);
-        let body = Stage::of(&material).expect("a body");
-        let paces = Paces::of(BodyLanguage::usual());
-        let language = (BodyLanguage::usual(), &paces);
-        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let body = StandingBody::body_from_material(&material).expect("a body");
+        let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
+        let language = (BodyLanguage::default_body_language(), &paces);
+        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
         let who = [Some(planner.signer.own_frame()), None];
         let chest = Some(at(BodyLocation::Chest, None));
-        planner.assume(&posture(HandClass::Flat, "d", "l", chest), who, false);
+        planner.assume_posture(&posture(HandClass::Flat, "d", "l", chest), who, false);
         let written = planner.state[0].rotation;
         let mut leans = 0;
         for place in [BodyLocation::Shoulders, BodyLocation::Chest].repeat(3) {
-            planner.lean(who, None);
-            planner.lean(who, None);
+            planner.lean_strained_hands(who, None);
+            planner.lean_strained_hands(who, None);
             let angle = planner.state[0].rotation.angle_between(written);
             assert!(angle <= tuned().comfort.most_leaned + 1e-6, "{angle}");
             leans += usize::from(angle > 0.02);
-            let onwards = Posture {
+            let onwards = NotatedPosture {
                 place: Some(at(place, None)),
-                ..Posture::default()
+                ..NotatedPosture::default()
             };
-            planner.assume(&onwards, who, true);
+            planner.assume_posture(&onwards, who, true);
             assert!(planner.state[0].rotation.angle_between(written) < 1e-6);
         }
         assert!(leans > 2, "{leans}");
@@ -194,22 +187,22 @@ mod tests {
     #[test]
     fn the_written_orientation_is_known_in_every_frame() {
         let material = stage(Axes::Plain);
-        let body = Stage::of(&material).expect("a body");
-        let paces = Paces::of(BodyLanguage::usual());
-        let language = (BodyLanguage::usual(), &paces);
-        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let body = StandingBody::body_from_material(&material).expect("a body");
+        let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
+        let language = (BodyLanguage::default_body_language(), &paces);
+        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
         let who = [Some(planner.signer.own_frame()), None];
         let before = planner.state.clone();
         let chest = Some(at(BodyLocation::Chest, None));
-        planner.assume(&posture(HandClass::Flat, "d", "l", chest), who, false);
+        planner.assume_posture(&posture(HandClass::Flat, "d", "l", chest), who, false);
         let written = planner.state[0].rotation;
-        planner.lean(who, None);
+        planner.lean_strained_hands(who, None);
         let goal = planner.state[0].clone();
         assert!(goal.rotation.angle_between(written) > 0.02);
         planner.state = before;
-        planner.travel(0, &goal, 0.0, 1.0, Pace::Linear);
+        planner.travel_to_goal(0, &goal, 0.0, 1.0, MovementPace::Linear);
         let (start, events) = (&planner.plan.start[0], &planner.plan.events[0]);
-        let goals = goals(start, events, 60.0, 90, |_, share| share);
+        let goals = follow_hand_events(start, events, 60.0, 90, |_, share| share);
         let known = goals.turns[80] * goals.leans[80].inverse();
         assert!(known.angle_between(written) < 1e-6);
         assert!(goals.turns[0].angle_between(start.rotation) < 1e-6);

@@ -36,8 +36,6 @@
 #[cfg(test)]
 mod apart_tests;
 mod approach;
-mod arm;
-mod bulk;
 mod comfort;
 mod crossed;
 #[cfg(test)]
@@ -50,25 +48,29 @@ mod hands_apart;
 mod lean;
 mod life;
 mod lift;
-mod motion;
 #[cfg(test)]
 mod natural;
-mod nonmanual;
+mod notation_arm;
+mod notation_bulk;
+mod notation_motion;
+mod notation_nonmanual;
+mod notation_orient;
+mod notation_path;
+mod notation_place;
+mod notation_plan;
+mod notation_solve;
+pub(crate) mod notation_stage;
+mod notation_track;
+mod notation_tuned;
 mod notes;
-mod orient;
 mod outlines;
 mod own_side;
 mod pace;
-mod path;
 mod perform;
-mod place;
-mod plan;
 mod push_out;
 mod rest;
 pub(crate) mod skull;
-mod solve;
 mod solve_frame;
-pub(crate) mod stage;
 mod stretch_time;
 #[cfg(test)]
 mod tempo_tests;
@@ -76,51 +78,49 @@ mod tempo_tests;
 mod tests;
 mod thumb;
 mod touch;
-mod track;
 mod transit;
-mod tuned;
 mod wrist_cycle;
 
 use std::sync::Arc;
 
-use chereme_motion::{Channel, Clip, ClipError, Rate, Side};
-use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
+use chereme_motion::{BodySide, Clip, ClipError, FrameRate, JointChannel};
+use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, NotatedSign};
 
-use crate::outcome::{ChannelReport, Generated, HandReport, Report, StepReport};
-use crate::sources::Material;
-use crate::work::Group;
+use crate::outcome::{ChannelReport, GeneratedMovement, GenerationReport, HandReport, StepReport};
+use crate::sources::MovementMaterial;
+use crate::work::JointGroup;
 
-use hands_apart::Parted;
-use life::Alive;
-use pace::Paces;
-pub use perform::Performer;
-use plan::{Planner, SignPlan};
-use stage::Stage;
-use stretch_time::{Fastest, Warp};
-use track::{ArmTrack, Fit, Timing, Wanted};
-use tuned::tuned;
+use hands_apart::PartedMoment;
+use life::BodyLifeRotations;
+use notation_plan::{SignPlan, SignPlanner};
+use notation_stage::StandingBody;
+use notation_track::{AnimationTiming, ArmTrack, HandGoalFit, HandGoalFrames};
+use notation_tuned::tuned;
+use pace::PaceTables;
+pub use perform::SignPerformer;
+use stretch_time::{TimeWarp, TopArmSpeeds};
 
 /// The most frames of one animation: ten minutes at 120 Hz.
-const MOST_FRAMES: usize = 72_000;
+const MAX_ANIMATION_FRAMES: usize = 72_000;
 
 /// The number of times that finished movement may be stretched again.
-const AGAIN: usize = 4;
+const MAX_RESTRETCH_ROUNDS: usize = 4;
 
 /// Settings of the animator.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
+pub struct AnimatorSettings {
     /// Frames per second.
-    pub rate: Rate,
+    pub rate: FrameRate,
     /// The body language: the meaning of each category of notation in numbers.
     pub language: BodyLanguage,
 }
 
-impl Default for Settings {
+impl Default for AnimatorSettings {
     /// 60 frames per second, in the program's own body language.
     fn default() -> Self {
         Self {
-            rate: Rate::new(60, 1).expect("sixty a second is a rate"),
-            language: BodyLanguage::usual().clone(),
+            rate: FrameRate::new(60, 1).expect("sixty a second is a rate"),
+            language: BodyLanguage::default_body_language().clone(),
         }
     }
 }
@@ -147,7 +147,7 @@ pub enum NotationError {
 impl NotationError {
     /// Returns what would work, if that is known.
     #[must_use]
-    pub fn remedy(&self) -> Option<&'static str> {
+    pub fn notation_remedy(&self) -> Option<&'static str> {
         match self {
             Self::NoArm(_) => Some("name them in a roles file"),
             Self::Long { .. } => Some("animate its signs one by one"),
@@ -163,94 +163,92 @@ impl NotationError {
 ///
 /// # Errors
 /// [`NotationError`] if the body has no arm, or the movement would be too long.
-pub fn animate(
-    signs: &[&Notated],
-    stage: &Material,
-    settings: &Settings,
-) -> Result<Generated, NotationError> {
-    let body = Stage::of(stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
+pub fn animate_signs(
+    signs: &[&NotatedSign],
+    stage: &MovementMaterial,
+    settings: &AnimatorSettings,
+) -> Result<GeneratedMovement, NotationError> {
+    let body = StandingBody::body_from_material(stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
     let rate = settings.rate.per_second();
-    let paces = Paces::of(&settings.language);
+    let paces = PaceTables::pace_tables_from_language(&settings.language);
     let language = (&settings.language, &paces);
-    let planner = || Planner::new(&body, language, stage.handedness, rate);
+    let planner = || SignPlanner::new(&body, language, stage.handedness, rate);
     let limits = planner().signer.limits;
-    let (mut plan, asked) = duration::plan_timed(signs, |signs| planner().signs(signs));
+    let (mut plan, asked) = duration::plan_timed(signs, |signs| planner().plan_signs(signs));
     let sides = plan.sides;
-    let total = frames(plan.end, rate)?;
-    let timing = track::Timing {
+    let total = frames_for_duration(plan.end, rate)?;
+    let timing = notation_track::AnimationTiming {
         paces: &paces,
         rate,
         total,
     };
-    let hands = sides.map(|side| body.hand(side));
-    let Goals {
+    let hands = sides.map(|side| body.hand_of_side(side));
+    let BothHandGoals {
         alive,
         wanted,
         parted,
         cleared,
         round_head,
-    } = Goals::of(&body, signs, &plan, &settings.language, &timing);
+    } = BothHandGoals::goals_from_plan(&body, signs, &plan, &settings.language, &timing);
     let mut wanted = wanted.map(Some);
-    let made = [0, 1].map(|n| {
+    let made_tracks = [0, 1].map(|n| {
         let (hand, wanted) = (hands[n]?, wanted[n].take()?);
-        let made = track::SolvedFrames::of(&body, hand, (&plan, n), wanted, &limits, &timing);
+        let made = notation_track::SolvedFrames::solve_hand_frames(&body, hand, (&plan, n), wanted, &limits, &timing);
         Some(made)
     });
-    let arms: Vec<&track::SolvedFrames<'_>> = made.iter().flatten().collect();
+    let arms: Vec<&notation_track::SolvedFrames<'_>> = made_tracks.iter().flatten().collect();
     let left = match (hands, arms.as_slice()) {
         ([Some(hand), _], &[first, second]) if !plan.laced => {
-            bulk::remaining(hand.length(), [first, second])
+            notation_bulk::remaining_hand_depth(hand.staged_hand_length(), [first, second])
         }
         _ => None,
     };
-    let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
-    let mut solved = moved.iter().copied();
-    let solved = [0, 1].map(|n| made[n].as_ref().and_then(|_| solved.next()));
+    let moved: Vec<_> = arms.iter().map(|made| made.solved_arm_movement()).collect();
+    let mut moved_arms = moved.iter().copied();
+    let solved = [0, 1].map(|n| made_tracks[n].as_ref().and_then(|_| moved_arms.next()));
     let longest = settings.language.time_approach_most;
-    let least = approach::unhurried(&plan, solved, rate, longest);
-    let anchors = approach::ends(&plan, rate);
+    let least = approach::unhurried_step_factors(&plan, solved, rate, longest);
+    let anchors = approach::approach_end_frames(&plan, rate);
     let fastest = fastest(&settings.language, &body);
-    let warp = Warp::of(&moved, rate, &fastest, (least, &anchors), |arm, n| {
-        arms[arm].hasty(n)
+    let warp = TimeWarp::warp_within_speeds(&moved, rate, &fastest, (least, &anchors), |arm, n| {
+        arms[arm].fastest_step_motion(n)
     });
-    let mut tracks = made.map(|made| made.map(|made| made.track(&warp)));
-    let most = Fastest {
+    let mut tracks = made_tracks.map(|made| made.map(|made| made.into_stretched_track(&warp)));
+    let most = TopArmSpeeds {
         joint: fastest.joint / tuned().tempo.easy,
         wrist: fastest.wrist / tuned().tempo.easy,
     };
     let mut warp = warp;
-    for _ in 0..AGAIN {
-        let arms = hands.iter().zip(&tracks);
-        let arms = arms.filter_map(|(hand, track)| Some(track.as_ref()?.moved((*hand)?)));
-        let again = Warp::again(&arms.collect::<Vec<_>>(), rate, &most);
-        if again.is_none() {
+    for _ in 0..MAX_RESTRETCH_ROUNDS {
+        let hand_tracks = hands.iter().zip(&tracks);
+        let arms = hand_tracks.filter_map(|(hand, track)| Some(track.as_ref()?.moving_arm_frames((*hand)?)));
+        let further_warp = TimeWarp::warp_finished_frames(&arms.collect::<Vec<_>>(), rate, &most);
+        if further_warp.is_none() {
             break;
         }
-        tracks = tracks.map(|track| track.map(|track| track.stretched(&again)));
-        warp = warp.then(&again);
+        tracks = tracks.map(|track| track.map(|track| track.stretch_arm_track(&further_warp)));
+        warp = warp.compose_warps(&further_warp);
     }
-    let least = frames(warp.at(plan.end), rate)?;
-    let total = tracks.iter().flatten().map(|track| track.arm[0].len());
-    let total = total.max().unwrap_or(least);
-    let mut channels = standing(&body, total);
+    let least = frames_for_duration(warp.stretched_time_at(plan.end), rate)?;
+    let track_lengths = tracks.iter().flatten().map(|track| track.arm[0].len());
+    let total = track_lengths.max().unwrap_or(least);
+    let mut channels = standing_channels(&body, total);
     let mut fits = [None; 2];
     for (n, track) in tracks.into_iter().enumerate() {
         let (Some(hand), Some(track)) = (hands[n], track) else {
             continue;
         };
         fits[n] = Some(track.fit);
-        lay(&mut channels, hand, track);
+        lay_arm_track(&mut channels, hand, track);
     }
     if let Some(left) = left {
-        plan.remarks.push(format!(
-            "the hands remain {:.1} cm deep in each other",
-            left * 100.0
-        ));
+        plan.remarks
+            .push(format!("the hands remain {:.1} cm deep in each other", left * 100.0));
     }
     if let Some(parted) = farther(parted, cleared) {
         plan.remarks.push(format!(
             "the hands would go through each other at {:.2} s: each moves {:.1} cm aside",
-            warp.at(parted.time),
+            warp.stretched_time_at(parted.time),
             parted.by * 100.0
         ));
     }
@@ -258,32 +256,31 @@ pub fn animate(
         let Some(moved) = moved else { continue };
         plan.remarks.push(format!(
             "the {} hand would go through the head at {:.2} s: it moves {:.1} cm aside",
-            side.name(),
-            warp.at(moved.time),
+            side.body_side_name(),
+            warp.stretched_time_at(moved.time),
             moved.by * 100.0
         ));
     }
-    plan.stretch(&warp);
-    plan.remarks
-        .extend(duration::missed_durations(&plan.signs, &asked));
+    plan.stretch_plan_times(&warp);
+    plan.remarks.extend(duration::missed_durations(&plan.signs, &asked));
     let language = &settings.language;
     let planned = match warp.is_none() {
         true => (0..total).map(|n| (n, 0.0)).collect(),
-        false => warp.frames(),
+        false => warp.stretched_frames(),
     };
-    nonmanual::turn(&body, &alive.bents, &planned, &mut channels);
+    notation_nonmanual::turn_body_joints(&body, &alive.bents, &planned, &mut channels);
     let clip = Clip::new(Arc::clone(&body.skeleton), settings.rate, channels)?;
-    let report = report(signs, &plan, sides, fits);
-    let mut curves = nonmanual::curves(signs, &plan.signs, language, rate, total);
-    let more = alive.curves(signs, &plan.signs, language, rate, &planned);
+    let report = report_animation(signs, &plan, sides, fits);
+    let mut curves = notation_nonmanual::nonmanual_curves(signs, &plan.signs, language, rate, total);
+    let more = alive.eye_and_lid_curves(signs, &plan.signs, language, rate, &planned);
     curves.extend(more.into_iter().map(|mut curve| {
         let last = curve.values.last().copied().unwrap_or_default();
         curve.values.resize(total, last);
         curve
     }));
-    Ok(Generated {
+    Ok(GeneratedMovement {
         curves,
-        notes: notes::notes(signs, &plan, sides, &clip, &warp),
+        notes: notes::write_sign_notes(signs, &plan, sides, &clip, &warp),
         clip,
         anatomy: Arc::clone(&body.anatomy),
         handedness: stage.handedness,
@@ -293,45 +290,45 @@ pub fn animate(
 }
 
 /// The goals of both hands of signs in each frame, before the arms are solved.
-struct Goals<'a> {
-    alive: Alive,
-    wanted: [Wanted<'a>; 2],
+struct BothHandGoals<'a> {
+    alive: BodyLifeRotations,
+    wanted: [HandGoalFrames<'a>; 2],
     /// The separation of hands that pass each other, or that reach beyond the middle.
-    parted: Option<Parted>,
+    parted: Option<PartedMoment>,
     /// The separation of hands that would penetrate each other.
-    cleared: Option<Parted>,
+    cleared: Option<PartedMoment>,
     /// The displacement of each hand that would go through the head.
-    round_head: [Option<Parted>; 2],
+    round_head: [Option<PartedMoment>; 2],
 }
 
-impl<'a> Goals<'a> {
+impl<'a> BothHandGoals<'a> {
     /// Turns a plan into goals, with the body's sway, and moves two hands out of each other.
-    fn of(
-        body: &'a Stage,
-        signs: &[&Notated],
+    fn goals_from_plan(
+        body: &'a StandingBody,
+        signs: &[&NotatedSign],
         plan: &'a SignPlan,
         language: &BodyLanguage,
-        timing: &Timing<'_>,
+        timing: &AnimationTiming<'_>,
     ) -> Self {
         let rate = timing.rate;
-        let hands = plan.sides.map(|side| body.hand(side));
-        let [mut first, mut second] = [0, 1].map(|n| track::wanted(body, plan, n, timing));
+        let hands = plan.sides.map(|side| body.hand_of_side(side));
+        let [mut first, mut second] = [0, 1].map(|n| notation_track::goal_frames_from_plan(body, plan, n, timing));
         let mut parted = None;
         if let [Some(a), Some(b)] = hands {
-            parted = own_side::keep(body, plan, [a, b], [&mut first, &mut second], rate);
+            parted = own_side::keep_hands_own_side(body, plan, [a, b], [&mut first, &mut second], rate);
         }
         let round_head = [&mut first, &mut second].map(|one| skull::go_round(body, one, rate));
-        let alive = Alive::of(body, signs, plan, language, [&first, &second], rate);
+        let alive = BodyLifeRotations::plan_body_life(body, signs, plan, language, [&first, &second], rate);
         for (wanted, side) in [&mut first, &mut second].into_iter().zip(plan.sides) {
-            alive.carry(body, side, wanted);
+            alive.carry_hands_with_head(body, side, wanted);
         }
         let mut cleared = None;
         if let [Some(a), Some(b)] = hands {
-            let passed = hands_apart::part(body, [a, b], [&mut first, &mut second], rate);
+            let passed = hands_apart::part_passing_hands(body, [a, b], [&mut first, &mut second], rate);
             parted = farther(parted, passed);
             if !plan.laced {
                 let both = [&mut first, &mut second];
-                cleared = bulk::clear(body, [a, b], both, &plan.contacts, rate);
+                cleared = notation_bulk::clear_overlapping_hands(body, [a, b], both, &plan.contacts, rate);
             }
         }
         Self {
@@ -345,18 +342,18 @@ impl<'a> Goals<'a> {
 }
 
 /// Returns the separation in which each hand moves farther.
-fn farther(a: Option<Parted>, b: Option<Parted>) -> Option<Parted> {
+fn farther(a: Option<PartedMoment>, b: Option<PartedMoment>) -> Option<PartedMoment> {
     let both = a.into_iter().chain(b);
     both.max_by(|a, b| a.by.total_cmp(&b.by))
 }
 
 /// Returns the number of frames for a duration in seconds.
-fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
+fn frames_for_duration(seconds: f64, rate: f64) -> Result<usize, NotationError> {
     let total = (seconds * rate - 1e-9).ceil() as usize + 1;
-    if total > MOST_FRAMES {
+    if total > MAX_ANIMATION_FRAMES {
         return Err(NotationError::Long {
             seconds,
-            most: MOST_FRAMES as f64 / rate,
+            most: MAX_ANIMATION_FRAMES as f64 / rate,
         });
     }
     Ok(total)
@@ -364,29 +361,29 @@ fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
 
 /// Returns the top speeds for the solver: a little below the allowed ones, so that speeds measured between
 /// frames stay within them.
-fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
-    Fastest {
+fn fastest(language: &BodyLanguage, body: &StandingBody) -> TopArmSpeeds {
+    TopArmSpeeds {
         joint: tuned().tempo.easy * language.speed_joint,
         wrist: tuned().tempo.easy * language.speed_wrist * body.arm,
     }
 }
 
 /// Returns the channels of a body that stands still.
-fn standing(body: &Stage, total: usize) -> Vec<Channel> {
-    let joints = body.skeleton.joints().iter().enumerate();
+fn standing_channels(body: &StandingBody, total: usize) -> Vec<JointChannel> {
+    let joints = body.skeleton.skeleton_joints().iter().enumerate();
     joints
         .map(|(n, joint)| {
-            let at = body.base.translations[n];
-            Channel {
+            let base_translation = body.base.translations[n];
+            JointChannel {
                 rotations: vec![body.base.rotations[n]; total],
-                translations: (at != joint.offset).then(|| vec![at; total]),
+                translations: (base_translation != joint.offset).then(|| vec![base_translation; total]),
             }
         })
         .collect()
 }
 
-fn lay(channels: &mut [Channel], hand: &stage::Hand, track: ArmTrack) {
-    for (joint, column) in hand.rig.joints().into_iter().zip(track.arm) {
+fn lay_arm_track(channels: &mut [JointChannel], hand: &notation_stage::StagedHand, track: ArmTrack) {
+    for (joint, column) in hand.rig.arm_joint_indices().into_iter().zip(track.arm) {
         if let Some(joint) = joint {
             channels[joint].rotations = column;
         }
@@ -396,8 +393,13 @@ fn lay(channels: &mut [Channel], hand: &stage::Hand, track: ArmTrack) {
     }
 }
 
-fn report(signs: &[&Notated], plan: &SignPlan, sides: [Side; 2], fits: [Option<Fit>; 2]) -> Report {
-    let mut report = Report::default();
+fn report_animation(
+    signs: &[&NotatedSign],
+    plan: &SignPlan,
+    sides: [BodySide; 2],
+    fits: [Option<HandGoalFit>; 2],
+) -> GenerationReport {
+    let mut report = GenerationReport::default();
     let hands = sides.into_iter().zip(fits).filter_map(|(hand, fit)| {
         let fit = fit?;
         Some(HandReport {
@@ -415,25 +417,21 @@ fn report(signs: &[&Notated], plan: &SignPlan, sides: [Side; 2], fits: [Option<F
             path: format!("/signs/{n}"),
             step: sign.gloss.clone(),
             did: vec![format!("{:.2} s to {:.2} s", span.from, span.to)],
-            residual: fits
-                .iter()
-                .flatten()
-                .map(|fit| fit.residual)
-                .reduce(f64::max),
+            residual: fits.iter().flatten().map(|fit| fit.residual).reduce(f64::max),
             moved: None,
             language: None,
             hands: hands.clone(),
         });
     }
-    let moved = |side: Side| {
+    let moved = |side: BodySide| {
         let n = usize::from(sides[1] == side);
         !plan.events[n].is_empty()
     };
     let mut unknown: Vec<String> = signs
         .iter()
-        .flat_map(|sign| sign.nonmanual.acts())
+        .flat_map(|sign| sign.nonmanual.acts_by_tier())
         .filter(|(_, act)| act.part == NonmanualPart::Extra || !act.is_listed())
-        .map(|(_, act)| act.name())
+        .map(|(_, act)| act.act_curve_name())
         .collect();
     unknown.sort_unstable();
     unknown.dedup();
@@ -443,19 +441,19 @@ fn report(signs: &[&Notated], plan: &SignPlan, sides: [Side; 2], fits: [Option<F
         report.warnings.push(remark);
     }
     let acts = |part: NonmanualPart| {
-        let mut all = signs.iter().flat_map(|sign| sign.nonmanual.acts());
+        let mut all = signs.iter().flat_map(|sign| sign.nonmanual.acts_by_tier());
         all.any(|(_, act)| act.part == part)
     };
-    report.channels = Group::ALL
+    report.channels = JointGroup::ALL_JOINT_GROUPS
         .into_iter()
         .map(|group| ChannelReport {
-            channel: group.name(),
+            channel: group.joint_group_name(),
             from: match group {
-                Group::Arm(side) | Group::Fingers(side) if moved(side) => {
+                JointGroup::Arm(side) | JointGroup::Fingers(side) if moved(side) => {
                     vec!["notation".to_owned()]
                 }
-                Group::Head if acts(NonmanualPart::Head) => vec!["notation".to_owned()],
-                Group::Trunk if acts(NonmanualPart::Body) => vec!["notation".to_owned()],
+                JointGroup::Head if acts(NonmanualPart::Head) => vec!["notation".to_owned()],
+                JointGroup::Trunk if acts(NonmanualPart::Body) => vec!["notation".to_owned()],
                 _ => vec!["the stage".to_owned()],
             },
         })
@@ -466,29 +464,29 @@ fn report(signs: &[&Notated], plan: &SignPlan, sides: [Side; 2], fits: [Option<F
         if fit.parted > 2e-3 {
             report.warnings.push(format!(
                 "the {} hand stays {:.1} cm short of its contact",
-                side.name(),
+                side.body_side_name(),
                 fit.parted * 100.0
             ));
         }
         if fit.residual > fit.parted.max(5e-3) {
             report.warnings.push(format!(
                 "the {} hand stays up to {:.1} cm off its path",
-                side.name(),
+                side.body_side_name(),
                 fit.residual * 100.0
             ));
         }
         if let Some(hindrance) = fit.hindered {
             report.warnings.push(format!(
                 "the {} hand is turned up to {:.0}° less than written: {}",
-                side.name(),
+                side.body_side_name(),
                 fit.turned.to_degrees(),
-                hindrance.says()
+                hindrance.describe_hindrance()
             ));
         }
         if fit.pushed > 5e-3 {
             report.warnings.push(format!(
                 "the {} hand was moved {:.1} cm out of the trunk",
-                side.name(),
+                side.body_side_name(),
                 fit.pushed * 100.0
             ));
         }

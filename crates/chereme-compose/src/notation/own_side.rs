@@ -5,32 +5,32 @@
 
 use chereme_motion::glam::DVec3;
 
-use super::bulk::{ASIDE, Placed};
-use super::hands_apart::Parted;
-use super::plan::SignPlan;
-use super::solve::eased;
-use super::stage::{FINGER_FLESH, Hand, Stage};
-use super::track::Wanted;
-use super::tuned::tuned;
+use super::hands_apart::PartedMoment;
+use super::notation_bulk::{PlacedHand, REPORTED_HAND_SHIFT_M};
+use super::notation_plan::SignPlan;
+use super::notation_solve::ease_push_vectors;
+use super::notation_stage::{FINGER_FLESH, StagedHand, StandingBody};
+use super::notation_track::HandGoalFrames;
+use super::notation_tuned::tuned;
 
 /// Moves the goals of mirrored hands outwards, wherever a hand reaches beyond the middle and neither touches anything;
 /// returns the farthest move of each, if it is large enough to report.
-pub(crate) fn keep(
-    stage: &Stage,
+pub(crate) fn keep_hands_own_side(
+    stage: &StandingBody,
     plan: &SignPlan,
-    hands: [&Hand; 2],
-    wanted: [&mut Wanted<'_>; 2],
+    hands: [&StagedHand; 2],
+    wanted: [&mut HandGoalFrames<'_>; 2],
     rate: f64,
-) -> Option<Parted> {
+) -> Option<PartedMoment> {
     let total = wanted[0].points.len();
-    let middle = stage.middle();
-    let length = hands[0].length();
-    let outwards = [0, 1].map(|n| stage.left * plan.sides[n].sign());
+    let middle = stage.shoulder_middle();
+    let length = hands[0].staged_hand_length();
+    let outwards = [0, 1].map(|n| stage.left * plan.sides[n].side_sign());
     // Moves of the first hand; the other one makes the mirror image of each.
     let mut moves = vec![DVec3::ZERO; total];
     for (from, to) in &plan.mirrored {
         let [first, last] = [from, to].map(|time| ((time * rate) as usize).min(total));
-        let own = first..last;
+        let frame_range = first..last;
         let touch = |frame: usize| {
             let both = wanted.iter().map(|one| one.touch[frame]);
             both.fold(0.0, f64::max)
@@ -43,24 +43,24 @@ pub(crate) fn keep(
                 return 0.0;
             }
             let both = [0, 1].map(|n| {
-                let hand = Placed::of(wanted[n], frame);
-                let reach = hand.map(|hand| hand.least((middle, outwards[n])));
+                let hand = PlacedHand::place_hand_at_frame(wanted[n], frame);
+                let reach = hand.map(|hand| hand.least_plane_distance((middle, outwards[n])));
                 reach.map_or(0.0, |least| FINGER_FLESH * length - least)
             });
             both[0].max(both[1]).max(0.0)
         };
-        let depths: Vec<f64> = own.clone().map(deep).collect();
+        let depths: Vec<f64> = frame_range.clone().map(deep).collect();
         let most = depths.iter().copied().fold(0.0, f64::max);
         // Hands that touch each other may stay as deep as they are then.
-        let held = own.clone().zip(&depths);
-        let held = held.filter(|(frame, _)| touch(*frame) > 0.5);
-        let left = held
+        let frame_depths = frame_range.clone().zip(&depths);
+        let touching_depths = frame_depths.filter(|(frame, _)| touch(*frame) > 0.5);
+        let left = touching_depths
             .map(|(_, depth)| *depth)
             .fold(tuned().own_side.soft, f64::max);
         if !(left..tuned().own_side.crosses * length).contains(&most) {
             continue;
         }
-        for (frame, depth) in own.zip(depths) {
+        for (frame, depth) in frame_range.zip(depths) {
             moves[frame] = outwards[0] * ((depth - left).max(0.0) * (1.0 - touch(frame)));
         }
     }
@@ -68,15 +68,15 @@ pub(crate) fn keep(
         return None;
     }
     let near = ((tuned().own_side.around * rate).ceil() as usize).max(1);
-    let mut most: Option<Parted> = None;
+    let mut most: Option<PartedMoment> = None;
     let [first, second] = wanted;
-    for (frame, by) in eased(&moves, near).into_iter().enumerate() {
+    for (frame, by) in ease_push_vectors(&moves, near).into_iter().enumerate() {
         first.points[frame] += by * (1.0 - first.touch[frame]);
         second.points[frame] -= by * (1.0 - second.touch[frame]);
         let by = by.length();
-        if by > most.map_or(ASIDE, |most| most.by) {
+        if by > most.map_or(REPORTED_HAND_SHIFT_M, |most| most.by) {
             let time = frame as f64 / rate;
-            most = Some(Parted { time, by });
+            most = Some(PartedMoment { time, by });
         }
     }
     most

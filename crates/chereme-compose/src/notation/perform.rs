@@ -3,39 +3,41 @@
 use std::sync::Arc;
 
 use chereme_motion::Clip;
-use chereme_sign::hamnosys::Notated;
+use chereme_sign::hamnosys::NotatedSign;
 
-use super::pace::Paces;
-use super::plan::Planner;
-use super::solve::Arm;
-use super::stage::Stage;
+use super::notation_plan::SignPlanner;
+use super::notation_solve::ArmSolver;
+use super::notation_stage::StandingBody;
+use super::pace::PaceTables;
 use super::{
-    Goals, NotationError, Settings, animate, duration, frames, lay, nonmanual, standing, track,
+    AnimatorSettings, BothHandGoals, NotationError, animate_signs, duration, frames_for_duration, lay_arm_track,
+    notation_nonmanual, notation_track, standing_channels,
 };
-use crate::outcome::About;
-use crate::sources::Material;
+use crate::outcome::NoteSubject;
+use crate::sources::MovementMaterial;
 
 /// Seconds before and after the first posture that are computed with it: the arm takes from several solutions the one that
 /// changes least in the movement that follows, and sudden changes are spread over the time around them.
-const AROUND: [f64; 2] = [0.5, 1.0];
+const AROUND_POSTURE_S: [f64; 2] = [0.5, 1.0];
 
 /// A body that performs many signs, one at a time.
-pub struct Performer {
-    stage: Material,
-    body: Stage,
-    settings: Settings,
-    paces: Paces,
+pub struct SignPerformer {
+    stage: MovementMaterial,
+    body: StandingBody,
+    settings: AnimatorSettings,
+    paces: PaceTables,
 }
 
-impl Performer {
+impl SignPerformer {
     /// Takes the body from the first frame of the material.
     ///
     /// # Errors
     /// [`NotationError::NoArm`] if the body has no arm.
-    pub fn new(stage: Material, settings: Settings) -> Result<Self, NotationError> {
-        let body = Stage::of(&stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
+    pub fn new(stage: MovementMaterial, settings: AnimatorSettings) -> Result<Self, NotationError> {
+        let body =
+            StandingBody::body_from_material(&stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
         Ok(Self {
-            paces: Paces::of(&settings.language),
+            paces: PaceTables::pace_tables_from_language(&settings.language),
             stage,
             body,
             settings,
@@ -44,23 +46,23 @@ impl Performer {
 
     /// Returns the settings of the animator.
     #[must_use]
-    pub fn settings(&self) -> &Settings {
+    pub fn performer_settings(&self) -> &AnimatorSettings {
         &self.settings
     }
 
-    /// Returns the movement of a sign as [`animate`] synthesises it, without the paths from and to rest.
+    /// Returns the movement of a sign as [`animate_signs`] synthesises it, without the paths from and to rest.
     ///
     /// # Errors
-    /// The same as [`animate`]'s.
-    pub fn performs(&self, sign: &Notated) -> Result<Clip, NotationError> {
-        let made = animate(&[sign], &self.stage, &self.settings)?;
+    /// The same as [`animate_signs`]'s.
+    pub fn perform_sign(&self, sign: &NotatedSign) -> Result<Clip, NotationError> {
+        let made = animate_signs(&[sign], &self.stage, &self.settings)?;
         let clip = made.clip;
-        let mut glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
+        let mut glosses = made.notes.iter().filter(|note| note.about == NoteSubject::Gloss);
         Ok(match glosses.next() {
             Some(note) => {
-                let [first, last] =
-                    [note.span.start(), note.span.end()].map(|at| clip.rate().frame_at(at));
-                clip.slice(first..last + 1)
+                let [first, last] = [note.span.span_start_instant(), note.span.span_end_instant()]
+                    .map(|at| clip.clip_frame_rate().nearest_frame_at(at));
+                clip.slice_clip_frames(first..last + 1)
             }
             None => clip,
         })
@@ -74,44 +76,45 @@ impl Performer {
     ///
     /// # Errors
     /// [`NotationError`] if the movement would be too long.
-    pub fn begins(&self, sign: &Notated) -> Result<Clip, NotationError> {
+    pub fn perform_first_posture(&self, sign: &NotatedSign) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
         let language = (&self.settings.language, &self.paces);
-        let planner = || Planner::new(body, language, self.stage.handedness, rate);
+        let planner = || SignPlanner::new(body, language, self.stage.handedness, rate);
         let limits = planner().signer.limits;
-        let (plan, _) = duration::plan_timed(&[sign], |signs| planner().signs(signs));
+        let (plan, _) = duration::plan_timed(&[sign], |signs| planner().plan_signs(signs));
         let sides = plan.sides;
-        let total = frames(plan.end, rate)?;
+        let total = frames_for_duration(plan.end, rate)?;
         let reached = plan.signs.first().map_or(0.0, |sign| sign.from);
         let frame = ((reached * rate + 1e-6) as usize).min(total - 1);
-        let [before, after] = AROUND.map(|seconds| (seconds * rate).ceil() as usize);
+        let [before, after] = AROUND_POSTURE_S.map(|seconds| (seconds * rate).ceil() as usize);
         let span = frame.saturating_sub(before)..(frame + after + 1).min(total);
-        let timing = track::Timing {
+        let timing = notation_track::AnimationTiming {
             paces: &self.paces,
             rate,
             total,
         };
-        let mut channels = standing(body, 1);
-        let hands = sides.map(|side| body.hand(side));
+        let mut channels = standing_channels(body, 1);
+        let hands = sides.map(|side| body.hand_of_side(side));
         let language = &self.settings.language;
-        let Goals { alive, wanted, .. } = Goals::of(body, &[sign], &plan, language, &timing);
+        let BothHandGoals { alive, wanted, .. } =
+            BothHandGoals::goals_from_plan(body, &[sign], &plan, language, &timing);
         for (n, (hand, wanted)) in hands.into_iter().zip(wanted).enumerate() {
             let Some(hand) = hand else { continue };
-            let solver = Arm::of(body, hand, &limits);
-            let (_, got) = solver.over_time(&wanted.cut(span.clone()), rate);
-            let got = &got[frame - span.start];
-            let fingers = track::fingers(body, hand, &plan, n, &timing).into_iter();
-            let track = track::ArmTrack {
+            let solver = ArmSolver::solver_for_hand(body, hand, &limits);
+            let (_, got) = solver.over_time(&wanted.cut_goal_frames(span.clone()), rate);
+            let solved_frame = &got[frame - span.start];
+            let fingers = notation_track::finger_rotation_frames(body, hand, &plan, n, &timing).into_iter();
+            let track = notation_track::ArmTrack {
                 arm: hand
                     .rig
-                    .rotations(&got.posed, got.rotation)
+                    .arm_joint_rotations(&solved_frame.posed, solved_frame.rotation)
                     .map(|at| vec![at]),
                 fingers: fingers.map(|column| vec![column[frame]]).collect(),
-                fit: track::Fit::default(),
+                fit: notation_track::HandGoalFit::default(),
             };
-            lay(&mut channels, hand, track);
+            lay_arm_track(&mut channels, hand, track);
         }
-        nonmanual::turn(body, &alive.bents, &[(frame, 0.0)], &mut channels);
+        notation_nonmanual::turn_body_joints(body, &alive.bents, &[(frame, 0.0)], &mut channels);
         let (skeleton, rate) = (Arc::clone(&body.skeleton), self.settings.rate);
         Ok(Clip::new(skeleton, rate, channels)?)
     }
@@ -119,9 +122,9 @@ impl Performer {
 
 #[cfg(test)]
 mod tests {
-    use chereme_motion::{Anatomy, Rate, Side};
-    use chereme_sign::Handedness;
-    use chereme_sign::hamnosys::{from_names, parse};
+    use chereme_motion::{BodyAnatomy, BodySide, FrameRate};
+    use chereme_sign::SignerHandedness;
+    use chereme_sign::hamnosys::{from_names, parse_hamnosys};
 
     use super::*;
     use crate::testing::{Axes, skeleton};
@@ -134,33 +137,33 @@ mod tests {
         "hampinch12 hamextfingeru hampalml hamforehead hamclose hamcirclel",
     ];
 
-    fn performer(rate: u32) -> Performer {
-        let rate = Rate::new(rate, 1).expect("a rate");
+    fn performer(rate: u32) -> SignPerformer {
+        let rate = FrameRate::new(rate, 1).expect("a rate");
         let skeleton = Arc::new(skeleton(Axes::Plain, 1.0));
-        let stage = Material {
+        let stage = MovementMaterial {
             address: "stage".into(),
             hash: String::new(),
             gloss: String::new(),
             signer: None,
-            handedness: Handedness::Right,
-            anatomy: Arc::new(Anatomy::detect(&skeleton)),
-            clip: Clip::still(skeleton, rate, 1),
+            handedness: SignerHandedness::Right,
+            anatomy: Arc::new(BodyAnatomy::detect_anatomy(&skeleton)),
+            clip: Clip::from_rest_pose(skeleton, rate, 1),
             curves: Vec::new(),
             held: Vec::new(),
         };
-        let settings = Settings {
+        let settings = AnimatorSettings {
             rate,
-            ..Settings::default()
+            ..AnimatorSettings::default()
         };
-        Performer::new(stage, settings).expect("a body")
+        SignPerformer::new(stage, settings).expect("a body")
     }
 
-    fn sign(names: &str) -> Notated {
+    fn sign(names: &str) -> NotatedSign {
         let text = from_names(names.split(' ')).expect("names of symbols");
-        let sign = parse(&text).expect("HamNoSys").sign;
-        Notated {
+        let sign = parse_hamnosys(&text).expect("HamNoSys").sign;
+        NotatedSign {
             sign,
-            ..Notated::default()
+            ..NotatedSign::default()
         }
     }
 
@@ -169,19 +172,23 @@ mod tests {
         let performer = performer(60);
         for names in SIGNS {
             let sign = sign(names);
-            let (begun, whole) = (performer.begins(&sign), performer.performs(&sign));
+            let (begun, whole) = (performer.perform_first_posture(&sign), performer.perform_sign(&sign));
             let (begun, whole) = (begun.expect("a posture"), whole.expect("movement"));
-            assert_eq!(begun.frames(), 1);
-            assert!(whole.frames() > 1, "{names}");
+            assert_eq!(begun.clip_frame_count(), 1);
+            assert!(whole.clip_frame_count() > 1, "{names}");
             let [one, first] = [&begun, &whole].map(|clip| clip.model_pose(0));
-            for side in Side::BOTH {
-                let hand = performer.stage.anatomy.arm(side).expect("an arm").hand;
-                let off = one.position(hand).distance(first.position(hand));
-                let turned = one.rotation(hand).angle_between(first.rotation(hand));
+            for side in BodySide::BOTH_SIDES {
+                let hand = performer.stage.anatomy.arm_chain(side).expect("an arm").hand;
+                let off = one
+                    .model_joint_position(hand)
+                    .distance(first.model_joint_position(hand));
+                let turned = one
+                    .model_joint_rotation(hand)
+                    .angle_between(first.model_joint_rotation(hand));
                 assert!(off < 2e-3 && turned < 0.05, "{names}: {off} {turned}");
             }
-            for &joint in &performer.body.hand(Side::Right).expect("a hand").fingers {
-                let [a, b] = [&begun, &whole].map(|clip| clip.pose(0).rotations[joint]);
+            for &joint in &performer.body.hand_of_side(BodySide::Right).expect("a hand").fingers {
+                let [a, b] = [&begun, &whole].map(|clip| clip.clip_pose_at(0).rotations[joint]);
                 assert!(a.angle_between(b) < 0.01, "{names}");
             }
         }
@@ -191,16 +198,16 @@ mod tests {
     fn first_postures_are_reached_in_a_frame_at_any_rate() {
         for rate in [24, 25, 30, 50, 60, 120] {
             let performer = performer(rate);
-            let rate = performer.settings().rate;
+            let rate = performer.performer_settings().rate;
             // Signs whose time is not stretched.
             for names in [SIGNS[0], SIGNS[2], SIGNS[3]] {
                 let sign = sign(names);
-                let made = animate(&[&sign], &performer.stage, performer.settings());
+                let made = animate_signs(&[&sign], &performer.stage, performer.performer_settings());
                 let made = made.expect("movement");
-                let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
-                let reached = gloss.expect("a gloss").span.start();
-                let frame = rate.instant(rate.frame_at(reached));
-                let off = (reached.micros() - frame.micros()).abs();
+                let gloss = made.notes.iter().find(|note| note.about == NoteSubject::Gloss);
+                let reached = gloss.expect("a gloss").span.span_start_instant();
+                let frame = rate.frame_start_instant(rate.nearest_frame_at(reached));
+                let off = (reached.instant_micros() - frame.instant_micros()).abs();
                 assert!(off <= 1, "{names}: {off} microseconds from a frame");
             }
         }
@@ -209,13 +216,13 @@ mod tests {
     #[test]
     fn performing_gives_the_sign_without_approach_and_return() {
         let performer = performer(60);
-        let still = performer.performs(&sign(SIGNS[0])).expect("movement");
-        let hold = performer.settings().language.time_hold;
-        let frames = still.frames() as f64;
+        let still = performer.perform_sign(&sign(SIGNS[0])).expect("movement");
+        let hold = performer.performer_settings().language.time_hold;
+        let frames = still.clip_frame_count() as f64;
         assert!((frames / 60.0 - hold).abs() < 0.05, "{frames} frames");
         let mut body = performer.stage.clone();
-        body.clip = body.clip.slice(0..0);
-        let nobody = Performer::new(body, Settings::default());
+        body.clip = body.clip.slice_clip_frames(0..0);
+        let nobody = SignPerformer::new(body, AnimatorSettings::default());
         assert!(matches!(nobody, Err(NotationError::NoArm(_))));
     }
 }

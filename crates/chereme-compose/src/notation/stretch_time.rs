@@ -1,11 +1,11 @@
 //! Stretches time if an arm would move faster than people do.
 
-use super::tuned::tuned;
+use super::notation_tuned::tuned;
 use chereme_motion::glam::{DQuat, DVec3};
 
 /// Top speeds of arms.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Fastest {
+pub(crate) struct TopArmSpeeds {
     /// The top speed of a joint, in radians per second.
     pub(crate) joint: f64,
     /// The top speed of a wrist, in metres per second.
@@ -14,7 +14,7 @@ pub(crate) struct Fastest {
 
 /// The moving parts of an arm: positions of wrist and elbow, and rotations in model space.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Moved {
+pub(crate) struct MovingArm {
     pub(crate) wrist: DVec3,
     pub(crate) elbow: DVec3,
     pub(crate) turned: [DQuat; 3],
@@ -22,48 +22,48 @@ pub(crate) struct Moved {
     pub(crate) local: [DQuat; 4],
 }
 
-impl Moved {
+impl MovingArm {
     /// Returns whether wrist and bones are the same in both frames.
-    fn stays(&self, next: &Self) -> bool {
+    fn has_same_arm(&self, next: &Self) -> bool {
         self.wrist == next.wrist && self.turned == next.turned
     }
 }
 
 /// A map of planned to stretched time: the time of each planned frame, in seconds.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Warp {
+pub(crate) struct TimeWarp {
     times: Vec<f64>,
     rate: f64,
-    fastest: Fastest,
+    fastest: TopArmSpeeds,
 }
 
-impl Warp {
+impl TimeWarp {
     /// Returns the map that keeps arms at `rate` frames per second within the allowed speeds.
     ///
     /// Each step lasts as long as its fastest part needs; steps next to a stretched one last longer, too,
     /// so that no movement brakes suddenly. Each step lasts at least as long as its factor in `least`, and the planned frames of
     /// `anchors`, in ascending order, remain frames. `hasty(arm, frame)` returns the rotation (rad) of a joint and
     /// the distance (m) of a wrist until the next frame, extrapolated from the fastest part of the step.
-    pub(crate) fn of(
-        arms: &[impl AsRef<[Moved]>],
+    pub(crate) fn warp_within_speeds(
+        arms: &[impl AsRef<[MovingArm]>],
         rate: f64,
-        fastest: &Fastest,
+        fastest: &TopArmSpeeds,
         (least, anchors): (Vec<f64>, &[usize]),
         hasty: impl Fn(usize, usize) -> [f64; 2],
     ) -> Self {
-        let arms: Vec<&[Moved]> = arms.iter().map(AsRef::as_ref).collect();
+        let arms: Vec<&[MovingArm]> = arms.iter().map(AsRef::as_ref).collect();
         let total = arms.iter().map(|arm| arm.len()).max().unwrap_or(0);
         let mut lasts = least;
         lasts.resize(total.saturating_sub(1), 1.0);
         for (which, arm) in arms.iter().enumerate() {
             for (n, pair) in arm.windows(2).enumerate() {
                 let [a, b] = [&pair[0], &pair[1]];
-                if a.stays(b) {
+                if a.has_same_arm(b) {
                     continue;
                 }
                 let travel = a.wrist.distance(b.wrist) * rate / fastest.wrist;
-                let turn = a.turned.iter().zip(b.turned);
-                let turn = turn
+                let turn_pairs = a.turned.iter().zip(b.turned);
+                let turn = turn_pairs
                     .map(|(a, b)| a.angle_between(b) * rate / fastest.joint)
                     .fold(0.0, f64::max);
                 let mut last = travel.max(turn);
@@ -71,10 +71,8 @@ impl Warp {
                     // Joints interpolate each on its own between the two frames.
                     let each = a.local.iter().zip(b.local);
                     let sum: f64 = each.map(|(a, b)| a.angle_between(b)).sum();
-                    last = (1.2 * turn)
-                        .max(1.6 * travel)
-                        .max(sum * rate / fastest.joint);
-                    let needed = needed(hasty(which, n), rate, fastest);
+                    last = (1.2 * turn).max(1.6 * travel).max(sum * rate / fastest.joint);
+                    let needed = needed_step_factor(hasty(which, n), rate, fastest);
                     if needed < tuned().tempo.longer * last {
                         last = last.max(needed);
                     }
@@ -90,17 +88,17 @@ impl Warp {
 
     /// Returns the map that keeps finished frames within the allowed speeds, if a joint was faster within
     /// a step than its two frames showed.
-    pub(crate) fn again(arms: &[Vec<Moved>], rate: f64, fastest: &Fastest) -> Self {
+    pub(crate) fn warp_finished_frames(arms: &[Vec<MovingArm>], rate: f64, fastest: &TopArmSpeeds) -> Self {
         let total = arms.iter().map(Vec::len).max().unwrap_or(0);
         let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
         for arm in arms {
             for (last, pair) in lasts.iter_mut().zip(arm.windows(2)) {
-                if pair[0].stays(&pair[1]) {
+                if pair[0].has_same_arm(&pair[1]) {
                     continue;
                 }
                 let travel = pair[0].wrist.distance(pair[1].wrist) * rate / fastest.wrist;
-                let turns = pair[0].turned.iter().zip(pair[1].turned);
-                let turns = turns.map(|(a, b)| a.angle_between(b));
+                let turn_pairs = pair[0].turned.iter().zip(pair[1].turned);
+                let turns = turn_pairs.map(|(a, b)| a.angle_between(b));
                 let turn = turns.fold(0.0, f64::max) * rate / fastest.joint;
                 if travel.max(turn) > 1.0 {
                     *last = last.max(1.2 * travel.max(turn));
@@ -113,7 +111,7 @@ impl Warp {
     /// Returns the map with these factors on each step's duration; neighbouring steps are stretched, too.
     ///
     /// Stretched time has a frame at each planned frame of `anchors`, in ascending order.
-    fn lasting(lasts: &[f64], anchors: &[usize], rate: f64, fastest: &Fastest) -> Self {
+    fn lasting(lasts: &[f64], anchors: &[usize], rate: f64, fastest: &TopArmSpeeds) -> Self {
         let around = ((0.025 * rate).ceil() as usize).max(1);
         let mut eased: Vec<f64> = (0..lasts.len())
             .map(|n| {
@@ -130,9 +128,9 @@ impl Warp {
             let steps = &mut eased[from..to];
             let more: f64 = steps.iter().map(|last| last - 1.0).sum();
             if more > 1e-9 {
-                let whole = (more - 1e-6).ceil();
+                let whole_steps = (more - 1e-6).ceil();
                 for last in steps {
-                    *last = 1.0 + (*last - 1.0) * (whole / more);
+                    *last = 1.0 + (*last - 1.0) * (whole_steps / more);
                 }
             }
             from = to;
@@ -151,22 +149,22 @@ impl Warp {
     }
 
     /// Returns the composition of this map with the next one.
-    pub(crate) fn then(mut self, next: &Self) -> Self {
+    pub(crate) fn compose_warps(mut self, next: &Self) -> Self {
         for time in &mut self.times {
-            *time = next.at(*time);
+            *time = next.stretched_time_at(*time);
         }
         self
     }
 
     /// Returns the frames per second.
-    pub(crate) fn rate(&self) -> f64 {
+    pub(crate) fn warp_frame_rate(&self) -> f64 {
         self.rate
     }
 
     /// Returns whether a step lasts long enough for its fastest part.
-    pub(crate) fn allows(&self, n: usize, hasty: [f64; 2]) -> bool {
+    pub(crate) fn allows_step_duration(&self, n: usize, hasty: [f64; 2]) -> bool {
         let lasts = (self.times[n + 1] - self.times[n]) * self.rate;
-        needed(hasty, self.rate, &self.fastest) <= lasts * (1.0 + 1e-9)
+        needed_step_factor(hasty, self.rate, &self.fastest) <= lasts * (1.0 + 1e-9)
     }
 
     /// Returns whether no time is stretched.
@@ -176,7 +174,7 @@ impl Warp {
     }
 
     /// Returns the stretched time of a planned time, in seconds.
-    pub(crate) fn at(&self, planned: f64) -> f64 {
+    pub(crate) fn stretched_time_at(&self, planned: f64) -> f64 {
         let frame = (planned * self.rate).max(0.0);
         let last = self.times.len() - 1;
         let n = (frame as usize).min(last);
@@ -188,7 +186,7 @@ impl Warp {
 
     /// Returns for each frame of stretched time the planned frame before it and the share of the step to
     /// the next.
-    pub(crate) fn frames(&self) -> Vec<(usize, f64)> {
+    pub(crate) fn stretched_frames(&self) -> Vec<(usize, f64)> {
         let last = self.times.len() - 1;
         let total = (self.times[last] * self.rate - 1e-9).ceil().max(0.0) as usize + 1;
         let mut n = 0;
@@ -210,17 +208,17 @@ impl Warp {
 
 /// Returns the factor on a step's duration for a rotation (rad) of a joint and a distance (m) of the
 /// wrist.
-fn needed([turn, travel]: [f64; 2], rate: f64, fastest: &Fastest) -> f64 {
+fn needed_step_factor([turn, travel]: [f64; 2], rate: f64, fastest: &TopArmSpeeds) -> f64 {
     (turn * rate / fastest.joint).max(travel * rate / fastest.wrist)
 }
 
 /// Stretches steps in which a wrist or an elbow accelerates too much, measured over a sixtieth of a second
 /// to either side.
-fn slow(arm: &[Moved], rate: f64, lasts: &mut [f64]) {
+fn slow(arm: &[MovingArm], rate: f64, lasts: &mut [f64]) {
     let step = ((rate / 60.0).round() as usize).max(1);
     let seconds = step as f64 / rate;
     for n in step..arm.len().saturating_sub(step) {
-        let pull = |at: fn(&Moved) -> DVec3| {
+        let pull = |at: fn(&MovingArm) -> DVec3| {
             let [a, b, c] = [n - step, n, n + step].map(|n| at(&arm[n]));
             (a - b * 2.0 + c).length() / (seconds * seconds)
         };
@@ -237,13 +235,13 @@ fn slow(arm: &[Moved], rate: f64, lasts: &mut [f64]) {
 mod tests {
     use super::*;
 
-    const FASTEST: Fastest = Fastest {
+    const FASTEST: TopArmSpeeds = TopArmSpeeds {
         joint: 40.0,
         wrist: 5.0,
     };
 
-    fn along(places: &[f64]) -> Vec<Moved> {
-        let at = |x: &f64| Moved {
+    fn along(places: &[f64]) -> Vec<MovingArm> {
+        let at = |x: &f64| MovingArm {
             wrist: DVec3::X * *x,
             elbow: DVec3::ZERO,
             turned: [DQuat::IDENTITY; 3],
@@ -254,7 +252,7 @@ mod tests {
 
     #[test]
     fn slow_arms_are_not_stretched() {
-        let warp = Warp::of(
+        let warp = TimeWarp::warp_within_speeds(
             &[along(&[0.0, 0.01, 0.02, 0.02])],
             100.0,
             &FASTEST,
@@ -262,26 +260,20 @@ mod tests {
             |_, _| [0.0; 2],
         );
         assert!(warp.is_none());
-        assert_eq!(warp.frames().len(), 4);
-        assert!((warp.at(0.025) - 0.025).abs() < 1e-12);
+        assert_eq!(warp.stretched_frames().len(), 4);
+        assert!((warp.stretched_time_at(0.025) - 0.025).abs() < 1e-12);
     }
 
     #[test]
     fn an_instant_jump_takes_the_least_possible_time() {
         let mut places = vec![0.0; 20];
         places.extend(vec![0.5; 20]);
-        let warp = Warp::of(
-            &[along(&places)],
-            100.0,
-            &FASTEST,
-            (Vec::new(), &[]),
-            |_, _| [0.0; 2],
-        );
+        let warp = TimeWarp::warp_within_speeds(&[along(&places)], 100.0, &FASTEST, (Vec::new(), &[]), |_, _| [0.0; 2]);
         assert!(
-            (warp.at(0.2) - warp.at(0.19) - 0.16).abs() < 1e-12,
+            (warp.stretched_time_at(0.2) - warp.stretched_time_at(0.19) - 0.16).abs() < 1e-12,
             "0.5 m at 5 m/s, and the bow about the joints"
         );
-        let frames = warp.frames();
+        let frames = warp.stretched_frames();
         let at = |(n, share): (usize, f64)| {
             let next = places[(n + 1).min(places.len() - 1)];
             places[n] + (next - places[n]) * share
@@ -290,7 +282,7 @@ mod tests {
             assert!((at(pair[1]) - at(pair[0])) * 100.0 <= 5.0 + 1e-9);
         }
         for n in 1..40 {
-            assert!(warp.at(f64::from(n) / 100.0) > warp.at(f64::from(n - 1) / 100.0));
+            assert!(warp.stretched_time_at(f64::from(n) / 100.0) > warp.stretched_time_at(f64::from(n - 1) / 100.0));
         }
     }
 
@@ -298,27 +290,27 @@ mod tests {
     fn steps_last_at_least_the_requested_time() {
         let least = vec![1.0, 2.0, 1.0];
         let still = [along(&[0.0; 4])];
-        let warp = Warp::of(&still, 100.0, &FASTEST, (least, &[3]), |_, _| [0.0; 2]);
-        assert!(warp.at(0.02) - warp.at(0.01) >= 0.02 - 1e-12);
-        let frames = warp.at(0.03) * 100.0;
+        let warp = TimeWarp::warp_within_speeds(&still, 100.0, &FASTEST, (least, &[3]), |_, _| [0.0; 2]);
+        assert!(warp.stretched_time_at(0.02) - warp.stretched_time_at(0.01) >= 0.02 - 1e-12);
+        let frames = warp.stretched_time_at(0.03) * 100.0;
         assert!((frames - frames.round()).abs() < 1e-9, "{frames} frames");
     }
 
     #[test]
     fn finished_frames_that_go_too_fast_are_stretched_again_and_others_are_not() {
         let mut places: Vec<f64> = (0..20).map(|n| 0.04 * f64::from(n)).collect();
-        assert!(Warp::again(&[along(&places)], 100.0, &FASTEST).is_none());
+        assert!(TimeWarp::warp_finished_frames(&[along(&places)], 100.0, &FASTEST).is_none());
         places.extend((0..20).map(|n| 1.0 + 0.04 * f64::from(n)));
-        let warp = Warp::again(&[along(&places)], 100.0, &FASTEST);
+        let warp = TimeWarp::warp_finished_frames(&[along(&places)], 100.0, &FASTEST);
         let at = |&(n, share): &(usize, f64)| {
             let next = places[(n + 1).min(places.len() - 1)];
             places[n] + (next - places[n]) * share
         };
-        for pair in warp.frames().windows(2) {
+        for pair in warp.stretched_frames().windows(2) {
             assert!((at(&pair[1]) - at(&pair[0])) * 100.0 <= 5.0 + 1e-9);
         }
-        let both = warp.clone().then(&warp);
-        assert!((both.at(0.3) - warp.at(warp.at(0.3))).abs() < 0.02);
+        let both = warp.clone().compose_warps(&warp);
+        assert!((both.stretched_time_at(0.3) - warp.stretched_time_at(warp.stretched_time_at(0.3))).abs() < 0.02);
     }
 
     #[test]
@@ -327,16 +319,19 @@ mod tests {
         let mut least = vec![1.0; 11];
         least[5] = 2.0;
         let still = [along(&[0.0; 12])];
-        let warp = Warp::of(&still, 100.0, &FASTEST, (least, &[]), |_, _| [0.0; 2]);
+        let warp = TimeWarp::warp_within_speeds(&still, 100.0, &FASTEST, (least, &[]), |_, _| [0.0; 2]);
         let lasts = [1.0, 1.0, 1.25, 1.5, 1.75, 2.0, 1.75, 1.5, 1.25, 1.0, 1.0];
         let mut now = 0.0;
         for (n, last) in lasts.into_iter().enumerate() {
-            assert!((warp.at(0.01 * n as f64) - now).abs() < 1e-9, "step {n}");
-            assert!((warp.at(0.01 * (n as f64 + 0.5)) - now - 0.005 * last).abs() < 1e-9);
+            assert!((warp.stretched_time_at(0.01 * n as f64) - now).abs() < 1e-9, "step {n}");
+            assert!((warp.stretched_time_at(0.01 * (n as f64 + 0.5)) - now - 0.005 * last).abs() < 1e-9);
             now += 0.01 * last;
         }
-        assert!((warp.at(0.11) - now).abs() < 1e-9 && (warp.at(0.21) - now - 0.1).abs() < 1e-9);
-        assert!(!warp.is_none() && warp.rate() == 100.0);
+        assert!(
+            (warp.stretched_time_at(0.11) - now).abs() < 1e-9
+                && (warp.stretched_time_at(0.21) - now - 0.1).abs() < 1e-9
+        );
+        assert!(!warp.is_none() && warp.warp_frame_rate() == 100.0);
         // A step of 20 ms allows 0.8 rad at 40 rad/s and 0.1 m at 5 m/s.
         for (hasty, allowed) in [
             ([0.8, 0.0], true),
@@ -344,14 +339,14 @@ mod tests {
             ([0.0, 0.1], true),
             ([0.0, 0.102], false),
         ] {
-            assert_eq!(warp.allows(5, hasty), allowed, "{hasty:?}");
+            assert_eq!(warp.allows_step_duration(5, hasty), allowed, "{hasty:?}");
         }
-        let frames = warp.frames();
+        let frames = warp.stretched_frames();
         assert_eq!(frames.len(), 16, "0.15 s");
         for (frame, (n, share)) in frames.into_iter().enumerate().take(15) {
             let planned = 0.01 * (n as f64 + share);
             assert!(
-                (warp.at(planned) - 0.01 * frame as f64).abs() < 1e-9,
+                (warp.stretched_time_at(planned) - 0.01 * frame as f64).abs() < 1e-9,
                 "{frame}"
             );
         }

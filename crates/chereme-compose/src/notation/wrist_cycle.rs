@@ -18,10 +18,10 @@ pub(crate) struct WristCycle {
 
 impl WristCycle {
     /// Returns the hand's rotation in its own space after a share of the movement's time; it begins and ends softly.
-    pub(crate) fn at(&self, share: f64) -> DQuat {
+    pub(crate) fn wrist_cycle_rotation(&self, share: f64) -> DQuat {
         let turn = TAU * self.cycles * share;
-        let ends = (share.min(1.0 - share) * self.cycles * 4.0).clamp(0.0, 1.0);
-        let ends = ends * ends * (3.0 - 2.0 * ends);
+        let linear_ends = (share.min(1.0 - share) * self.cycles * 4.0).clamp(0.0, 1.0);
+        let ends = linear_ends * linear_ends * (3.0 - 2.0 * linear_ends);
         let about = match self.one_sided {
             true => self.axes[0] * (0.5 - 0.5 * turn.cos()),
             false => self.axes[0] * turn.sin() + self.axes[1] * turn.cos(),
@@ -46,7 +46,7 @@ mod tests {
             one_sided: true,
             ..both
         };
-        let angle = |cycle: &WristCycle, share: f64| cycle.at(share).to_scaled_axis().x;
+        let angle = |cycle: &WristCycle, share: f64| cycle.wrist_cycle_rotation(share).to_scaled_axis().x;
         for (share, sides, side) in [
             (0.0, 0.0, 0.0),
             (0.125, 0.4, 0.2),

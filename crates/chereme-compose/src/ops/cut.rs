@@ -1,107 +1,107 @@
-//! `span` and `trim`: cut a part out of the movement, or remove rest at its ends.
+//! `span` and `trim_resting_ends`: cut a part out of the movement, or remove rest at its ends.
 
 use std::ops::Range;
 
-use chereme_motion::ends::{self, Ends};
-use chereme_motion::{Clip, Instant, Span};
+use chereme_motion::ends::{self, ClipEnds};
+use chereme_motion::{Clip, RecordingInstant, TimeSpan};
 
-use crate::error::Cause;
-use crate::outcome::About;
-use crate::work::{Group, Work};
+use crate::error::StepError;
+use crate::outcome::NoteSubject;
+use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
 
-use chereme_sign::words::Text;
-use chereme_sign::{Component, Handedness};
+use chereme_sign::words::InterfaceText;
+use chereme_sign::{SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
-use crate::answers::Given;
+use crate::answers::NodeAnswers;
 use crate::check;
-use crate::contact::{Carry, Keep};
+use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
-use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax};
-use crate::text::{Parsed, Parser, list};
-use crate::units::Seconds;
+use crate::ops::{FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome};
+use crate::text::{ParsedText, RecipeParser, write_separated_list};
+use crate::units::RecipeSeconds;
 
 /// Settings of `span 0.4s..1.9s`, `span 0.4s..`, `span ..1.9s`: the part of the movement to keep.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Cut {
+pub struct SpanSettings {
     /// The time at which it begins; `None` for the first frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from: Option<Seconds>,
+    pub from: Option<RecipeSeconds>,
     /// The time at which it ends; `None` for the end of the last frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to: Option<Seconds>,
+    pub to: Option<RecipeSeconds>,
 }
 
-impl Syntax for Cut {
-    const NAME: &'static str = "span";
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Part", "Extrait"),
-        hint: Text::new("a part of the movement", "une partie du mouvement"),
+impl OperatorSyntax for SpanSettings {
+    const OPERATOR_NAME: &'static str = "span";
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Part", "Extrait"),
+        hint: InterfaceText::new("a part of the movement", "une partie du mouvement"),
         examples: &[
-            ("span 0.4s..1.9s", Text::new("a part of it", "une partie")),
+            ("span 0.4s..1.9s", InterfaceText::new("a part of it", "une partie")),
             (
                 "span 0.4s..",
-                Text::new("all from a time on", "tout à partir d’un temps"),
+                InterfaceText::new("all from a time on", "tout à partir d’un temps"),
             ),
         ],
         messages: &[
-            Text::new("the movement ends at {time}", "le mouvement finit à {time}"),
-            Text::new(
+            InterfaceText::new("the movement ends at {time}", "le mouvement finit à {time}"),
+            InterfaceText::new(
                 "kept {from} to {to} of {all}: frames {first} to {last}",
                 "gardé de {from} à {to} sur {all} : images {first} à {last}",
             ),
         ],
     };
 
-    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
-        parser.cut()
+    fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
+        parser.parse_time_span()
     }
 
-    fn usual() -> Self {
+    fn default_operator() -> Self {
         Self {
-            from: Some(Seconds(0.2)),
+            from: Some(RecipeSeconds(0.2)),
             to: None,
         }
     }
 }
 
-impl Display for Cut {
+impl Display for SpanSettings {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "span {}", CutEnds(self))
     }
 }
 
 /// Prints the two ends alone: `0.4s..1.9s`.
-pub(crate) struct CutEnds<'a>(pub(crate) &'a Cut);
+pub(crate) struct CutEnds<'a>(pub(crate) &'a SpanSettings);
 
 impl Display for CutEnds<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        list(f, self.0.from, "")?;
+        write_separated_list(f, self.0.from, "")?;
         f.write_str("..")?;
-        list(f, self.0.to, "")
+        write_separated_list(f, self.0.to, "")
     }
 }
 
-impl Operator for Cut {
-    fn check(&self) -> Result<(), RecipeError> {
-        check::part(Self::NAME, self)
+impl StepOperator for SpanSettings {
+    fn check_operator_settings(&self) -> Result<(), RecipeError> {
+        check::check_movement_part(Self::OPERATOR_NAME, self)
     }
 
-    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
-        Ok(span(work, self, given.text)?.into())
+    fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        Ok(cut_work_span(work, self, given.text)?.into())
     }
 
-    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+    fn contact_effect_for(&self, _handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
         None
     }
 
-    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |en, fr, field| FieldSetting::new(Text::new(en, fr), field);
+    fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let setting = |en, fr, field| FieldSetting::new(InterfaceText::new(en, fr), field);
         vec![
-            setting("from", "à partir de", Field::Time(&mut self.from, 0.2)),
-            setting("to", "jusqu’à", Field::Time(&mut self.to, 1.0)),
+            setting("from", "à partir de", OperatorField::Time(&mut self.from, 0.2)),
+            setting("to", "jusqu’à", OperatorField::Time(&mut self.to, 1.0)),
         ]
     }
 }
@@ -109,109 +109,115 @@ impl Operator for Cut {
 /// The operator that removes rest at both ends; it has no settings.
 pub(crate) struct Trim;
 
-impl Syntax for Trim {
-    const NAME: &'static str = "trim";
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Trim", "Rogner"),
-        hint: Text::new(
+impl OperatorSyntax for Trim {
+    const OPERATOR_NAME: &'static str = "trim";
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Trim", "Rogner"),
+        hint: InterfaceText::new(
             "without rest and odd first and last frames",
             "sans repos ni images fausses au début et à la fin",
         ),
         examples: &[(
             "trim",
-            Text::new(
+            InterfaceText::new(
                 "rest and odd first and last frames cut off",
                 "le repos et les images fausses des bouts coupés",
             ),
         )],
         messages: &[
-            Text::new(
+            InterfaceText::new(
                 "the movement from rest and back to it is left out: the phases of the sign are known",
                 "le mouvement depuis le repos et vers lui est laissé de côté : les phases du signe sont connues",
             ),
-            Text::new("left out {what}", "laissé de côté : {what}"),
-            Text::new(
+            InterfaceText::new("left out {what}", "laissé de côté : {what}"),
+            InterfaceText::new(
                 "the movement has no rest before or after it",
                 "le mouvement n’a pas de repos avant ou après",
             ),
         ],
     };
 
-    fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+    fn parse_operator_text(_parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self)
     }
 
-    fn usual() -> Self {
+    fn default_operator() -> Self {
         Self
     }
 }
 
 impl Display for Trim {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(Self::NAME)
+        f.write_str(Self::OPERATOR_NAME)
     }
 }
 
-impl Operator for Trim {
-    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
-        Ok(trim(work, given.text)?.into())
+impl StepOperator for Trim {
+    fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        Ok(trim_resting_ends(work, given.text)?.into())
     }
 
-    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+    fn contact_effect_for(&self, _handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
         None
     }
 }
 
 /// Keeps the frames that begin in a span.
-pub(crate) fn span(work: &mut Work, cut: &Cut, operator: &str) -> Result<Vec<String>, Cause> {
-    let whole = work.span();
-    let at = |seconds: f64| Instant::from_seconds(seconds);
-    let from = cut.from.map_or(whole.start(), |it| at(it.0));
-    let to = cut.to.map_or(whole.end(), |it| at(it.0));
-    let length = whole.seconds();
-    let none = || Cause::Cut { length };
-    let wanted = Span::new(from, to.max(from)).map_err(|_| none())?;
-    let wanted = wanted.intersection(whole).ok_or_else(none)?;
-    let frames = work.rate.frames_in(wanted);
-    let frames = frames.start..frames.end.min(work.frames);
+pub(crate) fn cut_work_span(
+    work: &mut WorkingClip,
+    cut: &SpanSettings,
+    operator: &str,
+) -> Result<Vec<String>, StepError> {
+    let full_span = work.working_clip_span();
+    let cut_instant = |seconds: f64| RecordingInstant::from_seconds(seconds);
+    let from = cut
+        .from
+        .map_or(full_span.span_start_instant(), |time| cut_instant(time.0));
+    let to = cut.to.map_or(full_span.span_end_instant(), |time| cut_instant(time.0));
+    let length = full_span.span_seconds();
+    let none = || StepError::Cut { length };
+    let asked_span = TimeSpan::new(from, to.max(from)).map_err(|_| none())?;
+    let wanted = asked_span.span_intersection(full_span).ok_or_else(none)?;
+    let wanted_frames = work.rate.frames_in(wanted);
+    let frames = wanted_frames.start..wanted_frames.end.min(work.frames);
     if frames.is_empty() {
         return Err(none());
     }
-    let mut did = vec![describe(work, &frames)];
-    if to > whole.end() {
-        did.push(format!("the movement ends at {}", whole.end()));
+    let mut did = vec![describe_cut_frames(work, &frames)];
+    if to > full_span.span_end_instant() {
+        did.push(format!("the movement ends at {}", full_span.span_end_instant()));
     }
-    keep(work, frames, operator);
+    keep_work_frames(work, frames, operator);
     Ok(did)
 }
 
 /// Returns the frames of a sign without the movement from rest to its first phase, and from its last one back to rest:
 /// only an end with rest whose phases are known is cut.
-pub(crate) fn signed(work: &Work) -> Result<Range<usize>, Cause> {
+pub(crate) fn signed_frame_range(work: &WorkingClip) -> Result<Range<usize>, StepError> {
     let all = 0..work.frames;
-    let Some(phases) = phases(work) else {
+    let Some(phases) = phase_frame_range(work) else {
         return Ok(all);
     };
     let channels = work.channels.clone();
     let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
-    let active = ends::activity(&clip, &work.anatomy).unwrap_or(all);
+    let active = ends::activity_frames(&clip, &work.anatomy).unwrap_or(all);
     Ok(between_rests(work, &active, &phases))
 }
 
 /// Returns the frames from the first phase of a hand to the end of the last one; `None` if no phase is known.
-fn phases(work: &Work) -> Option<Range<usize>> {
-    let about = About::Component(Component::Movement, Some("phase".to_owned()));
+fn phase_frame_range(work: &WorkingClip) -> Option<Range<usize>> {
+    let about = NoteSubject::Component(SignComponent::Movement, Some("phase".to_owned()));
     let notes = work.notes.iter().filter(|note| note.about == about);
-    let spans: Vec<Span> = notes.map(|note| note.span).collect();
-    let from = spans.iter().map(|span| span.start()).min()?;
-    let to = spans.iter().map(|span| span.end()).max()?;
-    let frames = work.rate.frames_in(Span::new(from, to).ok()?);
-    let frames = frames.start.min(work.frames)..frames.end.min(work.frames);
+    let spans: Vec<TimeSpan> = notes.map(|note| note.span).collect();
+    let from = spans.iter().map(|span| span.span_start_instant()).min()?;
+    let to = spans.iter().map(|span| span.span_end_instant()).max()?;
+    let phase_frames = work.rate.frames_in(TimeSpan::new(from, to).ok()?);
+    let frames = phase_frames.start.min(work.frames)..phase_frames.end.min(work.frames);
     (!frames.is_empty()).then_some(frames)
 }
 
 /// Returns the frames of the phases at each end that has rest, and all frames at the other.
-fn between_rests(work: &Work, active: &Range<usize>, phases: &Range<usize>) -> Range<usize> {
+fn between_rests(work: &WorkingClip, active: &Range<usize>, phases: &Range<usize>) -> Range<usize> {
     let rests = (active.start > 0, active.end < work.frames);
     let start = if rests.0 { phases.start } else { 0 };
     let end = if rests.1 { phases.end } else { work.frames };
@@ -219,59 +225,52 @@ fn between_rests(work: &Work, active: &Range<usize>, phases: &Range<usize>) -> R
 }
 
 /// Keeps the active frames; a movement without rest stays unchanged.
-pub(crate) fn trim(work: &mut Work, operator: &str) -> Result<Vec<String>, Cause> {
+pub(crate) fn trim_resting_ends(work: &mut WorkingClip, operator: &str) -> Result<Vec<String>, StepError> {
     let channels = work.channels.clone();
     let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
-    let odd = Ends::of(&clip, &work.anatomy);
-    let moving = ends::activity(&clip, &work.anatomy).unwrap_or(odd.sound.clone());
-    let signed = phases(work).map(|phases| between_rests(work, &moving, &phases));
-    let active = signed.map_or(moving.clone(), |signed| {
+    let odd = ClipEnds::examine_clip_ends(&clip, &work.anatomy);
+    let moving = ends::activity_frames(&clip, &work.anatomy).unwrap_or(odd.sound.clone());
+    let signed = phase_frame_range(work).map(|phases| between_rests(work, &moving, &phases));
+    let active_frames = signed.map_or(moving.clone(), |signed| {
         moving.start.max(signed.start)..moving.end.min(signed.end)
     });
-    let active = if active.is_empty() {
+    let active = if active_frames.is_empty() {
         moving.clone()
     } else {
-        active
+        active_frames
     };
-    let mut did: Vec<String> = odd
-        .odd
-        .iter()
-        .map(|odd| format!("left out {odd}"))
-        .collect();
+    let mut did: Vec<String> = odd.odd.iter().map(|odd| format!("left out {odd}")).collect();
     if active == (0..work.frames) {
         did.push("the movement has no rest before or after it".to_owned());
         return Ok(did);
     }
-    did.push(describe(work, &active));
+    did.push(describe_cut_frames(work, &active));
     if active != moving {
-        did.push(
-            "the movement from rest and back to it is left out: the phases of the sign are known"
-                .to_owned(),
-        );
+        did.push("the movement from rest and back to it is left out: the phases of the sign are known".to_owned());
     }
-    keep(work, active, operator);
+    keep_work_frames(work, active, operator);
     Ok(did)
 }
 
-fn describe(work: &Work, frames: &Range<usize>) -> String {
-    let kept = work.rate.span(frames.clone());
+fn describe_cut_frames(work: &WorkingClip, frames: &Range<usize>) -> String {
+    let kept = work.rate.frame_range_span(frames.clone());
     format!(
         "kept {} to {} of {}: frames {} to {}",
-        kept.start(),
-        kept.end(),
-        work.end(),
+        kept.span_start_instant(),
+        kept.span_end_instant(),
+        work.working_clip_end(),
         frames.start,
         frames.end - 1
     )
 }
 
-fn keep(work: &mut Work, frames: Range<usize>, operator: &str) {
+fn keep_work_frames(work: &mut WorkingClip, frames: Range<usize>, operator: &str) {
     keep_quietly(work, frames);
-    work.changed(Group::ALL, operator);
+    work.note_changed_groups(JointGroup::ALL_JOINT_GROUPS, operator);
 }
 
 /// Keeps some frames, without a word about it in the sources of the channels.
-pub(crate) fn keep_quietly(work: &mut Work, frames: Range<usize>) {
+pub(crate) fn keep_quietly(work: &mut WorkingClip, frames: Range<usize>) {
     for channel in &mut work.channels {
         channel.rotations = channel.rotations[frames.clone()].to_vec();
         if let Some(places) = &mut channel.translations {
@@ -281,12 +280,12 @@ pub(crate) fn keep_quietly(work: &mut Work, frames: Range<usize>) {
     for curve in &mut work.curves {
         curve.values = curve.values[frames.clone()].to_vec();
     }
-    let kept = work.rate.span(frames.clone());
-    let back = -kept.start().micros();
+    let kept = work.rate.frame_range_span(frames.clone());
+    let back = -kept.span_start_instant().instant_micros();
     work.notes.retain_mut(|note| {
-        let left = note.span.intersection(kept);
-        let left = left.filter(|span| span.micros() > 0);
-        note.span = left.unwrap_or(kept).shifted(back);
+        let kept_part = note.span.span_intersection(kept);
+        let left = kept_part.filter(|span| span.span_micros() > 0);
+        note.span = left.unwrap_or(kept).shifted_span(back);
         left.is_some()
     });
     work.frames = frames.len();

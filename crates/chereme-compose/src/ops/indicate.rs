@@ -3,146 +3,152 @@
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
-use chereme_motion::Side;
+use chereme_motion::BodySide;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::words::Text;
-use chereme_sign::{Component, Handedness};
+use chereme_sign::words::InterfaceText;
+use chereme_sign::{SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{Ask, Given, Setting, Slot};
-use crate::arm::{self, Reach};
+use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::arm::{self, WristReach};
 use crate::body::arm_length;
 use crate::check;
-use crate::contact::{Carry, Keep};
-use crate::error::{Cause, RecipeError};
-use crate::ops::place::{self, describe_reach};
-use crate::ops::travel::{STILL, moved, wrist_path};
-use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax, say};
-use crate::recipe::{Solver, Spot};
+use crate::contact::{ContactEffect, ContactsToKeep};
+use crate::error::{RecipeError, StepError};
+use crate::ops::place_operator::{self, describe_reach};
+use crate::ops::travel::{STILL_WRIST_MOVEMENT_M, withdraw_moved_notes, wrist_path};
+use crate::ops::{
+    FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, say_operator,
+};
+use crate::recipe::{ArmSolverMethod, SigningSpot};
 use crate::resolve::PlaceInput;
 use crate::stroke::SignStroke;
-use crate::text::{Parsed, Parser, list, option};
-use crate::units::{Direction, Hands};
-use crate::work::{Columns, Work};
+use crate::text::{ParsedText, RecipeParser, write_option, write_separated_list};
+use crate::units::{BodyDirection, HandChoice};
+use crate::work::{JointColumns, WorkingClip};
 
 /// Settings of `from me to left`: the new start and end of a directional verb.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Indicate {
+pub struct IndicateSettings {
     /// The hands that move; a hand that stays still, away from the other, keeps its place.
-    #[serde(default = "crate::recipe::both")]
-    pub hand: Hands,
+    #[serde(default = "crate::recipe::both_hands_choice")]
+    pub hand: HandChoice,
     /// The start of the movement; `None` keeps it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from: Option<Spot>,
+    pub from: Option<SigningSpot>,
     /// The end of the movement; `None` keeps it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to: Option<Spot>,
+    pub to: Option<SigningSpot>,
 }
 
 /// The places of start and end, if inventories name them.
-const ENDS: [Slot<PlaceInput>; 2] = [Slot::new("indicate/from"), Slot::new("indicate/to")];
+const INDICATE_END_SLOTS: [AnswerSlot<PlaceInput>; 2] =
+    [AnswerSlot::new("indicate/from"), AnswerSlot::new("indicate/to")];
 
-impl Syntax for Indicate {
-    const NAME: &'static str = "indicate";
-    const WORDS: &'static [&'static str] = &["from", "to"];
-    const KEYWORDS: &'static [&'static str] = &["me", "you"];
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Direct", "Diriger"),
-        hint: Text::new(
+impl OperatorSyntax for IndicateSettings {
+    const OPERATOR_NAME: &'static str = "indicate";
+    const OPERATOR_WORDS: &'static [&'static str] = &["from", "to"];
+    const OPERATOR_KEYWORDS: &'static [&'static str] = &["me", "you"];
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Direct", "Diriger"),
+        hint: InterfaceText::new(
             "between other places, as a directional verb",
             "entre d’autres lieux, comme un verbe directionnel",
         ),
         examples: &[(
             "from me to left",
-            Text::new(
+            InterfaceText::new(
                 "a directional verb between other places",
                 "un verbe directionnel entre d’autres lieux",
             ),
         )],
         messages: &[
-            Text::new(
+            InterfaceText::new(
                 "{spot} is {cm} cm nearer, as far as the arms reach",
                 "{spot} est plus près de {cm} cm, autant que les bras atteignent",
             ),
-            Text::new(
+            InterfaceText::new(
                 "the path of {from} cm became {to} cm",
                 "le trajet de {from} cm est devenu {to} cm",
             ),
-            Text::new(
+            InterfaceText::new(
                 "neither where it starts nor where it ends is given",
                 "ni son départ ni son arrivée ne sont donnés",
             ),
         ],
     };
 
-    fn parse(parser: &mut Parser<'_>, word: &str) -> Parsed<Self> {
-        let from = (word == "from").then(|| parser.spot()).transpose()?;
-        let to = word == "to" || parser.accept("to");
-        let to = to.then(|| parser.spot()).transpose()?;
-        let hand = if parser.accept("with") {
+    fn parse_operator_text(parser: &mut RecipeParser<'_>, word: &str) -> ParsedText<Self> {
+        let from = (word == "from").then(|| parser.parse_signing_spot()).transpose()?;
+        let has_target = word == "to" || parser.accept_word("to");
+        let to = has_target.then(|| parser.parse_signing_spot()).transpose()?;
+        let hand = if parser.accept_word("with") {
             parser
-                .hand()
-                .ok_or_else(|| parser.expected("a hand", &[]))?
+                .parse_hand_choice()
+                .ok_or_else(|| parser.expected_text_error("a hand", &[]))?
         } else {
-            Hands::Both
+            HandChoice::Both
         };
         Ok(Self { hand, from, to })
     }
 
-    fn usual() -> Self {
+    fn default_operator() -> Self {
         Self {
-            hand: Hands::Both,
+            hand: HandChoice::Both,
             from: None,
-            to: Some(Spot::Towards(vec![Direction::Left])),
+            to: Some(SigningSpot::Towards(vec![BodyDirection::Left])),
         }
     }
 }
 
-impl Display for Indicate {
+impl Display for IndicateSettings {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let from = self.from.as_ref().map(|spot| format!("from {spot}"));
         let to = self.to.as_ref().map(|spot| format!("to {spot}"));
-        list(f, from.into_iter().chain(to), " ")?;
-        let hand = (self.hand != Hands::Both).then(|| self.hand.name());
-        option(f, "with", hand)
+        write_separated_list(f, from.into_iter().chain(to), " ")?;
+        let hand = (self.hand != HandChoice::Both).then(|| self.hand.hand_choice_name());
+        write_option(f, "with", hand)
     }
 }
 
-impl Operator for Indicate {
-    fn check(&self) -> Result<(), RecipeError> {
+impl StepOperator for IndicateSettings {
+    fn check_operator_settings(&self) -> Result<(), RecipeError> {
         if self.from.is_none() && self.to.is_none() {
             return Err(RecipeError::Empty {
-                step: Self::NAME,
+                step: Self::OPERATOR_NAME,
                 what: "neither where it starts nor where it ends is given",
             });
         }
         let mut spots = self.from.iter().chain(&self.to);
-        spots.try_for_each(|at| check::spot(Self::NAME, at))
+        spots.try_for_each(|at| check::check_step_spot(Self::OPERATOR_NAME, at))
     }
 
-    fn resolve(&self, ask: &mut Ask<'_>, _setting: &Setting) -> Result<(), Cause> {
-        for (slot, spot) in ENDS.iter().zip([&self.from, &self.to]) {
+    fn resolve_operator_inputs(&self, ask: &mut CorpusAsker<'_>, _setting: &MaterialSigner) -> Result<(), StepError> {
+        for (slot, spot) in INDICATE_END_SLOTS.iter().zip([&self.from, &self.to]) {
             if let Some(spot) = spot {
-                ask.spot(slot, spot)?;
+                ask.ask_spot_place(slot, spot)?;
             }
         }
         Ok(())
     }
 
-    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
-        let places = ENDS.each_ref().map(|slot| given.get(slot));
-        Ok(indicate(work, self, places, given.text)?.into())
+    fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        let places = INDICATE_END_SLOTS.each_ref().map(|slot| given.get_answer(slot));
+        Ok(indicate_places(work, self, places, given.text)?.into())
     }
 
-    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
-        Some((Carry::Same, Keep::between(self.hand.sides(handedness))))
+    fn contact_effect_for(&self, handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
+        Some((
+            ContactEffect::Same,
+            ContactsToKeep::contacts_between_sides(self.hand.chosen_sides(handedness)),
+        ))
     }
 
-    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |en, fr, spot| FieldSetting::new(Text::new(en, fr), Field::Spot(spot));
+    fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let setting = |en, fr, spot| FieldSetting::new(InterfaceText::new(en, fr), OperatorField::Spot(spot));
         vec![
-            FieldSetting::hands(&mut self.hand),
+            FieldSetting::hands_field_setting(&mut self.hand),
             setting("from", "de", &mut self.from),
             setting("to", "à", &mut self.to),
         ]
@@ -150,52 +156,55 @@ impl Operator for Indicate {
 }
 
 /// A hand that a directional verb moves.
-struct Sent {
-    side: Side,
+struct IndicatingHand {
+    side: BodySide,
     path: Vec<DVec3>,
     shoulders: [DVec3; 2],
     arm: f64,
 }
 
-impl Sent {
+impl IndicatingHand {
     /// Follows a hand from the first of two frames to the second.
-    fn of(work: &Work, side: Side, ends: [usize; 2]) -> Result<Self, Cause> {
-        let chain = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
-        let columns = Columns::of(work, [chain.upper, chain.hand]);
-        let shoulder = columns.positions(chain.upper);
+    fn follow_indicating_hand(work: &WorkingClip, side: BodySide, ends: [usize; 2]) -> Result<Self, StepError> {
+        let chain = work.anatomy.arm_chain(side).ok_or(StepError::NoArm(side))?;
+        let columns = JointColumns::joint_columns_of(work, [chain.upper, chain.hand]);
+        let shoulder = columns.joint_positions(chain.upper);
         Ok(Self {
             side,
-            path: columns.positions(chain.hand).to_vec(),
+            path: columns.joint_positions(chain.hand).to_vec(),
             shoulders: ends.map(|frame| shoulder[frame]),
-            arm: arm_length(work, side).ok_or(Cause::NoArm(side))?,
+            arm: arm_length(work, side).ok_or(StepError::NoArm(side))?,
         })
     }
 
     fn is_still(&self) -> bool {
-        self.path.iter().all(|at| at.distance(self.path[0]) < STILL)
+        self.path
+            .iter()
+            .all(|at| at.distance(self.path[0]) < STILL_WRIST_MOVEMENT_M)
     }
 
     /// Returns the largest share of the line from `near` to `far` at which the wrist is within the arm's reach. `end`
     /// is 0 for the start of the movement and 1 for its end; `beside` is the wrist's offset from the hands' middle.
-    fn reaches(&self, end: usize, beside: DVec3, near: DVec3, far: DVec3) -> f64 {
-        let most = REACH * self.arm;
-        let within =
-            |share: f64| (near.lerp(far, share) + beside).distance(self.shoulders[end]) <= most;
+    fn reachable_line_share(&self, end: usize, beside: DVec3, near: DVec3, far: DVec3) -> f64 {
+        let most = MAX_DIRECTION_REACH * self.arm;
+        let within = |share: f64| (near.lerp(far, share) + beside).distance(self.shoulders[end]) <= most;
         (0..=20)
             .rev()
             .map(|n| f64::from(n) / 20.0)
-            .find(|&it| within(it))
+            .find(|&candidate| within(candidate))
             .unwrap_or(0.0)
     }
 }
 
 /// The largest extension of an arm towards a mere direction, as a share of its length.
-const REACH: f64 = 0.95;
+const MAX_DIRECTION_REACH: f64 = 0.95;
 
 /// Returns the hands to move: of two hands only the moving one, if the other stays still and away from it.
-fn sent(work: &Work, sides: &[Side], ends: [usize; 2]) -> Result<Vec<Sent>, Cause> {
-    let all = sides.iter().map(|&side| Sent::of(work, side, ends));
-    let mut all = all.collect::<Result<Vec<_>, _>>()?;
+fn sent(work: &WorkingClip, sides: &[BodySide], ends: [usize; 2]) -> Result<Vec<IndicatingHand>, StepError> {
+    let sent_hands = sides
+        .iter()
+        .map(|&side| IndicatingHand::follow_indicating_hand(work, side, ends));
+    let mut all = sent_hands.collect::<Result<Vec<_>, _>>()?;
     if let [one, other] = all.as_slice() {
         let pairs = one.path.iter().zip(&other.path);
         let nearest = pairs.map(|(a, b)| a.distance(*b)).fold(f64::MAX, f64::min);
@@ -211,56 +220,55 @@ fn sent(work: &Work, sides: &[Side], ends: [usize; 2]) -> Result<Vec<Sent>, Caus
 ///
 /// A mere direction, such as `left` or `you`, means a place within the arms' reach. A hand that hangs or lies still
 /// while the other one moves stays in its place.
-pub(crate) fn indicate(
-    work: &mut Work,
-    settings: &Indicate,
+pub(crate) fn indicate_places(
+    work: &mut WorkingClip,
+    settings: &IndicateSettings,
     places: [Option<&PlaceInput>; 2],
     operator: &str,
-) -> Result<(Vec<String>, f64), Cause> {
+) -> Result<(Vec<String>, f64), StepError> {
     let stroke = SignStroke::of_work(work)?;
     let ends = [stroke.frames.start, stroke.frames.end - 1];
-    let hands = sent(work, settings.hand.sides(work.handedness), ends)?;
-    let sides: Vec<Side> = hands.iter().map(|hand| hand.side).collect();
-    let frame = place::frame(work, &sides)?;
-    let middle =
-        |f: usize| hands.iter().map(|hand| hand.path[f]).sum::<DVec3>() / hands.len() as f64;
+    let hands = sent(work, settings.hand.chosen_sides(work.handedness), ends)?;
+    let sides: Vec<BodySide> = hands.iter().map(|hand| hand.side).collect();
+    let frame = place_operator::signer_body_frame(work, &sides)?;
+    let middle = |f: usize| hands.iter().map(|hand| hand.path[f]).sum::<DVec3>() / hands.len() as f64;
     let [start, end] = ends.map(middle);
     let mut did = Vec::new();
-    let mut spot = |at: usize, now: DVec3| -> Result<DVec3, Cause> {
+    let mut spot = |at: usize, now: DVec3| -> Result<DVec3, StepError> {
         let Some(spot) = [&settings.from, &settings.to][at].as_ref() else {
             return Ok(now);
         };
-        let find = |spot| frame.spot(work, spot, places[at].map(|input| &input.at), sides[0]);
-        let whole = find(spot).ok_or(Cause::NoMeaning {
+        let find = |spot| frame.hand_spot_position(work, spot, places[at].map(|input| &input.at), sides[0]);
+        let goal_spot = find(spot).ok_or(StepError::NoMeaning {
             value: spot.to_string(),
             what: "landmark that this skeleton has",
         })?;
-        if !matches!(spot, Spot::Towards(_) | Spot::You) {
-            return Ok(whole);
+        if !matches!(spot, SigningSpot::Towards(_) | SigningSpot::You) {
+            return Ok(goal_spot);
         }
-        let near = find(&Spot::Me).unwrap_or(whole);
+        let near = find(&SigningSpot::Me).unwrap_or(goal_spot);
         let shares = hands
             .iter()
-            .map(|hand| hand.reaches(at, hand.path[ends[at]] - now, near, whole));
+            .map(|hand| hand.reachable_line_share(at, hand.path[ends[at]] - now, near, goal_spot));
         let share = shares.fold(1.0, f64::min);
         if share < 1.0 {
             did.push(format!(
                 "{spot} is {:.0} cm nearer, as far as the arms reach",
-                near.distance(whole) * (1.0 - share) * 100.0
+                near.distance(goal_spot) * (1.0 - share) * 100.0
             ));
         }
-        Ok(near.lerp(whole, share))
+        Ok(near.lerp(goal_spot, share))
     };
     let (from, to) = (spot(0, start)?, spot(1, end)?);
     let shares = travelled(&stroke.frames.clone().map(middle).collect::<Vec<_>>());
     let turn = level_turn(end - start, to - from);
-    let mut worst = Reach::default();
-    for Sent { side, path, .. } in &hands {
+    let mut worst = WristReach::default();
+    for IndicatingHand { side, path, .. } in &hands {
         let side = *side;
-        let chain = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
-        let columns = Columns::of(work, [chain.hand]);
+        let chain = work.anatomy.arm_chain(side).ok_or(StepError::NoArm(side))?;
+        let columns = JointColumns::joint_columns_of(work, [chain.hand]);
         let turned: Vec<DQuat> = columns
-            .rotations(chain.hand)
+            .joint_rotations(chain.hand)
             .iter()
             .enumerate()
             .map(|(frame, hand)| stroke.turn_share(frame, turn) * *hand)
@@ -274,20 +282,20 @@ pub(crate) fn indicate(
                 stroke.point_between(frame, path[frame], path[frame] + moved)
             })
             .collect();
-        let solver = Solver::Analytic;
-        let reach = arm::move_wrist(work, side, &columns, &targets, Some(&turned), solver)
-            .ok_or(Cause::NoArm(side))?;
-        place::check(side, &reach)?;
-        worst = worst.worse(reach);
+        let solver = ArmSolverMethod::Analytic;
+        let reach =
+            arm::move_wrist(work, side, &columns, &targets, Some(&turned), solver).ok_or(StepError::NoArm(side))?;
+        place_operator::check_wrist_reach(side, &reach)?;
+        worst = worst.worse_reach(reach);
     }
-    moved(work, &sides, operator);
+    withdraw_moved_notes(work, &sides, operator);
     for (at, input) in places.into_iter().enumerate() {
         let value = input.and_then(|input| input.value.as_deref());
         let Some(value) = value else { continue };
         for &side in &sides {
-            let frames = stays(work, side, &stroke, at == 1)?;
-            let what = (Component::Placement, None);
-            say::record(work, side, what, value, frames, operator);
+            let frames = still_stroke_frames(work, side, &stroke, at == 1)?;
+            let what = (SignComponent::Placement, None);
+            say_operator::record_component_value(work, side, what, value, frames, operator);
         }
     }
     did.push(format!(
@@ -301,10 +309,15 @@ pub(crate) fn indicate(
 }
 
 /// Returns the frames at the start, or at the end, of the stroke in which a wrist keeps its position.
-fn stays(work: &Work, side: Side, stroke: &SignStroke, end: bool) -> Result<Range<usize>, Cause> {
+fn still_stroke_frames(
+    work: &WorkingClip,
+    side: BodySide,
+    stroke: &SignStroke,
+    end: bool,
+) -> Result<Range<usize>, StepError> {
     let frames = stroke.frames.clone();
     let path = &wrist_path(work, side)?[frames.clone()];
-    let near = |from: DVec3| move |at: &&DVec3| at.distance(from) < 2.0 * STILL;
+    let near = |from: DVec3| move |at: &&DVec3| at.distance(from) < 2.0 * STILL_WRIST_MOVEMENT_M;
     Ok(if end {
         let last = path[path.len() - 1];
         let count = path.iter().rev().take_while(near(last)).count();
@@ -321,14 +334,14 @@ fn travelled(path: &[DVec3]) -> Vec<f64> {
     for pair in path.windows(2) {
         shares.push(shares[shares.len() - 1] + pair[0].distance(pair[1]));
     }
-    let whole = shares[shares.len() - 1];
+    let total_length = shares[shares.len() - 1];
     let last = shares.len().saturating_sub(1).max(1) as f64;
     shares
         .iter()
         .enumerate()
         .map(|(n, share)| {
-            if whole > 1e-6 {
-                share / whole
+            if total_length > 1e-6 {
+                share / total_length
             } else {
                 n as f64 / last
             }

@@ -1,4 +1,4 @@
-//! `swap` and `mirror`: give one arm the movement of the other, mirrored at the body's sagittal plane.
+//! `swap_arm_movements` and `mirror_arm_movement`: give one arm the movement of the other, mirrored at the body's sagittal plane.
 //!
 //! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its counterpart, all in
 //! model space, and a zero for the rest pose, the movement of j relative to the trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`.
@@ -7,68 +7,68 @@
 //! at rest. Applied twice, this gives R again. All this is done joint by joint in local space.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Part, Side, Skeleton};
-use chereme_sign::words::Text;
-use chereme_sign::{Component, Reading};
+use chereme_motion::{BodyPart, BodySide, Skeleton};
+use chereme_sign::words::InterfaceText;
+use chereme_sign::{ComponentReading, SignComponent};
 
-use crate::error::Cause;
-use crate::outcome::{About, Note};
-use crate::work::{Columns, Group, Work};
+use crate::error::StepError;
+use crate::outcome::{GeneratedNote, NoteSubject};
+use crate::work::{JointColumns, JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
 
-use chereme_sign::Handedness;
+use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::Given;
-use crate::contact::{Carry, Keep};
+use crate::answers::NodeAnswers;
+use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
-use crate::ops::{Description, Done, Field, FieldSetting, Neighbours, Operator, Step, Syntax};
-use crate::text::{Parsed, Parser};
-use crate::units::Hands;
+use crate::ops::{
+    FieldSetting, OperatorDescription, OperatorField, OperatorNeighbours, OperatorSyntax, Step, StepOperator,
+    StepOutcome,
+};
+use crate::text::{ParsedText, RecipeParser};
+use crate::units::HandChoice;
 
 /// The operator that exchanges the arms; it has no settings.
 pub(crate) struct Swap;
 
-impl Syntax for Swap {
-    const NAME: &'static str = "swap";
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Swap hands", "Échanger les mains"),
-        hint: Text::new(
-            "the arms exchange their movement",
-            "les bras échangent leurs rôles",
-        ),
-        examples: &[("swap", Text::new("the arms exchanged", "les bras échangés"))],
+impl OperatorSyntax for Swap {
+    const OPERATOR_NAME: &'static str = "swap";
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Swap hands", "Échanger les mains"),
+        hint: InterfaceText::new("the arms exchange their movement", "les bras échangent leurs rôles"),
+        examples: &[("swap", InterfaceText::new("the arms exchanged", "les bras échangés"))],
         messages: &[],
     };
 
-    fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+    fn parse_operator_text(_parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self)
     }
 
-    fn usual() -> Self {
+    fn default_operator() -> Self {
         Self
     }
 }
 
 impl Display for Swap {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(Self::NAME)
+        f.write_str(Self::OPERATOR_NAME)
     }
 }
 
-impl Operator for Swap {
-    fn apply(&self, work: &mut Work, _given: &mut Given<'_>) -> Result<Done, Cause> {
-        Ok(swap(work)?.into())
+impl StepOperator for Swap {
+    fn apply_operator(&self, work: &mut WorkingClip, _given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        Ok(swap_arm_movements(work)?.into())
     }
 
-    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
-        Some((Carry::Swapped, Keep::None))
+    fn contact_effect_for(&self, _handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
+        Some((ContactEffect::Swapped, ContactsToKeep::None))
     }
 
-    fn after(&self, before: &mut Step) -> Neighbours {
+    fn relation_to_previous(&self, before: &mut Step) -> OperatorNeighbours {
         match before {
-            Step::Swap => Neighbours::Nothing,
-            _ => Neighbours::Apart,
+            Step::Swap => OperatorNeighbours::Nothing,
+            _ => OperatorNeighbours::Apart,
         }
     }
 }
@@ -76,111 +76,111 @@ impl Operator for Swap {
 /// Settings of `mirror right`: the arm that is copied.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Mirror {
+pub struct MirrorSettings {
     /// The arm whose movement the other arm takes; never both.
-    #[serde(default = "crate::recipe::dominant")]
-    pub from: Hands,
+    #[serde(default = "crate::recipe::dominant_hand_choice")]
+    pub from: HandChoice,
 }
 
-impl Syntax for Mirror {
-    const NAME: &'static str = "mirror";
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Mirror", "Miroir"),
-        hint: Text::new("one arm copies the other", "un bras copie l’autre"),
+impl OperatorSyntax for MirrorSettings {
+    const OPERATOR_NAME: &'static str = "mirror";
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Mirror", "Miroir"),
+        hint: InterfaceText::new("one arm copies the other", "un bras copie l’autre"),
         examples: &[(
             "mirror right",
-            Text::new(
-                "the left arm like the right one",
-                "le bras gauche comme le droit",
-            ),
+            InterfaceText::new("the left arm like the right one", "le bras gauche comme le droit"),
         )],
         messages: &[
-            Text::new(
+            InterfaceText::new(
                 "one arm is copied to the other; name right, left, dominant or weak",
                 "un bras est copié sur l’autre ; nommez right, left, dominant ou weak",
             ),
-            Text::new(
+            InterfaceText::new(
                 "the hands go through each other in {n} frames, from {first} on; take one aside, as with: place left by left 5cm",
                 "les mains se traversent dans {n} images, à partir de {first} ; écartez-en une, comme avec : place left by left 5cm",
             ),
-            Text::new(
+            InterfaceText::new(
                 "joints without a counterpart stay as they were: {names}",
                 "les articulations sans pendant restent comme elles étaient : {names}",
             ),
         ],
     };
 
-    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
-        let from = parser.hand().unwrap_or(Hands::Dominant);
+    fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
+        let from = parser.parse_hand_choice().unwrap_or(HandChoice::Dominant);
         Ok(Self { from })
     }
 
-    fn usual() -> Self {
-        let from = Hands::Dominant;
+    fn default_operator() -> Self {
+        let from = HandChoice::Dominant;
         Self { from }
     }
 }
 
-impl Display for Mirror {
+impl Display for MirrorSettings {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.from {
-            Hands::Dominant => f.write_str("mirror"),
-            from => write!(f, "mirror {}", from.name()),
+            HandChoice::Dominant => f.write_str("mirror"),
+            from => write!(f, "mirror {}", from.hand_choice_name()),
         }
     }
 }
 
-impl Operator for Mirror {
-    fn check(&self) -> Result<(), RecipeError> {
+impl StepOperator for MirrorSettings {
+    fn check_operator_settings(&self) -> Result<(), RecipeError> {
         match self.from {
-            Hands::Both => Err(RecipeError::Empty {
-                step: Self::NAME,
+            HandChoice::Both => Err(RecipeError::Empty {
+                step: Self::OPERATOR_NAME,
                 what: "one arm is copied to the other; name right, left, dominant or weak",
             }),
-            Hands::Right | Hands::Left | Hands::Dominant | Hands::Weak => Ok(()),
+            HandChoice::Right | HandChoice::Left | HandChoice::Dominant | HandChoice::Weak => Ok(()),
         }
     }
 
-    fn apply(&self, work: &mut Work, _given: &mut Given<'_>) -> Result<Done, Cause> {
-        let from = self.from.sides(work.handedness)[0];
-        Ok(mirror(work, from)?.into())
+    fn apply_operator(&self, work: &mut WorkingClip, _given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        let from = self.from.chosen_sides(work.handedness)[0];
+        Ok(mirror_arm_movement(work, from)?.into())
     }
 
-    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
-        let from = self.from.sides(handedness)[0];
-        Some((Carry::Copied(from), Keep::None))
+    fn contact_effect_for(&self, handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
+        let from = self.from.chosen_sides(handedness)[0];
+        Some((ContactEffect::Copied(from), ContactsToKeep::None))
     }
 
-    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let field = Field::Hand(&mut self.from);
-        let copied = Text::new("copied from the", "copié de la");
+    fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let field = OperatorField::Hand(&mut self.from);
+        let copied = InterfaceText::new("copied from the", "copié de la");
         vec![FieldSetting::new(copied, field)]
     }
 }
 
 /// Exchanges the movements of the arms.
-pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
-    let plan = MirrorPlan::of(work)?;
-    let images = plan.pairs.iter().map(|pair| (pair, plan.image(work, pair)));
-    let mirrored: Vec<(&Pair, Column)> = images.collect();
-    let did = plan.write(work, mirrored);
+pub(crate) fn swap_arm_movements(work: &mut WorkingClip) -> Result<Vec<String>, StepError> {
+    let plan = MirrorPlan::mirror_plan_from(work)?;
+    let images = plan
+        .pairs
+        .iter()
+        .map(|pair| (pair, plan.mirrored_joint_image(work, pair)));
+    let mirrored: Vec<(&MirroredJointPair, MirroredColumn)> = images.collect();
+    let did = plan.write_mirrored_columns(work, mirrored);
     for note in &mut work.notes {
         turn_over(note);
     }
-    work.changed(arms(&Side::BOTH), "swap");
+    work.note_changed_groups(arms(&BodySide::BOTH_SIDES), "swap");
     Ok(did)
 }
 
 /// Gives the other arm the mirror image of the movement of `from`.
-pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> {
-    let plan = MirrorPlan::of(work)?;
+pub(crate) fn mirror_arm_movement(work: &mut WorkingClip, from: BodySide) -> Result<Vec<String>, StepError> {
+    let plan = MirrorPlan::mirror_plan_from(work)?;
     let copied = plan.pairs.iter().filter(|pair| pair.side == from);
-    let images = copied.map(|pair| (pair, plan.image(work, pair)));
-    let mirrored: Vec<(&Pair, Column)> = images.collect();
-    let mut did = plan.write(work, mirrored);
-    did.extend(crossing(work, &plan));
-    work.notes.retain(|note| note.hand != Some(from.other()));
-    let copies: Vec<Note> = work
+    let images = copied.map(|pair| (pair, plan.mirrored_joint_image(work, pair)));
+    let mirrored: Vec<(&MirroredJointPair, MirroredColumn)> = images.collect();
+    let mut did = plan.write_mirrored_columns(work, mirrored);
+    did.extend(report_crossing_hands(work, &plan));
+    work.notes.retain(|note| note.hand != Some(from.opposite_side()));
+    let copies: Vec<GeneratedNote> = work
         .notes
         .iter()
         .filter(|note| note.hand == Some(from))
@@ -191,37 +191,37 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
         })
         .collect();
     work.notes.extend(copies);
-    let operator = format!("mirror {}", from.name());
+    let operator = format!("mirror {}", from.body_side_name());
     // A value of the sign as a whole belongs to the dominant hand, and hands with equal values count as two.
-    let copied = work.handedness.dominant() != from;
+    let copied = work.handedness.signer_dominant_side() != from;
     for note in work.notes.iter_mut().filter(|note| note.hand.is_none()) {
         match &note.about {
-            About::Component(_, Some(feature)) if feature == "handedness" => {
-                note.value = Reading::Unset;
+            NoteSubject::Component(_, Some(feature)) if feature == "handedness" => {
+                note.value = ComponentReading::Unset;
             }
-            About::Component(component, _) if copied && *component != Component::NonManual => {
-                note.value = Reading::Unset;
+            NoteSubject::Component(component, _) if copied && *component != SignComponent::NonManual => {
+                note.value = ComponentReading::Unset;
             }
             _ => {}
         }
     }
-    work.changed(arms(&[from.other()]), &operator);
+    work.note_changed_groups(arms(&[from.opposite_side()]), &operator);
     Ok(did)
 }
 
 /// Reports hands that are each other's mirror image and pass through each other: a joint of one is beyond the plane
 /// between them.
-fn crossing(work: &Work, plan: &MirrorPlan) -> Option<String> {
-    let upper = |side| Some(work.anatomy.arm(side)?.upper);
-    let (left, right) = (upper(Side::Left)?, upper(Side::Right)?);
-    let hand = work.anatomy.arm(Side::Left)?.hand;
-    let below = work.skeleton.subtree(hand);
-    let pairs = plan.pairs.iter().filter(|pair| below.contains(&pair.joint));
-    let pairs: Vec<(usize, usize)> = pairs.map(|pair| (pair.joint, pair.other)).collect();
+fn report_crossing_hands(work: &WorkingClip, plan: &MirrorPlan) -> Option<String> {
+    let upper = |side| Some(work.anatomy.arm_chain(side)?.upper);
+    let (left, right) = (upper(BodySide::Left)?, upper(BodySide::Right)?);
+    let hand = work.anatomy.arm_chain(BodySide::Left)?.hand;
+    let below = work.skeleton.joint_subtree(hand);
+    let lower_pairs = plan.pairs.iter().filter(|pair| below.contains(&pair.joint));
+    let pairs: Vec<(usize, usize)> = lower_pairs.map(|pair| (pair.joint, pair.other)).collect();
     let all = pairs.iter().flat_map(|&(a, b)| [a, b]).chain([left, right]);
-    let columns = Columns::of(work, all);
+    let columns = JointColumns::joint_columns_of(work, all);
     let offset = |from: usize, to: usize, frame: usize| {
-        columns.positions(to)[frame] - columns.positions(from)[frame]
+        columns.joint_positions(to)[frame] - columns.joint_positions(from)[frame]
     };
     let crossed = |frame: &usize| {
         let across = offset(right, left, *frame);
@@ -230,7 +230,7 @@ fn crossing(work: &Work, plan: &MirrorPlan) -> Option<String> {
             .any(|&(left, right)| offset(right, left, *frame).dot(across) < 0.0)
     };
     let frames: Vec<usize> = (0..work.frames).filter(crossed).collect();
-    let first = work.rate.instant(*frames.first()?);
+    let first = work.rate.frame_start_instant(*frames.first()?);
     Some(format!(
         "the hands go through each other in {} frames, from {first} on; take one aside, as with: \
          place left by left 5cm",
@@ -238,22 +238,22 @@ fn crossing(work: &Work, plan: &MirrorPlan) -> Option<String> {
     ))
 }
 
-fn arms(sides: &[Side]) -> Vec<Group> {
+fn arms(sides: &[BodySide]) -> Vec<JointGroup> {
     sides
         .iter()
-        .flat_map(|&side| [Group::Arm(side), Group::Fingers(side)])
+        .flat_map(|&side| [JointGroup::Arm(side), JointGroup::Fingers(side)])
         .collect()
 }
 
 /// Replaces the hand by the other one, and the side in values such as `high-left`.
-fn turn_over(note: &mut Note) {
-    let manual = |component: &Component| *component != Component::NonManual;
+fn turn_over(note: &mut GeneratedNote) {
+    let manual = |component: &SignComponent| *component != SignComponent::NonManual;
     match (note.hand, &note.about) {
-        (Some(side), _) => note.hand = Some(side.other()),
-        (None, About::Component(component, _)) if manual(component) => {}
+        (Some(side), _) => note.hand = Some(side.opposite_side()),
+        (None, NoteSubject::Component(component, _)) if manual(component) => {}
         _ => return,
     }
-    if let (About::Component(..), Reading::Value(value)) = (&note.about, &mut note.value) {
+    if let (NoteSubject::Component(..), ComponentReading::Value(value)) = (&note.about, &mut note.value) {
         let words = value.split_inclusive(['-', ' ', '_', '/']);
         let turned = words.map(|word| match word.trim_end_matches(['-', ' ', '_', '/']) {
             "left" => word.replace("left", "right"),
@@ -264,14 +264,14 @@ fn turn_over(note: &mut Note) {
     }
 }
 
-struct Column {
+struct MirroredColumn {
     rotations: Vec<DQuat>,
     translations: Option<Vec<DVec3>>,
 }
 
 /// A joint of one arm and its counterpart.
-struct Pair {
-    side: Side,
+struct MirroredJointPair {
+    side: BodySide,
     joint: usize,
     other: usize,
     /// The rotation from the counterpart's bone at rest to the mirror image of this joint's bone.
@@ -288,48 +288,46 @@ struct MirrorPlan {
     normal: DVec3,
     rest: Vec<DQuat>,
     /// All pairs, once for each direction of copying, parents first.
-    pairs: Vec<Pair>,
+    pairs: Vec<MirroredJointPair>,
     alone: Vec<String>,
 }
 
 impl MirrorPlan {
-    fn of(work: &Work) -> Result<Self, Cause> {
+    fn mirror_plan_from(work: &WorkingClip) -> Result<Self, StepError> {
         let (skeleton, anatomy) = (&work.skeleton, &work.anatomy);
         let mut tops = [0; 2];
-        for (top, side) in tops.iter_mut().zip(Side::BOTH) {
-            let arm = anatomy.arm(side).ok_or(Cause::NoArm(side))?;
+        for (top, side) in tops.iter_mut().zip(BodySide::BOTH_SIDES) {
+            let arm = anatomy.arm_chain(side).ok_or(StepError::NoArm(side))?;
             *top = arm.clavicle.unwrap_or(arm.upper);
         }
-        let above: Vec<usize> = skeleton.ancestors(tops[0]).collect();
-        let trunk = skeleton
-            .ancestors(tops[1])
-            .find(|joint| above.contains(joint));
-        let trunk = trunk
+        let above: Vec<usize> = skeleton.joint_ancestors(tops[0]).collect();
+        let trunk_joint = skeleton.joint_ancestors(tops[1]).find(|joint| above.contains(joint));
+        let trunk = trunk_joint
             .filter(|joint| !tops.contains(joint))
-            .ok_or(Cause::NoArm(Side::Left))?;
+            .ok_or(StepError::NoArm(BodySide::Left))?;
         let rest = skeleton.rest_model_pose();
         let shoulder = |side| {
             anatomy
-                .joint(Part::UpperArm(side))
-                .map(|j| rest.position(j))
+                .part_joint(BodyPart::UpperArm(side))
+                .map(|j| rest.model_joint_position(j))
         };
-        let normal = match (shoulder(Side::Left), shoulder(Side::Right)) {
+        let normal = match (shoulder(BodySide::Left), shoulder(BodySide::Right)) {
             (Some(left), Some(right)) => (left - right).normalize_or(DVec3::X),
             _ => DVec3::X,
         };
         let map = anatomy.mirror_map(skeleton);
         let mut plan = Self {
             normal,
-            rest: rest.rotations().to_vec(),
+            rest: rest.model_joint_rotations().to_vec(),
             pairs: Vec::new(),
             alone: Vec::new(),
         };
-        for (&top, side) in tops.iter().zip(Side::BOTH) {
-            for joint in skeleton.subtree(top) {
+        for (&top, side) in tops.iter().zip(BodySide::BOTH_SIDES) {
+            for joint in skeleton.joint_subtree(top) {
                 match map[joint].filter(|&other| other != joint && map[other] == Some(joint)) {
                     Some(other) => {
-                        let even = plan.even(work, joint, other, &map);
-                        plan.pairs.push(Pair {
+                        let even = plan.even_joint_offsets(work, joint, other, &map);
+                        plan.pairs.push(MirroredJointPair {
                             side,
                             joint,
                             other,
@@ -338,13 +336,13 @@ impl MirrorPlan {
                             between: [Vec::new(), Vec::new()],
                         });
                     }
-                    None => plan.alone.push(skeleton.joint(joint).name.clone()),
+                    None => plan.alone.push(skeleton.joint_at(joint).name.clone()),
                 }
             }
         }
         plan.pairs.sort_by_key(|pair| pair.other);
         for n in 0..plan.pairs.len() {
-            let (around, between) = plan.hung(skeleton, &plan.pairs[n], trunk);
+            let (around, between) = plan.connect_mirrored_pair(skeleton, &plan.pairs[n], trunk);
             (plan.pairs[n].around, plan.pairs[n].between) = (around, between);
         }
         Ok(plan)
@@ -355,21 +353,24 @@ impl MirrorPlan {
     /// With a the joint of that pair, b its counterpart and V the rotation of j in the space of a,
     /// the first formula of this module gives m in the space of b as
     /// `R_b0⁻¹ K_a⁻¹ · S R_a0 V R_j0⁻¹ S · K R_m0`: the trunk's rotation cancels out.
-    fn hung(
+    fn connect_mirrored_pair(
         &self,
         skeleton: &Skeleton,
-        pair: &Pair,
+        pair: &MirroredJointPair,
         trunk: usize,
     ) -> ([DQuat; 2], [Vec<usize>; 2]) {
-        let up = |joint: usize| skeleton.ancestors(joint).skip(1);
-        let is_above = |above: &&Pair| {
-            up(pair.joint).any(|joint| joint == above.joint)
-                && up(pair.other).any(|joint| joint == above.other)
+        let up = |joint: usize| skeleton.joint_ancestors(joint).skip(1);
+        let is_above = |above: &&MirroredJointPair| {
+            up(pair.joint).any(|joint| joint == above.joint) && up(pair.other).any(|joint| joint == above.other)
         };
         // Parents come before their children, so that the nearest pair has the last joint.
-        let above = self.pairs.iter().filter(is_above).max_by_key(|it| it.joint);
-        let (a, b, even) = above.map_or((trunk, trunk, DQuat::IDENTITY), |it| {
-            (it.joint, it.other, it.even)
+        let above = self
+            .pairs
+            .iter()
+            .filter(is_above)
+            .max_by_key(|other_pair| other_pair.joint);
+        let (a, b, even) = above.map_or((trunk, trunk, DQuat::IDENTITY), |other_pair| {
+            (other_pair.joint, other_pair.other, other_pair.even)
         });
         let before = self.rest[b].inverse() * even.inverse() * self.reflected(self.rest[a]);
         let after = self.reflected(self.rest[pair.joint].inverse());
@@ -388,67 +389,62 @@ impl MirrorPlan {
         DQuat::from_xyzw(v.x, v.y, v.z, q.w)
     }
 
-    fn even(&self, work: &Work, joint: usize, other: usize, map: &[Option<usize>]) -> DQuat {
+    fn even_joint_offsets(&self, work: &WorkingClip, joint: usize, other: usize, map: &[Option<usize>]) -> DQuat {
         let skeleton = &work.skeleton;
-        let children = skeleton.children(joint).iter();
+        let children = skeleton.joint_children(joint).iter();
         let mut paired = children.filter_map(|&child| {
-            let counter = map[child].filter(|&c| skeleton.parent(c) == Some(other))?;
-            Some((skeleton.joint(child).offset, skeleton.joint(counter).offset))
+            let counter = map[child].filter(|&c| skeleton.joint_parent(c) == Some(other))?;
+            Some((skeleton.joint_at(child).offset, skeleton.joint_at(counter).offset))
         });
-        let tips = || skeleton.joint(joint).tip.zip(skeleton.joint(other).tip);
+        let tips = || skeleton.joint_at(joint).tip.zip(skeleton.joint_at(other).tip);
         let Some((here, there)) = paired.next().or_else(tips) else {
             return DQuat::IDENTITY;
         };
         let image = self.reflect(self.rest[joint] * here).try_normalize();
         let bone = (self.rest[other] * there).try_normalize();
         match (bone, image) {
-            (Some(bone), Some(image)) if bone.dot(image) < 1.0 - 1e-12 => {
-                DQuat::from_rotation_arc(bone, image)
-            }
+            (Some(bone), Some(image)) if bone.dot(image) < 1.0 - 1e-12 => DQuat::from_rotation_arc(bone, image),
             _ => DQuat::IDENTITY,
         }
     }
 
     /// Returns the rotations of a joint's counterpart in the space of the pair above, and its places if the joint has
     /// translations.
-    fn image(&self, work: &Work, pair: &Pair) -> Column {
-        let own = &work.channels[pair.joint].rotations;
+    fn mirrored_joint_image(&self, work: &WorkingClip, pair: &MirroredJointPair) -> MirroredColumn {
+        let joint_rotations = &work.channels[pair.joint].rotations;
         let [before, after] = pair.around;
         let rotations = (0..work.frames).map(|frame| {
-            let turned = below(work, &pair.between[0], frame) * own[frame];
+            let turned = chained_rotation_below(work, &pair.between[0], frame) * joint_rotations[frame];
             before * self.reflected(turned) * after
         });
         let above = |joint: usize| {
             work.skeleton
-                .parent(joint)
+                .joint_parent(joint)
                 .map_or(DQuat::IDENTITY, |p| self.rest[p])
         };
         let (from, to) = (above(pair.joint), above(pair.other).inverse());
-        let (here, there) = (
-            work.skeleton.joint(pair.joint),
-            work.skeleton.joint(pair.other),
-        );
-        let translations = work.channels[pair.joint]
-            .translations
-            .as_ref()
-            .map(|places| {
-                let moved =
-                    |at: &DVec3| there.offset + to * self.reflect(from * (*at - here.offset));
-                places.iter().map(moved).collect()
-            });
-        Column {
+        let (here, there) = (work.skeleton.joint_at(pair.joint), work.skeleton.joint_at(pair.other));
+        let translations = work.channels[pair.joint].translations.as_ref().map(|places| {
+            let moved = |at: &DVec3| there.offset + to * self.reflect(from * (*at - here.offset));
+            places.iter().map(moved).collect()
+        });
+        MirroredColumn {
             rotations: rotations.collect(),
             translations,
         }
     }
 
     /// Gives counterparts their rotations, parents first.
-    fn write(&self, work: &mut Work, mirrored: Vec<(&Pair, Column)>) -> Vec<String> {
+    fn write_mirrored_columns(
+        &self,
+        work: &mut WorkingClip,
+        mirrored: Vec<(&MirroredJointPair, MirroredColumn)>,
+    ) -> Vec<String> {
         for (pair, column) in mirrored {
             let turned = column.rotations.into_iter().enumerate();
             // A joint without a counterpart, between two that have one, is carried along.
             let local = turned.map(|(frame, rotation)| {
-                (below(work, &pair.between[1], frame).inverse() * rotation).normalize()
+                (chained_rotation_below(work, &pair.between[1], frame).inverse() * rotation).normalize()
             });
             work.channels[pair.other].rotations = local.collect();
             work.channels[pair.other].translations = column.translations;
@@ -464,7 +460,7 @@ impl MirrorPlan {
 }
 
 /// Returns the rotation of joints below one another, the lowest first.
-fn below(work: &Work, joints: &[usize], frame: usize) -> DQuat {
+fn chained_rotation_below(work: &WorkingClip, joints: &[usize], frame: usize) -> DQuat {
     let local = |&joint: &usize| work.channels[joint].rotations[frame];
     joints.iter().rev().map(local).product()
 }

@@ -1,74 +1,74 @@
 //! The operators, one module each, and the list of all.
 //!
-//! An operator is a struct of settings with its text and its words ([`Syntax`]) and its effect ([`Operator`]), all in
+//! An operator is a struct of settings with its text and its words ([`OperatorSyntax`]) and its effect ([`StepOperator`]), all in
 //! its module. To add one, write that module and a row of the list below; the tree, its JSON, the text's parser and
 //! printer, the reserved words, checks, the resolver, the evaluator, the handling of contacts, the help, the French of
 //! its report and the window's card follow from the row.
 
 use std::fmt::{self, Display, Formatter};
 
-use chereme_sign::Handedness;
+use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{Ask, Given, Setting};
-use crate::contact::{Carry, Keep};
-use crate::error::{Cause, RecipeError};
-use crate::language::Language;
+use crate::answers::{CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::contact::{ContactEffect, ContactsToKeep};
+use crate::error::{RecipeError, StepError};
+use crate::language::BodyLanguageChanges;
 use crate::outcome::{HandReport, JoinReport};
-use crate::text::{Parsed, Parser};
-use crate::work::Work;
+use crate::text::{ParsedText, RecipeParser};
+use crate::work::WorkingClip;
 
 pub(crate) mod amplify;
 pub(crate) mod clear;
 pub(crate) mod configure;
 pub(crate) mod cut;
 mod description;
-pub(crate) mod expression;
-mod field;
+pub(crate) mod expression_operator;
+mod field_operator;
 pub(crate) mod indicate;
 pub(crate) mod join;
 pub(crate) mod mirror;
-pub(crate) mod nonmanual;
-pub(crate) mod notated;
-pub(crate) mod orient;
-pub(crate) mod place;
+pub(crate) mod nonmanual_operator;
+pub(crate) mod notated_operator;
+pub(crate) mod orient_operator;
+pub(crate) mod place_operator;
 pub(crate) mod point;
-pub(crate) mod repeat;
+pub(crate) mod repeat_operator;
 pub(crate) mod retarget;
 pub(crate) mod retime;
 pub(crate) mod reverse;
-pub(crate) mod say;
+pub(crate) mod say_operator;
 pub(crate) mod spell;
 pub(crate) mod then;
 pub(crate) mod travel;
 
-pub use description::Description;
-pub use field::{Field, Setting as FieldSetting};
+pub use description::OperatorDescription;
+pub use field_operator::{OperatorField, OperatorSetting as FieldSetting};
 
 /// The effect of an operator, and its part in checks, answers and contacts.
-pub(crate) trait Operator: Display {
+pub(crate) trait StepOperator: Display {
     /// Refuses settings that could never be evaluated.
-    fn check(&self) -> Result<(), RecipeError> {
+    fn check_operator_settings(&self) -> Result<(), RecipeError> {
         Ok(())
     }
 
     /// Asks the corpus for the inputs of the operator.
-    fn resolve(&self, _ask: &mut Ask<'_>, _setting: &Setting) -> Result<(), Cause> {
+    fn resolve_operator_inputs(&self, _ask: &mut CorpusAsker<'_>, _setting: &MaterialSigner) -> Result<(), StepError> {
         Ok(())
     }
 
     /// Makes the movement long enough for what the operator does with it, before contacts are looked for; returns a
     /// description if it became longer.
-    fn make_time(&self, _work: &mut Work) -> Result<Option<String>, Cause> {
+    fn make_time(&self, _work: &mut WorkingClip) -> Result<Option<String>, StepError> {
         Ok(None)
     }
 
     /// Changes the movement.
-    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause>;
+    fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError>;
 
     /// Returns the effect of the operator on contacts, and those that it must keep; `None` if it cannot lose any, or
     /// handles them itself.
-    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)>;
+    fn contact_effect_for(&self, handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)>;
 
     /// Returns whether the operator leaves every movement as it is.
     fn is_nothing(&self) -> bool {
@@ -76,37 +76,37 @@ pub(crate) trait Operator: Display {
     }
 
     /// Returns the relation of this operator to one directly before it, which may absorb this one.
-    fn after(&self, _before: &mut Step) -> Neighbours {
-        Neighbours::Apart
+    fn relation_to_previous(&self, _before: &mut Step) -> OperatorNeighbours {
+        OperatorNeighbours::Apart
     }
 
     /// Returns the settings that a form shows with common fields; empty for an operator with a form of its own.
-    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+    fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         Vec::new()
     }
 }
 
 /// The text of an operator. [`parse`](Self::parse) reads the text that its [`Display`] writes.
-pub(crate) trait Syntax: Operator + Sized {
+pub(crate) trait OperatorSyntax: StepOperator + Sized {
     /// The name: the key in JSON, and in most cases the word that begins the text.
-    const NAME: &'static str;
+    const OPERATOR_NAME: &'static str;
     /// The words about the operator that people read.
-    const DESCRIPTION: Description;
+    const OPERATOR_DESCRIPTION: OperatorDescription;
     /// The words that begin the text.
-    const WORDS: &'static [&'static str] = &[Self::NAME];
+    const OPERATOR_WORDS: &'static [&'static str] = &[Self::OPERATOR_NAME];
     /// Further words with a meaning; names that equal one of them are quoted.
-    const KEYWORDS: &'static [&'static str] = &[];
+    const OPERATOR_KEYWORDS: &'static [&'static str] = &[];
 
     /// Reads the settings after `word`, the word that began the operator.
-    fn parse(parser: &mut Parser<'_>, word: &str) -> Parsed<Self>;
+    fn parse_operator_text(parser: &mut RecipeParser<'_>, word: &str) -> ParsedText<Self>;
 
     /// Returns an operator for a new form, with a visible effect or an empty name.
-    fn usual() -> Self;
+    fn default_operator() -> Self;
 }
 
 /// The relation of two successive operators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Neighbours {
+pub(crate) enum OperatorNeighbours {
     /// Both are applied.
     Apart,
     /// The first absorbed the second.
@@ -117,11 +117,11 @@ pub(crate) enum Neighbours {
 
 /// The effect of an operator or source, for the report.
 #[derive(Default)]
-pub(crate) struct Done {
+pub(crate) struct StepOutcome {
     pub(crate) did: Vec<String>,
     pub(crate) residual: Option<f64>,
     pub(crate) moved: Option<[f64; 3]>,
-    pub(crate) language: Option<Language>,
+    pub(crate) language: Option<BodyLanguageChanges>,
     pub(crate) hands: Vec<HandReport>,
     pub(crate) joins: Vec<JoinReport>,
     /// Contacts that it lost.
@@ -129,16 +129,13 @@ pub(crate) struct Done {
     pub(crate) warnings: Vec<String>,
 }
 
-impl From<Vec<String>> for Done {
+impl From<Vec<String>> for StepOutcome {
     fn from(did: Vec<String>) -> Self {
-        Self {
-            did,
-            ..Self::default()
-        }
+        Self { did, ..Self::default() }
     }
 }
 
-impl From<(Vec<String>, f64)> for Done {
+impl From<(Vec<String>, f64)> for StepOutcome {
     fn from((did, residual): (Vec<String>, f64)) -> Self {
         Self {
             did,
@@ -148,8 +145,8 @@ impl From<(Vec<String>, f64)> for Done {
     }
 }
 
-impl From<join::Done> for Done {
-    fn from(done: join::Done) -> Self {
+impl From<join::JoinOutcome> for StepOutcome {
+    fn from(done: join::JoinOutcome) -> Self {
         Self {
             did: done.did,
             joins: done.joins,
@@ -184,29 +181,29 @@ macro_rules! operators {
             #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {
-                    $(Self::$name { .. } => <operators!(@type $module $name $($settings)?)>::NAME,)*
+                    $(Self::$name { .. } => <operators!(@type $module $name $($settings)?)>::OPERATOR_NAME,)*
                 }
             }
 
             /// Returns the words about the operator that people read.
             #[must_use]
-            pub fn description(&self) -> &'static Description {
+            pub fn description(&self) -> &'static OperatorDescription {
                 match self {
                     $(Self::$name { .. } => {
-                        &<operators!(@type $module $name $($settings)?)>::DESCRIPTION
+                        &<operators!(@type $module $name $($settings)?)>::OPERATOR_DESCRIPTION
                     })*
                 }
             }
 
             /// The words about every operator, in the order of the list.
-            pub const DESCRIPTIONS: &'static [Description] = &[
-                $(<operators!(@type $module $name $($settings)?)>::DESCRIPTION),*
+            pub const DESCRIPTIONS: &'static [OperatorDescription] = &[
+                $(<operators!(@type $module $name $($settings)?)>::OPERATOR_DESCRIPTION),*
             ];
 
             /// Returns one of each operator, for a new form: with a visible effect or an empty name.
             #[must_use]
             pub fn usual() -> Vec<Self> {
-                vec![$(operators!(@step $module $name $($settings)?)(Syntax::usual())),*]
+                vec![$(operators!(@step $module $name $($settings)?)(OperatorSyntax::default_operator())),*]
             }
 
             /// Returns the settings that a form shows with common fields; empty for operators without settings, and for
@@ -223,21 +220,21 @@ macro_rules! operators {
             /// The words that begin operators, and all other words with a meaning in one.
             pub(crate) const SPELLINGS: &'static [(&'static [&'static str], &'static [&'static str])] = &[
                 $((
-                    <operators!(@type $module $name $($settings)?)>::WORDS,
-                    <operators!(@type $module $name $($settings)?)>::KEYWORDS,
+                    <operators!(@type $module $name $($settings)?)>::OPERATOR_WORDS,
+                    <operators!(@type $module $name $($settings)?)>::OPERATOR_KEYWORDS,
                 )),*
             ];
 
             /// Reads the operator that `word` begins; `None` for other words.
-            pub(crate) fn parse(parser: &mut Parser<'_>, word: &str) -> Option<Parsed<Self>> {
-                $(if <operators!(@type $module $name $($settings)?)>::WORDS.contains(&word) {
-                    let read = Syntax::parse(parser, word);
+            pub(crate) fn parse(parser: &mut RecipeParser<'_>, word: &str) -> Option<ParsedText<Self>> {
+                $(if <operators!(@type $module $name $($settings)?)>::OPERATOR_WORDS.contains(&word) {
+                    let read = OperatorSyntax::parse_operator_text(parser, word);
                     return Some(read.map(operators!(@step $module $name $($settings)?)));
                 })*
                 None
             }
 
-            pub(crate) fn operator(&self) -> &dyn Operator {
+            pub(crate) fn operator(&self) -> &dyn StepOperator {
                 match self {
                     $(operators!(@pattern $name it $($settings)?) => {
                         operators!(@operator $module $name it $($settings)?)
@@ -255,44 +252,44 @@ macro_rules! operators {
     (@operator $module:ident $name:ident $it:ident) => { &$module::$name };
     (@operator $module:ident $name:ident $it:ident $settings:ident) => { $it };
     (@fields $it:ident) => { Vec::new() };
-    (@fields $it:ident $settings:ident) => { Operator::fields($it) };
+    (@fields $it:ident $settings:ident) => { StepOperator::operator_form_fields($it) };
 }
 
 operators! {
     /// Gives the hands other configurations.
-    Configure(Configure) in configure;
+    Configure(ConfigureSettings) in configure;
     /// Moves the hands elsewhere.
-    Place(Place) in place with Goal;
+    Place(PlaceSettings) in place_operator with PlacementGoal;
     /// Turns the hands.
-    Orient(Orient) in orient with Turn;
+    Orient(OrientSettings) in orient_operator with AxisTurn;
     /// Carries the hands along a path.
-    Travel(Travel) in travel;
+    Travel(TravelSettings) in travel;
     /// Makes the hands' movement larger or smaller.
-    Amplify(Amplify) in amplify;
+    Amplify(AmplifySettings) in amplify;
     /// Plays the movement several times.
-    Repeat(Repeat) in repeat;
+    Repeat(RepeatSettings) in repeat_operator;
     /// Plays the movement backwards.
     Reverse in reverse;
     /// Exchanges the movements of the two arms, mirrored at the body's sagittal plane.
     Swap in mirror;
     /// Gives one arm the mirror image of the other's movement.
-    Mirror(Mirror) in mirror;
+    Mirror(MirrorSettings) in mirror;
     /// Makes the movement faster or slower.
-    Retime(Retime) in retime with Pace;
+    Retime(RetimeSettings) in retime with RetimePace;
     /// Keeps a part of the movement and removes the rest.
-    Span(Cut) in cut;
+    Span(SpanSettings) in cut;
     /// Keeps the active part: removes rest at both ends, and odd first and last frames.
     Trim in cut;
     /// Moves the start or the end of a directional verb.
-    Indicate(Indicate) in indicate;
+    Indicate(IndicateSettings) in indicate;
     /// Takes head and face from another sign.
-    Nonmanual(Nonmanual) in nonmanual with Over;
+    Nonmanual(NonmanualSettings) in nonmanual_operator with ExpressionTimes;
 }
 
 impl Step {
     /// Returns the words that begin operators, in the order of the list.
     #[must_use]
-    pub fn words() -> Vec<&'static str> {
+    pub fn operator_first_words() -> Vec<&'static str> {
         Self::SPELLINGS
             .iter()
             .flat_map(|(words, _)| words.iter().copied())
@@ -303,8 +300,8 @@ impl Step {
     ///
     /// # Errors
     /// [`RecipeError`] with the setting at fault, and [`RecipeError::Empty`] if one is missing.
-    pub fn check(&self) -> Result<(), RecipeError> {
-        self.operator().check()
+    pub fn check_step_settings(&self) -> Result<(), RecipeError> {
+        self.operator().check_operator_settings()
     }
 }
 

@@ -1,42 +1,45 @@
-//! `point`: generates a pointing gesture from a body at rest and back.
+//! `point_at_target`: generates a pointing gesture from a body at rest and back.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Finger, FingerAngles, HandAngles, ModelPose, Part, Side, ThumbAngles};
-use chereme_sign::{Component, Reading};
+use chereme_motion::{BodyPart, BodySide, FingerAngles, HandAngles, HandFinger, ModelPose, ThumbAngles};
+use chereme_sign::{ComponentReading, SignComponent};
 
-use crate::answers::{self, Ask, Setting, Slot};
+use crate::answers::{self, AnswerSlot, CorpusAsker, MaterialSigner};
 use crate::arm;
-use crate::body::Frame;
-use crate::course::Courses;
-use crate::error::Cause;
-use crate::ops::Done;
+use crate::body::SignerFrame;
+use crate::course::TransitionCourses;
+use crate::error::StepError;
+use crate::ops::StepOutcome;
 use crate::ops::travel::wrist_path;
-use crate::ops::{join, place};
-use crate::outcome::{About, Note};
+use crate::ops::{join, place_operator};
+use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::poses::{self, HandPose, PoseOrigin};
-use crate::recipe::Point;
-use crate::recipe::Profile;
+use crate::recipe::PointSettings;
+use crate::recipe::TransitionProfile;
 use crate::resolve::MaterialInput;
 use crate::resolve::PlaceInput;
 use crate::sources::{LearnedProfile, LearnedReaches};
-use crate::work::{Group, Work, groups};
+use crate::work::{JointGroup, WorkingClip, find_joint_groups};
 
 /// The body that points.
-pub(crate) const BODY: Slot<MaterialInput> = Slot::new("point");
+pub(crate) const POINT_BODY_SLOT: AnswerSlot<MaterialInput> = AnswerSlot::new("point");
 /// The hand's shape.
-const WITH: Slot<Vec<HandPose>> = Slot::new("point/with");
+const POINT_HANDSHAPE_SLOT: AnswerSlot<Vec<HandPose>> = AnswerSlot::new("point/with");
 /// The place of the target, if an inventory names it.
-const AT: Slot<PlaceInput> = Slot::new("point/at");
+const POINT_TARGET_SLOT: AnswerSlot<PlaceInput> = AnswerSlot::new("point/at");
 /// The learned courses of reaching and retraction.
-const VIA: Slot<LearnedProfile> = Slot::new("point/via");
+const POINT_COURSE_SLOT: AnswerSlot<LearnedProfile> = AnswerSlot::new("point/via");
 
 /// Asks for the body, the hand's shape and the place of a pointing gesture.
-pub(crate) fn resolve(settings: &Point, ask: &mut Ask<'_>) -> Result<Setting, Cause> {
-    let setting = ask.body(&BODY, settings.on.as_deref())?;
+pub(crate) fn resolve_pointing_inputs(
+    settings: &PointSettings,
+    ask: &mut CorpusAsker<'_>,
+) -> Result<MaterialSigner, StepError> {
+    let setting = ask.ask_signer_body(&POINT_BODY_SLOT, settings.on.as_deref())?;
     let poses = match &settings.with {
         Some(with) => {
-            let side = settings.hand.sides(setting.handedness)[0];
-            poses::choose(ask.sources, with, side, &setting)?
+            let side = settings.hand.chosen_sides(setting.handedness)[0];
+            poses::choose_hand_poses(ask.sources, with, side, &setting)?
         }
         None => {
             let mut pose = index_finger();
@@ -44,39 +47,39 @@ pub(crate) fn resolve(settings: &Point, ask: &mut Ask<'_>) -> Result<Setting, Ca
             vec![pose]
         }
     };
-    ask.put(&WITH, poses);
-    ask.spot(&AT, &settings.at)?;
-    ask.usual_reaches(&VIA, &settings.via)?;
+    ask.put_answer(&POINT_HANDSHAPE_SLOT, poses);
+    ask.ask_spot_place(&POINT_TARGET_SLOT, &settings.at)?;
+    ask.usual_reaches(&POINT_COURSE_SLOT, &settings.via)?;
     Ok(setting)
 }
 
 /// Generates a pointing gesture.
-pub(crate) fn generate(
-    settings: &Point,
-    given: &mut answers::Given<'_>,
-) -> Result<(Work, Done), Cause> {
-    let mut work = Work::of(given.material(&BODY)?);
-    let course = given.course(&VIA, &settings.via, Profile::MinimumJerk)?;
-    let learned = given.get(&VIA);
-    let found = PointInputs {
-        shape: given.get(&WITH).map(Vec::as_slice),
-        place: given.get(&AT),
+pub(crate) fn generate_pointing(
+    settings: &PointSettings,
+    given: &mut answers::NodeAnswers<'_>,
+) -> Result<(WorkingClip, StepOutcome), StepError> {
+    let mut work = WorkingClip::working_clip_from(given.answered_material(&POINT_BODY_SLOT)?);
+    let course = given.transition_courses(&POINT_COURSE_SLOT, &settings.via, TransitionProfile::MinimumJerk)?;
+    let learned = given.get_answer(&POINT_COURSE_SLOT);
+    let point_inputs = PointInputs {
+        shape: given.get_answer(&POINT_HANDSHAPE_SLOT).map(Vec::as_slice),
+        place: given.get_answer(&POINT_TARGET_SLOT),
         reaches: learned.and_then(|learned| learned.reaches.as_ref()),
     };
-    let done = point(&mut work, settings, &found, &course)?;
+    let done = point_at_target(&mut work, settings, &point_inputs, &course)?;
     Ok((work, done.into()))
 }
 
 /// The usual time of reaching, and of retraction, in seconds, if the corpus shows too few reaches.
-const REACH: f64 = 0.5;
+const POINT_REACH_S: f64 = 0.5;
 /// The greatest speed of a wrist whose time nobody states, in metres per second; that of captured signers.
 const FASTEST_REACH: f64 = 1.6;
 /// The number of steps in which the speed of a reach is measured.
 const REACH_STEPS: usize = 100;
 /// The usual time of the hold between, in seconds.
-const HOLD: f64 = 0.3;
+const POINT_HOLD_S: f64 = 0.3;
 /// The extension of the arm towards a far target, as a share of its length.
-const STRETCH: f64 = 0.88;
+const POINT_ARM_EXTENSION: f64 = 0.88;
 /// The distance of the fingertip from a near target, in metres.
 const SHORT_OF: f64 = 0.02;
 
@@ -89,42 +92,38 @@ pub(crate) struct PointInputs<'a> {
 }
 
 /// Points on the body of `work`, whose first frame is its posture at rest.
-pub(crate) fn point(
-    work: &mut Work,
-    settings: &Point,
+pub(crate) fn point_at_target(
+    work: &mut WorkingClip,
+    settings: &PointSettings,
     given: &PointInputs<'_>,
-    courses: &Courses,
-) -> Result<(Vec<String>, f64), Cause> {
-    let sides = settings.hand.sides(work.handedness);
-    let frame = place::frame(work, sides)?;
+    courses: &TransitionCourses,
+) -> Result<(Vec<String>, f64), StepError> {
+    let sides = settings.hand.chosen_sides(work.handedness);
+    let frame = place_operator::signer_body_frame(work, sides)?;
     let step = work.rate.frame_time();
     let frames = |seconds: f64| ((seconds / step).round() as usize).max(1);
-    work.sample(&[0.0]);
+    work.resample_channels(&[0.0]);
     work.notes.clear();
     let mut did = Vec::new();
     let mut shapes = Vec::new();
     let mut apex = work.clone();
     for &side in sides {
-        let pose = given
-            .shape
-            .and_then(<[_]>::first)
-            .cloned()
-            .unwrap_or_else(index_finger);
-        let joints = poses::rotations(&work.skeleton, &work.anatomy, side, &pose);
-        for (joint, rotation) in joints.ok_or(Cause::NoFingers(side))? {
+        let pose = given.shape.and_then(<[_]>::first).cloned().unwrap_or_else(index_finger);
+        let joints = poses::hand_pose_rotations(&work.skeleton, &work.anatomy, side, &pose);
+        for (joint, rotation) in joints.ok_or(StepError::NoFingers(side))? {
             apex.channels[joint].rotations[0] = rotation;
         }
-        let at = given.place.map(|input| &input.at);
+        let given_place = given.place.map(|input| &input.at);
         let target = frame
-            .spot(work, &settings.at, at, side)
-            .ok_or(Cause::NoMeaning {
+            .hand_spot_position(work, &settings.at, given_place, side)
+            .ok_or(StepError::NoMeaning {
                 value: settings.at.to_string(),
                 what: "landmark that this skeleton has",
             })?;
-        let missed = aim(&mut apex, &frame, side, target)?;
+        let missed = aim_index_finger(&mut apex, &frame, side, target)?;
         did.push(format!(
             "the {} index finger's line passes {:.1} mm beside the target",
-            side.name(),
+            side.body_side_name(),
             missed * 1000.0
         ));
         shapes.push((side, pose));
@@ -133,8 +132,8 @@ pub(crate) fn point(
         Some(time) => time.0,
         None => {
             let mut reaching = work.clone();
-            reaching.sample(&[0.0; REACH_STEPS + 1]);
-            carry(&mut reaching, &apex, sides, courses, |step| {
+            reaching.resample_channels(&[0.0; REACH_STEPS + 1]);
+            carry_to_apex(&mut reaching, &apex, sides, courses, |step| {
                 step as f64 / REACH_STEPS as f64
             });
             let seconds = usual_time(&reaching, sides, given.reaches)?;
@@ -144,62 +143,56 @@ pub(crate) fn point(
     };
     let (reach, hold) = (
         frames(seconds),
-        frames(settings.hold.map_or(HOLD, |it| it.0)),
+        frames(settings.hold.map_or(POINT_HOLD_S, |time| time.0)),
     );
     let total = 2 * reach + hold;
     join::check_length(work, total)?;
-    work.sample(&vec![0.0; total]);
-    carry(work, &apex, sides, courses, |frame| {
+    work.resample_channels(&vec![0.0; total]);
+    carry_to_apex(work, &apex, sides, courses, |frame| {
         frame.min(total - 1 - frame) as f64 / reach as f64
     });
     for (side, pose) in shapes {
-        note(work, side, &pose, reach..reach + hold);
+        write_pointing_note(work, side, &pose, reach..reach + hold);
     }
-    work.notes.push(Note {
+    work.notes.push(GeneratedNote {
         hand: None,
-        about: About::Gloss,
-        value: Reading::Value("point".into()),
-        span: work.span(),
+        about: NoteSubject::Gloss,
+        value: ComponentReading::Value("point".into()),
+        span: work.working_clip_span(),
         origin: settings.to_string(),
     });
-    let changed = sides
-        .iter()
-        .flat_map(|&s| [Group::Arm(s), Group::Fingers(s)]);
-    work.changed(changed.collect::<Vec<_>>(), &settings.to_string());
+    let changed = sides.iter().flat_map(|&s| [JointGroup::Arm(s), JointGroup::Fingers(s)]);
+    work.note_changed_groups(changed.collect::<Vec<_>>(), &settings.to_string());
     Ok((did, 0.0))
 }
 
 /// Carries arms and hands from the posture of each frame to that of `apex`; `out` is the share of a reach at a frame.
-fn carry(
-    work: &mut Work,
-    apex: &Work,
-    sides: &[Side],
-    courses: &Courses,
+fn carry_to_apex(
+    work: &mut WorkingClip,
+    apex: &WorkingClip,
+    sides: &[BodySide],
+    courses: &TransitionCourses,
     out: impl Fn(usize) -> f64,
 ) {
-    let groups = groups(&work.skeleton, &work.anatomy);
+    let groups = find_joint_groups(&work.skeleton, &work.anatomy);
     for (joint, group) in groups.iter().enumerate() {
         // Hands take their shape in the first half of reaching, and lose it in the last half of retraction.
         let (early, course) = match group {
-            Group::Fingers(side) if sides.contains(side) => (2.0, &courses.fingers),
-            Group::Arm(side) if sides.contains(side) => (1.0, &courses.arms),
+            JointGroup::Fingers(side) if sides.contains(side) => (2.0, &courses.fingers),
+            JointGroup::Arm(side) if sides.contains(side) => (1.0, &courses.arms),
             _ => continue,
         };
         let top = apex.channels[joint].rotations[0];
         for (frame, rotation) in work.channels[joint].rotations.iter_mut().enumerate() {
-            *rotation = course.rotation(*rotation, top, (out(frame) * early).min(1.0));
+            *rotation = course.rotation_along_course(*rotation, top, (out(frame) * early).min(1.0));
         }
     }
 }
 
 /// Returns the time of a reach in seconds: at the mean speed of captured ones, if they are known, and never so short that
 /// a wrist would be faster than those of signers. `reaching` goes from rest to the apex in [`REACH_STEPS`] steps.
-fn usual_time(
-    reaching: &Work,
-    sides: &[Side],
-    reaches: Option<&LearnedReaches>,
-) -> Result<f64, Cause> {
-    let mut seconds = reaches.map_or(REACH, |_| 0.0);
+fn usual_time(reaching: &WorkingClip, sides: &[BodySide], reaches: Option<&LearnedReaches>) -> Result<f64, StepError> {
+    let mut seconds = reaches.map_or(POINT_REACH_S, |_| 0.0);
     for &side in sides {
         let path = wrist_path(reaching, side)?;
         let step = path.windows(2).map(|two| two[0].distance(two[1]));
@@ -212,12 +205,15 @@ fn usual_time(
     Ok(seconds)
 }
 
-fn note(work: &mut Work, side: Side, pose: &HandPose, frames: std::ops::Range<usize>) {
-    work.notes.push(Note {
+fn write_pointing_note(work: &mut WorkingClip, side: BodySide, pose: &HandPose, frames: std::ops::Range<usize>) {
+    work.notes.push(GeneratedNote {
         hand: Some(side),
-        about: About::Component(Component::Configuration, None),
-        value: pose.value.clone().map_or(Reading::Unset, Reading::Value),
-        span: work.rate.span(frames),
+        about: NoteSubject::Component(SignComponent::Configuration, None),
+        value: pose
+            .value
+            .clone()
+            .map_or(ComponentReading::Unset, ComponentReading::Value),
+        span: work.rate.frame_range_span(frames),
         origin: pose.origin.to_string(),
     });
 }
@@ -229,7 +225,7 @@ fn index_finger() -> HandPose {
         flexion: [1.4, 1.7, 1.0],
     };
     let mut fingers = [bent; 4];
-    fingers[Finger::Index.index()] = FingerAngles::default();
+    fingers[HandFinger::Index.index()] = FingerAngles::default();
     HandPose {
         value: None,
         origin: PoseOrigin::Inventory("the pointing index finger".into()),
@@ -248,36 +244,40 @@ fn index_finger() -> HandPose {
 
 /// Moves arm and hand of a posture so that the index finger's line meets the target; returns the distance by which it
 /// misses.
-fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64, Cause> {
-    let chain = apex.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
-    let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
-    let shoulder = model.position(chain.upper);
+fn aim_index_finger(
+    apex: &mut WorkingClip,
+    frame: &SignerFrame,
+    side: BodySide,
+    target: DVec3,
+) -> Result<f64, StepError> {
+    let chain = apex.anatomy.arm_chain(side).ok_or(StepError::NoArm(side))?;
+    let model = ModelPose::from_local_pose(&apex.skeleton, &apex.local_pose_at(0));
+    let shoulder = model.model_joint_position(chain.upper);
     let direction = (target - shoulder).normalize_or(frame.forward);
     let down = if direction.y.abs() > 0.9 {
         frame.forward
     } else {
         DVec3::NEG_Y
     };
-    let palm = (down - frame.left * (0.3 * side.sign())).reject_from_normalized(direction);
+    let palm = (down - frame.left * (0.3 * side.side_sign())).reject_from_normalized(direction);
     let rotation = apex
         .anatomy
         .hand_rotation(side, direction, palm)
-        .ok_or(Cause::NoFingers(side))?;
+        .ok_or(StepError::NoFingers(side))?;
     let length = |model: &ModelPose| {
-        finger(apex, model, side).map(|(_, tip)| tip.distance(model.position(chain.hand)))
+        index_finger_ends(apex, model, side).map(|(_, tip)| tip.distance(model.model_joint_position(chain.hand)))
     };
     let hand = length(&model).unwrap_or(0.18).max(0.15);
-    let stretch = (STRETCH * crate::body::arm_length(apex, side).unwrap_or(frame.arm))
+    let stretch = (POINT_ARM_EXTENSION * crate::body::arm_length(apex, side).unwrap_or(frame.arm))
         .min(shoulder.distance(target) - hand - SHORT_OF)
         .max(0.25 * frame.arm);
     let mut hands = [rotation];
     let mut wrist = [shoulder + direction * stretch];
     let mut missed = f64::INFINITY;
     for _ in 0..8 {
-        arm::raise_arm(apex, side, &wrist, &hands, frame.left * side.sign())
-            .ok_or(Cause::NoArm(side))?;
-        let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
-        let (base, tip) = finger(apex, &model, side).ok_or(Cause::NoFingers(side))?;
+        arm::raise_arm(apex, side, &wrist, &hands, frame.left * side.side_sign()).ok_or(StepError::NoArm(side))?;
+        let model = ModelPose::from_local_pose(&apex.skeleton, &apex.local_pose_at(0));
+        let (base, tip) = index_finger_ends(apex, &model, side).ok_or(StepError::NoFingers(side))?;
         let line = (tip - base).normalize_or(direction);
         let to = target - base;
         missed = to.reject_from_normalized(line).length();
@@ -287,23 +287,23 @@ fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64,
         // A rotation about the finger's base makes the line meet the target at once, if the arm follows.
         let turn = DQuat::from_rotation_arc(line, to.normalize_or(line));
         hands = [(turn * hands[0]).normalize()];
-        wrist = [base - turn * (base - model.position(chain.hand))];
+        wrist = [base - turn * (base - model.model_joint_position(chain.hand))];
     }
     Ok(missed)
 }
 
 /// Returns the base and the tip of the index finger.
-fn finger(work: &Work, model: &ModelPose, side: Side) -> Option<(DVec3, DVec3)> {
-    let base = work.anatomy.joint(Part::Finger(side, Finger::Index, 1))?;
-    let name = format!("{}-index-tip", side.name());
-    let tip = work.anatomy.landmark(&work.skeleton, model, &name)?;
-    Some((model.position(base), tip))
+fn index_finger_ends(work: &WorkingClip, model: &ModelPose, side: BodySide) -> Option<(DVec3, DVec3)> {
+    let base = work.anatomy.part_joint(BodyPart::Finger(side, HandFinger::Index, 1))?;
+    let name = format!("{}-index-tip", side.body_side_name());
+    let tip = work.anatomy.landmark_place_position(&work.skeleton, model, &name)?;
+    Some((model.model_joint_position(base), tip))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sources::{Meaning, Value};
+    use crate::sources::{ComponentValue, ValueMeaning};
     use crate::testing::Shelf;
 
     #[test]
@@ -312,19 +312,19 @@ mod tests {
         let angles = index_finger().angles;
         let found = poses::nearest_value(&shelf, &angles);
         assert_eq!(found, None, "no value is near enough");
-        let index = Value {
+        let index = ComponentValue {
             id: "1".into(),
             inventory: "configurations".into(),
-            meaning: Some(Meaning::Hand(angles)),
+            meaning: Some(ValueMeaning::Hand(angles)),
         };
-        shelf.values.push((Component::Configuration, index));
+        shelf.values.push((SignComponent::Configuration, index));
         let recipe: crate::Recipe = "point right at 30cm,140cm,50cm".parse().expect("a recipe");
-        let resolved = crate::resolve(&recipe, &shelf).expect("resolved");
-        let made = crate::evaluate(&resolved).expect("made");
+        let resolved = crate::resolve_recipe(&recipe, &shelf).expect("resolved");
+        let made = crate::evaluate_recipe(&resolved).expect("made");
         let shown = made
             .notes
             .iter()
-            .find(|note| note.about == About::Component(Component::Configuration, None));
-        assert_eq!(shown.and_then(|note| note.value.value()), Some("1"));
+            .find(|note| note.about == NoteSubject::Component(SignComponent::Configuration, None));
+        assert_eq!(shown.and_then(|note| note.value.reading_value()), Some("1"));
     }
 }

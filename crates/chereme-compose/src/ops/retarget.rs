@@ -3,18 +3,18 @@
 use std::sync::Arc;
 
 use chereme_motion::glam::{DMat3, DQuat, DVec3};
-use chereme_motion::{Anatomy, Channel, ModelPose, Part, Pose, Rate, Side, Skeleton};
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, FrameRate, JointChannel, LocalPose, ModelPose, Skeleton};
 
 use crate::arm;
 use crate::body;
-use crate::contact::{self, Carry, Keep};
-use crate::error::Cause;
-use crate::recipe::Solver;
-use crate::work::{Columns, Work};
+use crate::contact::{self, ContactEffect, ContactsToKeep};
+use crate::error::StepError;
+use crate::recipe::ArmSolverMethod;
+use crate::work::{JointColumns, WorkingClip};
 
 /// Movement on another skeleton, and its contacts.
-pub(crate) struct Touching {
-    pub(crate) work: Work,
+pub(crate) struct TouchingMovement {
+    pub(crate) work: WorkingClip,
     /// The number of contacts before.
     pub(crate) contacts: usize,
     /// Those that were kept by moving a wrist.
@@ -28,14 +28,14 @@ pub(crate) struct Touching {
 /// The body that receives movement.
 pub(crate) struct TargetBody<'a> {
     pub(crate) skeleton: &'a Arc<Skeleton>,
-    pub(crate) anatomy: &'a Arc<Anatomy>,
+    pub(crate) anatomy: &'a Arc<BodyAnatomy>,
     /// The posture of joints that the movement says nothing about.
-    pub(crate) idle: Pose,
+    pub(crate) idle: LocalPose,
 }
 
 impl<'a> TargetBody<'a> {
     /// Returns the body with its rest pose for idle joints.
-    pub(crate) fn at_rest(skeleton: &'a Arc<Skeleton>, anatomy: &'a Arc<Anatomy>) -> Self {
+    pub(crate) fn at_rest(skeleton: &'a Arc<Skeleton>, anatomy: &'a Arc<BodyAnatomy>) -> Self {
         Self {
             skeleton,
             anatomy,
@@ -45,19 +45,19 @@ impl<'a> TargetBody<'a> {
 }
 
 /// Transfers movement to another skeleton, and moves wrists a little, so that hands touch what they touched.
-pub(crate) fn touching(
-    work: &Work,
+pub(crate) fn retarget_with_contacts(
+    work: &WorkingClip,
     onto: &TargetBody<'_>,
     operator: &str,
-) -> Result<Touching, Cause> {
-    let touched = contact::touches(work);
-    let mut out = retarget(work, onto)?;
-    let mut touched = touched.on(&out);
-    let keep = Keep::All(&Side::BOTH);
-    let kept = contact::mend(&mut out, &mut touched, keep, operator);
-    Ok(Touching {
-        contacts: touched.count(),
-        lost: contact::lost(&touched, &out, Carry::Same),
+) -> Result<TouchingMovement, StepError> {
+    let touched = contact::find_contacts(work);
+    let mut out = retarget_movement(work, onto)?;
+    let mut touched = touched.transfer_contacts(&out);
+    let keep = ContactsToKeep::All(&BodySide::BOTH_SIDES);
+    let kept = contact::restore_contacts(&mut out, &mut touched, keep, operator);
+    Ok(TouchingMovement {
+        contacts: touched.count_contacts(),
+        lost: contact::describe_lost_contacts(&touched, &out, ContactEffect::Same),
         warnings: contact::long_repairs(&touched, operator),
         work: out,
         kept,
@@ -71,30 +71,30 @@ pub(crate) fn touching(
 /// keep their distance from the shoulders' middle in arms' lengths, fingers keep their joint angles and thumbs the
 /// directions of their bones, the root's path is scaled by the legs' length, and joints that have no counterpart stay in
 /// their idle posture.
-pub(crate) fn retarget(work: &Work, onto: &TargetBody<'_>) -> Result<Work, Cause> {
+pub(crate) fn retarget_movement(work: &WorkingClip, onto: &TargetBody<'_>) -> Result<WorkingClip, StepError> {
     let (skeleton, anatomy) = (onto.skeleton, onto.anatomy);
-    for side in Side::BOTH {
-        if anatomy.arm(side).is_some() && work.anatomy.arm(side).is_none() {
-            return Err(Cause::NoArm(side));
+    for side in BodySide::BOTH_SIDES {
+        if anatomy.arm_chain(side).is_some() && work.anatomy.arm_chain(side).is_none() {
+            return Err(StepError::NoArm(side));
         }
     }
-    let mut out = Work {
+    let mut out = WorkingClip {
         skeleton: Arc::clone(skeleton),
         anatomy: Arc::clone(anatomy),
         channels: skeleton
-            .joints()
+            .skeleton_joints()
             .iter()
             .zip(&onto.idle.translations)
-            .map(|(joint, &place)| Channel {
+            .map(|(joint, &place)| JointChannel {
                 rotations: vec![joint.rest; work.frames],
                 translations: (place != joint.offset).then(|| vec![place; work.frames]),
             })
             .collect(),
         ..work.clone()
     };
-    let pairs = pairs(work, skeleton, anatomy);
-    let placed = |part: Part| work.anatomy.joint(next_part(part)?);
-    let columns = Columns::of(
+    let pairs = counterpart_joints(work, skeleton, anatomy);
+    let placed = |part: BodyPart| work.anatomy.part_joint(next_part(part)?);
+    let columns = JointColumns::joint_columns_of(
         work,
         pairs
             .iter()
@@ -104,29 +104,30 @@ pub(crate) fn retarget(work: &Work, onto: &TargetBody<'_>) -> Result<Work, Cause
             .chain([0]),
     );
     let [there, here] =
-        [(&work.skeleton, &work.anatomy), (skeleton, anatomy)].map(|(skeleton, anatomy)| Body {
+        [(&work.skeleton, &work.anatomy), (skeleton, anatomy)].map(|(skeleton, anatomy)| ComparedBody {
             skeleton,
             anatomy,
             rest: skeleton.rest_model_pose(),
         });
     let mut model: Vec<Vec<DQuat>> = Vec::with_capacity(skeleton.len());
     for (joint, pair) in pairs.iter().enumerate() {
-        let above = skeleton.parent(joint).map(|parent| &model[parent]);
+        let above = skeleton.joint_parent(joint).map(|parent| &model[parent]);
         let parent = |frame: usize| above.map_or(DQuat::IDENTITY, |column| column[frame]);
         let idle = onto.idle.rotations[joint];
         let column: Vec<DQuat> = match *pair {
             Some((from, part)) => {
-                let back = there.posture(part).rotation(from).inverse();
-                let onto = even(&there, &here, part) * here.posture(part).rotation(joint);
+                let back = there.compared_part_posture(part).model_joint_rotation(from).inverse();
+                let onto = rest_pose_rotation(&there, &here, part)
+                    * here.compared_part_posture(part).model_joint_rotation(joint);
                 // A file that places the next joint in every frame decides thereby where the bone points.
                 let next = placed(part).filter(|&next| work.channels[next].translations.is_some());
-                let (posture, starts) = (there.posture(part), columns.positions(from));
-                let turned = columns.rotations(from).iter().enumerate();
-                let turned = turned.map(|(frame, turned)| {
+                let (posture, starts) = (there.compared_part_posture(part), columns.joint_positions(from));
+                let joint_rotations = columns.joint_rotations(from).iter().enumerate();
+                let turned = joint_rotations.map(|(frame, turned)| {
                     let off = next.and_then(|next| {
-                        let bone = posture.position(next) - posture.position(from);
+                        let bone = posture.model_joint_position(next) - posture.model_joint_position(from);
                         let turned = (*turned * back * bone).try_normalize()?;
-                        let placed = columns.positions(next)[frame] - starts[frame];
+                        let placed = columns.joint_positions(next)[frame] - starts[frame];
                         Some(DQuat::from_rotation_arc(turned, placed.try_normalize()?))
                     });
                     (off.unwrap_or_default() * *turned * back * onto).normalize()
@@ -135,24 +136,27 @@ pub(crate) fn retarget(work: &Work, onto: &TargetBody<'_>) -> Result<Work, Cause
             }
             None => (0..work.frames).map(|frame| parent(frame) * idle).collect(),
         };
-        let local =
-            (0..work.frames).map(|frame| (parent(frame).inverse() * column[frame]).normalize());
+        let local = (0..work.frames).map(|frame| (parent(frame).inverse() * column[frame]).normalize());
         let local: Vec<DQuat> = local.collect();
         out.channels[joint].rotations = local;
         model.push(column);
     }
-    root(work, &mut out);
-    fingers(work, &mut out);
-    wrists(work, &mut out);
+    retarget_root(work, &mut out);
+    retarget_fingers(work, &mut out);
+    retarget_wrists(work, &mut out);
     Ok(out)
 }
 
 /// Returns for each joint of the new skeleton its counterpart and part; `None` for fingers.
-fn pairs(work: &Work, skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<Option<(usize, Part)>> {
+fn counterpart_joints(
+    work: &WorkingClip,
+    skeleton: &Skeleton,
+    anatomy: &BodyAnatomy,
+) -> Vec<Option<(usize, BodyPart)>> {
     let mut pairs = vec![None; skeleton.len()];
-    for (part, joint, _) in anatomy.found() {
-        if !matches!(part, Part::Thumb(..) | Part::Finger(..))
-            && let Some(from) = work.anatomy.joint(part)
+    for (part, joint, _) in anatomy.found_parts() {
+        if !matches!(part, BodyPart::Thumb(..) | BodyPart::Finger(..))
+            && let Some(from) = work.anatomy.part_joint(part)
         {
             pairs[joint] = Some((from, part));
         }
@@ -161,98 +165,92 @@ fn pairs(work: &Work, skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<Option<(usi
 }
 
 /// Returns the part in which the bone of a limb's part ends.
-fn next_part(part: Part) -> Option<Part> {
+fn next_part(part: BodyPart) -> Option<BodyPart> {
     match part {
-        Part::Clavicle(side) => Some(Part::UpperArm(side)),
-        Part::UpperArm(side) => Some(Part::Forearm(side)),
-        Part::Forearm(side) => Some(Part::Hand(side)),
-        Part::Thigh(side) => Some(Part::Shin(side)),
-        Part::Shin(side) => Some(Part::Foot(side)),
-        Part::Foot(side) => Some(Part::Toes(side)),
+        BodyPart::Clavicle(side) => Some(BodyPart::UpperArm(side)),
+        BodyPart::UpperArm(side) => Some(BodyPart::Forearm(side)),
+        BodyPart::Forearm(side) => Some(BodyPart::Hand(side)),
+        BodyPart::Thigh(side) => Some(BodyPart::Shin(side)),
+        BodyPart::Shin(side) => Some(BodyPart::Foot(side)),
+        BodyPart::Foot(side) => Some(BodyPart::Toes(side)),
         _ => None,
     }
 }
 
 /// The directions of a part in a body's posture, in model space: along its bone, and one across it.
-struct Axes {
+struct PartAxes {
     along: DVec3,
     across: Option<DVec3>,
 }
 
-impl Axes {
+impl PartAxes {
     /// Returns the axes of a limb's part; `None` for a part of the trunk, which uses the body's axes.
-    fn of(body: &Body<'_>, part: Part) -> Option<Self> {
-        let (anatomy, model) = (body.anatomy, body.posture(part));
-        let at = |part| anatomy.joint(part).map(|joint| model.position(joint));
-        let bone = || (at(next_part(part)?)? - at(part)?).try_normalize();
+    fn limb_part_axes(body: &ComparedBody<'_>, part: BodyPart) -> Option<Self> {
+        let (anatomy, model) = (body.anatomy, body.compared_part_posture(part));
+        let joint_position = |part| anatomy.part_joint(part).map(|joint| model.model_joint_position(joint));
+        let bone = || (joint_position(next_part(part)?)? - joint_position(part)?).try_normalize();
         let trunk = anatomy.body_frame(model)?;
         let elbow = |side| {
-            let upper = anatomy.joint(Part::UpperArm(side))?;
-            Some(model.rotation(upper) * anatomy.elbow(side)?)
+            let upper = anatomy.part_joint(BodyPart::UpperArm(side))?;
+            Some(model.model_joint_rotation(upper) * anatomy.elbow_direction(side)?)
         };
         let tip = || {
-            let joint = anatomy.joint(part)?;
-            (model.rotation(joint) * last_bone(body.skeleton, anatomy, joint)?).try_normalize()
+            let joint = anatomy.part_joint(part)?;
+            (model.model_joint_rotation(joint) * last_bone(body.skeleton, anatomy, joint)?).try_normalize()
         };
         let (along, across) = match part {
-            Part::Clavicle(_) => (bone()?, Some(trunk.up)),
-            Part::UpperArm(side) => (bone()?, elbow(side)),
-            Part::Forearm(side) => {
+            BodyPart::Clavicle(_) => (bone()?, Some(trunk.up)),
+            BodyPart::UpperArm(side) => (bone()?, elbow(side)),
+            BodyPart::Forearm(side) => {
                 let along = bone()?;
-                let upper = (at(part)? - at(Part::UpperArm(side))?).try_normalize();
+                let upper = (joint_position(part)? - joint_position(BodyPart::UpperArm(side))?).try_normalize();
                 let carried = upper.map(|upper| DQuat::from_rotation_arc(upper, along));
-                (
-                    along,
-                    elbow(side).zip(carried).map(|(out, turn)| turn * out),
-                )
+                (along, elbow(side).zip(carried).map(|(out, turn)| turn * out))
             }
-            Part::Hand(side) => {
+            BodyPart::Hand(side) => {
                 let palm = anatomy.palm_normal(side, model);
                 (anatomy.hand_direction(side, model)?, palm)
             }
-            Part::Thigh(_) | Part::Shin(_) => (bone()?, Some(trunk.forward)),
-            Part::Foot(_) => {
+            BodyPart::Thigh(_) | BodyPart::Shin(_) => (bone()?, Some(trunk.forward)),
+            BodyPart::Foot(_) => {
                 let along = bone().or_else(tip);
                 (along.unwrap_or(trunk.forward), Some(trunk.up))
             }
-            Part::Toes(_) => (tip().unwrap_or(trunk.forward), Some(trunk.up)),
+            BodyPart::Toes(_) => (tip().unwrap_or(trunk.forward), Some(trunk.up)),
             _ => return None,
         };
         Some(Self { along, across })
     }
 
-    fn basis(&self) -> Option<DQuat> {
-        let across = self
-            .across?
-            .reject_from_normalized(self.along)
-            .try_normalize()?;
+    fn part_axes_basis(&self) -> Option<DQuat> {
+        let across = self.across?.reject_from_normalized(self.along).try_normalize()?;
         let columns = DMat3::from_cols(self.along, across, self.along.cross(across));
         Some(DQuat::from_mat3(&columns).normalize())
     }
 }
 
 /// Returns the end of a limb's last bone in the space of its joint: the tip, else the only joint that hangs on it.
-fn last_bone(skeleton: &Skeleton, anatomy: &Anatomy, joint: usize) -> Option<DVec3> {
-    let below = match skeleton.children(joint) {
-        [child] => Some(skeleton.joint(*child).offset),
+fn last_bone(skeleton: &Skeleton, anatomy: &BodyAnatomy, joint: usize) -> Option<DVec3> {
+    let below = match skeleton.joint_children(joint) {
+        [child] => Some(skeleton.joint_at(*child).offset),
         _ => None,
     };
-    anatomy.tip(skeleton, joint).or(below)
+    anatomy.joint_tip(skeleton, joint).or(below)
 }
 
 /// One of the two bodies.
-struct Body<'a> {
+struct ComparedBody<'a> {
     skeleton: &'a Skeleton,
-    anatomy: &'a Anatomy,
+    anatomy: &'a BodyAnatomy,
     rest: ModelPose,
 }
 
-impl Body<'_> {
+impl ComparedBody<'_> {
     /// Returns the posture in which a part is compared with that of another body: at rest, but standing for the legs.
     /// Where a file keeps every bone along one axis, legs point up at rest, and nothing shows which way feet point.
-    fn posture(&self, part: Part) -> &ModelPose {
+    fn compared_part_posture(&self, part: BodyPart) -> &ModelPose {
         match part {
-            Part::Thigh(_) | Part::Shin(_) | Part::Foot(_) | Part::Toes(_) => {
+            BodyPart::Thigh(_) | BodyPart::Shin(_) | BodyPart::Foot(_) | BodyPart::Toes(_) => {
                 self.anatomy.measured_pose()
             }
             _ => &self.rest,
@@ -260,134 +258,133 @@ impl Body<'_> {
     }
 
     /// Returns the trunk's rotation at rest, with up along the spine because shoulders may be drawn forward.
-    fn trunk(&self) -> Option<DQuat> {
-        let at = |part| {
+    fn trunk_rest_rotation(&self) -> Option<DQuat> {
+        let part_position = |part| {
             self.anatomy
-                .joint(part)
-                .map(|joint| self.rest.position(joint))
+                .part_joint(part)
+                .map(|joint| self.rest.model_joint_position(joint))
         };
-        let up = (at(Part::Neck).or(at(Part::Head))? - at(Part::Hips)?).try_normalize()?;
-        let left = self.anatomy.body_frame(&self.rest)?.left;
-        let left = left.reject_from_normalized(up).try_normalize()?;
+        let up = (part_position(BodyPart::Neck).or(part_position(BodyPart::Head))? - part_position(BodyPart::Hips)?)
+            .try_normalize()?;
+        let body_left = self.anatomy.body_frame(&self.rest)?.left;
+        let left = body_left.reject_from_normalized(up).try_normalize()?;
         let columns = DMat3::from_cols(left, up, left.cross(up));
         Some(DQuat::from_mat3(&columns).normalize())
     }
 }
 
 /// Returns the rotation from a part's rest pose on the new body to that on the old one.
-fn even(from: &Body<'_>, to: &Body<'_>, part: Part) -> DQuat {
-    let bodies = match (from.trunk(), to.trunk()) {
+fn rest_pose_rotation(from: &ComparedBody<'_>, to: &ComparedBody<'_>, part: BodyPart) -> DQuat {
+    let bodies = match (from.trunk_rest_rotation(), to.trunk_rest_rotation()) {
         (Some(from), Some(to)) => from * to.inverse(),
         _ => DQuat::IDENTITY,
     };
-    let axes = |body: &Body<'_>| Axes::of(body, part);
+    let axes = |body: &ComparedBody<'_>| PartAxes::limb_part_axes(body, part);
     let (Some(there), Some(here)) = (axes(from), axes(to)) else {
         return bodies;
     };
-    match (there.basis(), here.basis()) {
+    match (there.part_axes_basis(), here.part_axes_basis()) {
         (Some(there), Some(here)) => there * here.inverse(),
         _ => DQuat::from_rotation_arc((bodies * here.along).normalize(), there.along) * bodies,
     }
 }
 
-fn root(work: &Work, out: &mut Work) {
-    let height = |skeleton: &Skeleton, anatomy: &Anatomy| {
+fn retarget_root(work: &WorkingClip, out: &mut WorkingClip) {
+    let height = |skeleton: &Skeleton, anatomy: &BodyAnatomy| {
         let model = skeleton.rest_model_pose();
-        let hips = anatomy.joint(Part::Hips).unwrap_or(0);
+        let hips = anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
         let foot = anatomy
-            .joint(Part::Foot(Side::Left))
-            .or(anatomy.joint(Part::Foot(Side::Right)));
-        foot.map(|foot| model.position(hips).y - model.position(foot).y)
+            .part_joint(BodyPart::Foot(BodySide::Left))
+            .or(anatomy.part_joint(BodyPart::Foot(BodySide::Right)));
+        foot.map(|foot| model.model_joint_position(hips).y - model.model_joint_position(foot).y)
     };
     // Legs that do not hang down at rest, because every bone lies along one axis, are measured by their length.
-    let size = |work: &Work| {
-        let measures = work.anatomy.measures()?;
+    let size = |work: &WorkingClip| {
+        let measures = work.anatomy.anatomy_measures()?;
         let leg = leg_length(&work.skeleton, &work.anatomy);
         Some(leg.unwrap_or(measures.stature * 0.49))
     };
-    let sizes = size(work).zip(size(out)).filter(|sizes| sizes.0 > 1e-3);
-    let sizes = sizes.map_or(1.0, |(from, to)| to / from);
-    let heights = height(&work.skeleton, &work.anatomy).zip(height(&out.skeleton, &out.anatomy));
-    let heights = heights.filter(|heights| heights.0 > 1e-3);
+    let size_pair = size(work).zip(size(out)).filter(|sizes| sizes.0 > 1e-3);
+    let sizes = size_pair.map_or(1.0, |(from, to)| to / from);
+    let height_pair = height(&work.skeleton, &work.anatomy).zip(height(&out.skeleton, &out.anatomy));
+    let heights = height_pair.filter(|heights| heights.0 > 1e-3);
     let scale = heights.map_or(sizes, |(from, to)| to / from);
     let agree = (0.75..1.35).contains(&(scale / sizes));
     let scale = if agree { scale } else { sizes };
     // The hips' height above the floor is scaled, wherever the roots of the two skeletons are.
-    let hips = |work: &Work| work.anatomy.joint(Part::Hips).unwrap_or(0);
+    let hips = |work: &WorkingClip| work.anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
     let (from, to) = (hips(work), hips(out));
-    let (there, here) = (Columns::of(work, [from]), Columns::of(out, [to]));
-    let pairs = there.positions(from).iter().zip(here.positions(to));
-    let offset = out.skeleton.joint(0).offset;
-    let places: Vec<DVec3> = pairs
-        .map(|(&at, &now)| offset + (at * scale - now))
-        .collect();
+    let (there, here) = (
+        JointColumns::joint_columns_of(work, [from]),
+        JointColumns::joint_columns_of(out, [to]),
+    );
+    let pairs = there.joint_positions(from).iter().zip(here.joint_positions(to));
+    let offset = out.skeleton.joint_at(0).offset;
+    let places: Vec<DVec3> = pairs.map(|(&at, &now)| offset + (at * scale - now)).collect();
     out.channels[0].translations = Some(places);
 }
 
 /// Returns the length of a leg's bones from hip to ankle.
-fn leg_length(skeleton: &Skeleton, anatomy: &Anatomy) -> Option<f64> {
-    Side::BOTH.into_iter().find_map(|side| {
+fn leg_length(skeleton: &Skeleton, anatomy: &BodyAnatomy) -> Option<f64> {
+    BodySide::BOTH_SIDES.into_iter().find_map(|side| {
         let (foot, thigh) = (
-            anatomy.joint(Part::Foot(side))?,
-            anatomy.joint(Part::Thigh(side))?,
+            anatomy.part_joint(BodyPart::Foot(side))?,
+            anatomy.part_joint(BodyPart::Thigh(side))?,
         );
-        let bones = skeleton.ancestors(foot).take_while(|&joint| joint != thigh);
-        let length: f64 = bones.map(|j| skeleton.joint(j).offset.length()).sum();
+        let bones = skeleton.joint_ancestors(foot).take_while(|&joint| joint != thigh);
+        let length: f64 = bones.map(|j| skeleton.joint_at(j).offset.length()).sum();
         (length > 1e-3).then_some(length)
     })
 }
 
 /// Moves the wrists to the same position relative to the shoulders' middle, in arms' lengths, so that hands that meet
 /// still meet on wider shoulders.
-fn wrists(work: &Work, out: &mut Work) {
-    let arms = |work: &Work| Side::BOTH.map(|side| work.anatomy.arm(side));
+fn retarget_wrists(work: &WorkingClip, out: &mut WorkingClip) {
+    let arms = |work: &WorkingClip| BodySide::BOTH_SIDES.map(|side| work.anatomy.arm_chain(side));
     let ([Some(r), Some(l)], [Some(right), Some(left)]) = (arms(work), arms(out)) else {
         return;
     };
-    let length = |work: &Work| body::arm_length(work, Side::Right).filter(|length| *length > 1e-3);
+    let length = |work: &WorkingClip| body::arm_length(work, BodySide::Right).filter(|length| *length > 1e-3);
     let Some(ratio) = length(out).zip(length(work)).map(|(to, from)| to / from) else {
         return;
     };
-    let there = Columns::of(work, [r.hand, l.hand]);
-    let here = Columns::of(out, [right.hand, left.hand]);
-    let middle = |columns: &Columns, a: usize, b: usize, frame: usize| {
-        (columns.positions(a)[frame] + columns.positions(b)[frame]) / 2.0
+    let there = JointColumns::joint_columns_of(work, [r.hand, l.hand]);
+    let here = JointColumns::joint_columns_of(out, [right.hand, left.hand]);
+    let middle = |columns: &JointColumns, a: usize, b: usize, frame: usize| {
+        (columns.joint_positions(a)[frame] + columns.joint_positions(b)[frame]) / 2.0
     };
-    for (side, hand) in [(Side::Right, r.hand), (Side::Left, l.hand)] {
+    for (side, hand) in [(BodySide::Right, r.hand), (BodySide::Left, l.hand)] {
         let target = |frame: usize| {
-            let offset = there.positions(hand)[frame] - middle(&there, r.upper, l.upper, frame);
+            let offset = there.joint_positions(hand)[frame] - middle(&there, r.upper, l.upper, frame);
             middle(&here, right.upper, left.upper, frame) + offset * ratio
         };
         let targets: Vec<DVec3> = (0..work.frames).map(target).collect();
-        arm::move_wrist(out, side, &here, &targets, None, Solver::Analytic);
+        arm::move_wrist(out, side, &here, &targets, None, ArmSolverMethod::Analytic);
     }
 }
 
-fn fingers(work: &Work, out: &mut Work) {
-    for side in Side::BOTH {
-        let (here, there) = (work.anatomy.fingers(side), out.anatomy.fingers(side));
+fn retarget_fingers(work: &WorkingClip, out: &mut WorkingClip) {
+    for side in BodySide::BOTH_SIDES {
+        let (here, there) = (work.anatomy.finger_joints(side), out.anatomy.finger_joints(side));
         if here.is_empty() || there.is_empty() {
             continue;
         }
-        let mut source: Pose = work.pose(0);
-        let mut target = out.pose(0);
+        let mut source: LocalPose = work.local_pose_at(0);
+        let mut target = out.local_pose_at(0);
         for frame in 0..work.frames {
             for &joint in &here {
                 source.rotations[joint] = work.channels[joint].rotations[frame];
             }
             let angles = work.anatomy.hand_angles(&work.skeleton, side, &source);
             let Some(angles) = angles else { break };
-            if !out
-                .anatomy
-                .set_hand_angles(&out.skeleton, side, &angles, &mut target)
-            {
+            if !out.anatomy.set_hand_angles(&out.skeleton, side, &angles, &mut target) {
                 break;
             }
             for &joint in &there {
                 out.channels[joint].rotations[frame] = target.rotations[joint];
             }
         }
-        thumb(work, out, side);
+        retarget_thumb(work, out, side);
     }
 }
 
@@ -399,20 +396,20 @@ struct DigitBone {
 }
 
 impl DigitBone {
-    fn thumb(work: &Work, side: Side) -> [Option<Self>; 3] {
-        let found = |n: u8| work.anatomy.joint(Part::Thumb(side, n));
+    fn thumb_digit_bones(work: &WorkingClip, side: BodySide) -> [Option<Self>; 3] {
+        let thumb_joint = |n: u8| work.anatomy.part_joint(BodyPart::Thumb(side, n));
         [0, 1, 2].map(|n| {
-            let joint = found(n)?;
-            let next = (n + 1..3).find_map(found);
-            let next = next.filter(|&next| work.skeleton.parent(next) == Some(joint));
+            let joint = thumb_joint(n)?;
+            let next_joint = (n + 1..3).find_map(thumb_joint);
+            let next = next_joint.filter(|&next| work.skeleton.joint_parent(next) == Some(joint));
             Some(Self { joint, next })
         })
     }
 
     /// Returns the direction of the bone in the space of its joint.
-    fn direction(&self, work: &Work, frame: usize) -> Option<DVec3> {
+    fn digit_bone_direction(&self, work: &WorkingClip, frame: usize) -> Option<DVec3> {
         let end = match self.next {
-            Some(next) => Some(work.translation(next, frame)),
+            Some(next) => Some(work.joint_translation_at(next, frame)),
             None => last_bone(&work.skeleton, &work.anatomy, self.joint),
         };
         end?.try_normalize()
@@ -421,42 +418,43 @@ impl DigitBone {
 
 /// Turns the bones of a thumb to the directions that they have in the source: where two skeletons keep a thumb
 /// differently at rest, equal angles do not turn it about equal axes.
-fn thumb(work: &Work, out: &mut Work, side: Side) {
-    let from = DigitBone::thumb(work, side);
-    let there = Columns::of(work, from.iter().flatten().map(|bone| bone.joint));
-    for (from, to) in from.into_iter().zip(DigitBone::thumb(out, side)) {
+fn retarget_thumb(work: &WorkingClip, out: &mut WorkingClip, side: BodySide) {
+    let from = DigitBone::thumb_digit_bones(work, side);
+    let there = JointColumns::joint_columns_of(work, from.iter().flatten().map(|bone| bone.joint));
+    for (from, to) in from.into_iter().zip(DigitBone::thumb_digit_bones(out, side)) {
         let (Some(from), Some(to)) = (from, to) else {
             continue;
         };
-        let Some(parent) = out.skeleton.parent(to.joint) else {
+        let Some(parent) = out.skeleton.joint_parent(to.joint) else {
             continue;
         };
-        let here = Columns::of(out, [parent]);
+        let here = JointColumns::joint_columns_of(out, [parent]);
         for frame in 0..work.frames {
-            let wanted = from.direction(work, frame);
-            let Some((wanted, bone)) = wanted.zip(to.direction(out, frame)) else {
+            let wanted = from.digit_bone_direction(work, frame);
+            let Some((wanted, bone)) = wanted.zip(to.digit_bone_direction(out, frame)) else {
                 break;
             };
-            let above = here.rotations(parent)[frame];
-            let own = above * out.channels[to.joint].rotations[frame];
-            let wanted = there.rotations(from.joint)[frame] * wanted;
-            let turn = DQuat::from_rotation_arc((own * bone).normalize(), wanted.normalize());
-            out.channels[to.joint].rotations[frame] = (above.inverse() * turn * own).normalize();
+            let above = here.joint_rotations(parent)[frame];
+            let part_rotation = above * out.channels[to.joint].rotations[frame];
+            let wanted = there.joint_rotations(from.joint)[frame] * wanted;
+            let turn = DQuat::from_rotation_arc((part_rotation * bone).normalize(), wanted.normalize());
+            out.channels[to.joint].rotations[frame] = (above.inverse() * turn * part_rotation).normalize();
         }
     }
 }
 
 /// Brings movement to another frame rate.
-pub(crate) fn resample(work: &mut Work, rate: Rate) {
+pub(crate) fn resample_work_rate(work: &mut WorkingClip, rate: FrameRate) {
     if work.rate == rate || work.frames == 0 {
         return;
     }
-    let last = work.rate.instant(work.frames - 1);
-    let frames = rate.frame_at(last) + usize::from(rate.instant(rate.frame_at(last)) <= last);
+    let last = work.rate.frame_start_instant(work.frames - 1);
+    let frames =
+        rate.nearest_frame_at(last) + usize::from(rate.frame_start_instant(rate.nearest_frame_at(last)) <= last);
     let from = work.rate.per_second();
-    let at: Vec<f64> = (0..frames)
-        .map(|f| rate.instant(f).seconds() * from)
+    let sample_positions: Vec<f64> = (0..frames)
+        .map(|f| rate.frame_start_instant(f).instant_seconds() * from)
         .collect();
-    work.sample(&at);
+    work.resample_channels(&sample_positions);
     work.rate = rate;
 }

@@ -1,108 +1,105 @@
-//! `retime`: makes movement faster or slower, as a whole or phase by phase.
+//! `retime_movement`: makes movement faster or slower, as a whole or phase by phase.
 
-use chereme_motion::{Instant, Side, Span};
-use chereme_sign::Component;
-use chereme_sign::words::Text;
+use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
+use chereme_sign::SignComponent;
+use chereme_sign::words::InterfaceText;
 
-use crate::error::Cause;
-use crate::ops::{Description, join, say};
-use crate::outcome::About;
-use crate::work::{Group, Work};
+use crate::error::StepError;
+use crate::ops::{OperatorDescription, join, say_operator};
+use crate::outcome::NoteSubject;
+use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
 
-use chereme_sign::Handedness;
+use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::Given;
+use crate::answers::NodeAnswers;
 use crate::check;
-use crate::contact::{Carry, Keep};
+use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
-use crate::ops::{Done, Operator, Syntax};
-use crate::text::{Parsed, Parser, list};
-use crate::units::{Factor, Seconds};
+use crate::ops::{OperatorSyntax, StepOperator, StepOutcome};
+use crate::text::{ParsedText, RecipeParser, write_separated_list};
+use crate::units::{RecipeFactor, RecipeSeconds};
 
 /// Settings of `retime 150%`, `retime to 2s`, `retime 100%, 50%, to 1s`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Retime {
+pub struct RetimeSettings {
     /// One pace for the whole sign, or one for each of its successive phases.
-    pub paces: Vec<Pace>,
+    pub paces: Vec<RetimePace>,
 }
 
 /// A new length of time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Pace {
+pub enum RetimePace {
     /// The factor on the old length: 2 makes it twice as long.
-    Times(Factor),
+    Times(RecipeFactor),
     /// The length itself.
-    To(Seconds),
+    To(RecipeSeconds),
 }
 
-impl Syntax for Retime {
-    const NAME: &'static str = "retime";
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Speed", "Vitesse"),
-        hint: Text::new("slower or faster", "plus lent ou plus vite"),
+impl OperatorSyntax for RetimeSettings {
+    const OPERATOR_NAME: &'static str = "retime";
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Speed", "Vitesse"),
+        hint: InterfaceText::new("slower or faster", "plus lent ou plus vite"),
         examples: &[
             (
                 "retime 150%",
-                Text::new(
-                    "slower: half as long again",
-                    "plus lent : une fois et demie la durée",
-                ),
+                InterfaceText::new("slower: half as long again", "plus lent : une fois et demie la durée"),
             ),
             (
                 "retime to 2s",
-                Text::new(
+                InterfaceText::new(
                     "as slow or fast as the time demands",
                     "aussi lent ou vite que la durée le veut",
                 ),
             ),
             (
                 "retime 1, 50%, to 0.3s",
-                Text::new("phase by phase", "phase par phase"),
+                InterfaceText::new("phase by phase", "phase par phase"),
             ),
         ],
         messages: &[
-            Text::new("{from} s became {to} s", "{from} s sont devenus {to} s"),
-            Text::new("no pace is given", "aucune allure n’est donnée"),
-            Text::new(
+            InterfaceText::new("{from} s became {to} s", "{from} s sont devenus {to} s"),
+            InterfaceText::new("no pace is given", "aucune allure n’est donnée"),
+            InterfaceText::new(
                 "a factor, such as 150%, or \"to\" and a time",
                 "un facteur, comme 150%, ou \"to\" et un temps",
             ),
         ],
     };
 
-    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+    fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let mut paces = Vec::new();
         loop {
-            paces.push(if parser.accept("to") {
-                Pace::To(parser.quantity("a time, such as 2s")?)
+            paces.push(if parser.accept_word("to") {
+                RetimePace::To(parser.parse_quantity("a time, such as 2s")?)
             } else {
-                Pace::Times(parser.quantity("a factor, such as 150%, or \"to\" and a time")?)
+                RetimePace::Times(parser.parse_quantity("a factor, such as 150%, or \"to\" and a time")?)
             });
-            if !parser.comma() {
+            if !parser.accept_comma() {
                 return Ok(Self { paces });
             }
         }
     }
 
-    fn usual() -> Self {
+    fn default_operator() -> Self {
         Self {
-            paces: vec![Pace::Times(Factor(1.5))],
+            paces: vec![RetimePace::Times(RecipeFactor(1.5))],
         }
     }
 }
 
-impl Display for Retime {
+impl Display for RetimeSettings {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str("retime ")?;
-        list(f, &self.paces, ", ")
+        write_separated_list(f, &self.paces, ", ")
     }
 }
 
-impl Display for Pace {
+impl Display for RetimePace {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Times(factor) => write!(f, "{factor}"),
@@ -111,25 +108,25 @@ impl Display for Pace {
     }
 }
 
-impl Operator for Retime {
-    fn check(&self) -> Result<(), RecipeError> {
-        check::filled(Self::NAME, &self.paces, "no pace is given")?;
+impl StepOperator for RetimeSettings {
+    fn check_operator_settings(&self) -> Result<(), RecipeError> {
+        check::check_filled_list(Self::OPERATOR_NAME, &self.paces, "no pace is given")?;
         self.paces.iter().try_for_each(|pace| match *pace {
-            Pace::Times(by) => check::range(Self::NAME, "the factor", by.0, 0.05, 20.0),
-            Pace::To(time) => check::range(Self::NAME, "the time", time.0, 0.01, 600.0),
+            RetimePace::Times(by) => check::check_step_range(Self::OPERATOR_NAME, "the factor", by.0, 0.05, 20.0),
+            RetimePace::To(time) => check::check_step_range(Self::OPERATOR_NAME, "the time", time.0, 0.01, 600.0),
         })
     }
 
-    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
-        Ok(retime(work, &self.paces, given.text)?.into())
+    fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        Ok(retime_movement(work, &self.paces, given.text)?.into())
     }
 
-    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
-        Some((Carry::Anytime, Keep::None))
+    fn contact_effect_for(&self, _handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
+        Some((ContactEffect::Anytime, ContactsToKeep::None))
     }
 
     fn is_nothing(&self) -> bool {
-        self.paces == [Pace::Times(Factor(1.0))]
+        self.paces == [RetimePace::Times(RecipeFactor(1.0))]
     }
 }
 
@@ -137,18 +134,18 @@ impl Operator for Retime {
 ///
 /// Phases begin and end with the dominant hand's movements, else with its placements, else with its configurations,
 /// whichever of these are annotated.
-pub(crate) fn retime(
-    work: &mut Work,
-    paces: &[Pace],
+pub(crate) fn retime_movement(
+    work: &mut WorkingClip,
+    paces: &[RetimePace],
     operator: &str,
-) -> Result<Vec<String>, Cause> {
+) -> Result<Vec<String>, StepError> {
     let bounds = match paces {
         [_] => vec![0, work.frames],
-        _ => phases(work),
+        _ => phase_boundary_frames(work),
     };
     let count = bounds.len() - 1;
     if paces.len() != count {
-        return Err(Cause::Phases {
+        return Err(StepError::Phases {
             given: paces.len(),
             phases: count,
         });
@@ -158,8 +155,8 @@ pub(crate) fn retime(
     for (pair, pace) in bounds.windows(2).zip(paces) {
         let frames = (pair[1] - pair[0]) as f64;
         let length = match *pace {
-            Pace::Times(factor) => frames * factor.0,
-            Pace::To(seconds) => seconds.0 / work.rate.frame_time(),
+            RetimePace::Times(factor) => frames * factor.0,
+            RetimePace::To(seconds) => seconds.0 / work.rate.frame_time(),
         };
         did.push(format!(
             "{:.2} s became {:.2} s",
@@ -168,27 +165,27 @@ pub(crate) fn retime(
         ));
         new.push(new[new.len() - 1] + length);
     }
-    let map = Map {
+    let map = FrameMap {
         old: bounds.iter().map(|&bound| bound as f64).collect(),
         new,
     };
     let other = map.new.last() != map.old.last();
     warp(work, &map)?;
     if other {
-        say::withdraw(work, &Side::BOTH, operator, |component, feature| {
-            component == Component::Movement && feature == Some("manner")
+        say_operator::withdraw_hand_notes(work, &BodySide::BOTH_SIDES, operator, |component, feature| {
+            component == SignComponent::Movement && feature == Some("manner")
         });
     }
-    work.changed(Group::ALL, operator);
+    work.note_changed_groups(JointGroup::ALL_JOINT_GROUPS, operator);
     Ok(did)
 }
 
 /// Makes the movement `factor` times as long.
-pub(crate) fn stretch(work: &mut Work, factor: f64) -> Result<(), Cause> {
+pub(crate) fn stretch_movement(work: &mut WorkingClip, factor: f64) -> Result<(), StepError> {
     let frames = work.frames as f64;
     warp(
         work,
-        &Map {
+        &FrameMap {
             old: vec![0.0, frames],
             new: vec![0.0, frames * factor],
         },
@@ -196,21 +193,19 @@ pub(crate) fn stretch(work: &mut Work, factor: f64) -> Result<(), Cause> {
 }
 
 /// A piecewise linear map between old and new frames.
-struct Map {
+struct FrameMap {
     old: Vec<f64>,
     new: Vec<f64>,
 }
 
-fn through(from: &[f64], to: &[f64], at: f64) -> f64 {
-    let n = from
-        .partition_point(|&bound| bound <= at)
-        .clamp(1, from.len() - 1);
+fn map_frame_through(from: &[f64], to: &[f64], at: f64) -> f64 {
+    let n = from.partition_point(|&bound| bound <= at).clamp(1, from.len() - 1);
     let (a, b) = (from[n - 1], from[n]);
     let share = if b > a { (at - a) / (b - a) } else { 0.0 };
     to[n - 1] + (to[n] - to[n - 1]) * share
 }
 
-fn warp(work: &mut Work, map: &Map) -> Result<(), Cause> {
+fn warp(work: &mut WorkingClip, map: &FrameMap) -> Result<(), StepError> {
     let frames = map.new.last().copied().unwrap_or(0.0).round().max(1.0) as usize;
     join::check_length(work, frames)?;
     let same = map.old == map.new;
@@ -218,38 +213,38 @@ fn warp(work: &mut Work, map: &Map) -> Result<(), Cause> {
         return Ok(());
     }
     // Frame n covers the time from n to n + 1: middles map to middles.
-    let at: Vec<f64> = (0..frames)
-        .map(|frame| through(&map.new, &map.old, frame as f64 + 0.5) - 0.5)
+    let sample_positions: Vec<f64> = (0..frames)
+        .map(|frame| map_frame_through(&map.new, &map.old, frame as f64 + 0.5) - 0.5)
         .collect();
-    work.sample(&at);
+    work.resample_channels(&sample_positions);
     let rate = work.rate.per_second();
-    let moved = |instant: Instant| {
-        Instant::from_seconds(through(&map.old, &map.new, instant.seconds() * rate) / rate)
+    let moved = |instant: RecordingInstant| {
+        RecordingInstant::from_seconds(map_frame_through(&map.old, &map.new, instant.instant_seconds() * rate) / rate)
     };
-    let end = work.end();
+    let end = work.working_clip_end();
     for note in &mut work.notes {
         let (start, stop) = (
-            moved(note.span.start()).min(end),
-            moved(note.span.end()).min(end),
+            moved(note.span.span_start_instant()).min(end),
+            moved(note.span.span_end_instant()).min(end),
         );
-        note.span = Span::between(start, stop);
+        note.span = TimeSpan::span_between(start, stop);
     }
     Ok(())
 }
 
 /// Returns the frames at which phases begin, and the last one ends.
-fn phases(work: &Work) -> Vec<usize> {
-    let dominant = work.handedness.dominant();
-    let sides: [Side; 2] = [dominant, dominant.other()];
+fn phase_boundary_frames(work: &WorkingClip) -> Vec<usize> {
+    let dominant = work.handedness.signer_dominant_side();
+    let sides: [BodySide; 2] = [dominant, dominant.opposite_side()];
     let components = [
-        Component::Movement,
-        Component::Placement,
-        Component::Configuration,
+        SignComponent::Movement,
+        SignComponent::Placement,
+        SignComponent::Configuration,
     ];
-    let found = sides.into_iter().find_map(|side| {
+    let phase_notes = sides.into_iter().find_map(|side| {
         components.into_iter().find_map(|component| {
-            let about = About::Component(component, None);
-            let spans: Vec<Span> = work
+            let about = NoteSubject::Component(component, None);
+            let spans: Vec<TimeSpan> = work
                 .notes
                 .iter()
                 .filter(|note| note.hand == Some(side) && note.about == about)
@@ -259,10 +254,10 @@ fn phases(work: &Work) -> Vec<usize> {
         })
     });
     let mut bounds = vec![0, work.frames];
-    for span in found.into_iter().flatten() {
+    for span in phase_notes.into_iter().flatten() {
         bounds.extend([
-            work.rate.frame_at(span.start()),
-            work.rate.frame_at(span.end()),
+            work.rate.nearest_frame_at(span.span_start_instant()),
+            work.rate.nearest_frame_at(span.span_end_instant()),
         ]);
     }
     bounds.retain(|&bound| bound <= work.frames);

@@ -1,77 +1,74 @@
 //! `reverse`: plays the movement backwards; applied twice, it changes nothing.
 
-use chereme_motion::Span;
-use chereme_sign::Reading;
-use chereme_sign::words::Text;
+use chereme_motion::TimeSpan;
+use chereme_sign::ComponentReading;
+use chereme_sign::words::InterfaceText;
 
-use crate::ops::say;
-use crate::outcome::About;
-use crate::work::{Group, Work};
+use crate::ops::say_operator;
+use crate::outcome::NoteSubject;
+use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
 
-use chereme_sign::Handedness;
+use chereme_sign::SignerHandedness;
 
-use crate::answers::Given;
-use crate::contact::{Carry, Keep};
-use crate::error::Cause;
-use crate::ops::{Description, Done, Neighbours, Operator, Step, Syntax};
-use crate::text::{Parsed, Parser};
+use crate::answers::NodeAnswers;
+use crate::contact::{ContactEffect, ContactsToKeep};
+use crate::error::StepError;
+use crate::ops::{OperatorDescription, OperatorNeighbours, OperatorSyntax, Step, StepOperator, StepOutcome};
+use crate::text::{ParsedText, RecipeParser};
 
 /// The operator; it has no settings.
 pub(crate) struct Reverse;
 
-impl Syntax for Reverse {
-    const NAME: &'static str = "reverse";
-    const DESCRIPTION: Description = Description {
-        title: Text::new("Reverse", "Inverser"),
-        hint: Text::new("backwards", "à l’envers"),
-        examples: &[("reverse", Text::new("backwards", "à l’envers"))],
+impl OperatorSyntax for Reverse {
+    const OPERATOR_NAME: &'static str = "reverse";
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Reverse", "Inverser"),
+        hint: InterfaceText::new("backwards", "à l’envers"),
+        examples: &[("reverse", InterfaceText::new("backwards", "à l’envers"))],
         messages: &[
-            Text::new(
-                "{n} frames played backwards",
-                "{n} images jouées à l’envers",
-            ),
-            Text::new(
+            InterfaceText::new("{n} frames played backwards", "{n} images jouées à l’envers"),
+            InterfaceText::new(
                 "{component} {value} is no longer written: it runs the other way",
                 "{component} {value} n’est plus dit : il va dans l’autre sens",
             ),
         ],
     };
 
-    fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+    fn parse_operator_text(_parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self)
     }
 
-    fn usual() -> Self {
+    fn default_operator() -> Self {
         Self
     }
 }
 
 impl Display for Reverse {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(Self::NAME)
+        f.write_str(Self::OPERATOR_NAME)
     }
 }
 
-impl Operator for Reverse {
-    fn apply(&self, work: &mut Work, _given: &mut Given<'_>) -> Result<Done, Cause> {
-        Ok(reverse(work).into())
+impl StepOperator for Reverse {
+    fn apply_operator(&self, work: &mut WorkingClip, _given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        Ok(reverse_movement(work).into())
     }
 
-    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+    fn contact_effect_for(&self, _handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
         None
     }
 
-    fn after(&self, before: &mut Step) -> Neighbours {
+    fn relation_to_previous(&self, before: &mut Step) -> OperatorNeighbours {
         match before {
-            Step::Reverse => Neighbours::Nothing,
-            _ => Neighbours::Apart,
+            Step::Reverse => OperatorNeighbours::Nothing,
+            _ => OperatorNeighbours::Apart,
         }
     }
 }
 
 /// Plays all channels backwards; returns cautions about the result.
-pub(crate) fn reverse(work: &mut Work) -> Vec<String> {
+pub(crate) fn reverse_movement(work: &mut WorkingClip) -> Vec<String> {
     for channel in &mut work.channels {
         channel.rotations.reverse();
         if let Some(places) = &mut channel.translations {
@@ -81,41 +78,44 @@ pub(crate) fn reverse(work: &mut Work) -> Vec<String> {
     for curve in &mut work.curves {
         curve.values.reverse();
     }
-    let end = work.end().micros();
+    let end = work.working_clip_end().instant_micros();
     let mut did = vec![format!("{} frames played backwards", work.frames)];
     for note in &mut work.notes {
         let span = note.span;
-        note.span = Span::between(span.end(), span.start()).mirrored(end);
-        let (About::Component(component, feature), Some(value)) = (&note.about, note.value.value())
+        note.span = TimeSpan::span_between(span.span_end_instant(), span.span_start_instant()).mirror_in_time(end);
+        let (NoteSubject::Component(component, feature), Some(value)) = (&note.about, note.value.reading_value())
         else {
             continue;
         };
-        match say::backwards(*component, feature.as_deref(), value) {
+        match say_operator::backwards_value(*component, feature.as_deref(), value) {
             Some(other) if other == value => {}
-            Some(other) => note.value = Reading::Value(other),
+            Some(other) => note.value = ComponentReading::Value(other),
             None => {
                 did.push(format!(
                     "{component} {value:?} is no longer written: it runs the other way"
                 ));
-                note.value = Reading::Unset;
+                note.value = ComponentReading::Unset;
             }
         }
     }
-    work.notes.sort_by_key(|note| note.span.start());
-    work.changed(Group::ALL, "reverse");
+    work.notes.sort_by_key(|note| note.span.span_start_instant());
+    work.note_changed_groups(JointGroup::ALL_JOINT_GROUPS, "reverse");
     did
 }
 
-trait Mirrored {
-    fn mirrored(self, end: i64) -> Self;
+trait MirroredInTime {
+    fn mirror_in_time(self, end: i64) -> Self;
 }
 
-impl Mirrored for Span {
+impl MirroredInTime for TimeSpan {
     /// Returns the mirror image of the span in a movement that ends at `end` microseconds.
-    fn mirrored(self, end: i64) -> Self {
-        let at = |instant: chereme_motion::Instant| {
-            chereme_motion::Instant::from_micros(end.saturating_sub(instant.micros()))
+    fn mirror_in_time(self, end: i64) -> Self {
+        let mirrored_instant = |instant: chereme_motion::RecordingInstant| {
+            chereme_motion::RecordingInstant::from_micros(end.saturating_sub(instant.instant_micros()))
         };
-        Self::between(at(self.end()), at(self.start()))
+        Self::span_between(
+            mirrored_instant(self.span_end_instant()),
+            mirrored_instant(self.span_start_instant()),
+        )
     }
 }

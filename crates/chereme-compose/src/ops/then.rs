@@ -4,36 +4,36 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Channel, Interpolation, ModelPose, Part, Side};
-use chereme_sign::Component;
+use chereme_motion::{BodyPart, BodySide, InterpolationKind, JointChannel, ModelPose};
+use chereme_sign::SignComponent;
 
-use crate::course::Courses;
-use crate::error::Cause;
+use crate::course::TransitionCourses;
+use crate::error::StepError;
 use crate::ops::cut;
-use crate::ops::join::{self, Cut, Seam};
+use crate::ops::join::{self, ChannelCut, MovementSeam};
 use crate::ops::retarget::{self, TargetBody};
-use crate::outcome::{About, Note};
+use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::speed::{self, StepSpeeds};
-use crate::units::Seconds;
-use crate::work::{Columns, Group, Work};
+use crate::units::RecipeSeconds;
+use crate::work::{JointColumns, JointGroup, WorkingClip};
 
 /// The time at the end of one sign and the start of the next in which cuts are searched for, in seconds; never more
 /// than 30 % of either.
-const WINDOW: f64 = 0.3;
+const CUT_SEARCH_WINDOW_S: f64 = 0.3;
 /// The least and the greatest time of a transition in seconds, and a wrist's mean speed in one, in metres per second.
-const TIMES: (f64, f64, f64) = (0.15, 0.6, 1.0);
+const TRANSITION_TIME_RANGE: (f64, f64, f64) = (0.15, 0.6, 1.0);
 /// The mean speed of hips and feet in a transition in metres per second, which at the peak of a sigmoid's course is that
 /// which is not warned of, and the greatest time that they are given for it, in seconds.
 const STANCE_TIME: (f64, f64) = (0.2, 1.0);
 
 /// Appends `next` to `work`; returns a description of the effects and of the join.
-pub(crate) fn then(
-    work: &mut Work,
-    next: Work,
-    time: Option<Seconds>,
-    courses: &Courses,
+pub(crate) fn append_next_work(
+    work: &mut WorkingClip,
+    next: WorkingClip,
+    time: Option<RecipeSeconds>,
+    courses: &TransitionCourses,
     operator: &str,
-) -> Result<join::Done, Cause> {
+) -> Result<join::JoinOutcome, StepError> {
     let (mut did, mut contacts) = (Vec::new(), Vec::new());
     let (mut warnings, mut repairs) = (Vec::new(), Vec::new());
     let mut next = match on_same_body(work, &next) {
@@ -44,9 +44,9 @@ pub(crate) fn then(
             let onto = TargetBody {
                 skeleton: &work.skeleton,
                 anatomy: &work.anatomy,
-                idle: work.pose(work.frames - 1),
+                idle: work.local_pose_at(work.frames - 1),
             };
-            let done = retarget::touching(&next, &onto, operator)?;
+            let done = retarget::retarget_with_contacts(&next, &onto, operator)?;
             did.extend(done.kept);
             contacts = done.lost;
             repairs = done.warnings;
@@ -55,7 +55,7 @@ pub(crate) fn then(
             done.work
         }
     };
-    retarget::resample(&mut next, work.rate);
+    retarget::resample_work_rate(&mut next, work.rate);
     let ends = without_rest(work, &mut next)?;
     face_alike(work, &mut next);
     let seam = seam(work, &next, time, &ends);
@@ -65,23 +65,23 @@ pub(crate) fn then(
     if ends.approached > 0 {
         did.push("the second sign's movement from rest is left out".to_owned());
     }
-    let held: Vec<Side> = Side::BOTH
+    let held_sides: Vec<BodySide> = BodySide::BOTH_SIDES
         .into_iter()
-        .filter(|&side| stays(work, &next, side))
+        .filter(|&side| is_hand_idle_next(work, &next, side))
         .collect();
-    for &side in &held {
-        let leave = seam.hands[usize::from(side == Side::Left)].leave;
-        hold(work, &mut next, side, leave, ends.until);
+    for &side in &held_sides {
+        let leave = seam.hands[usize::from(side == BodySide::Left)].leave;
+        hold_idle_hand(work, &mut next, side, leave, ends.until);
         did.push(format!(
             "the {} hand stays where it is: the second sign does not use it",
-            side.name()
+            side.body_side_name()
         ));
     }
-    for (side, cut) in Side::BOTH.into_iter().zip(seam.hands) {
+    for (side, cut) in BodySide::BOTH_SIDES.into_iter().zip(seam.hands) {
         let frames = seam.offset + cut.enter - cut.leave - 1;
         did.push(format!(
             "{} hand: leaves {} frames before the end, enters at frame {}, {} frames between",
-            side.name(),
+            side.body_side_name(),
             ends.returned + work.frames - 1 - cut.leave,
             ends.approached + cut.enter,
             frames
@@ -98,13 +98,13 @@ pub(crate) fn then(
         StepSpeeds::between_frames(work).peaks_over(0..latest),
         StepSpeeds::between_frames(&next).peaks_over(earliest..next.frames),
     );
-    let joins = join::join(work, next, &seam, courses, operator)?;
+    let joins = join::join_movements(work, next, &seam, courses, operator)?;
     let between = leaves.fold(latest, usize::min)..seam.offset + enters.fold(earliest, usize::max);
     let speeds = StepSpeeds::between_frames(work);
     did.extend(speeds.between_pieces(between.clone()));
     warnings.extend(speed::check_added(pieces, speeds.peaks_over(between))?);
     let warnings = warnings.iter().map(|added| format!("{operator}: {added}"));
-    Ok(join::Done {
+    Ok(join::JoinOutcome {
         did,
         joins,
         contacts,
@@ -114,7 +114,7 @@ pub(crate) fn then(
 
 /// The ends of two signs that were cut off, and the frames beside them in which a hand may leave or enter.
 #[derive(Default)]
-struct Ends {
+struct CutSignEnds {
     /// The frames that the end of the first sign has lost, and the start of the second.
     returned: usize,
     approached: usize,
@@ -128,12 +128,12 @@ struct Ends {
 
 /// Cuts the first sign's return to rest and the second's approach from rest off, except for the frames in which a hand
 /// may leave or enter. A sign without rest, or without known phases, stays as it is.
-fn without_rest(first: &mut Work, second: &mut Work) -> Result<Ends, Cause> {
-    let window = (WINDOW / first.rate.frame_time()).round() as usize;
-    let (one, other) = (cut::signed(first)?, cut::signed(second)?);
-    let mut ends = Ends {
+fn without_rest(first: &mut WorkingClip, second: &mut WorkingClip) -> Result<CutSignEnds, StepError> {
+    let window = (CUT_SEARCH_WINDOW_S / first.rate.frame_time()).round() as usize;
+    let (one, other) = (cut::signed_frame_range(first)?, cut::signed_frame_range(second)?);
+    let mut ends = CutSignEnds {
         until: other.end,
-        ..Ends::default()
+        ..CutSignEnds::default()
     };
     if one.end < first.frames {
         let after = window.min(first.frames - one.end);
@@ -161,9 +161,9 @@ const SAME_ANGLE: [f64; 2] = [0.1, 0.02];
 /// same body: joints of equal names, parents and offsets, except for offsets of joints whose positions both movements
 /// give. The bones of one signer may differ a little, and joints that are no parts of the body, such as markers, may be
 /// missing: they stay as they are at the end of the first.
-fn on_same_body(first: &Work, second: &Work) -> Option<Work> {
+fn on_same_body(first: &WorkingClip, second: &WorkingClip) -> Option<WorkingClip> {
     let (a, b) = (&first.skeleton, &second.skeleton);
-    let on_first = |channels: Vec<Channel>| Work {
+    let on_first = |channels: Vec<JointChannel>| WorkingClip {
         skeleton: Arc::clone(a),
         anatomy: Arc::clone(&first.anatomy),
         channels,
@@ -176,30 +176,30 @@ fn on_same_body(first: &Work, second: &Work) -> Option<Work> {
     if a.len() != b.len() && !same_signer {
         return None;
     }
-    let names = b.joints().iter().enumerate();
-    let names: BTreeMap<&str, usize> = names.map(|(m, joint)| (joint.name.as_str(), m)).collect();
-    let hips = first.anatomy.joint(Part::Hips).unwrap_or(0);
-    let end = first.pose(first.frames - 1);
+    let numbered_joints = b.skeleton_joints().iter().enumerate();
+    let names: BTreeMap<&str, usize> = numbered_joints.map(|(m, joint)| (joint.name.as_str(), m)).collect();
+    let hips = first.anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
+    let end = first.local_pose_at(first.frames - 1);
     let constant = |place: DVec3, offset: DVec3| {
         let moved = place != offset;
         moved.then(|| vec![place; second.frames])
     };
     let mut counterparts: Vec<Option<usize>> = Vec::with_capacity(a.len());
     let mut channels = Vec::with_capacity(a.len());
-    for (n, joint) in a.joints().iter().enumerate() {
+    for (n, joint) in a.skeleton_joints().iter().enumerate() {
         let place = end.translations[n];
         let Some(&m) = names.get(joint.name.as_str()) else {
             if !same_signer || first.anatomy.part_of(n).is_some() {
                 return None;
             }
             counterparts.push(None);
-            channels.push(Channel {
+            channels.push(JointChannel {
                 rotations: vec![end.rotations[n]; second.frames],
                 translations: constant(place, joint.offset),
             });
             continue;
         };
-        let other = b.joint(m);
+        let other = b.joint_at(m);
         if joint.parent.map(|parent| counterparts[parent]) != other.parent.map(Some) {
             return None;
         }
@@ -207,22 +207,22 @@ fn on_same_body(first: &Work, second: &Work) -> Option<Work> {
         let mut channel = second.channels[m].clone();
         let given = first.channels[n].translations.is_some() && channel.translations.is_some();
         if joint.rest != other.rest || !(given || joint.offset == other.offset) {
-            let bone = second.translation(m, 0);
+            let bone = second.joint_translation_at(m, 0);
             let digit = matches!(
                 first.anatomy.part_of(n),
-                Some(Part::Thumb(..) | Part::Finger(..))
+                Some(BodyPart::Thumb(..) | BodyPart::Finger(..))
             );
             let most = SAME_ANGLE[usize::from(!digit)];
             let [one, two] = [place, bone].map(DVec3::normalize_or_zero);
             let longer = (place.length() - bone.length()).abs();
             let alike_bones = longer <= SAME_LENGTH * place.length() && one.distance(two) < most;
-            let leads = a.ancestors(hips).any(|above| above == n);
+            let leads = a.joint_ancestors(hips).any(|above| above == n);
             let alike = joint.rest.angle_between(other.rest) < most && (leads || alike_bones);
             if !same_signer || !alike {
                 return None;
             }
             channel.translations = if leads {
-                let places = (0..second.frames).map(|frame| second.translation(m, frame));
+                let places = (0..second.frames).map(|frame| second.joint_translation_at(m, frame));
                 Some(places.collect())
             } else {
                 constant(place, joint.offset)
@@ -237,43 +237,41 @@ fn on_same_body(first: &Work, second: &Work) -> Option<Work> {
 ///
 /// The spot lies between the feet, at the usual height of the lower one. Without feet it is the place of the hips, of
 /// the trunk, or of any part that there is.
-fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
-    let model = ModelPose::of(&work.skeleton, &work.pose(frame));
-    let pair = |part: fn(Side) -> Part| {
-        let joints = Side::BOTH.map(|side| work.anatomy.joint(part(side)));
+fn standing_spot(work: &WorkingClip, frame: usize) -> (DVec3, Option<DVec3>) {
+    let model = ModelPose::from_local_pose(&work.skeleton, &work.local_pose_at(frame));
+    let pair = |part: fn(BodySide) -> BodyPart| {
+        let joints = BodySide::BOTH_SIDES.map(|side| work.anatomy.part_joint(part(side)));
         Some((joints[0]?, joints[1]?))
     };
     let body = work.anatomy.body_frame(&model);
-    let thighs = pair(Part::Thigh).and_then(|(right, left)| {
-        let left = model.position(left) - model.position(right);
+    let thighs = pair(BodyPart::Thigh).and_then(|(right, left)| {
+        let left = model.model_joint_position(left) - model.model_joint_position(right);
         left.cross(DVec3::Y).try_normalize()
     });
     let forward = thighs.or(body.map(|body| body.forward));
-    if let Some((right, left)) = pair(Part::Foot) {
-        let columns = Columns::of(work, [right, left]);
-        let [a, b] = [right, left].map(|foot| columns.positions(foot));
+    if let Some((right, left)) = pair(BodyPart::Foot) {
+        let columns = JointColumns::joint_columns_of(work, [right, left]);
+        let [a, b] = [right, left].map(|foot| columns.joint_positions(foot));
         let mut heights: Vec<f64> = a.iter().zip(b).map(|(a, b)| a.y.min(b.y)).collect();
         heights.sort_by(f64::total_cmp);
         let between = a[frame].midpoint(b[frame]);
         return (between.with_y(heights[heights.len() / 2]), forward);
     }
-    let arms = Side::BOTH.map(Part::UpperArm);
-    let mut parts = [Part::Hips, Part::Chest, Part::Head]
+    let arms = BodySide::BOTH_SIDES.map(BodyPart::UpperArm);
+    let mut parts = [BodyPart::Hips, BodyPart::Chest, BodyPart::Head]
         .into_iter()
         .chain(arms);
-    let known = parts.find_map(|part| work.anatomy.joint(part));
-    (model.position(known.unwrap_or(0)), forward)
+    let known_joint = parts.find_map(|part| work.anatomy.part_joint(part));
+    (model.model_joint_position(known_joint.unwrap_or(0)), forward)
 }
 
 /// Rotates and moves the second movement so that it starts on the spot on which the first ends, on the same floor and
 /// facing the same way, regardless of the joints above the hips in their files.
-fn face_alike(first: &Work, second: &mut Work) {
-    let (end, faced) = standing(first, first.frames - 1);
-    let (start, facing) = standing(second, 0);
+fn face_alike(first: &WorkingClip, second: &mut WorkingClip) {
+    let (end, faced) = standing_spot(first, first.frames - 1);
+    let (start, facing) = standing_spot(second, 0);
     let yaw = |v: DVec3| v.x.atan2(v.z);
-    let angle = faced
-        .zip(facing)
-        .map_or(0.0, |(to, from)| yaw(to) - yaw(from));
+    let angle = faced.zip(facing).map_or(0.0, |(to, from)| yaw(to) - yaw(from));
     let turn = DQuat::from_rotation_y(angle);
     let shift = end - turn * start;
     let moves = shift.length() > 1e-6 || turn.w.abs() < 1.0 - 1e-9;
@@ -281,7 +279,7 @@ fn face_alike(first: &Work, second: &mut Work) {
         return;
     }
     let places = (0..second.frames)
-        .map(|f| turn * second.translation(0, f) + shift)
+        .map(|f| turn * second.joint_translation_at(0, f) + shift)
         .collect();
     let root = &mut second.channels[0];
     root.translations = Some(places);
@@ -291,44 +289,49 @@ fn face_alike(first: &Work, second: &mut Work) {
 }
 
 /// Finds for each hand the frames to leave one sign and enter the next with the least cost.
-fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam {
-    let wrists = Side::BOTH.map(|side| first.anatomy.arm(side).map(|arm| arm.hand));
-    let stance = Side::BOTH.map(Part::Foot).into_iter().chain([Part::Hips]);
-    let stance: Vec<usize> = stance
-        .filter_map(|part| first.anatomy.joint(part))
-        .collect();
+fn seam(first: &WorkingClip, second: &WorkingClip, time: Option<RecipeSeconds>, ends: &CutSignEnds) -> MovementSeam {
+    let wrists = BodySide::BOTH_SIDES.map(|side| first.anatomy.arm_chain(side).map(|arm| arm.hand));
+    let stance_parts = BodySide::BOTH_SIDES
+        .map(BodyPart::Foot)
+        .into_iter()
+        .chain([BodyPart::Hips]);
+    let stance: Vec<usize> = stance_parts.filter_map(|part| first.anatomy.part_joint(part)).collect();
     let joints = || wrists.iter().flatten().chain(&stance).copied();
-    let (a, b) = (Columns::of(first, joints()), Columns::of(second, joints()));
-    let window = |work: &Work| {
-        let frames = (WINDOW / work.rate.frame_time()).round() as usize;
+    let (a, b) = (
+        JointColumns::joint_columns_of(first, joints()),
+        JointColumns::joint_columns_of(second, joints()),
+    );
+    let window = |work: &WorkingClip| {
+        let frames = (CUT_SEARCH_WINDOW_S / work.rate.frame_time()).round() as usize;
         frames.min(work.frames * 3 / 10)
     };
     // Beside a rest that is cut off, hands leave after the last phase and enter before the first.
     let before = ends.after.unwrap_or_else(|| window(first));
     let after = ends.before.unwrap_or_else(|| window(second));
     let last = first.frames - 1;
-    let mut hands = [Cut {
+    let mut hands = [ChannelCut {
         leave: last - ends.after.unwrap_or(0),
         enter: ends.before.unwrap_or(0),
     }; 2];
     let mut longest: f64 = 0.0;
     // Between two postures of signing, a hand that the second sign does not use sets no pace.
     let signing = ends.after.or(ends.before).is_some();
-    let idle = Side::BOTH.map(|side| signing && !used(second, side) && used(second, side.other()));
+    let idle = BodySide::BOTH_SIDES
+        .map(|side| signing && !is_hand_used(second, side) && is_hand_used(second, side.opposite_side()));
     for ((cut, hand), idle) in hands.iter_mut().zip(wrists).zip(idle) {
         let Some(hand) = hand.filter(|_| !idle) else {
             continue;
         };
-        let (pa, pb) = (a.positions(hand), b.positions(hand));
+        let (pa, pb) = (a.joint_positions(hand), b.joint_positions(hand));
         let usual = *cut;
         let mut least = f64::INFINITY;
         for (leave, &from) in pa.iter().enumerate().skip(last - before) {
             for (enter, &to) in pb.iter().enumerate().take(after + 1) {
-                let beside = leave.abs_diff(usual.leave) + enter.abs_diff(usual.enter);
-                let trimmed = beside as f64 / (before + after).max(1) as f64;
+                let trimmed_frames = leave.abs_diff(usual.leave) + enter.abs_diff(usual.enter);
+                let trimmed = trimmed_frames as f64 / (before + after).max(1) as f64;
                 let cost = from.distance(to) + 0.02 * trimmed;
                 if cost < least {
-                    (least, *cut) = (cost, Cut { leave, enter });
+                    (least, *cut) = (cost, ChannelCut { leave, enter });
                 }
             }
         }
@@ -336,7 +339,7 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam
     }
     // The hand whose cuts leave out the fewest frames sets the pace: its transition takes exactly the wanted time, and
     // trunk, head and legs go with it.
-    let left_out = |cut: &Cut| last - cut.leave + cut.enter;
+    let left_out = |cut: &ChannelCut| last - cut.leave + cut.enter;
     let [right, left] = hands;
     let body = match idle {
         [true, false] => left,
@@ -344,75 +347,61 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam
         _ if left_out(&left) < left_out(&right) => left,
         _ => right,
     };
-    let hands = [right, left].map(|cut| {
-        if left_out(&cut) < left_out(&body) {
-            body
-        } else {
-            cut
-        }
-    });
-    let shift =
-        |&joint: &usize| a.positions(joint)[body.leave].distance(b.positions(joint)[body.enter]);
+    let hands = [right, left].map(|cut| if left_out(&cut) < left_out(&body) { body } else { cut });
+    let shift = |&joint: &usize| a.joint_positions(joint)[body.leave].distance(b.joint_positions(joint)[body.enter]);
     let farthest = stance.iter().map(shift).fold(0.0, f64::max);
-    let (least, most, speed) = TIMES;
-    let usual = (longest / speed).clamp(least, most);
-    let usual = usual.max((farthest / STANCE_TIME.0).min(STANCE_TIME.1));
+    let (least, most, speed) = TRANSITION_TIME_RANGE;
+    let speed_seconds = (longest / speed).clamp(least, most);
+    let usual = speed_seconds.max((farthest / STANCE_TIME.0).min(STANCE_TIME.1));
     let seconds = time.map_or(usual, |time| time.0);
     let gap = (seconds / first.rate.frame_time()).round().max(1.0) as usize;
     let spare = left_out(&body);
     let offset = (first.frames + gap)
         .saturating_sub(spare)
         .max(first.frames.saturating_sub(spare).max(1));
-    Seam {
-        offset,
-        hands,
-        body,
-    }
+    MovementSeam { offset, hands, body }
 }
 
 /// Returns whether a sign uses a hand.
-fn used(work: &Work, side: Side) -> bool {
+fn is_hand_used(work: &WorkingClip, side: BodySide) -> bool {
     let mut notes = work.notes.iter();
-    notes.any(|note| note.hand == Some(side) && note.value.value().is_some())
+    notes.any(|note| note.hand == Some(side) && note.value.reading_value().is_some())
 }
 
 /// Returns whether a hand of the first sign is idle in the second.
-fn stays(first: &Work, second: &Work, side: Side) -> bool {
-    used(first, side) && !used(second, side) && used(second, side.other())
+fn is_hand_idle_next(first: &WorkingClip, second: &WorkingClip, side: BodySide) -> bool {
+    is_hand_used(first, side) && !is_hand_used(second, side) && is_hand_used(second, side.opposite_side())
 }
 
 /// Keeps a hand of the second movement in its posture at the end of the first; from the frame `until` on it goes to the
 /// second movement's own last posture.
-fn hold(first: &Work, second: &mut Work, side: Side, leave: usize, until: usize) {
-    let groups = crate::work::groups(&first.skeleton, &first.anatomy);
+fn hold_idle_hand(first: &WorkingClip, second: &mut WorkingClip, side: BodySide, leave: usize, until: usize) {
+    let groups = crate::work::find_joint_groups(&first.skeleton, &first.anatomy);
     for (joint, group) in groups.iter().enumerate() {
-        if *group == Group::Arm(side) || *group == Group::Fingers(side) {
+        if *group == JointGroup::Arm(side) || *group == JointGroup::Fingers(side) {
             let rotation = first.channels[joint].rotations[leave];
             let rotations = &mut second.channels[joint].rotations;
             let (until, rest) = (until.min(rotations.len()), rotations[rotations.len() - 1]);
             let steps = (rotations.len() - until) as f64;
             rotations.fill(rotation);
             for (n, own) in rotations[until..].iter_mut().enumerate() {
-                *own = Interpolation::MinimumJerk.rotation(rotation, rest, (n + 1) as f64 / steps);
+                *own = InterpolationKind::MinimumJerk.interpolate_rotation(rotation, rest, (n + 1) as f64 / steps);
             }
         }
     }
     // The hand keeps its value at the end of the first sign.
-    let end = first.rate.instant(leave + 1);
+    let end = first.rate.frame_start_instant(leave + 1);
     let shown = first.notes.iter().filter(|note| {
         let about = matches!(
             note.about,
-            About::Component(Component::Configuration | Component::Orientation, _)
+            NoteSubject::Component(SignComponent::Configuration | SignComponent::Orientation, _)
         );
-        note.hand == Some(side) && about && note.value.value().is_some()
+        note.hand == Some(side) && about && note.value.reading_value().is_some()
     });
-    let shown = shown.filter(|note| note.span.start() < end && note.span.end() >= end);
-    let span = second.rate.span(0..until.min(second.frames));
-    let shown = shown.map(|note| Note {
-        span,
-        ..note.clone()
-    });
-    let shown: Vec<Note> = shown.collect();
+    let shown = shown.filter(|note| note.span.span_start_instant() < end && note.span.span_end_instant() >= end);
+    let span = second.rate.frame_range_span(0..until.min(second.frames));
+    let shown_note = shown.map(|note| GeneratedNote { span, ..note.clone() });
+    let shown: Vec<GeneratedNote> = shown_note.collect();
     second.notes.retain(|note| note.hand != Some(side));
     second.notes.extend(shown);
 }

@@ -1,6 +1,8 @@
 //! Tests of the choice of a sign as the source of a value, and that stored choices give the same movement again.
 
 use super::*;
+use crate::evaluate_recipe;
+use crate::resolve_recipe;
 
 #[test]
 fn values_are_replaced_one_by_one_and_joined() {
@@ -9,43 +11,30 @@ fn values_are_replaced_one_by_one_and_joined() {
         .notes
         .iter()
         .filter(|n| {
-            n.hand == Some(Side::Right)
-                && n.about == About::Component(Component::Configuration, None)
+            n.hand == Some(BodySide::Right) && n.about == NoteSubject::Component(SignComponent::Configuration, None)
         })
-        .map(|n| n.value.value().expect("a value").to_owned())
+        .map(|n| n.value.reading_value().expect("a value").to_owned())
         .collect();
     assert_eq!(held, ["U", "S"]);
     let joint = made
         .anatomy
-        .joint(Part::Finger(Side::Right, chereme_motion::Finger::Index, 2))
+        .part_joint(BodyPart::Finger(BodySide::Right, chereme_motion::HandFinger::Index, 2))
         .expect("a finger");
-    let column = &made.clip.channel(joint).rotations;
-    assert!(
-        column[..48].iter().all(|q| *q == column[0]),
-        "the first value is held"
-    );
+    let column = &made.clip.joint_channel(joint).rotations;
+    assert!(column[..48].iter().all(|q| *q == column[0]), "the first value is held");
     assert!(
         column[72..].iter().all(|q| *q == column[72]),
         "the second value is held"
     );
-    let jump = column
-        .windows(2)
-        .map(|w| w[0].angle_between(w[1]))
-        .fold(0.0, f64::max);
+    let jump = column.windows(2).map(|w| w[0].angle_between(w[1])).fold(0.0, f64::max);
     let whole = column[0].angle_between(column[72]);
     assert!(whole > 0.05 && jump < whole / 5.0, "{jump} of {whole}");
     for (recipe, want) in [
         ("BOL | configure right U, S, Y", "give 1 or 2"),
         ("BOL | configure right Q", "no configuration"),
-        (
-            "BOL | configure right claw",
-            "no sign with movement holds \"claw\"",
-        ),
+        ("BOL | configure right claw", "no sign with movement holds \"claw\""),
         ("BOOL", "did you mean \"BOL\"?"),
-        (
-            "BOL | configure right best(configuration=X)",
-            "finds no sign",
-        ),
+        ("BOL | configure right best(configuration=X)", "finds no sign"),
         ("BOL | place both by left 180cm", "the arm is 53 cm long"),
     ] {
         let error = make(recipe).expect_err(recipe).to_string();
@@ -58,9 +47,9 @@ fn a_value_comes_from_the_nearest_source() {
     use crate::PoseOrigin as From;
     let origin = |recipe: &str| {
         let recipe: crate::Recipe = recipe.parse().expect("recipe");
-        let resolved = resolve(&recipe, &Shelf::new()).expect("resolved");
-        let poses = resolved.inputs().0.values().find_map(|input| match input {
-            crate::Input::Poses(poses) => Some(poses.clone()),
+        let resolved = resolve_recipe(&recipe, &Shelf::new()).expect("resolved");
+        let poses = resolved.resolved_inputs().0.values().find_map(|input| match input {
+            crate::RecipeInput::Poses(poses) => Some(poses.clone()),
             _ => None,
         });
         poses.expect("poses")[0].origin.clone()
@@ -101,26 +90,21 @@ fn a_resolved_recipe_is_stored_and_gives_the_same_movement() {
     ] {
         let text = text.trim_end_matches(" via");
         let recipe: crate::Recipe = text.parse().expect(text);
-        let resolved = resolve(&recipe, &shelf).expect(text);
-        let json = serde_json::to_string(resolved.inputs()).expect("json");
-        let inputs: crate::Inputs = serde_json::from_str(&json).expect("json");
+        let resolved = resolve_recipe(&recipe, &shelf).expect(text);
+        let json = serde_json::to_string(resolved.resolved_inputs()).expect("json");
+        let inputs: crate::RecipeInputs = serde_json::from_str(&json).expect("json");
         let mut changed = Shelf::new();
-        changed
-            .materials
-            .get_mut("LIMACE")
-            .expect("there")
-            .held
-            .clear();
-        let again = crate::restore(&recipe, inputs.clone(), &changed).expect("restored");
+        changed.materials.get_mut("LIMACE").expect("there").held.clear();
+        let again = crate::restore_recipe_inputs(&recipe, inputs.clone(), &changed).expect("restored");
         let (a, b) = (
-            evaluate(&resolved).expect(text),
-            evaluate(&again).expect(text),
+            evaluate_recipe(&resolved).expect(text),
+            evaluate_recipe(&again).expect(text),
         );
         assert!(farthest(&a.clip, &b.clip) < 1e-12);
         for material in changed.materials.values_mut() {
             material.hash.push('x');
         }
-        let error = crate::restore(&recipe, inputs, &changed).expect_err("changed");
-        assert!(matches!(error.cause, Cause::Changed { .. }));
+        let error = crate::restore_recipe_inputs(&recipe, inputs, &changed).expect_err("changed");
+        assert!(matches!(error.cause, StepError::Changed { .. }));
     }
 }

@@ -2,16 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use crate::outcome::{Curve, Generated};
+use crate::outcome::{GeneratedCurve, GeneratedMovement};
 use crate::sources::{
-    Example, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
+    AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes,
+    TokenExample,
 };
 use crate::testing::Shelf;
-use crate::{Input, Language, LanguageValue, Recipe, evaluate, resolve, restore};
-use chereme_sign::Component;
+use crate::{
+    BodyLanguageChanges, LanguageValue, Recipe, RecipeInput, evaluate_recipe, resolve_recipe, restore_recipe_inputs,
+};
+use chereme_sign::SignComponent;
 
-fn ramp(name: &str, frames: usize) -> Curve {
-    Curve {
+fn ramp(name: &str, frames: usize) -> GeneratedCurve {
+    GeneratedCurve {
         name: name.to_owned(),
         values: (0..frames).map(|n| n as f64 / frames as f64).collect(),
     }
@@ -20,22 +23,19 @@ fn ramp(name: &str, frames: usize) -> Curve {
 fn shelf() -> Shelf {
     let mut shelf = Shelf::new();
     let bol = shelf.materials.get_mut("BOL").expect("there");
-    let frames = bol.clip.frames();
+    let frames = bol.clip.clip_frame_count();
     bol.curves = vec![ramp("brows.RB", frames), ramp("body.TF", frames)];
     shelf
 }
 
-fn made(recipe: &str, sources: &dyn Sources) -> Generated {
+fn made(recipe: &str, sources: &dyn RecipeSources) -> GeneratedMovement {
     let recipe: Recipe = recipe.parse().expect(recipe);
-    let resolved = resolve(&recipe, sources).expect("resolved");
-    evaluate(&resolved).expect("made")
+    let resolved = resolve_recipe(&recipe, sources).expect("resolved");
+    evaluate_recipe(&resolved).expect("made")
 }
 
-fn names(made: &Generated) -> Vec<&str> {
-    made.curves
-        .iter()
-        .map(|curve| curve.name.as_str())
-        .collect()
+fn names(made: &GeneratedMovement) -> Vec<&str> {
+    made.curves.iter().map(|curve| curve.name.as_str()).collect()
 }
 
 #[test]
@@ -56,14 +56,11 @@ fn curves_keep_the_length_of_the_movement_through_every_operator() {
         for curve in &made.curves {
             assert_eq!(
                 curve.values.len(),
-                made.clip.frames(),
+                made.clip.clip_frame_count(),
                 "{recipe} {}",
                 curve.name
             );
-            assert!(
-                curve.values.iter().all(|it| (0.0..=1.0).contains(it)),
-                "{recipe}"
-            );
+            assert!(curve.values.iter().all(|it| (0.0..=1.0).contains(it)), "{recipe}");
         }
     }
 }
@@ -83,49 +80,43 @@ fn curves_are_reversed_joined_and_taken_over() {
     assert_eq!(other.curves[0].values[0], 0.0);
     assert_eq!(other.curves[0].values.last(), plain.curves[0].values.last());
 
-    assert_eq!(
-        names(&made("ESCARGOT | nonmanual from BOL", &shelf)),
-        ["brows.RB"]
-    );
-    assert_eq!(
-        names(&made("BOL | nonmanual from ESCARGOT", &shelf)),
-        ["body.TF"]
-    );
+    assert_eq!(names(&made("ESCARGOT | nonmanual from BOL", &shelf)), ["brows.RB"]);
+    assert_eq!(names(&made("BOL | nonmanual from ESCARGOT", &shelf)), ["body.TF"]);
 }
 
 /// A shelf with a body language of its own.
-struct Speaking(Shelf, Language);
+struct Speaking(Shelf, BodyLanguageChanges);
 
-impl Sources for Speaking {
-    fn material(&self, address: &str) -> Result<Material, SourceError> {
+impl RecipeSources for Speaking {
+    fn find_material(&self, address: &str) -> Result<MovementMaterial, SourceError> {
         match address {
             "stage" => self.0.stage(None),
-            address => self.0.material(address),
+            address => self.0.find_material(address),
         }
     }
 
-    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {
+    fn stage(&self, signer: Option<&str>) -> Result<MovementMaterial, SourceError> {
         self.0.stage(signer)
     }
 
-    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
-        self.0.value(component, text)
+    fn find_component_value(&self, component: SignComponent, text: &str) -> Result<ComponentValue, SourceError> {
+        self.0.find_component_value(component, text)
     }
 
-    fn values(&self, component: Component) -> Vec<Value> {
-        self.0.values(component)
+    fn list_component_values(&self, component: SignComponent) -> Vec<ComponentValue> {
+        self.0.list_component_values(component)
     }
 
-    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError> {
+    fn holding(&self, component: SignComponent, value: &str) -> Result<Vec<TokenExample>, SourceError> {
         self.0.holding(component, value)
     }
 
-    fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError> {
-        self.0.best(query, signer)
+    fn find_best_examples(&self, query: &str, signer: Option<&str>) -> Result<Vec<TokenExample>, SourceError> {
+        self.0.find_best_examples(query, signer)
     }
 
-    fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
-        self.0.letters(alphabet, word)
+    fn find_alphabet_letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<AlphabetLetter>, SourceError> {
+        self.0.find_alphabet_letters(alphabet, word)
     }
 
     fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
@@ -136,13 +127,9 @@ impl Sources for Speaking {
         self.0.spelling_times()
     }
 
-    fn body_language(
-        &self,
-        named: Option<&str>,
-        _signer: Option<&str>,
-    ) -> Result<Language, SourceError> {
+    fn body_language(&self, named: Option<&str>, _signer: Option<&str>) -> Result<BodyLanguageChanges, SourceError> {
         Ok(match named {
-            Some("default") => Language::default(),
+            Some("default") => BodyLanguageChanges::default(),
             _ => self.1.clone(),
         })
     }
@@ -157,7 +144,7 @@ fn a_generated_sign_keeps_its_body_language() {
             count: 20,
             of: "signer:1".into(),
         };
-        let language = Language {
+        let language = BodyLanguageChanges {
             from: "measured".into(),
             values: BTreeMap::from([("time.straight".into(), value)]),
             places: BTreeMap::new(),
@@ -168,7 +155,7 @@ fn a_generated_sign_keeps_its_body_language() {
     let (slow, slower) = (speaking(1.0), speaking(2.0));
     let usual = made(&format!("{text} with default"), &slow);
     let measured = made(text, &slow);
-    assert!(measured.clip.frames() > usual.clip.frames() + 30);
+    assert!(measured.clip.clip_frame_count() > usual.clip.clip_frame_count() + 30);
     assert!(usual.report.steps[0].language.is_none());
     let step = &measured.report.steps[0];
     assert_eq!(step.language.as_ref().map(|it| it.values.len()), Some(1));
@@ -181,18 +168,16 @@ fn a_generated_sign_keeps_its_body_language() {
     );
 
     let recipe: Recipe = text.parse().expect("a recipe");
-    let inputs = resolve(&recipe, &slow).expect("resolved").inputs().clone();
+    let inputs = resolve_recipe(&recipe, &slow)
+        .expect("resolved")
+        .resolved_inputs()
+        .clone();
     let json = serde_json::to_string(&inputs).expect("JSON");
-    let inputs: crate::Inputs = serde_json::from_str(&json).expect("JSON");
-    assert!(
-        inputs
-            .0
-            .values()
-            .any(|input| matches!(input, Input::Language(_)))
-    );
-    let again = restore(&recipe, inputs, &slower).expect("restored");
-    assert_eq!(evaluate(&again).expect("made").clip, measured.clip);
-    assert!(made(text, &slower).clip.frames() > measured.clip.frames() + 30);
+    let inputs: crate::RecipeInputs = serde_json::from_str(&json).expect("JSON");
+    assert!(inputs.0.values().any(|input| matches!(input, RecipeInput::Language(_))));
+    let again = restore_recipe_inputs(&recipe, inputs, &slower).expect("restored");
+    assert_eq!(evaluate_recipe(&again).expect("made").clip, measured.clip);
+    assert!(made(text, &slower).clip.clip_frame_count() > measured.clip.clip_frame_count() + 30);
 }
 
 #[test]

@@ -1,12 +1,15 @@
 //! A draft gives the same result as an evaluation from scratch, and evaluates only the changed parts.
 
+use crate::evaluate_recipe;
+use crate::resolve_recipe;
 use std::cell::RefCell;
 
 use super::*;
 use crate::sources::{
-    Example, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
+    AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes,
+    TokenExample,
 };
-use crate::{Draft, Language, Recipe};
+use crate::{BodyLanguageChanges, Recipe, RecipeDraft};
 
 /// Sources that record the questions.
 struct Asked {
@@ -27,49 +30,45 @@ impl Asked {
     }
 }
 
-impl Sources for Asked {
-    fn material(&self, address: &str) -> Result<Material, SourceError> {
+impl RecipeSources for Asked {
+    fn find_material(&self, address: &str) -> Result<MovementMaterial, SourceError> {
         self.materials.borrow_mut().push(address.to_owned());
-        self.shelf.material(address)
+        self.shelf.find_material(address)
     }
 
-    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {
+    fn stage(&self, signer: Option<&str>) -> Result<MovementMaterial, SourceError> {
         self.shelf.stage(signer)
     }
 
-    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
-        self.shelf.value(component, text)
+    fn find_component_value(&self, component: SignComponent, text: &str) -> Result<ComponentValue, SourceError> {
+        self.shelf.find_component_value(component, text)
     }
 
-    fn values(&self, component: Component) -> Vec<Value> {
-        self.shelf.values(component)
+    fn list_component_values(&self, component: SignComponent) -> Vec<ComponentValue> {
+        self.shelf.list_component_values(component)
     }
 
-    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError> {
+    fn holding(&self, component: SignComponent, value: &str) -> Result<Vec<TokenExample>, SourceError> {
         self.shelf.holding(component, value)
     }
 
-    fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError> {
-        self.shelf.best(query, signer)
+    fn find_best_examples(&self, query: &str, signer: Option<&str>) -> Result<Vec<TokenExample>, SourceError> {
+        self.shelf.find_best_examples(query, signer)
     }
 
-    fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
-        self.shelf.letters(alphabet, word)
+    fn find_alphabet_letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<AlphabetLetter>, SourceError> {
+        self.shelf.find_alphabet_letters(alphabet, word)
     }
 
     fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
         self.shelf.learned_profile()
     }
 
-    fn notation(&self, name: &str) -> Result<Vec<chereme_sign::hamnosys::Notated>, SourceError> {
-        self.shelf.notation(name)
+    fn find_named_notation(&self, name: &str) -> Result<Vec<chereme_sign::hamnosys::NotatedSign>, SourceError> {
+        self.shelf.find_named_notation(name)
     }
 
-    fn body_language(
-        &self,
-        named: Option<&str>,
-        signer: Option<&str>,
-    ) -> Result<Language, SourceError> {
+    fn body_language(&self, named: Option<&str>, signer: Option<&str>) -> Result<BodyLanguageChanges, SourceError> {
         self.shelf.body_language(named, signer)
     }
 
@@ -79,8 +78,7 @@ impl Sources for Asked {
 }
 
 fn recipe(text: &str) -> Recipe {
-    text.parse()
-        .unwrap_or_else(|error| panic!("{text}: {error}"))
+    text.parse().unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
 /// Recipes as successive edits of a person's work: a setting, an operator's position, the source or a piece changes.
@@ -113,15 +111,15 @@ proptest! {
         )
     ) {
         let shelf = Shelf::new();
-        let mut draft = Draft::default();
+        let mut draft = RecipeDraft::default();
         for (source, steps) in all {
             let mut text = SOURCES[source].to_owned();
             for step in steps {
                 text = format!("{text} | {}", STEPS[step]);
             }
             let recipe = recipe(&text);
-            let whole = resolve(&recipe, &shelf).and_then(|resolved| evaluate(&resolved));
-            let made = draft.make(&recipe, &shelf, &|| true);
+            let whole = resolve_recipe(&recipe, &shelf).and_then(|resolved| evaluate_recipe(&resolved));
+            let made = draft.generate_draft(&recipe, &shelf, &|| true);
             match (made, whole) {
                 (Ok(made), Ok(whole)) => prop_assert_eq!(made, whole),
                 (Err(a), Err(b)) => prop_assert_eq!(a.to_string(), b.to_string()),
@@ -134,10 +132,10 @@ proptest! {
 #[test]
 fn unchanged_sources_are_not_looked_up_again() {
     let sources = Asked::new();
-    let mut draft = Draft::default();
+    let mut draft = RecipeDraft::default();
     let mut asked = |text: &str| {
         draft
-            .make(&recipe(text), &sources, &|| true)
+            .generate_draft(&recipe(text), &sources, &|| true)
             .unwrap_or_else(|error| panic!("{text}: {error}"));
         sources.take()
     };
@@ -153,36 +151,33 @@ fn unchanged_sources_are_not_looked_up_again() {
         assert_eq!(asked(text), 0, "{text}");
     }
     assert_eq!(asked("ESCARGOT | configure right U then ESCARGOT"), 1);
-    assert_eq!(
-        asked("ESCARGOT | configure right U then ESCARGOT | swap"),
-        0
-    );
-    draft.forget();
-    let made = draft.make(&recipe("ESCARGOT"), &sources, &|| true);
+    assert_eq!(asked("ESCARGOT | configure right U then ESCARGOT | swap"), 0);
+    draft.forget_draft_results();
+    let made = draft.generate_draft(&recipe("ESCARGOT"), &sources, &|| true);
     assert!(made.is_ok() && sources.take() > 0);
 }
 
 #[test]
 fn a_cancelled_evaluation_stops_and_keeps_its_finished_steps() {
     let shelf = Shelf::new();
-    let mut draft = Draft::default();
+    let mut draft = RecipeDraft::default();
     let text = recipe("ESCARGOT | swap | reverse | amplify both 1.2");
     let left = std::cell::Cell::new(3);
     let goes_on = || {
         left.set(left.get() - 1);
         left.get() >= 0
     };
-    let stopped = draft.make(&text, &shelf, &goes_on);
+    let stopped = draft.generate_draft(&text, &shelf, &goes_on);
     assert!(matches!(
         stopped,
         Err(MakeError {
-            cause: Cause::Stopped,
+            cause: StepError::Stopped,
             ..
         })
     ));
     left.set(1);
-    let made = draft.make(&text, &shelf, &goes_on);
+    let made = draft.generate_draft(&text, &shelf, &goes_on);
     let made = made.expect("only one step is left to take");
-    let whole = resolve(&text, &shelf).and_then(|resolved| evaluate(&resolved));
+    let whole = resolve_recipe(&text, &shelf).and_then(|resolved| evaluate_recipe(&resolved));
     assert_eq!(made, whole.expect("a recipe that can be made"));
 }

@@ -1,14 +1,14 @@
 //! Golden tables of recipes on two bodies: movement, annotations, report and inputs of every operator.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Clip, HandAngles, Part, Side};
-use chereme_sign::Component;
+use chereme_motion::{BodyPart, BodySide, Clip, HandAngles};
+use chereme_sign::SignComponent;
 
 use crate::golden::{LITTLE, compare_to, put};
-use crate::outcome::Generated;
-use crate::sources::{Meaning, Value};
+use crate::outcome::GeneratedMovement;
+use crate::sources::{ComponentValue, ValueMeaning};
 use crate::testing::Shelf;
-use crate::{MakeError, evaluate, resolve};
+use crate::{MakeError, evaluate_recipe, resolve_recipe};
 
 /// The moments of a movement that are written down, as shares of its duration.
 const MOMENTS: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0];
@@ -30,64 +30,64 @@ fn turned(q: DQuat) -> String {
 }
 
 /// Writes down where joints are at some moments, and how they are turned; fingers as angles in one of them.
-pub(super) fn movement(out: &mut String, made: &Generated) {
+pub(super) fn movement(out: &mut String, made: &GeneratedMovement) {
     let clip: &Clip = &made.clip;
-    let last = clip.frames().saturating_sub(1);
+    let last = clip.clip_frame_count().saturating_sub(1);
     put(
         out,
-        format!("{} frames at {:?}", clip.frames(), clip.rate()),
+        format!("{} frames at {:?}", clip.clip_frame_count(), clip.clip_frame_rate()),
     );
     for moment in MOMENTS {
         let frame = (last as f64 * moment).round() as usize;
         let model = clip.model_pose(frame);
-        let at = |part: Part| made.anatomy.joint(part).expect("a joint");
-        let head = at(Part::Head);
+        let at = |part: BodyPart| made.anatomy.part_joint(part).expect("a joint");
+        let head = at(BodyPart::Head);
         put(
             out,
             format!(
                 "{frame}: hips {} head {} {}",
-                milli(model.position(at(Part::Hips))),
-                milli(model.position(head)),
-                turned(model.rotation(head))
+                milli(model.model_joint_position(at(BodyPart::Hips))),
+                milli(model.model_joint_position(head)),
+                turned(model.model_joint_rotation(head))
             ),
         );
-        for side in Side::BOTH {
-            let hand = at(Part::Hand(side));
+        for side in BodySide::BOTH_SIDES {
+            let hand = at(BodyPart::Hand(side));
             put(
                 out,
                 format!(
                     "  {} {} {} elbow {} shoulder {}",
-                    side.name(),
-                    milli(model.position(hand)),
-                    turned(model.rotation(hand)),
-                    milli(model.position(at(Part::Forearm(side)))),
-                    milli(model.position(at(Part::UpperArm(side))))
+                    side.body_side_name(),
+                    milli(model.model_joint_position(hand)),
+                    turned(model.model_joint_rotation(hand)),
+                    milli(model.model_joint_position(at(BodyPart::Forearm(side)))),
+                    milli(model.model_joint_position(at(BodyPart::UpperArm(side))))
                 ),
             );
         }
     }
     for frame in [last / 3, 2 * last / 3] {
-        let pose = clip.pose(frame);
-        for side in Side::BOTH {
-            let angles = made.anatomy.hand_angles(clip.skeleton(), side, &pose);
-            let angles = angles.map(|it| list(it.map(f64::to_degrees).to_array()));
-            put(out, format!("  {frame} {} fingers {angles:?}", side.name()));
+        let pose = clip.clip_pose_at(frame);
+        for side in BodySide::BOTH_SIDES {
+            let angles = made.anatomy.hand_angles(clip.clip_skeleton(), side, &pose);
+            let angles = angles.map(|it| list(it.map_hand_angles(f64::to_degrees).to_array()));
+            put(out, format!("  {frame} {} fingers {angles:?}", side.body_side_name()));
         }
     }
 }
 
 /// Writes down annotations, report and curves.
-pub(super) fn said(out: &mut String, made: &Generated) {
+pub(super) fn said(out: &mut String, made: &GeneratedMovement) {
     for note in &made.notes {
-        let hand = note.hand.map_or("-", Side::name);
+        let hand = note.hand.map_or("-", BodySide::body_side_name);
         put(
             out,
             format!(
                 "note {hand} {:?} {} {}..{} ms {}",
                 note.about,
                 note.value,
-                note.span.start().millis(),
-                note.span.end().millis(),
+                note.span.span_start_instant().instant_millis(),
+                note.span.span_end_instant().instant_millis(),
                 note.origin
             ),
         );
@@ -108,20 +108,14 @@ pub(super) fn said(out: &mut String, made: &Generated) {
         );
     }
     for channel in &report.channels {
-        put(
-            out,
-            format!("channel {}: {:?}", channel.channel, channel.from),
-        );
+        put(out, format!("channel {}: {:?}", channel.channel, channel.from));
     }
     for join in &report.joins {
         put(out, format!("{join:?}"));
     }
     put(
         out,
-        format!(
-            "contacts {:?} warnings {:?}",
-            report.contacts, report.warnings
-        ),
+        format!("contacts {:?} warnings {:?}", report.contacts, report.warnings),
     );
     for curve in &made.curves {
         let step = (curve.values.len() / 9).max(1);
@@ -133,39 +127,30 @@ pub(super) fn said(out: &mut String, made: &Generated) {
 /// Returns the small test corpus with invented handshapes for cued speech.
 fn shelf() -> Shelf {
     let mut shelf = Shelf::new();
-    for (n, id) in ["A", "1", "3-outer-together", "B-thumb", "L"]
-        .into_iter()
-        .enumerate()
-    {
+    for (n, id) in ["A", "1", "3-outer-together", "B-thumb", "L"].into_iter().enumerate() {
         let mut angles = HandAngles::default();
         for (finger, own) in angles.fingers.iter_mut().enumerate() {
-            let bent = if n == 0 || finger % n.max(1) > 0 {
-                1.3
-            } else {
-                0.05
-            };
+            let bent = if n == 0 || finger % n.max(1) > 0 { 1.3 } else { 0.05 };
             own.flexion = [bent, bent + 0.1, 0.7 * bent];
         }
         angles.thumb.radial = 0.2 * n as f64;
-        let value = Value {
+        let value = ComponentValue {
             id: id.to_owned(),
             inventory: "configurations".into(),
-            meaning: Some(Meaning::Hand(angles)),
+            meaning: Some(ValueMeaning::Hand(angles)),
         };
-        shelf.values.push((Component::Configuration, value));
+        shelf.values.push((SignComponent::Configuration, value));
     }
     shelf
 }
 
-fn make(text: &str) -> Result<(Generated, String), MakeError> {
+fn make(text: &str) -> Result<(GeneratedMovement, String), MakeError> {
     let recipe: crate::Recipe = text.parse().unwrap_or_else(|e| panic!("{text}: {e}"));
-    let resolved = resolve(&recipe, &shelf())?;
-    let inputs = serde_json::to_value(resolved.inputs()).expect("inputs are JSON");
+    let resolved = resolve_recipe(&recipe, &shelf())?;
+    let inputs = serde_json::to_value(resolved.resolved_inputs()).expect("inputs are JSON");
     let inputs = inputs.as_object().expect("inputs have names").iter();
-    let lines: Vec<String> = inputs
-        .map(|(name, it)| format!("input {name} {it}"))
-        .collect();
-    Ok((evaluate(&resolved)?, lines.join("\n")))
+    let lines: Vec<String> = inputs.map(|(name, it)| format!("input {name} {it}")).collect();
+    Ok((evaluate_recipe(&resolved)?, lines.join("\n")))
 }
 
 fn tabled(name: &str, recipes: &[&str]) {

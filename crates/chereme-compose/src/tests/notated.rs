@@ -3,66 +3,64 @@
 use std::sync::Arc;
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Rate, Side};
-use chereme_sign::Handedness;
-use chereme_sign::hamnosys::{
-    Act, BodyLanguage, NonmanualPart, Notated, from_names, parse_lenient,
-};
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, FrameRate, HandFinger, ModelPose};
+use chereme_sign::SignerHandedness;
+use chereme_sign::hamnosys::{BodyLanguage, NonmanualAct, NonmanualPart, NotatedSign, from_names, parse_lenient};
 
 use super::goldens::{list, movement, said};
 use crate::golden::{LITTLE, compare_to, put};
-use crate::notation::{Performer, Settings, animate};
-use crate::outcome::Generated;
-use crate::sources::Material;
+use crate::notation::{AnimatorSettings, SignPerformer, animate_signs};
+use crate::outcome::GeneratedMovement;
+use crate::sources::MovementMaterial;
 use crate::testing::{Axes, skeleton};
 
-fn stage(axes: Axes, handedness: Handedness) -> Material {
+fn stage(axes: Axes, handedness: SignerHandedness) -> MovementMaterial {
     let skeleton = Arc::new(skeleton(axes, if axes == Axes::Odd { 0.9 } else { 1.0 }));
-    let anatomy = Arc::new(Anatomy::detect(&skeleton));
-    Material {
+    let anatomy = Arc::new(BodyAnatomy::detect_anatomy(&skeleton));
+    MovementMaterial {
         address: "stage".into(),
         hash: String::new(),
         gloss: String::new(),
         signer: None,
         handedness,
-        clip: Clip::still(skeleton, Rate::new(60, 1).expect("a rate"), 1),
+        clip: Clip::from_rest_pose(skeleton, FrameRate::new(60, 1).expect("a rate"), 1),
         anatomy,
         curves: Vec::new(),
         held: Vec::new(),
     }
 }
 
-fn sign(names: &str) -> Notated {
+fn sign(names: &str) -> NotatedSign {
     let text = from_names(names.split_whitespace()).unwrap_or_else(|_| panic!("{names}"));
-    Notated {
+    NotatedSign {
         gloss: "SIGN".into(),
         sign: parse_lenient(&text).sign,
-        ..Notated::default()
+        ..NotatedSign::default()
     }
 }
 
-fn still() -> Settings {
-    Settings {
-        language: BodyLanguage::usual().without_life(),
-        ..Settings::default()
+fn still() -> AnimatorSettings {
+    AnimatorSettings {
+        language: BodyLanguage::default_body_language().without_life(),
+        ..AnimatorSettings::default()
     }
 }
 
-fn animated(out: &mut String, signs: &[&Notated], stage: &Material, settings: &Settings) {
-    match animate(signs, stage, settings) {
+fn animated(out: &mut String, signs: &[&NotatedSign], stage: &MovementMaterial, settings: &AnimatorSettings) {
+    match animate_signs(signs, stage, settings) {
         Ok(made) => {
             movement(out, &made);
             said(out, &made);
         }
-        Err(error) => put(out, format!("refused: {error} {:?}", error.remedy())),
+        Err(error) => put(out, format!("refused: {error} {:?}", error.notation_remedy())),
     }
 }
 
 fn tabled(name: &str, signs: &[&str]) {
     let mut out = String::new();
     let stages = [
-        stage(Axes::Plain, Handedness::Right),
-        stage(Axes::Odd, Handedness::Left),
+        stage(Axes::Plain, SignerHandedness::Right),
+        stage(Axes::Odd, SignerHandedness::Left),
     ];
     for (n, names) in signs.iter().enumerate() {
         put(&mut out, format!("## {names}"));
@@ -166,56 +164,55 @@ fn golden_two_hands_from_notation() {
 }
 
 /// Writes down the movement in a few lines: moments of both arms, and means over all frames.
-fn briefly(out: &mut String, made: &Generated) {
+fn briefly(out: &mut String, made: &GeneratedMovement) {
     let clip = &made.clip;
-    let last = clip.frames() - 1;
+    let last = clip.clip_frame_count() - 1;
     put(
         out,
         format!(
             "{} frames, warnings {:?}",
-            clip.frames(),
+            clip.clip_frame_count(),
             made.report.warnings
         ),
     );
     let models: Vec<ModelPose> = (0..=last).map(|frame| clip.model_pose(frame)).collect();
-    for side in Side::BOTH {
-        let joint = |part: Part| made.anatomy.joint(part).expect("a joint");
-        let hand = joint(Part::Hand(side));
+    for side in BodySide::BOTH_SIDES {
+        let joint = |part: BodyPart| made.anatomy.part_joint(part).expect("a joint");
+        let hand = joint(BodyPart::Hand(side));
         for frame in [last / 3, last / 2, 2 * last / 3] {
             let model = &models[frame];
-            let directions = [DVec3::X, DVec3::Z].map(|axis| model.rotation(hand) * axis);
+            let directions = [DVec3::X, DVec3::Z].map(|axis| model.model_joint_rotation(hand) * axis);
             let all = directions.into_iter().flat_map(|it| it.to_array());
-            let at = (model.position(hand) * 1000.0).to_array();
+            let at = (model.model_joint_position(hand) * 1000.0).to_array();
             put(
                 out,
-                format!(
-                    "  {} {frame}: {} turned {}",
-                    side.name(),
-                    list(at),
-                    list(all)
-                ),
+                format!("  {} {frame}: {} turned {}", side.body_side_name(), list(at), list(all)),
             );
         }
         let parts = [
-            Part::Clavicle(side),
-            Part::UpperArm(side),
-            Part::Forearm(side),
-            Part::Hand(side),
-            Part::Finger(side, Finger::Index, 3),
-            Part::Finger(side, Finger::Little, 3),
-            Part::Thumb(side, 2),
+            BodyPart::Clavicle(side),
+            BodyPart::UpperArm(side),
+            BodyPart::Forearm(side),
+            BodyPart::Hand(side),
+            BodyPart::Finger(side, HandFinger::Index, 3),
+            BodyPart::Finger(side, HandFinger::Little, 3),
+            BodyPart::Thumb(side, 2),
         ];
         for part in parts {
             let joint = joint(part);
             let path: Vec<DVec3> = models
                 .iter()
-                .map(|it| it.position(joint) * 1000.0)
+                .map(|it| it.model_joint_position(joint) * 1000.0)
                 .collect();
             let mean = path.iter().sum::<DVec3>() / path.len() as f64;
             let length: f64 = path.windows(2).map(|two| two[0].distance(two[1])).sum();
             let turns: f64 = models
                 .windows(2)
-                .map(|two| two[0].rotation(joint).angle_between(two[1].rotation(joint)))
+                .map(|two| {
+                    two[0]
+                        .model_joint_rotation(joint)
+                        .angle_between(two[1].model_joint_rotation(joint))
+                })
                 .sum();
             put(
                 out,
@@ -266,8 +263,8 @@ fn varied(name: &str, beginnings: &[&str], endings: &[&str]) {
     ];
     let mut out = String::new();
     let stages = [
-        stage(Axes::Plain, Handedness::Right),
-        stage(Axes::Odd, Handedness::Left),
+        stage(Axes::Plain, SignerHandedness::Right),
+        stage(Axes::Odd, SignerHandedness::Left),
     ];
     for (n, ending) in endings.iter().enumerate() {
         let posture = format!(
@@ -280,14 +277,10 @@ fn varied(name: &str, beginnings: &[&str], endings: &[&str]) {
         let names = format!("{} {ending}", posture.trim());
         put(&mut out, format!("## {names}"));
         let settings = match n % 4 {
-            3 => Settings::default(),
+            3 => AnimatorSettings::default(),
             _ => still(),
         };
-        match animate(
-            &[&sign(&names)],
-            &stages[usize::from(n % 3 == 2)],
-            &settings,
-        ) {
+        match animate_signs(&[&sign(&names)], &stages[usize::from(n % 3 == 2)], &settings) {
             Ok(made) => briefly(&mut out, &made),
             Err(error) => put(&mut out, format!("refused: {error}")),
         }
@@ -428,58 +421,50 @@ fn golden_varied_turns_and_changes_from_notation() {
 fn golden_sentences_life_and_non_manuals() {
     let mut out = String::new();
     let (plain, odd) = (
-        stage(Axes::Plain, Handedness::Right),
-        stage(Axes::Odd, Handedness::Right),
+        stage(Axes::Plain, SignerHandedness::Right),
+        stage(Axes::Odd, SignerHandedness::Right),
     );
     let first = sign("hamflathand hamextfingerui hampalmd hamchest hamtouch hammoveo");
     let second = sign("hamsymmlr hamfinger2 hamextfingero hampalmd hamneutralspace hammover");
     put(&mut out, "## two signs, alive");
-    animated(&mut out, &[&first, &second], &plain, &Settings::default());
+    animated(&mut out, &[&first, &second], &plain, &AnimatorSettings::default());
     put(&mut out, "## two signs on another body, 25 frames a second");
-    let slow = Settings {
-        rate: Rate::new(25, 1).expect("a rate"),
-        ..Settings::default()
+    let slow = AnimatorSettings {
+        rate: FrameRate::new(25, 1).expect("a rate"),
+        ..AnimatorSettings::default()
     };
     animated(&mut out, &[&second, &first, &second], &odd, &slow);
     let acts = [
         [(NonmanualPart::Head, "SL"), (NonmanualPart::Body, "TF")],
         [(NonmanualPart::Head, "NO"), (NonmanualPart::Body, "RR")],
         [(NonmanualPart::Head, "PF"), (NonmanualPart::Body, "TB")],
-        [
-            (NonmanualPart::Shoulders, "UB"),
-            (NonmanualPart::Brows, "RB"),
-        ],
-        [
-            (NonmanualPart::Shoulders, "HB"),
-            (NonmanualPart::Gaze, "AD"),
-        ],
+        [(NonmanualPart::Shoulders, "UB"), (NonmanualPart::Brows, "RB")],
+        [(NonmanualPart::Shoulders, "HB"), (NonmanualPart::Gaze, "AD")],
     ];
     for acts in acts {
         put(&mut out, format!("## {acts:?}"));
         let mut sign = first.clone();
         for (part, tag) in acts {
-            sign.nonmanual.push(part.tier(), vec![Act::new(part, tag)]);
+            sign.nonmanual
+                .push_act_group(part.sigml_tier(), vec![NonmanualAct::new(part, tag)]);
         }
         animated(&mut out, &[&sign], &odd, &still());
     }
     put(&mut out, "## nothing, and a body without arms");
     animated(&mut out, &[], &plain, &still());
     put(&mut out, "## first postures and movement alone");
-    let performer = Performer::new(plain, still()).expect("a performer");
+    let performer = SignPerformer::new(plain, still()).expect("a performer");
     for sign in [&first, &second] {
-        for clip in [performer.begins(sign), performer.performs(sign)] {
+        for clip in [performer.perform_first_posture(sign), performer.perform_sign(sign)] {
             let clip = clip.expect("a clip");
-            let model = clip.model_pose(clip.frames() - 1);
+            let model = clip.model_pose(clip.clip_frame_count() - 1);
             let places: Vec<[f64; 3]> = model
-                .positions()
+                .model_joint_positions()
                 .iter()
                 .step_by(5)
                 .map(|at| (*at * 1000.0).to_array())
                 .collect();
-            put(
-                &mut out,
-                format!("{} frames, last {places:?}", clip.frames()),
-            );
+            put(&mut out, format!("{} frames, last {places:?}", clip.clip_frame_count()));
         }
     }
     compare_to("notated_sentences", &out, LITTLE);

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use chereme_motion::Anatomy;
-use chereme_sign::Handedness;
+use chereme_motion::BodyAnatomy;
+use chereme_sign::SignerHandedness;
 
 use super::*;
 use crate::testing::{Axes, skeleton};
@@ -11,9 +11,7 @@ use crate::testing::{Axes, skeleton};
 #[test]
 fn broken_contacts_are_reported() {
     let chin = "ESCARGOT | place right at chin with index";
-    let away = made(&format!(
-        "{chin} | configure right S | place right by right 10cm"
-    ));
+    let away = made(&format!("{chin} | configure right S | place right by right 10cm"));
     assert!(
         away.report.contacts.iter().any(|c| c.contains("touched")),
         "{:?}",
@@ -24,36 +22,31 @@ fn broken_contacts_are_reported() {
         text.contains("contacts undone") && text.contains("right fingers"),
         "{text}"
     );
-    assert!(
-        made("ESCARGOT | place both by up 2cm")
-            .report
-            .contacts
-            .is_empty()
-    );
+    assert!(made("ESCARGOT | place both by up 2cm").report.contacts.is_empty());
 }
 
 #[test]
 fn another_signer_s_sign_follows_on_the_first_one_s_body() {
     let made = made("BOL then LIMACE");
     bones_keep_their_lengths(&made.clip);
-    assert_eq!(made.clip.skeleton(), source("BOL").skeleton());
+    assert_eq!(made.clip.clip_skeleton(), source("BOL").clip_skeleton());
     let glosses: Vec<_> = made
         .notes
         .iter()
-        .filter(|n| n.about == About::Gloss)
-        .map(|n| n.value.value().expect("a gloss").to_owned())
+        .filter(|n| n.about == NoteSubject::Gloss)
+        .map(|n| n.value.reading_value().expect("a gloss").to_owned())
         .collect();
     assert_eq!(glosses, ["BOL", "LIMACE"]);
     assert_eq!(made.report.joins.len(), 2);
-    let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
-    let path = made.clip.path(hand);
-    let step = path
-        .windows(2)
-        .map(|w| w[0].distance(w[1]))
-        .fold(0.0, f64::max);
+    let hand = made
+        .anatomy
+        .part_joint(BodyPart::Hand(BodySide::Right))
+        .expect("a hand");
+    let path = made.clip.joint_path(hand);
+    let step = path.windows(2).map(|w| w[0].distance(w[1])).fold(0.0, f64::max);
     assert!(step < 0.05, "no jump of the wrist: {step}");
-    assert_eq!(made.clip.frames(), {
-        let frames = made.clip.frames();
+    assert_eq!(made.clip.clip_frame_count(), {
+        let frames = made.clip.clip_frame_count();
         assert!((240..340).contains(&frames), "{frames}");
         frames
     });
@@ -67,15 +60,12 @@ fn trunk_and_legs_change_over_as_slowly_as_the_hands() {
         "(BOL | span 0.2s..0.7s) then (ESCARGOT | span 0.3s..0.8s)",
     ] {
         let made = made(recipe);
-        let hands = made.report.joins.iter().map(|join| join.span.seconds());
+        let hands = made.report.joins.iter().map(|join| join.span.span_seconds());
         let fastest = hands.fold(f64::INFINITY, f64::min);
         let mut notes = made.notes.iter();
-        let body = notes.find(|note| note.about == About::Transition);
-        let body = body.expect("a transition").span.seconds();
-        assert!(
-            (body - fastest).abs() < 1e-6,
-            "{recipe}: {body} and {fastest} s"
-        );
+        let body = notes.find(|note| note.about == NoteSubject::Transition);
+        let body = body.expect("a transition").span.span_seconds();
+        assert!((body - fastest).abs() < 1e-6, "{recipe}: {body} and {fastest} s");
         assert!(body >= 0.14, "{recipe}: {body} s");
     }
 }
@@ -83,25 +73,25 @@ fn trunk_and_legs_change_over_as_slowly_as_the_hands() {
 #[test]
 fn a_repetition_joins_its_copies_smoothly() {
     let made = made("LIMACE | repeat 3 gap 0.1s");
-    assert_eq!(made.clip.frames(), 3 * 120 + 2 * 12);
-    assert_eq!(made.clip.pose(5), made.clip.pose(5 + 132));
+    assert_eq!(made.clip.clip_frame_count(), 3 * 120 + 2 * 12);
+    assert_eq!(made.clip.clip_pose_at(5), made.clip.clip_pose_at(5 + 132));
     assert!(make("LIMACE | repeat 1000 gap 60s").is_err());
 }
 
 #[test]
 fn paths_are_amplified_displaced_and_directed() {
     for gloss in ["ESCARGOT", "LIMACE"] {
-        let before = wrist(&made(gloss), Side::Right);
-        let small = wrist(&made(&format!("{gloss} | amplify right 0.5")), Side::Right);
+        let before = wrist(&made(gloss), BodySide::Right);
+        let small = wrist(&made(&format!("{gloss} | amplify right 0.5")), BodySide::Right);
         let far = |path: &[DVec3]| path[10].distance(path[80]);
         assert!((far(&small) - far(&before) / 2.0).abs() < 1e-4, "{gloss}");
         let carried = made(&format!("{gloss} | travel right down 6cm then up 6cm"));
-        let path = wrist(&carried, Side::Right);
+        let path = wrist(&carried, BodySide::Right);
         assert!(path[0].abs_diff_eq(before[0], 1e-6) && path[119].abs_diff_eq(before[119], 1e-3));
         assert!((before[60].y - path[60].y - 0.06).abs() < 2e-3, "{gloss}");
         let curve = "travel right through 0cm,-6cm,0cm then 4cm,-6cm,0cm in 0.8s";
         let curved = made(&format!("{gloss} | {curve}"));
-        let path = wrist(&curved, Side::Right);
+        let path = wrist(&curved, BodySide::Right);
         let gone = |f: usize| path[f] - before[f];
         assert!(gone(0).length() < 1e-6, "{gloss}");
         let end = DVec3::new(0.04, -0.06, 0.0);
@@ -110,18 +100,13 @@ fn paths_are_amplified_displaced_and_directed() {
             assert!(gone(f).abs_diff_eq(end, 3e-3), "{gloss} {f}: {}", gone(f));
         }
         let sent = made(&format!("{gloss} | from me to left with right"));
-        let path = wrist(&sent, Side::Right);
-        assert!(
-            path[119].x > path[0].x + 0.05,
-            "{gloss}: {} {}",
-            path[0],
-            path[119]
-        );
-        let across = wrist(&made(&format!("{gloss} | from right to left")), Side::Right);
+        let path = wrist(&sent, BodySide::Right);
+        assert!(path[119].x > path[0].x + 0.05, "{gloss}: {} {}", path[0], path[119]);
+        let across = wrist(&made(&format!("{gloss} | from right to left")), BodySide::Right);
         assert!(across[119].x > across[0].x + 0.3, "{gloss}: {across:?}");
         for made in [carried, curved, sent] {
             bones_keep_their_lengths(&made.clip);
-            assert_eq!(differing(&made, &source(gloss)), [Group::Arm(Side::Right)]);
+            assert_eq!(differing(&made, &source(gloss)), [JointGroup::Arm(BodySide::Right)]);
         }
     }
 }
@@ -132,17 +117,11 @@ fn hands_turn_as_asked_and_stay_where_they_are() {
         let made = made(&format!("{gloss} | orient right palm up fingers forward"));
         let model = made.clip.model_pose(60);
         let frame = made.anatomy.body_frame(&model).expect("a trunk");
-        let palm = made
-            .anatomy
-            .palm_normal(Side::Right, &model)
-            .expect("fingers");
-        let fingers = made
-            .anatomy
-            .hand_direction(Side::Right, &model)
-            .expect("fingers");
+        let palm = made.anatomy.palm_normal(BodySide::Right, &model).expect("fingers");
+        let fingers = made.anatomy.hand_direction(BodySide::Right, &model).expect("fingers");
         assert!(palm.angle_between(DVec3::Y) < 1e-6 && fingers.angle_between(frame.forward) < 0.2);
-        let before = wrist(&super::made(gloss), Side::Right);
-        for (a, b) in before.iter().zip(wrist(&made, Side::Right)) {
+        let before = wrist(&super::made(gloss), BodySide::Right);
+        for (a, b) in before.iter().zip(wrist(&made, BodySide::Right)) {
             assert!(a.distance(b) < 1e-3);
         }
     }
@@ -153,24 +132,13 @@ fn hands_turn_as_asked_and_stay_where_they_are() {
 #[test]
 fn time_is_stretched_as_a_whole_and_phase_by_phase() {
     let slow = made("ESCARGOT | retime 200%");
-    assert_eq!(slow.clip.frames(), 240);
-    assert!(
-        slow.notes
-            .iter()
-            .any(|n| n.span == crate::testing::span(400, 1600))
-    );
+    assert_eq!(slow.clip.clip_frame_count(), 240);
+    assert!(slow.notes.iter().any(|n| n.span == crate::testing::span(400, 1600)));
     let phases = made("ESCARGOT | retime 1, to 1.2s, 50%");
-    assert_eq!(phases.clip.frames(), 24 + 144 + 12);
-    assert!(
-        phases
-            .notes
-            .iter()
-            .any(|n| n.span == crate::testing::span(200, 1400))
-    );
+    assert_eq!(phases.clip.clip_frame_count(), 24 + 144 + 12);
+    assert!(phases.notes.iter().any(|n| n.span == crate::testing::span(200, 1400)));
     assert_eq!(made("ESCARGOT | retime 1").clip, source("ESCARGOT"));
-    let error = make("ESCARGOT | retime 1, 2")
-        .expect_err("two of three")
-        .to_string();
+    let error = make("ESCARGOT | retime 1, 2").expect_err("two of three").to_string();
     assert!(error.contains("the sign has 3 phases"), "{error}");
 }
 
@@ -178,19 +146,15 @@ fn time_is_stretched_as_a_whole_and_phase_by_phase() {
 fn the_head_movement_of_another_sign_replaces_only_the_head() {
     for donor in ["BOL", "LIMACE"] {
         let made = made(&format!("ESCARGOT | nonmanual from {donor}"));
-        assert_eq!(
-            differing(&made, &source("ESCARGOT")),
-            [Group::Head],
-            "{donor}"
-        );
+        assert_eq!(differing(&made, &source("ESCARGOT")), [JointGroup::Head], "{donor}");
     }
 }
 
 #[test]
 fn repetitions_shrink_and_quicken() {
     let made = made("ESCARGOT | repeat 3 scale 0.5 tempo 2 gap 0.1s");
-    assert_eq!(made.clip.frames(), 120 + 12 + 60 + 12 + 30);
-    let path = wrist(&made, Side::Right);
+    assert_eq!(made.clip.clip_frame_count(), 120 + 12 + 60 + 12 + 30);
+    let path = wrist(&made, BodySide::Right);
     let size = |p: &[DVec3]| p.iter().map(|a| a.distance(p[0])).fold(0.0, f64::max);
     assert!((size(&path[132..192]) / size(&path[..120]) - 0.5).abs() < 0.05);
 }
@@ -198,29 +162,30 @@ fn repetitions_shrink_and_quicken() {
 #[test]
 fn words_are_spelt_letter_by_letter() {
     for (recipe, side) in [
-        ("spell USU", Side::Right),
-        ("spell US left on signer:2", Side::Left),
+        ("spell USU", BodySide::Right),
+        ("spell US left on signer:2", BodySide::Left),
     ] {
         let made = made(recipe);
         bones_keep_their_lengths(&made.clip);
         let letters: Vec<_> = made.notes.iter().filter(|n| n.hand == Some(side)).collect();
-        assert_eq!(
-            letters.len(),
-            recipe.split(' ').nth(1).expect("a word").len()
-        );
+        assert_eq!(letters.len(), recipe.split(' ').nth(1).expect("a word").len());
         for note in letters {
-            let frame = made.clip.rate().frame_at(note.span.start()) + 5;
+            let frame = made
+                .clip
+                .clip_frame_rate()
+                .nearest_frame_at(note.span.span_start_instant())
+                + 5;
             let model = made.clip.model_pose(frame);
             let up = made.anatomy.hand_direction(side, &model).expect("fingers");
             let palm = made.anatomy.palm_normal(side, &model).expect("fingers");
             let body = made.anatomy.body_frame(&model).expect("a trunk");
             assert!(up.angle_between(DVec3::Y) < 1e-6 && palm.angle_between(body.forward) < 0.01);
-            let pose = made.clip.pose(frame);
+            let pose = made.clip.clip_pose_at(frame);
             let shown = made
                 .anatomy
-                .hand_angles(made.clip.skeleton(), side, &pose)
+                .hand_angles(made.clip.clip_skeleton(), side, &pose)
                 .expect("fingers");
-            let wanted = match note.value.value() {
+            let wanted = match note.value.reading_value() {
                 Some("U") => "LIMACE",
                 _ => "BOL",
             };
@@ -228,7 +193,7 @@ fn words_are_spelt_letter_by_letter() {
         }
         assert!(made.report.steps[0].residual.expect("reached") < 1e-3);
     }
-    assert!(made("spell UU | travel right 20cm").clip.frames() > 50);
+    assert!(made("spell UU | travel right 20cm").clip.clip_frame_count() > 50);
     assert!(
         make("spell UQ")
             .expect_err("no Q")
@@ -240,10 +205,7 @@ fn words_are_spelt_letter_by_letter() {
 #[test]
 fn the_finger_points_at_the_target() {
     for (recipe, target) in [
-        (
-            "point right at -40cm,120cm,150cm",
-            DVec3::new(-0.4, 1.2, 1.5),
-        ),
+        ("point right at -40cm,120cm,150cm", DVec3::new(-0.4, 1.2, 1.5)),
         ("point left at 60cm,180cm,60cm", DVec3::new(0.6, 1.8, 0.6)),
         (
             "point right at -10cm,120cm,35cm with U via cosine 0.4s",
@@ -253,32 +215,29 @@ fn the_finger_points_at_the_target() {
     ] {
         let made = made(&format!("{recipe} on signer:1"));
         let side = if recipe.contains("left") {
-            Side::Left
+            BodySide::Left
         } else {
-            Side::Right
+            BodySide::Right
         };
-        let model = made.clip.model_pose(made.clip.frames() / 2);
+        let model = made.clip.model_pose(made.clip.clip_frame_count() / 2);
         let base = made
             .anatomy
-            .joint(Part::Finger(side, chereme_motion::Finger::Index, 1))
+            .part_joint(BodyPart::Finger(side, chereme_motion::HandFinger::Index, 1))
             .expect("a finger");
         let tip = made
             .anatomy
-            .landmark(
-                made.clip.skeleton(),
+            .landmark_place_position(
+                made.clip.clip_skeleton(),
                 &model,
-                &format!("{}-index-tip", side.name()),
+                &format!("{}-index-tip", side.body_side_name()),
             )
             .expect("a tip");
-        let line = tip - model.position(base);
+        let line = tip - model.model_joint_position(base);
         let miss = (target - tip).reject_from(line).length();
-        assert!(
-            miss < 0.002 && line.dot(target - tip) > -0.03,
-            "{recipe}: {miss}"
-        );
+        assert!(miss < 0.002 && line.dot(target - tip) > -0.03, "{recipe}: {miss}");
         assert_eq!(
-            made.clip.pose(0),
-            made.clip.pose(made.clip.frames() - 1),
+            made.clip.clip_pose_at(0),
+            made.clip.clip_pose_at(made.clip.clip_frame_count() - 1),
             "back at rest"
         );
         bones_keep_their_lengths(&made.clip);
@@ -290,13 +249,11 @@ fn letters_take_the_time_from_the_recipe_or_else_from_the_corpus() {
     let seconds = |recipe: &str| {
         let made = made(recipe);
         let report = made.report.steps[0].did.join("\n");
-        (made.clip.span().seconds(), report)
+        (made.clip.clip_span().span_seconds(), report)
     };
     let (learned, report) = seconds("spell UB");
     assert!((learned - 0.75).abs() < 0.02, "{learned}");
-    assert!(
-        report.contains("0.30 s, the median of 9") && report.contains("0.15 s, the median of 8")
-    );
+    assert!(report.contains("0.30 s, the median of 9") && report.contains("0.15 s, the median of 8"));
     let (half, report) = seconds("spell UB hold 0.1s");
     assert!(
         (half - 0.35).abs() < 0.02 && !report.contains("held for"),
@@ -304,10 +261,7 @@ fn letters_take_the_time_from_the_recipe_or_else_from_the_corpus() {
     );
     let (asked, report) = seconds("spell UB hold 0.1s via learned 0.5s");
     assert!((asked - 0.7).abs() < 0.02, "{asked}");
-    assert!(
-        report.contains("learned from 12 transitions of fingers"),
-        "{report}"
-    );
+    assert!(report.contains("learned from 12 transitions of fingers"), "{report}");
 }
 
 #[test]
@@ -315,9 +269,9 @@ fn touches_stay_touches_on_another_body() {
     let touching = made("ESCARGOT | place right at chin with index");
     for (axes, size) in [(Axes::Plain, 0.8), (Axes::Odd, 1.1)] {
         let body = Arc::new(skeleton(axes, size));
-        let anatomy = Arc::new(Anatomy::detect(&body));
+        let anatomy = Arc::new(BodyAnatomy::detect_anatomy(&body));
         let from = (&touching.clip, &touching.anatomy);
-        let moved = crate::on_body(from, Handedness::Right, (&body, &anatomy)).expect("moved");
+        let moved = crate::on_body(from, SignerHandedness::Right, (&body, &anatomy)).expect("moved");
         assert!(moved.contacts > 0, "{size}");
         assert_eq!(moved.lost, Vec::<String>::new(), "{size}");
     }
@@ -366,8 +320,8 @@ fn a_spelling_hand_follows_a_smooth_curve_whose_shape_is_reported() {
         "{:?}",
         made.report.steps[1].did
     );
-    let spelt = wrist(&self::made("spell UU"), Side::Right);
-    let path = wrist(&made, Side::Right);
+    let spelt = wrist(&self::made("spell UU"), BodySide::Right);
+    let path = wrist(&made, BodySide::Right);
     // The curve is the difference to the movement without it: the hand moves between letters as well.
     let gone: Vec<DVec3> = path.iter().zip(&spelt).map(|(a, b)| *a - *b).collect();
     let steps: Vec<DVec3> = gone.windows(2).map(|it| it[1] - it[0]).collect();
@@ -384,7 +338,7 @@ fn a_spelling_hand_follows_a_smooth_curve_whose_shape_is_reported() {
 
 #[test]
 fn every_operator_of_the_list_has_one_name_and_its_own_words() {
-    let words = crate::recipe::Step::words();
+    let words = crate::recipe::Step::operator_first_words();
     let mut once = words.clone();
     once.sort_unstable();
     once.dedup();
@@ -399,7 +353,7 @@ fn every_operator_of_the_list_has_one_name_and_its_own_words() {
         let text = step.to_string();
         let first = text.split(' ').next().expect("a word");
         assert!(words.contains(&first), "{text}");
-        if step.check().is_ok() {
+        if step.check_step_settings().is_ok() {
             let recipe = format!("A | {text}");
             let again: crate::Recipe = recipe.parse().expect(&recipe);
             assert_eq!(again.to_string(), recipe);
@@ -409,15 +363,15 @@ fn every_operator_of_the_list_has_one_name_and_its_own_words() {
 
 #[test]
 fn a_sign_named_like_a_recipe_keyword_is_quoted() {
-    for word in crate::recipe::Step::words()
+    for word in crate::recipe::Step::operator_first_words()
         .into_iter()
         .chain(["cue", "scale", "then"])
     {
-        let sign = crate::recipe::Node::Sign(word.to_owned());
+        let sign = crate::recipe::RecipeNode::Sign(word.to_owned());
         let text = sign.to_string();
         assert_eq!(text, format!("\"{word}\""));
         let recipe: crate::Recipe = text.parse().expect(&text);
-        assert_eq!(*recipe.root(), sign);
+        assert_eq!(*recipe.recipe_root(), sign);
     }
 }
 
@@ -444,10 +398,7 @@ fn the_words_of_operators_are_in_both_languages_and_their_examples_are_recipes()
         texts.extend(words.messages);
         texts.extend(step.fields().into_iter().map(|setting| setting.label));
         for text in texts {
-            assert!(
-                !text.en.trim().is_empty() && !text.fr.trim().is_empty(),
-                "{text:?}"
-            );
+            assert!(!text.en.trim().is_empty() && !text.fr.trim().is_empty(), "{text:?}");
             assert_eq!(blanks(text.en), blanks(text.fr));
         }
     }

@@ -1,37 +1,36 @@
 //! Bodies with missing parts, and operators in any order.
 
 use super::*;
+use crate::evaluate_recipe;
+use crate::resolve_recipe;
 
 /// Returns a shelf whose first sign's body lacks the joints whose names start with `without`.
 fn lacking(without: &str) -> Shelf {
     let mut shelf = Shelf::new();
     let old = shelf.materials["ESCARGOT"].clone();
-    let skeleton = old.clip.skeleton();
+    let skeleton = old.clip.clip_skeleton();
     let lost: Vec<usize> = (0..skeleton.len())
         .filter(|&joint| {
             skeleton
-                .ancestors(joint)
-                .any(|above| skeleton.joint(above).name.starts_with(without))
+                .joint_ancestors(joint)
+                .any(|above| skeleton.joint_at(above).name.starts_with(without))
         })
         .collect();
-    let kept: Vec<usize> = (0..skeleton.len())
-        .filter(|joint| !lost.contains(joint))
-        .collect();
-    let joints = kept.iter().map(|&joint| chereme_motion::Joint {
+    let kept: Vec<usize> = (0..skeleton.len()).filter(|joint| !lost.contains(joint)).collect();
+    let joints = kept.iter().map(|&joint| chereme_motion::SkeletonJoint {
         parent: skeleton
-            .parent(joint)
+            .joint_parent(joint)
             .and_then(|p| kept.iter().position(|&k| k == p)),
-        ..skeleton.joint(joint).clone()
+        ..skeleton.joint_at(joint).clone()
     });
-    let smaller =
-        std::sync::Arc::new(chereme_motion::Skeleton::new(joints.collect()).expect("a tree"));
+    let smaller = std::sync::Arc::new(chereme_motion::Skeleton::new(joints.collect()).expect("a tree"));
     let channels = kept
         .iter()
-        .map(|&joint| old.clip.channel(joint).clone())
+        .map(|&joint| old.clip.joint_channel(joint).clone())
         .collect();
     let sign = shelf.materials.get_mut("ESCARGOT").expect("there");
-    sign.anatomy = std::sync::Arc::new(chereme_motion::Anatomy::detect(&smaller));
-    sign.clip = Clip::new(smaller, old.clip.rate(), channels).expect("a clip");
+    sign.anatomy = std::sync::Arc::new(chereme_motion::BodyAnatomy::detect_anatomy(&smaller));
+    sign.clip = Clip::new(smaller, old.clip.clip_frame_rate(), channels).expect("a clip");
     shelf
 }
 
@@ -42,30 +41,19 @@ fn operators_name_the_part_that_a_body_lacks() {
         ("Left", "place both by up 5cm", "no left arm"),
         ("Left", "mirror right", "no left arm"),
         ("RightHandI", "orient right palm up", ""),
-        (
-            "RightHand",
-            "configure right U",
-            "right hand has no fingers",
-        ),
-        (
-            "RightHandIndex",
-            "configure right U",
-            "right hand has no fingers",
-        ),
+        ("RightHand", "configure right U", "right hand has no fingers"),
+        ("RightHandIndex", "configure right U", "right hand has no fingers"),
         ("Neck", "nonmanual from BOL", "no head"),
         ("Left", "place right by up 5cm", ""),
         ("Left", "reverse | repeat 2", ""),
     ] {
         let recipe: crate::Recipe = format!("ESCARGOT | {step}").parse().expect(step);
-        let made = resolve(&recipe, &lacking(without)).and_then(|resolved| evaluate(&resolved));
+        let made = resolve_recipe(&recipe, &lacking(without)).and_then(|resolved| evaluate_recipe(&resolved));
         match made {
             Ok(_) => assert_eq!(want, "", "{without} {step}"),
             Err(error) => {
                 let error = error.to_string();
-                assert!(
-                    !want.is_empty() && error.contains(want),
-                    "{without} {step}: {error}"
-                );
+                assert!(!want.is_empty() && error.contains(want), "{without} {step}: {error}");
             }
         }
     }
@@ -121,9 +109,9 @@ proptest! {
         match make(&text) {
             Ok(made) => {
                 bones_keep_their_lengths(&made.clip);
-                let end = made.clip.span().end();
+                let end = made.clip.clip_span().span_end_instant();
                 for note in &made.notes {
-                    prop_assert!(note.span.end() <= end, "{}: {:?} ends after {}", text, note, end);
+                    prop_assert!(note.span.span_end_instant() <= end, "{}: {:?} ends after {}", text, note, end);
                 }
             }
             Err(error) => prop_assert!(!error.to_string().contains("stored inputs"), "{}: {}", text, error),
@@ -141,16 +129,13 @@ fn elbows_do_not_jump_unless_the_source_does() {
     ] {
         let made = made(recipe);
         let bend = |clip: &Clip, joint: usize| {
-            let column = &clip.channel(joint).rotations;
-            column
-                .windows(2)
-                .map(|w| w[0].angle_between(w[1]))
-                .fold(0.0, f64::max)
+            let column = &clip.joint_channel(joint).rotations;
+            column.windows(2).map(|w| w[0].angle_between(w[1])).fold(0.0, f64::max)
         };
         let gloss = recipe.split(' ').next().expect("a gloss");
-        for side in Side::BOTH {
-            for part in [Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)] {
-                let joint = made.anatomy.joint(part).expect("an arm");
+        for side in BodySide::BOTH_SIDES {
+            for part in [BodyPart::UpperArm(side), BodyPart::Forearm(side), BodyPart::Hand(side)] {
+                let joint = made.anatomy.part_joint(part).expect("an arm");
                 let (was, is) = (bend(&source(gloss), joint), bend(&made.clip, joint));
                 assert!(is < was + 5f64.to_radians(), "{recipe} {part}: {was} {is}");
             }

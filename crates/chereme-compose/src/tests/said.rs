@@ -1,12 +1,12 @@
 //! Golden tables of texts: printed recipes, errors of recipes that cannot be read, and units of numbers.
 
 use chereme_motion::glam::DVec3;
-use chereme_sign::Handedness;
+use chereme_sign::SignerHandedness;
 
 use super::goldens::list;
 use crate::golden::{compare, put};
-use crate::units::{Direction, Hands, Length, towards};
-use crate::{Recipe, Spline};
+use crate::units::{BodyDirection, HandChoice, RecipeLength, mean_of_directions};
+use crate::{MeasuredSpline, Recipe};
 
 /// Recipes of every kind; some of them are wrong.
 const TEXTS: [&str; 78] = [
@@ -99,7 +99,7 @@ fn golden_texts_of_recipes() {
         match text.parse::<Recipe>() {
             Ok(recipe) => {
                 put(&mut out, format!("prints {recipe}"));
-                put(&mut out, format!("simply {}", recipe.simplified()));
+                put(&mut out, format!("simply {}", recipe.simplified_recipe()));
                 let json = serde_json::to_string(&recipe).expect("JSON");
                 put(&mut out, format!("json {json}"));
                 let back: Recipe = serde_json::from_str(&json).expect("a recipe");
@@ -127,34 +127,36 @@ fn golden_units_directions_and_curves() {
     let mut out = String::new();
     put(&mut out, "## lengths");
     for text in [
-        "25cm", "250mm", "0.25m", "10in", "40%", "-3cm", "0cm", "5", "5 cm", "1e3mm", "cm", "7ft",
-        "nan cm", "99999km",
+        "25cm", "250mm", "0.25m", "10in", "40%", "-3cm", "0cm", "5", "5 cm", "1e3mm", "cm", "7ft", "nan cm", "99999km",
     ] {
-        let length: Result<Length, _> = text.parse();
+        let length: Result<RecipeLength, _> = text.parse();
         let said = length
             .as_ref()
-            .map(|it| (it.to_string(), it.metres(0.6), it.is_zero()));
-        put(
-            &mut out,
-            format!("{text}: {:?}", said.map_err(|it| it.to_string())),
-        );
+            .map(|it| (it.to_string(), it.length_in_metres(0.6), it.is_zero()));
+        put(&mut out, format!("{text}: {:?}", said.map_err(|it| it.to_string())));
     }
     put(&mut out, "## directions");
-    for a in Direction::ALL {
-        for b in Direction::ALL {
-            let middle = towards(&[a, b]).map(|it| list(it.to_array()));
-            put(&mut out, format!("{} {}: {middle:?}", a.name(), b.name()));
+    for a in BodyDirection::ALL_BODY_DIRECTIONS {
+        for b in BodyDirection::ALL_BODY_DIRECTIONS {
+            let middle = mean_of_directions(&[a, b]).map(|it| list(it.to_array()));
+            put(
+                &mut out,
+                format!("{} {}: {middle:?}", a.body_direction_name(), b.body_direction_name()),
+            );
         }
-        put(&mut out, format!("{:?}", Direction::from_word(a.name())));
+        put(
+            &mut out,
+            format!("{:?}", BodyDirection::from_word(a.body_direction_name())),
+        );
     }
-    for hands in Hands::ALL {
-        let sides = [Handedness::Right, Handedness::Left].map(|it| hands.sides(it));
+    for hands in HandChoice::ALL_HAND_CHOICES {
+        let sides = [SignerHandedness::Right, SignerHandedness::Left].map(|it| hands.chosen_sides(it));
         put(
             &mut out,
             format!(
                 "{} {sides:?} {:?}",
-                hands.name(),
-                Hands::from_word(hands.name())
+                hands.hand_choice_name(),
+                HandChoice::from_word(hands.hand_choice_name())
             ),
         );
     }
@@ -162,12 +164,7 @@ fn golden_units_directions_and_curves() {
     let courses: [&[[f64; 3]]; 5] = [
         &[[0.0, 0.0, 0.0], [0.1, 0.08, 0.0], [0.2, 0.0, 0.0]],
         &[[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.2, 0.001, 0.0]],
-        &[
-            [0.0, 0.0, 0.0],
-            [0.1, 0.1, 0.02],
-            [0.2, -0.1, 0.0],
-            [0.3, 0.0, 0.05],
-        ],
+        &[[0.0, 0.0, 0.0], [0.1, 0.1, 0.02], [0.2, -0.1, 0.0], [0.3, 0.0, 0.05]],
         &[
             [0.1, 0.0, 0.0],
             [0.0, 0.1, 0.01],
@@ -179,13 +176,13 @@ fn golden_units_directions_and_curves() {
     ];
     for course in courses {
         let points: Vec<DVec3> = course.iter().copied().map(DVec3::from).collect();
-        let spline = Spline::new(&points);
+        let spline = MeasuredSpline::new(&points);
         put(
             &mut out,
             format!(
                 "{course:?}: length {:?} {}",
-                spline.length(),
-                spline.shape()
+                spline.spline_length(),
+                spline.spline_shape_name()
             ),
         );
         for share in [-0.1, 0.0, 0.13, 0.5, 0.77, 1.0, 1.2] {
@@ -193,7 +190,7 @@ fn golden_units_directions_and_curves() {
                 &mut out,
                 format!(
                     "  {share}: {}",
-                    list((spline.at(share) * 1000.0).to_array())
+                    list((spline.spline_point_at(share) * 1000.0).to_array())
                 ),
             );
         }

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use crate::error::{Problem, TextError};
+use crate::error::{RecipeTextProblem, TextError};
 
 /// A token of a recipe's text.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Token {
-    pub(super) kind: Kind,
+pub(super) struct RecipeTextToken {
+    pub(super) kind: RecipeTokenKind,
     /// The word without its quotes, or the query.
     pub(super) text: String,
     /// Its place in the text, in bytes.
@@ -16,7 +16,7 @@ pub(super) struct Token {
 
 /// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum RecipeTokenKind {
     Word,
     Quoted,
     Query,
@@ -26,43 +26,43 @@ pub(super) enum Kind {
     Close,
 }
 
-const LONGEST: usize = 64 * 1024;
+const MAX_RECIPE_TEXT_BYTES: usize = 64 * 1024;
 
 /// Splits `text` into its tokens.
-pub(super) fn lex(text: &str) -> Result<Vec<Token>, TextError> {
-    if text.len() > LONGEST {
-        return Err(fault("", 0, Problem::TooLong(LONGEST)));
+pub(super) fn lex_recipe_text(text: &str) -> Result<Vec<RecipeTextToken>, TextError> {
+    if text.len() > MAX_RECIPE_TEXT_BYTES {
+        return Err(text_fault_at("", 0, RecipeTextProblem::TooLong(MAX_RECIPE_TEXT_BYTES)));
     }
     let mut tokens = Vec::new();
-    let mut at = 0;
-    while let Some(c) = text[at..].chars().next() {
+    let mut byte_offset = 0;
+    while let Some(c) = text[byte_offset..].chars().next() {
         if c.is_whitespace() {
-            at += c.len_utf8();
+            byte_offset += c.len_utf8();
             continue;
         }
         let (kind, content, end) = match c {
-            '|' => (Kind::Pipe, "|".into(), at + 1),
-            ',' => (Kind::Comma, ",".into(), at + 1),
-            '(' => (Kind::Open, "(".into(), at + 1),
-            ')' => (Kind::Close, ")".into(), at + 1),
+            '|' => (RecipeTokenKind::Pipe, "|".into(), byte_offset + 1),
+            ',' => (RecipeTokenKind::Comma, ",".into(), byte_offset + 1),
+            '(' => (RecipeTokenKind::Open, "(".into(), byte_offset + 1),
+            ')' => (RecipeTokenKind::Close, ")".into(), byte_offset + 1),
             '"' => {
-                let end = quote_end(text, at)?;
-                (Kind::Quoted, unquote(&text[at..end]), end)
+                let end = quote_end(text, byte_offset)?;
+                (RecipeTokenKind::Quoted, unquote(&text[byte_offset..end]), end)
             }
-            _ => word(text, at)?,
+            _ => lex_recipe_word(text, byte_offset)?,
         };
-        tokens.push(Token {
+        tokens.push(RecipeTextToken {
             kind,
             text: content,
-            at: at..end,
+            at: byte_offset..end,
         });
-        at = end;
+        byte_offset = end;
     }
     Ok(tokens)
 }
 
 /// Returns an error at byte `at` of `text`.
-pub(super) fn fault(text: &str, at: usize, problem: Problem) -> TextError {
+pub(super) fn text_fault_at(text: &str, at: usize, problem: RecipeTextProblem) -> TextError {
     TextError {
         text: text.to_owned(),
         at: text[..at].chars().count(),
@@ -70,18 +70,18 @@ pub(super) fn fault(text: &str, at: usize, problem: Problem) -> TextError {
     }
 }
 
-fn word(text: &str, start: usize) -> Result<(Kind, String, usize), TextError> {
+fn lex_recipe_word(text: &str, start: usize) -> Result<(RecipeTokenKind, String, usize), TextError> {
     let ends = |c: char| c.is_whitespace() || "|,()\"".contains(c);
     let mut end = text[start..].find(ends).map_or(text.len(), |n| start + n);
     if &text[start..end] == "best" && text[end..].starts_with('(') {
         let close = close_of(text, end)?;
         let query = text[end + 1..close].trim().to_owned();
-        return Ok((Kind::Query, query, close + 1));
+        return Ok((RecipeTokenKind::Query, query, close + 1));
     }
     if text[start..end].ends_with(':') && text[end..].starts_with('"') {
         end = quote_end(text, end)?;
     }
-    Ok((Kind::Word, text[start..end].to_owned(), end))
+    Ok((RecipeTokenKind::Word, text[start..end].to_owned(), end))
 }
 
 fn quote_end(text: &str, start: usize) -> Result<usize, TextError> {
@@ -94,7 +94,7 @@ fn quote_end(text: &str, start: usize) -> Result<usize, TextError> {
             _ => {}
         }
     }
-    Err(fault(text, start, Problem::Unclosed('"')))
+    Err(text_fault_at(text, start, RecipeTextProblem::Unclosed('"')))
 }
 
 fn close_of(text: &str, open: usize) -> Result<usize, TextError> {
@@ -112,7 +112,7 @@ fn close_of(text: &str, open: usize) -> Result<usize, TextError> {
         }
         at += c.len_utf8();
     }
-    Err(fault(text, open, Problem::Unclosed('(')))
+    Err(text_fault_at(text, open, RecipeTextProblem::Unclosed('(')))
 }
 
 fn unquote(quoted: &str) -> String {

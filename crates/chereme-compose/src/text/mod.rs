@@ -1,10 +1,10 @@
 //! The text spelling of a recipe.
 
 mod lexer;
-mod parse;
-mod print;
 #[cfg(test)]
 mod tests;
+mod text_parse;
+mod text_print;
 
-pub(crate) use parse::{Parsed, Parser};
-pub(crate) use print::{Name, list, option, point_text};
+pub(crate) use text_parse::{ParsedText, RecipeParser};
+pub(crate) use text_print::{QuotedName, point_text, write_option, write_separated_list};

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use crate::error::RecipeError;
 use crate::recipe::*;
-use crate::units::{Degrees, Direction, Factor, Hands, Length, Seconds};
+use crate::units::{BodyDirection, HandChoice, RecipeDegrees, RecipeFactor, RecipeLength, RecipeSeconds};
 
 #[test]
 fn recipes_as_people_write_them_are_parsed_and_printed() {
@@ -15,15 +15,9 @@ fn recipes_as_people_write_them_are_parsed_and_printed() {
         ("ESCARGOT | configure right U", ""),
         ("ESCARGOT|configure U", "ESCARGOT | configure dominant U"),
         ("BOL | place both by left 25cm", ""),
-        (
-            "BOL | place by left 250 mm",
-            "BOL | place both by left 25cm",
-        ),
+        ("BOL | place by left 250 mm", "BOL | place both by left 25cm"),
         ("BOL | place both at high-left", ""),
-        (
-            "BOL | place left near CHIEN by up 5cm with index using fabrik",
-            "",
-        ),
+        ("BOL | place left near CHIEN by up 5cm with index using fabrik", ""),
         ("BOL | place right at 30cm,140cm,50cm", ""),
         ("BOL | place right at \"neutral space\"", ""),
         ("BOL | place right at best(placement=chin)", ""),
@@ -54,17 +48,11 @@ fn recipes_as_people_write_them_are_parsed_and_printed() {
             "spell \"a b\" left with lsf hold 0.3s via slerp on signer:2",
         ),
         ("point right at 30cm,140cm,50cm", ""),
-        (
-            "point right at left up with best(configuration=[index]) hold 0.2s",
-            "",
-        ),
+        ("point right at left up with best(configuration=[index]) hold 0.2s", ""),
         ("BOL then ESCARGOT", ""),
         ("BOL then via sigmoid 0.2s ESCARGOT then CHAT", ""),
         ("(BOL then ESCARGOT) | reverse", ""),
-        (
-            "BOL then (ESCARGOT | reverse)",
-            "BOL then ESCARGOT | reverse",
-        ),
+        ("BOL then (ESCARGOT | reverse)", "BOL then ESCARGOT | reverse"),
         ("BOL then (A then B)", ""),
         ("(BOL then A) then B", "BOL then A then B"),
         ("CHAT | configure both from LION", ""),
@@ -76,20 +64,11 @@ fn recipes_as_people_write_them_are_parsed_and_printed() {
         ),
         ("DONNER | from me to left", ""),
         ("DONNER | to 10cm,120cm,40cm with right", ""),
-        (
-            "A | orient right palm up fingers left forward by 30deg about up",
-            "",
-        ),
-        (
-            "A | amplify both 1.5 | retime 1.5, to 2s | nonmanual from token:41",
-            "",
-        ),
+        ("A | orient right palm up fingers left forward by 30deg about up", ""),
+        ("A | amplify both 1.5 | retime 1.5, to 2s | nonmanual from token:41", ""),
         ("recording:\"NGT Thanks\" | reverse", ""),
         ("A | nonmanual from B by phases", ""),
-        (
-            "A | nonmanual wh from B over 0.4s..1.9s by phases | swap",
-            "",
-        ),
+        ("A | nonmanual wh from B over 0.4s..1.9s by phases | swap", ""),
         ("A | nonmanual from B over ..1.9s", ""),
         (
             "A | nonmanual from B over -500ms,0s,0.4s,1s,1.5s by phases",
@@ -113,33 +92,13 @@ fn recipes_as_people_write_them_are_parsed_and_printed() {
 fn errors_point_at_the_character_and_suggest_a_correction() {
     for (text, at, want) in [
         ("", 0, "the text ends where a sign"),
-        (
-            "BOL | palce both by left 25cm",
-            6,
-            "did you mean \"place\"?",
-        ),
+        ("BOL | palce both by left 25cm", 6, "did you mean \"place\"?"),
         ("ÉÉÉ | revers", 6, "did you mean \"reverse\"?"),
-        (
-            "BOL | place both by lefft 25cm",
-            20,
-            "did you mean \"left\"?",
-        ),
+        ("BOL | place both by lefft 25cm", 20, "did you mean \"left\"?"),
         ("BOL | place both by left 25", 25, "no unit"),
-        (
-            "BOL | place both by left 25furlongs",
-            25,
-            "unknown unit \"furlongs\"",
-        ),
-        (
-            "BOL | place both left 25cm",
-            17,
-            "\"by\", \"at\" or \"near\"",
-        ),
-        (
-            "BOL | place right at 1cm,2cm",
-            28,
-            "a point has three lengths",
-        ),
+        ("BOL | place both by left 25furlongs", 25, "unknown unit \"furlongs\""),
+        ("BOL | place both left 25cm", 17, "\"by\", \"at\" or \"near\""),
+        ("BOL | place right at 1cm,2cm", 28, "a point has three lengths"),
         ("BOL | repeat twice", 13, "how often"),
         ("BOL reverse", 4, "\"|\", \"then\" or the end"),
         ("BOL then", 8, "a sign"),
@@ -147,11 +106,7 @@ fn errors_point_at_the_character_and_suggest_a_correction() {
         ("(BOL | reverse", 14, "\")\""),
         ("BOL | configure right best(a", 26, "never closed"),
         ("BOL | configure right \"U", 22, "never closed"),
-        (
-            "BOL then via sigmod ESCARGOT",
-            13,
-            "did you mean \"sigmoid\"?",
-        ),
+        ("BOL then via sigmod ESCARGOT", 13, "did you mean \"sigmoid\"?"),
         (
             "BOL | place both by left 25cm using fabric",
             36,
@@ -179,10 +134,7 @@ fn errors_point_at_the_character_and_suggest_a_correction() {
     let deep = format!("{}A{}", "(".repeat(5000), ")".repeat(5000));
     assert!(deep.parse::<Recipe>().is_err());
     let long = format!("A{}", " | reverse".repeat(1100));
-    assert!(matches!(
-        long.parse::<Recipe>(),
-        Err(RecipeError::Size { .. })
-    ));
+    assert!(matches!(long.parse::<Recipe>(), Err(RecipeError::Size { .. })));
 }
 
 #[test]
@@ -206,9 +158,7 @@ fn json_of_another_version_or_with_unknown_fields_is_refused_by_name() {
             "no unit",
         ),
     ] {
-        let error = serde_json::from_str::<Recipe>(json)
-            .expect_err(json)
-            .to_string();
+        let error = serde_json::from_str::<Recipe>(json).expect_err(json).to_string();
         assert!(error.contains(want), "{json}: {error}");
     }
 }
@@ -222,35 +172,38 @@ fn name() -> impl Strategy<Value = String> {
     ]
 }
 
-fn hands() -> impl Strategy<Value = Hands> {
-    proptest::sample::select(Hands::ALL.to_vec())
+fn hands() -> impl Strategy<Value = HandChoice> {
+    proptest::sample::select(HandChoice::ALL_HAND_CHOICES.to_vec())
 }
 
-fn length() -> impl Strategy<Value = Length> {
+fn length() -> impl Strategy<Value = RecipeLength> {
     prop_oneof![
-        (-999i32..999).prop_map(|mm| Length::Metres(f64::from(mm) / 1000.0)),
-        (-99i32..99).prop_map(|percent| Length::Arm(f64::from(percent) / 100.0)),
+        (-999i32..999).prop_map(|mm| RecipeLength::Metres(f64::from(mm) / 1000.0)),
+        (-99i32..99).prop_map(|percent| RecipeLength::Arm(f64::from(percent) / 100.0)),
     ]
 }
 
-fn seconds() -> impl Strategy<Value = Seconds> {
-    (0.0f64..5.0).prop_map(Seconds)
+fn seconds() -> impl Strategy<Value = RecipeSeconds> {
+    (0.0f64..5.0).prop_map(RecipeSeconds)
 }
 
-fn factor() -> impl Strategy<Value = Factor> {
-    (0.05f64..20.0).prop_map(Factor)
+fn factor() -> impl Strategy<Value = RecipeFactor> {
+    (0.05f64..20.0).prop_map(RecipeFactor)
 }
 
-fn directions() -> impl Strategy<Value = Vec<Direction>> {
-    vec(proptest::sample::select(Direction::ALL.to_vec()), 1..3)
-        .prop_filter("cancels", |d| crate::units::towards(d).is_some())
+fn directions() -> impl Strategy<Value = Vec<BodyDirection>> {
+    vec(
+        proptest::sample::select(BodyDirection::ALL_BODY_DIRECTIONS.to_vec()),
+        1..3,
+    )
+    .prop_filter("cancels", |d| crate::units::mean_of_directions(d).is_some())
 }
 
-fn legs(timed: bool) -> impl Strategy<Value = Vec<Leg>> {
+fn legs(timed: bool) -> impl Strategy<Value = Vec<StraightLeg>> {
     let time = of(seconds()).prop_map(move |time| time.filter(|_| timed));
     let leg = (directions(), length(), time);
     vec(
-        leg.prop_map(|(towards, distance, time)| Leg {
+        leg.prop_map(|(towards, distance, time)| StraightLeg {
             towards,
             distance,
             time,
@@ -259,138 +212,140 @@ fn legs(timed: bool) -> impl Strategy<Value = Vec<Leg>> {
     )
 }
 
-fn via() -> impl Strategy<Value = Transition> {
+fn via() -> impl Strategy<Value = PostureTransition> {
     (
-        of(proptest::sample::select(Profile::ALL.to_vec())),
+        of(proptest::sample::select(
+            TransitionProfile::ALL_TRANSITION_PROFILES.to_vec(),
+        )),
         of(seconds()),
     )
-        .prop_map(|(profile, time)| Transition { profile, time })
+        .prop_map(|(profile, time)| PostureTransition { profile, time })
 }
 
-fn choice() -> impl Strategy<Value = Choice> {
+fn choice() -> impl Strategy<Value = ValueChoice> {
     prop_oneof![
-        Just(Choice::Keep),
-        name().prop_map(Choice::Value),
-        name().prop_map(Choice::From),
-        Just(Choice::Best("configuration=U signer=same".into())),
+        Just(ValueChoice::Keep),
+        name().prop_map(ValueChoice::Value),
+        name().prop_map(ValueChoice::From),
+        Just(ValueChoice::Best("configuration=U signer=same".into())),
     ]
 }
 
-fn spot() -> impl Strategy<Value = Spot> {
+fn spot() -> impl Strategy<Value = SigningSpot> {
     prop_oneof![
-        Just(Spot::Me),
-        Just(Spot::You),
-        directions().prop_map(Spot::Towards),
-        name().prop_map(Spot::Value),
-        [length(), length(), length()].prop_map(Spot::Point),
+        Just(SigningSpot::Me),
+        Just(SigningSpot::You),
+        directions().prop_map(SigningSpot::Towards),
+        name().prop_map(SigningSpot::Value),
+        [length(), length(), length()].prop_map(SigningSpot::Point),
     ]
 }
 
-fn goal() -> impl Strategy<Value = Goal> {
+fn goal() -> impl Strategy<Value = PlacementGoal> {
     prop_oneof![
-        legs(false).prop_map(Goal::By),
-        name().prop_map(Goal::At),
-        [length(), length(), length()].prop_map(Goal::AtPoint),
-        (name(), of(legs(false))).prop_map(|(of, by)| Goal::Near {
+        legs(false).prop_map(PlacementGoal::By),
+        name().prop_map(PlacementGoal::At),
+        [length(), length(), length()].prop_map(PlacementGoal::AtPoint),
+        (name(), of(legs(false))).prop_map(|(of, by)| PlacementGoal::Near {
             of,
             by: by.unwrap_or_default()
         }),
-        Just(Goal::Best("placement=chin".into())),
+        Just(PlacementGoal::Best("placement=chin".into())),
     ]
 }
 
 fn step() -> impl Strategy<Value = Step> {
     let one = proptest::sample::select(vec![
-        Hands::Right,
-        Hands::Left,
-        Hands::Dominant,
-        Hands::Weak,
+        HandChoice::Right,
+        HandChoice::Left,
+        HandChoice::Dominant,
+        HandChoice::Weak,
     ]);
-    let solver = any::<bool>().prop_map(|f| if f { Solver::Fabrik } else { Solver::Analytic });
+    let solver = any::<bool>().prop_map(|f| {
+        if f {
+            ArmSolverMethod::Fabrik
+        } else {
+            ArmSolverMethod::Analytic
+        }
+    });
     let turn = (
         -180.0f64..180.0,
-        proptest::sample::select(Direction::ALL.to_vec()),
+        proptest::sample::select(BodyDirection::ALL_BODY_DIRECTIONS.to_vec()),
     )
-        .prop_map(|(angle, about)| Turn {
-            angle: Degrees(angle),
+        .prop_map(|(angle, about)| AxisTurn {
+            angle: RecipeDegrees(angle),
             about,
         });
     let pace = prop_oneof![
-        factor().prop_map(Pace::Times),
-        (0.01f64..5.0).prop_map(|s| Pace::To(Seconds(s)))
+        factor().prop_map(RetimePace::Times),
+        (0.01f64..5.0).prop_map(|s| RetimePace::To(RecipeSeconds(s)))
     ];
     prop_oneof![
-        (hands(), vec(choice(), 1..3), via())
-            .prop_map(|(hand, values, via)| Step::Configure(Configure { hand, values, via })),
+        (hands(), vec(choice(), 1..3), via()).prop_map(|(hand, values, via)| Step::Configure(ConfigureSettings {
+            hand,
+            values,
+            via
+        })),
         (
             hands(),
             goal(),
-            of(proptest::sample::select(HandPoint::ALL.to_vec())),
+            of(proptest::sample::select(RecipeHandPoint::ALL_HAND_POINTS.to_vec())),
             solver
         )
-            .prop_map(|(hand, to, with, solver)| Step::Place(Place {
-                hand,
-                to,
-                with,
-                solver
-            })),
+            .prop_map(|(hand, to, with, solver)| Step::Place(PlaceSettings { hand, to, with, solver })),
         Just(Step::Reverse),
         Just(Step::Swap),
-        one.prop_map(|from| Step::Mirror(Mirror { from })),
-        (1u32..1000, of(factor()), of(factor()), of(seconds()), via()).prop_map(
-            |(times, scale, tempo, gap, via)| Step::Repeat(Repeat {
+        one.prop_map(|from| Step::Mirror(MirrorSettings { from })),
+        (1u32..1000, of(factor()), of(factor()), of(seconds()), via()).prop_map(|(times, scale, tempo, gap, via)| {
+            Step::Repeat(RepeatSettings {
                 times,
                 scale,
                 tempo,
                 gap,
-                via
+                via,
             })
-        ),
-        (hands(), directions(), of(directions()), vec(turn, 0..3)).prop_map(
-            |(hand, palm, fingers, by)| {
-                Step::Orient(Orient {
-                    hand,
-                    palm,
-                    fingers: fingers.unwrap_or_default(),
-                    by,
-                })
-            }
-        ),
-        (hands(), factor()).prop_map(|(hand, by)| Step::Amplify(Amplify { hand, by })),
-        (hands(), legs(true), via()).prop_map(|(hand, path, via)| Step::Travel(Travel {
+        }),
+        (hands(), directions(), of(directions()), vec(turn, 0..3)).prop_map(|(hand, palm, fingers, by)| {
+            Step::Orient(OrientSettings {
+                hand,
+                palm,
+                fingers: fingers.unwrap_or_default(),
+                by,
+            })
+        }),
+        (hands(), factor()).prop_map(|(hand, by)| Step::Amplify(AmplifySettings { hand, by })),
+        (hands(), legs(true), via()).prop_map(|(hand, path, via)| Step::Travel(TravelSettings {
             hand,
             path,
             through: Vec::new(),
             time: None,
             via
         })),
-        (hands(), vec(uniform3(length()), 1..5), of(seconds()), via()).prop_map(
-            |(hand, through, time, via)| Step::Travel(Travel {
+        (hands(), vec(uniform3(length()), 1..5), of(seconds()), via()).prop_map(|(hand, through, time, via)| {
+            Step::Travel(TravelSettings {
                 hand,
                 path: Vec::new(),
                 through,
                 time,
-                via
+                via,
             })
-        ),
-        vec(pace, 1..3).prop_map(|paces| Step::Retime(Retime { paces })),
-        (name(), of(name()), over(), any::<bool>()).prop_map(
-            |(from, function, over, by_phases)| {
-                Step::Nonmanual(Nonmanual {
-                    from,
-                    function,
-                    over,
-                    by_phases,
-                })
-            }
-        ),
+        }),
+        vec(pace, 1..3).prop_map(|paces| Step::Retime(RetimeSettings { paces })),
+        (name(), of(name()), over(), any::<bool>()).prop_map(|(from, function, over, by_phases)| {
+            Step::Nonmanual(NonmanualSettings {
+                from,
+                function,
+                over,
+                by_phases,
+            })
+        }),
         Just(Step::Trim),
-        (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| Step::Span(Cut {
-            from: from.map(Seconds),
-            to: Some(Seconds(to)),
+        (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| Step::Span(SpanSettings {
+            from: from.map(RecipeSeconds),
+            to: Some(RecipeSeconds(to)),
         })),
         (hands(), spot(), of(spot())).prop_map(|(hand, from, to)| {
-            Step::Indicate(Indicate {
+            Step::Indicate(IndicateSettings {
                 hand,
                 from: Some(from),
                 to,
@@ -399,38 +354,31 @@ fn step() -> impl Strategy<Value = Step> {
     ]
 }
 
-fn over() -> impl Strategy<Value = Option<Over>> {
+fn over() -> impl Strategy<Value = Option<ExpressionTimes>> {
     let part = (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| {
-        Over::Part(Cut {
-            from: from.map(Seconds),
-            to: Some(Seconds(to)),
+        ExpressionTimes::Part(SpanSettings {
+            from: from.map(RecipeSeconds),
+            to: Some(RecipeSeconds(to)),
         })
     });
     let at = (-1.0f64..1.0, [0.0f64..1.0, 0.0..1.0, 0.0..1.0, 0.0..1.0]).prop_map(|(m1, gaps)| {
         let mut time = m1;
         let later = gaps.map(|gap| {
             time += gap;
-            Seconds(time)
+            RecipeSeconds(time)
         });
         let [m2, m3, m4, m5] = later;
-        Over::At([Seconds(m1), m2, m3, m4, m5])
+        ExpressionTimes::At([RecipeSeconds(m1), m2, m3, m4, m5])
     });
     of(prop_oneof![part, at])
 }
 
-fn node() -> impl Strategy<Value = Node> {
+fn node() -> impl Strategy<Value = RecipeNode> {
     let leaf = prop_oneof![
-        name().prop_map(Node::Sign),
-        (
-            name(),
-            hands(),
-            of(name()),
-            of(seconds()),
-            via(),
-            of(name())
-        )
-            .prop_map(|(word, hand, alphabet, hold, via, on)| {
-                Node::Spell(Spell {
+        name().prop_map(RecipeNode::Sign),
+        (name(), hands(), of(name()), of(seconds()), via(), of(name())).prop_map(
+            |(word, hand, alphabet, hold, via, on)| {
+                RecipeNode::Spell(SpellSettings {
                     word,
                     hand,
                     alphabet,
@@ -438,32 +386,27 @@ fn node() -> impl Strategy<Value = Node> {
                     via,
                     on,
                 })
-            }),
-        (
-            hands(),
-            spot(),
-            of(choice()),
-            of(seconds()),
-            via(),
-            of(name())
-        )
-            .prop_map(|(hand, at, with, hold, via, on)| Node::Point(Point {
+            }
+        ),
+        (hands(), spot(), of(choice()), of(seconds()), via(), of(name())).prop_map(
+            |(hand, at, with, hold, via, on)| RecipeNode::Point(PointSettings {
                 hand,
                 at,
                 with,
                 hold,
                 via,
                 on
-            })),
+            })
+        ),
     ];
     leaf.prop_recursive(4, 20, 3, |inner| {
-        let joined = (via(), inner.clone()).prop_map(|(via, node)| Joined { via, node });
+        let joined = (via(), inner.clone()).prop_map(|(via, node)| JoinedPiece { via, node });
         prop_oneof![
-            (inner.clone(), vec(step(), 0..3)).prop_map(|(of, steps)| Node::Pipe(Pipe {
+            (inner.clone(), vec(step(), 0..3)).prop_map(|(of, steps)| RecipeNode::Pipe(OperatorPipe {
                 of: Box::new(of),
                 steps
             })),
-            (inner, vec(joined, 0..3)).prop_map(|(first, next)| Node::Then(Then {
+            (inner, vec(joined, 0..3)).prop_map(|(first, next)| RecipeNode::Then(RecipeChain {
                 first: Box::new(first),
                 next
             })),

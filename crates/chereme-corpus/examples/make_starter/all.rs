@@ -10,13 +10,13 @@ mod signer;
 mod signs;
 mod takes;
 
-use chereme_compose::Generated;
+use chereme_compose::GeneratedMovement;
 
 pub(crate) use notes::glosses;
 pub(crate) use takes::Take;
 
 /// Returns every recording and its performance, ordered by name.
-pub(crate) fn performances() -> Vec<(Take, Generated)> {
+pub(crate) fn performances() -> Vec<(Take, GeneratedMovement)> {
     let stage = perform::stage();
     let perform = |take| {
         let made = perform::perform(&stage, &take);
@@ -26,7 +26,7 @@ pub(crate) fn performances() -> Vec<(Take, Generated)> {
 }
 
 /// Returns the files, by name, to which `performances` are written.
-pub(crate) fn files(performances: &[(Take, Generated)]) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn files(performances: &[(Take, GeneratedMovement)]) -> Vec<(String, Vec<u8>)> {
     let said: Vec<Vec<notes::Note>> = performances
         .iter()
         .map(|(take, made)| notes::notes(take, made))
@@ -37,10 +37,7 @@ pub(crate) fn files(performances: &[(Take, Generated)]) -> Vec<(String, Vec<u8>)
     for ((take, made), notes) in performances.iter().zip(&said) {
         let signs = glosses(made);
         files.push((format!("{}.bvh", take.stem), bvh::write(&made.clip)));
-        files.push((
-            format!("{}.eaf", take.stem),
-            eaf::write(take, &signs, notes, &used),
-        ));
+        files.push((format!("{}.eaf", take.stem), eaf::write(take, &signs, notes, &used)));
     }
     let takes = performances.iter().map(|(take, _)| take).zip(&said);
     files.push(("README.md".to_owned(), readme::readme(takes)));

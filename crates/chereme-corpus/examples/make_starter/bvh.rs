@@ -1,10 +1,10 @@
 //! Writes a clip as BVH: centimetres, degrees.
 
 use chereme_formats::bvh::raw::{
-    Block, Channel, Column, Decimal, Hierarchy, Number, RawJoint, Writer,
+    BvhChannel, BvhHierarchy, BvhWriter, Column, ExactDecimal, FileNumber, MotionBlock, RawJoint,
 };
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Axis, Clip};
+use chereme_motion::{Clip, SpaceAxis};
 
 use super::signer::rotation_order;
 
@@ -13,52 +13,44 @@ const DIGITS: u8 = 3;
 
 /// Returns the bytes of the file.
 pub(crate) fn write(clip: &Clip) -> Vec<u8> {
-    let hierarchy = Hierarchy {
-        joints: (0..clip.skeleton().len())
+    let hierarchy = BvhHierarchy {
+        joints: (0..clip.clip_skeleton().len())
             .map(|joint| raw_joint(clip, joint))
             .collect(),
     };
-    let columns: Vec<Column> = (0..clip.skeleton().len())
+    let columns: Vec<Column> = (0..clip.clip_skeleton().len())
         .flat_map(|joint| columns(clip, joint))
         .collect();
-    let frame_time = number(clip.rate().frame_time(), 7);
-    let frames = clip.frames();
-    let block = Block {
+    let frame_time = number(clip.clip_frame_rate().frame_time(), 7);
+    let frames = clip.clip_frame_count();
+    let block = MotionBlock {
         first_frame: 0,
         frames,
         columns,
     };
-    let out = Writer::new(
-        Vec::new(),
-        &hierarchy,
-        Some((Some(&frame_time), frames as u64)),
-    );
+    let out = BvhWriter::new(Vec::new(), &hierarchy, Some((Some(&frame_time), frames as u64)));
     let written = out.and_then(|mut out| {
-        out.block(&block)?;
-        out.finish()
+        out.write_motion_block(&block)?;
+        out.finish_bvh_writing()
     });
     written.expect("the hierarchy and its columns belong together")
 }
 
 fn raw_joint(clip: &Clip, joint: usize) -> RawJoint {
-    let it = clip.skeleton().joint(joint);
+    let it = clip.clip_skeleton().joint_at(joint);
     let offset = |v: DVec3| (v * 100.0).to_array().map(|x| number(x, DIGITS));
     let root = it.parent.is_none();
-    let positions = [Channel::Xposition, Channel::Yposition, Channel::Zposition];
-    let rotations = rotation_order(&it.name).axes().map(|axis| match axis {
-        Axis::X => Channel::Xrotation,
-        Axis::Y => Channel::Yrotation,
-        Axis::Z => Channel::Zrotation,
+    let positions = [BvhChannel::Xposition, BvhChannel::Yposition, BvhChannel::Zposition];
+    let rotations = rotation_order(&it.name).rotation_axes().map(|axis| match axis {
+        SpaceAxis::X => BvhChannel::Xrotation,
+        SpaceAxis::Y => BvhChannel::Yrotation,
+        SpaceAxis::Z => BvhChannel::Zrotation,
     });
     RawJoint {
         name: it.name.clone(),
         parent: it.parent,
         offset: offset(it.offset),
-        channels: positions
-            .into_iter()
-            .filter(|_| root)
-            .chain(rotations)
-            .collect(),
+        channels: positions.into_iter().filter(|_| root).chain(rotations).collect(),
         end_sites: it.tip.map(offset).into_iter().collect(),
         placed: None,
     }
@@ -66,35 +58,32 @@ fn raw_joint(clip: &Clip, joint: usize) -> RawJoint {
 
 fn columns(clip: &Clip, joint: usize) -> Vec<Column> {
     let mut columns: Vec<Vec<f64>> = Vec::new();
-    if clip.skeleton().parent(joint).is_none() {
-        let places = (0..clip.frames()).map(|frame| clip.translation(joint, frame) * 100.0);
+    if clip.clip_skeleton().joint_parent(joint).is_none() {
+        let places = (0..clip.clip_frame_count()).map(|frame| clip.joint_translation(joint, frame) * 100.0);
         let places: Vec<DVec3> = places.collect();
         columns.extend([0, 1, 2].map(|axis| places.iter().map(|place| place[axis]).collect()));
     }
-    let order = rotation_order(&clip.skeleton().joint(joint).name);
+    let order = rotation_order(&clip.clip_skeleton().joint_at(joint).name);
     let mut near = [0.0; 3];
     let turns: Vec<[f64; 3]> = clip
-        .channel(joint)
+        .joint_channel(joint)
         .rotations
         .iter()
         .map(|&q| {
-            near = order.angles(q, near);
+            near = order.nearest_euler_angles(q, near);
             near.map(f64::to_degrees)
         })
         .collect();
     columns.extend([0, 1, 2].map(|n| turns.iter().map(|turn| turn[n]).collect()));
-    let name = &clip.skeleton().joint(joint).name;
+    let name = &clip.clip_skeleton().joint_at(joint).name;
     let finger = name.contains("Hand") && name.ends_with(char::is_numeric);
     let digits = if finger { DIGITS - 1 } else { DIGITS };
-    columns
-        .iter()
-        .map(|values| column(values, digits))
-        .collect()
+    columns.iter().map(|values| column(values, digits)).collect()
 }
 
 /// Returns a column; a column with the same whole number throughout is written without decimals.
 fn column(values: &[f64], digits: u8) -> Column {
-    let rounded = |digits| Column::rounded(values.iter().copied(), digits);
+    let rounded = |digits| Column::from_rounded_values(values.iter().copied(), digits);
     let column = rounded(digits).expect("angles and places are finite");
     let first = column.mantissas.first().copied().unwrap_or(0);
     let still = column.mantissas.iter().all(|&mantissa| mantissa == first);
@@ -104,6 +93,6 @@ fn column(values: &[f64], digits: u8) -> Column {
     column
 }
 
-fn number(value: f64, digits: u8) -> Number {
-    Number::Decimal(Decimal::rounded(value, digits).expect("offsets are finite"))
+fn number(value: f64, digits: u8) -> FileNumber {
+    FileNumber::Decimal(ExactDecimal::from_rounded_value(value, digits).expect("offsets are finite"))
 }

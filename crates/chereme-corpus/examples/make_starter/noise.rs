@@ -7,8 +7,7 @@ pub(crate) struct Noise([[f64; 3]; 4]);
 impl Noise {
     /// Returns the noise of a seed and a channel; its slowest wave takes about 4 s, its fastest 0.8 s.
     pub(crate) fn new(seed: u64, channel: u64) -> Self {
-        let mut state =
-            seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ channel.wrapping_mul(0xD1B5_4A32_D192_ED03);
+        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ channel.wrapping_mul(0xD1B5_4A32_D192_ED03);
         let mut dice = || {
             state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
             let mut z = state;

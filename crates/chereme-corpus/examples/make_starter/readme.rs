@@ -1,6 +1,6 @@
 //! The two files for readers: the description of the folder, and the lexicon.
 
-use chereme_motion::Side;
+use chereme_motion::BodySide;
 
 use super::notes::{CONFIGURATION, DIRECTION, MOVEMENT, Note, PLACEMENT};
 use super::takes::Take;
@@ -26,13 +26,7 @@ pub(crate) fn readme<'t>(takes: impl Iterator<Item = (&'t Take, &'t Vec<Note>)>)
         }
         if spelt {
             let all = [glosses[0], glosses[glosses.len() - 1]].join(" … ");
-            let cells = [
-                &all,
-                "the letters",
-                "",
-                "high-right, right",
-                "hold (J arc, Z zigzag)",
-            ];
+            let cells = [&all, "the letters", "", "high-right, right", "hold (J arc, Z zigzag)"];
             rows += &line(take.stem, &cells.map(str::to_owned));
         }
         for (n, sign) in take.signs.iter().enumerate() {
@@ -53,7 +47,7 @@ fn line(stem: &str, cells: &[String; 5]) -> String {
 }
 
 fn coding(gloss: &str, means: &str, sign: usize, notes: &[Note]) -> [String; 5] {
-    let said = |tier: usize, side: Side| {
+    let said = |tier: usize, side: BodySide| {
         let mut values: Vec<&str> = notes
             .iter()
             .filter(|note| (note.sign, note.tier, note.side) == (sign, tier, Some(side)))
@@ -62,12 +56,12 @@ fn coding(gloss: &str, means: &str, sign: usize, notes: &[Note]) -> [String; 5] 
         values.dedup();
         values.join(" > ")
     };
-    let moves = [said(MOVEMENT, Side::Right), said(DIRECTION, Side::Right)];
+    let moves = [said(MOVEMENT, BodySide::Right), said(DIRECTION, BodySide::Right)];
     [
         format!("{gloss} ({means})"),
-        said(CONFIGURATION, Side::Right),
-        said(CONFIGURATION, Side::Left),
-        said(PLACEMENT, Side::Right),
+        said(CONFIGURATION, BodySide::Right),
+        said(CONFIGURATION, BodySide::Left),
+        said(PLACEMENT, BodySide::Right),
         moves.join(" ").trim().to_owned(),
     ]
 }

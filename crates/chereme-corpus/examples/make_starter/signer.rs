@@ -1,8 +1,8 @@
 //! The body of the signer: a skeleton of the project's own design with the names that MotionBuilder uses.
 
-use chereme_motion::axes::Axis;
+use chereme_motion::axes::SpaceAxis;
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Joint, RotationOrder, Side, Skeleton};
+use chereme_motion::{BodySide, RotationOrder, Skeleton, SkeletonJoint};
 
 /// The signer's name in the annotation files.
 pub(crate) const NAME: &str = "Camille (made)";
@@ -66,37 +66,37 @@ const TIPS: [(&str, [f64; 3]); 7] = [
 
 /// Returns the skeleton in metres; parents come before their children, depth first.
 pub(crate) fn skeleton() -> Skeleton {
-    let mut joints: Vec<Joint> = Vec::new();
-    let mut add = |table: &[(&str, &str, [f64; 3])], side: Option<Side>| {
+    let mut joints: Vec<SkeletonJoint> = Vec::new();
+    let mut add = |table: &[(&str, &str, [f64; 3])], side: Option<BodySide>| {
         for &(name, parent, offset) in table {
             let named = |name: &str| name.replace('@', prefix(side));
             let parent = named(parent);
             let parent = joints.iter().position(|joint| joint.name == parent);
             let tip = TIPS.iter().find(|(end, _)| *end == name);
-            joints.push(Joint {
+            joints.push(SkeletonJoint {
                 tip: tip.map(|&(_, tip)| placed(tip, side)),
-                ..Joint::new(named(name), parent, placed(offset, side))
+                ..SkeletonJoint::new(named(name), parent, placed(offset, side))
             });
         }
     };
     add(&SPINE, None);
     for table in [&ARM[..], &LEG[..]] {
-        add(table, Some(Side::Left));
-        add(table, Some(Side::Right));
+        add(table, Some(BodySide::Left));
+        add(table, Some(BodySide::Right));
     }
     Skeleton::new(joints).expect("the tables name parents first")
 }
 
-fn prefix(side: Option<Side>) -> &'static str {
+fn prefix(side: Option<BodySide>) -> &'static str {
     match side {
         None => "",
-        Some(Side::Left) => "Left",
-        Some(Side::Right) => "Right",
+        Some(BodySide::Left) => "Left",
+        Some(BodySide::Right) => "Right",
     }
 }
 
-fn placed([x, y, z]: [f64; 3], side: Option<Side>) -> DVec3 {
-    DVec3::new(x * side.map_or(1.0, Side::sign), y, z) / 100.0
+fn placed([x, y, z]: [f64; 3], side: Option<BodySide>) -> DVec3 {
+    DVec3::new(x * side.map_or(1.0, BodySide::side_sign), y, z) / 100.0
 }
 
 /// Returns the order of the rotation channels of a joint.
@@ -104,9 +104,9 @@ fn placed([x, y, z]: [f64; 3], side: Option<Side>) -> DVec3 {
 /// A forearm rotates about its length (X) by more than a right angle, which the middle axis cannot represent; with X as
 /// the last axis its angles never jump.
 pub(crate) fn rotation_order(joint: &str) -> RotationOrder {
-    let turned = RotationOrder::new([Axis::Y, Axis::Z, Axis::X]);
+    let turned = RotationOrder::new([SpaceAxis::Y, SpaceAxis::Z, SpaceAxis::X]);
     match turned {
         Some(order) if joint.ends_with("ForeArm") => order,
-        _ => RotationOrder::ZXY,
+        _ => RotationOrder::ZXY_ORDER,
     }
 }

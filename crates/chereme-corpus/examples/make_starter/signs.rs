@@ -1,8 +1,8 @@
 //! The signs of the founding paper in HamNoSys, as plausible forms of LSF: approximations, not recorded from any
 //! signer.
 
-use chereme_motion::Side::{self, Left, Right};
-use chereme_sign::hamnosys::{Act, NonmanualPart, NonmanualPart as Of, Notated, parse};
+use chereme_motion::BodySide::{self, Left, Right};
+use chereme_sign::hamnosys::{NonmanualAct, NonmanualPart, NonmanualPart as Of, NotatedSign, parse_hamnosys};
 use chereme_sign::inventory::{InventoryValue, builtin_by_id};
 
 use super::notes::{DIRECTION, MOVEMENT, PLACEMENT};
@@ -26,7 +26,7 @@ pub(crate) struct Sign {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Finer(
     pub(crate) usize,
-    pub(crate) Option<Side>,
+    pub(crate) Option<BodySide>,
     pub(crate) &'static [&'static str],
 );
 
@@ -34,33 +34,25 @@ impl Sign {
     /// Returns the names of its symbols.
     pub(crate) fn hamnosys(&self) -> String {
         let names = self.symbols.split_whitespace();
-        names
-            .map(|name| format!("ham{name}"))
-            .collect::<Vec<_>>()
-            .join(" ")
+        names.map(|name| format!("ham{name}")).collect::<Vec<_>>().join(" ")
     }
 
     /// Returns the sign in the form for the animator.
-    pub(crate) fn notated(&self) -> Notated {
-        let read = parse(&self.hamnosys());
+    pub(crate) fn notated(&self) -> NotatedSign {
+        let read = parse_hamnosys(&self.hamnosys());
         let read = read.unwrap_or_else(|error| panic!("{}: {error}", self.gloss));
-        assert!(
-            read.findings.is_empty(),
-            "{}: {:?}",
-            self.gloss,
-            read.findings
-        );
-        let mut notated = Notated {
+        assert!(read.findings.is_empty(), "{}: {:?}", self.gloss, read.findings);
+        let mut notated = NotatedSign {
             gloss: self.gloss.clone(),
             sign: read.sign,
-            ..Notated::default()
+            ..NotatedSign::default()
         };
         for &(part, code, amount) in self.acts {
-            let act = Act {
+            let act = NonmanualAct {
                 amount: Some(amount),
-                ..Act::new(part, code)
+                ..NonmanualAct::new(part, code)
             };
-            notated.nonmanual.push(part.tier(), vec![act]);
+            notated.nonmanual.push_act_group(part.sigml_tier(), vec![act]);
         }
         notated
     }
@@ -287,7 +279,7 @@ fn letter(value: &'static InventoryValue) -> Option<Sign> {
     };
     let place = [height, "hamlrbeside"];
     let symbols = [posture, &place, action].concat().join(" ");
-    let means = ["fr", "en"].map(|language| value.name(language));
+    let means = ["fr", "en"].map(|language| value.value_name_in(language));
     let symbols: &'static str = symbols.replace("ham", "").leak();
     let finer: &[Finer] = match value.id.as_str() {
         "J" => &[Finer(MOVEMENT, Some(Right), &["arc"])],

@@ -30,19 +30,10 @@ pub(crate) fn takes() -> Vec<Take> {
         seed: 0,
     };
     let single = |stem, about, sign| take(stem, about, vec![sign]);
-    let phrase = vec![
-        signs::chien(),
-        signs::bol(),
-        signs::donner(),
-        signs::aimer(),
-    ];
+    let phrase = vec![signs::chien(), signs::bol(), signs::donner(), signs::aimer()];
     let mut takes = vec![
         single("aimer", "the sign AIMER", signs::aimer()),
-        take(
-            "animaux",
-            "paws of three animals, both hands held",
-            signs::paws(),
-        ),
+        take("animaux", "paws of three animals, both hands held", signs::paws()),
         single("bol", "the sign BOL", signs::bol()),
         single("chat", "the cat's walk", signs::chat()),
         single("chien", "the sign CHIEN", signs::chien()),

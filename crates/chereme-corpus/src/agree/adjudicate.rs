@@ -2,29 +2,29 @@
 
 use std::collections::BTreeMap;
 
-use chereme_analysis::agreement::gamma::Costs;
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
+use chereme_analysis::agreement::gamma::AlignmentCosts;
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
 use serde::Serialize;
 
-use super::disagreements::{Distances, groups};
-use super::figures::sides;
-use super::{AgreeOptions, tiers};
+use super::agree_figures::annotator_units;
+use super::disagreements::{ValueDistances, aligned_unit_groups};
+use super::{AgreeOptions, agree_tiers};
 use crate::Corpus;
-use crate::address::Name;
+use crate::address::RowName;
 use crate::annotate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, NewTier, TierName, Values, write_tiers,
+    AnnotateOptions, AnnotationAction, AnnotationChange, NewTier, TierRequestName, TierValueSource, write_tiers,
 };
 use crate::db::edits;
-use crate::db::tiers::{self as rows, AnnotationRow};
-use crate::error::{Error, Result};
+use crate::db::stored_tiers::{self as rows, AnnotationRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::merge::keep_annotation;
-use crate::progress::Progress;
+use crate::progress::ProgressReceiver;
 use crate::words::effect::OperationEffect;
 
 /// The result of an adjudication.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Adjudicated {
+pub struct AdjudicationResult {
     /// The name of the third tier.
     pub tier: String,
     /// The recordings that got it.
@@ -36,7 +36,7 @@ pub struct Adjudicated {
 }
 
 /// One recording of an adjudication: the tier, its annotations, and the candidates.
-struct Third {
+struct AdjudicatedRecording {
     recording: i64,
     name: String,
     tier: NewTier,
@@ -49,83 +49,85 @@ struct Third {
 impl Corpus {
     /// Writes a third tier below the others of each recording: aligned units with equal values whose starts and ends lie
     /// within the tolerance, with the span of the first annotator; and the first annotator's version of each
-    /// disagreement, which stays until [`decide`](Self::decide) is called. Each disagreement is a conflict:
+    /// disagreement, which stays until [`decide_conflicts`](Self::decide_conflicts) is called. Each disagreement is a conflict:
     /// `mine` is the first annotator's version, `theirs` the second's, whose boundaries are the first's where they lie within
     /// the tolerance. All of it is one operation.
     ///
     /// # Errors
-    /// Those of [`agree`](Self::agree); fails if a recording has a tier of that name already.
-    pub fn adjudicate(
+    /// Those of [`agree`](Self::compare_annotators); fails if a recording has a tier of that name already.
+    pub fn adjudicate_tiers(
         &mut self,
         options: &AgreeOptions,
         into: &str,
-        progress: &mut Progress<'_>,
-    ) -> Result<Adjudicated> {
-        options.check()?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AdjudicationResult> {
+        options.check_agree_options()?;
         let into = into.trim();
         let (all, mut report) = self.third_tiers(options, into)?;
-        self.store
-            .operation_with_progress(progress, |connection, progress| {
-                edits::defer_references(connection)?;
-                for third in &all {
-                    let written = AnnotateOptions::default();
-                    let work = (third.changes.as_slice(), &written);
-                    write_tiers(
-                        connection,
-                        std::slice::from_ref(&third.tier),
-                        work,
-                        progress,
-                    )?;
-                    let tiers = rows::tiers(connection, third.recording)?;
-                    let Some(tier) = tiers.iter().find(|it| it.name == third.tier.name) else {
-                        continue;
-                    };
-                    let placed = rows::annotations(connection, tier.id)?;
-                    let placed: BTreeMap<i64, i64> =
-                        placed.iter().map(|it| (it.start_us, it.id)).collect();
-                    for (mine, theirs) in &third.open {
-                        let mine = mine.and_then(|start| placed.get(&start).copied());
-                        let theirs = theirs.as_ref().map(|row| AnnotationRow {
-                            tier_id: tier.id,
-                            ..row.clone()
-                        });
-                        keep_annotation(connection, &third.from, mine, theirs.as_ref())?;
-                    }
+        self.store.operation_with_progress(progress, |connection, progress| {
+            edits::defer_references(connection)?;
+            for third in &all {
+                let written = AnnotateOptions::default();
+                let work = (third.changes.as_slice(), &written);
+                write_tiers(connection, std::slice::from_ref(&third.tier), work, progress)?;
+                let tiers = rows::load_tier_rows(connection, third.recording)?;
+                let Some(tier) = tiers.iter().find(|tier| tier.name == third.tier.name) else {
+                    continue;
+                };
+                let placed = rows::load_tier_annotation_rows(connection, tier.id)?;
+                let placed: BTreeMap<i64, i64> = placed
+                    .iter()
+                    .map(|annotation| (annotation.start_us, annotation.id))
+                    .collect();
+                for (mine, theirs) in &third.open {
+                    let mine = mine.and_then(|start| placed.get(&start).copied());
+                    let theirs = theirs.as_ref().map(|row| AnnotationRow {
+                        tier_id: tier.id,
+                        ..row.clone()
+                    });
+                    keep_annotation(connection, &third.from, mine, theirs.as_ref())?;
                 }
-                report.recordings = all.iter().map(|it| it.name.clone()).collect();
-                let tier = into.to_owned();
-                Ok((report, OperationEffect::Adjudicate { tier }))
-            })
+            }
+            report.recordings = all.iter().map(|recording| recording.name.clone()).collect();
+            let tier = into.to_owned();
+            Ok((report, OperationEffect::Adjudicate { tier }))
+        })
     }
 
     /// Returns the third tier of each recording, with the counts over all.
-    fn third_tiers(&self, options: &AgreeOptions, into: &str) -> Result<(Vec<Third>, Adjudicated)> {
-        let coded = tiers::read(self, options)?;
+    fn third_tiers(
+        &self,
+        options: &AgreeOptions,
+        into: &str,
+    ) -> CorpusResult<(Vec<AdjudicatedRecording>, AdjudicationResult)> {
+        let coded = agree_tiers::read_tier_pairs(self, options)?;
         let inventories = self.inventories_now()?;
-        let distances = Distances::of(&coded);
-        let distance = |a: usize, b: usize| distances.between(a, b);
-        let costs = Costs {
+        let distances = ValueDistances::distances_of_coded(&coded);
+        let distance = |a: usize, b: usize| distances.distance_between_values(a, b);
+        let costs = AlignmentCosts {
             distance: Some(&distance),
-            ..Costs::default()
+            ..AlignmentCosts::default()
         };
-        let mut report = Adjudicated {
+        let mut report = AdjudicationResult {
             tier: into.to_owned(),
-            ..Adjudicated::default()
+            ..AdjudicationResult::default()
         };
-        let mut all: Vec<Third> = Vec::new();
+        let mut all: Vec<AdjudicatedRecording> = Vec::new();
         for pair in &coded.pairs {
             if pair.a.recording_id != pair.b.recording_id {
-                return Err(Error::wrong("the two tiers belong to different recordings")
-                    .at(format!("tier:{}", pair.b.id))
-                    .advise("copy one of them to the recording of the other, then adjudicate"));
+                return Err(
+                    CorpusError::from_wrong_message("the two tiers belong to different recordings")
+                        .with_error_place(format!("tier:{}", pair.b.id))
+                        .with_advice("copy one of them to the recording of the other, then adjudicate"),
+                );
             }
-            if all.iter().any(|it| it.recording == pair.recording.id) {
-                return Err(Error::wrong(format!(
+            if all.iter().any(|other| other.recording == pair.recording.id) {
+                return Err(CorpusError::from_wrong_message(format!(
                     "several pairs of tiers of {:?} would go onto the tier {into:?}",
                     pair.recording.name
                 ))
-                .at(pair.recording.name.as_str())
-                .advise("name one pair of tiers"));
+                .with_error_place(pair.recording.name.as_str())
+                .with_advice("name one pair of tiers"));
             }
             let is_instant = |row: &&AnnotationRow| row.start_us >= row.end_us;
             for (tier, rows) in [&pair.a, &pair.b].into_iter().zip(&pair.annotations) {
@@ -135,27 +137,28 @@ impl Corpus {
                         row.value,
                         row.start_us as f64 * 1e-6
                     );
-                    return Err(Error::wrong(message)
-                        .at(format!("{}, {}", pair.recording.name, tier.name))
-                        .advise("give it an end after its start, or delete it, then adjudicate"));
+                    return Err(CorpusError::from_wrong_message(message)
+                        .with_error_place(format!("{}, {}", pair.recording.name, tier.name))
+                        .with_advice("give it an end after its start, or delete it, then adjudicate"));
                 }
             }
-            let recording = Name::Number(pair.recording.id);
+            let recording = RowName::Number(pair.recording.id);
             let mut tier = NewTier::new(recording.clone(), into, pair.a.role.clone());
             tier.hand = pair.a.hand;
-            tier.values = Values::Free;
+            tier.values = TierValueSource::Free;
             let stored = inventories
                 .iter()
-                .find(|it| Some(it.id) == pair.a.inventory_id);
+                .find(|candidate| Some(candidate.id) == pair.a.inventory_id);
             let has = |row: &AnnotationRow| {
-                !row.is_filled() || stored.is_some_and(|it| it.inventory.find(&row.value).is_some())
+                !row.is_filled()
+                    || stored.is_some_and(|inventory| inventory.inventory.find_inventory_value(&row.value).is_some())
             };
             if let Some(stored) = stored.filter(|_| pair.annotations.iter().flatten().all(has)) {
-                tier.values = Values::Inventory(stored.inventory.id.clone());
+                tier.values = TierValueSource::Inventory(stored.inventory.id.clone());
             }
             tier.participant.clone_from(&pair.a.participant);
             tier.language.clone_from(&pair.a.language);
-            let mut third = Third {
+            let mut third = AdjudicatedRecording {
                 recording: pair.recording.id,
                 name: pair.recording.name.clone(),
                 tier,
@@ -163,23 +166,20 @@ impl Corpus {
                 open: Vec::new(),
                 from: pair.b.name.clone(),
             };
-            let name = TierName::Of {
+            let name = TierRequestName::Of {
                 recording,
                 tier: into.to_owned(),
             };
-            let (first, second) = sides(&pair.continuum);
-            for group in groups(pair, &costs).0 {
-                let [a, b] = [
-                    group.first().copied().flatten(),
-                    group.get(1).copied().flatten(),
-                ];
+            let (first, second) = annotator_units(&pair.continuum);
+            for group in aligned_unit_groups(pair, &costs).0 {
+                let [a, b] = [group.first().copied().flatten(), group.get(1).copied().flatten()];
                 let mine = a.map(|at| &pair.annotations[0][at]);
                 let theirs = b.map(|at| &pair.annotations[1][at]);
                 if let Some(row) = mine {
-                    third.changes.push(added(name.clone(), row));
+                    third.changes.push(added_annotation_change(name.clone(), row));
                 }
                 let moved = match (mine, theirs) {
-                    (Some(mine), Some(theirs)) => apart(mine, theirs) > options.tolerance_us,
+                    (Some(mine), Some(theirs)) => annotation_boundary_gap(mine, theirs) > options.tolerance_us,
                     _ => true,
                 };
                 let is_equal = match (a, b) {
@@ -193,10 +193,10 @@ impl Corpus {
                 report.conflicts += 1;
                 let span = |row: &AnnotationRow| match mine {
                     Some(mine) if !moved => (mine.start_us, mine.end_us),
-                    _ => clipped(row, &pair.annotations[0], a, options.tolerance_us),
+                    _ => clip_second_annotation(row, &pair.annotations[0], a, options.tolerance_us),
                 };
-                let theirs = theirs.map(|row| candidate(row, span(row)));
-                third.open.push((mine.map(|it| it.start_us), theirs));
+                let theirs = theirs.map(|row| disagreement_candidate(row, span(row)));
+                third.open.push((mine.map(|annotation| annotation.start_us), theirs));
             }
             all.push(third);
         }
@@ -205,22 +205,20 @@ impl Corpus {
 }
 
 /// Returns how far the starts or the ends of two annotations lie apart, in microseconds.
-fn apart(a: &AnnotationRow, b: &AnnotationRow) -> i64 {
-    (a.start_us - b.start_us)
-        .abs()
-        .max((a.end_us - b.end_us).abs())
+fn annotation_boundary_gap(a: &AnnotationRow, b: &AnnotationRow) -> i64 {
+    (a.start_us - b.start_us).abs().max((a.end_us - b.end_us).abs())
 }
 
 /// Returns the span of the second annotator's annotation, clipped where it reaches into an annotation of the first by no
 /// more than the tolerance: their boundary counts as the same one. Its own counterpart does not clip it.
-fn clipped(
+fn clip_second_annotation(
     row: &AnnotationRow,
     first: &[AnnotationRow],
     counterpart: Option<usize>,
     tolerance: i64,
 ) -> (i64, i64) {
     let (mut start, mut end) = (row.start_us, row.end_us);
-    let from = first.partition_point(|it| it.end_us <= row.start_us);
+    let from = first.partition_point(|other| other.end_us <= row.start_us);
     for (at, other) in first.iter().enumerate().skip(from) {
         if other.start_us >= row.end_us {
             break;
@@ -242,7 +240,7 @@ fn clipped(
 }
 
 /// Returns the second annotator's version of a disagreement, without its ties to its own tier.
-fn candidate(row: &AnnotationRow, (start_us, end_us): (i64, i64)) -> AnnotationRow {
+fn disagreement_candidate(row: &AnnotationRow, (start_us, end_us): (i64, i64)) -> AnnotationRow {
     AnnotationRow {
         start_us,
         end_us,
@@ -256,8 +254,8 @@ fn candidate(row: &AnnotationRow, (start_us, end_us): (i64, i64)) -> AnnotationR
     }
 }
 
-fn added(tier: TierName, row: &AnnotationRow) -> AnnotationChange {
-    let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+fn added_annotation_change(tier: TierRequestName, row: &AnnotationRow) -> AnnotationChange {
+    let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
     AnnotationAction::Add {
         tier,
         start: time(row.start_us),

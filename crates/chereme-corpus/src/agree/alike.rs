@@ -3,15 +3,15 @@
 use std::collections::BTreeSet;
 
 use chereme_sign::TierRole;
-use chereme_sign::text::fold;
+use chereme_sign::text::fold_text;
 
 use crate::contents::TierContents;
-use crate::db::tiers::TierRow;
+use crate::db::stored_tiers::TierRow;
 
 /// The fewest letters that two names must share to be alike.
-const SHARED: usize = 3;
+const MIN_SHARED_LETTERS: usize = 3;
 /// The least score of a proposal: names alike, or two annotators, or a role that both have.
-const LEAST: f64 = 2.0;
+const MIN_PROPOSAL_SCORE: f64 = 2.0;
 
 /// Returns the two tiers of a recording that most probably code the same thing, in their order; nothing if no two do.
 ///
@@ -21,10 +21,10 @@ const LEAST: f64 = 2.0;
 pub fn alike_tiers(tiers: &[TierContents]) -> Option<[i64; 2]> {
     let filled: Vec<(&TierRow, BTreeSet<&str>)> = tiers
         .iter()
-        .filter(|it| !it.annotations.is_empty())
-        .map(|it| {
-            let values = it.annotations.values.iter().map(AsRef::as_ref);
-            (&it.row, values.filter(|it| !it.is_empty()).collect())
+        .filter(|tier| !tier.annotations.is_empty())
+        .map(|tier| {
+            let values = tier.annotations.values.iter().map(AsRef::as_ref);
+            (&tier.row, values.filter(|value| !value.is_empty()).collect())
         })
         .collect();
     let mut best: Option<(f64, [i64; 2])> = None;
@@ -33,9 +33,9 @@ pub fn alike_tiers(tiers: &[TierContents]) -> Option<[i64; 2]> {
             if !may_be_compared(a, b) {
                 continue;
             }
-            let found = score(a, b) + 3.0 * common(of_a, of_b);
-            if score(a, b) >= LEAST && best.is_none_or(|(most, _)| found > most) {
-                best = Some((found, [a.id, b.id]));
+            let pair_score = tier_pair_score(a, b) + 3.0 * common_value_share(of_a, of_b);
+            if tier_pair_score(a, b) >= MIN_PROPOSAL_SCORE && best.is_none_or(|(most, _)| pair_score > most) {
+                best = Some((pair_score, [a.id, b.id]));
             }
         }
     }
@@ -46,12 +46,12 @@ pub fn alike_tiers(tiers: &[TierContents]) -> Option<[i64; 2]> {
 fn may_be_compared(a: &TierRow, b: &TierRow) -> bool {
     let may_be_same = |a: &Option<String>, b: &Option<String>| match (a, b) {
         (Some(a), Some(b)) => {
-            let (a, b) = (fold(a.trim()), fold(b.trim()));
+            let (a, b) = (fold_text(a.trim()), fold_text(b.trim()));
             a == b || a.is_empty() || b.is_empty()
         }
         _ => true,
     };
-    a.topic() == b.topic()
+    a.tier_topic() == b.tier_topic()
         && may_be_same(&a.participant, &b.participant)
         && may_be_same(&a.language, &b.language)
         && a.parent_id != Some(b.id)
@@ -59,8 +59,8 @@ fn may_be_compared(a: &TierRow, b: &TierRow) -> bool {
 }
 
 /// Returns how much the descriptions of two tiers speak for a pair.
-fn score(a: &TierRow, b: &TierRow) -> f64 {
-    let annotator = |it: &TierRow| fold(it.annotator.as_deref().unwrap_or_default().trim());
+fn tier_pair_score(a: &TierRow, b: &TierRow) -> f64 {
+    let annotator = |tier: &TierRow| fold_text(tier.annotator.as_deref().unwrap_or_default().trim());
     let (one, other) = (annotator(a), annotator(b));
     let two_people = !one.is_empty() && !other.is_empty() && one != other;
     let mut score = 0.0;
@@ -76,18 +76,18 @@ fn score(a: &TierRow, b: &TierRow) -> f64 {
 
 /// Returns whether two names differ in one part only, which is no longer than what they share.
 fn names_are_alike(a: &str, b: &str) -> bool {
-    let (a, b): (Vec<char>, Vec<char>) = (fold(a).chars().collect(), fold(b).chars().collect());
-    let same = |it: &(&char, &char)| it.0 == it.1;
+    let (a, b): (Vec<char>, Vec<char>) = (fold_text(a).chars().collect(), fold_text(b).chars().collect());
+    let same = |pair: &(&char, &char)| pair.0 == pair.1;
     let before = a.iter().zip(&b).take_while(same).count();
     let rest = a.len().min(b.len()) - before;
-    let after = a.iter().rev().zip(b.iter().rev()).take(rest);
-    let after = after.take_while(same).count();
+    let ending_pairs = a.iter().rev().zip(b.iter().rev()).take(rest);
+    let after = ending_pairs.take_while(same).count();
     let shared = before + after;
-    shared >= SHARED && 2 * shared >= a.len().max(b.len())
+    shared >= MIN_SHARED_LETTERS && 2 * shared >= a.len().max(b.len())
 }
 
 /// Returns the share of values that both have among all values.
-fn common(a: &BTreeSet<&str>, b: &BTreeSet<&str>) -> f64 {
+fn common_value_share(a: &BTreeSet<&str>, b: &BTreeSet<&str>) -> f64 {
     match a.union(b).count() {
         0 => 0.0,
         all => a.intersection(b).count() as f64 / all as f64,
@@ -98,7 +98,7 @@ fn common(a: &BTreeSet<&str>, b: &BTreeSet<&str>) -> f64 {
 mod tests {
     use super::*;
     use crate::contents::AnnotationColumns;
-    use crate::{Hands, ValueState};
+    use crate::{AnnotatedHands, ValueState};
     use chereme_sign::HandRef;
 
     /// Returns a tier with an annotation of each value.
@@ -144,8 +144,7 @@ mod tests {
 
     #[test]
     fn the_pair_that_codes_the_same_is_proposed() {
-        let annotator =
-            |name: &'static str| move |it: &mut TierRow| it.annotator = Some(name.to_owned());
+        let annotator = |name: &'static str| move |it: &mut TierRow| it.annotator = Some(name.to_owned());
         let gloss = |it: &mut TierRow| it.role = TierRole::Gloss;
         // Names, annotators and roles each suffice.
         let names = [
@@ -159,10 +158,7 @@ mod tests {
             tier(2, "other", &["CAT"], annotator("Ben")),
         ];
         assert_eq!(alike_tiers(&people), Some([1, 2]));
-        let roles = [
-            tier(1, "x", &["CAT"], gloss),
-            tier(2, "other", &["DOG"], gloss),
-        ];
+        let roles = [tier(1, "x", &["CAT"], gloss), tier(2, "other", &["DOG"], gloss)];
         assert_eq!(alike_tiers(&roles), Some([1, 2]));
         // Common values decide between several pairs.
         let several = [
@@ -175,10 +171,8 @@ mod tests {
 
     #[test]
     fn other_hands_people_languages_and_empty_tiers_are_no_pair() {
-        let hand =
-            |hand| move |it: &mut TierRow| (it.role, it.hand) = (TierRole::Gloss, Some(hand));
-        let person =
-            |name: &'static str| move |it: &mut TierRow| it.participant = Some(name.to_owned());
+        let hand = |hand| move |it: &mut TierRow| (it.role, it.hand) = (TierRole::Gloss, Some(hand));
+        let person = |name: &'static str| move |it: &mut TierRow| it.participant = Some(name.to_owned());
         let language = |name: &'static str| {
             move |it: &mut TierRow| {
                 (it.role, it.language) = (TierRole::Translation, Some(name.to_owned()));
@@ -188,8 +182,8 @@ mod tests {
         for (what, one, other) in [
             (
                 "hands",
-                tier(1, "Gloss R", &["A"], hand(Hands::One(HandRef::Right))),
-                tier(2, "Gloss L", &["A"], hand(Hands::One(HandRef::Left))),
+                tier(1, "Gloss R", &["A"], hand(AnnotatedHands::One(HandRef::Right))),
+                tier(2, "Gloss L", &["A"], hand(AnnotatedHands::One(HandRef::Left))),
             ),
             (
                 "people",

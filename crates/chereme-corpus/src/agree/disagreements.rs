@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
 
-use chereme_analysis::agreement::gamma::{Aligned, Costs, align};
-use chereme_analysis::agreement::matching::{SHARE, matched};
+use chereme_analysis::agreement::gamma::{AlignedUnits, AlignmentCosts, align_continuum};
+use chereme_analysis::agreement::matching::{DEFAULT_OVERLAP_SHARE, match_overlapping_units};
 use serde::Serialize;
 
-use super::figures::sides;
-use super::tiers::{Coded, TierPair};
-use super::{AgreeOptions, Agreement};
-use crate::db::tiers::AnnotationRow;
-use crate::error::{Error, Result};
+use super::agree_figures::annotator_units;
+use super::agree_tiers::{CodedTierPairs, TierPair};
+use super::{AgreeOptions, AnnotatorAgreement};
+use crate::db::stored_tiers::AnnotationRow;
+use crate::error::{CorpusError, CorpusResult};
 use crate::picture;
 
 /// The kind of a disagreement.
@@ -32,7 +32,7 @@ pub enum DisagreementKind {
 impl DisagreementKind {
     /// Returns the word of the kind in files and tables.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn disagreement_kind_name(self) -> &'static str {
         match self {
             Self::OnlyA => "only-a",
             Self::OnlyB => "only-b",
@@ -70,7 +70,7 @@ pub struct DisagreementSide {
 
 /// A disagreement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Disagreement {
+pub struct ValueDisagreement {
     /// The recording's name.
     pub recording: String,
     /// The recording's number.
@@ -94,20 +94,20 @@ pub struct Disagreement {
 /// The distances of values: those of features for handshapes, otherwise 1.
 ///
 /// The weights are which fingers 2, bend 1, thumb 1, spread ½, in the words of the house inventory of handshapes.
-pub(super) struct Distances {
+pub(super) struct ValueDistances {
     parts: Option<Vec<Option<[BTreeSet<String>; 4]>>>,
 }
 
-const WEIGHTS: [f64; 4] = [2.0, 1.0, 1.0, 0.5];
-const FINGERS: [&str; 4] = ["index", "middle", "ring", "little"];
+const HANDSHAPE_FEATURE_WEIGHTS: [f64; 4] = [2.0, 1.0, 1.0, 0.5];
+const HANDSHAPE_FINGER_NAMES: [&str; 4] = ["index", "middle", "ring", "little"];
 
-impl Distances {
-    pub(super) fn of(coded: &Coded) -> Self {
+impl ValueDistances {
+    pub(super) fn distances_of_coded(coded: &CodedTierPairs) -> Self {
         let parts = |features: &BTreeSet<String>| {
             let mut parts: [BTreeSet<String>; 4] = Default::default();
             for feature in features {
                 let part = match feature.as_str() {
-                    it if FINGERS.contains(&it) => 0,
+                    it if HANDSHAPE_FINGER_NAMES.contains(&it) => 0,
                     it if it.starts_with("thumb") => 2,
                     "spread" | "together" => 3,
                     _ => 1,
@@ -117,37 +117,32 @@ impl Distances {
             (!features.is_empty()).then_some(parts)
         };
         Self {
-            parts: coded
-                .are_handshapes
-                .then(|| coded.features.iter().map(parts).collect()),
+            parts: coded.are_handshapes.then(|| coded.features.iter().map(parts).collect()),
         }
     }
 
     /// Returns the distance of two values, from 0 to 1.
-    pub(super) fn between(&self, a: usize, b: usize) -> f64 {
+    pub(super) fn distance_between_values(&self, a: usize, b: usize) -> f64 {
         let of = |value: usize| self.parts.as_ref()?.get(value)?.as_ref();
         let (Some(one), Some(other)) = (of(a), of(b)) else {
             return f64::from(u8::from(a != b));
         };
-        let parts = one.iter().zip(other).zip(WEIGHTS);
-        let differ: f64 = parts
-            .filter(|((a, b), _)| a != b)
-            .map(|(_, weight)| weight)
-            .sum();
+        let parts = one.iter().zip(other).zip(HANDSHAPE_FEATURE_WEIGHTS);
+        let differ: f64 = parts.filter(|((a, b), _)| a != b).map(|(_, weight)| weight).sum();
         // Two values with equal features are two values all the same.
         let least = f64::from(u8::from(a != b)) * 0.1;
-        (differ / WEIGHTS.iter().sum::<f64>()).max(least)
+        (differ / HANDSHAPE_FEATURE_WEIGHTS.iter().sum::<f64>()).max(least)
     }
 }
 
 /// Returns the units that belong together, and whether gamma's alignment found them; if too many units overlap to be
 /// aligned, they are matched by overlap.
-pub(super) fn groups(pair: &TierPair, costs: &Costs<'_>) -> (Vec<Aligned>, bool) {
-    if let Ok(found) = align(&pair.continuum, costs) {
+pub(super) fn aligned_unit_groups(pair: &TierPair, costs: &AlignmentCosts<'_>) -> (Vec<AlignedUnits>, bool) {
+    if let Ok(found) = align_continuum(&pair.continuum, costs) {
         return (found.groups, true);
     }
-    let (first, second) = sides(&pair.continuum);
-    let pairs = matched(first, second, SHARE);
+    let (first, second) = annotator_units(&pair.continuum);
+    let pairs = match_overlapping_units(first, second, DEFAULT_OVERLAP_SHARE);
     let (mut of_a, mut of_b) = (vec![false; first.len()], vec![false; second.len()]);
     let mut groups = Vec::new();
     for (a, b) in pairs {
@@ -162,20 +157,20 @@ pub(super) fn groups(pair: &TierPair, costs: &Costs<'_>) -> (Vec<Aligned>, bool)
 
 /// Returns the disagreements, the costliest first, then by recording and time; adds a finding for each recording whose
 /// units are matched by overlap.
-pub(super) fn list(
-    coded: &Coded,
-    distances: &Distances,
+pub(super) fn list_disagreements(
+    coded: &CodedTierPairs,
+    distances: &ValueDistances,
     options: &AgreeOptions,
     findings: &mut Vec<String>,
-) -> Vec<Disagreement> {
-    let distance = |a: usize, b: usize| distances.between(a, b);
-    let costs = Costs {
+) -> Vec<ValueDisagreement> {
+    let distance = |a: usize, b: usize| distances.distance_between_values(a, b);
+    let costs = AlignmentCosts {
         distance: Some(&distance),
-        ..Costs::default()
+        ..AlignmentCosts::default()
     };
     let mut all = Vec::new();
     for pair in &coded.pairs {
-        let (groups, aligned) = groups(pair, &costs);
+        let (groups, aligned) = aligned_unit_groups(pair, &costs);
         if !aligned {
             findings.push(format!(
                 "too many units of {:?} overlap to be aligned: its disagreements are those of units matched by overlap",
@@ -188,26 +183,19 @@ pub(super) fn list(
     }
     all.sort_by(|a, b| {
         let costlier = b.cost.total_cmp(&a.cost);
-        costlier.then((a.recording_id, a.start_us, a.kind).cmp(&(
-            b.recording_id,
-            b.start_us,
-            b.kind,
-        )))
+        costlier.then((a.recording_id, a.start_us, a.kind).cmp(&(b.recording_id, b.start_us, b.kind)))
     });
     all
 }
 
 fn disagreement(
     pair: &TierPair,
-    group: &Aligned,
-    coded: &Coded,
-    (costs, options): (&Costs<'_>, &AgreeOptions),
-) -> Option<Disagreement> {
-    let (first, second) = sides(&pair.continuum);
-    let [a, b] = [
-        group.first().copied().flatten(),
-        group.get(1).copied().flatten(),
-    ];
+    group: &AlignedUnits,
+    coded: &CodedTierPairs,
+    (costs, options): (&AlignmentCosts<'_>, &AgreeOptions),
+) -> Option<ValueDisagreement> {
+    let (first, second) = annotator_units(&pair.continuum);
+    let [a, b] = [group.first().copied().flatten(), group.get(1).copied().flatten()];
     let rows = [
         a.map(|at| &pair.annotations[0][at]),
         b.map(|at| &pair.annotations[1][at]),
@@ -215,11 +203,9 @@ fn disagreement(
     let (kind, cost) = match (a, b) {
         (Some(a), Some(b)) => {
             let (one, two) = (&first[a], &second[b]);
-            let cost = costs.pair(one, two);
+            let cost = costs.unit_pair_cost(one, two);
             let [from, to]: [&AnnotationRow; 2] = [rows[0]?, rows[1]?];
-            let apart = (from.start_us - to.start_us)
-                .abs()
-                .max((from.end_us - to.end_us).abs());
+            let apart = (from.start_us - to.start_us).abs().max((from.end_us - to.end_us).abs());
             match one.value == two.value {
                 false => (DisagreementKind::Value, cost),
                 true if apart > options.tolerance_us => (DisagreementKind::Boundary, cost),
@@ -230,8 +216,7 @@ fn disagreement(
         (None, Some(_)) => (DisagreementKind::OnlyB, costs.alone),
         (None, None) => return None,
     };
-    let value =
-        |units: &[chereme_analysis::agreement::Unit], at: Option<usize>| Some(units[at?].value);
+    let value = |units: &[chereme_analysis::agreement::AnnotatedUnit], at: Option<usize>| Some(units[at?].value);
     let values = [value(first, a), value(second, b)];
     let side = |row: Option<&AnnotationRow>, value: Option<usize>| {
         let row = row?;
@@ -250,13 +235,13 @@ fn disagreement(
         _ => Vec::new(),
     };
     let both = || rows.iter().flatten();
-    Some(Disagreement {
+    Some(ValueDisagreement {
         recording: pair.recording.name.clone(),
         recording_id: pair.recording.id,
         kind,
         cost: (cost * 1e6).round() / 1e6,
-        start_us: both().map(|it| it.start_us).min()?,
-        end_us: both().map(|it| it.end_us).max()?,
+        start_us: both().map(|row| row.start_us).min()?,
+        end_us: both().map(|row| row.end_us).max()?,
         a: side(rows[0], values[0]),
         b: side(rows[1], values[1]),
         differs,
@@ -264,8 +249,8 @@ fn disagreement(
 }
 
 /// Returns how many disagreements of each kind a list has.
-pub(super) fn tally(list: &[Disagreement]) -> DisagreementCounts {
-    let count = |kind| list.iter().filter(|it| it.kind == kind).count() as u64;
+pub(super) fn count_disagreement_kinds(list: &[ValueDisagreement]) -> DisagreementCounts {
+    let count = |kind| list.iter().filter(|entry| entry.kind == kind).count() as u64;
     DisagreementCounts {
         only_a: count(DisagreementKind::OnlyA),
         only_b: count(DisagreementKind::OnlyB),
@@ -274,7 +259,7 @@ pub(super) fn tally(list: &[Disagreement]) -> DisagreementCounts {
     }
 }
 
-const TITLES: [&str; 12] = [
+const DISAGREEMENT_COLUMN_TITLES: [&str; 12] = [
     "recording",
     "kind",
     "cost",
@@ -289,35 +274,37 @@ const TITLES: [&str; 12] = [
     "annotation_b",
 ];
 
-impl Agreement {
+impl AnnotatorAgreement {
     /// Writes the disagreements as a table of comma-separated values; `onset_s` and `offset_s` are the times of the
     /// second less those of the first.
     ///
     /// # Errors
-    /// [`Error::File`] if the file exists and `force` is not set, or if it cannot be written.
-    pub fn write_disagreements(&self, to: &Path, force: bool) -> Result<()> {
-        let bytes = table(&self.list)?;
-        picture::write(to, force, |out| {
+    /// [`CorpusError::File`] if the file exists and `force` is not set, or if it cannot be written.
+    pub fn write_disagreements(&self, to: &Path, force: bool) -> CorpusResult<()> {
+        let bytes = disagreement_table(&self.list)?;
+        picture::write_atomically(to, force, |out| {
             out.write_all(&bytes)
-                .map_err(|error| Error::file(to, error))
+                .map_err(|error| CorpusError::from_file_failure(to, error))
         })
         .map(drop)
     }
 }
 
 /// Returns the disagreements as a table.
-fn table(list: &[Disagreement]) -> Result<Vec<u8>> {
+fn disagreement_table(list: &[ValueDisagreement]) -> CorpusResult<Vec<u8>> {
     let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
     let mut writer = ::csv::Writer::from_writer(Vec::new());
-    let fault = |error: ::csv::Error| Error::wrong(error.to_string());
-    writer.write_record(TITLES).map_err(fault)?;
+    let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
+    writer.write_record(DISAGREEMENT_COLUMN_TITLES).map_err(fault)?;
     for it in list {
         let value = |side: &Option<DisagreementSide>| {
-            side.as_ref().map(|it| it.value.clone()).unwrap_or_default()
+            side.as_ref()
+                .map(|known_side| known_side.value.clone())
+                .unwrap_or_default()
         };
         let number = |side: &Option<DisagreementSide>| {
             side.as_ref()
-                .map(|it| it.annotation.to_string())
+                .map(|known_side| known_side.annotation.to_string())
                 .unwrap_or_default()
         };
         let moved = |of: fn(&DisagreementSide) -> i64| match (&it.a, &it.b) {
@@ -326,14 +313,14 @@ fn table(list: &[Disagreement]) -> Result<Vec<u8>> {
         };
         let row = [
             it.recording.clone(),
-            it.kind.name().to_owned(),
+            it.kind.disagreement_kind_name().to_owned(),
             format!("{:.3}", it.cost),
             seconds(it.start_us),
             seconds(it.end_us),
             value(&it.a),
             value(&it.b),
-            moved(|it| it.start_us),
-            moved(|it| it.end_us),
+            moved(|side| side.start_us),
+            moved(|side| side.end_us),
             it.differs.join(" "),
             number(&it.a),
             number(&it.b),
@@ -342,5 +329,5 @@ fn table(list: &[Disagreement]) -> Result<Vec<u8>> {
     }
     writer
         .into_inner()
-        .map_err(|error| Error::wrong(error.to_string()))
+        .map_err(|error| CorpusError::from_wrong_message(error.to_string()))
 }

@@ -2,25 +2,25 @@
 //! of disagreements, and their adjudication on a third tier.
 
 mod adjudicate;
+mod agree_figures;
+mod agree_tiers;
 mod alike;
 mod disagreements;
-mod figures;
 #[cfg(test)]
 mod tests;
-mod tiers;
 
 use serde::Serialize;
 
-pub use adjudicate::Adjudicated;
+pub use adjudicate::AdjudicationResult;
+pub use agree_figures::{FigureInterval, MEASURE_NAMES, MeasureFigure, USUAL_MEASURES, ValueAgreement, ValueConfusion};
 pub use alike::alike_tiers;
-pub use disagreements::{Disagreement, DisagreementCounts, DisagreementKind, DisagreementSide};
-pub use figures::{Confusion, Figure, FigureInterval, MEASURES, USUAL_MEASURES, ValueAgreement};
+pub use disagreements::{DisagreementCounts, DisagreementKind, DisagreementSide, ValueDisagreement};
 
 use crate::Corpus;
-use crate::address::Name;
-use crate::error::{Error, Result};
-use crate::face::Quartiles;
-use crate::progress::Progress;
+use crate::address::RowName;
+use crate::error::{CorpusError, CorpusResult};
+use crate::face::NumberQuartiles;
+use crate::progress::ProgressReceiver;
 
 /// The fewest units on the fuller tier for which figures say something; with fewer, people see counts.
 pub const FEWEST_UNITS: u64 = 10;
@@ -34,8 +34,8 @@ pub struct AgreeOptions {
     /// The tiers of the second annotator, in the same form.
     pub b: String,
     /// Only this recording.
-    pub recording: Option<Name>,
-    /// The measures, of [`MEASURES`]; empty: all.
+    pub recording: Option<RowName>,
+    /// The measures, of [`MEASURE_NAMES`]; empty: all.
     pub measures: Vec<String>,
     /// The share of the longer unit that must overlap for a match, from 0.51 to 1.
     pub share: f64,
@@ -61,7 +61,7 @@ impl AgreeOptions {
             b: b.into(),
             recording: None,
             measures: Vec::new(),
-            share: chereme_analysis::agreement::matching::SHARE,
+            share: chereme_analysis::agreement::matching::DEFAULT_OVERLAP_SHARE,
             tolerance_us: 80_000,
             draws: 1000,
             samples: 30,
@@ -70,40 +70,42 @@ impl AgreeOptions {
         }
     }
 
-    fn check(&self) -> Result<()> {
-        let unknown = self.measures.iter();
-        let mut unknown = unknown.filter(|it| !MEASURES.contains(&it.as_str()));
+    fn check_agree_options(&self) -> CorpusResult<()> {
+        let measure_names = self.measures.iter();
+        let mut unknown = measure_names.filter(|name| !MEASURE_NAMES.contains(&name.as_str()));
         if let Some(unknown) = unknown.next() {
-            return Err(Error::wrong(format!("no measure is called {unknown:?}"))
-                .at(unknown.as_str())
-                .advise(format!("the measures are: {}", MEASURES.join(", "))));
+            return Err(
+                CorpusError::from_wrong_message(format!("no measure is called {unknown:?}"))
+                    .with_error_place(unknown.as_str())
+                    .with_advice(format!("the measures are: {}", MEASURE_NAMES.join(", "))),
+            );
         }
         if !(0.51..=1.0).contains(&self.share) {
             let text = "units match if 51 to 100 % of the longer one overlap";
-            return Err(Error::wrong(text)
-                .at(self.share.to_string())
-                .advise("ELAN's 60 % is usual"));
+            return Err(CorpusError::from_wrong_message(text)
+                .with_error_place(self.share.to_string())
+                .with_advice("ELAN's 60 % is usual"));
         }
-        for (count, most) in [(self.draws, MOST_DRAWS), (self.samples, MOST_SAMPLES)] {
+        for (count, most) in [(self.draws, MOST_DRAWS), (self.samples, MAX_AGREEMENT_SAMPLES)] {
             if count > most {
                 let text = format!("{count} draws are more than the {most} that are made at most");
-                return Err(Error::wrong(text)
-                    .at(count.to_string())
-                    .advise("1000 draws and 30 samples are usual"));
+                return Err(CorpusError::from_wrong_message(text)
+                    .with_error_place(count.to_string())
+                    .with_advice("1000 draws and 30 samples are usual"));
             }
         }
         Ok(())
     }
 
     /// Returns whether a measure is asked for.
-    fn wants(&self, measure: &str) -> bool {
-        self.measures.is_empty() || self.measures.iter().any(|it| it == measure)
+    fn wants_measure(&self, measure: &str) -> bool {
+        self.measures.is_empty() || self.measures.iter().any(|name| name == measure)
     }
 }
 
 /// The most bootstrap draws, and the most random continua.
 const MOST_DRAWS: usize = 100_000;
-const MOST_SAMPLES: usize = 10_000;
+const MAX_AGREEMENT_SAMPLES: usize = 10_000;
 
 /// How many units two annotators have, and how many of them match.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -127,7 +129,7 @@ pub struct UnitCounts {
 }
 
 impl UnitCounts {
-    fn add(&mut self, other: &Self) {
+    fn add_unit_counts(&mut self, other: &Self) {
         self.units_a += other.units_a;
         self.units_b += other.units_b;
         self.matched += other.matched;
@@ -158,13 +160,13 @@ pub struct PairAgreement {
     #[serde(flatten)]
     pub counts: UnitCounts,
     /// The measures without gamma, which needs more units, and without intervals.
-    #[serde(serialize_with = "figures::in_order")]
-    pub measures: Vec<(&'static str, Figure)>,
+    #[serde(serialize_with = "agree_figures::serialize_figures_in_order")]
+    pub measures: Vec<(&'static str, MeasureFigure)>,
 }
 
 /// The agreement of two annotators, over all pairs of tiers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Agreement {
+pub struct AnnotatorAgreement {
     /// The tiers of the first annotator, as asked for.
     pub a: String,
     /// The tiers of the second annotator, as asked for.
@@ -176,13 +178,13 @@ pub struct Agreement {
     pub counts: UnitCounts,
     /// Whether there are too few units, or only one value, for figures that say something; then people see counts.
     pub counts_only: bool,
-    /// The measures, in the order of [`MEASURES`].
-    #[serde(serialize_with = "figures::in_order")]
-    pub measures: Vec<(&'static str, Figure)>,
+    /// The measures, in the order of [`MEASURE_NAMES`].
+    #[serde(serialize_with = "agree_figures::serialize_figures_in_order")]
+    pub measures: Vec<(&'static str, MeasureFigure)>,
     /// Starts of the second less those of the first, of matched units, in seconds.
-    pub onset_s: Option<Quartiles>,
+    pub onset_s: Option<NumberQuartiles>,
     /// Ends of the second less those of the first, of matched units, in seconds.
-    pub offset_s: Option<Quartiles>,
+    pub offset_s: Option<NumberQuartiles>,
     /// The agreement on each value, the most frequent value first.
     pub by_value: Vec<ValueAgreement>,
     /// The number of disagreements of each kind.
@@ -193,10 +195,10 @@ pub struct Agreement {
     pub findings: Vec<String>,
     /// The values of matched units that differ, most frequent first.
     #[serde(skip)]
-    pub confusion: Vec<Confusion>,
+    pub confusion: Vec<ValueConfusion>,
     /// The disagreements, the costliest first.
     #[serde(skip)]
-    pub list: Vec<Disagreement>,
+    pub list: Vec<ValueDisagreement>,
 }
 
 impl Corpus {
@@ -208,11 +210,15 @@ impl Corpus {
     /// explained in [`chereme_analysis::agreement`].
     ///
     /// # Errors
-    /// [`Error::Wrong`] if no recording has both tiers, an option has a wrong value, or a measure is unknown;
-    /// [`Error::Stopped`] if `progress` asks to stop.
-    pub fn agree(&self, options: &AgreeOptions, progress: &mut Progress<'_>) -> Result<Agreement> {
-        options.check()?;
-        let coded = tiers::read(self, options)?;
-        figures::agreement(&coded, options, progress)
+    /// [`CorpusError::Wrong`] if no recording has both tiers, an option has a wrong value, or a measure is unknown;
+    /// [`CorpusError::Stopped`] if `progress` asks to stop.
+    pub fn compare_annotators(
+        &self,
+        options: &AgreeOptions,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotatorAgreement> {
+        options.check_agree_options()?;
+        let coded = agree_tiers::read_tier_pairs(self, options)?;
+        agree_figures::measure_agreement(&coded, options, progress)
     }
 }

@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
-use super::{AgreeOptions, Agreement, DisagreementKind};
+use super::{AgreeOptions, AnnotatorAgreement, DisagreementKind};
 use crate::{
-    Corpus, Decision, Error, ImportOptions, Name, Progress, Step, TierChange, TierName, unheard,
+    ConflictDecision, Corpus, CorpusError, ImportOptions, ProgressReceiver, ProgressStep, RowName, TierPropertyChange,
+    TierRequestName, ignore_progress_step,
 };
-use chereme_sign::{Component, TierRole};
+use chereme_sign::{SignComponent, TierRole};
 
 /// A tier: its name, its annotator, and its annotations with start, end and value.
 type Tier<'a> = (&'a str, &'a str, &'a [(i64, i64, &'a str)]);
@@ -20,18 +21,12 @@ fn eaf(tiers: &[Tier<'_>]) -> String {
             true => String::new(),
             false => format!(" ANNOTATOR=\"{annotator}\""),
         };
-        let _ = write!(
-            body,
-            "<TIER LINGUISTIC_TYPE_REF=\"t\" TIER_ID=\"{name}\"{by}>"
-        );
+        let _ = write!(body, "<TIER LINGUISTIC_TYPE_REF=\"t\" TIER_ID=\"{name}\"{by}>");
         for (start, end, value) in *annotations {
             number += 2;
             let (from, to) = (number - 1, number);
             for (slot, time) in [(from, start), (to, end)] {
-                let _ = write!(
-                    slots,
-                    "<TIME_SLOT TIME_SLOT_ID=\"ts{slot}\" TIME_VALUE=\"{time}\"/>"
-                );
+                let _ = write!(slots, "<TIME_SLOT TIME_SLOT_ID=\"ts{slot}\" TIME_VALUE=\"{time}\"/>");
             }
             let _ = write!(
                 body,
@@ -57,16 +52,16 @@ struct Desk {
 /// Returns a corpus with a recording for each list of tiers, named `one`, `two` and so on.
 fn desk(recordings: &[&[Tier<'_>]]) -> Desk {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "Cleo").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "Cleo").expect("made");
     for (name, tiers) in ["one", "two", "three"].iter().zip(recordings) {
         let path = folder.path().join(format!("{name}.eaf"));
         std::fs::write(&path, eaf(tiers)).expect("written");
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let report = corpus
-            .import(
+            .import_paths(
                 &[path],
                 &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("imported");
         assert_eq!(report.created["recordings"], 1);
@@ -77,14 +72,14 @@ fn desk(recordings: &[&[Tier<'_>]]) -> Desk {
     }
 }
 
-fn agree(corpus: &Corpus, options: &AgreeOptions) -> Agreement {
-    let mut hear = unheard;
+fn agree(corpus: &Corpus, options: &AgreeOptions) -> AnnotatorAgreement {
+    let mut hear = ignore_progress_step;
     corpus
-        .agree(options, &mut Progress::new(&mut hear))
+        .compare_annotators(options, &mut ProgressReceiver::new(&mut hear))
         .expect("compared")
 }
 
-fn figure(found: &Agreement, name: &str) -> Option<f64> {
+fn figure(found: &AnnotatorAgreement, name: &str) -> Option<f64> {
     let figure = found.measures.iter().find(|(own, _)| *own == name);
     figure.unwrap_or_else(|| panic!("no {name}")).1.value
 }
@@ -126,11 +121,7 @@ fn counts_values_and_disagreements_of_a_case_by_hand() {
     );
     let z = &found.by_value[2];
     assert_eq!((z.value.as_str(), z.both, z.alone), ("Z", 0, 2));
-    let confused: Vec<_> = found
-        .confusion
-        .iter()
-        .map(|it| (&*it.a, &*it.b, it.count))
-        .collect();
+    let confused: Vec<_> = found.confusion.iter().map(|it| (&*it.a, &*it.b, it.count)).collect();
     assert_eq!(confused, [("Y", "X", 1)]);
     let list: Vec<_> = found
         .list
@@ -178,7 +169,7 @@ fn the_same_seed_gives_the_same_document_and_stopping_stops() {
         ..AgreeOptions::new("A", "B")
     };
     let found = agree(&desk.corpus, &options);
-    let text = |it: &Agreement| serde_json::to_string(it).expect("JSON");
+    let text = |it: &AnnotatorAgreement| serde_json::to_string(it).expect("JSON");
     assert_eq!(text(&found), text(&agree(&desk.corpus, &options)));
     assert!(!found.counts_only);
     for name in ["kappa_ipf", "alpha_u", "gamma", "gamma_cat", "frames_kappa"] {
@@ -218,15 +209,13 @@ fn the_same_seed_gives_the_same_document_and_stopping_stops() {
         measures: vec!["alpha_u".into()],
         ..options.clone()
     };
-    let names: Vec<&str> = agree(&desk.corpus, &few)
-        .measures
-        .iter()
-        .map(|it| it.0)
-        .collect();
+    let names: Vec<&str> = agree(&desk.corpus, &few).measures.iter().map(|it| it.0).collect();
     assert_eq!(names, ["alpha_u"]);
-    let mut stop = |_: Step<'_>| ControlFlow::Break(());
-    let stopped = desk.corpus.agree(&options, &mut Progress::new(&mut stop));
-    assert!(matches!(stopped, Err(Error::Stopped)));
+    let mut stop = |_: ProgressStep<'_>| ControlFlow::Break(());
+    let stopped = desk
+        .corpus
+        .compare_annotators(&options, &mut ProgressReceiver::new(&mut stop));
+    assert!(matches!(stopped, Err(CorpusError::Stopped)));
 }
 
 #[test]
@@ -236,8 +225,7 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
     let desk = desk(&[first, second]);
     let pairs = |a: &str, b: &str| {
         let found = agree(&desk.corpus, &AgreeOptions::new(a, b));
-        let name =
-            |it: &super::PairAgreement| format!("{} {} {}", it.recording, it.tier_a, it.tier_b);
+        let name = |it: &super::PairAgreement| format!("{} {} {}", it.recording, it.tier_a, it.tier_b);
         found.pairs.iter().map(name).collect::<Vec<_>>()
     };
     let both = ["one G-A G-B", "two G-A G-B"];
@@ -248,7 +236,7 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
     assert_eq!(pairs("tier:1", "tier:5"), ["one G-A G-B"]);
     assert_eq!(pairs("tier:3", "G-A"), ["one M-A G-A"]);
     let one = AgreeOptions {
-        recording: Some(Name::Text("two".into())),
+        recording: Some(RowName::Text("two".into())),
         ..AgreeOptions::new("G-A", "G-B")
     };
     let found = agree(&desk.corpus, &one);
@@ -261,14 +249,11 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
     assert_eq!((pooled.counts.units_a, pooled.counts.matched), (10, 9));
     for (options, wanted) in [
         (AgreeOptions::new("G-A", "G-C"), "did you mean"),
-        (
-            AgreeOptions::new("annotator:Anna", "annotator:Bem"),
-            "did you mean",
-        ),
+        (AgreeOptions::new("annotator:Anna", "annotator:Bem"), "did you mean"),
         (AgreeOptions::new("G-A", "G-A"), "itself"),
         (
             AgreeOptions {
-                recording: Some(Name::Text("two".into())),
+                recording: Some(RowName::Text("two".into())),
                 ..AgreeOptions::new("tier:1", "tier:5")
             },
             "no recording has both",
@@ -288,13 +273,13 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
             "kapa",
         ),
     ] {
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let error = desk
             .corpus
-            .agree(&options, &mut Progress::new(&mut hear))
+            .compare_annotators(&options, &mut ProgressReceiver::new(&mut hear))
             .expect_err(wanted);
         assert!(error.to_string().contains(wanted), "{error}");
-        assert!(error.remedy().is_some(), "{error}");
+        assert!(error.error_remedy().is_some(), "{error}");
     }
 }
 
@@ -306,7 +291,7 @@ fn annotations_of_one_span_keep_their_values_in_the_list() {
     let sides: Vec<_> = found.list.iter().filter_map(|it| it.a.as_ref()).collect();
     assert_eq!(sides.len(), 2);
     for side in sides {
-        let stored = crate::db::tiers::annotation(desk.corpus.store.read(), side.annotation);
+        let stored = crate::db::stored_tiers::load_annotation_row(desk.corpus.store.read_connection(), side.annotation);
         assert_eq!(stored.expect("stored").value, side.value);
     }
 }
@@ -315,24 +300,12 @@ fn annotations_of_one_span_keep_their_values_in_the_list() {
 fn annotations_without_a_value_are_left_out_or_compared_as_spans() {
     let some: &[(i64, i64, &str)] = &[(0, 1000, "X"), (1500, 2000, ""), (2000, 3000, "Y")];
     let none: &[(i64, i64, &str)] = &[(0, 1000, ""), (1500, 2000, "")];
-    let desk = desk(&[&[
-        ("A", "", some),
-        ("B", "", some),
-        ("C", "", none),
-        ("D", "", none),
-    ]]);
+    let desk = desk(&[&[("A", "", some), ("B", "", some), ("C", "", none), ("D", "", none)]]);
     let found = agree(&desk.corpus, &AgreeOptions::new("A", "B"));
     assert_eq!((found.counts.units_a, found.counts.left_out_a), (2, 1));
-    assert!(
-        found.findings[0].contains("left out: 1"),
-        "{:?}",
-        found.findings
-    );
+    assert!(found.findings[0].contains("left out: 1"), "{:?}", found.findings);
     let spans = agree(&desk.corpus, &AgreeOptions::new("C", "D"));
-    assert_eq!(
-        (spans.counts.units_a, spans.counts.matched, spans.values),
-        (2, 2, 0)
-    );
+    assert_eq!((spans.counts.units_a, spans.counts.matched, spans.values), (2, 2, 0));
     assert_eq!(figure(&spans, "kappa_ipf"), None);
     let why = &spans.measures[0].1.why;
     assert_eq!(why.as_deref(), Some("one value only"));
@@ -357,58 +330,46 @@ fn near_handshapes_cost_less_and_their_features_are_named() {
     let (a, b) = (shapes(["A", "S", "U", "A"]), shapes(["S", "S", "U", "U"]));
     let mut desk = desk(&[&[("A", "", &a), ("B", "", &b)]]);
     for tier in ["A", "B"] {
-        let name = TierName::Of {
-            recording: Name::Text("one".into()),
+        let name = TierRequestName::Of {
+            recording: RowName::Text("one".into()),
             tier: tier.into(),
         };
         let role = TierRole::Component {
-            component: Component::Configuration,
+            component: SignComponent::Configuration,
             feature: None,
         };
-        let change = TierChange {
+        let change = TierPropertyChange {
             role: Some(role),
-            ..TierChange::default()
+            ..TierPropertyChange::default()
         };
-        desk.corpus.change_tier(&name, &change).expect("changed");
+        desk.corpus.change_tier_properties(&name, &change).expect("changed");
     }
     let found = agree(&desk.corpus, &AgreeOptions::new("A", "B"));
-    let (nominal, near) = (
-        figure(&found, "label_alpha"),
-        figure(&found, "label_alpha_features"),
-    );
+    let (nominal, near) = (figure(&found, "label_alpha"), figure(&found, "label_alpha_features"));
     assert!(near > nominal, "{near:?} {nominal:?}");
     let far = &found.list[0];
     let thumb = &found.list[1];
     assert_eq!(
-        (
-            far.a.as_ref().map(|it| &*it.value),
-            far.b.as_ref().map(|it| &*it.value)
-        ),
+        (far.a.as_ref().map(|it| &*it.value), far.b.as_ref().map(|it| &*it.value)),
         (Some("A"), Some("U"))
     );
     assert!(far.cost > thumb.cost);
     assert_eq!(thumb.differs, ["thumb-across", "thumb-alongside"]);
-    let confused = found
-        .confusion
-        .iter()
-        .find(|it| it.b == "S")
-        .expect("A for S");
+    let confused = found.confusion.iter().find(|it| it.b == "S").expect("A for S");
     assert_eq!(
         (&confused.only_a[..], &confused.only_b[..]),
-        (
-            &["thumb-alongside".to_owned()][..],
-            &["thumb-across".to_owned()][..]
-        )
+        (&["thumb-alongside".to_owned()][..], &["thumb-across".to_owned()][..])
     );
 }
 
 /// Returns the annotations of a tier as `start-end value` in milliseconds.
 fn said(corpus: &Corpus, tier: &str) -> Vec<String> {
-    let tiers = crate::db::tiers::tiers(corpus.store.read(), 1).expect("read");
+    let tiers = crate::db::stored_tiers::load_tier_rows(corpus.store.read_connection(), 1).expect("read");
     let Some(tier) = tiers.iter().find(|it| it.name == tier) else {
         return Vec::new();
     };
-    let rows = crate::db::tiers::annotations(corpus.store.read(), tier.id).expect("read");
+    let rows =
+        crate::db::stored_tiers::load_tier_annotation_rows(corpus.store.read_connection(), tier.id).expect("read");
     rows.iter()
         .map(|it| format!("{}-{} {}", it.start_us / 1000, it.end_us / 1000, it.value))
         .collect()
@@ -419,67 +380,47 @@ fn a_third_tier_holds_agreements_and_conflicts_wait_for_decisions() {
     let mut desk = desk(&[&[("A", "", A), ("B", "", B)]]);
     let corpus = &mut desk.corpus;
     let options = AgreeOptions::new("A", "B");
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let done = corpus
-        .adjudicate(&options, "C", &mut Progress::new(&mut hear))
+        .adjudicate_tiers(&options, "C", &mut ProgressReceiver::new(&mut hear))
         .expect("adjudicated");
     assert_eq!((done.agreed, done.conflicts), (2, 4));
     assert_eq!(done.recordings, ["one"]);
     assert_eq!(
         said(corpus, "C"),
-        [
-            "0-1000 X",
-            "1000-2000 Y",
-            "2500-3500 X",
-            "4000-5000 Y",
-            "6000-6500 Z"
-        ]
+        ["0-1000 X", "1000-2000 Y", "2500-3500 X", "4000-5000 Y", "6000-6500 Z"]
     );
-    let open = corpus.conflicts(false).expect("conflicts");
+    let open = corpus.merge_conflicts(false).expect("conflicts");
     assert_eq!(open.len(), 4);
-    let number = |test: &dyn Fn(&crate::CorpusConflict) -> bool| {
-        open.iter().find(|it| test(it)).expect("open").number
-    };
-    let value = number(&|it| {
-        it.theirs
-            .as_ref()
-            .is_some_and(|it| it.start_us == Some(1_000_000))
-    });
-    let boundary = number(&|it| {
-        it.theirs
-            .as_ref()
-            .is_some_and(|it| it.end_us == Some(3_700_000))
-    });
+    let number = |test: &dyn Fn(&crate::CorpusConflict) -> bool| open.iter().find(|it| test(it)).expect("open").number;
+    let value = number(&|it| it.theirs.as_ref().is_some_and(|it| it.start_us == Some(1_000_000)));
+    let boundary = number(&|it| it.theirs.as_ref().is_some_and(|it| it.end_us == Some(3_700_000)));
     let only_a = number(&|it| it.theirs.is_none());
     let only_b = number(&|it| it.mine.is_none());
     corpus
-        .decide(&[value, only_a, only_b], Decision::Theirs)
+        .decide_conflicts(&[value, only_a, only_b], ConflictDecision::Theirs)
         .expect("decided");
-    corpus.decide(&[boundary], Decision::Mine).expect("decided");
+    corpus
+        .decide_conflicts(&[boundary], ConflictDecision::Mine)
+        .expect("decided");
     assert_eq!(
         said(corpus, "C"),
-        [
-            "0-1000 X",
-            "1000-2000 X",
-            "2500-3500 X",
-            "4000-5000 Y",
-            "8000-8400 Z"
-        ]
+        ["0-1000 X", "1000-2000 X", "2500-3500 X", "4000-5000 Y", "8000-8400 Z"]
     );
-    assert!(corpus.conflicts(false).expect("conflicts").is_empty());
-    let mut hear = unheard;
+    assert!(corpus.merge_conflicts(false).expect("conflicts").is_empty());
+    let mut hear = ignore_progress_step;
     let check = corpus
-        .check(false, &mut Progress::new(&mut hear))
+        .check_corpus(false, &mut ProgressReceiver::new(&mut hear))
         .expect("checked");
-    assert_eq!(check.findings().next(), None);
+    assert_eq!(check.all_findings().next(), None);
     assert_eq!((said(corpus, "A").len(), said(corpus, "B").len()), (5, 5));
     for _ in 0..3 {
-        corpus.undo().expect("undone");
+        corpus.undo_operation().expect("undone");
     }
     assert!(said(corpus, "C").is_empty());
-    assert!(corpus.conflicts(true).expect("conflicts").is_empty());
-    let mut hear = unheard;
-    let again = corpus.adjudicate(&options, "A", &mut Progress::new(&mut hear));
+    assert!(corpus.merge_conflicts(true).expect("conflicts").is_empty());
+    let mut hear = ignore_progress_step;
+    let again = corpus.adjudicate_tiers(&options, "A", &mut ProgressReceiver::new(&mut hear));
     assert!(again.is_err(), "the tier exists");
 }
 
@@ -489,13 +430,13 @@ fn an_annotation_without_length_is_named_before_a_third_tier_is_begun() {
     let whole: &[(i64, i64, &str)] = &[(0, 1000, "X"), (2000, 2500, "Y")];
     for (a, b, place) in [(units, whole, "one, A"), (whole, units, "one, B")] {
         let mut desk = desk(&[&[("A", "", a), ("B", "", b)]]);
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let options = AgreeOptions::new("A", "B");
-        let progress = &mut Progress::new(&mut hear);
-        let error = desk.corpus.adjudicate(&options, "C", progress);
+        let progress = &mut ProgressReceiver::new(&mut hear);
+        let error = desk.corpus.adjudicate_tiers(&options, "C", progress);
         let error = error.expect_err("refused");
         assert!(error.to_string().contains("\"Y\" at 2.000 s"), "{error}");
-        assert_eq!(error.place().as_deref(), Some(place));
+        assert_eq!(error.error_place().as_deref(), Some(place));
         assert!(said(&desk.corpus, "C").is_empty());
     }
 }
@@ -520,48 +461,27 @@ fn the_table_of_disagreements_has_a_row_for_each() {
 
 #[test]
 fn deciding_all_for_one_side_gives_its_tier() {
-    let split: &[(i64, i64, &str)] = &[
-        (0, 500, "X"),
-        (500, 1000, "X"),
-        (1000, 1400, "Y"),
-        (2000, 3000, "Z"),
-    ];
-    let whole: &[(i64, i64, &str)] = &[
-        (0, 1000, "X"),
-        (1010, 1600, "W"),
-        (1600, 2100, "V"),
-        (2100, 3000, "Z"),
-    ];
+    let split: &[(i64, i64, &str)] = &[(0, 500, "X"), (500, 1000, "X"), (1000, 1400, "Y"), (2000, 3000, "Z")];
+    let whole: &[(i64, i64, &str)] = &[(0, 1000, "X"), (1010, 1600, "W"), (1600, 2100, "V"), (2100, 3000, "Z")];
     let empty: &[(i64, i64, &str)] = &[];
-    for (a, b) in [
-        (whole, split),
-        (split, whole),
-        (A, B),
-        (B, A),
-        (A, empty),
-        (empty, A),
-    ] {
-        for decision in [Decision::Mine, Decision::Theirs] {
+    for (a, b) in [(whole, split), (split, whole), (A, B), (B, A), (A, empty), (empty, A)] {
+        for decision in [ConflictDecision::Mine, ConflictDecision::Theirs] {
             let mut desk = desk(&[&[("A", "", a), ("B", "", b)]]);
             let exact = AgreeOptions {
                 tolerance_us: 0,
                 ..AgreeOptions::new("A", "B")
             };
-            let mut hear = unheard;
+            let mut hear = ignore_progress_step;
             let corpus = &mut desk.corpus;
             let done = corpus
-                .adjudicate(&exact, "C", &mut Progress::new(&mut hear))
+                .adjudicate_tiers(&exact, "C", &mut ProgressReceiver::new(&mut hear))
                 .expect("adjudicated");
-            let open = corpus.conflicts(false).expect("conflicts");
+            let open = corpus.merge_conflicts(false).expect("conflicts");
             assert_eq!(open.len() as u64, done.conflicts, "{a:?} {b:?}");
             let numbers: Vec<usize> = open.iter().map(|it| it.number).collect();
-            corpus.decide(&numbers, decision).expect("decided");
-            let wanted = if decision == Decision::Mine { "A" } else { "B" };
-            assert_eq!(
-                said(corpus, "C"),
-                said(corpus, wanted),
-                "{a:?} {b:?} {decision:?}"
-            );
+            corpus.decide_conflicts(&numbers, decision).expect("decided");
+            let wanted = if decision == ConflictDecision::Mine { "A" } else { "B" };
+            assert_eq!(said(corpus, "C"), said(corpus, wanted), "{a:?} {b:?} {decision:?}");
         }
     }
 }
@@ -572,24 +492,19 @@ fn a_candidate_does_not_reach_into_an_agreed_annotation_within_the_tolerance() {
     let b: &[(i64, i64, &str)] = &[(0, 950, "X"), (950, 1400, "N"), (2000, 3000, "W")];
     let mut desk = desk(&[&[("A", "", a), ("B", "", b)]]);
     let corpus = &mut desk.corpus;
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .adjudicate(
-            &AgreeOptions::new("A", "B"),
-            "C",
-            &mut Progress::new(&mut hear),
-        )
+        .adjudicate_tiers(&AgreeOptions::new("A", "B"), "C", &mut ProgressReceiver::new(&mut hear))
         .expect("adjudicated");
     let open: Vec<usize> = corpus
-        .conflicts(false)
+        .merge_conflicts(false)
         .expect("open")
         .iter()
         .map(|it| it.number)
         .collect();
     assert_eq!(open.len(), 2);
-    corpus.decide(&open, Decision::Theirs).expect("decided");
-    assert_eq!(
-        said(corpus, "C"),
-        ["0-1000 X", "1000-1400 N", "2000-3000 W"]
-    );
+    corpus
+        .decide_conflicts(&open, ConflictDecision::Theirs)
+        .expect("decided");
+    assert_eq!(said(corpus, "C"), ["0-1000 X", "1000-1400 N", "2000-3000 W"]);
 }

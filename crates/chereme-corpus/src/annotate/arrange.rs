@@ -1,19 +1,19 @@
 //! The position of a tier: its place among the tiers of its recording, and its parent.
 
-use chereme_sign::Stereotype;
-use chereme_sign::tier::{TierSet, check, check_tiers};
+use chereme_sign::TierStereotype;
+use chereme_sign::tier::{TierSet, check_tier_set, check_tiers};
 use rusqlite::Connection;
 
-use super::names::{self, TierName};
-use super::scope::{annotation, sign_tier};
-use crate::address::Name;
+use super::annotate_names::{self, TierRequestName};
+use super::scope::{rule_annotation_from_row, sign_tier};
+use crate::address::RowName;
 use crate::db::edits;
-use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::db::stored_tiers::{self as rows, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 
 /// Moves a tier to a place among those of its recording, counted from 0; later tiers move down.
-pub(super) fn place(connection: &Connection, tier: &TierRow, place: u32) -> Result<()> {
-    let mut all = rows::tiers(connection, tier.recording_id)?;
+pub(super) fn move_tier_to_place(connection: &Connection, tier: &TierRow, place: u32) -> CorpusResult<()> {
+    let mut all = rows::load_tier_rows(connection, tier.recording_id)?;
     let Some(here) = all.iter().position(|row| row.id == tier.id) else {
         return Ok(());
     };
@@ -29,17 +29,17 @@ pub(super) fn place(connection: &Connection, tier: &TierRow, place: u32) -> Resu
 }
 
 /// Puts a tier with its annotations below another, or makes it a root tier; returns the tier's new row.
-pub(super) fn hang(
+pub(super) fn hang_tier_below(
     connection: &Connection,
     tier: &TierRow,
-    parent: Option<&(String, Stereotype)>,
-) -> Result<TierRow> {
+    parent: Option<&(String, TierStereotype)>,
+) -> CorpusResult<TierRow> {
     edits::defer_references(connection)?;
     let above = match parent {
         Some((name, stereotype)) => {
-            let recording = Name::Number(tier.recording_id);
-            let name = TierName::read(name, Some(&recording))?;
-            Some((names::tier(connection, &name)?, *stereotype))
+            let recording = RowName::Number(tier.recording_id);
+            let name = TierRequestName::parse_tier_name(name, Some(&recording))?;
+            Some((annotate_names::find_named_tier(connection, &name)?, *stereotype))
         }
         None => None,
     };
@@ -51,48 +51,45 @@ pub(super) fn hang(
     if (&row.parent_id, &row.stereotype) == (&tier.parent_id, &tier.stereotype) {
         return Ok(row);
     }
-    let all = rows::tiers(connection, tier.recording_id)?;
+    let all = rows::load_tier_rows(connection, tier.recording_id)?;
     let with = |row: &TierRow| {
         let others = all.iter().filter(|other| other.id != row.id);
         others.chain([row]).map(sign_tier).collect::<Vec<_>>()
     };
-    if let Some(violation) = check_tiers(&TierSet::new(with(&row), []))
-        .into_iter()
-        .next()
-    {
-        return Err(Error::wrong(violation.to_string())
-            .at(tier.name.clone())
-            .advise("hang it below another tier, or below none"));
+    if let Some(violation) = check_tiers(&TierSet::new(with(&row), [])).into_iter().next() {
+        return Err(CorpusError::from_wrong_message(violation.to_string())
+            .with_error_place(tier.name.clone())
+            .with_advice("hang it below another tier, or below none"));
     }
     let parents = match &above {
-        Some((above, _)) => rows::annotations(connection, above.id)?,
+        Some((above, _)) => rows::load_tier_annotation_rows(connection, above.id)?,
         None => Vec::new(),
     };
-    let own = rows::annotations(connection, tier.id)?;
-    let moved = own
+    let tier_annotations = rows::load_tier_annotation_rows(connection, tier.id)?;
+    let moved = tier_annotations
         .into_iter()
-        .map(|it| below(it, above.is_some(), &parents, tier))
-        .collect::<Result<Vec<_>>>()?;
-    let annotations = parents.iter().chain(&moved).map(annotation);
+        .map(|child| annotation_below_parent(child, above.is_some(), &parents, tier))
+        .collect::<CorpusResult<Vec<_>>>()?;
+    let annotations = parents.iter().chain(&moved).map(rule_annotation_from_row);
     if let Some((above, stereotype)) = &above {
-        let pair = [sign_tier(above), sign_tier(&row)].map(|mut it| {
-            it.parent = it.parent.filter(|(id, _)| *id == sign_tier(above).id);
-            it
+        let pair = [sign_tier(above), sign_tier(&row)].map(|mut entry| {
+            entry.parent = entry.parent.filter(|(id, _)| *id == sign_tier(above).id);
+            entry
         });
-        let annotations = annotations.map(|mut it| {
-            it.parent = it.parent.filter(|_| it.tier == pair[1].id);
-            it
+        let annotations = annotations.map(|mut entry| {
+            entry.parent = entry.parent.filter(|_| entry.tier == pair[1].id);
+            entry
         });
-        if let Some(violation) = check(&TierSet::new(pair.clone(), annotations))
+        if let Some(violation) = check_tier_set(&TierSet::new(pair.clone(), annotations))
             .into_iter()
             .next()
         {
-            return Err(Error::wrong(format!(
+            return Err(CorpusError::from_wrong_message(format!(
                 "its annotations cannot hang below {:?} as {stereotype}: {violation}",
                 above.name
             ))
-            .at(tier.name.clone())
-            .advise("choose Included_In, or change those annotations first"));
+            .with_error_place(tier.name.clone())
+            .with_advice("choose Included_In, or change those annotations first"));
         }
     }
     for row in &moved {
@@ -102,12 +99,12 @@ pub(super) fn hang(
 }
 
 /// Returns an annotation with the parent annotation that contains its time.
-fn below(
+fn annotation_below_parent(
     row: AnnotationRow,
     hangs: bool,
     parents: &[AnnotationRow],
     tier: &TierRow,
-) -> Result<AnnotationRow> {
+) -> CorpusResult<AnnotationRow> {
     if !hangs {
         return Ok(AnnotationRow {
             parent_id: None,
@@ -116,20 +113,18 @@ fn below(
         });
     }
     let after = parents.partition_point(|parent| parent.start_us <= row.start_us);
-    let above = parents[..after]
-        .last()
-        .filter(|parent| row.end_us <= parent.end_us);
+    let above = parents[..after].last().filter(|parent| row.end_us <= parent.end_us);
     match above {
         Some(above) => Ok(AnnotationRow {
             parent_id: Some(above.id),
             ..row
         }),
-        None => Err(Error::wrong(format!(
+        None => Err(CorpusError::from_wrong_message(format!(
             "no annotation above holds the time from {} to {}",
-            chereme_motion::Instant::from_micros(row.start_us),
-            chereme_motion::Instant::from_micros(row.end_us)
+            chereme_motion::RecordingInstant::from_micros(row.start_us),
+            chereme_motion::RecordingInstant::from_micros(row.end_us)
         ))
-        .at(tier.name.clone())
-        .advise("every annotation of the tier must lie inside one of the tier above")),
+        .with_error_place(tier.name.clone())
+        .with_advice("every annotation of the tier must lie inside one of the tier above")),
     }
 }

@@ -1,23 +1,23 @@
 //! Copies of tiers, and the order of tiers.
 
-use chereme_sign::Stereotype;
-use chereme_sign::text::fold;
+use chereme_sign::TierStereotype;
+use chereme_sign::text::fold_text;
 use rusqlite::Connection;
 
-use super::names::{self, TierName};
-use super::tiers::check_name;
+use super::annotate_names::{self, TierRequestName};
+use super::annotate_tiers::check_name;
 use crate::Corpus;
-use crate::address::{self, Name};
-use crate::db::columns::{AnnotationOrigin, ValueState};
-use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::address::{self, RowName};
+use crate::db::stored_columns::{AnnotationOrigin, ValueState};
+use crate::db::stored_tiers::{self as rows, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
 /// The annotations to copy with a tier.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum Copied {
+pub enum CopiedAnnotations {
     /// All of them.
     #[default]
     All,
@@ -36,49 +36,48 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the tier does not exist, or the recording has one of that name.
-    pub fn copy_tier(&mut self, tier: &TierName, name: &str, copied: &Copied) -> Result<TierRow> {
-        self.store.operation(|connection| {
-            let from = names::tier(connection, tier)?;
+    pub fn copy_tier(
+        &mut self,
+        tier: &TierRequestName,
+        name: &str,
+        copied: &CopiedAnnotations,
+    ) -> CorpusResult<TierRow> {
+        self.store.run_store_operation(|connection| {
+            let from = annotate_names::find_named_tier(connection, tier)?;
             let row = TierRow {
                 id: 0,
                 name: name.trim().to_owned(),
                 source: None,
                 ..from.clone()
             };
-            let all = rows::tiers(connection, from.recording_id)?;
+            let all = rows::load_tier_rows(connection, from.recording_id)?;
             check_name(&all, &row)?;
             let id = rows::insert_tier(connection, &row)?;
-            let annotations = rows::annotations(connection, from.id)?;
+            let annotations = rows::load_tier_annotation_rows(connection, from.id)?;
             let mut count = 0_u64;
             for annotation in annotations {
-                if let Some(copy) = copy(annotation, &row, copied) {
-                    rows::insert_annotation(
-                        connection,
-                        &AnnotationRow {
-                            tier_id: id,
-                            ..copy
-                        },
-                    )?;
+                if let Some(copy) = copy_annotation_row(annotation, &row, copied) {
+                    rows::insert_annotation(connection, &AnnotationRow { tier_id: id, ..copy })?;
                     count += 1;
                 }
             }
             let place = all
                 .iter()
-                .position(|it| it.id == from.id)
-                .map_or(0, |it| it + 1);
-            let mut order: Vec<i64> = all.iter().map(|it| it.id).collect();
+                .position(|row| row.id == from.id)
+                .map_or(0, |index| index + 1);
+            let mut order: Vec<i64> = all.iter().map(|row| row.id).collect();
             order.insert(place, id);
             put_in_order(connection, from.recording_id, &order)?;
             let inventories = inventories::load_of(connection, from.recording_id)?;
-            tokens::derive(connection, from.recording_id, None, &inventories)?;
-            let recording = crate::db::recordings::recording(connection, from.recording_id)?.name;
+            tokens::update_recording_tokens(connection, from.recording_id, None, &inventories)?;
+            let recording = crate::db::stored_recordings::load_recording_row(connection, from.recording_id)?.name;
             let effect = OperationEffect::CopyTier {
                 tier: from.name,
                 recording,
                 copy: row.name,
                 annotations: count,
             };
-            Ok((rows::tier(connection, id)?, effect))
+            Ok((rows::load_tier_row(connection, id)?, effect))
         })
     }
 
@@ -87,9 +86,9 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the recording does not exist, or one of the rows is no tier of it.
-    pub fn order_tiers(&mut self, recording: &Name, order: &[i64]) -> Result<()> {
-        self.store.operation(|connection| {
-            let recording = address::recording(connection, recording)?;
+    pub fn order_tiers(&mut self, recording: &RowName, order: &[i64]) -> CorpusResult<()> {
+        self.store.run_store_operation(|connection| {
+            let recording = address::find_recording_by_name(connection, recording)?;
             put_in_order(connection, recording.id, order)?;
             let recording = recording.name;
             Ok(((), OperationEffect::OrderTiers { recording }))
@@ -98,18 +97,17 @@ impl Corpus {
 }
 
 /// Returns the copy of an annotation on a copied tier.
-fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<AnnotationRow> {
+fn copy_annotation_row(row: AnnotationRow, tier: &TierRow, copied: &CopiedAnnotations) -> Option<AnnotationRow> {
     let without_gaps = matches!(
         tier.stereotype,
-        Some(Stereotype::TimeSubdivision | Stereotype::SymbolicSubdivision)
+        Some(TierStereotype::TimeSubdivision | TierStereotype::SymbolicSubdivision)
     );
     let blank = match copied {
-        Copied::All => false,
-        Copied::Times => true,
-        Copied::Nothing => return None,
-        Copied::Holding(text) => {
-            let holds =
-                row.state == ValueState::Value && fold(&row.value).contains(&fold(text.trim()));
+        CopiedAnnotations::All => false,
+        CopiedAnnotations::Times => true,
+        CopiedAnnotations::Nothing => return None,
+        CopiedAnnotations::Holding(text) => {
+            let holds = row.state == ValueState::Value && fold_text(&row.value).contains(&fold_text(text.trim()));
             if !holds && !without_gaps {
                 return None;
             }
@@ -137,15 +135,15 @@ fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<Annotatio
     })
 }
 
-fn put_in_order(connection: &Connection, recording: i64, order: &[i64]) -> Result<()> {
-    let mut left = rows::tiers(connection, recording)?;
+fn put_in_order(connection: &Connection, recording: i64, order: &[i64]) -> CorpusResult<()> {
+    let mut left = rows::load_tier_rows(connection, recording)?;
     let mut sorted = Vec::with_capacity(left.len());
     for id in order {
         let Some(at) = left.iter().position(|row| row.id == *id) else {
-            return Err(Error::wrong(format!(
+            return Err(CorpusError::from_wrong_message(format!(
                 "the recording has no tier {id}, or it is named twice"
             ))
-            .advise("name each tier of the recording once"));
+            .with_advice("name each tier of the recording once"));
         };
         sorted.push(left.remove(at));
     }

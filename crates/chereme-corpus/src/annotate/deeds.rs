@@ -2,15 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::{Component, TierRole};
+use chereme_sign::{SignComponent, TierRole};
 
 use super::AnnotateReport;
-use crate::db::tiers::TierRow;
+use crate::db::stored_tiers::TierRow;
 use crate::words::effect::{AnnotationDeed, AnnotationEffect, ValuedThing};
 
 /// Changes of annotations that the history names, such as a merge.
 #[derive(Debug, Default)]
-pub(super) struct Deeds {
+pub(super) struct AnnotationDeeds {
     moved: BTreeSet<i64>,
     merged: BTreeSet<i64>,
     split: BTreeSet<i64>,
@@ -22,22 +22,22 @@ pub(super) struct Deeds {
     other: bool,
 }
 
-impl Deeds {
-    pub(super) fn moves(&mut self, annotation: i64) {
+impl AnnotationDeeds {
+    pub(super) fn note_moved_annotation(&mut self, annotation: i64) {
         self.moved.insert(annotation);
     }
 
-    pub(super) fn merges(&mut self, first: i64, second: i64) {
+    pub(super) fn note_merged_annotations(&mut self, first: i64, second: i64) {
         self.merged.extend([first, second]);
         self.merges += 1;
     }
 
-    pub(super) fn splits(&mut self, annotation: i64) {
+    pub(super) fn note_split_annotation(&mut self, annotation: i64) {
         self.split.insert(annotation);
     }
 
     /// Records that an annotation of a tier got a value.
-    pub(super) fn says(&mut self, tier: &TierRow, annotation: i64, value: &str) {
+    pub(super) fn note_annotation_value(&mut self, tier: &TierRow, annotation: i64, value: &str) {
         let key = (valued_thing(&tier.role), value.to_owned());
         self.valued.entry(key).or_default().insert(annotation);
     }
@@ -47,7 +47,7 @@ impl Deeds {
     }
 
     /// Returns what was done, and where.
-    pub(super) fn effect(&self, report: &AnnotateReport) -> AnnotationEffect {
+    pub(super) fn collected_deed_effect(&self, report: &AnnotateReport) -> AnnotationEffect {
         let mut changes = match self.other {
             true => Vec::new(),
             false => self.named_deeds(report.removed),
@@ -62,8 +62,8 @@ impl Deeds {
     fn named_deeds(&self, removed: u64) -> Vec<AnnotationDeed> {
         use AnnotationDeed as Deed;
         let counted = |all: &BTreeSet<i64>| Some(all.len() as u64).filter(|count| *count > 0);
-        let mut valued = self.valued.iter();
-        let valued = match (valued.next(), valued.next()) {
+        let mut valued_deeds = self.valued.iter();
+        let valued = match (valued_deeds.next(), valued_deeds.next()) {
             (None, _) => None,
             (Some(((of, value), all)), None) => Some(Deed::AnnotationsValued {
                 count: all.len() as u64,
@@ -76,8 +76,8 @@ impl Deeds {
             }
         };
         // Annotations below a moved one that lie outside of it are removed with it.
-        let removed = removed.checked_sub(self.merges).filter(|count| *count > 0);
-        let removed = removed.filter(|_| !self.moved.is_empty());
+        let unmerged_count = removed.checked_sub(self.merges).filter(|count| *count > 0);
+        let removed = unmerged_count.filter(|_| !self.moved.is_empty());
         let deeds = [
             counted(&self.moved).map(|count| Deed::AnnotationsMoved { count }),
             counted(&self.merged).map(|count| Deed::AnnotationsMerged { count }),
@@ -108,10 +108,10 @@ fn valued_thing(role: &TierRole) -> ValuedThing {
         _ => return ValuedThing::Annotation,
     };
     match component {
-        Component::Configuration => ValuedThing::Handshape,
-        Component::Placement => ValuedThing::Placement,
-        Component::Movement => ValuedThing::Movement,
-        Component::Orientation => ValuedThing::Orientation,
-        Component::NonManual => ValuedThing::Annotation,
+        SignComponent::Configuration => ValuedThing::Handshape,
+        SignComponent::Placement => ValuedThing::Placement,
+        SignComponent::Movement => ValuedThing::Movement,
+        SignComponent::Orientation => ValuedThing::Orientation,
+        SignComponent::NonManual => ValuedThing::Annotation,
     }
 }

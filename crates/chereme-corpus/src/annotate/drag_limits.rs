@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::Stereotype;
-use chereme_sign::tier::spans::{self, Grip, Item, Limits, Mode};
+use chereme_sign::TierStereotype;
+use chereme_sign::tier::tier_spans::{self, DragGrip, NeighbourMode, SpanItem, SpanLimits};
 
-use crate::contents::{Contents, TierContents};
-use crate::db::tiers::TierRow;
+use crate::contents::{RecordingContents, TierContents};
+use crate::db::stored_tiers::TierRow;
 
 /// The shortest length of an annotation in a recording without frames: a hundredth of a second.
-pub const LEAST: i64 = 10_000;
+pub const MIN_ANNOTATION_US: i64 = 10_000;
 /// The end of a recording without movement, which annotations can extend.
-pub(super) const FAR: i64 = 1 << 50;
+pub(super) const OPEN_RECORDING_END_US: i64 = 1 << 50;
 
 /// How the annotations of a tier get their times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,13 +29,13 @@ pub enum TierTiming {
 impl TierTiming {
     /// Returns the kind of a tier.
     #[must_use]
-    pub fn of(row: &TierRow) -> Self {
+    pub fn timing_of_tier(row: &TierRow) -> Self {
         if row.parent_id.is_none() {
             return Self::Root;
         }
         match row.stereotype {
-            Some(Stereotype::TimeSubdivision) => Self::Tiled,
-            Some(Stereotype::IncludedIn) | None => Self::Inside,
+            Some(TierStereotype::TimeSubdivision) => Self::Tiled,
+            Some(TierStereotype::IncludedIn) | None => Self::Inside,
             Some(_) => Self::Listed,
         }
     }
@@ -49,62 +49,62 @@ pub struct DraggedAnnotations {
     /// How its annotations get their times.
     pub kind: TierTiming,
     /// The annotations that may be in the way, including the dragged ones, in order of time.
-    pub items: Vec<Item>,
+    pub items: Vec<SpanItem>,
     /// The dragged annotations.
     pub chosen: BTreeSet<i64>,
     /// The time limits of the dragged annotations.
-    pub limits: Limits,
+    pub limits: SpanLimits,
 }
 
 impl DraggedAnnotations {
     /// Returns the annotations that change when they are dragged.
     #[must_use]
-    pub fn dragged(&self, grip: Grip, by: i64, mode: Mode) -> Vec<Item> {
+    pub fn drag_annotations(&self, grip: DragGrip, by: i64, mode: NeighbourMode) -> Vec<SpanItem> {
         match self.kind {
             TierTiming::Listed => Vec::new(),
-            TierTiming::Tiled => spans::tiled(&self.items, &self.chosen, (grip, by), self.limits),
-            _ => spans::dragged(&self.items, &self.chosen, (grip, by), mode, self.limits),
+            TierTiming::Tiled => tier_spans::drag_tiled_spans(&self.items, &self.chosen, (grip, by), self.limits),
+            _ => tier_spans::drag_spans(&self.items, &self.chosen, (grip, by), mode, self.limits),
         }
     }
 
     /// Returns the changes that must be requested, in an order that never overlaps.
     #[must_use]
-    pub fn asked(&self, changed: &[Item]) -> Vec<Item> {
+    pub fn requested_drag_changes(&self, changed: &[SpanItem]) -> Vec<SpanItem> {
         if self.kind == TierTiming::Tiled {
             // The neighbours' shared boundaries are adjusted automatically.
-            let own = changed.iter().filter(|item| self.chosen.contains(&item.id));
-            return own.copied().collect();
+            let chosen_items = changed.iter().filter(|item| self.chosen.contains(&item.id));
+            return chosen_items.copied().collect();
         }
-        spans::in_order(&self.items, changed)
+        tier_spans::order_span_changes(&self.items, changed)
     }
 }
 
 /// Returns the time limits for annotations of a recording; `frames` means that it has movement.
 #[must_use]
-pub fn limits(contents: &Contents, frames: bool) -> Limits {
+pub fn annotation_time_limits(contents: &RecordingContents, frames: bool) -> SpanLimits {
     let to = if frames {
         contents.recording.duration_us
     } else {
-        FAR
+        OPEN_RECORDING_END_US
     };
-    Limits {
+    SpanLimits {
         from: 0,
         to,
-        least: LEAST,
+        least: MIN_ANNOTATION_US,
     }
 }
 
 /// Returns what is dragged if `chosen` are, tier by tier. Annotations whose parent is dragged too move with it and are
 /// left out.
 #[must_use]
-pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<DraggedAnnotations> {
-    let limits = limits(contents, frames);
+pub fn held_drag_groups(contents: &RecordingContents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<DraggedAnnotations> {
+    let limits = annotation_time_limits(contents, frames);
     let mut all = Vec::new();
     for tier in &contents.tiers {
         let columns = &tier.annotations;
         let mut families: BTreeMap<Option<i64>, BTreeSet<i64>> = BTreeMap::new();
-        let kind = TierTiming::of(&tier.row);
-        for at in places(tier, chosen) {
+        let kind = TierTiming::timing_of_tier(&tier.row);
+        for at in chosen_annotation_indices(tier, chosen) {
             let parent = columns.parents.get(at).copied().flatten();
             if parent.is_some_and(|parent| chosen.contains(&parent)) {
                 continue;
@@ -115,13 +115,13 @@ pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<Dr
         for (parent, chosen) in families {
             let above = parent.and_then(|parent| span_of(contents, parent));
             let limits = match above {
-                Some((from, to)) => Limits { from, to, ..limits },
+                Some((from, to)) => SpanLimits { from, to, ..limits },
                 None => limits,
             };
             all.push(DraggedAnnotations {
                 tier: tier.row.id,
                 kind,
-                items: items(tier, parent),
+                items: timed_annotation_items(tier, parent),
                 chosen,
                 limits,
             });
@@ -132,13 +132,13 @@ pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<Dr
 
 /// Returns annotations together with all their descendants.
 #[must_use]
-pub fn with_below(contents: &Contents, mut all: BTreeSet<i64>) -> BTreeSet<i64> {
+pub fn with_below(contents: &RecordingContents, mut all: BTreeSet<i64>) -> BTreeSet<i64> {
     loop {
         let before = all.len();
         for columns in contents.tiers.iter().map(|tier| &tier.annotations) {
             let pairs = columns.ids.iter().zip(&columns.parents);
-            let below = pairs.filter(|(_, parent)| parent.is_some_and(|it| all.contains(&it)));
-            let below: Vec<i64> = below.map(|(id, _)| *id).collect();
+            let child_pairs = pairs.filter(|(_, parent)| parent.is_some_and(|id| all.contains(&id)));
+            let below: Vec<i64> = child_pairs.map(|(id, _)| *id).collect();
             all.extend(below);
         }
         if all.len() == before {
@@ -148,7 +148,7 @@ pub fn with_below(contents: &Contents, mut all: BTreeSet<i64>) -> BTreeSet<i64> 
 }
 
 /// Returns the indices of the annotations of a tier that are in `chosen`.
-pub fn places<'a>(
+pub fn chosen_annotation_indices<'a>(
     tier: &'a TierContents,
     chosen: &'a BTreeSet<i64>,
 ) -> impl Iterator<Item = usize> + 'a {
@@ -160,11 +160,11 @@ pub fn places<'a>(
 
 /// Returns the annotations of a tier with times; if `parent` is given, only its children.
 #[must_use]
-pub fn items(tier: &TierContents, parent: Option<i64>) -> Vec<Item> {
+pub fn timed_annotation_items(tier: &TierContents, parent: Option<i64>) -> Vec<SpanItem> {
     let columns = &tier.annotations;
     (0..columns.len())
         .filter(|at| parent.is_none() || columns.parents.get(*at).copied().flatten() == parent)
-        .map(|at| Item {
+        .map(|at| SpanItem {
             id: columns.ids[at],
             start: columns.starts[at],
             end: columns.ends[at],
@@ -173,40 +173,44 @@ pub fn items(tier: &TierContents, parent: Option<i64>) -> Vec<Item> {
 }
 
 /// Returns the time of an annotation of the recording.
-fn span_of(contents: &Contents, id: i64) -> Option<(i64, i64)> {
+fn span_of(contents: &RecordingContents, id: i64) -> Option<(i64, i64)> {
     contents.tiers.iter().find_map(|tier| {
         let columns = &tier.annotations;
-        let at = columns.ids.iter().position(|it| *it == id)?;
-        Some((columns.starts[at], columns.ends[at]))
+        let index = columns.ids.iter().position(|other| *other == id)?;
+        Some((columns.starts[index], columns.ends[index]))
     })
 }
 
 /// Returns the room for a new annotation of a tier within `wanted`: the free time, and on a tier below another the part
 /// inside one annotation of that tier.
 #[must_use]
-pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Option<(i64, i64)> {
-    let own = items(tier, None);
-    let kind = TierTiming::of(&tier.row);
+pub fn room_for_annotation(
+    contents: &RecordingContents,
+    tier: &TierContents,
+    wanted: (i64, i64),
+) -> Option<(i64, i64)> {
+    let tier_items = timed_annotation_items(tier, None);
+    let kind = TierTiming::timing_of_tier(&tier.row);
     let parent = contents
         .tiers
         .iter()
-        .find(|it| Some(it.row.id) == tier.row.parent_id);
+        .find(|candidate| Some(candidate.row.id) == tier.row.parent_id);
     let Some(parent) = parent.filter(|_| kind != TierTiming::Root) else {
-        return spans::room(&own, wanted);
+        return tier_spans::longest_free_span(&tier_items, wanted);
     };
     let mut best: Option<(i64, i64)> = None;
-    for above in items(parent, None) {
+    for above in timed_annotation_items(parent, None) {
         let inside = (above.start.max(wanted.0), above.end.min(wanted.1));
         if inside.0 >= inside.1 {
             continue;
         }
-        let found = match kind {
-            TierTiming::Inside => spans::room(&own, inside),
+        let free_room = match kind {
+            TierTiming::Inside => tier_spans::longest_free_span(&tier_items, inside),
             TierTiming::Listed => Some((above.start, above.end)),
-            _ => tiled_room(&own, above, inside),
+            _ => tiled_room(&tier_items, above, inside),
         };
         let length = |span: (i64, i64)| span.1.min(wanted.1) - span.0.max(wanted.0);
-        if let Some(found) = found.filter(|it| best.is_none_or(|best| length(*it) > length(best))) {
+        if let Some(found) = free_room.filter(|range| best.is_none_or(|best| length(*range) > length(best))) {
             best = Some(found);
         }
     }
@@ -215,7 +219,7 @@ pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Opt
 
 /// Returns the whole parent if it has no child yet, otherwise the tail of the child in which `wanted` begins, or its
 /// head if both begin together.
-fn tiled_room(own: &[Item], above: Item, wanted: (i64, i64)) -> Option<(i64, i64)> {
+fn tiled_room(own: &[SpanItem], above: SpanItem, wanted: (i64, i64)) -> Option<(i64, i64)> {
     let mut below = own
         .iter()
         .filter(|item| item.start >= above.start && item.end <= above.end)
@@ -238,28 +242,20 @@ mod tests {
     #[test]
     fn children_stay_inside_and_move_with_a_dragged_parent() {
         let all = contents(&[
-            (
-                1,
-                None,
-                "",
-                &[(1, 0, 400_000, None), (2, 500_000, 900_000, None)],
-            ),
+            (1, None, "", &[(1, 0, 400_000, None), (2, 500_000, 900_000, None)]),
             (
                 2,
                 Some(1),
                 "Included_In",
-                &[
-                    (3, 100_000, 200_000, Some(1)),
-                    (4, 600_000, 700_000, Some(2)),
-                ],
+                &[(3, 100_000, 200_000, Some(1)), (4, 600_000, 700_000, Some(2))],
             ),
         ]);
-        let one = held(&all, &BTreeSet::from([3]), true);
+        let one = held_drag_groups(&all, &BTreeSet::from([3]), true);
         assert_eq!(one.len(), 1);
         assert_eq!((one[0].limits.from, one[0].limits.to), (0, 400_000));
-        let moved = one[0].dragged(Grip::Whole, 900_000, Mode::Normal);
+        let moved = one[0].drag_annotations(DragGrip::Whole, 900_000, NeighbourMode::Normal);
         assert_eq!((moved[0].start, moved[0].end), (300_000, 400_000));
-        let both = held(&all, &BTreeSet::from([1, 3, 4]), true);
+        let both = held_drag_groups(&all, &BTreeSet::from([1, 3, 4]), true);
         let tiers: Vec<_> = both.iter().map(|it| (it.tier, it.chosen.clone())).collect();
         assert_eq!(tiers, [(1, BTreeSet::from([1])), (2, BTreeSet::from([4]))]);
     }
@@ -275,12 +271,16 @@ mod tests {
                 &[(3, 0, 200_000, Some(1)), (4, 200_000, 400_000, Some(1))],
             ),
         ]);
-        let held = held(&all, &BTreeSet::from([3]), true);
-        let changed = held[0].dragged(Grip::End, 100_000, Mode::Shift);
+        let held = held_drag_groups(&all, &BTreeSet::from([3]), true);
+        let changed = held[0].drag_annotations(DragGrip::End, 100_000, NeighbourMode::Shift);
         let spans: Vec<_> = changed.iter().map(|it| (it.id, it.start, it.end)).collect();
         assert_eq!(spans, [(3, 0, 300_000), (4, 300_000, 400_000)]);
-        assert_eq!(held[0].asked(&changed), [changed[0]]);
-        assert!(held[0].dragged(Grip::Start, -9, Mode::Normal).is_empty());
+        assert_eq!(held[0].requested_drag_changes(&changed), [changed[0]]);
+        assert!(
+            held[0]
+                .drag_annotations(DragGrip::Start, -9, NeighbourMode::Normal)
+                .is_empty()
+        );
     }
 
     #[test]
@@ -305,7 +305,7 @@ mod tests {
         ];
         for (tier, wanted, want) in cases {
             assert_eq!(
-                room(&all, &all.tiers[tier], wanted),
+                room_for_annotation(&all, &all.tiers[tier], wanted),
                 want,
                 "{tier} {wanted:?}"
             );

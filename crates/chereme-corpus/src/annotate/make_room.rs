@@ -2,126 +2,125 @@
 
 use std::collections::BTreeSet;
 
-use chereme_motion::{Instant, Span};
-use chereme_sign::tier::Change;
-use chereme_sign::tier::spans::{self, Grip, Item, Limits, Mode};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::tier::AskedTierChange;
+use chereme_sign::tier::tier_spans::{self, DragGrip, NeighbourMode, SpanItem, SpanLimits};
 
 use super::drag_limits::{self, TierTiming};
-use super::replace::item;
-use super::{Work, handle, span_of};
-use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use super::replace::annotation_item;
+use super::{AnnotationChangeRun, annotation_handle, span_of};
+use crate::db::stored_tiers::{self as rows, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 
-impl Work<'_> {
+impl AnnotationChangeRun<'_> {
     /// Moves an annotation and those in its way, and returns whether it did so; it does not in normal mode and on tiers
     /// whose annotations lie end to end.
     pub(super) fn moved_with_others(
         &mut self,
         row: &AnnotationRow,
         tier: &TierRow,
-        span: Span,
-    ) -> Result<bool> {
+        span: TimeSpan,
+    ) -> CorpusResult<bool> {
         let mode = self.options.mode;
-        if mode == Mode::Normal
-            || !matches!(TierTiming::of(tier), TierTiming::Root | TierTiming::Inside)
+        if mode == NeighbourMode::Normal
+            || !matches!(TierTiming::timing_of_tier(tier), TierTiming::Root | TierTiming::Inside)
         {
             return Ok(false);
         }
-        let limits = self.limits(tier, row.parent_id)?;
-        let wanted = item(row.id, span);
+        let limits = self.sibling_time_limits(tier, row.parent_id)?;
+        let wanted = annotation_item(row.id, span);
         let by = (wanted.start - row.start_us, wanted.end - row.end_us);
         let steps = match by {
-            (start, end) if start == end => vec![(Grip::Whole, start)],
-            (0, end) => vec![(Grip::End, end)],
-            (start, 0) => vec![(Grip::Start, start)],
+            (start, end) if start == end => vec![(DragGrip::Whole, start)],
+            (0, end) => vec![(DragGrip::End, end)],
+            (start, 0) => vec![(DragGrip::Start, start)],
             // The end that moves inwards goes first, so that the other one has room.
-            (start, end) if end < 0 => vec![(Grip::End, end), (Grip::Start, start)],
-            (start, end) => vec![(Grip::Start, start), (Grip::End, end)],
+            (start, end) if end < 0 => vec![(DragGrip::End, end), (DragGrip::Start, start)],
+            (start, end) => vec![(DragGrip::Start, start), (DragGrip::End, end)],
         };
         for (grip, by) in steps {
-            let items = self.siblings(tier, row.parent_id)?;
+            let items = self.sibling_annotations(tier, row.parent_id)?;
             let chosen = BTreeSet::from([row.id]);
-            let changed = spans::dragged(&items, &chosen, (grip, by), mode, limits);
-            self.respan(tier, &spans::in_order(&items, &changed))?;
+            let changed = tier_spans::drag_spans(&items, &chosen, (grip, by), mode, limits);
+            self.respan_annotations(tier, &tier_spans::order_span_changes(&items, &changed))?;
         }
-        let now = rows::annotation(self.connection, row.id)?;
+        let now = rows::load_annotation_row(self.connection, row.id)?;
         if span_of(&now) == span {
             return Ok(true);
         }
         let (start, end) = (now.start_us, now.end_us);
-        let micros = Instant::from_micros;
-        Err(Error::wrong(format!(
+        let micros = RecordingInstant::from_micros;
+        Err(CorpusError::from_wrong_message(format!(
             "{} cannot go from {} to {}: there is no room for the others",
-            super::messages::quoted_value(row),
-            span.start(),
-            span.end()
+            super::annotate_messages::quoted_value(row),
+            span.span_start_instant(),
+            span.span_end_instant()
         ))
-        .at(format!("{:?}", tier.name))
-        .advise(format!(
-            "the furthest is from {} to {}",
-            micros(start),
-            micros(end)
-        )))
+        .with_error_place(format!("{:?}", tier.name))
+        .with_advice(format!("the furthest is from {} to {}", micros(start), micros(end))))
     }
 
     /// Moves annotations out of the time of a new one, as the mode requires.
-    pub(super) fn make_room(&mut self, tier: &TierRow, span: Span) -> Result<()> {
+    pub(super) fn make_annotation_room(&mut self, tier: &TierRow, span: TimeSpan) -> CorpusResult<()> {
         let mode = self.options.mode;
-        if mode == Mode::Normal
-            || !matches!(TierTiming::of(tier), TierTiming::Root | TierTiming::Inside)
+        if mode == NeighbourMode::Normal
+            || !matches!(TierTiming::timing_of_tier(tier), TierTiming::Root | TierTiming::Inside)
         {
             return Ok(());
         }
         let parent = match tier.parent_id {
-            Some(_) => Some(self.above(tier, span)?),
+            Some(_) => Some(self.find_parent_annotation(tier, span)?),
             None => None,
         };
-        let limits = self.limits(tier, parent)?;
-        let items = self.siblings(tier, parent)?;
-        let wanted = (span.start().micros(), span.end().micros());
-        match spans::opened(&items, wanted, mode, limits) {
-            Some(changed) => self.respan(tier, &spans::in_order(&items, &changed)),
+        let limits = self.sibling_time_limits(tier, parent)?;
+        let items = self.sibling_annotations(tier, parent)?;
+        let wanted = (
+            span.span_start_instant().instant_micros(),
+            span.span_end_instant().instant_micros(),
+        );
+        match tier_spans::open_span_room(&items, wanted, mode, limits) {
+            Some(changed) => self.respan_annotations(tier, &tier_spans::order_span_changes(&items, &changed)),
             // The tier rules report the obstacle.
             None => Ok(()),
         }
     }
 
-    fn respan(&mut self, tier: &TierRow, items: &[Item]) -> Result<()> {
+    fn respan_annotations(&mut self, tier: &TierRow, items: &[SpanItem]) -> CorpusResult<()> {
         for item in items {
-            let span = Span::between(
-                Instant::from_micros(item.start),
-                Instant::from_micros(item.end),
+            let span = TimeSpan::span_between(
+                RecordingInstant::from_micros(item.start),
+                RecordingInstant::from_micros(item.end),
             );
-            let annotation = handle(item.id);
-            self.carry_out(tier.id, &Change::Move { annotation, span }, None)?;
+            let annotation = annotation_handle(item.id);
+            self.carry_out_edit(tier.id, &AskedTierChange::Move { annotation, span }, None)?;
         }
         Ok(())
     }
 
-    fn siblings(&self, tier: &TierRow, parent: Option<i64>) -> Result<Vec<Item>> {
-        let all = rows::annotations(self.connection, tier.id)?;
-        let own = all
+    fn sibling_annotations(&self, tier: &TierRow, parent: Option<i64>) -> CorpusResult<Vec<SpanItem>> {
+        let all = rows::load_tier_annotation_rows(self.connection, tier.id)?;
+        let sibling_rows = all
             .iter()
             .filter(|row| tier.parent_id.is_none() || row.parent_id == parent);
-        Ok(own.map(|row| item(row.id, span_of(row))).collect())
+        Ok(sibling_rows.map(|row| annotation_item(row.id, span_of(row))).collect())
     }
 
-    fn limits(&mut self, tier: &TierRow, parent: Option<i64>) -> Result<Limits> {
-        let least = drag_limits::LEAST;
+    fn sibling_time_limits(&mut self, tier: &TierRow, parent: Option<i64>) -> CorpusResult<SpanLimits> {
+        let least = drag_limits::MIN_ANNOTATION_US;
         if let Some(parent) = parent.filter(|_| tier.parent_id.is_some()) {
-            let span = span_of(&rows::annotation(self.connection, parent)?);
-            return Ok(Limits {
-                from: span.start().micros(),
-                to: span.end().micros(),
+            let span = span_of(&rows::load_annotation_row(self.connection, parent)?);
+            return Ok(SpanLimits {
+                from: span.span_start_instant().instant_micros(),
+                to: span.span_end_instant().instant_micros(),
                 least,
             });
         }
         let scope = self.scope_of(tier.id)?;
-        let to = if scope.moves() {
+        let to = if scope.has_scope_movement() {
             scope.recording.duration_us
         } else {
-            drag_limits::FAR
+            drag_limits::OPEN_RECORDING_END_US
         };
-        Ok(Limits { from: 0, to, least })
+        Ok(SpanLimits { from: 0, to, least })
     }
 }

@@ -3,16 +3,18 @@
 //! The tier rules are those of [`chereme_sign::tier`]; this module loads the affected rows and writes the resulting
 //! changes back.
 
+mod annotate_bulk;
+pub mod annotate_clipboard;
+pub(crate) mod annotate_messages;
+mod annotate_names;
+pub mod annotate_paste;
+mod annotate_tiers;
+mod annotate_write;
 mod arrange;
-mod bulk;
-pub mod clipboard;
 mod copies;
 mod deeds;
 pub mod drag_limits;
 mod make_room;
-pub(crate) mod messages;
-mod names;
-pub mod paste;
 mod replace;
 pub mod requests;
 mod scheme;
@@ -23,36 +25,34 @@ mod testing;
 #[cfg(test)]
 mod tests;
 pub mod tier_values;
-mod tiers;
-mod write;
 
 use std::collections::BTreeMap;
 
-use chereme_formats::table::annotations::{Moment, TimeUnit};
-use chereme_motion::{Instant, Span};
-use chereme_sign::tier::spans::Mode;
-use chereme_sign::tier::{AnnotationId, Change, Seam, TierId, plan};
-use chereme_sign::{Reading, TierRole};
+use chereme_formats::table::annotations::{TableMoment, TableTimeUnit};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::tier::tier_spans::NeighbourMode;
+use chereme_sign::tier::{AnnotationId, AskedTierChange, MergeSeam, TierId, plan_tier_change};
+use chereme_sign::{ComponentReading, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 
-pub use copies::Copied;
-pub use names::{AnnotationName, TierName};
-pub use replace::{Find, Replaced, ReplacedValue, Within};
-pub use scheme::Scheme;
-pub use tiers::{NewTier, RemovedTiers, TierChange, Values};
+pub use annotate_names::{AnnotationName, TierRequestName};
+pub use annotate_tiers::{NewTier, RemovedTiers, TierPropertyChange, TierValueSource};
+pub use copies::CopiedAnnotations;
+pub use replace::{ReplacedValue, ReplacementReport, TierSelection, ValueSearch};
+pub use scheme::TierScheme;
 
 use crate::Corpus;
-use crate::db::columns::AnnotationOrigin;
 use crate::db::edits;
-use crate::db::tiers::{self as tier_rows, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::db::stored_columns::AnnotationOrigin;
+use crate::db::stored_tiers::{self as tier_rows, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::StoredInventory;
-use crate::progress::{Progress, Step, Unit};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::tokens;
 use crate::words::effect::{AnnotationEffect, OperationEffect};
-use deeds::Deeds;
-use scope::Scope;
+use deeds::AnnotationDeeds;
+use scope::AnnotationScope;
 
 /// One change of annotations.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,11 +75,11 @@ pub enum AnnotationAction {
     /// Adds an annotation.
     Add {
         /// The tier.
-        tier: TierName,
+        tier: TierRequestName,
         /// The start; not needed on a symbolic tier.
-        start: Option<Moment>,
+        start: Option<TableMoment>,
         /// The end; not needed on a symbolic tier.
-        end: Option<Moment>,
+        end: Option<TableMoment>,
         /// The parent annotation on a symbolic tier, if the times do not determine it.
         parent: Option<AnnotationName>,
         /// The place among its siblings on a Symbolic_Subdivision, from 0; by default at the end.
@@ -94,9 +94,9 @@ pub enum AnnotationAction {
         /// The annotation.
         annotation: AnnotationName,
         /// The new start.
-        start: Option<Moment>,
+        start: Option<TableMoment>,
         /// The new end.
-        end: Option<Moment>,
+        end: Option<TableMoment>,
         /// The new value.
         value: Option<String>,
     },
@@ -112,7 +112,7 @@ pub enum AnnotationAction {
         /// The annotation, which becomes the first half.
         annotation: AnnotationName,
         /// The cut.
-        at: Moment,
+        at: TableMoment,
     },
     /// Merges two neighbours into one annotation.
     Merge {
@@ -150,9 +150,9 @@ pub struct AnnotateOptions {
     /// The source of the annotations.
     pub origin: AnnotationOrigin,
     /// The treatment of annotations in the way of an added or moved one; in normal mode the change is refused.
-    pub mode: Mode,
+    pub mode: NeighbourMode,
     /// The unit of bare numbers in a table whose titles name no unit; seconds by default.
-    pub unit: Option<TimeUnit>,
+    pub unit: Option<TableTimeUnit>,
 }
 
 /// The result of a list of changes.
@@ -183,13 +183,13 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if changes violate a rule of their tier, name a missing object, or use a value that the tier's inventory
-    /// does not have: [`Error::Several`] with each of them if the list has more than one.
-    pub fn annotate(
+    /// does not have: [`CorpusError::Several`] with each of them if the list has more than one.
+    pub fn annotate_corpus(
         &mut self,
         changes: &[AnnotationChange],
         options: &AnnotateOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<AnnotateReport> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
         self.annotate_all(changes, options, Vec::new(), progress)
     }
 
@@ -197,11 +197,11 @@ impl Corpus {
         &mut self,
         changes: &[AnnotationChange],
         options: &AnnotateOptions,
-        faults: Vec<Error>,
-        progress: &mut Progress<'_>,
-    ) -> Result<AnnotateReport> {
-        let work = |connection: &Connection, progress: &mut Progress<'_>| {
-            let report = carry_out(connection, changes, options, faults, progress)?;
+        faults: Vec<CorpusError>,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
+        let work = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
+            let report = carry_out_changes(connection, changes, options, faults, progress)?;
             let effect = OperationEffect::Annotate(report.effect.clone());
             Ok((report, effect))
         };
@@ -214,9 +214,9 @@ impl Corpus {
         effect: fn(AnnotationEffect) -> OperationEffect,
         new: &[NewTier],
         (changes, options): (&[AnnotationChange], &AnnotateOptions),
-        progress: &mut Progress<'_>,
-    ) -> Result<AnnotateReport> {
-        let work = |connection: &Connection, progress: &mut Progress<'_>| {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
+        let work = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
             let report = write_tiers(connection, new, (changes, options), progress)?;
             let effect = effect(report.effect.clone());
             Ok((report, effect))
@@ -230,38 +230,38 @@ pub(crate) fn write_tiers(
     connection: &Connection,
     new: &[NewTier],
     (changes, options): (&[AnnotationChange], &AnnotateOptions),
-    progress: &mut Progress<'_>,
-) -> Result<AnnotateReport> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<AnnotateReport> {
     for tier in new {
-        tiers::insert(connection, tier)?;
+        annotate_tiers::insert_new_tier(connection, tier)?;
     }
-    carry_out(connection, changes, options, Vec::new(), progress)
+    carry_out_changes(connection, changes, options, Vec::new(), progress)
 }
 
 /// Carries out changes of annotations.
-fn carry_out(
+fn carry_out_changes(
     connection: &Connection,
     changes: &[AnnotationChange],
     options: &AnnotateOptions,
-    faults: Vec<Error>,
-    progress: &mut Progress<'_>,
-) -> Result<AnnotateReport> {
-    let mut work = Work::new(connection, options)?;
+    faults: Vec<CorpusError>,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<AnnotateReport> {
+    let mut work = AnnotationChangeRun::new(connection, options)?;
     work.faults = faults;
     for (done, change) in changes.iter().enumerate() {
-        work.change(change)?;
+        work.run_annotation_change(change)?;
         if changes.len() > 1 && done % 64 == 0 {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "annotating",
                 done: done as u64,
                 total: Some(changes.len() as u64),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
         }
     }
     let deeds = std::mem::take(&mut work.deeds);
-    let mut report = work.finish(changes.len(), progress)?;
-    report.effect = deeds.effect(&report);
+    let mut report = work.finish_annotation_changes(changes.len(), progress)?;
+    report.effect = deeds.collected_deed_effect(&report);
     (_, report.summary, _) = OperationEffect::Annotate(report.effect.clone()).stored_texts();
     Ok(report)
 }
@@ -270,31 +270,31 @@ fn carry_out(
 pub(crate) fn remove_all(
     connection: &Connection,
     annotations: &[i64],
-    progress: &mut Progress<'_>,
-) -> Result<u64> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<u64> {
     let remove = |id: &i64| AnnotationAction::Remove {
         annotation: AnnotationName::Number(*id),
     };
     let changes: Vec<AnnotationChange> = annotations.iter().map(remove).map(Into::into).collect();
     let options = AnnotateOptions::default();
-    let report = carry_out(connection, &changes, &options, Vec::new(), progress)?;
+    let report = carry_out_changes(connection, &changes, &options, Vec::new(), progress)?;
     Ok(report.removed)
 }
 
 /// State while a list of changes is carried out.
-struct Work<'a> {
+struct AnnotationChangeRun<'a> {
     connection: &'a Connection,
     options: &'a AnnotateOptions,
-    scopes: BTreeMap<i64, Scope>,
+    scopes: BTreeMap<i64, AnnotationScope>,
     /// Annotations by the labels of the changes that added them; nothing if the change failed.
     labels: BTreeMap<String, Option<i64>>,
-    faults: Vec<Error>,
-    deeds: Deeds,
+    faults: Vec<CorpusError>,
+    deeds: AnnotationDeeds,
     report: AnnotateReport,
 }
 
-impl<'a> Work<'a> {
-    fn new(connection: &'a Connection, options: &'a AnnotateOptions) -> Result<Self> {
+impl<'a> AnnotationChangeRun<'a> {
+    fn new(connection: &'a Connection, options: &'a AnnotateOptions) -> CorpusResult<Self> {
         edits::defer_references(connection)?;
         Ok(Self {
             connection,
@@ -302,19 +302,19 @@ impl<'a> Work<'a> {
             scopes: BTreeMap::new(),
             labels: BTreeMap::new(),
             faults: Vec::new(),
-            deeds: Deeds::default(),
+            deeds: AnnotationDeeds::default(),
             report: AnnotateReport::default(),
         })
     }
 
     /// Carries out one change, or records why it cannot be carried out.
-    fn change(&mut self, change: &AnnotationChange) -> Result<()> {
-        let done = self.act(change);
+    fn run_annotation_change(&mut self, change: &AnnotationChange) -> CorpusResult<()> {
+        let done = self.act_on_change(change);
         let annotation = match done {
             Ok(annotation) => Some(annotation),
-            Err(fault @ (Error::Wrong { .. } | Error::Follows(_))) => {
+            Err(fault @ (CorpusError::Wrong { .. } | CorpusError::Follows(_))) => {
                 self.faults.push(match &change.place {
-                    Some(place) => fault.at(place),
+                    Some(place) => fault.with_error_place(place),
                     None => fault,
                 });
                 None
@@ -328,65 +328,70 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    fn finish(mut self, changes: usize, progress: &mut Progress<'_>) -> Result<AnnotateReport> {
+    fn finish_annotation_changes(
+        mut self,
+        changes: usize,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
         let failed = self.labels.values().any(Option::is_none);
         self.faults
-            .retain(|fault| !(failed && matches!(fault, Error::Follows(_))));
+            .retain(|fault| !(failed && matches!(fault, CorpusError::Follows(_))));
         match self.faults.len() {
             0 => {}
             1 if changes <= 1 => return Err(self.faults.remove(0)),
             _ => {
                 let errors = self.faults;
-                return Err(Error::Several { errors });
+                return Err(CorpusError::Several { errors });
             }
         }
         for scope in self.scopes.values() {
-            scope.close(self.connection)?;
+            scope.close_annotation_scope(self.connection)?;
             if let Some(touched) = scope.touched {
                 let recording = scope.recording.id;
-                tokens::derive_with_progress(
-                    self.connection,
-                    recording,
-                    Some(touched),
-                    &scope.inventories,
-                    progress,
-                )?;
+                tokens::derive_with_progress(self.connection, recording, Some(touched), &scope.inventories, progress)?;
                 self.report.recordings.push(scope.recording.name.clone());
             }
         }
         Ok(self.report)
     }
 
-    fn act(&mut self, change: &AnnotationChange) -> Result<i64> {
+    fn act_on_change(&mut self, change: &AnnotationChange) -> CorpusResult<i64> {
         use AnnotationAction::{Add, Remove, Reorder};
         if let Add { .. } | Reorder { .. } | Remove { .. } = change.action {
             self.deeds.does_else();
         }
         match &change.action {
-            AnnotationAction::Add { .. } => self.add(&change.action),
+            AnnotationAction::Add { .. } => self.add_planned_annotation(&change.action),
             AnnotationAction::Set {
                 annotation,
                 start,
                 end,
                 value,
             } => {
-                let row = self.annotation(annotation)?;
-                self.set(&row, *start, *end, value.as_deref())
+                let row = self.find_requested_annotation(annotation)?;
+                self.set_annotation_fields(&row, *start, *end, value.as_deref())
             }
             AnnotationAction::Reorder { annotation, order } => {
-                let row = self.annotation(annotation)?;
-                let annotation = handle(row.id);
+                let row = self.find_requested_annotation(annotation)?;
+                let annotation = annotation_handle(row.id);
                 let order = *order;
-                self.carry_out(row.tier_id, &Change::Reorder { annotation, order }, None)?;
+                self.carry_out_edit(row.tier_id, &AskedTierChange::Reorder { annotation, order }, None)?;
                 Ok(row.id)
             }
             AnnotationAction::Split { annotation, at } => {
-                let row = self.annotation(annotation)?;
+                let row = self.find_requested_annotation(annotation)?;
                 let snap = self.options.snap;
-                let at = self.scope_of(row.tier_id)?.instant(*at, snap)?;
-                let annotation = handle(row.id);
-                let added = self.carry_out(row.tier_id, &Change::Split { annotation, at }, None)?;
-                self.deeds.splits(row.id);
+                let split_instant = self.scope_of(row.tier_id)?.resolve_moment(*at, snap)?;
+                let annotation = annotation_handle(row.id);
+                let added = self.carry_out_edit(
+                    row.tier_id,
+                    &AskedTierChange::Split {
+                        annotation,
+                        at: split_instant,
+                    },
+                    None,
+                )?;
+                self.deeds.note_split_annotation(row.id);
                 Ok(added.unwrap_or(row.id))
             }
             AnnotationAction::Merge {
@@ -395,29 +400,32 @@ impl<'a> Work<'a> {
                 value,
                 join,
             } => {
-                let (first, second) = (self.annotation(first)?, self.annotation(second)?);
+                let (first, second) = (
+                    self.find_requested_annotation(first)?,
+                    self.find_requested_annotation(second)?,
+                );
                 let tier = self.tier_row(first.tier_id)?;
-                let value = value.as_deref().map(|text| self.reading(&tier, text));
-                let change = Change::Merge {
-                    first: handle(first.id),
-                    second: handle(second.id),
+                let value = value.as_deref().map(|text| self.reading_on_tier(&tier, text));
+                let change = AskedTierChange::Merge {
+                    first: annotation_handle(first.id),
+                    second: annotation_handle(second.id),
                     value: value.transpose()?,
-                    seam: if *join { Seam::Join } else { Seam::Keep },
+                    seam: if *join { MergeSeam::Join } else { MergeSeam::Keep },
                 };
-                self.carry_out(first.tier_id, &change, None)?;
-                self.deeds.merges(first.id, second.id);
+                self.carry_out_edit(first.tier_id, &change, None)?;
+                self.deeds.note_merged_annotations(first.id, second.id);
                 Ok(first.id)
             }
             AnnotationAction::Remove { annotation } => {
-                let row = self.annotation(annotation)?;
-                let annotation = handle(row.id);
-                self.carry_out(row.tier_id, &Change::Remove { annotation }, None)?;
+                let row = self.find_requested_annotation(annotation)?;
+                let annotation = annotation_handle(row.id);
+                self.carry_out_edit(row.tier_id, &AskedTierChange::Remove { annotation }, None)?;
                 Ok(row.id)
             }
         }
     }
 
-    fn add(&mut self, action: &AnnotationAction) -> Result<i64> {
+    fn add_planned_annotation(&mut self, action: &AnnotationAction) -> CorpusResult<i64> {
         let AnnotationAction::Add {
             tier,
             start,
@@ -428,198 +436,199 @@ impl<'a> Work<'a> {
             confidence,
         } = action
         else {
-            return Err(Error::wrong("nothing is to be added"));
+            return Err(CorpusError::from_wrong_message("nothing is to be added"));
         };
-        let tier = self.tier(tier)?;
-        let value = self.reading(&tier, value)?;
+        let tier = self.find_work_tier(tier)?;
+        let value = self.reading_on_tier(&tier, value)?;
         let times = start.zip(*end);
         let span = match times {
-            Some((start, end)) => Some(self.span(tier.id, start, end)?),
+            Some((start, end)) => Some(self.span_from_moments(tier.id, start, end)?),
             None => None,
         };
         let id = TierId(unsigned(tier.id));
         let change = if is_symbolic(&tier) {
             let parent = match (parent, span) {
-                (Some(parent), _) => self.annotation(parent)?.id,
-                (None, Some(span)) => self.above(&tier, span)?,
+                (Some(parent), _) => self.find_requested_annotation(parent)?.id,
+                (None, Some(span)) => self.find_parent_annotation(&tier, span)?,
                 (None, None) => {
-                    return Err(Error::wrong(format!(
+                    return Err(CorpusError::from_wrong_message(format!(
                         "an annotation of the symbolic tier {:?} needs one above it",
                         tier.name
                     ))
-                    .advise("name its parent, or the times of its parent"));
+                    .with_advice("name its parent, or the times of its parent"));
                 }
             };
-            Change::AddBelow {
+            AskedTierChange::AddBelow {
                 tier: id,
-                parent: handle(parent),
+                parent: annotation_handle(parent),
                 order: *order,
                 value,
             }
         } else {
             let span = span.ok_or_else(|| {
-                Error::wrong(format!(
+                CorpusError::from_wrong_message(format!(
                     "an annotation of the tier {:?} needs a start and an end",
                     tier.name
                 ))
-                .advise("only annotations of symbolic tiers have no times of their own")
+                .with_advice("only annotations of symbolic tiers have no times of their own")
             })?;
-            self.make_room(&tier, span)?;
-            Change::Add {
-                tier: id,
-                span,
-                value,
-            }
+            self.make_annotation_room(&tier, span)?;
+            AskedTierChange::Add { tier: id, span, value }
         };
-        let added = self.carry_out(tier.id, &change, *confidence)?;
-        added.ok_or_else(|| Error::wrong("nothing was added"))
+        let added = self.carry_out_edit(tier.id, &change, *confidence)?;
+        added.ok_or_else(|| CorpusError::from_wrong_message("nothing was added"))
     }
 
-    fn set(
+    fn set_annotation_fields(
         &mut self,
         row: &AnnotationRow,
-        start: Option<Moment>,
-        end: Option<Moment>,
+        start: Option<TableMoment>,
+        end: Option<TableMoment>,
         value: Option<&str>,
-    ) -> Result<i64> {
-        let annotation = handle(row.id);
+    ) -> CorpusResult<i64> {
+        let annotation = annotation_handle(row.id);
         let tier = self.tier_row(row.tier_id)?;
         let text = value;
-        let reading = value.map(|text| self.reading(&tier, text)).transpose()?;
+        let reading = value.map(|text| self.reading_on_tier(&tier, text)).transpose()?;
         if start.is_some() || end.is_some() {
-            let still = |micros| Moment::Time(Instant::from_micros(micros));
+            let still = |micros| TableMoment::Time(RecordingInstant::from_micros(micros));
             let start = start.unwrap_or_else(|| still(row.start_us));
             let end = end.unwrap_or_else(|| still(row.end_us));
-            let span = self.span(row.tier_id, start, end)?;
+            let span = self.span_from_moments(row.tier_id, start, end)?;
             if span != span_of(row) {
                 if !self.moved_with_others(row, &tier, span)? {
-                    self.carry_out(row.tier_id, &Change::Move { annotation, span }, None)?;
+                    self.carry_out_edit(row.tier_id, &AskedTierChange::Move { annotation, span }, None)?;
                 }
-                self.deeds.moves(row.id);
+                self.deeds.note_moved_annotation(row.id);
             }
         }
         if let Some(value) = reading {
-            let says = value.value().or(text).map_or("", str::trim);
-            let says = if says.is_empty() { "unset" } else { says };
-            self.deeds.says(&tier, row.id, says);
-            self.carry_out(row.tier_id, &Change::SetValue { annotation, value }, None)?;
+            let shown_value = value.reading_value().or(text).map_or("", str::trim);
+            let says = if shown_value.is_empty() { "unset" } else { shown_value };
+            self.deeds.note_annotation_value(&tier, row.id, says);
+            self.carry_out_edit(row.tier_id, &AskedTierChange::SetValue { annotation, value }, None)?;
         }
         Ok(row.id)
     }
 
     /// Plans a change among its neighbours, writes the edits, and returns the first added annotation.
-    fn carry_out(
+    fn carry_out_edit(
         &mut self,
         tier: i64,
-        change: &Change,
+        change: &AskedTierChange,
         confidence: Option<f64>,
-    ) -> Result<Option<i64>> {
+    ) -> CorpusResult<Option<i64>> {
         let recording = self.scope_of(tier)?.recording.id;
         let scope = self
             .scopes
             .get(&recording)
-            .ok_or_else(|| Error::wrong("the recording is gone"))?;
-        let near = scope.neighbourhood(self.connection, tier, change)?;
-        let mut next = FRESH;
+            .ok_or_else(|| CorpusError::from_wrong_message("the recording is gone"))?;
+        let near = scope.load_change_neighbourhood(self.connection, tier, change)?;
+        let mut next = FIRST_FRESH_HANDLE;
         let mut fresh = || {
             next += 1;
             AnnotationId(next)
         };
-        let edits = match plan(&near.set, change, &mut fresh) {
+        let edits = match plan_tier_change(&near.set, change, &mut fresh) {
             Ok(edits) => edits,
-            Err(error) => return Err(messages::refused(self.connection, tier, &error)?),
+            Err(error) => {
+                return Err(annotate_messages::refused_change_error(self.connection, tier, &error)?);
+            }
         };
-        let named: Vec<i64> = change.annotations().into_iter().map(signed).collect();
+        let changed_ids: Vec<i64> = change
+            .changed_annotations()
+            .into_iter()
+            .map(annotation_row_id)
+            .collect();
         let named = match change {
-            Change::AddBelow { .. } => Vec::new(),
-            _ => named,
+            AskedTierChange::AddBelow { .. } => Vec::new(),
+            _ => changed_ids,
         };
-        let says = write::Says {
+        let says = annotate_write::EditSource {
             origin: self.options.origin,
             confidence,
             named: &named,
         };
-        let written = write::write(self.connection, &edits, &near.rows, &says)?;
+        let written = annotate_write::write_annotation_edits(self.connection, &edits, &near.rows, &says)?;
         self.report.added += written.added.len() as u64;
         self.report.changed += written.changed;
         self.report.removed += written.removed;
         if let Some(scope) = self.scopes.get_mut(&recording) {
-            scope.touch(written.touched);
+            scope.extend_touched_span(written.touched);
         }
         Ok(written.added.first().copied())
     }
 
     /// Returns the reading of `text` on a tier.
-    fn reading(&mut self, tier: &TierRow, text: &str) -> Result<Reading> {
+    fn reading_on_tier(&mut self, tier: &TierRow, text: &str) -> CorpusResult<ComponentReading> {
         let inventory = self
             .scope_of(tier.id)?
             .inventories
             .iter()
             .find(|stored| Some(stored.id) == tier.inventory_id);
-        reading(tier, inventory, text)
+        read_tier_value(tier, inventory, text)
     }
 
-    fn span(&mut self, tier: i64, start: Moment, end: Moment) -> Result<Span> {
+    fn span_from_moments(&mut self, tier: i64, start: TableMoment, end: TableMoment) -> CorpusResult<TimeSpan> {
         let snap = self.options.snap;
         let scope = self.scope_of(tier)?;
-        let (start, end) = (scope.instant(start, snap)?, scope.instant(end, snap)?);
+        let (start, end) = (scope.resolve_moment(start, snap)?, scope.resolve_moment(end, snap)?);
         scope.check_bounds(start, end)?;
-        Ok(Span::between(start, end))
+        Ok(TimeSpan::span_between(start, end))
     }
 
-    fn scope_of(&mut self, tier: i64) -> Result<&Scope> {
-        let recording = tier_rows::tier(self.connection, tier)?.recording_id;
+    fn scope_of(&mut self, tier: i64) -> CorpusResult<&AnnotationScope> {
+        let recording = tier_rows::load_tier_row(self.connection, tier)?.recording_id;
         if !self.scopes.contains_key(&recording) {
-            let scope = Scope::read(self.connection, recording)?;
+            let scope = AnnotationScope::read_annotation_scope(self.connection, recording)?;
             self.scopes.insert(recording, scope);
         }
         self.scopes
             .get(&recording)
-            .ok_or_else(|| Error::wrong("the recording is gone"))
+            .ok_or_else(|| CorpusError::from_wrong_message("the recording is gone"))
     }
 
-    fn tier_row(&self, id: i64) -> Result<TierRow> {
-        tier_rows::tier(self.connection, id)
+    fn tier_row(&self, id: i64) -> CorpusResult<TierRow> {
+        tier_rows::load_tier_row(self.connection, id)
     }
 }
 
 /// The first handle for annotations that have no row yet.
-const FRESH: u64 = 1 << 62;
+const FIRST_FRESH_HANDLE: u64 = 1 << 62;
 
 fn unsigned(id: i64) -> u64 {
     u64::try_from(id).unwrap_or_default()
 }
 
-fn handle(id: i64) -> AnnotationId {
+fn annotation_handle(id: i64) -> AnnotationId {
     AnnotationId(unsigned(id))
 }
 
-fn signed(id: AnnotationId) -> i64 {
+fn annotation_row_id(id: AnnotationId) -> i64 {
     i64::try_from(id.0).unwrap_or_default()
 }
 
-fn span_of(row: &AnnotationRow) -> Span {
-    Span::between(
-        Instant::from_micros(row.start_us),
-        Instant::from_micros(row.end_us),
+fn span_of(row: &AnnotationRow) -> TimeSpan {
+    TimeSpan::span_between(
+        RecordingInstant::from_micros(row.start_us),
+        RecordingInstant::from_micros(row.end_us),
     )
 }
 
 fn is_symbolic(tier: &TierRow) -> bool {
-    tier.stereotype
-        .is_some_and(|stereotype| !stereotype.is_alignable())
+    tier.stereotype.is_some_and(|stereotype| !stereotype.is_alignable())
 }
 
 /// Returns the reading of `text` on a tier with that inventory, as the inventory's own id if it has one.
-fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> Result<Reading> {
+fn read_tier_value(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> CorpusResult<ComponentReading> {
     let coded = inventory.is_some() || tier.role.is_coded();
     if !coded || text.trim().is_empty() {
-        return Ok(Reading::from(text));
+        return Ok(ComponentReading::from(text));
     }
     let text = text.trim();
-    let known = inventory.and_then(|stored| stored.inventory.find(text));
-    if let Some(value) = known {
-        return Ok(Reading::Value(value.id.clone()));
+    let known_value = inventory.and_then(|stored| stored.inventory.find_inventory_value(text));
+    if let Some(value) = known_value {
+        return Ok(ComponentReading::Value(value.id.clone()));
     }
     let lower = text.to_lowercase();
     let word = match tier.role {
@@ -627,27 +636,27 @@ fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> R
         _ => &lower,
     };
     match (word, inventory) {
-        ("unset", _) => Ok(Reading::Unset),
-        ("n/a" | "not applicable" | "not-applicable", _) => Ok(Reading::NotApplicable),
-        ("unclear" | "?", _) => Ok(Reading::Unclear),
-        (_, None) => Ok(Reading::Value(text.to_owned())),
+        ("unset", _) => Ok(ComponentReading::Unset),
+        ("n/a" | "not applicable" | "not-applicable", _) => Ok(ComponentReading::NotApplicable),
+        ("unclear" | "?", _) => Ok(ComponentReading::Unclear),
+        (_, None) => Ok(ComponentReading::Value(text.to_owned())),
         (_, Some(stored)) => Err(not_in(stored, tier, text)),
     }
 }
 
-fn not_in(stored: &StoredInventory, tier: &TierRow, text: &str) -> Error {
+fn not_in(stored: &StoredInventory, tier: &TierRow, text: &str) -> CorpusError {
     let inventory = &stored.inventory;
-    let near = inventory.suggest(text);
-    let meant = match near.as_slice() {
+    let near = inventory.suggest_value_ids(text);
+    let hint = match near.as_slice() {
         [] => String::new(),
         [one] => format!("; did you mean {one:?}?"),
         several => format!("; did you mean one of {}?", several.join(", ")),
     };
-    Error::wrong(format!(
-        "{text:?} is no value of the inventory {:?} of the tier {:?}{meant}",
+    CorpusError::from_wrong_message(format!(
+        "{text:?} is no value of the inventory {:?} of the tier {:?}{hint}",
         inventory.id, tier.name
     ))
-    .advise(format!(
+    .with_advice(format!(
         "`chereme list CORPUS values --where 'inventory={}'` lists the values",
         inventory.id
     ))

@@ -1,30 +1,30 @@
 //! Finds and replaces values of annotations, and shifts whole tiers in time.
 
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
-use chereme_sign::Remedy;
-use chereme_sign::text::fold;
-use chereme_sign::tier::spans::{self, Item};
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::fold_text;
+use chereme_sign::tier::tier_spans::{self, SpanItem};
 use regex::{NoExpand, Regex};
 use rusqlite::Connection;
 use serde::Serialize;
 
 use super::{
-    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, TierName,
-    Work, names, span_of,
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationChangeRun, AnnotationName,
+    TierRequestName, annotate_names, span_of,
 };
 use crate::Corpus;
-use crate::address::{self, Name};
-use crate::db::columns::ValueState;
-use crate::db::recordings::{self, RecordingRow};
-use crate::db::tiers::{self as rows, TierRow};
-use crate::error::{Error, Result};
-use crate::progress::Progress;
+use crate::address::{self, RowName};
+use crate::db::stored_columns::ValueState;
+use crate::db::stored_recordings::{self, RecordingRow};
+use crate::db::stored_tiers::{self as rows, TierRow};
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::ProgressReceiver;
 use crate::words::effect::OperationEffect;
 
 /// A text or pattern to look for in the values of annotations.
 #[derive(Debug, Clone)]
-pub enum Find {
+pub enum ValueSearch {
     /// This text, anywhere in a value.
     Text(String),
     /// This text, and nothing else in the value.
@@ -33,24 +33,21 @@ pub enum Find {
     Pattern(Regex),
 }
 
-impl Find {
+impl ValueSearch {
     /// Reads a regular expression.
     ///
     /// # Errors
     /// Fails if the text is not a regular expression.
-    pub fn pattern(text: &str) -> Result<Self> {
-        let advice = || {
-            Remedy::command(
-                "write a regular expression such as ^BO.*; a text is found without --regex",
-            )
-        };
+    pub fn from_value_pattern(text: &str) -> CorpusResult<Self> {
+        let advice =
+            || ErrorRemedy::command_remedy("write a regular expression such as ^BO.*; a text is found without --regex");
         Regex::new(text).map(Self::Pattern).map_err(|error| {
-            let why = error.to_string();
-            let why = why.lines().last().unwrap_or_default().trim();
+            let error_text = error.to_string();
+            let why = error_text.lines().last().unwrap_or_default().trim();
             let why = why.trim_start_matches("error: ");
-            Error::wrong(format!("{text:?} is no regular expression: {why}"))
-                .at(text)
-                .advise(advice())
+            CorpusError::from_wrong_message(format!("{text:?} is no regular expression: {why}"))
+                .with_error_place(text)
+                .with_advice(advice())
         })
     }
 
@@ -59,7 +56,7 @@ impl Find {
     ///
     /// # Errors
     /// Fails if the pattern has no group of that name.
-    fn expansion(&self, with: &str) -> Result<String> {
+    fn expansion(&self, with: &str) -> CorpusResult<String> {
         let Self::Pattern(pattern) = self else {
             return Ok(with.to_owned());
         };
@@ -70,7 +67,7 @@ impl Find {
             let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
             let digits = after.len() - after.trim_start_matches(|c: char| c.is_ascii_digit()).len();
             let word = after.find(|c| !is_word(c)).unwrap_or(after.len());
-            let (name, length) = match after.strip_prefix('{').and_then(|it| it.split_once('}')) {
+            let (name, length) = match after.strip_prefix('{').and_then(|tail| tail.split_once('}')) {
                 _ if after.starts_with('$') => {
                     text.push_str("$$");
                     rest = &after[1..];
@@ -80,16 +77,16 @@ impl Find {
                 None if digits > 0 => (&after[..digits], digits),
                 None => (&after[..word], word),
             };
-            let known = match name.parse::<usize>() {
+            let is_known = match name.parse::<usize>() {
                 Ok(group) => group < pattern.captures_len(),
-                Err(_) => pattern.capture_names().flatten().any(|it| it == name),
+                Err(_) => pattern.capture_names().flatten().any(|other| other == name),
             };
-            if !known {
-                return Err(Error::wrong(format!(
+            if !is_known {
+                return Err(CorpusError::from_wrong_message(format!(
                     "the new text names the group {name:?}, which the expression does not have"
                 ))
-                .at(with)
-                .advise("$1 is the first group in round brackets; a dollar sign is written $$"));
+                .with_error_place(with)
+                .with_advice("$1 is the first group in round brackets; a dollar sign is written $$"));
             }
             text.push_str(&format!("${{{name}}}"));
             rest = &after[length..];
@@ -105,9 +102,7 @@ impl Find {
             Self::Text(text) => value.replace(text.as_str(), with),
             Self::Whole(text) if value == text => with.to_owned(),
             Self::Whole(_) => value.to_owned(),
-            Self::Pattern(pattern) if with.contains('$') => {
-                pattern.replace_all(value, with).into_owned()
-            }
+            Self::Pattern(pattern) if with.contains('$') => pattern.replace_all(value, with).into_owned(),
             Self::Pattern(pattern) => pattern.replace_all(value, NoExpand(with)).into_owned(),
         }
     }
@@ -115,9 +110,9 @@ impl Find {
 
 /// The tiers in which values are searched or that are shifted.
 #[derive(Debug, Clone, Default)]
-pub struct Within {
+pub struct TierSelection {
     /// The recording; nothing for all of them.
-    pub recording: Option<Name>,
+    pub recording: Option<RowName>,
     /// Names of tiers, with `*` for any letters, or `tier:12`; empty for all of them.
     pub tiers: Vec<String>,
 }
@@ -141,7 +136,7 @@ pub struct ReplacedValue {
 
 /// The result of a replacement or of a dry run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Replaced {
+pub struct ReplacementReport {
     /// Whether nothing was written.
     pub dry_run: bool,
     /// How many annotations change.
@@ -159,16 +154,16 @@ impl Corpus {
     /// Fails if a tier does not exist, or its inventory does not have a new value; nothing is changed then.
     pub fn replace_values(
         &mut self,
-        find: &Find,
+        find: &ValueSearch,
         with: &str,
-        within: &Within,
+        within: &TierSelection,
         dry_run: bool,
-        progress: &mut Progress<'_>,
-    ) -> Result<Replaced> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<ReplacementReport> {
         let mut values = Vec::new();
         let with = find.expansion(with)?;
-        for (recording, tier) in tiers_within(self.store.read(), within)? {
-            for row in rows::annotations(self.store.read(), tier.id)? {
+        for (recording, tier) in tiers_within(self.store.read_connection(), within)? {
+            for row in rows::load_tier_annotation_rows(self.store.read_connection(), tier.id)? {
                 let to = find.replaced(&row.value, &with);
                 if row.state == ValueState::Value && to != row.value {
                     values.push(ReplacedValue {
@@ -182,12 +177,12 @@ impl Corpus {
                 }
             }
         }
-        let changes: Vec<AnnotationChange> = values.iter().map(change).collect();
+        let changes: Vec<AnnotationChange> = values.iter().map(replacement_change).collect();
         let report = match changes.is_empty() {
             true => AnnotateReport::default(),
             false => self.annotate_or_try(&changes, dry_run, progress)?,
         };
-        Ok(Replaced {
+        Ok(ReplacementReport {
             dry_run,
             changed: report.changed,
             values,
@@ -202,12 +197,12 @@ impl Corpus {
     /// parent annotation; nothing is changed then.
     pub fn shift_tiers(
         &mut self,
-        within: &Within,
+        within: &TierSelection,
         by_us: i64,
         dry_run: bool,
-        progress: &mut Progress<'_>,
-    ) -> Result<AnnotateReport> {
-        let connection = self.store.read();
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
+        let connection = self.store.read_connection();
         let chosen = tiers_within(connection, within)?;
         let ids: Vec<i64> = chosen.iter().map(|(_, tier)| tier.id).collect();
         let mut changes = Vec::new();
@@ -216,14 +211,14 @@ impl Corpus {
             if goes_along || (within.tiers.is_empty() && tier.parent_id.is_some()) {
                 continue;
             }
-            let old: Vec<Item> = rows::annotations(connection, tier.id)?
+            let old: Vec<SpanItem> = rows::load_tier_annotation_rows(connection, tier.id)?
                 .iter()
-                .map(|row| item(row.id, span_of(row)))
+                .map(|row| annotation_item(row.id, span_of(row)))
                 .collect();
-            let new: Vec<Item> = old.iter().map(|item| moved(*item, by_us)).collect();
-            check(connection, recording, tier, &new, by_us)?;
-            for item in spans::in_order(&old, &new) {
-                changes.push(set(recording, tier, item));
+            let new: Vec<SpanItem> = old.iter().map(|item| shift_item_by(*item, by_us)).collect();
+            check_shift_range(connection, recording, tier, &new, by_us)?;
+            for item in tier_spans::order_span_changes(&old, &new) {
+                changes.push(shifted_times_change(recording, tier, item));
             }
         }
         match changes.is_empty() {
@@ -237,21 +232,21 @@ impl Corpus {
         &mut self,
         changes: &[AnnotationChange],
         dry_run: bool,
-        progress: &mut Progress<'_>,
-    ) -> Result<AnnotateReport> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
         let options = AnnotateOptions::default();
         if !dry_run {
-            return self.annotate(changes, &options, progress);
+            return self.annotate_corpus(changes, &options, progress);
         }
         let mut tried = None;
-        let carry = |connection: &Connection, progress: &mut Progress<'_>| {
-            let mut work = Work::new(connection, &options)?;
+        let carry = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
+            let mut work = AnnotationChangeRun::new(connection, &options)?;
             for change in changes {
-                work.change(change)?;
+                work.run_annotation_change(change)?;
             }
-            tried = Some(work.finish(changes.len(), progress)?);
+            tried = Some(work.finish_annotation_changes(changes.len(), progress)?);
             // An error rolls the attempt back.
-            Err::<((), OperationEffect), _>(Error::Stopped)
+            Err::<((), OperationEffect), _>(CorpusError::Stopped)
         };
         let done = self.store.operation_with_progress(progress, carry);
         match (done, tried) {
@@ -262,11 +257,11 @@ impl Corpus {
     }
 }
 
-fn change(value: &ReplacedValue) -> AnnotationChange {
-    let at = Instant::from_micros(value.start_us);
+fn replacement_change(value: &ReplacedValue) -> AnnotationChange {
+    let start_instant = RecordingInstant::from_micros(value.start_us);
     AnnotationChange {
         place: Some(format!(
-            "{:?} at {at} on {:?} of {:?}",
+            "{:?} at {start_instant} on {:?} of {:?}",
             value.from, value.tier, value.recording
         )),
         label: None,
@@ -279,8 +274,8 @@ fn change(value: &ReplacedValue) -> AnnotationChange {
     }
 }
 
-fn set(recording: &RecordingRow, tier: &TierRow, item: Item) -> AnnotationChange {
-    let moment = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+fn shifted_times_change(recording: &RecordingRow, tier: &TierRow, item: SpanItem) -> AnnotationChange {
+    let moment = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
     AnnotationChange {
         place: Some(format!("{:?} of {:?}", tier.name, recording.name)),
         label: None,
@@ -293,16 +288,16 @@ fn set(recording: &RecordingRow, tier: &TierRow, item: Item) -> AnnotationChange
     }
 }
 
-pub(super) fn item(id: i64, span: chereme_motion::Span) -> Item {
-    Item {
+pub(super) fn annotation_item(id: i64, span: chereme_motion::TimeSpan) -> SpanItem {
+    SpanItem {
         id,
-        start: span.start().micros(),
-        end: span.end().micros(),
+        start: span.span_start_instant().instant_micros(),
+        end: span.span_end_instant().instant_micros(),
     }
 }
 
-fn moved(item: Item, by: i64) -> Item {
-    Item {
+fn shift_item_by(item: SpanItem, by: i64) -> SpanItem {
+    SpanItem {
         start: item.start.saturating_add(by),
         end: item.end.saturating_add(by),
         ..item
@@ -310,44 +305,40 @@ fn moved(item: Item, by: i64) -> Item {
 }
 
 /// Fails if a shift would leave the recording; the error names the largest possible shift.
-fn check(
+fn check_shift_range(
     connection: &Connection,
     recording: &RecordingRow,
     tier: &TierRow,
-    new: &[Item],
+    new: &[SpanItem],
     by: i64,
-) -> Result<()> {
+) -> CorpusResult<()> {
     let first = new.iter().map(|item| item.start).min().unwrap_or(0);
     let last = new.iter().map(|item| item.end).max().unwrap_or(0);
-    let moves = recordings::body_track(connection, recording.id)?.is_some();
-    let over = if moves {
-        last - recording.duration_us
-    } else {
-        0
-    };
+    let moves = stored_recordings::body_track(connection, recording.id)?.is_some();
+    let over = if moves { last - recording.duration_us } else { 0 };
     let most = match (first < 0, over > 0) {
         (true, _) => by - first,
         (_, true) => by - over,
         _ => return Ok(()),
     };
-    Err(Error::wrong(format!(
+    Err(CorpusError::from_wrong_message(format!(
         "annotations of the tier {:?} would leave the recording {:?}",
         tier.name, recording.name
     ))
-    .at(format!("{:?} of {:?}", tier.name, recording.name))
-    .advise(format!("shift it by {:.3}s at most", most as f64 / 1e6)))
+    .with_error_place(format!("{:?} of {:?}", tier.name, recording.name))
+    .with_advice(format!("shift it by {:.3}s at most", most as f64 / 1e6)))
 }
 
 /// Returns the selected tiers with their recordings, in order.
-fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(RecordingRow, TierRow)>> {
+fn tiers_within(connection: &Connection, within: &TierSelection) -> CorpusResult<Vec<(RecordingRow, TierRow)>> {
     let recordings = match &within.recording {
-        Some(name) => vec![address::recording(connection, name)?],
-        None => recordings::recordings(connection)?,
+        Some(name) => vec![address::find_recording_by_name(connection, name)?],
+        None => stored_recordings::load_recording_rows(connection)?,
     };
-    let mut found = Vec::new();
+    let mut matching_tiers = Vec::new();
     let mut used = vec![false; within.tiers.len()];
     for recording in recordings {
-        for tier in rows::tiers(connection, recording.id)? {
+        for tier in rows::load_tier_rows(connection, recording.id)? {
             let mut wanted = within.tiers.is_empty();
             for (text, used) in within.tiers.iter().zip(&mut used) {
                 if is_meant(text, &tier) {
@@ -355,7 +346,7 @@ fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(Recordi
                 }
             }
             if wanted {
-                found.push((recording.clone(), tier));
+                matching_tiers.push((recording.clone(), tier));
             }
         }
     }
@@ -363,8 +354,8 @@ fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(Recordi
         return Err(match &within.recording {
             // Lists the existing tiers.
             Some(_) => {
-                let name = TierName::read(text, within.recording.as_ref())?;
-                match names::tier(connection, &name) {
+                let name = TierRequestName::parse_tier_name(text, within.recording.as_ref())?;
+                match annotate_names::find_named_tier(connection, &name) {
                     Err(error) => error,
                     Ok(_) => no_tier(text),
                 }
@@ -372,22 +363,22 @@ fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(Recordi
             None => no_tier(text),
         });
     }
-    Ok(found)
+    Ok(matching_tiers)
 }
 
-fn no_tier(text: &str) -> Error {
-    Error::wrong(format!("no recording has a tier {text:?}"))
-        .at(text)
-        .advise(Remedy::command("`chereme list CORPUS tiers` lists them"))
+fn no_tier(text: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("no recording has a tier {text:?}"))
+        .with_error_place(text)
+        .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists them"))
 }
 
 /// Returns whether a tier has that name or number; `*` matches any letters.
 fn is_meant(text: &str, tier: &TierRow) -> bool {
-    if let Ok(crate::Address::Tier(id)) = text.parse() {
+    if let Ok(crate::CorpusAddress::Tier(id)) = text.parse() {
         return id == tier.id;
     }
-    let name = fold(&tier.name);
-    let wanted = fold(text.trim());
+    let name = fold_text(&tier.name);
+    let wanted = fold_text(text.trim());
     let mut parts = wanted.split('*');
     let first = parts.next().unwrap_or_default();
     let Some(mut rest) = name.strip_prefix(first) else {

@@ -2,26 +2,26 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
-use chereme_sign::tier::spans::Item;
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
+use chereme_sign::tier::tier_spans::SpanItem;
 
-use super::drag_limits::places;
-use super::{AnnotationAction, AnnotationChange, AnnotationName, TierName};
-use crate::contents::{AnnotationColumns, Contents, TierContents};
-use crate::db::columns::ValueState;
+use super::drag_limits::chosen_annotation_indices;
+use super::{AnnotationAction, AnnotationChange, AnnotationName, TierRequestName};
+use crate::contents::{AnnotationColumns, RecordingContents, TierContents};
+use crate::db::stored_columns::ValueState;
 
-fn moment(micros: i64) -> Moment {
-    Moment::Time(Instant::from_micros(micros))
+fn moment_from_micros(micros: i64) -> TableMoment {
+    TableMoment::Time(RecordingInstant::from_micros(micros))
 }
 
 /// Returns the change that adds an annotation.
 #[must_use]
-pub fn add(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange {
+pub fn add_annotation_change(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange {
     let action = AnnotationAction::Add {
-        tier: TierName::Number(tier),
-        start: Some(moment(start)),
-        end: Some(moment(end)),
+        tier: TierRequestName::Number(tier),
+        start: Some(moment_from_micros(start)),
+        end: Some(moment_from_micros(end)),
         parent: None,
         order: None,
         value: value.to_owned(),
@@ -32,11 +32,11 @@ pub fn add(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange
 
 /// Returns the changes that set the times of annotations, in this order.
 #[must_use]
-pub fn respan(items: &[Item]) -> Vec<AnnotationChange> {
+pub fn set_times_changes(items: &[SpanItem]) -> Vec<AnnotationChange> {
     let set = items.iter().map(|item| AnnotationAction::Set {
         annotation: AnnotationName::Number(item.id),
-        start: Some(moment(item.start)),
-        end: Some(moment(item.end)),
+        start: Some(moment_from_micros(item.start)),
+        end: Some(moment_from_micros(item.end)),
         value: None,
     });
     set.map(AnnotationChange::from).collect()
@@ -44,10 +44,14 @@ pub fn respan(items: &[Item]) -> Vec<AnnotationChange> {
 
 /// Returns the change that cuts an annotation in two.
 #[must_use]
-pub fn split(annotation: i64, at: i64) -> AnnotationChange {
+pub fn split_annotation_change(annotation: i64, at: i64) -> AnnotationChange {
     let annotation = AnnotationName::Number(annotation);
-    let at = moment(at);
-    AnnotationAction::Split { annotation, at }.into()
+    let split_moment = moment_from_micros(at);
+    AnnotationAction::Split {
+        annotation,
+        at: split_moment,
+    }
+    .into()
 }
 
 /// Returns the changes that set the value of annotations.
@@ -64,10 +68,10 @@ pub fn set_value(annotations: &BTreeSet<i64>, value: &str) -> Vec<AnnotationChan
 
 /// Returns the changes that remove annotations; children of removed ones are removed with them.
 #[must_use]
-pub fn remove(contents: &Contents, annotations: &BTreeSet<i64>) -> Vec<AnnotationChange> {
+pub fn remove_annotation_changes(contents: &RecordingContents, annotations: &BTreeSet<i64>) -> Vec<AnnotationChange> {
     let mut changes = Vec::new();
     for tier in &contents.tiers {
-        for at in places(tier, annotations) {
+        for at in chosen_annotation_indices(tier, annotations) {
             if !goes_with_another(contents, tier, at, annotations) {
                 let annotation = AnnotationName::Number(tier.annotations.ids[at]);
                 changes.push(AnnotationAction::Remove { annotation }.into());
@@ -77,12 +81,7 @@ pub fn remove(contents: &Contents, annotations: &BTreeSet<i64>) -> Vec<Annotatio
     changes
 }
 
-fn goes_with_another(
-    contents: &Contents,
-    tier: &TierContents,
-    at: usize,
-    gone: &BTreeSet<i64>,
-) -> bool {
+fn goes_with_another(contents: &RecordingContents, tier: &TierContents, at: usize, gone: &BTreeSet<i64>) -> bool {
     let mut above = tier.annotations.parents.get(at).copied().flatten();
     for _ in 0..contents.tiers.len() {
         let Some(id) = above else { return false };
@@ -90,8 +89,8 @@ fn goes_with_another(
             return true;
         }
         above = contents.tiers.iter().find_map(|tier| {
-            let at = tier.annotations.ids.iter().position(|it| *it == id)?;
-            tier.annotations.parents.get(at).copied().flatten()
+            let index = tier.annotations.ids.iter().position(|other| *other == id)?;
+            tier.annotations.parents.get(index).copied().flatten()
         });
     }
     false
@@ -99,7 +98,7 @@ fn goes_with_another(
 
 /// Returns the value of an annotation as one would type it.
 #[must_use]
-pub fn typed(columns: &AnnotationColumns, at: usize) -> String {
+pub fn typed_annotation_value(columns: &AnnotationColumns, at: usize) -> String {
     match columns.states[at] {
         ValueState::Value => columns.values[at].to_string(),
         ValueState::NotApplicable => "n/a".to_owned(),
@@ -111,23 +110,22 @@ pub fn typed(columns: &AnnotationColumns, at: usize) -> String {
 /// Returns the changes that copy annotations to another tier at the same times; with `and_remove`, also those that
 /// remove the originals.
 #[must_use]
-pub fn to_tier(
-    contents: &Contents,
-    items: &[Item],
-    to: i64,
-    and_remove: bool,
-) -> Vec<AnnotationChange> {
+pub fn to_tier(contents: &RecordingContents, items: &[SpanItem], to: i64, and_remove: bool) -> Vec<AnnotationChange> {
     let mut changes = Vec::new();
     for item in items {
-        let found = contents.tiers.iter().find_map(|tier| {
-            let at = tier.annotations.ids.iter().position(|id| *id == item.id)?;
-            Some(typed(&tier.annotations, at))
+        let typed_value = contents.tiers.iter().find_map(|tier| {
+            let index = tier.annotations.ids.iter().position(|id| *id == item.id)?;
+            Some(typed_annotation_value(&tier.annotations, index))
         });
-        changes.push(add(to, (item.start, item.end), &found.unwrap_or_default()));
+        changes.push(add_annotation_change(
+            to,
+            (item.start, item.end),
+            &typed_value.unwrap_or_default(),
+        ));
     }
     if and_remove {
         let gone = items.iter().map(|item| item.id).collect();
-        changes.extend(remove(contents, &gone));
+        changes.extend(remove_annotation_changes(contents, &gone));
     }
     changes
 }
@@ -136,22 +134,22 @@ pub fn to_tier(
 /// with the next. Different values are joined; `closed` tiers keep the first. Returns `None` if there is no next
 /// annotation.
 #[must_use]
-pub fn merge(
+pub fn merge_annotation_changes(
     tier: &TierContents,
     chosen: &BTreeSet<i64>,
     closed: bool,
 ) -> Option<Vec<AnnotationChange>> {
     let columns = &tier.annotations;
-    let mut all = places(tier, chosen);
+    let mut all = chosen_annotation_indices(tier, chosen);
     let first = all.next()?;
     let last = all.last().unwrap_or(first + 1);
     if last >= columns.len() {
         return None;
     }
-    let mut value = typed(columns, first);
+    let mut value = typed_annotation_value(columns, first);
     let mut changes = Vec::new();
     for at in first + 1..=last {
-        let other = typed(columns, at);
+        let other = typed_annotation_value(columns, at);
         if value.is_empty() {
             value = other;
         } else if !closed && !other.is_empty() && other != value {
@@ -170,8 +168,8 @@ pub fn merge(
 
 /// Returns whether any of the annotations has children.
 #[must_use]
-pub fn has_below(contents: &Contents, annotations: &BTreeSet<i64>) -> bool {
-    let mut parents = contents.tiers.iter().flat_map(|it| &it.annotations.parents);
+pub fn has_below(contents: &RecordingContents, annotations: &BTreeSet<i64>) -> bool {
+    let mut parents = contents.tiers.iter().flat_map(|tier| &tier.annotations.parents);
     parents.any(|parent| parent.is_some_and(|id| annotations.contains(&id)))
 }
 
@@ -188,7 +186,7 @@ pub fn missing_below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64
                 under.entry((tier.row.id, *parent)).or_default().push(at);
             }
         }
-        open.extend(places(tier, chosen).map(|at| {
+        open.extend(chosen_annotation_indices(tier, chosen).map(|at| {
             let span = (columns.starts[at], columns.ends[at]);
             (tier.row.id, span, Some(columns.ids[at]))
         }));
@@ -199,7 +197,7 @@ pub fn missing_below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64
         if id.is_some_and(|id| !seen.insert(id)) {
             continue;
         }
-        for tier in tiers.iter().filter(|it| it.row.parent_id == Some(above)) {
+        for tier in tiers.iter().filter(|tier| tier.row.parent_id == Some(above)) {
             let columns = &tier.annotations;
             let there = id.and_then(|id| under.get(&(tier.row.id, id)));
             if there.is_none() {
@@ -220,7 +218,7 @@ mod tests {
     use super::super::testing::contents;
     use super::*;
 
-    fn recording() -> Contents {
+    fn recording() -> RecordingContents {
         contents(&[
             (
                 1,
@@ -239,7 +237,7 @@ mod tests {
 
     #[test]
     fn children_removed_with_their_parent_are_not_removed_twice() {
-        let removed = remove(&recording(), &BTreeSet::from([1, 3, 4]));
+        let removed = remove_annotation_changes(&recording(), &BTreeSet::from([1, 3, 4]));
         let ids: Vec<_> = removed
             .iter()
             .map(|it| match &it.action {
@@ -255,7 +253,7 @@ mod tests {
         let all = recording();
         let values = |chosen: &[i64], closed| {
             let chosen = chosen.iter().copied().collect();
-            let merged = merge(&all.tiers[0], &chosen, closed)?;
+            let merged = merge_annotation_changes(&all.tiers[0], &chosen, closed)?;
             let value = |it: &AnnotationChange| match &it.action {
                 AnnotationAction::Merge { value, .. } => value.clone().unwrap_or_default(),
                 other => panic!("{other:?}"),
@@ -263,10 +261,7 @@ mod tests {
             Some(merged.iter().map(value).collect::<Vec<_>>())
         };
         assert_eq!(values(&[1], false), Some(vec!["v1 v2".into()]));
-        assert_eq!(
-            values(&[1, 5], false),
-            Some(vec!["v1 v2".into(), "v1 v2 v5".into()])
-        );
+        assert_eq!(values(&[1, 5], false), Some(vec!["v1 v2".into(), "v1 v2 v5".into()]));
         assert_eq!(values(&[1], true), Some(vec!["v1".into()]));
         assert_eq!(values(&[5], false), None);
         assert_eq!(values(&[3], false), None);
@@ -275,13 +270,13 @@ mod tests {
     #[test]
     fn moving_to_another_tier_adds_and_removes() {
         let all = recording();
-        let item = Item {
+        let item = SpanItem {
             id: 5,
             start: 310,
             end: 410,
         };
         let copied = to_tier(&all, &[item], 2, false);
-        assert_eq!(copied, [add(2, (310, 410), "v5")]);
+        assert_eq!(copied, [add_annotation_change(2, (310, 410), "v5")]);
         assert_eq!(to_tier(&all, &[item], 2, true).len(), 2);
         assert!(has_below(&all, &BTreeSet::from([2])) && !has_below(&all, &BTreeSet::from([5])));
     }

@@ -1,32 +1,32 @@
 //! Whole sets of tiers for a recording, as a start for annotation.
 
-use chereme_formats::roles::Hands;
-use chereme_sign::{HandRef, Stereotype, TierRole};
+use chereme_formats::roles::AnnotatedHands;
+use chereme_sign::{HandRef, TierRole, TierStereotype};
 use rusqlite::Connection;
 
-use super::names::{self, TierName};
-use super::tiers::{NewTier, family, new_row};
+use super::annotate_names::{self, TierRequestName};
+use super::annotate_tiers::{NewTier, new_row, tier_with_descendants};
 use crate::Corpus;
-use crate::address::{self, Name};
-use crate::db::recordings::{self, RecordingRow};
-use crate::db::tiers::{self as rows, TierRow};
-use crate::error::{Error, Result};
+use crate::address::{self, RowName};
+use crate::db::stored_recordings::{self, RecordingRow};
+use crate::db::stored_tiers::{self as rows, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::words::effect::OperationEffect;
 
 /// The set of tiers to add to a recording.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum Scheme {
+pub enum TierScheme {
     /// Gloss and translation; below the gloss handshape, placement, movement with its direction, palm and
     /// finger direction of either hand, mouth, brows and head; a comment.
     #[default]
     Usual,
     /// The tiers of another recording.
-    Like(Name),
+    Like(RowName),
     /// Tiers for the components of the hand of a gloss tier, or of both hands if it has none: handshape, placement,
     /// movement with its direction, palm and finger direction, all below that tier.
     ///
     /// If a name is taken, that of the gloss tier is appended.
-    Below(TierName),
+    Below(TierRequestName),
 }
 
 const BY_HAND: [(&str, &str); 6] = [
@@ -53,20 +53,22 @@ impl Corpus {
     /// # Errors
     /// Fails if a recording does not exist, if the model recording has no tiers, if all tiers exist already, or if a
     /// tier cannot be below its parent.
-    pub fn add_tiers(&mut self, recording: &Name, scheme: &Scheme) -> Result<Vec<TierRow>> {
-        self.store.operation(|connection| {
-            let recording = address::recording(connection, recording)?;
+    pub fn add_tiers(&mut self, recording: &RowName, scheme: &TierScheme) -> CorpusResult<Vec<TierRow>> {
+        self.store.run_store_operation(|connection| {
+            let recording = address::find_recording_by_name(connection, recording)?;
             let wanted = match scheme {
-                Scheme::Usual => usual(connection, &recording)?,
-                Scheme::Like(other) => like(
+                TierScheme::Usual => plan_default_tiers(connection, &recording)?,
+                TierScheme::Like(other) => plan_tiers_like(
                     connection,
-                    &address::recording(connection, other)?,
+                    &address::find_recording_by_name(connection, other)?,
                     &recording,
                 )?,
-                Scheme::Below(tier) => below(connection, &names::tier(connection, tier)?)?,
+                TierScheme::Below(tier) => {
+                    plan_component_tiers(connection, &annotate_names::find_named_tier(connection, tier)?)?
+                }
             };
-            let below = matches!(scheme, Scheme::Below(_));
-            let added = add(connection, &recording, wanted, below)?;
+            let below = matches!(scheme, TierScheme::Below(_));
+            let added = add_planned_tiers(connection, &recording, wanted, below)?;
             let (count, recording) = (added.len() as u64, recording.name);
             Ok((added, OperationEffect::AddTiers { count, recording }))
         })
@@ -74,26 +76,26 @@ impl Corpus {
 }
 
 /// A tier to be added, and the row of the tier that it copies, if there is one.
-type Wanted = (NewTier, Option<TierRow>);
+type PlannedTier = (NewTier, Option<TierRow>);
 
-fn add(
+fn add_planned_tiers(
     connection: &Connection,
     recording: &RecordingRow,
-    wanted: Vec<Wanted>,
+    wanted: Vec<PlannedTier>,
     below: bool,
-) -> Result<Vec<TierRow>> {
+) -> CorpusResult<Vec<TierRow>> {
     let mut added = Vec::new();
-    let before = rows::tiers(connection, recording.id)?;
+    let before = rows::load_tier_rows(connection, recording.id)?;
     let free = before.iter().map(|row| row.position + 1).max().unwrap_or(0);
     for (tier, like) in wanted {
-        let there = rows::tiers(connection, recording.id)?;
+        let there = rows::load_tier_rows(connection, recording.id)?;
         if there.iter().any(|row| row.name == tier.name) {
             continue;
         }
         let mut row = new_row(connection, recording.id, &tier)?;
         // Tiers below one gloss tier may have the same roles as those below another.
         let same =
-            |it: &TierRow| it.topic() == row.topic() && (!below || it.parent_id == row.parent_id);
+            |other: &TierRow| other.tier_topic() == row.tier_topic() && (!below || other.parent_id == row.parent_id);
         if like.is_none() && there.iter().any(same) {
             continue;
         }
@@ -107,53 +109,43 @@ fn add(
         added.push(row);
     }
     if added.is_empty() {
-        return Err(Error::wrong(format!(
+        return Err(CorpusError::from_wrong_message(format!(
             "the recording {:?} has all of these tiers already",
             recording.name
         ))
-        .advise("add single tiers, or copy those of another recording"));
+        .with_advice("add single tiers, or copy those of another recording"));
     }
     Ok(added)
 }
 
-fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted>> {
-    let participant = signer(connection, recording)?;
-    let there = rows::tiers(connection, recording.id)?;
-    let gloss = there.into_iter().find(|row| row.role == TierRole::Gloss);
-    let gloss = gloss.map_or_else(|| "Gloss".to_owned(), |row| row.name);
-    let make = |name: String, role, hand, parent: Option<Stereotype>| {
+fn plan_default_tiers(connection: &Connection, recording: &RecordingRow) -> CorpusResult<Vec<PlannedTier>> {
+    let participant = recording_signer_name(connection, recording)?;
+    let there = rows::load_tier_rows(connection, recording.id)?;
+    let gloss_row = there.into_iter().find(|row| row.role == TierRole::Gloss);
+    let gloss = gloss_row.map_or_else(|| "Gloss".to_owned(), |row| row.name);
+    let make = |name: String, role, hand, parent: Option<TierStereotype>| {
         let tier = NewTier {
             hand,
-            parent: parent.map(|it| (gloss.clone(), it)),
+            parent: parent.map(|stereotype| (gloss.clone(), stereotype)),
             participant: participant.clone(),
-            ..NewTier::new(Name::Number(recording.id), name, role)
+            ..NewTier::new(RowName::Number(recording.id), name, role)
         };
         (tier, None)
     };
     let role_of = |field: &str| {
         field
             .parse::<TierRole>()
-            .map_err(|error| Error::wrong(error.to_string()))
+            .map_err(|error| CorpusError::from_wrong_message(error.to_string()))
     };
     let mut all = vec![make(gloss.clone(), TierRole::Gloss, None, None)];
-    let whole = Some(Stereotype::SymbolicAssociation);
-    all.push(make(
-        "Translation".to_owned(),
-        TierRole::Translation,
-        None,
-        whole,
-    ));
-    let within = Some(Stereotype::IncludedIn);
+    let association = Some(TierStereotype::SymbolicAssociation);
+    all.push(make("Translation".to_owned(), TierRole::Translation, None, association));
+    let within = Some(TierStereotype::IncludedIn);
     for hand in [HandRef::Right, HandRef::Left] {
-        let letters = letters(hand);
+        let letters = hand_tier_suffix(hand);
         for (name, field) in BY_HAND {
-            let hand = Some(Hands::One(hand));
-            all.push(make(
-                format!("{name} {letters}"),
-                role_of(field)?,
-                hand,
-                within,
-            ));
+            let hand = Some(AnnotatedHands::One(hand));
+            all.push(make(format!("{name} {letters}"), role_of(field)?, hand, within));
         }
     }
     for (name, field) in OF_NO_HAND {
@@ -163,14 +155,14 @@ fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted
     Ok(all)
 }
 
-fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
+fn plan_component_tiers(connection: &Connection, gloss: &TierRow) -> CorpusResult<Vec<PlannedTier>> {
     if gloss.role != TierRole::Gloss {
         let wrong = format!("the tier {:?} holds no glosses", gloss.name);
-        return Err(Error::wrong(wrong).advise("name a gloss tier"));
+        return Err(CorpusError::from_wrong_message(wrong).with_advice("name a gloss tier"));
     }
-    let there = rows::tiers(connection, gloss.recording_id)?;
+    let there = rows::load_tier_rows(connection, gloss.recording_id)?;
     let hands = match gloss.hand {
-        Some(Hands::One(hand)) => vec![hand],
+        Some(AnnotatedHands::One(hand)) => vec![hand],
         _ => vec![HandRef::Right, HandRef::Left],
     };
     let mut all = Vec::new();
@@ -178,18 +170,18 @@ fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
         for (name, field) in BY_HAND {
             let role: TierRole = field
                 .parse()
-                .map_err(|error| Error::wrong(format!("{error}")))?;
-            let mut name = format!("{name} {}", letters(hand));
+                .map_err(|error| CorpusError::from_wrong_message(format!("{error}")))?;
+            let mut name = format!("{name} {}", hand_tier_suffix(hand));
             // An existing child of that name is not created again.
-            let taken = |it: &TierRow| it.name == name && it.parent_id != Some(gloss.id);
+            let taken = |other: &TierRow| other.name == name && other.parent_id != Some(gloss.id);
             if there.iter().any(taken) {
                 name = format!("{name} ({})", gloss.name);
             }
             let tier = NewTier {
-                hand: Some(Hands::One(hand)),
-                parent: Some((gloss.name.clone(), Stereotype::IncludedIn)),
+                hand: Some(AnnotatedHands::One(hand)),
+                parent: Some((gloss.name.clone(), TierStereotype::IncludedIn)),
                 participant: gloss.participant.clone(),
-                ..NewTier::new(Name::Number(gloss.recording_id), name, role)
+                ..NewTier::new(RowName::Number(gloss.recording_id), name, role)
             };
             all.push((tier, None));
         }
@@ -198,7 +190,7 @@ fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
 }
 
 /// Returns the suffix of the names of a hand's tiers.
-fn letters(hand: HandRef) -> &'static str {
+fn hand_tier_suffix(hand: HandRef) -> &'static str {
     match hand {
         HandRef::Right => "RH",
         HandRef::Left => "LH",
@@ -207,43 +199,42 @@ fn letters(hand: HandRef) -> &'static str {
     }
 }
 
-fn like(
+fn plan_tiers_like(
     connection: &Connection,
     other: &RecordingRow,
     recording: &RecordingRow,
-) -> Result<Vec<Wanted>> {
-    let tiers = rows::tiers(connection, other.id)?;
+) -> CorpusResult<Vec<PlannedTier>> {
+    let tiers = rows::load_tier_rows(connection, other.id)?;
     if tiers.is_empty() {
         let wrong = format!("the recording {:?} has no tiers to copy", other.name);
-        return Err(Error::wrong(wrong).advise("name another, or take the usual tiers"));
+        return Err(CorpusError::from_wrong_message(wrong).with_advice("name another, or take the usual tiers"));
     }
-    let (from, to) = (signer(connection, other)?, signer(connection, recording)?);
+    let (from, to) = (
+        recording_signer_name(connection, other)?,
+        recording_signer_name(connection, recording)?,
+    );
     let roots = tiers.iter().filter(|row| row.parent_id.is_none());
-    let parents_first = roots.flat_map(|row| family(&tiers, row));
+    let parents_first = roots.flat_map(|row| tier_with_descendants(&tiers, row));
     let wanted = parents_first.map(|row| {
-        let above = tiers.iter().find(|it| Some(it.id) == row.parent_id);
+        let above = tiers.iter().find(|candidate| Some(candidate.id) == row.parent_id);
         let tier = NewTier {
-            parent: above.map(|it| it.name.clone()).zip(row.stereotype),
+            parent: above.map(|parent| parent.name.clone()).zip(row.stereotype),
             participant: if row.participant == from {
                 to.clone()
             } else {
                 row.participant.clone()
             },
             language: row.language.clone(),
-            ..NewTier::new(
-                Name::Number(recording.id),
-                row.name.clone(),
-                row.role.clone(),
-            )
+            ..NewTier::new(RowName::Number(recording.id), row.name.clone(), row.role.clone())
         };
         (tier, Some(row.clone()))
     });
     Ok(wanted.collect())
 }
 
-fn signer(connection: &Connection, recording: &RecordingRow) -> Result<Option<String>> {
+fn recording_signer_name(connection: &Connection, recording: &RecordingRow) -> CorpusResult<Option<String>> {
     let Some(id) = recording.signer_id else {
         return Ok(None);
     };
-    Ok(recordings::signer(connection, id)?.map(|signer| signer.name))
+    Ok(stored_recordings::find_signer_row(connection, id)?.map(|signer| signer.name))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use chereme_motion::{Instant, Rate};
+use chereme_motion::{FrameRate, RecordingInstant};
 use serde::{Deserialize, Serialize};
 
 use crate::contents::TierContents;
@@ -10,7 +10,7 @@ use crate::contents::TierContents;
 /// The kinds of times that a drag snaps to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Snaps {
+pub struct SnapKinds {
     /// Starts of frames.
     pub frames: bool,
     /// Boundaries of annotations.
@@ -19,7 +19,7 @@ pub struct Snaps {
     pub minima: bool,
 }
 
-impl Default for Snaps {
+impl Default for SnapKinds {
     fn default() -> Self {
         Self {
             frames: true,
@@ -31,7 +31,7 @@ impl Default for Snaps {
 
 /// The kind of target that a time snapped to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Catch {
+pub enum SnapTarget {
     /// The boundary of an annotation, or a mark.
     Boundary,
     /// A minimum of wrist speed.
@@ -42,44 +42,44 @@ pub enum Catch {
 
 /// Frame times of a recording: the rate, and the offset of the first frame on the recording's clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Frames {
+pub struct RecordingFrameTimes {
     /// The number of frames per second.
-    pub rate: Rate,
+    pub rate: FrameRate,
     /// The start of the first frame, in microseconds.
     pub offset: i64,
 }
 
-impl Frames {
+impl RecordingFrameTimes {
     /// Returns the start of a frame, in microseconds.
     #[must_use]
-    pub fn start(&self, frame: u64) -> i64 {
+    pub fn snap_frame_start(&self, frame: u64) -> i64 {
         let frame = usize::try_from(frame).unwrap_or(usize::MAX);
-        self.rate.instant(frame).micros() + self.offset
+        self.rate.frame_start_instant(frame).instant_micros() + self.offset
     }
 
     /// Returns the start of the frame nearest to a time.
     #[must_use]
-    pub fn nearest(&self, micros: i64) -> i64 {
-        let own = (micros - self.offset).max(0);
-        let frame = self.rate.frame_at(Instant::from_micros(own));
-        self.rate.instant(frame).micros() + self.offset
+    pub fn nearest_frame_start(&self, micros: i64) -> i64 {
+        let local_micros = (micros - self.offset).max(0);
+        let frame = self.rate.nearest_frame_at(RecordingInstant::from_micros(local_micros));
+        self.rate.frame_start_instant(frame).instant_micros() + self.offset
     }
 
     /// Returns the start of the frame `by` frames after the one nearest to a time.
     #[must_use]
-    pub fn stepped(&self, micros: i64, by: i64) -> i64 {
-        let own = (self.nearest(micros) - self.offset).max(0);
-        let frame = self.rate.frame_at(Instant::from_micros(own)) as i64 + by;
-        let frame = usize::try_from(frame).unwrap_or_default();
-        self.rate.instant(frame).micros() + self.offset
+    pub fn stepped_frame_start(&self, micros: i64, by: i64) -> i64 {
+        let local_micros = (self.nearest_frame_start(micros) - self.offset).max(0);
+        let signed_frame = self.rate.nearest_frame_at(RecordingInstant::from_micros(local_micros)) as i64 + by;
+        let frame = usize::try_from(signed_frame).unwrap_or_default();
+        self.rate.frame_start_instant(frame).instant_micros() + self.offset
     }
 }
 
 /// The snapping targets of a drag.
 #[derive(Debug)]
-pub struct Guides<'a> {
+pub struct SnapGuides<'a> {
     /// The kinds of times to snap to.
-    pub snaps: Snaps,
+    pub snaps: SnapKinds,
     /// The tiers whose boundaries are targets.
     pub tiers: &'a [TierContents],
     /// The dragged annotations, whose boundaries are no targets.
@@ -89,38 +89,38 @@ pub struct Guides<'a> {
     /// Minima of wrist speed, in order, in microseconds.
     pub minima: &'a [i64],
     /// The frames of the recording's movement.
-    pub frames: Option<Frames>,
+    pub frames: Option<RecordingFrameTimes>,
     /// The distance within which a time snaps to a boundary or minimum, in microseconds.
     pub reach: i64,
 }
 
-impl Guides<'_> {
+impl SnapGuides<'_> {
     /// Returns the time to snap to and the reason; the time itself if nothing is near.
     #[must_use]
-    pub fn settle(&self, micros: i64) -> (i64, Option<Catch>) {
+    pub fn snap_time(&self, micros: i64) -> (i64, Option<SnapTarget>) {
         let boundary = self
             .snaps
             .boundaries
-            .then(|| self.boundary(micros))
+            .then(|| self.nearest_boundary_time(micros))
             .flatten();
         let minimum = self
             .snaps
             .minima
-            .then(|| nearest(self.minima, micros))
+            .then(|| nearest_sorted_time(self.minima, micros))
             .flatten();
-        let near = [(boundary, Catch::Boundary), (minimum, Catch::Minimum)]
+        let near = [(boundary, SnapTarget::Boundary), (minimum, SnapTarget::Minimum)]
             .into_iter()
             .filter_map(|(at, why)| Some((at?, why)))
             .filter(|(at, _)| (at - micros).abs() <= self.reach)
             .min_by_key(|(at, why)| ((at - micros).abs(), *why));
         match (near, self.frames.filter(|_| self.snaps.frames)) {
             (Some((at, why)), _) => (at, Some(why)),
-            (None, Some(frames)) => (frames.nearest(micros), Some(Catch::Frame)),
+            (None, Some(frames)) => (frames.nearest_frame_start(micros), Some(SnapTarget::Frame)),
             (None, None) => (micros, None),
         }
     }
 
-    fn boundary(&self, micros: i64) -> Option<i64> {
+    fn nearest_boundary_time(&self, micros: i64) -> Option<i64> {
         let inside = self.tiers.iter().flat_map(|tier| {
             let columns = &tier.annotations;
             let near = |all: &[i64]| {
@@ -134,20 +134,14 @@ impl Guides<'_> {
             [near(&columns.starts), near(&columns.ends)]
         });
         let marks = self.marks.iter().copied();
-        inside
-            .flatten()
-            .chain(marks)
-            .min_by_key(|at| (at - micros).abs())
+        inside.flatten().chain(marks).min_by_key(|at| (at - micros).abs())
     }
 }
 
-fn nearest(sorted: &[i64], micros: i64) -> Option<i64> {
+fn nearest_sorted_time(sorted: &[i64], micros: i64) -> Option<i64> {
     let after = sorted.partition_point(|at| *at < micros);
     let around = after.saturating_sub(1)..(after + 1).min(sorted.len());
-    sorted[around]
-        .iter()
-        .copied()
-        .min_by_key(|at| (at - micros).abs())
+    sorted[around].iter().copied().min_by_key(|at| (at - micros).abs())
 }
 
 #[cfg(test)]
@@ -172,57 +166,54 @@ mod tests {
     fn a_nearby_boundary_or_minimum_takes_precedence_over_the_frame() {
         let tiers = [tier(&[(100_000, 233_000), (400_000, 500_000)])];
         let except = BTreeSet::from([2]);
-        let guides = |snaps| Guides {
+        let guides = |snaps| SnapGuides {
             snaps,
             tiers: &tiers,
             except: &except,
             marks: &[700_000],
             minima: &[236_000, 600_000],
-            frames: Some(Frames {
-                rate: Rate::new(100, 1).expect("a rate"),
+            frames: Some(RecordingFrameTimes {
+                rate: FrameRate::new(100, 1).expect("a rate"),
                 offset: 0,
             }),
             reach: 20_000,
         };
-        let all = Snaps {
+        let all = SnapKinds {
             frames: true,
             boundaries: true,
             minima: true,
         };
-        let none = Snaps {
+        let none = SnapKinds {
             frames: false,
             boundaries: false,
             minima: false,
         };
         let cases = [
-            (all, 234_000, (233_000, Some(Catch::Boundary))),
-            (all, 235_000, (236_000, Some(Catch::Minimum))),
-            (all, 404_000, (400_000, Some(Catch::Frame))),
-            (all, 605_000, (600_000, Some(Catch::Minimum))),
-            (all, 705_001, (700_000, Some(Catch::Boundary))),
+            (all, 234_000, (233_000, Some(SnapTarget::Boundary))),
+            (all, 235_000, (236_000, Some(SnapTarget::Minimum))),
+            (all, 404_000, (400_000, Some(SnapTarget::Frame))),
+            (all, 605_000, (600_000, Some(SnapTarget::Minimum))),
+            (all, 705_001, (700_000, Some(SnapTarget::Boundary))),
             (
-                Snaps {
-                    minima: false,
-                    ..all
-                },
+                SnapKinds { minima: false, ..all },
                 605_001,
-                (610_000, Some(Catch::Frame)),
+                (610_000, Some(SnapTarget::Frame)),
             ),
             (none, 605_001, (605_001, None)),
         ];
         for (snaps, at, want) in cases {
-            assert_eq!(guides(snaps).settle(at), want, "{at}");
+            assert_eq!(guides(snaps).snap_time(at), want, "{at}");
         }
     }
 
     #[test]
     fn steps_go_from_frame_to_frame() {
-        let frames = Frames {
-            rate: Rate::new(30, 1).expect("a rate"),
+        let frames = RecordingFrameTimes {
+            rate: FrameRate::new(30, 1).expect("a rate"),
             offset: 5,
         };
-        assert_eq!(frames.nearest(40_000), 33_333 + 5);
-        assert_eq!(frames.stepped(33_000, 1), 66_667 + 5);
-        assert_eq!(frames.stepped(33_000, -9), 5);
+        assert_eq!(frames.nearest_frame_start(40_000), 33_333 + 5);
+        assert_eq!(frames.stepped_frame_start(33_000, 1), 66_667 + 5);
+        assert_eq!(frames.stepped_frame_start(33_000, -9), 5);
     }
 }

@@ -10,16 +10,16 @@ mod summaries;
 mod tables;
 mod tiers;
 
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
-use chereme_sign::{Component, Stereotype, TierRole};
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
+use chereme_sign::{SignComponent, TierRole, TierStereotype};
 use rusqlite::Connection;
 use rusqlite::types::Value;
 
 use super::*;
-use crate::address::Name;
-use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
-use crate::progress::unheard;
+use crate::address::RowName;
+use crate::db::stored_recordings::{self, MotionTrackRow, RecordingRow};
+use crate::progress::ignore_progress_step;
 
 const RECORDING: &str = "Take 1";
 
@@ -36,12 +36,12 @@ fn corpus() -> (tempfile::TempDir, Corpus) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("c.chereme");
     std::fs::write(&path, &*MADE).expect("written");
-    let corpus = Corpus::open(&path, "A").expect("opened");
+    let corpus = Corpus::open_corpus(&path, "A").expect("opened");
     (folder, corpus)
 }
 
 fn make(path: &std::path::Path) {
-    let mut corpus = Corpus::create(path, "A").expect("made");
+    let mut corpus = Corpus::create_corpus(path, "A").expect("made");
     corpus
         .store
         .named_operation("fill", |connection| Ok((fill(connection)?, String::new())))
@@ -53,59 +53,38 @@ fn make(path: &std::path::Path) {
     let tiers = [
         ("G", TierRole::Gloss, Some("right"), None),
         ("H", TierRole::Gloss, Some("left"), None),
-        (
-            "C",
-            component(Component::Configuration),
-            Some("right"),
-            None,
-        ),
-        ("L", component(Component::Placement), None, None),
-        ("T", TierRole::Free, None, Some(Stereotype::TimeSubdivision)),
-        (
-            "I",
-            TierRole::Translation,
-            None,
-            Some(Stereotype::IncludedIn),
-        ),
-        (
-            "S",
-            TierRole::Free,
-            None,
-            Some(Stereotype::SymbolicSubdivision),
-        ),
-        (
-            "A",
-            TierRole::Comment,
-            None,
-            Some(Stereotype::SymbolicAssociation),
-        ),
+        ("C", component(SignComponent::Configuration), Some("right"), None),
+        ("L", component(SignComponent::Placement), None, None),
+        ("T", TierRole::Free, None, Some(TierStereotype::TimeSubdivision)),
+        ("I", TierRole::Translation, None, Some(TierStereotype::IncludedIn)),
+        ("S", TierRole::Free, None, Some(TierStereotype::SymbolicSubdivision)),
+        ("A", TierRole::Comment, None, Some(TierStereotype::SymbolicAssociation)),
     ];
     for (name, role, hand, below) in tiers {
-        let mut tier = NewTier::new(Name::Text(RECORDING.into()), name, role);
-        tier.hand =
-            hand.map(|hand| chereme_formats::roles::Hands::One(hand.parse().expect("a hand")));
+        let mut tier = NewTier::new(RowName::Text(RECORDING.into()), name, role);
+        tier.hand = hand.map(|hand| chereme_formats::roles::AnnotatedHands::One(hand.parse().expect("a hand")));
         tier.parent = below.map(|stereotype| ("G".to_owned(), stereotype));
         if name == "L" {
-            tier.values = Values::Free;
+            tier.values = TierValueSource::Free;
         }
         corpus.add_tier(&tier).expect("added");
     }
 }
 
-fn fill(connection: &Connection) -> Result<()> {
-    let signer = recordings::signer_named(connection, "Anna", Some("right"))?;
+fn fill(connection: &Connection) -> CorpusResult<()> {
+    let signer = stored_recordings::signer_named(connection, "Anna", Some("right"))?;
     let recording = RecordingRow {
         id: 0,
         name: RECORDING.into(),
         signer_id: Some(signer),
         signer: None,
-        origin: crate::Origin::Captured,
+        origin: crate::RecordOrigin::Captured,
         duration_us: 10_000_000,
         licence: None,
         notes: None,
     };
-    let recording_id = recordings::insert_recording(connection, &recording)?;
-    let skeleton_id = recordings::skeleton_stored(connection, "x", 1, "{}")?;
+    let recording_id = stored_recordings::insert_recording(connection, &recording)?;
+    let skeleton_id = stored_recordings::skeleton_stored(connection, "x", 1, "{}")?;
     let track = MotionTrackRow {
         id: 0,
         recording_id,
@@ -123,7 +102,7 @@ fn fill(connection: &Connection) -> Result<()> {
         roles: None,
         channel_groups: "{}".into(),
     };
-    recordings::insert_motion_track(connection, &track)?;
+    stored_recordings::insert_motion_track(connection, &track)?;
     Ok(())
 }
 
@@ -135,12 +114,13 @@ fn action(text: &str) -> AnnotationAction {
         None => (text, None),
     };
     let words: Vec<&str> = text.split(' ').collect();
-    let name = |at: usize| AnnotationName::read(words[at], None);
-    let tier =
-        |at: usize| TierName::read(words[at], Some(&Name::Text(RECORDING.into()))).expect("a tier");
+    let name = |at: usize| AnnotationName::parse_annotation_name(words[at], None);
+    let tier = |at: usize| {
+        TierRequestName::parse_tier_name(words[at], Some(&RowName::Text(RECORDING.into()))).expect("a tier")
+    };
     let at = |text: &str| match text.strip_prefix('f') {
         Some(_) => text.parse().expect("a frame"),
-        None => Moment::Time(Instant::from_millis(text.parse().expect("milliseconds"))),
+        None => TableMoment::Time(RecordingInstant::from_millis(text.parse().expect("milliseconds"))),
     };
     let times = |place: usize| words.get(place).and_then(|text| text.split_once('-'));
     let number = |text: &str| text.parse().expect("a number");
@@ -174,20 +154,18 @@ fn action(text: &str) -> AnnotationAction {
             annotation: name(1),
             order: number(words[2]),
         },
-        "remove" => AnnotationAction::Remove {
-            annotation: name(1),
-        },
+        "remove" => AnnotationAction::Remove { annotation: name(1) },
         other => panic!("{other} is no action"),
     }
 }
 
-fn annotate(corpus: &mut Corpus, text: &str) -> Result<AnnotateReport> {
+fn annotate(corpus: &mut Corpus, text: &str) -> CorpusResult<AnnotateReport> {
     let changes: Vec<AnnotationChange> = text.split("; ").map(|text| action(text).into()).collect();
-    let mut hear = unheard;
-    corpus.annotate(
+    let mut hear = ignore_progress_step;
+    corpus.annotate_corpus(
         &changes,
         &AnnotateOptions::default(),
-        &mut Progress::new(&mut hear),
+        &mut ProgressReceiver::new(&mut hear),
     )
 }
 
@@ -198,7 +176,7 @@ fn shown(corpus: &Corpus) -> String {
                    || CASE a.state WHEN 'value' THEN a.value ELSE a.state END
                FROM annotation a JOIN tier t ON t.id = a.tier_id
                ORDER BY t.id, a.start_us, a.position, a.id";
-    strings(corpus.store.read(), sql).join("; ")
+    strings(corpus.store.read_connection(), sql).join("; ")
 }
 
 /// Returns the tokens as `BOL 0-100: right.configuration=5`.
@@ -208,7 +186,7 @@ fn tokens_shown(corpus: &Corpus) -> String {
                           || v.component || '=' || coalesce(v.value, v.state), ' ' ORDER BY v.id)
                       FROM token_value v WHERE v.token_id = t.id), '')
                FROM token t JOIN sign s ON s.id = t.sign_id ORDER BY t.start_us, t.id";
-    strings(corpus.store.read(), sql).join("; ")
+    strings(corpus.store.read_connection(), sql).join("; ")
 }
 
 fn strings(connection: &Connection, sql: &str) -> Vec<String> {
@@ -268,11 +246,7 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
             "overlaps \"CHAT\"",
         ),
         ("add G 0-100 BOL", "set 1 50-150 = CHAT", "G 1 50-150 CHAT"),
-        (
-            "add G 0-100 BOL",
-            "split 1 40",
-            "G 1 0-40 BOL; G 2 40-100 BOL",
-        ),
+        ("add G 0-100 BOL", "split 1 40", "G 1 0-40 BOL; G 2 40-100 BOL"),
         ("add G 0-100 BOL", "split 1 100", "cannot be cut at"),
         ("add G 0-100 BOL; add G 100-150 CHAT", "merge 1 2", "say"),
         (
@@ -280,22 +254,14 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
             "merge 1 2 = CHIEN",
             "G 1 0-150 CHIEN",
         ),
-        (
-            "add G 0-100 BOL; add H 100-150 BOL",
-            "merge 1 2",
-            "not neighbours",
-        ),
+        ("add G 0-100 BOL; add H 100-150 BOL", "merge 1 2", "not neighbours"),
         ("add G 0-100 BOL", "order 1 0", "no Symbolic_Subdivision"),
         ("add G 0-100 BOL", "remove 7", "there is no annotation:7"),
         ("add G 0-100 BOL", "set 1 f5-f20", "G 1 50-200 BOL"),
         ("add G 0-100 BOL", "set 1 f5-f2000", "has 1000 frames"),
         // Time_Subdivision.
         ("add G 0-100 BOL", "add T 0-50 x", "must last from"),
-        (
-            "add G 0-100 BOL",
-            "add T 200-300 x",
-            "must lie inside one annotation",
-        ),
+        ("add G 0-100 BOL", "add T 200-300 x", "must lie inside one annotation"),
         (
             "add G 0-100 BOL; add T 0-100 x",
             "add T 60-100 y",
@@ -337,11 +303,7 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
             "set 1 30-100",
             "G 1 30-100 BOL; I 2<1 30-50 x",
         ),
-        (
-            "add G 0-100 BOL; add I 10-50 x",
-            "set 1 60-100",
-            "G 1 60-100 BOL",
-        ),
+        ("add G 0-100 BOL; add I 10-50 x", "set 1 60-100", "G 1 60-100 BOL"),
         (
             "add G 0-100 BOL; add I 10-50 x",
             "split 1 30",
@@ -353,11 +315,7 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
             "G 1 0-100 BOL; I 2<1 10-50 x",
         ),
         // Symbolic_Subdivision.
-        (
-            "add G 0-90 BOL",
-            "add S 0-90 x",
-            "G 1 0-90 BOL; S 2<1 0-90 x",
-        ),
+        ("add G 0-90 BOL", "add S 0-90 x", "G 1 0-90 BOL; S 2<1 0-90 x"),
         (
             "add G 0-90 BOL; below S 1 x; below S 1 y",
             "below S 1 z @1",
@@ -395,11 +353,7 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
             "set 1 5-95",
             "G 1 5-95 BOL; A 2<1 5-95 x",
         ),
-        (
-            "add G 0-90 BOL; below A 1 x; below S 1 y; add I 0-90 z",
-            "remove 1",
-            "",
-        ),
+        ("add G 0-90 BOL; below A 1 x; below S 1 y; add I 0-90 z", "remove 1", ""),
         ("add G 0-90 BOL; below A 1 x", "below A 2 y", "is not on"),
         // Values.
         ("add C 0-90 U", "set 1 = h", "C 1 0-90 H"),
@@ -422,16 +376,16 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
         for text in before.split("; ").filter(|text| !text.is_empty()) {
             annotate(&mut corpus, text).expect(text);
         }
-        let unchanged = rows(corpus.store.read());
+        let unchanged = rows(corpus.store.read_connection());
         match annotate(&mut corpus, change) {
             Ok(_) => assert_eq!(shown(&corpus), want, "{before} | {change}"),
             Err(error) => {
-                let message = format!("{error} {}", error.remedy().unwrap_or_default());
+                let message = format!("{error} {}", error.error_remedy().unwrap_or_default());
                 assert!(
                     message.contains(want) && !want.is_empty(),
                     "{before} | {change}: {message}"
                 );
-                assert_eq!(rows(corpus.store.read()), unchanged, "{change}");
+                assert_eq!(rows(corpus.store.read_connection()), unchanged, "{change}");
             }
         }
     }
@@ -467,12 +421,12 @@ fn tokens_signs_and_search_follow() {
     ] {
         annotate(&mut corpus, change).expect(change);
         assert_eq!(tokens_shown(&corpus), want, "{change}");
-        let tokens = strings(corpus.store.read(), "SELECT CAST(id AS TEXT) FROM token").len();
-        let (_, index) = corpus.store.searchable().expect("index");
-        assert_eq!(index.documents(), tokens as u64, "{change}");
+        let tokens = strings(corpus.store.read_connection(), "SELECT CAST(id AS TEXT) FROM token").len();
+        let (_, index) = corpus.store.searchable_connection().expect("index");
+        assert_eq!(index.indexed_document_count(), tokens as u64, "{change}");
         assert!(!index.was_rebuilt(), "{change}");
     }
-    assert!(strings(corpus.store.read(), "SELECT gloss FROM sign").is_empty());
+    assert!(strings(corpus.store.read_connection(), "SELECT gloss FROM sign").is_empty());
 }
 
 #[test]
@@ -512,16 +466,11 @@ fn components_move_to_another_gloss_if_the_glosses_change() {
 #[test]
 fn an_edited_annotation_belongs_to_the_user_and_loses_its_file_times() {
     let (_folder, mut corpus) = corpus();
-    annotate(
-        &mut corpus,
-        "add G 0-100 BOL; add I 10-50 x; add G 200-300 CHAT",
-    )
-    .expect("added");
+    annotate(&mut corpus, "add G 0-100 BOL; add I 10-50 x; add G 200-300 CHAT").expect("added");
     let as_file = |corpus: &mut Corpus| {
         let from_file = "UPDATE annotation SET origin = 'file', external_id = 'a' || id, file_start_ms = start_us / 1000,
              file_end_ms = end_us / 1000, source = '{\"entry\":\"e1\",\"timing\":{\"proposed\":{\"start\":true,\"end\":false}}}'";
-        let work =
-            |connection: &Connection| Ok((connection.execute(from_file, [])?, String::new()));
+        let work = |connection: &Connection| Ok((connection.execute(from_file, [])?, String::new()));
         corpus.store.named_operation("file", work).expect("written");
     };
     let sql = "SELECT id || ' ' || origin || ' ' || coalesce(file_start_ms, '-') || ' ' || coalesce(external_id, '-') || ' '
@@ -547,26 +496,26 @@ fn an_edited_annotation_belongs_to_the_user_and_loses_its_file_times() {
     ] {
         as_file(&mut corpus);
         annotate(&mut corpus, change).expect(change);
-        assert_eq!(strings(corpus.store.read(), sql), want, "{change}");
+        assert_eq!(strings(corpus.store.read_connection(), sql), want, "{change}");
     }
 }
 
 #[test]
 fn a_list_of_changes_is_applied_whole_or_not_at_all() {
     let (_folder, mut corpus) = corpus();
-    let before = rows(corpus.store.read());
+    let before = rows(corpus.store.read_connection());
     let text = "add G 0-100 BOL; add G 50-150 CHAT; add G 200-300 OR; add C 0-90 XYZ";
     let error = annotate(&mut corpus, text).expect_err("two faults");
     assert!(
-        matches!(&error, Error::Several { errors } if errors.len() == 2),
+        matches!(&error, CorpusError::Several { errors } if errors.len() == 2),
         "{error}"
     );
-    assert_eq!(rows(corpus.store.read()), before);
+    assert_eq!(rows(corpus.store.read_connection()), before);
     let report = annotate(&mut corpus, "add G 0-100 BOL; split 1 50; remove 1").expect("made");
     assert_eq!((report.added, report.changed, report.removed), (2, 1, 1));
     assert_eq!(report.annotations, [1, 2, 1]);
     assert_eq!(
-        corpus.log(1).expect("log")[0].summary,
+        corpus.operation_log(1).expect("log")[0].summary,
         "2 added, 1 changed, 1 removed in Take 1"
     );
 }
@@ -583,9 +532,9 @@ fn tables_are_applied_or_refused_row_by_row() {
                 C,0,900ms,Y,,c,\n\
                 C,0,,,remove,,\n";
     let (_folder, mut corpus) = corpus();
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let options = AnnotateOptions::default();
-    let mut progress = Progress::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut hear);
     let (report, findings) = corpus
         .annotate_table(good.as_bytes(), "good.csv", None, &options, &mut progress)
         .expect("carried out");
@@ -602,7 +551,7 @@ fn tables_are_applied_or_refused_row_by_row() {
                ,G,1.6,,,remove,,\n\
                ,C,3,4,UU,,late,\n\
                ,C,,,U,set,late,\n";
-    let before = rows(corpus.store.read());
+    let before = rows(corpus.store.read_connection());
     let error = corpus
         .annotate_table(bad.as_bytes(), "bad.csv", None, &options, &mut progress)
         .expect_err("faults");
@@ -618,7 +567,7 @@ fn tables_are_applied_or_refused_row_by_row() {
     ] {
         assert!(message.contains(want), "{want} in\n{message}");
     }
-    assert_eq!(rows(corpus.store.read()), before);
+    assert_eq!(rows(corpus.store.read_connection()), before);
 }
 
 #[test]
@@ -628,10 +577,10 @@ fn times_snap_to_frames() {
         snap: true,
         ..AnnotateOptions::default()
     };
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let changes = [action("add G 14-106 BOL").into()];
     corpus
-        .annotate(&changes, &options, &mut Progress::new(&mut hear))
+        .annotate_corpus(&changes, &options, &mut ProgressReceiver::new(&mut hear))
         .expect("added");
     assert_eq!(shown(&corpus), "G 1 10-110 BOL");
 }
@@ -640,24 +589,11 @@ fn times_snap_to_frames() {
 fn a_change_of_one_annotation_among_thousands_touches_few_rows() {
     let (_folder, mut corpus) = corpus();
     let add: Vec<AnnotationChange> = (0..2000)
-        .map(|n| {
-            action(&format!(
-                "add {} {}-{} BOL{}",
-                ["G", "H"][n % 2],
-                n * 4,
-                n * 4 + 4,
-                n
-            ))
-            .into()
-        })
+        .map(|n| action(&format!("add {} {}-{} BOL{}", ["G", "H"][n % 2], n * 4, n * 4 + 4, n)).into())
         .collect();
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .annotate(
-            &add,
-            &AnnotateOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .annotate_corpus(&add, &AnnotateOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("added");
     annotate(&mut corpus, "add C 4000-4004 U").expect("added");
     for (change, most) in [
@@ -667,7 +603,7 @@ fn a_change_of_one_annotation_among_thousands_touches_few_rows() {
         ("remove 1001", 6),
     ] {
         annotate(&mut corpus, change).expect(change);
-        let changes = corpus.log(1).expect("log")[0].changes;
+        let changes = corpus.operation_log(1).expect("log")[0].changes;
         assert!(changes <= most, "{change} changed {changes} rows");
     }
 }

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::text::fold;
+use chereme_sign::text::fold_text;
 
 use crate::contents::TierContents;
-use crate::db::columns::ValueState;
+use crate::db::stored_columns::ValueState;
 use crate::inventories::StoredInventory;
 
 /// A possible value.
@@ -31,7 +31,7 @@ pub struct TierValues {
 }
 
 /// Special values of coded tiers for a missing value, as they are typed.
-pub const MISSING: [&str; 2] = ["n/a", "unclear"];
+pub const SPECIAL_TIER_VALUES: [&str; 2] = ["n/a", "unclear"];
 
 /// Returns the names of a special value in a language other than English: the usual one first.
 fn names_of(missing: &str, language: &str) -> &'static [&'static str] {
@@ -44,11 +44,7 @@ fn names_of(missing: &str, language: &str) -> &'static [&'static str] {
 
 /// Returns the possible values of a tier.
 #[must_use]
-pub fn values(
-    tier: &TierContents,
-    inventory: Option<&StoredInventory>,
-    language: &str,
-) -> TierValues {
+pub fn collect_tier_values(tier: &TierContents, inventory: Option<&StoredInventory>, language: &str) -> TierValues {
     let columns = &tier.annotations;
     let mut used: BTreeMap<&str, usize> = BTreeMap::new();
     for (value, state) in columns.values.iter().zip(&columns.states) {
@@ -57,35 +53,31 @@ pub fn values(
         }
     }
     let mut all: Vec<TierValue> = Vec::new();
-    for value in inventory.iter().flat_map(|it| &it.inventory.values) {
+    for value in inventory.iter().flat_map(|stored| &stored.inventory.values) {
         let names = value.names.values().chain(&value.aliases);
         all.push(TierValue {
             value: value.id.clone(),
-            name: value
-                .names
-                .get(language)
-                .filter(|name| **name != value.id)
-                .cloned(),
+            name: value.names.get(language).filter(|name| **name != value.id).cloned(),
             used: used.remove(value.id.as_str()).unwrap_or_default(),
-            known: names.chain([&value.id]).map(|name| fold(name)).collect(),
+            known: names.chain([&value.id]).map(|name| fold_text(name)).collect(),
         });
     }
     all.extend(used.into_iter().map(|(value, used)| TierValue {
         value: value.to_owned(),
         name: None,
         used,
-        known: vec![fold(value)],
+        known: vec![fold_text(value)],
     }));
     all.sort_by_key(|choice| std::cmp::Reverse(choice.used));
     let coded = inventory.is_some() || tier.row.role.is_coded();
-    all.extend(MISSING.iter().filter(|_| coded).map(|value| {
+    all.extend(SPECIAL_TIER_VALUES.iter().filter(|_| coded).map(|value| {
         let names = names_of(value, language);
-        let known = names.iter().chain([value]).map(|name| fold(name));
+        let folded_names = names.iter().chain([value]).map(|name| fold_text(name));
         TierValue {
             value: (*value).to_owned(),
             name: names.first().map(|name| (*name).to_owned()),
             used: 0,
-            known: known.collect(),
+            known: folded_names.collect(),
         }
     }));
     TierValues {
@@ -98,8 +90,8 @@ impl TierValues {
     /// Returns the indices of the values that match the typed text: equal ones first, then those that begin with it,
     /// then those that contain it.
     #[must_use]
-    pub fn fitting(&self, text: &str) -> Vec<usize> {
-        let wanted = fold(text.trim());
+    pub fn matching_value_indices(&self, text: &str) -> Vec<usize> {
+        let wanted = fold_text(text.trim());
         let rank = |choice: &TierValue| {
             let exact = choice.value == text.trim();
             let ranks = choice.known.iter().filter_map(|known| {
@@ -113,8 +105,8 @@ impl TierValues {
             });
             ranks.min()
         };
-        let ranked = self.all.iter().enumerate();
-        let mut ranked: Vec<(u8, usize)> = ranked
+        let numbered_choices = self.all.iter().enumerate();
+        let mut ranked: Vec<(u8, usize)> = numbered_choices
             .filter_map(|(at, choice)| Some((rank(choice)?, at)))
             .collect();
         ranked.sort_unstable();
@@ -124,40 +116,36 @@ impl TierValues {
     /// Returns the value that Enter stores: the marked one; else the typed text, if it is allowed; else, on a closed
     /// tier, the best match. Returns `None` if nothing matches.
     #[must_use]
-    pub fn kept(&self, text: &str, marked: Option<usize>) -> Option<String> {
+    pub fn value_to_store(&self, text: &str, marked: Option<usize>) -> Option<String> {
         let text = text.trim();
         if let Some(choice) = marked.and_then(|at| self.all.get(at)) {
             return Some(choice.value.clone());
         }
         if !self.closed || text.is_empty() || text == "unset" {
-            let missing = |it: &&TierValue| {
-                MISSING.contains(&it.value.as_str()) && it.known.iter().any(|name| name == text)
+            let is_missing = |choice: &&TierValue| {
+                SPECIAL_TIER_VALUES.contains(&choice.value.as_str()) && choice.known.iter().any(|name| name == text)
             };
-            let missing = self.all.iter().find(missing);
-            return Some(missing.map_or_else(|| text.to_owned(), |it| it.value.clone()));
+            let missing = self.all.iter().find(is_missing);
+            return Some(missing.map_or_else(|| text.to_owned(), |choice| choice.value.clone()));
         }
-        let best = self.fitting(text).first().copied()?;
+        let best = self.matching_value_indices(text).first().copied()?;
         Some(self.all[best].value.clone())
     }
 
     /// Returns whether a value begins with that digit, so that the digit is typed and does not pick.
     #[must_use]
     pub fn types_digit(&self, digit: char) -> bool {
-        !self.closed
-            || self
-                .all
-                .iter()
-                .any(|choice| choice.value.starts_with(digit))
+        !self.closed || self.all.iter().any(|choice| choice.value.starts_with(digit))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_sign::inventory::builtin;
+    use chereme_sign::inventory::builtin_inventories;
 
     use crate::contents::AnnotationColumns;
-    use crate::db::tiers::TierRow;
+    use crate::db::stored_tiers::TierRow;
 
     fn tier(role: &str, values: &[&str]) -> TierContents {
         TierContents {
@@ -175,7 +163,7 @@ mod tests {
     }
 
     fn shapes() -> StoredInventory {
-        let found = builtin().iter().find(|it| it.id == "configurations");
+        let found = builtin_inventories().iter().find(|it| it.id == "configurations");
         StoredInventory {
             id: 1,
             inventory: found.expect("built in").clone(),
@@ -194,46 +182,35 @@ mod tests {
             (Some(&shapes), "fr", "incertain", "unclear"),
             (Some(&shapes), "fr", "unclear", "unclear"),
         ] {
-            let choices = values(&tier("gloss", &["BOL"]), inventory, language);
-            assert_eq!(choices.kept(typed, None).as_deref(), Some(kept), "{typed}");
+            let choices = collect_tier_values(&tier("gloss", &["BOL"]), inventory, language);
+            assert_eq!(choices.value_to_store(typed, None).as_deref(), Some(kept), "{typed}");
         }
-        let french = values(&tier("gloss", &[]), None, "fr");
+        let french = collect_tier_values(&tier("gloss", &[]), None, "fr");
         let names: Vec<Option<&str>> = french.all.iter().map(|it| it.name.as_deref()).collect();
         assert_eq!(names, [Some("sans objet"), Some("incertain")]);
     }
 
     fn fitting(choices: &TierValues, text: &str) -> Vec<String> {
-        let places = choices.fitting(text);
-        places
-            .iter()
-            .map(|at| choices.all[*at].value.clone())
-            .collect()
+        let places = choices.matching_value_indices(text);
+        places.iter().map(|at| choices.all[*at].value.clone()).collect()
     }
 
     #[test]
     fn most_used_values_come_first_and_typing_filters_them() {
-        let free = values(
-            &tier("gloss", &["BOL", "CHAT", "CHAT", "ÉCOLE"]),
-            None,
-            "en",
-        );
+        let free = collect_tier_values(&tier("gloss", &["BOL", "CHAT", "CHAT", "ÉCOLE"]), None, "en");
         let all: Vec<&str> = free.all.iter().map(|it| it.value.as_str()).collect();
         assert_eq!(all, ["CHAT", "BOL", "ÉCOLE", "n/a", "unclear"]);
         assert_eq!(fitting(&free, "eco"), ["ÉCOLE"]);
-        assert_eq!(free.kept("NEW", None).as_deref(), Some("NEW"));
-        assert_eq!(free.kept("c", Some(0)).as_deref(), Some("CHAT"));
+        assert_eq!(free.value_to_store("NEW", None).as_deref(), Some("NEW"));
+        assert_eq!(free.value_to_store("c", Some(0)).as_deref(), Some("CHAT"));
         let inventory = shapes();
-        let coded = values(
-            &tier("configuration", &["U", "U", "B"]),
-            Some(&inventory),
-            "fr",
-        );
+        let coded = collect_tier_values(&tier("configuration", &["U", "U", "B"]), Some(&inventory), "fr");
         assert_eq!((coded.all[0].value.as_str(), coded.all[0].used), ("U", 2));
         assert_eq!(coded.all[1].value, "B");
         assert_eq!(fitting(&coded, "u")[0], "U");
-        assert_eq!(coded.kept("u", None).as_deref(), Some("U"));
-        assert_eq!(coded.kept("no such shape", None), None);
-        assert_eq!(coded.kept("", None).as_deref(), Some(""));
+        assert_eq!(coded.value_to_store("u", None).as_deref(), Some("U"));
+        assert_eq!(coded.value_to_store("no such shape", None), None);
+        assert_eq!(coded.value_to_store("", None).as_deref(), Some(""));
         assert!(coded.types_digit('5') && !coded.types_digit('9'));
     }
 }

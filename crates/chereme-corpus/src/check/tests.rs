@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::{
-    Error, ExportWhat, Find, ImportOptions, SearchOptions, Within, unheard, unpack_starter,
+    CorpusError, ExportWhat, ImportOptions, SearchOptions, TierSelection, ValueSearch, ignore_progress_step,
+    unpack_starter,
 };
 
 /// Returns the file of a corpus with one recording that has movement, tiers and tokens.
@@ -19,14 +20,10 @@ fn made_of(folder: &std::path::Path, start: &str) -> std::path::PathBuf {
     };
     let files: Vec<_> = files.into_iter().filter(is_wanted).collect();
     let path = folder.join("whole.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
-            &files,
-            &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
     path
 }
@@ -36,10 +33,7 @@ fn every_damaged_row_is_named_and_the_check_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
     let whole = whole(folder.path());
     let path = folder.path().join("damaged.chereme");
-    let no_frame_time = (
-        "track 1 of recording:1",
-        "the stored frame time is no number",
-    );
+    let no_frame_time = ("track 1 of recording:1", "the stored frame time is no number");
     // The last damage of each is in another part than the first; both are found.
     for (damage, wanted) in [
         ("UPDATE track SET frame_time = 'null' WHERE id = 1", vec![]),
@@ -79,14 +73,14 @@ fn every_damaged_row_is_named_and_the_check_goes_on() {
             .expect(damage);
         drop(foreign);
         for mend in [false, true] {
-            let mut corpus = Corpus::open(&path, "A").expect("opened");
-            let mut hear = unheard;
+            let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+            let mut hear = ignore_progress_step;
             let report = corpus
-                .check(mend, &mut Progress::new(&mut hear))
+                .check_corpus(mend, &mut ProgressReceiver::new(&mut hear))
                 .expect(damage);
             assert!(!report.ok, "{damage}");
             for (place, text) in wanted.iter().chain([&no_frame_time]) {
-                let is_wanted = |it: &&Fault| it.place == *place && it.message.contains(text);
+                let is_wanted = |it: &&CorpusFault| it.place == *place && it.message.contains(text);
                 let found = report.faults.iter().filter(is_wanted).count();
                 assert_eq!(found, 1, "{damage}: {place}: {text}: {:#?}", report.faults);
             }
@@ -104,9 +98,9 @@ fn every_damaged_row_is_named_and_the_check_goes_on() {
 }
 
 fn checked(corpus: &mut Corpus, mend: bool) -> CheckReport {
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .check(mend, &mut Progress::new(&mut hear))
+        .check_corpus(mend, &mut ProgressReceiver::new(&mut hear))
         .expect("checked")
 }
 
@@ -114,13 +108,13 @@ fn checked(corpus: &mut Corpus, mend: bool) -> CheckReport {
 fn a_changed_cell_of_any_table_is_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = whole(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
     let query = crate::KeptSearch {
         name: "mine".into(),
         query: "configuration=U".into(),
     };
     corpus.keep_searches(&[query]).expect("kept");
-    corpus.recombine("BOL | reverse", "LOB").expect("made");
+    corpus.recombine_recipe("BOL | reverse", "LOB").expect("made");
     assert_eq!(checked(&mut corpus, false).faults, []);
     drop(corpus);
     let foreign = Connection::open(&path).expect("opened");
@@ -163,29 +157,26 @@ fn a_changed_cell_of_any_table_is_found() {
 fn seals_follow_edits_undo_and_redo_and_damage_stays_visible_beside_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = whole(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let find = Find::Text("BOL".into());
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    let find = ValueSearch::Text("BOL".into());
     let replace = |corpus: &mut Corpus, with: &str| {
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
-        let done = corpus.replace_values(&find, with, &Within::default(), false, progress);
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
+        let done = corpus.replace_values(&find, with, &TierSelection::default(), false, progress);
         done.expect("replaced").changed
     };
     assert!(replace(&mut corpus, "BOL-2H") > 0);
     assert_eq!(checked(&mut corpus, false).faults, []);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     assert_eq!(checked(&mut corpus, false).faults, []);
-    corpus.redo().expect("redone");
+    corpus.redo_operation().expect("redone");
     assert_eq!(checked(&mut corpus, false).faults, []);
     let foreign = Connection::open(&path).expect("opened");
     let flip = || {
         let sql = "SELECT operation_id, data FROM changeset";
         let all: Vec<(i64, Vec<u8>)> = foreign
             .prepare(sql)
-            .and_then(|mut rows| {
-                rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
-                    .collect()
-            })
+            .and_then(|mut rows| rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect())
             .expect("read");
         for (row, mut data) in all {
             let middle = data.len() / 2;
@@ -199,17 +190,16 @@ fn seals_follow_edits_undo_and_redo_and_damage_stays_visible_beside_them() {
         }
     };
     flip();
-    let refused = corpus.undo().expect_err("damaged").to_string();
+    let refused = corpus.undo_operation().expect_err("damaged").to_string();
     assert!(refused.contains("of changeset is damaged"), "{refused}");
     flip();
     assert_eq!(checked(&mut corpus, false).faults, []);
-    let damage =
-        "UPDATE annotation SET value = 'DAMAGED' WHERE id = (SELECT max(id) FROM annotation)";
+    let damage = "UPDATE annotation SET value = 'DAMAGED' WHERE id = (SELECT max(id) FROM annotation)";
     foreign.execute_batch(damage).expect("damaged");
     assert!(replace(&mut corpus, "CAT") > 0, "another row of the bucket");
-    let is_row = |fault: &&Fault| fault.kind == "row";
+    let is_row = |fault: &&CorpusFault| fault.kind == "row";
     let report = checked(&mut corpus, true);
-    let found: Vec<&Fault> = report.faults.iter().filter(is_row).collect();
+    let found: Vec<&CorpusFault> = report.faults.iter().filter(is_row).collect();
     assert_eq!(found.len(), 1, "{:#?}", report.faults);
     assert!(found[0].place.ends_with("of annotation"), "{:?}", found[0]);
     corpus.accept_rows().expect("accepted");
@@ -220,12 +210,11 @@ fn seals_follow_edits_undo_and_redo_and_damage_stays_visible_beside_them() {
 fn a_flipped_bit_in_a_stored_file_is_found_and_never_exported() {
     let folder = tempfile::tempdir().expect("a folder");
     let whole = whole(folder.path());
-    let corpus = Corpus::open(&whole, "A").expect("opened");
-    let sql =
-        "SELECT id, data, recording_id FROM source_file WHERE data IS NOT NULL AND kind = 'eaf'";
+    let corpus = Corpus::open_corpus(&whole, "A").expect("opened");
+    let sql = "SELECT id, data, recording_id FROM source_file WHERE data IS NOT NULL AND kind = 'eaf'";
     let (id, data, recording): (i64, Vec<u8>, i64) = corpus
         .store
-        .read()
+        .read_connection()
         .query_row(sql, [], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
         .expect("a file");
     drop(corpus);
@@ -235,9 +224,9 @@ fn a_flipped_bit_in_a_stored_file_is_found_and_never_exported() {
         let mut bytes = data.clone();
         let bit = trial * (bytes.len() * 8 - 1) / 59;
         bytes[bit / 8] ^= 1 << (bit % 8);
-        let mut corpus = Corpus::open(&path, "A").expect("opened");
+        let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
         // Only the hash of the file itself can show it once the rows are taken for right.
-        let connection = corpus.store.read();
+        let connection = corpus.store.read_connection();
         let change = "UPDATE source_file SET data = ?2 WHERE id = ?1";
         connection
             .execute(change, rusqlite::params![id, bytes])
@@ -247,18 +236,14 @@ fn a_flipped_bit_in_a_stored_file_is_found_and_never_exported() {
                 corpus.accept_rows().expect("accepted");
             }
             let mut out = Vec::new();
-            let what =
-                ExportWhat::Address(crate::Address::Recording(crate::Name::Number(recording)));
-            let mut hear = unheard;
-            let done = corpus.export_stream(&what, "eaf", &mut out, &mut Progress::new(&mut hear));
-            assert!(
-                matches!(done, Err(Error::Damaged { .. })),
-                "bit {bit}: {done:?}"
-            );
+            let what = ExportWhat::Address(crate::CorpusAddress::Recording(crate::RowName::Number(recording)));
+            let mut hear = ignore_progress_step;
+            let done = corpus.export_stream(&what, "eaf", &mut out, &mut ProgressReceiver::new(&mut hear));
+            assert!(matches!(done, Err(CorpusError::Damaged { .. })), "bit {bit}: {done:?}");
             assert!(out.is_empty(), "bit {bit}");
         }
         let report = checked(&mut corpus, true);
-        let is_file = |fault: &&Fault| fault.kind == "file";
+        let is_file = |fault: &&CorpusFault| fault.kind == "file";
         assert_eq!(report.faults.iter().filter(is_file).count(), 1, "bit {bit}");
     }
 }
@@ -269,24 +254,18 @@ fn a_flipped_bit_in_the_index_is_found_and_changes_no_answer() {
     let whole = made_of(folder.path(), "bol.eaf");
     let queries = ["text:bol", "duration>0.1s gloss=/^[A-Z]/", "", "\"bowl\""];
     let answer = |corpus: &mut Corpus, query: &str| {
-        let found = corpus.search(query, &SearchOptions::default()).ok()?;
+        let found = corpus.search_tokens(query, &SearchOptions::default()).ok()?;
         let hits: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
         Some((found.total, hits))
     };
-    let mut corpus = Corpus::open(&whole, "A").expect("opened");
-    let right: Vec<_> = queries
-        .iter()
-        .map(|query| answer(&mut corpus, query))
-        .collect();
+    let mut corpus = Corpus::open_corpus(&whole, "A").expect("opened");
+    let right: Vec<_> = queries.iter().map(|query| answer(&mut corpus, query)).collect();
     let sql = "SELECT path, data FROM search_file ORDER BY path";
     let files: Vec<(String, Vec<u8>)> = corpus
         .store
-        .read()
+        .read_connection()
         .prepare(sql)
-        .and_then(|mut rows| {
-            rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
-                .collect()
-        })
+        .and_then(|mut rows| rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect())
         .expect("files");
     drop(corpus);
     let path = folder.path().join("damaged.chereme");
@@ -301,30 +280,21 @@ fn a_flipped_bit_in_the_index_is_found_and_changes_no_answer() {
         // With a checksum that fits, the seal of all files shows it.
         let hidden = "UPDATE search_file SET data = ?2, checksum = ?3 WHERE path = ?1";
         match trial % 2 == 1 {
-            true => foreign.execute(
-                hidden,
-                rusqlite::params![name, bytes, crc32fast::hash(&bytes)],
-            ),
+            true => foreign.execute(hidden, rusqlite::params![name, bytes, crc32fast::hash(&bytes)]),
             false => foreign.execute(change, rusqlite::params![name, bytes]),
         }
         .expect("damaged");
         drop(foreign);
-        let mut corpus = Corpus::open(&path, "A").expect("opened");
+        let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
         if trial % 4 < 2 {
             let report = checked(&mut corpus, false);
             let kinds: Vec<_> = report.faults.iter().map(|fault| fault.kind).collect();
             assert_eq!(kinds, ["index"], "{name}, bit {bit}");
         }
-        let answers: Vec<_> = queries
-            .iter()
-            .map(|query| answer(&mut corpus, query))
-            .collect();
+        let answers: Vec<_> = queries.iter().map(|query| answer(&mut corpus, query)).collect();
         assert_eq!(answers, right, "{name}, bit {bit}");
         assert!(checked(&mut corpus, true).ok);
-        let answers: Vec<_> = queries
-            .iter()
-            .map(|query| answer(&mut corpus, query))
-            .collect();
+        let answers: Vec<_> = queries.iter().map(|query| answer(&mut corpus, query)).collect();
         assert_eq!(answers, right, "{name}, bit {bit}: mended");
     }
 }
@@ -333,24 +303,24 @@ fn a_flipped_bit_in_the_index_is_found_and_changes_no_answer() {
 fn a_check_reads_one_state_while_others_write() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = whole(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let mut other = Corpus::open(&path, "B").expect("opened");
-    let find = Find::Text("O".into());
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    let mut other = Corpus::open_corpus(&path, "B").expect("opened");
+    let find = ValueSearch::Text("O".into());
     let mut edits = 0;
-    let mut hear = |_: Step<'_>| {
+    let mut hear = |_: ProgressStep<'_>| {
         edits += 1;
         let with = format!("O{edits}");
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
-        let done = other.replace_values(&find, &with, &Within::default(), false, progress);
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
+        let done = other.replace_values(&find, &with, &TierSelection::default(), false, progress);
         assert!(done.is_ok_and(|done| done.changed > 0));
         if edits == 3 {
-            other.recombine("BOL1 | reverse", "LOB").ok();
+            other.recombine_recipe("BOL1 | reverse", "LOB").ok();
         }
         std::ops::ControlFlow::Continue(())
     };
     let report = corpus
-        .check(false, &mut Progress::new(&mut hear))
+        .check_corpus(false, &mut ProgressReceiver::new(&mut hear))
         .expect("checked");
     assert!(edits > 3, "{edits}");
     assert_eq!(report.faults, []);
@@ -377,14 +347,14 @@ fn annotations_that_hang_below_themselves_end_no_loop() {
         );
         foreign.execute_batch(&circle).expect("damaged");
         drop(foreign);
-        let mut corpus = Corpus::open(&path, "A").expect("opened");
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         // They may be refused, and must end.
-        let find = Find::Text("BOL".into());
-        drop(corpus.replace_values(&find, "CAT", &Within::default(), false, progress));
-        drop(corpus.contents(1));
-        drop(corpus.search("overlaps gloss=BOL", &SearchOptions::default()));
+        let find = ValueSearch::Text("BOL".into());
+        drop(corpus.replace_values(&find, "CAT", &TierSelection::default(), false, progress));
+        drop(corpus.load_recording_contents(1));
+        drop(corpus.search_tokens("overlaps gloss=BOL", &SearchOptions::default()));
         corpus.accept_rows().expect("accepted");
         for format in ["eaf", "textgrid", "csv"] {
             let what = ExportWhat::Address("recording:1".parse().expect("named"));
@@ -394,9 +364,9 @@ fn annotations_that_hang_below_themselves_end_no_loop() {
             dry_run: true,
             ..crate::DeleteOptions::default()
         };
-        drop(corpus.delete(&["recording:1".parse().expect("named")], trial, progress));
-        let report = checked(&mut Corpus::open(&path, "A").expect("opened"), false);
-        let is_cycle = |fault: &Fault| fault.message.contains("hangs below itself");
+        drop(corpus.delete_objects(&["recording:1".parse().expect("named")], trial, progress));
+        let report = checked(&mut Corpus::open_corpus(&path, "A").expect("opened"), false);
+        let is_cycle = |fault: &CorpusFault| fault.message.contains("hangs below itself");
         assert!(
             report.questions.iter().any(is_cycle),
             "{tiers}: {:#?}",
@@ -409,11 +379,11 @@ fn annotations_that_hang_below_themselves_end_no_loop() {
 fn pictures_and_films_of_damaged_rows_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = whole(folder.path());
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let foreign = Connection::open(&path).expect("opened");
-    let names = ["token:1", "recording:1"].map(|it| it.parse::<crate::Address>().expect("named"));
+    let names = ["token:1", "recording:1"].map(|it| it.parse::<crate::CorpusAddress>().expect("named"));
     let small = crate::PictureOptions {
         frames: 2,
         height: Some(48),
@@ -427,19 +397,13 @@ fn pictures_and_films_of_damaged_rows_are_refused() {
         foreign.execute_batch(damage).expect(damage);
         for (name, ending) in names.iter().zip(["png", "gif"]) {
             let to = folder.path().join(format!("damaged.{ending}"));
-            let drawn = corpus.draw(name, &to, &small, progress);
-            assert!(
-                matches!(drawn, Err(Error::Damaged { .. })),
-                "{damage}: {drawn:?}"
-            );
+            let drawn = corpus.draw_movement_file(name, &to, &small, progress);
+            assert!(matches!(drawn, Err(CorpusError::Damaged { .. })), "{damage}: {drawn:?}");
             assert!(!to.exists(), "{damage}");
         }
         corpus.accept_rows().expect("accepted");
         let to = folder.path().join("accepted.png");
-        let drawn = corpus.draw(&names[0], &to, &small, progress);
-        assert!(
-            drawn.is_ok() && std::fs::remove_file(&to).is_ok(),
-            "{drawn:?}"
-        );
+        let drawn = corpus.draw_movement_file(&names[0], &to, &small, progress);
+        assert!(drawn.is_ok() && std::fs::remove_file(&to).is_ok(), "{drawn:?}");
     }
 }

@@ -6,7 +6,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::{
-    ImportOptions, Name, Origin, Progress, RecordingChange, SignerChange, unheard, unpack_starter,
+    ImportOptions, ProgressReceiver, RecordOrigin, RecordingChange, RowName, SignerChange, ignore_progress_step,
+    unpack_starter,
 };
 
 /// Returns a corpus with BOL and ESCARGOT, as recorded from Ada, and LIMACE, which is generated from the latter.
@@ -18,41 +19,39 @@ pub(crate) fn corpus(folder: &std::path::Path) -> Corpus {
         stem.is_some_and(|it| wanted.iter().any(|w| it == *w))
     };
     let files: Vec<PathBuf> = files.into_iter().filter(named).collect();
-    let mut corpus = Corpus::create(&folder.join("a.chereme"), "A").expect("created");
+    let mut corpus = Corpus::create_corpus(&folder.join("a.chereme"), "A").expect("created");
     let options = ImportOptions::default();
     corpus
-        .import(&files, &options, &mut Progress::new(&mut unheard))
+        .import_paths(&files, &options, &mut ProgressReceiver::new(&mut ignore_progress_step))
         .expect("imported");
     for name in ["escargot", "bol"] {
         let change = RecordingChange {
-            origin: Some(Origin::Captured),
+            origin: Some(RecordOrigin::Captured),
             licence: Some(None),
             ..RecordingChange::default()
         };
-        let recording = Name::Text(name.into());
-        corpus
-            .change_recording(&recording, &change)
-            .expect("changed");
+        let recording = RowName::Text(name.into());
+        corpus.change_recording(&recording, &change).expect("changed");
     }
-    let signers = corpus.consents().expect("read");
+    let signers = corpus.list_consents().expect("read");
     let ada = SignerChange {
         name: Some("Ada".into()),
         ..SignerChange::default()
     };
     corpus
-        .change_signer(&Name::Number(signers[0].id), &ada)
+        .change_signer(&RowName::Number(signers[0].id), &ada)
         .expect("changed");
     corpus
-        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
         .expect("generated");
     corpus
 }
 
-fn address(text: &str) -> Address {
+fn address(text: &str) -> CorpusAddress {
     text.parse().expect("an address")
 }
 
-fn all(audience: Audience) -> ConsentChange {
+fn all(audience: ConsentAudience) -> ConsentChange {
     let said = Some(Some(audience));
     ConsentChange {
         movement: said,
@@ -63,12 +62,12 @@ fn all(audience: Audience) -> ConsentChange {
 }
 
 /// Returns for ESCARGOT and LIMACE whether the movement may be published.
-fn verdicts(corpus: &Corpus) -> [std::result::Result<BTreeSet<String>, Withheld>; 2] {
-    let connection = corpus.store.read();
-    let known = Permissions::of(connection, None).expect("read");
+fn verdicts(corpus: &Corpus) -> [std::result::Result<BTreeSet<String>, WithheldReason>; 2] {
+    let connection = corpus.store.read_connection();
+    let known = PublishPermissions::read_publish_permissions(connection, None).expect("read");
     ["escargot", "LIMACE"].map(|name| {
-        let found = recordings::recording_named(connection, name).expect("read");
-        known.of_recording(found.expect("a recording").id, ConsentKind::Movement)
+        let found = stored_recordings::recording_named(connection, name).expect("read");
+        known.recording_publish_terms(found.expect("a recording").id, ConsentKind::Movement)
     })
 }
 
@@ -77,12 +76,12 @@ fn unknown_is_not_public_and_a_withdrawal_reaches_what_was_generated() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
     let ada = [address("signer:Ada")];
-    let unknown = Err(Withheld::ConsentUnknown);
+    let unknown = Err(WithheldReason::ConsentUnknown);
     assert_eq!(verdicts(&corpus), [unknown.clone(), unknown]);
     corpus
-        .change_consent(&ada, &all(Audience::Public))
+        .change_consent(&ada, &all(ConsentAudience::Public))
         .expect("changed");
-    let no_terms = Err(Withheld::NoTerms);
+    let no_terms = Err(WithheldReason::NoTerms);
     assert_eq!(verdicts(&corpus), [no_terms.clone(), no_terms]);
     let licence = ConsentChange {
         licence: Some("CC BY 4.0".into()),
@@ -95,19 +94,19 @@ fn unknown_is_not_public_and_a_withdrawal_reaches_what_was_generated() {
     assert_eq!(verdicts(&corpus), [terms.clone(), terms.clone()]);
     // Each of these takes something back; undo gives it again.
     let derived = ConsentChange {
-        derived: Some(Some(Audience::Research)),
+        derived: Some(Some(ConsentAudience::Research)),
         ..ConsentChange::default()
     };
     corpus.change_consent(&ada, &derived).expect("changed");
-    assert_eq!(verdicts(&corpus), [terms.clone(), Err(Withheld::NotPublic)]);
-    corpus.undo().expect("undone");
+    assert_eq!(verdicts(&corpus), [terms.clone(), Err(WithheldReason::NotPublic)]);
+    corpus.undo_operation().expect("undone");
     let one = [address("recording:escargot")];
     corpus
-        .change_consent(&one, &all(Audience::Nobody))
+        .change_consent(&one, &all(ConsentAudience::Nobody))
         .expect("changed");
-    let refused = Err(Withheld::NotPublic);
+    let refused = Err(WithheldReason::NotPublic);
     assert_eq!(verdicts(&corpus), [refused.clone(), refused]);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     assert_eq!(verdicts(&corpus), [terms.clone(), terms]);
 }
 
@@ -117,14 +116,14 @@ fn terms_that_forbid_changes_hold_back_what_was_generated() {
     let mut corpus = corpus(folder.path());
     let change = ConsentChange {
         licence: Some("CC BY-NC-ND 4.0".into()),
-        ..all(Audience::Public)
+        ..all(ConsentAudience::Public)
     };
     corpus
         .change_consent(&[address("signer:Ada")], &change)
         .expect("changed");
     let [own, generated] = verdicts(&corpus);
     assert!(own.is_ok());
-    assert_eq!(generated, Err(Withheld::NoDerivatives));
+    assert_eq!(generated, Err(WithheldReason::NoDerivatives));
     for (text, forbids) in [
         ("CC BY-ND 4.0", true),
         ("Attribution-NoDerivatives", true),
@@ -142,27 +141,27 @@ fn the_source_of_a_generated_sign_that_is_gone_holds_it_back() {
     let mut corpus = corpus(folder.path());
     let change = ConsentChange {
         licence: Some("CC0".into()),
-        ..all(Audience::Public)
+        ..all(ConsentAudience::Public)
     };
     corpus
         .change_consent(&[address("signer:Ada")], &change)
         .expect("changed");
     let options = crate::DeleteOptions {
-        dependents: crate::Dependents::Keep,
+        dependents: crate::DependentsPolicy::Keep,
         dry_run: false,
     };
     corpus
-        .delete(
+        .delete_objects(
             &[address("recording:escargot")],
             options,
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("deleted");
-    let connection = corpus.store.read();
-    let known = Permissions::of(connection, Some("CC0")).expect("read");
-    let found = recordings::recording_named(connection, "LIMACE").expect("read");
-    let verdict = known.of_recording(found.expect("there").id, ConsentKind::Movement);
-    assert_eq!(verdict, Err(Withheld::InputGone));
+    let connection = corpus.store.read_connection();
+    let known = PublishPermissions::read_publish_permissions(connection, Some("CC0")).expect("read");
+    let found = stored_recordings::recording_named(connection, "LIMACE").expect("read");
+    let verdict = known.recording_publish_terms(found.expect("there").id, ConsentKind::Movement);
+    assert_eq!(verdict, Err(WithheldReason::InputGone));
 }
 
 /// Returns two copies of a corpus whose signer agreed to everything, and the path of the second.
@@ -170,58 +169,51 @@ fn copies(folder: &std::path::Path) -> (Corpus, Corpus, PathBuf) {
     let mut mine = corpus(folder);
     let change = ConsentChange {
         licence: Some("CC0".into()),
-        ..all(Audience::Public)
+        ..all(ConsentAudience::Public)
     };
-    mine.change_consent(&[address("signer:Ada")], &change)
-        .expect("changed");
+    mine.change_consent(&[address("signer:Ada")], &change).expect("changed");
     let path = folder.join("b.chereme");
     drop(mine);
     std::fs::copy(folder.join("a.chereme"), &path).expect("copied");
-    let open = |path: &std::path::Path| Corpus::open(path, "A").expect("opened");
+    let open = |path: &std::path::Path| Corpus::open_corpus(path, "A").expect("opened");
     (open(&folder.join("a.chereme")), open(&path), path)
 }
 
 fn say(corpus: &mut Corpus, of: &str, change: &ConsentChange) {
-    corpus
-        .change_consent(&[address(of)], change)
-        .expect("changed");
+    corpus.change_consent(&[address(of)], change).expect("changed");
 }
 
 fn merge(corpus: &mut Corpus, other: &std::path::Path) -> usize {
-    let report = corpus.merge(other, None, &mut Progress::new(&mut unheard));
+    let report = corpus.merge_corpus(other, None, &mut ProgressReceiver::new(&mut ignore_progress_step));
     report.expect("merged").conflicts.len()
 }
 
 #[test]
 fn the_stricter_of_two_copies_holds_until_somebody_decides() {
     let terms = Ok(BTreeSet::from(["CC0".to_owned()]));
-    let undecided = Err(Withheld::Undecided);
+    let undecided = Err(WithheldReason::Undecided);
     let form = ConsentChange {
         form: Some(Some("second form".into())),
         ..ConsentChange::default()
     };
     for (of, decision) in [
-        ("signer:Ada", crate::Decision::Mine),
-        ("signer:Ada", crate::Decision::Theirs),
-        ("recording:escargot", crate::Decision::Theirs),
+        ("signer:Ada", crate::ConflictDecision::Mine),
+        ("signer:Ada", crate::ConflictDecision::Theirs),
+        ("recording:escargot", crate::ConflictDecision::Theirs),
     ] {
         let folder = tempfile::tempdir().expect("a folder");
         let (mut mine, mut theirs, path) = copies(folder.path());
         say(&mut mine, of, &form);
-        say(&mut theirs, of, &all(Audience::Nobody));
+        say(&mut theirs, of, &all(ConsentAudience::Nobody));
         assert_eq!(merge(&mut mine, &path), 1);
-        let conflicts = mine.conflicts(false).expect("read");
+        let conflicts = mine.merge_conflicts(false).expect("read");
         let refusal = conflicts[0].theirs.as_ref().map(|it| it.text.as_str());
         assert!(refusal.is_some_and(|it| it.contains("movement nobody, ")));
-        assert_eq!(
-            verdicts(&mine),
-            [undecided.clone(), undecided.clone()],
-            "{of}"
-        );
-        mine.decide(&[1], decision).expect("decided");
+        assert_eq!(verdicts(&mine), [undecided.clone(), undecided.clone()], "{of}");
+        mine.decide_conflicts(&[1], decision).expect("decided");
         let wanted = match decision {
-            crate::Decision::Mine => terms.clone(),
-            _ => Err(Withheld::NotPublic),
+            crate::ConflictDecision::Mine => terms.clone(),
+            _ => Err(WithheldReason::NotPublic),
         };
         assert_eq!(verdicts(&mine), [wanted.clone(), wanted], "{of}");
     }
@@ -246,7 +238,7 @@ fn copies_with_bea(folder: &std::path::Path) -> (Corpus, Corpus, PathBuf) {
             signer: Some(Some("Bea".into())),
             ..RecordingChange::default()
         };
-        let name = Name::Text("escargot".into());
+        let name = RowName::Text("escargot".into());
         corpus.change_recording(&name, &change).expect("changed");
     }
     (mine, theirs, path)
@@ -254,31 +246,31 @@ fn copies_with_bea(folder: &std::path::Path) -> (Corpus, Corpus, PathBuf) {
 
 #[test]
 fn a_refusal_of_a_signer_whom_both_copies_created_counts() {
-    let undecided = Err(Withheld::Undecided);
-    let refused = Err(Withheld::NotPublic);
+    let undecided = Err(WithheldReason::Undecided);
+    let refused = Err(WithheldReason::NotPublic);
     let folder = tempfile::tempdir().expect("a folder");
     let (mut mine, mut theirs, path) = copies_with_bea(folder.path());
-    say(&mut mine, "signer:Bea", &all(Audience::Public));
-    say(&mut theirs, "signer:Bea", &all(Audience::Nobody));
+    say(&mut mine, "signer:Bea", &all(ConsentAudience::Public));
+    say(&mut theirs, "signer:Bea", &all(ConsentAudience::Nobody));
     assert!(merge(&mut mine, &path) > 0);
     assert_eq!(verdicts(&mine), [undecided.clone(), undecided]);
     // Also if she refused only after a merge: here she has another uid.
     let folder = tempfile::tempdir().expect("a folder");
     let (mut mine, mut theirs, path) = copies_with_bea(folder.path());
-    say(&mut mine, "signer:Bea", &all(Audience::Public));
+    say(&mut mine, "signer:Bea", &all(ConsentAudience::Public));
     let public = verdicts(&mine);
     assert!(public.iter().all(std::result::Result::is_ok), "{public:?}");
     merge(&mut mine, &path);
     assert_eq!(verdicts(&mine), public, "nobody asked her there");
-    say(&mut theirs, "signer:Bea", &all(Audience::Nobody));
+    say(&mut theirs, "signer:Bea", &all(ConsentAudience::Nobody));
     merge(&mut mine, &path);
     let found = verdicts(&mine);
     assert!(found.iter().all(std::result::Result::is_err), "{found:?}");
     // And if only the other copy knows what she agreed to.
     let folder = tempfile::tempdir().expect("a folder");
     let (mut mine, mut theirs, path) = copies_with_bea(folder.path());
-    say(&mut mine, "recording:escargot", &all(Audience::Public));
-    say(&mut theirs, "signer:Bea", &all(Audience::Nobody));
+    say(&mut mine, "recording:escargot", &all(ConsentAudience::Public));
+    say(&mut theirs, "signer:Bea", &all(ConsentAudience::Nobody));
     merge(&mut mine, &path);
     assert_eq!(verdicts(&mine), [refused.clone(), refused]);
 }
@@ -288,21 +280,21 @@ fn what_a_generated_sign_itself_refuses_counts_and_unknown_sources_hold_it_back(
     let folder = tempfile::tempdir().expect("a folder");
     let (mut mine, _, _) = copies(folder.path());
     let movement = ConsentChange {
-        movement: Some(Some(Audience::Research)),
+        movement: Some(Some(ConsentAudience::Research)),
         ..ConsentChange::default()
     };
     say(&mut mine, "recording:LIMACE", &movement);
-    assert_eq!(verdicts(&mine)[1], Err(Withheld::NotPublic));
-    mine.undo().expect("undone");
+    assert_eq!(verdicts(&mine)[1], Err(WithheldReason::NotPublic));
+    mine.undo_operation().expect("undone");
     assert!(verdicts(&mine)[1].is_ok());
     let change = RecordingChange {
-        origin: Some(Origin::Made),
+        origin: Some(RecordOrigin::Made),
         signer: Some(None),
         ..RecordingChange::default()
     };
-    let name = Name::Text("escargot".into());
+    let name = RowName::Text("escargot".into());
     mine.change_recording(&name, &change).expect("changed");
-    assert_eq!(verdicts(&mine)[0], Err(Withheld::InputGone));
+    assert_eq!(verdicts(&mine)[0], Err(WithheldReason::InputGone));
 }
 
 #[test]
@@ -311,7 +303,7 @@ fn a_participant_in_other_letters_is_the_same_person() {
     let mut mine = corpus(folder.path());
     let change = ConsentChange {
         licence: Some("CC0".into()),
-        ..all(Audience::Public)
+        ..all(ConsentAudience::Public)
     };
     say(&mut mine, "recording:escargot", &change);
     assert!(verdicts(&mine)[0].is_ok());
@@ -319,9 +311,9 @@ fn a_participant_in_other_letters_is_the_same_person() {
         signer: Some(None),
         ..RecordingChange::default()
     };
-    let name = Name::Text("escargot".into());
+    let name = RowName::Text("escargot".into());
     mine.change_recording(&name, &alone).expect("changed");
-    say(&mut mine, "signer:Ada", &all(Audience::Nobody));
+    say(&mut mine, "signer:Ada", &all(ConsentAudience::Nobody));
     let sql = "UPDATE tier SET participant = 'ADA ' WHERE recording_id =
                (SELECT id FROM recording WHERE name = 'escargot')";
     let store = mine.store.named_operation("test", |connection| {
@@ -329,7 +321,7 @@ fn a_participant_in_other_letters_is_the_same_person() {
         Ok(((), String::new()))
     });
     store.expect("changed");
-    assert_eq!(verdicts(&mine)[0], Err(Withheld::NotPublic));
+    assert_eq!(verdicts(&mine)[0], Err(WithheldReason::NotPublic));
 }
 
 #[test]
@@ -345,8 +337,8 @@ fn days_are_days() {
     }
 }
 
-pub(crate) fn any_audience() -> impl Strategy<Value = Option<Audience>> {
-    prop::option::of(prop::sample::select(Audience::ALL.to_vec()))
+pub(crate) fn any_audience() -> impl Strategy<Value = Option<ConsentAudience>> {
+    prop::option::of(prop::sample::select(ConsentAudience::ALL_AUDIENCES.to_vec()))
 }
 
 proptest! {
@@ -354,16 +346,16 @@ proptest! {
     /// whom nothing is known.
     #[test]
     fn the_narrowest_consent_holds(own in any_audience(), people in prop::collection::vec(any_audience(), 0..4)) {
-        let consent = |movement: Option<Audience>| Consent { movement, ..Consent::default() };
-        let each: Vec<Consent> = people.iter().map(|it| consent(*it)).collect();
-        let each: Vec<Option<&Consent>> = each.iter().map(Some).collect();
+        let consent = |movement: Option<ConsentAudience>| PersonConsent { movement, ..PersonConsent::default() };
+        let each: Vec<PersonConsent> = people.iter().map(|it| consent(*it)).collect();
+        let each: Vec<Option<&PersonConsent>> = each.iter().map(Some).collect();
         let found = narrowest(Some(&consent(own)), &each, ConsentKind::Movement);
-        let said: Vec<Audience> = people.iter().copied().flatten().chain(own).collect();
-        if found == Some(Audience::Public) {
-            prop_assert!(said.iter().all(|it| *it == Audience::Public));
+        let said: Vec<ConsentAudience> = people.iter().copied().flatten().chain(own).collect();
+        if found == Some(ConsentAudience::Public) {
+            prop_assert!(said.iter().all(|it| *it == ConsentAudience::Public));
             prop_assert!(own.is_some() || (!people.is_empty() && people.iter().all(Option::is_some)));
         }
-        if said.iter().any(|it| *it < Audience::Public) {
+        if said.iter().any(|it| *it < ConsentAudience::Public) {
             prop_assert_eq!(found, said.iter().copied().min());
         }
     }

@@ -2,52 +2,52 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::bvh::convert;
+use chereme_formats::bvh::bvh_convert;
 use chereme_motion::Skeleton;
 use rusqlite::Connection;
 
-use crate::db::columns::Origin;
 use crate::db::consents;
-use crate::db::recordings::{self, RecordingRow};
-use crate::error::Result;
+use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_recordings::{self, RecordingRow};
+use crate::error::CorpusResult;
 use crate::movement::MotionTrack;
-use crate::sources::notation;
+use crate::sources::sources_notation;
 
 /// The recordings that generated ones take movement from; `None` if one of them is gone or not known.
-type Inputs = BTreeMap<i64, Option<BTreeSet<i64>>>;
+type RecordingInputs = BTreeMap<i64, Option<BTreeSet<i64>>>;
 
 /// The greatest difference between a bone and its stored copy, in metres: rounding to six decimals, in any unit.
-const SAME: f64 = 1e-4;
+const SAME_BONE_TOLERANCE_M: f64 = 1e-4;
 
 /// Adds the recordings that generated signs do not name: those that gave a posture or a place, and those whose bodies
 /// move, found by the skeleton.
 ///
 /// If several recordings have that skeleton, each of them may have provided the body, and all are added. If none has
 /// it, and it is not that of the program's own body, the sign's inputs are not known.
-pub(super) fn complete(
+pub(super) fn complete_unnamed_inputs(
     connection: &Connection,
     rows: &[RecordingRow],
-    inputs: &mut Inputs,
-) -> Result<()> {
+    inputs: &mut RecordingInputs,
+) -> CorpusResult<()> {
     for (made, giver) in consents::unnamed_givers(connection)? {
-        let known = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
+        let made_inputs = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
         match giver {
-            Some(giver) => drop(known.as_mut().map(|it| it.insert(giver))),
-            None => *known = None,
+            Some(giver) => drop(made_inputs.as_mut().map(|givers| givers.insert(giver))),
+            None => *made_inputs = None,
         }
     }
     let unnamed = consents::without_body(connection)?;
     if unnamed.is_empty() {
         return Ok(());
     }
-    let captured = rows.iter().filter(|row| row.origin != Origin::Made);
+    let captured = rows.iter().filter(|row| row.origin != RecordOrigin::Made);
     let mut bodies: Vec<(i64, Skeleton)> = Vec::new();
     for row in captured {
-        bodies.extend(skeleton(connection, row.id)?.map(|it| (row.id, it)));
+        bodies.extend(load_moving_skeleton(connection, row.id)?.map(|body| (row.id, body)));
     }
-    let own = notation::own_body()?.clip.skeleton().clone();
+    let own_skeleton = sources_notation::own_body()?.clip.clip_skeleton().clone();
     for made in unnamed {
-        let Some(moving) = skeleton(connection, made)? else {
+        let Some(moving) = load_moving_skeleton(connection, made)? else {
             continue;
         };
         let of: BTreeSet<i64> = bodies
@@ -55,7 +55,7 @@ pub(super) fn complete(
             .filter(|(_, body)| is_same(body, &moving))
             .map(|(recording, _)| *recording)
             .collect();
-        if of.is_empty() && !is_same(&own, &moving) {
+        if of.is_empty() && !is_same(&own_skeleton, &moving) {
             inputs.insert(made, None);
         } else if let Some(known) = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new())) {
             known.extend(of);
@@ -65,21 +65,21 @@ pub(super) fn complete(
 }
 
 /// Returns the skeleton of a recording's body in model space; `None` if nothing moves in it.
-fn skeleton(connection: &Connection, recording: i64) -> Result<Option<Skeleton>> {
-    if recordings::body_track(connection, recording)?.is_none() {
+fn load_moving_skeleton(connection: &Connection, recording: i64) -> CorpusResult<Option<Skeleton>> {
+    if stored_recordings::body_track(connection, recording)?.is_none() {
         return Ok(None);
     }
-    let track = MotionTrack::of(connection, recording)?;
-    let skeleton = convert::skeleton(&track.hierarchy).ok();
-    Ok(skeleton.map(|it| track.convention.skeleton(&it)))
+    let track = MotionTrack::open_motion_track(connection, recording)?;
+    let skeleton = bvh_convert::skeleton_from_hierarchy(&track.hierarchy).ok();
+    Ok(skeleton.map(|raw_skeleton| track.convention.file_skeleton_to_model(&raw_skeleton)))
 }
 
 /// Returns whether two skeletons are one body: the same bones in the same tree, of the same lengths. Names and the
 /// place of the root may be written differently.
 fn is_same(one: &Skeleton, other: &Skeleton) -> bool {
-    let joints = one.joints().iter().zip(other.joints());
+    let joints = one.skeleton_joints().iter().zip(other.skeleton_joints());
     one.len() == other.len()
         && joints
             .skip(1)
-            .all(|(a, b)| a.parent == b.parent && (a.offset - b.offset).length() < SAME)
+            .all(|(a, b)| a.parent == b.parent && (a.offset - b.offset).length() < SAME_BONE_TOLERANCE_M)
 }

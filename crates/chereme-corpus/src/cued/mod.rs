@@ -12,24 +12,24 @@
 //! | [`slips`] | comparison of produced and predicted keys |
 
 mod capture;
-mod dictionary;
+mod cued_dictionary;
+mod cued_restore;
+mod cued_say;
+mod cued_targets;
 mod recognise;
-mod restore;
-mod say;
 mod slips;
-mod targets;
 
 use chereme_sign::cue::{self, CueCode, UtteranceError};
 
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 
 pub use capture::{CuedMarkers, MarkerSet, read_marker_labels};
-pub use dictionary::{DictionaryReport, Dikeys, MissingDikey, ScriptCoverage, WorthRecording};
-pub use recognise::{CueConfusion, CueRecognition, Misread};
-pub use restore::{RestoreOptions, RestoredMarker, RestoredTake};
-pub use say::{CueCosts, FromDictionary, SentencePiece};
+pub use cued_dictionary::{DictionaryReport, DikeyDictionaryReport, MissingDikey, ScriptCoverage, WorthRecording};
+pub use cued_restore::{RestoreOptions, RestoredMarker, RestoredTake};
+pub use cued_say::{CueCosts, FromDictionary, SentencePiece};
+pub use cued_targets::{CuePhaseRow, CuePhaseStatistics, CueTargets, FoundKey};
+pub use recognise::{CueConfusion, CueRecognition, MisreadKey};
 pub use slips::{CueSlip, CueSlips, SlipKind};
-pub use targets::{CuePhaseRow, CuePhaseStatistics, CueTargets, FoundKey};
 
 /// The code of the cuer, and the labels of markers in files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -53,14 +53,14 @@ impl Default for CuedOptions {
 }
 
 impl CuedOptions {
-    fn code(&self) -> Result<CueCode> {
-        let fault = |error: UtteranceError| Error::wrong(error.to_string()).advise(error.remedy());
-        let known = cue::code(&self.code)
-            .ok_or_else(|| fault(UtteranceError::NoCode(self.code.clone())))?;
+    fn load_cue_code(&self) -> CorpusResult<CueCode> {
+        let fault = |error: UtteranceError| {
+            CorpusError::from_wrong_message(error.to_string()).with_advice(error.utterance_error_remedy())
+        };
+        let cue_code =
+            cue::find_cue_code(&self.code).ok_or_else(|| fault(UtteranceError::NoCode(self.code.clone())))?;
         let variants: Vec<&str> = self.variants.iter().map(String::as_str).collect();
-        known
-            .with_variants(&variants)
-            .map_err(|error| fault(error.into()))
+        cue_code.with_variants(&variants).map_err(|error| fault(error.into()))
     }
 }
 
@@ -74,7 +74,7 @@ fn key_name(placement: u8, shape: u8) -> String {
     format!("{}-{shape}", placement_name(placement))
 }
 
-fn rounded(value: f64, decimals: i32) -> f64 {
+fn round_to_decimals(value: f64, decimals: i32) -> f64 {
     let factor = 10f64.powi(decimals);
     (value * factor).round() / factor
 }

@@ -1,15 +1,15 @@
 //! Recognition of shapes and placements of captured keys, with confusion tables.
 
-use chereme_analysis::cue::gauss::{Confusion, Recogniser};
-use chereme_analysis::cue::session::{Recognisers, examples, find, find_known};
-use chereme_sign::Remedy;
+use chereme_analysis::cue::gauss::{GaussianRecogniser, RecognitionConfusion};
+use chereme_analysis::cue::session::{CuerRecognisers, collect_target_examples, find_key_gestures, find_known};
+use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
-use super::capture::{Cued, cued};
-use super::{CuedOptions, key_name, placement_name, rounded};
+use super::capture::{KeyedTake, load_keyed_takes};
+use super::{CuedOptions, key_name, placement_name, round_to_decimals};
 use crate::Corpus;
-use crate::address::Name;
-use crate::error::{Error, Result};
+use crate::address::RowName;
+use crate::error::{CorpusError, CorpusResult};
 
 /// Results of the recognition of shapes and placements.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,7 +25,7 @@ pub struct CueRecognition {
     /// Placements.
     pub placements: CueConfusion,
     /// The keys that were recognised as others.
-    pub misread: Vec<Misread>,
+    pub misread: Vec<MisreadKey>,
     /// Takes without enough frames for their keys.
     pub left_out: Vec<String>,
     /// What hidden markers cost.
@@ -45,7 +45,7 @@ pub struct CueConfusion {
 
 /// A key that was recognised as another.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Misread {
+pub struct MisreadKey {
     /// The name of the recording.
     pub recording: String,
     /// The time of its target, in microseconds.
@@ -57,23 +57,18 @@ pub struct Misread {
 }
 
 impl CueConfusion {
-    fn of(confusion: &Confusion, name: impl Fn(u8) -> String) -> Self {
-        let mut classes: Vec<u8> = confusion
-            .counts
-            .keys()
-            .flat_map(|(a, b)| [*a, *b])
-            .collect();
+    fn from_named_confusion(confusion: &RecognitionConfusion, name: impl Fn(u8) -> String) -> Self {
+        let mut classes: Vec<u8> = confusion.counts.keys().flat_map(|(a, b)| [*a, *b]).collect();
         classes.sort_unstable();
         classes.dedup();
-        let count =
-            |own: u8, other: u8| confusion.counts.get(&(own, other)).copied().unwrap_or(0) as u64;
+        let count = |own: u8, other: u8| confusion.counts.get(&(own, other)).copied().unwrap_or(0) as u64;
         Self {
             counts: classes
                 .iter()
                 .map(|own| classes.iter().map(|other| count(*own, *other)).collect())
                 .collect(),
             classes: classes.into_iter().map(name).collect(),
-            rate: rounded(confusion.rate(), 4),
+            rate: round_to_decimals(confusion.correct_recognition_rate(), 4),
         }
     }
 }
@@ -88,13 +83,13 @@ impl Corpus {
     /// Fails if no recording has a cuer's markers and keys, or they are too few.
     pub fn recognise_cues(
         &self,
-        train: &[Name],
-        test: &[Name],
+        train: &[RowName],
+        test: &[RowName],
         options: &CuedOptions,
-    ) -> Result<CueRecognition> {
-        let connection = self.store.read();
-        let (train, test): (Vec<Cued>, Vec<Cued>) = if train.is_empty() && test.is_empty() {
-            let all = cued(connection, &[], options)?;
+    ) -> CorpusResult<CueRecognition> {
+        let connection = self.store.read_connection();
+        let (train, test): (Vec<KeyedTake>, Vec<KeyedTake>) = if train.is_empty() && test.is_empty() {
+            let all = load_keyed_takes(connection, &[], options)?;
             if all.len() < 2 {
                 (all, Vec::new())
             } else {
@@ -109,36 +104,32 @@ impl Corpus {
                 parts
             }
         } else {
-            let own = cued(connection, train, options)?;
+            let training_takes = load_keyed_takes(connection, train, options)?;
             let other = if test.is_empty() {
                 Vec::new()
             } else {
-                cued(connection, test, options)?
+                load_keyed_takes(connection, test, options)?
             };
-            (own, other)
+            (training_takes, other)
         };
-        let names = |of: &[Cued]| {
-            of.iter()
-                .map(|it| it.take.row.name.clone())
-                .collect::<Vec<_>>()
-        };
-        let (known, shown) = learned(&train)?;
+        let names = |of: &[KeyedTake]| of.iter().map(|entry| entry.take.row.name.clone()).collect::<Vec<_>>();
+        let (known, shown) = train_key_recognisers(&train)?;
         let same = test.is_empty();
         let tested = if same { &train } else { &test };
         let shown = if same {
             shown
         } else {
             test.iter()
-                .map(|it| find_known(&it.followed, &it.keys, &known))
+                .map(|entry| find_known(&entry.followed, &entry.keys, &known))
                 .collect()
         };
-        let pairs: Vec<_> = tested.iter().map(Cued::pair).collect();
-        let (shapes, placements) = examples(&pairs, &shown);
+        let pairs: Vec<_> = tested.iter().map(KeyedTake::followed_with_keys).collect();
+        let (shapes, placements) = collect_target_examples(&pairs, &shown);
         if shapes.is_empty() || placements.is_empty() {
             return Err(
-                Error::wrong("no key has a target whose markers are seen").advise(Remedy::command(
-                    "restore the hidden markers first: chereme cued CORPUS restore",
-                )),
+                CorpusError::from_wrong_message("no key has a target whose markers are seen").with_advice(
+                    ErrorRemedy::command_remedy("restore the hidden markers first: chereme cued CORPUS restore"),
+                ),
             );
         }
         let keys: usize = shown.iter().map(Vec::len).sum();
@@ -159,22 +150,23 @@ impl Corpus {
             for (key, shown) in own.keys.iter().zip(shown) {
                 let read = (shown.hand.recognised, shown.fingers.recognised);
                 if read != (key.placement, key.shape) && read.0 != 0 && read.1 != 0 {
-                    misread.push(Misread {
+                    misread.push(MisreadKey {
                         recording: own.take.row.name.clone(),
-                        at_us: own.take.micros(shown.hand.frame as f64 / own.take.rate),
+                        at_us: own.take.take_time_micros(shown.hand.frame as f64 / own.take.rate),
                         key: key_name(key.placement, key.shape),
                         read: key_name(read.0, read.1),
                     });
                 }
             }
         }
-        let confusion = |recogniser: &Recogniser, examples| Confusion::of(recogniser, examples);
+        let confusion =
+            |recogniser: &GaussianRecogniser, examples| RecognitionConfusion::count_confusions(recogniser, examples);
         Ok(CueRecognition {
             trained_on: names(&train),
             tested_on: names(tested),
             same,
-            shapes: CueConfusion::of(&confusion(&known.shapes, &shapes), |n| n.to_string()),
-            placements: CueConfusion::of(&confusion(&known.placements, &placements), |n| {
+            shapes: CueConfusion::from_named_confusion(&confusion(&known.shapes, &shapes), |n| n.to_string()),
+            placements: CueConfusion::from_named_confusion(&confusion(&known.placements, &placements), |n| {
                 placement_name(n).to_owned()
             }),
             misread,
@@ -185,15 +177,15 @@ impl Corpus {
 }
 
 /// Finds the gestures of takes, and trains recognisers on them.
-pub(super) fn learned(
-    takes: &[Cued],
-) -> Result<(
-    Recognisers,
-    Vec<Vec<chereme_analysis::cue::session::KeyGestures>>,
-)> {
-    let pairs: Vec<_> = takes.iter().map(Cued::pair).collect();
-    find(&pairs).map_err(|error| {
-        Error::wrong(format!("the recognisers cannot learn from these keys: {error}"))
-            .advise(Remedy::command("import more takes with keys, or restore their hidden markers first: chereme cued CORPUS restore"))
+pub(super) fn train_key_recognisers(
+    takes: &[KeyedTake],
+) -> CorpusResult<(CuerRecognisers, Vec<Vec<chereme_analysis::cue::session::KeyGestures>>)> {
+    let pairs: Vec<_> = takes.iter().map(KeyedTake::followed_with_keys).collect();
+    find_key_gestures(&pairs).map_err(|error| {
+        CorpusError::from_wrong_message(format!("the recognisers cannot learn from these keys: {error}")).with_advice(
+            ErrorRemedy::command_remedy(
+                "import more takes with keys, or restore their hidden markers first: chereme cued CORPUS restore",
+            ),
+        )
     })
 }

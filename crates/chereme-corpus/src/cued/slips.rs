@@ -1,17 +1,17 @@
 //! Comparison of produced and predicted keys of a take: insertions, deletions, and substitutions of shape or placement.
 
-use chereme_analysis::cue::session::Key;
-use chereme_sign::Remedy;
-use chereme_sign::cue::{self, Phone, Utterance, UtteranceError};
+use chereme_analysis::cue::session::ExpectedCueKey;
+use chereme_sign::ErrorRemedy;
+use chereme_sign::cue::{self, CuedUtterance, SpokenPhone, UtteranceError};
 use serde::Serialize;
 
-use super::capture::{cued, key_tier, phones, predicted, take};
-use super::recognise::learned;
+use super::capture::{key_tier, keys_from_timed_utterance, load_cuer_take, load_keyed_takes, load_recording_phones};
+use super::recognise::train_key_recognisers;
 use super::{CuedOptions, key_name};
 use crate::Corpus;
-use crate::address::{self, Name};
+use crate::address::{self, RowName};
 use crate::cue::KeysOptions;
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 
 /// The slips of a take.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,7 +51,7 @@ pub enum SlipKind {
 impl SlipKind {
     /// Returns the name of the kind.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn slip_kind_name(self) -> &'static str {
         match self {
             Self::Insertion => "insertion",
             Self::Deletion => "deletion",
@@ -76,7 +76,7 @@ pub struct CueSlip {
 }
 
 /// The length of the longest sequences that are compared.
-const MOST: usize = 5_000;
+const MAX_COMPARED_KEYS: usize = 5_000;
 
 impl Corpus {
     /// Compares the keys that a take shows with those that its phones, or a text, predict.
@@ -89,15 +89,15 @@ impl Corpus {
     /// Fails if there is no such recording, neither phones nor a text predict keys, or a key cannot be read.
     pub fn cue_slips(
         &self,
-        recording: &Name,
+        recording: &RowName,
         text: Option<&str>,
         recognised: bool,
         options: &CuedOptions,
-    ) -> Result<CueSlips> {
-        let connection = self.store.read();
-        let row = address::recording(connection, recording)?;
+    ) -> CorpusResult<CueSlips> {
+        let connection = self.store.read_connection();
+        let row = address::find_recording_by_name(connection, recording)?;
         let name = row.name.clone();
-        let code = options.code()?;
+        let code = options.load_cue_code()?;
         let (expected, predicted_by) = match text {
             Some(text) => {
                 let reading = KeysOptions {
@@ -105,23 +105,28 @@ impl Corpus {
                     variants: options.variants.clone(),
                     ..KeysOptions::default()
                 };
-                let fault =
-                    |error: UtteranceError| Error::wrong(error.to_string()).advise(error.remedy());
-                let read = Utterance::read(text, &reading).map_err(fault)?;
+                let fault = |error: UtteranceError| {
+                    CorpusError::from_wrong_message(error.to_string()).with_advice(error.utterance_error_remedy())
+                };
+                let read = CuedUtterance::read_cued_utterance(text, &reading).map_err(fault)?;
                 (untimed(&read), "text")
             }
             None => {
-                let found: Option<(Vec<Phone>, _)> = phones(connection, row.id, &code)?;
-                let Some((phones, alphabet)) = found else {
-                    return Err(Error::wrong(format!("{name:?} has no tier of phones"))
-                        .at(name)
-                        .advise(Remedy::command("give the text with --text, or import an alignment with a tier called Phones")));
+                let timed_phones: Option<(Vec<SpokenPhone>, _)> = load_recording_phones(connection, row.id, &code)?;
+                let Some((phones, alphabet)) = timed_phones else {
+                    return Err(
+                        CorpusError::from_wrong_message(format!("{name:?} has no tier of phones"))
+                            .with_error_place(name)
+                            .with_advice(ErrorRemedy::command_remedy(
+                                "give the text with --text, or import an alignment with a tier called Phones",
+                            )),
+                    );
                 };
-                let read = Utterance::of_phones(code.clone(), phones, alphabet);
+                let read = CuedUtterance::of_phones(code.clone(), phones, alphabet);
                 (
-                    predicted(&read, 0.0)
+                    keys_from_timed_utterance(&read, 0.0)
                         .into_iter()
-                        .map(Expected::of)
+                        .map(ExpectedKey::from_expected_key)
                         .collect(),
                     "phones",
                 )
@@ -140,64 +145,61 @@ impl Corpus {
             right: 0,
             slips: Vec::new(),
         };
-        let comparable = |produced: Vec<Produced>| match produced.len().max(expected.len()) {
-            0..=MOST => Ok(produced),
+        let comparable = |produced: Vec<ProducedKey>| match produced.len().max(expected.len()) {
+            0..=MAX_COMPARED_KEYS => Ok(produced),
             count => Err(
-                Error::wrong(format!("{count} keys are too many to compare"))
-                    .at(name.clone())
-                    .advise("cut the recording into shorter takes"),
+                CorpusError::from_wrong_message(format!("{count} keys are too many to compare"))
+                    .with_error_place(name.clone())
+                    .with_advice("cut the recording into shorter takes"),
             ),
         };
         if let Some(keys) = annotated {
             let shown = keys.iter().filter(|key| key.placement > 0);
-            let produced = shown.map(|key| (key.placement, key.shape, key.row.start_us));
-            let produced = comparable(produced.collect())?;
+            let produced_keys = shown.map(|key| (key.placement, key.shape, key.row.start_us));
+            let produced = comparable(produced_keys.collect())?;
             report.produced = produced.len() as u64;
-            (report.right, report.slips) = compared(&expected, &produced);
+            (report.right, report.slips) = align_key_sequences(&expected, &produced);
             return Ok(report);
         }
         report.produced_by = "recognised";
-        take(connection, row, options)?;
-        let takes = cued(connection, &[], options)?;
-        let (_, shown) = learned(&takes)?;
-        let found = takes
-            .iter()
-            .zip(&shown)
-            .find(|(own, _)| own.take.row.name == name);
-        let Some((own, shown)) = found else {
+        load_cuer_take(connection, row, options)?;
+        let takes = load_keyed_takes(connection, &[], options)?;
+        let (_, shown) = train_key_recognisers(&takes)?;
+        let matching_take = takes.iter().zip(&shown).find(|(own, _)| own.take.row.name == name);
+        let Some((own, shown)) = matching_take else {
             return Err(
-                Error::wrong(format!("{name:?} has no keys or phones to look for"))
-                    .at(name)
-                    .advise("import an alignment with a tier called Phones"),
+                CorpusError::from_wrong_message(format!("{name:?} has no keys or phones to look for"))
+                    .with_error_place(name)
+                    .with_advice("import an alignment with a tier called Phones"),
             );
         };
         let produced = shown.iter().map(|shown| {
-            let at = own.take.micros(shown.hand.frame as f64 / own.take.rate);
-            (shown.hand.recognised, shown.fingers.recognised, at)
+            let hand_micros = own.take.take_time_micros(shown.hand.frame as f64 / own.take.rate);
+            (shown.hand.recognised, shown.fingers.recognised, hand_micros)
         });
         let produced = comparable(produced.collect())?;
         report.produced = produced.len() as u64;
         // Keys that were looked for at the predicted ones answer them one by one.
         let looked_for = own.keys.iter().map(|key| (key.placement, key.shape));
         let is_paired =
-            produced.len() == expected.len() && looked_for.eq(expected.iter().map(Expected::key));
+            produced.len() == expected.len() && looked_for.eq(expected.iter().map(ExpectedKey::expected_key_parts));
         (report.right, report.slips) = match is_paired {
-            true => paired(&expected, &produced),
-            false => compared(&expected, &produced),
+            true => compare_paired_keys(&expected, &produced),
+            false => align_key_sequences(&expected, &produced),
         };
         Ok(report)
     }
 }
 
 /// A predicted key: placement, shape, and its start in microseconds if it is known.
-struct Expected {
+struct ExpectedKey {
     placement: u8,
     shape: u8,
     at: Option<i64>,
 }
 
-impl Expected {
-    fn of(key: Key) -> Self {
+impl ExpectedKey {
+    fn from_expected_key(key: ExpectedCueKey) -> Self {
         Self {
             placement: key.placement,
             shape: key.shape,
@@ -205,33 +207,31 @@ impl Expected {
         }
     }
 
-    fn key(&self) -> (u8, u8) {
+    fn expected_key_parts(&self) -> (u8, u8) {
         (self.placement, self.shape)
     }
 }
 
 /// Compares each predicted key with the produced one of the same number.
-fn paired(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>) {
+fn compare_paired_keys(expected: &[ExpectedKey], produced: &[ProducedKey]) -> (u64, Vec<CueSlip>) {
     let pairs = expected.iter().zip(produced);
-    let slips: Vec<CueSlip> = pairs
-        .filter_map(|(own, other)| substitution(own, *other))
-        .collect();
+    let slips: Vec<CueSlip> = pairs.filter_map(|(own, other)| substitution(own, *other)).collect();
     ((expected.len() - slips.len()) as u64, slips)
 }
 
 /// Returns the slip between a predicted and a produced key; `None` if they are equal.
-fn substitution(own: &Expected, other: Produced) -> Option<CueSlip> {
+fn substitution(own: &ExpectedKey, other: ProducedKey) -> Option<CueSlip> {
     Some(CueSlip {
-        kind: kind(own.key(), (other.0, other.1))?,
+        kind: classify_key_slip(own.expected_key_parts(), (other.0, other.1))?,
         at_us: Some(other.2),
         predicted: Some(key_name(own.placement, own.shape)),
         produced: Some(key_name(other.0, other.1)),
     })
 }
 
-fn untimed(read: &Utterance) -> Vec<Expected> {
+fn untimed(read: &CuedUtterance) -> Vec<ExpectedKey> {
     let keys = read.keys.iter().filter_map(|key| {
-        Some(Expected {
+        Some(ExpectedKey {
             placement: u8::try_from(cue::placement_number(&key.placement)).ok()?,
             shape: key.shape,
             at: None,
@@ -241,9 +241,9 @@ fn untimed(read: &Utterance) -> Vec<Expected> {
 }
 
 /// A produced key: placement, shape, and its start in microseconds.
-type Produced = (u8, u8, i64);
+type ProducedKey = (u8, u8, i64);
 
-fn kind(expected: (u8, u8), produced: (u8, u8)) -> Option<SlipKind> {
+fn classify_key_slip(expected: (u8, u8), produced: (u8, u8)) -> Option<SlipKind> {
     match (expected.0 == produced.0, expected.1 == produced.1) {
         (true, true) => None,
         (false, true) => Some(SlipKind::Placement),
@@ -254,8 +254,8 @@ fn kind(expected: (u8, u8), produced: (u8, u8)) -> Option<SlipKind> {
 
 /// Aligns both sequences at the least cost: half for each part of a key that differs, 0.7 for a superfluous or missing
 /// key.
-fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>) {
-    const GAP: f32 = 0.7;
+fn align_key_sequences(expected: &[ExpectedKey], produced: &[ProducedKey]) -> (u64, Vec<CueSlip>) {
+    const KEY_GAP_COST: f32 = 0.7;
     let width = produced.len() + 1;
     let mut costs = vec![0.0f32; (expected.len() + 1) * width];
     let differs = |i: usize, j: usize| {
@@ -265,11 +265,11 @@ fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>)
     for i in 0..=expected.len() {
         for j in 0..=produced.len() {
             costs[i * width + j] = match (i, j) {
-                (0, _) => j as f32 * GAP,
-                (_, 0) => i as f32 * GAP,
+                (0, _) => j as f32 * KEY_GAP_COST,
+                (_, 0) => i as f32 * KEY_GAP_COST,
                 _ => {
                     let both = costs[(i - 1) * width + j - 1] + differs(i - 1, j - 1);
-                    let gap = costs[(i - 1) * width + j].min(costs[i * width + j - 1]) + GAP;
+                    let gap = costs[(i - 1) * width + j].min(costs[i * width + j - 1]) + KEY_GAP_COST;
                     both.min(gap)
                 }
             };
@@ -286,7 +286,7 @@ fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>)
                 None => right += 1,
                 Some(slip) => slips.push(slip),
             }
-        } else if i > 0 && near(costs[(i - 1) * width + j] + GAP) {
+        } else if i > 0 && near(costs[(i - 1) * width + j] + KEY_GAP_COST) {
             i -= 1;
             slips.push(CueSlip {
                 kind: SlipKind::Deletion,
@@ -311,7 +311,7 @@ fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>)
 impl CueSlips {
     /// Returns the number of slips of a kind.
     #[must_use]
-    pub fn count(&self, kind: SlipKind) -> usize {
+    pub fn count_slips_of(&self, kind: SlipKind) -> usize {
         self.slips.iter().filter(|slip| slip.kind == kind).count()
     }
 }
@@ -331,31 +331,25 @@ mod tests {
 
     #[test]
     fn slips_are_omissions_insertions_and_substitutions() {
-        let expected: Vec<Expected> = keys("16 16 31 13 24 55")
+        let expected: Vec<ExpectedKey> = keys("16 16 31 13 24 55")
             .into_iter()
-            .map(|(placement, shape)| Expected {
+            .map(|(placement, shape)| ExpectedKey {
                 placement,
                 shape,
                 at: Some(0),
             })
             .collect();
-        let produced: Vec<Produced> = keys("16 31 53 24 22 55")
-            .into_iter()
-            .map(|(a, b)| (a, b, 7))
-            .collect();
-        let (right, slips) = compared(&expected, &produced);
+        let produced: Vec<ProducedKey> = keys("16 31 53 24 22 55").into_iter().map(|(a, b)| (a, b, 7)).collect();
+        let (right, slips) = align_key_sequences(&expected, &produced);
         assert_eq!(right, 4);
         let kinds: Vec<SlipKind> = slips.iter().map(|slip| slip.kind).collect();
-        assert_eq!(
-            kinds,
-            [SlipKind::Deletion, SlipKind::Placement, SlipKind::Insertion]
-        );
-        assert_eq!(compared(&[], &[]), (0, Vec::new()));
-        assert_eq!(compared(&expected, &[]).1.len(), 6);
+        assert_eq!(kinds, [SlipKind::Deletion, SlipKind::Placement, SlipKind::Insertion]);
+        assert_eq!(align_key_sequences(&[], &[]), (0, Vec::new()));
+        assert_eq!(align_key_sequences(&expected, &[]).1.len(), 6);
     }
 
     /// Returns the slips of a recording against the text "papa": one second of the given keys on a tier.
-    fn against_papa(keys: [&str; 3]) -> Result<CueSlips> {
+    fn against_papa(keys: [&str; 3]) -> CorpusResult<CueSlips> {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("take.TextGrid");
         let intervals = keys.iter().enumerate();
@@ -365,12 +359,12 @@ mod tests {
             "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n3\n<exists>\n1\n\"IntervalTier\"\n\"Keys\"\n0\n3\n3\n{intervals}"
         );
         std::fs::write(&path, text).expect("written");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-        let mut hear = crate::unheard;
-        let mut progress = crate::Progress::new(&mut hear);
-        let done = corpus.import(&[path], &crate::ImportOptions::default(), &mut progress);
+        let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = crate::ignore_progress_step;
+        let mut progress = crate::ProgressReceiver::new(&mut hear);
+        let done = corpus.import_paths(&[path], &crate::ImportOptions::default(), &mut progress);
         done.expect("taken in");
-        let take = Name::Text("take".to_owned());
+        let take = RowName::Text("take".to_owned());
         corpus.cue_slips(&take, Some("papa"), false, &CuedOptions::default())
     }
 
@@ -383,20 +377,14 @@ mod tests {
             ["11", "00", "11"],
         ] {
             let slips = against_papa(keys).expect("keys");
-            assert_eq!(
-                (slips.right, slips.produced, slips.slips.len()),
-                (2, 2, 0),
-                "{keys:?}"
-            );
+            assert_eq!((slips.right, slips.produced, slips.slips.len()), (2, 2, 0), "{keys:?}");
         }
         let slips = against_papa(["24", "1-s", "chin-1"]).expect("keys");
         assert_eq!((slips.right, slips.produced), (1, 3));
         for keys in [["pa", "pa", ""], ["11", "pa", "x"]] {
             let error = against_papa(keys).expect_err("no keys");
             assert!(
-                error
-                    .to_string()
-                    .contains("\"pa\" on the tier Keys is no key"),
+                error.to_string().contains("\"pa\" on the tier Keys is no key"),
                 "{error}"
             );
         }
@@ -411,10 +399,10 @@ mod tests {
             SlipKind::Shape,
             SlipKind::Both,
         ];
-        let words: std::collections::BTreeSet<&str> = all.iter().map(|kind| kind.name()).collect();
+        let words: std::collections::BTreeSet<&str> = all.iter().map(|kind| kind.slip_kind_name()).collect();
         assert_eq!(words.len(), all.len());
         assert_eq!(
-            KeySounds::ALL.map(KeySounds::name),
+            KeySounds::ALL_KEY_SOUNDS.map(KeySounds::key_sounds_name),
             ["pair", "vowel", "consonant"]
         );
     }

@@ -2,7 +2,7 @@
 
 use rusqlite::{Connection, params};
 
-use crate::error::Result;
+use crate::error::CorpusResult;
 
 /// The consent of a signer, or the one that belongs to a recording.
 pub(crate) struct ConsentColumn {
@@ -13,22 +13,16 @@ pub(crate) struct ConsentColumn {
 }
 
 /// Returns the consent of every signer, by name.
-pub(crate) fn of_signers(connection: &Connection) -> Result<Vec<ConsentColumn>> {
-    read(
-        connection,
-        "SELECT id, name, consent FROM signer ORDER BY name",
-    )
+pub(crate) fn of_signers(connection: &Connection) -> CorpusResult<Vec<ConsentColumn>> {
+    read_consent_columns(connection, "SELECT id, name, consent FROM signer ORDER BY name")
 }
 
 /// Returns the consent that belongs to each recording, by name.
-pub(crate) fn of_recordings(connection: &Connection) -> Result<Vec<ConsentColumn>> {
-    read(
-        connection,
-        "SELECT id, name, consent FROM recording ORDER BY name",
-    )
+pub(crate) fn of_recordings(connection: &Connection) -> CorpusResult<Vec<ConsentColumn>> {
+    read_consent_columns(connection, "SELECT id, name, consent FROM recording ORDER BY name")
 }
 
-fn read(connection: &Connection, sql: &str) -> Result<Vec<ConsentColumn>> {
+fn read_consent_columns(connection: &Connection, sql: &str) -> CorpusResult<Vec<ConsentColumn>> {
     let mut statement = connection.prepare_cached(sql)?;
     let rows = statement.query_map([], |row| {
         Ok(ConsentColumn {
@@ -41,7 +35,7 @@ fn read(connection: &Connection, sql: &str) -> Result<Vec<ConsentColumn>> {
 }
 
 /// Stores the consent of a signer.
-pub(crate) fn set_of_signer(connection: &Connection, id: i64, consent: Option<&str>) -> Result<()> {
+pub(crate) fn set_of_signer(connection: &Connection, id: i64, consent: Option<&str>) -> CorpusResult<()> {
     connection
         .prepare_cached("UPDATE signer SET consent = ?2 WHERE id = ?1")?
         .execute(params![id, consent])?;
@@ -49,11 +43,7 @@ pub(crate) fn set_of_signer(connection: &Connection, id: i64, consent: Option<&s
 }
 
 /// Stores the consent that belongs to a recording.
-pub(crate) fn set_of_recording(
-    connection: &Connection,
-    id: i64,
-    consent: Option<&str>,
-) -> Result<()> {
+pub(crate) fn set_of_recording(connection: &Connection, id: i64, consent: Option<&str>) -> CorpusResult<()> {
     connection
         .prepare_cached("UPDATE recording SET consent = ?2 WHERE id = ?1")?
         .execute(params![id, consent])?;
@@ -61,7 +51,7 @@ pub(crate) fn set_of_recording(
 }
 
 /// Returns the participants that the tiers of recordings name: recording and name.
-pub(crate) fn participants(connection: &Connection) -> Result<Vec<(i64, String)>> {
+pub(crate) fn list_tier_participants(connection: &Connection) -> CorpusResult<Vec<(i64, String)>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT recording_id, trim(participant) FROM tier
          WHERE trim(coalesce(participant, '')) <> '' ORDER BY 1, 2",
@@ -73,7 +63,10 @@ pub(crate) fn participants(connection: &Connection) -> Result<Vec<(i64, String)>
 /// Returns the inputs of recipes: the generated recording, and the recording that it takes movement from; without one
 /// if the input is an entry of a table, the body at the address `own`, or was deleted. The last is whether that is known:
 /// a token or `own` stands for the input, or the recipe has none.
-pub(crate) fn inputs(connection: &Connection, own: &str) -> Result<Vec<(i64, Option<i64>, bool)>> {
+pub(crate) fn list_recipe_movement_inputs(
+    connection: &Connection,
+    own: &str,
+) -> CorpusResult<Vec<(i64, Option<i64>, bool)>> {
     let mut statement = connection.prepare_cached(
         "SELECT p.recording_id, i.recording_id,
              i.id IS NULL OR i.token_id IS NOT NULL OR i.address = ?1
@@ -85,7 +78,7 @@ pub(crate) fn inputs(connection: &Connection, own: &str) -> Result<Vec<(i64, Opt
 
 /// Returns the generated recordings whose recipes do not name the body that moves: they have no input, or a notation
 /// that was stored without its body, as earlier versions of the program did.
-pub(crate) fn without_body(connection: &Connection) -> Result<Vec<i64>> {
+pub(crate) fn without_body(connection: &Connection) -> CorpusResult<Vec<i64>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT p.recording_id FROM recipe p
          LEFT JOIN recipe_input i ON i.recipe_id = p.id
@@ -103,7 +96,7 @@ pub(crate) fn without_body(connection: &Connection) -> Result<Vec<i64>> {
 /// Returns the generated recordings whose documents name tokens that gave a posture or a place, where the inputs of
 /// the recipe do not name them, as earlier versions of the program did: the generated recording, and that of the token if it
 /// is still there.
-pub(crate) fn unnamed_givers(connection: &Connection) -> Result<Vec<(i64, Option<i64>)>> {
+pub(crate) fn unnamed_givers(connection: &Connection) -> CorpusResult<Vec<(i64, Option<i64>)>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT p.recording_id, t.recording_id FROM recipe p, json_tree(p.document, '$.inputs') it
          LEFT JOIN token t ON t.id = CAST(substr(it.atom, 7) AS INTEGER)

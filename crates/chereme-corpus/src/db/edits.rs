@@ -2,22 +2,22 @@
 
 use rusqlite::{Connection, params};
 
-use super::recordings::{RecordingRow, SignerRow};
-use crate::db::columns::Col;
-use crate::error::Result;
+use super::stored_recordings::{RecordingRow, SignerRow};
+use crate::db::stored_columns::NamedColumn;
+use crate::error::CorpusResult;
 
 /// Allows references to missing rows until the transaction ends, so that rows can be written in any order.
-pub(crate) fn defer_references(connection: &Connection) -> Result<()> {
+pub(crate) fn defer_references(connection: &Connection) -> CorpusResult<()> {
     connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
     Ok(())
 }
 
 /// Returns the annotations with the id `id` in their file, of one recording or of all.
-pub(crate) fn called(
+pub(crate) fn find_annotations_by_id(
     connection: &Connection,
     recording: Option<i64>,
     id: &str,
-) -> Result<Vec<i64>> {
+) -> CorpusResult<Vec<i64>> {
     let mut statement = connection.prepare_cached(
         "SELECT a.id FROM annotation a JOIN tier t ON t.id = a.tier_id
          WHERE a.external_id = ?1 AND t.recording_id = coalesce(?2, t.recording_id) ORDER BY a.id",
@@ -29,7 +29,7 @@ pub(crate) fn called(
 }
 
 /// Returns the values of a tier's annotations, and the number of annotations that have each.
-pub(crate) fn values_of_tier(connection: &Connection, tier: i64) -> Result<Vec<(String, i64)>> {
+pub(crate) fn values_of_tier(connection: &Connection, tier: i64) -> CorpusResult<Vec<(String, i64)>> {
     let mut statement = connection.prepare_cached(
         "SELECT value, count(*) FROM annotation WHERE tier_id = ?1 AND state = 'value'
          GROUP BY value ORDER BY value",
@@ -41,7 +41,7 @@ pub(crate) fn values_of_tier(connection: &Connection, tier: i64) -> Result<Vec<(
 }
 
 /// Deletes the annotations of a tier, and returns their number.
-pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> Result<usize> {
+pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> CorpusResult<usize> {
     let deleted = connection
         .prepare_cached("DELETE FROM annotation WHERE tier_id = ?1")?
         .execute([tier])?;
@@ -49,7 +49,7 @@ pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> Result<u
 }
 
 /// Replaces the value `old` by `new` on all gloss tiers, and returns the number of changed annotations.
-pub(crate) fn regloss(connection: &Connection, old: &str, new: &str) -> Result<usize> {
+pub(crate) fn replace_gloss_values(connection: &Connection, old: &str, new: &str) -> CorpusResult<usize> {
     let changed = connection
         .prepare_cached(
             "UPDATE annotation SET value = ?2, origin = 'human', confidence = NULL,
@@ -62,7 +62,7 @@ pub(crate) fn regloss(connection: &Connection, old: &str, new: &str) -> Result<u
 }
 
 /// Writes a recording's row again; its `signer` is not used.
-pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> Result<()> {
+pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> CorpusResult<()> {
     connection
         .prepare_cached(
             "UPDATE recording SET name = ?2, signer_id = ?3, origin = ?4, licence = ?5, notes = ?6
@@ -72,18 +72,18 @@ pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> R
             row.id,
             row.name,
             row.signer_id,
-            Col(row.origin),
+            NamedColumn(row.origin),
             row.licence,
             row.notes
         ])?;
     connection
         .prepare_cached("UPDATE token SET origin = ?2 WHERE recording_id = ?1 AND origin <> ?2")?
-        .execute(params![row.id, Col(row.origin)])?;
+        .execute(params![row.id, NamedColumn(row.origin)])?;
     Ok(())
 }
 
 /// Writes a signer's row again.
-pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> Result<()> {
+pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> CorpusResult<()> {
     connection
         .prepare_cached("UPDATE signer SET name = ?2, handedness = ?3, notes = ?4 WHERE id = ?1")?
         .execute(params![row.id, row.name, row.handedness, row.notes])?;
@@ -91,7 +91,7 @@ pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> Result<
 }
 
 /// Renames a participant on all tiers.
-pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> Result<()> {
+pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> CorpusResult<()> {
     connection
         .prepare_cached("UPDATE tier SET participant = ?2 WHERE participant = ?1")?
         .execute([old, new])?;
@@ -99,7 +99,7 @@ pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) 
 }
 
 /// Returns the recordings that show a signer: the signer's own, and those with tiers for that participant.
-pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
+pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> CorpusResult<Vec<i64>> {
     let mut statement = connection.prepare_cached(
         "SELECT id FROM recording WHERE signer_id = ?1
          UNION SELECT i.recording_id FROM tier i JOIN signer g ON g.name = i.participant
@@ -112,12 +112,7 @@ pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Resu
 }
 
 /// Replaces a sign's gloss and notes.
-pub(crate) fn update_sign(
-    connection: &Connection,
-    sign: i64,
-    gloss: &str,
-    notes: Option<&str>,
-) -> Result<()> {
+pub(crate) fn update_sign(connection: &Connection, sign: i64, gloss: &str, notes: Option<&str>) -> CorpusResult<()> {
     connection
         .prepare_cached(
             "UPDATE sign SET gloss = ?2, notes = ?3
@@ -128,19 +123,14 @@ pub(crate) fn update_sign(
 }
 
 /// Returns the gloss and the notes of a sign.
-pub(crate) fn sign(connection: &Connection, sign: i64) -> Result<(String, Option<String>)> {
+pub(crate) fn sign_gloss_and_notes(connection: &Connection, sign: i64) -> CorpusResult<(String, Option<String>)> {
     Ok(connection
         .prepare_cached("SELECT gloss, notes FROM sign WHERE id = ?1")?
         .query_row([sign], |row| Ok((row.get(0)?, row.get(1)?)))?)
 }
 
 /// Removes a translation of a sign, and returns whether it existed.
-pub(crate) fn remove_text(
-    connection: &Connection,
-    sign: i64,
-    language: &str,
-    text: &str,
-) -> Result<bool> {
+pub(crate) fn remove_text(connection: &Connection, sign: i64, language: &str, text: &str) -> CorpusResult<bool> {
     let removed = connection
         .prepare_cached("DELETE FROM sign_text WHERE sign_id = ?1 AND language = ?2 AND text = ?3")?
         .execute(params![sign, language, text])?;
@@ -148,11 +138,9 @@ pub(crate) fn remove_text(
 }
 
 /// Makes a token the only citation form of its sign.
-pub(crate) fn cite(connection: &Connection, sign: i64, token: i64) -> Result<()> {
+pub(crate) fn set_citation_token(connection: &Connection, sign: i64, token: i64) -> CorpusResult<()> {
     connection
-        .prepare_cached(
-            "UPDATE token SET citation = (id = ?2) WHERE sign_id = ?1 AND citation <> (id = ?2)",
-        )?
+        .prepare_cached("UPDATE token SET citation = (id = ?2) WHERE sign_id = ?1 AND citation <> (id = ?2)")?
         .execute([sign, token])?;
     Ok(())
 }

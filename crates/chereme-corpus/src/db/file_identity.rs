@@ -14,22 +14,22 @@ pub struct FileIdentity {
 impl FileIdentity {
     /// Returns the identity of the file that is at `path` now.
     #[must_use]
-    pub fn of(path: &Path) -> Self {
+    pub fn from_file_path(path: &Path) -> Self {
         Self {
             path: path.to_owned(),
-            id: path.metadata().ok().as_ref().and_then(id),
+            id: path.metadata().ok().as_ref().and_then(device_file_number),
         }
     }
 
-    pub(crate) fn path(&self) -> &Path {
+    pub(crate) fn identity_path(&self) -> &Path {
         &self.path
     }
 
     /// Returns whether that file is still at its path: not deleted, moved or replaced.
     #[must_use]
-    pub fn stands(&self) -> bool {
+    pub fn is_same_file_present(&self) -> bool {
         match self.path.metadata() {
-            Ok(now) => self.id.is_none() || id(&now) == self.id,
+            Ok(now) => self.id.is_none() || device_file_number(&now) == self.id,
             Err(error) => error.kind() != std::io::ErrorKind::NotFound,
         }
     }
@@ -37,7 +37,7 @@ impl FileIdentity {
 
 /// Returns the device and the number of a file.
 #[cfg(unix)]
-fn id(file: &Metadata) -> Option<(u64, u64)> {
+fn device_file_number(file: &Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt as _;
     Some((file.dev(), file.ino()))
 }
@@ -53,8 +53,8 @@ mod tests {
     use super::*;
     use crate::Corpus;
 
-    fn made(folder: &Path) -> Corpus {
-        let mut corpus = Corpus::create(&folder.join("a.chereme"), "A").expect("made");
+    fn create_sample_corpus(folder: &Path) -> Corpus {
+        let mut corpus = Corpus::create_corpus(&folder.join("a.chereme"), "A").expect("made");
         let query = crate::KeptSearch {
             name: "mine".into(),
             query: "configuration=U".into(),
@@ -66,25 +66,25 @@ mod tests {
     #[test]
     fn a_corpus_deleted_while_open_is_saved_whole() {
         let folder = tempfile::tempdir().expect("a folder");
-        let corpus = made(folder.path());
-        let path = corpus.path().to_owned();
-        let place = FileIdentity::of(&path);
-        assert!(place.stands());
+        let corpus = create_sample_corpus(folder.path());
+        let path = corpus.corpus_file_path().to_owned();
+        let place = FileIdentity::from_file_path(&path);
+        assert!(place.is_same_file_present());
         let moved = folder.path().join("moved.chereme");
         std::fs::rename(&path, &moved).expect("moved");
-        assert!(!place.stands());
+        assert!(!place.is_same_file_present());
         std::fs::rename(&moved, &path).expect("moved back");
-        assert!(place.stands());
+        assert!(place.is_same_file_present());
         std::fs::remove_file(&path).expect("deleted");
         std::fs::write(&path, "another").expect("written");
-        assert!(!place.stands(), "it is another file");
+        assert!(!place.is_same_file_present(), "it is another file");
         assert!(corpus.save_copy(&path).is_err(), "nothing is written over");
         std::fs::remove_file(&path).expect("deleted");
-        assert!(!place.stands());
+        assert!(!place.is_same_file_present());
         corpus.save_copy(&path).expect("saved");
         drop(corpus);
-        let again = Corpus::open(&path, "A").expect("opened");
-        let overview = again.overview(10).expect("read");
+        let reopened = Corpus::open_corpus(&path, "A").expect("opened");
+        let overview = reopened.load_corpus_overview(10).expect("read");
         assert_eq!(overview.searches.len(), 1);
         assert_eq!(overview.operations.len(), 1);
         assert!(!overview.inventories.is_empty());
@@ -94,16 +94,16 @@ mod tests {
     fn work_on_a_file_that_was_moved_or_replaced_is_saved_beside_and_not_called_done() {
         for (trial, replacement) in [None, Some("copy"), Some("gone")].into_iter().enumerate() {
             let folder = tempfile::tempdir().expect("a folder");
-            let mut corpus = made(folder.path());
-            let path = corpus.path().to_owned();
+            let mut corpus = create_sample_corpus(folder.path());
+            let path = corpus.corpus_file_path().to_owned();
             let other = folder.path().join("other.chereme");
-            drop(Corpus::create(&other, "B").expect("made"));
+            drop(Corpus::create_corpus(&other, "B").expect("made"));
             let query = crate::KeptSearch {
                 name: "second".into(),
                 query: "configuration=S".into(),
             };
-            let is_last = |step: &crate::Step<'_>| step.task == "storing";
-            let mut hear = |step: crate::Step<'_>| {
+            let is_last = |step: &crate::ProgressStep<'_>| step.task == "storing";
+            let mut hear = |step: crate::ProgressStep<'_>| {
                 if is_last(&step) {
                     match replacement {
                         None => std::fs::rename(&path, folder.path().join("moved.chereme")),
@@ -114,21 +114,19 @@ mod tests {
                 }
                 std::ops::ControlFlow::Continue(())
             };
-            let mut progress = crate::Progress::new(&mut hear);
-            let done = corpus
-                .store
-                .operation_with_progress(&mut progress, |connection, _| {
-                    crate::db::saved_searches::insert(connection, &query)?;
-                    Ok(((), crate::words::effect::OperationEffect::Mend {}))
-                });
-            let Err(crate::Error::Displaced { rescued, .. }) = done else {
+            let mut progress = crate::ProgressReceiver::new(&mut hear);
+            let done = corpus.store.operation_with_progress(&mut progress, |connection, _| {
+                crate::db::saved_searches::insert_saved_search(connection, &query)?;
+                Ok(((), crate::words::effect::OperationEffect::Mend {}))
+            });
+            let Err(crate::CorpusError::Displaced { rescued, .. }) = done else {
                 panic!("trial {trial}: {done:?}");
             };
             assert_eq!(rescued, folder.path().join("a.rescued.chereme"));
             drop(corpus);
-            let saved = Corpus::open(&rescued, "A").expect("opened");
+            let saved = Corpus::open_corpus(&rescued, "A").expect("opened");
             assert_eq!(
-                saved.overview(10).expect("read").searches.len(),
+                saved.load_corpus_overview(10).expect("read").searches.len(),
                 2,
                 "trial {trial}"
             );
@@ -137,8 +135,8 @@ mod tests {
                 assert!(!left.exists(), "trial {trial}: {ending}");
             }
             if replacement == Some("copy") {
-                let theirs = Corpus::open(&path, "A").expect("opened");
-                assert_eq!(theirs.overview(10).expect("read").searches.len(), 0);
+                let theirs = Corpus::open_corpus(&path, "A").expect("opened");
+                assert_eq!(theirs.load_corpus_overview(10).expect("read").searches.len(), 0);
             }
         }
     }

@@ -1,38 +1,38 @@
 //! The database layer: the only place that contains SQL.
 //!
-//! [`Store`] is one open connection. Every change goes through [`Store::operation`], which runs it
+//! [`CorpusStore`] is one open connection. Every change goes through [`CorpusStore::run_store_operation`], which runs it
 //! in one transaction, records the rows before and after, and brings the search index along.
 
-pub(crate) mod attributes;
-pub(crate) mod check;
-pub(crate) mod columns;
 pub(crate) mod consents;
-pub(crate) mod contents;
-pub(crate) mod delete;
 pub(crate) mod dump;
 pub(crate) mod edits;
 pub(crate) mod file_identity;
-pub(crate) mod history;
-pub(crate) mod info;
-pub(crate) mod inventories;
-pub(crate) mod list;
-pub(crate) mod merge;
-pub(crate) mod motion;
 pub(crate) mod notations;
 mod open;
 pub(crate) mod recipes;
-pub(crate) mod recordings;
-mod roles;
-pub(crate) mod rows;
 pub(crate) mod saved_searches;
 pub(crate) mod seals;
-pub(crate) mod search;
 pub(crate) mod signs;
-pub(crate) mod spans;
 mod stale_log;
-pub(crate) mod studies;
-pub(crate) mod tiers;
-pub(crate) mod tracks;
+pub(crate) mod stored_attributes;
+pub(crate) mod stored_check;
+pub(crate) mod stored_columns;
+pub(crate) mod stored_contents;
+pub(crate) mod stored_delete;
+pub(crate) mod stored_history;
+pub(crate) mod stored_info;
+pub(crate) mod stored_inventories;
+pub(crate) mod stored_list;
+pub(crate) mod stored_merge;
+pub(crate) mod stored_motion;
+pub(crate) mod stored_recordings;
+mod stored_roles;
+pub(crate) mod stored_rows;
+pub(crate) mod stored_search;
+pub(crate) mod stored_spans;
+pub(crate) mod stored_studies;
+pub(crate) mod stored_tiers;
+pub(crate) mod stored_tracks;
 pub(crate) mod unfinished;
 pub(crate) mod upgrade;
 
@@ -42,73 +42,77 @@ use std::time::Duration;
 use rusqlite::{Connection, TransactionBehavior};
 
 use self::file_identity::FileIdentity;
-use self::unfinished::Unfinished;
-use crate::error::{Error, Result};
-use crate::progress::{Progress, Step, Unit, unheard};
+use self::unfinished::UnfinishedFile;
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 use crate::words::effect::OperationEffect;
 
-pub(crate) use history::log as history_log;
-pub use history::{OperationKind, OperationRow};
 pub(crate) use open::SCHEMA_VERSION;
-pub use open::{Upgrade, on_waiting};
+pub use open::{SchemaUpgrade, on_waiting};
+pub(crate) use stored_history::load_newest_operations as history_log;
+pub use stored_history::{OperationKind, OperationRow};
 
 /// Data derived from the rows and written in the same transaction, such as the search index.
-pub(crate) trait Derived: Default {
+pub(crate) trait DerivedData: Default {
     /// Brings the data up to date before they are read.
-    fn refresh(&mut self, connection: &Connection) -> Result<()>;
+    fn refresh_derived_data(&mut self, connection: &Connection) -> CorpusResult<()>;
 
     /// Updates the data for the rows that the running operation touched, in its transaction.
-    fn follow(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()>;
+    fn follow_operation(&mut self, connection: &Connection, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()>;
 
     /// Derives the data again from all rows, inside the caller's transaction.
-    fn rebuild(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()>;
+    fn rebuild_derived_data(
+        &mut self,
+        connection: &Connection,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<()>;
 }
 
 /// An open corpus file: its connection, the data derived from its rows, and the author of changes.
-pub(crate) struct Store<D: Derived> {
+pub(crate) struct CorpusStore<D: DerivedData> {
     connection: Connection,
     path: PathBuf,
     author: String,
     index: D,
-    upgrade: Option<Upgrade>,
+    upgrade: Option<SchemaUpgrade>,
     /// The file that was opened; it goes after the connection.
     place: OpenPlace,
     /// The copy that stands for a file of an older version; it goes after the connection.
-    _copy: Option<Unfinished>,
+    _copy: Option<UnfinishedFile>,
 }
 
-impl<D: Derived> Store<D> {
+impl<D: DerivedData> CorpusStore<D> {
     /// Creates an empty corpus at `path`, which must not exist yet.
     ///
     /// `fill` writes the initial content of every corpus; that is not an operation and cannot be undone.
-    pub(crate) fn create(
+    pub(crate) fn create_corpus_store(
         path: &Path,
         author: &str,
-        fill: impl FnOnce(&Connection) -> Result<()>,
-    ) -> Result<Self> {
-        let connection = open::create(path, fill)?;
-        Self::ready(connection, path, author)
+        fill: impl FnOnce(&Connection) -> CorpusResult<()>,
+    ) -> CorpusResult<Self> {
+        let connection = open::create_corpus_file(path, fill)?;
+        Self::store_from_connection(connection, path, author)
     }
 
     /// Opens the corpus at `path`, and upgrades its schema if that is older than this version's.
-    pub(crate) fn open(path: &Path, author: &str) -> Result<Self> {
-        let (connection, upgrade) = open::open(path)?;
-        let mut store = Self::ready(connection, path, author)?;
+    pub(crate) fn open_corpus_store(path: &Path, author: &str) -> CorpusResult<Self> {
+        let (connection, upgrade) = open::open_corpus_file(path)?;
+        let mut store = Self::store_from_connection(connection, path, author)?;
         store.upgrade = upgrade;
         Ok(store)
     }
 
     /// Opens the corpus at `path`, whose file stays as it is; if its version is older, a copy beside `own` stands for it.
-    pub(crate) fn open_unchanged(path: &Path, own: &Path, author: &str) -> Result<Self> {
+    pub(crate) fn open_unchanged(path: &Path, own: &Path, author: &str) -> CorpusResult<Self> {
         let (connection, copy) = open::open_unchanged(path, own)?;
-        let mut store = Self::ready(connection, path, author)?;
+        let mut store = Self::store_from_connection(connection, path, author)?;
         store._copy = copy;
         Ok(store)
     }
 
-    fn ready(connection: Connection, path: &Path, author: &str) -> Result<Self> {
-        history::record_changes(&connection)?;
-        let (place, author) = (OpenPlace(FileIdentity::of(path)), author.to_owned());
+    fn store_from_connection(connection: Connection, path: &Path, author: &str) -> CorpusResult<Self> {
+        stored_history::record_changes(&connection)?;
+        let (place, author) = (OpenPlace(FileIdentity::from_file_path(path)), author.to_owned());
         Ok(Self {
             connection,
             path: path.to_owned(),
@@ -121,40 +125,40 @@ impl<D: Derived> Store<D> {
     }
 
     /// Returns what opening the file upgraded.
-    pub(crate) fn upgrade(&self) -> Option<&Upgrade> {
+    pub(crate) fn store_upgrade(&self) -> Option<&SchemaUpgrade> {
         self.upgrade.as_ref()
     }
 
     /// Returns the path of the file.
-    pub(crate) fn path(&self) -> &Path {
+    pub(crate) fn store_path(&self) -> &Path {
         &self.path
     }
 
     /// Writes a copy of the corpus to a new file.
-    pub(crate) fn copy(&self, to: &Path) -> Result<()> {
-        open::copy(&self.connection, to)
+    pub(crate) fn copy_store_file(&self, to: &Path) -> CorpusResult<()> {
+        open::copy_corpus_file(&self.connection, to)
     }
 
     /// Returns the connection for reading.
-    pub(crate) fn read(&self) -> &Connection {
+    pub(crate) fn read_connection(&self) -> &Connection {
         &self.connection
     }
 
     /// Returns the connection and the search index brought up to date with it.
-    pub(crate) fn searchable(&mut self) -> Result<(&Connection, &D)> {
-        self.index.refresh(&self.connection)?;
+    pub(crate) fn searchable_connection(&mut self) -> CorpusResult<(&Connection, &D)> {
+        self.index.refresh_derived_data(&self.connection)?;
         Ok((&self.connection, &self.index))
     }
 
     /// Runs `work` as one operation: all of it is stored, or nothing.
     ///
     /// `work` returns its result and what it did. Work that changes no row leaves no operation.
-    pub(crate) fn operation<T>(
+    pub(crate) fn run_store_operation<T>(
         &mut self,
-        work: impl FnOnce(&Connection) -> Result<(T, OperationEffect)>,
-    ) -> Result<T> {
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        work: impl FnOnce(&Connection) -> CorpusResult<(T, OperationEffect)>,
+    ) -> CorpusResult<T> {
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         self.operation_with_progress(progress, |connection, _| work(connection))
     }
 
@@ -163,9 +167,9 @@ impl<D: Derived> Store<D> {
     pub(crate) fn named_operation<T>(
         &mut self,
         name: &str,
-        work: impl FnOnce(&Connection) -> Result<(T, String)>,
-    ) -> Result<T> {
-        self.operation(|connection| {
+        work: impl FnOnce(&Connection) -> CorpusResult<(T, String)>,
+    ) -> CorpusResult<T> {
+        self.run_store_operation(|connection| {
             let (value, summary) = work(connection)?;
             let name = name.to_owned();
             Ok((value, OperationEffect::SummaryOnly { name, summary }))
@@ -176,35 +180,35 @@ impl<D: Derived> Store<D> {
     /// stored.
     pub(crate) fn operation_with_progress<T>(
         &mut self,
-        progress: &mut Progress<'_>,
-        work: impl FnOnce(&Connection, &mut Progress<'_>) -> Result<(T, OperationEffect)>,
-    ) -> Result<T> {
+        progress: &mut ProgressReceiver<'_>,
+        work: impl FnOnce(&Connection, &mut ProgressReceiver<'_>) -> CorpusResult<(T, OperationEffect)>,
+    ) -> CorpusResult<T> {
         self.transact(progress, |connection, author, progress| {
-            let operation = history::begin(connection, author)?;
+            let operation = stored_history::begin_operation(connection, author)?;
             let (value, effect) = work(connection, progress)?;
-            history::finish(connection, operation, &effect, progress)?;
+            stored_history::finish_operation(connection, operation, &effect, progress)?;
             Ok(value)
         })
     }
 
     /// Undoes the newest operation that is in effect, and returns the undo.
-    pub(crate) fn undo(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
-        self.transact(progress, history::undo)
+    pub(crate) fn undo_store_operation(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<OperationRow> {
+        self.transact(progress, stored_history::undo_newest_operation)
     }
 
     /// Redoes the operation that was undone last, and returns the redo.
-    pub(crate) fn redo(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
-        self.transact(progress, history::redo)
+    pub(crate) fn redo_store_operation(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<OperationRow> {
+        self.transact(progress, stored_history::redo_undone_operation)
     }
 
     /// Returns the operations, newest first.
-    pub(crate) fn log(&self, limit: usize) -> Result<Vec<OperationRow>> {
-        history::log(&self.connection, limit)
+    pub(crate) fn store_operation_log(&self, limit: usize) -> CorpusResult<Vec<OperationRow>> {
+        stored_history::load_newest_operations(&self.connection, limit)
     }
 
     /// Reports changesets that cannot be read.
-    pub(crate) fn check_history(&self, progress: &mut Progress<'_>) -> Result<Vec<String>> {
-        history::check(&self.connection, progress)
+    pub(crate) fn check_history(&self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<Vec<String>> {
+        stored_history::check_changesets(&self.connection, progress)
     }
 
     /// Returns the search index as it was loaded last.
@@ -213,23 +217,20 @@ impl<D: Derived> Store<D> {
     }
 
     /// Computes the seals of tables from their rows as they are now.
-    pub(crate) fn seal_again(
-        &mut self,
-        tables: impl IntoIterator<Item = &'static str>,
-    ) -> Result<()> {
-        let transaction = search::begin(&self.connection)?;
+    pub(crate) fn seal_again(&mut self, tables: impl IntoIterator<Item = &'static str>) -> CorpusResult<()> {
+        let transaction = stored_search::begin_write_transaction(&self.connection)?;
         seals::seal_tables(&transaction, tables)?;
         Ok(transaction.commit()?)
     }
 
     /// Builds the search index again from the rows.
-    pub(crate) fn reindex(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+    pub(crate) fn rebuild_search_index(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         let transaction = self
             .connection
             .transaction_with_behavior(TransactionBehavior::Immediate)?;
         let done = self
             .index
-            .rebuild(&transaction, progress)
+            .rebuild_derived_data(&transaction, progress)
             .and_then(|()| Ok(transaction.commit()?));
         if done.is_err() {
             self.index = D::default();
@@ -239,24 +240,24 @@ impl<D: Derived> Store<D> {
 
     fn transact<T>(
         &mut self,
-        progress: &mut Progress<'_>,
-        work: impl FnOnce(&Connection, &str, &mut Progress<'_>) -> Result<T>,
-    ) -> Result<T> {
-        let not_here = |error: Error| error.of_file(&self.path);
+        progress: &mut ProgressReceiver<'_>,
+        work: impl FnOnce(&Connection, &str, &mut ProgressReceiver<'_>) -> CorpusResult<T>,
+    ) -> CorpusResult<T> {
+        let not_here = |error: CorpusError| error.of_file(&self.path);
         let transaction = self
             .connection
             .transaction_with_behavior(TransactionBehavior::Immediate)
             .map_err(|error| not_here(error.into()))?;
         transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
         let done = work(&transaction, &self.author, progress).and_then(|value| {
-            self.index.follow(&transaction, progress)?;
+            self.index.follow_operation(&transaction, progress)?;
             transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
             // From here on it cannot be stopped.
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "storing",
                 done: 0,
                 total: None,
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             transaction.commit()?;
             Ok(value)
@@ -265,11 +266,11 @@ impl<D: Derived> Store<D> {
             self.index = D::default();
         }
         let value = done.map_err(|error| error.of_file(&self.path))?;
-        if self.place.0.stands() {
+        if self.place.0.is_same_file_present() {
             return Ok(value);
         }
         // What is stored lies in a file that the path no longer names.
-        Err(Error::Displaced {
+        Err(CorpusError::Displaced {
             path: self.path.clone(),
             rescued: open::copy_beside(&self.connection, &self.path, "rescued")?,
         })
@@ -283,20 +284,20 @@ impl Drop for OpenPlace {
     /// Removes the emptied companions of a file that is not at its path any more, so that none is taken for one of the
     /// file that is there now.
     fn drop(&mut self) {
-        if self.0.stands() {
+        if self.0.is_same_file_present() {
             return;
         }
-        let beside = |ending| stale_log::beside(self.0.path(), ending);
-        let log = beside("-wal");
+        let sibling_path = |ending| stale_log::companion_path(self.0.identity_path(), ending);
+        let log = sibling_path("-wal");
         if log.metadata().is_ok_and(|log| log.len() == 0) {
             // A failure is harmless: an empty log changes nothing.
             drop(std::fs::remove_file(log));
-            drop(std::fs::remove_file(beside("-shm")));
+            drop(std::fs::remove_file(sibling_path("-shm")));
         }
     }
 }
 
-impl<D: Derived> Drop for Store<D> {
+impl<D: DerivedData> Drop for CorpusStore<D> {
     fn drop(&mut self) {
         // Closing leaves one single file without companions. A failure is harmless, since the next opening does it; so
         // this does not wait for another writer.
@@ -308,8 +309,8 @@ impl<D: Derived> Drop for Store<D> {
 }
 
 /// Returns the error for a stored row with invalid content.
-pub(crate) fn damaged(place: impl Into<String>, reason: impl Into<String>) -> Error {
-    Error::Damaged {
+pub(crate) fn damaged_row_error(place: impl Into<String>, reason: impl Into<String>) -> CorpusError {
+    CorpusError::Damaged {
         place: place.into(),
         reason: reason.into(),
     }

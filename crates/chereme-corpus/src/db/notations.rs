@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 
 use super::signs::json_list;
-use crate::error::Result;
+use crate::error::CorpusResult;
 
 /// The notation of a token.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -30,7 +30,7 @@ pub(crate) struct NotationRow {
     pub(crate) document: String,
 }
 
-const NOTATION: &str = "
+const SELECT_NOTATION_SQL: &str = "
     SELECT n.id, n.token_id, n.source_file_id, f.name, n.line, n.system, n.text, n.document, s.gloss
     FROM notation n JOIN token t ON t.id = n.token_id JOIN sign s ON s.id = t.sign_id
     LEFT JOIN source_file f ON f.id = n.source_file_id";
@@ -50,15 +50,15 @@ fn notation_row(row: &Row<'_>) -> rusqlite::Result<NotationRow> {
 }
 
 /// Returns the notation of a token.
-pub(crate) fn of_token(connection: &Connection, token: i64) -> Result<Option<NotationRow>> {
+pub(crate) fn find_token_notation(connection: &Connection, token: i64) -> CorpusResult<Option<NotationRow>> {
     Ok(connection
-        .prepare_cached(&format!("{NOTATION} WHERE n.token_id = ?1"))?
+        .prepare_cached(&format!("{SELECT_NOTATION_SQL} WHERE n.token_id = ?1"))?
         .query_row([token], notation_row)
         .optional()?)
 }
 
 /// Returns whether any of these tokens has a notation.
-pub(crate) fn any(connection: &Connection, tokens: &[i64]) -> Result<bool> {
+pub(crate) fn has_any_notation(connection: &Connection, tokens: &[i64]) -> CorpusResult<bool> {
     let sql = "SELECT EXISTS (SELECT 1 FROM notation WHERE token_id IN (SELECT value FROM json_each(?1)))";
     Ok(connection
         .prepare_cached(sql)?
@@ -66,25 +66,18 @@ pub(crate) fn any(connection: &Connection, tokens: &[i64]) -> Result<bool> {
 }
 
 /// Returns the notations of these tokens, by token.
-pub(crate) fn of_tokens(
-    connection: &Connection,
-    tokens: &[i64],
-) -> Result<BTreeMap<i64, NotationRow>> {
-    let sql = format!("{NOTATION} WHERE n.token_id IN (SELECT value FROM json_each(?1))");
+pub(crate) fn of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, NotationRow>> {
+    let sql = format!("{SELECT_NOTATION_SQL} WHERE n.token_id IN (SELECT value FROM json_each(?1))");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
-        .query_map([json_list(tokens)], |row| {
-            Ok((row.get(1)?, notation_row(row)?))
-        })?
+        .query_map([json_list(tokens)], |row| Ok((row.get(1)?, notation_row(row)?)))?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }
 
 /// Returns the notations that came from files of this name or path, by line.
-pub(crate) fn of_file(connection: &Connection, name: &str) -> Result<Vec<NotationRow>> {
-    let sql = format!(
-        "{NOTATION} WHERE f.name = ?1 OR f.path = ?1 ORDER BY n.source_file_id, n.line, n.id"
-    );
+pub(crate) fn of_file(connection: &Connection, name: &str) -> CorpusResult<Vec<NotationRow>> {
+    let sql = format!("{SELECT_NOTATION_SQL} WHERE f.name = ?1 OR f.path = ?1 ORDER BY n.source_file_id, n.line, n.id");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
         .query_map([name], notation_row)?
@@ -93,11 +86,11 @@ pub(crate) fn of_file(connection: &Connection, name: &str) -> Result<Vec<Notatio
 }
 
 /// Calls `take` with every notation, in order.
-pub(crate) fn each(
+pub(crate) fn visit_each_notation(
     connection: &Connection,
-    mut take: impl FnMut(NotationRow) -> Result<()>,
-) -> Result<()> {
-    let mut statement = connection.prepare(&format!("{NOTATION} ORDER BY n.id"))?;
+    mut take: impl FnMut(NotationRow) -> CorpusResult<()>,
+) -> CorpusResult<()> {
+    let mut statement = connection.prepare(&format!("{SELECT_NOTATION_SQL} ORDER BY n.id"))?;
     let mut rows = statement.query([])?;
     while let Some(row) = rows.next()? {
         take(notation_row(row)?)?;
@@ -106,8 +99,8 @@ pub(crate) fn each(
 }
 
 /// Sets the notation of its token; leaves an unchanged one untouched. The row's `id`, `gloss` and `file` are not used.
-pub(crate) fn set(connection: &Connection, row: &NotationRow) -> Result<()> {
-    let Some(old) = of_token(connection, row.token_id)? else {
+pub(crate) fn set_token_notation(connection: &Connection, row: &NotationRow) -> CorpusResult<()> {
+    let Some(old) = find_token_notation(connection, row.token_id)? else {
         connection
             .prepare_cached(
                 "INSERT INTO notation (token_id, source_file_id, line, system, text, document)
@@ -149,7 +142,7 @@ pub(crate) fn set(connection: &Connection, row: &NotationRow) -> Result<()> {
 }
 
 /// Deletes the notation of a token, if it has one.
-pub(crate) fn delete(connection: &Connection, token: i64) -> Result<()> {
+pub(crate) fn delete_token_notation(connection: &Connection, token: i64) -> CorpusResult<()> {
     connection
         .prepare_cached("DELETE FROM notation WHERE token_id = ?1")?
         .execute([token])?;

@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use chereme_sign::{Choice, Remedy};
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 
-use super::unfinished::{Unfinished, remove_leftovers};
-use super::{damaged, roles, seals, stale_log, upgrade};
-use crate::error::{Error, Result};
+use super::unfinished::{UnfinishedFile, remove_leftovers};
+use super::{damaged_row_error, seals, stale_log, stored_roles, upgrade};
+use crate::error::{CorpusError, CorpusResult};
 
 /// Marks the file as a corpus: the letters `Cher`.
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const STEPS: [&str; 13] = [
+const SCHEMA_STEPS_SQL: [&str; 13] = [
     chereme_data::schema_text("sql/0001_corpus.sql"),
     chereme_data::schema_text("sql/0002_notation.sql"),
     chereme_data::schema_text("sql/0003_kept_search.sql"),
@@ -39,7 +39,7 @@ const STEPS: [&str; 13] = [
 const EFFECTS_STORED_FROM: i32 = 13;
 
 /// The schema version that this code writes.
-pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;
+pub(crate) const SCHEMA_VERSION: i32 = SCHEMA_STEPS_SQL.len() as i32;
 
 /// The size of the largest value that is read, in bytes: all blocks, changeset parts and index files are far smaller.
 const LARGEST_VALUE: i32 = 512 << 20;
@@ -48,82 +48,78 @@ const LARGEST_VALUE: i32 = 512 << 20;
 ///
 /// The file is created under another name beside `path` and renamed when it is complete, so that at any moment there is
 /// a whole corpus at `path` or nothing.
-pub(super) fn create(
+pub(super) fn create_corpus_file(
     path: &Path,
-    fill: impl FnOnce(&Connection) -> Result<()>,
-) -> Result<Connection> {
+    fill: impl FnOnce(&Connection) -> CorpusResult<()>,
+) -> CorpusResult<Connection> {
     if path.exists() {
-        return Err(Error::file(path, ErrorKind::AlreadyExists.into()));
+        return Err(CorpusError::from_file_failure(path, ErrorKind::AlreadyExists.into()));
     }
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-        return Err(Error::file(folder, ErrorKind::NotFound.into()));
+        return Err(CorpusError::from_file_failure(folder, ErrorKind::NotFound.into()));
     }
     remove_leftovers(path);
-    let making = Unfinished::file(path).map_err(|error| Error::file(path, error))?;
+    let making =
+        UnfinishedFile::create_unfinished_file(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
     // The temporary name says nothing to the caller.
-    make(making.path(), fill).map_err(|error| error.of_file(path))?;
-    publish(&making, path)?;
+    make_database_file(making.unfinished_path(), fill).map_err(|error| error.of_file(path))?;
+    publish_unfinished_file(&making, path)?;
     drop(making);
-    Ok(open(path)?.0)
+    Ok(open_corpus_file(path)?.0)
 }
 
 /// Writes all data of `connection` to a new corpus file at `path`, whole or not at all; works even if the file of
 /// `connection` was deleted from its folder.
-pub(super) fn copy(connection: &Connection, path: &Path) -> Result<()> {
+pub(super) fn copy_corpus_file(connection: &Connection, path: &Path) -> CorpusResult<()> {
     if path.exists() {
-        return Err(Error::file(path, ErrorKind::AlreadyExists.into()));
+        return Err(CorpusError::from_file_failure(path, ErrorKind::AlreadyExists.into()));
     }
-    let making = Unfinished::file(path).map_err(|error| Error::file(path, error))?;
-    super::dump::copy(connection, making.path())?;
-    let copy = Connection::open(making.path())?;
+    let making =
+        UnfinishedFile::create_unfinished_file(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
+    super::dump::copy_database_compactly(connection, making.unfinished_path())?;
+    let copy = Connection::open(making.unfinished_path())?;
     copy.pragma_update(None, "journal_mode", "WAL")?;
     copy.close().map_err(|(_, error)| error)?;
-    publish(&making, path)
+    publish_unfinished_file(&making, path)
 }
 
-fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
-    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
-        | OpenFlags::SQLITE_OPEN_CREATE
-        | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+fn make_database_file(path: &Path, fill: impl FnOnce(&Connection) -> CorpusResult<()>) -> CorpusResult<()> {
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let mut connection = Connection::open_with_flags(path, flags)?;
     connection.execute_batch("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;")?;
-    configure(&mut connection)?;
+    configure_connection(&mut connection)?;
     connection.pragma_update(None, "application_id", APPLICATION_ID)?;
-    raise(&mut connection, fill)?;
+    raise_schema_version(&mut connection, fill)?;
     connection.close().map_err(|(_, error)| error)?;
     Ok(())
 }
 
 /// Gives a complete file its final name if that is free: a link never replaces an existing file.
-fn publish(making: &Unfinished, path: &Path) -> Result<()> {
-    let published = match fs::hard_link(making.path(), path) {
+fn publish_unfinished_file(making: &UnfinishedFile, path: &Path) -> CorpusResult<()> {
+    let published = match fs::hard_link(making.unfinished_path(), path) {
         // Some file systems do not support links.
-        Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => {
-            making.rename(path)
-        }
+        Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => making.rename_unfinished(path),
         other => other,
     };
-    published.map_err(|error| Error::file(path, error))
+    published.map_err(|error| CorpusError::from_file_failure(path, error))
 }
 
 /// Returns the remedy for a file that is no corpus.
-fn choose() -> Remedy {
-    Remedy::choice(
-        Choice::OtherCorpus,
+fn choose_corpus_remedy() -> ErrorRemedy {
+    ErrorRemedy::choice_remedy(
+        RemedyChoice::OtherCorpus,
         "choose a file that `chereme new` or `chereme import` made",
     )
 }
 
 /// Returns the reason why a file cannot be a complete corpus, judged by its size, and a remedy.
-fn outwardly_wrong(path: &Path) -> Result<Option<(String, Remedy)>> {
-    let fault = |error| Error::file(path, error);
+fn outwardly_wrong(path: &Path) -> CorpusResult<Option<(String, ErrorRemedy)>> {
+    let fault = |error| CorpusError::from_file_failure(path, error);
     let data = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => {
-            let remedy = Remedy::choice(
-                Choice::OtherCorpus,
+            let remedy = ErrorRemedy::choice_remedy(
+                RemedyChoice::OtherCorpus,
                 "check the spelling of the path; `chereme new` makes an empty corpus",
             );
             return Ok(Some(("there is nothing of this name".to_owned(), remedy)));
@@ -131,22 +127,15 @@ fn outwardly_wrong(path: &Path) -> Result<Option<(String, Remedy)>> {
         other => other.map_err(fault)?,
     };
     if !data.is_file() {
-        return Ok(Some(("it is a folder or a device".to_owned(), choose())));
+        return Ok(Some(("it is a folder or a device".to_owned(), choose_corpus_remedy())));
     }
     if data.len() == 0 {
-        return Ok(Some(("it is empty".to_owned(), choose())));
+        return Ok(Some(("it is empty".to_owned(), choose_corpus_remedy())));
     }
     let mut head = [0; 100];
     let mut file = fs::File::open(path).map_err(fault)?;
-    let whole = file.read_exact(&mut head).is_ok() && head.starts_with(b"SQLite format 3\0");
-    let word = |at: usize| {
-        u64::from(u32::from_be_bytes([
-            head[at],
-            head[at + 1],
-            head[at + 2],
-            head[at + 3],
-        ]))
-    };
+    let is_sqlite = file.read_exact(&mut head).is_ok() && head.starts_with(b"SQLite format 3\0");
+    let word = |at: usize| u64::from(u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]));
     // <https://www.sqlite.org/fileformat2.html>, 1.3: the count of pages holds where both words agree; a
     // checkpoint that was cut short has yet to write them, from a log that is still there.
     let page = match u64::from(u16::from_be_bytes([head[16], head[17]])) {
@@ -154,56 +143,47 @@ fn outwardly_wrong(path: &Path) -> Result<Option<(String, Remedy)>> {
         size => size,
     };
     let size = page * word(28);
-    let logged = fs::metadata(stale_log::beside(path, "-wal")).is_ok_and(|log| log.len() > 0);
-    if whole && !logged && word(24) == word(92) && data.len() < size {
+    let logged = fs::metadata(stale_log::companion_path(path, "-wal")).is_ok_and(|log| log.len() > 0);
+    if is_sqlite && !logged && word(24) == word(92) && data.len() < size {
         let reason = format!("it is cut short: {} bytes are there of {size}", data.len());
-        return Ok(Some((
-            reason,
-            "copy it again, or take it from a backup".into(),
-        )));
+        return Ok(Some((reason, "copy it again, or take it from a backup".into())));
     }
     Ok(None)
 }
 
 /// Opens the database; if nothing may be written beside it, as an immutable file.
-fn connect(path: &Path) -> Result<Connection> {
+fn connect(path: &Path) -> CorpusResult<Connection> {
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let connection = Connection::open_with_flags(path, flags)?;
     let read = connection.pragma_query_value(None, "schema_version", |row| row.get::<_, i32>(0));
     let shut = |code| matches!(code, ErrorCode::ReadOnly | ErrorCode::CannotOpen);
     match read {
         Err(error) if error.sqlite_error_code().is_some_and(shut) => {
-            let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
-                | OpenFlags::SQLITE_OPEN_NO_MUTEX
-                | OpenFlags::SQLITE_OPEN_URI;
-            Ok(Connection::open_with_flags(unchanging(path), flags)?)
+            let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
+            Ok(Connection::open_with_flags(immutable_file_uri(path), flags)?)
         }
         _ => Ok(connection),
     }
 }
 
 /// Returns the URI of an immutable file, see <https://www.sqlite.org/uri.html>.
-fn unchanging(path: &Path) -> String {
-    let name = path.to_string_lossy();
+fn immutable_file_uri(path: &Path) -> String {
+    let path_text = path.to_string_lossy();
     let mut name = if cfg!(windows) {
-        name.replace('\\', "/")
+        path_text.replace('\\', "/")
     } else {
-        name.into_owned()
+        path_text.into_owned()
     };
     for (letter, code) in [("%", "%25"), ("?", "%3f"), ("#", "%23")] {
         name = name.replace(letter, code);
     }
-    let root = if cfg!(windows) && path.is_absolute() {
-        "/"
-    } else {
-        ""
-    };
+    let root = if cfg!(windows) && path.is_absolute() { "/" } else { "" };
     format!("file:{root}{name}?immutable=1")
 }
 
 /// The upgrade of a file of an older version, which happens when it is opened.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Upgrade {
+pub struct SchemaUpgrade {
     /// The version of the schema before.
     pub from: i32,
     /// The version of the schema now.
@@ -213,60 +193,61 @@ pub struct Upgrade {
 }
 
 /// Opens the file; one of an older version is copied beside itself, and upgraded.
-pub(super) fn open(path: &Path) -> Result<(Connection, Option<Upgrade>)> {
+pub(super) fn open_corpus_file(path: &Path) -> CorpusResult<(Connection, Option<SchemaUpgrade>)> {
     remove_leftovers(path);
-    let (mut connection, from) = checked(path)?;
+    let (mut connection, from) = open_checked_connection(path)?;
     let mut upgrade = None;
     if from < SCHEMA_VERSION {
         let kept = copy_beside(&connection, path, &format!("version-{from}"))?;
-        raise(&mut connection, |_| Ok(())).map_err(|error| error.of_file(path))?;
-        upgrade = Some(Upgrade {
+        raise_schema_version(&mut connection, |_| Ok(())).map_err(|error| error.of_file(path))?;
+        upgrade = Some(SchemaUpgrade {
             from,
             to: SCHEMA_VERSION,
             kept,
         });
     }
-    finish(&connection, path)?;
+    finish_opened_file(&connection, path)?;
     Ok((connection, upgrade))
 }
 
 /// Opens somebody else's file, which stays as it is: one of an older version is copied beside the file `own`, and the
 /// copy is upgraded; it is removed with the second value.
-pub(super) fn open_unchanged(path: &Path, own: &Path) -> Result<(Connection, Option<Unfinished>)> {
-    let (connection, version) = checked(path)?;
+pub(super) fn open_unchanged(path: &Path, own: &Path) -> CorpusResult<(Connection, Option<UnfinishedFile>)> {
+    let (connection, version) = open_checked_connection(path)?;
     if version >= SCHEMA_VERSION {
-        finish(&connection, path)?;
+        finish_opened_file(&connection, path)?;
         return Ok((connection, None));
     }
-    let making = Unfinished::file(own).map_err(|error| Error::file(own, error))?;
-    super::dump::copy(&connection, making.path()).map_err(|error| error.of_file(own))?;
+    let making =
+        UnfinishedFile::create_unfinished_file(own).map_err(|error| CorpusError::from_file_failure(own, error))?;
+    super::dump::copy_database_compactly(&connection, making.unfinished_path()).map_err(|error| error.of_file(own))?;
     drop(connection);
-    let mut copy = connect(making.path())?;
-    configure(&mut copy)?;
-    raise(&mut copy, |_| Ok(()))?;
-    finish(&copy, path)?;
+    let mut copy = connect(making.unfinished_path())?;
+    configure_connection(&mut copy)?;
+    raise_schema_version(&mut copy, |_| Ok(()))?;
+    finish_opened_file(&copy, path)?;
     Ok((copy, Some(making)))
 }
 
 /// Copies a file beside itself, under a free name with a mark such as `version-3`, and returns that.
-pub(super) fn copy_beside(connection: &Connection, path: &Path, mark: &str) -> Result<PathBuf> {
+pub(super) fn copy_beside(connection: &Connection, path: &Path, mark: &str) -> CorpusResult<PathBuf> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().map(|it| it.to_string_lossy());
-    let ending = ending.map_or(String::new(), |it| format!(".{it}"));
+    let extension = path.extension().map(|suffix| suffix.to_string_lossy());
+    let ending = extension.map_or(String::new(), |suffix| format!(".{suffix}"));
     let mut kept = path.with_file_name(format!("{stem}.{mark}{ending}"));
     let mut count = 1;
     while kept.exists() {
         count += 1;
         kept = path.with_file_name(format!("{stem}.{mark} ({count}){ending}"));
     }
-    copy(connection, &kept).map_err(|error| error.of_file(path))?;
+    copy_corpus_file(connection, &kept).map_err(|error| error.of_file(path))?;
     Ok(kept)
 }
 
 /// Returns the connection to a file and the version of its schema; refuses a file that is no corpus, or that a newer
 /// program wrote.
-fn checked(path: &Path) -> Result<(Connection, i32)> {
-    let refuse = |reason: String, remedy: Remedy| Error::NotACorpus {
+fn open_checked_connection(path: &Path) -> CorpusResult<(Connection, i32)> {
+    let refuse = |reason: String, remedy: ErrorRemedy| CorpusError::NotACorpus {
         path: path.to_owned(),
         reason,
         remedy,
@@ -274,32 +255,28 @@ fn checked(path: &Path) -> Result<(Connection, i32)> {
     if let Some((reason, remedy)) = outwardly_wrong(path)? {
         return Err(refuse(reason, remedy));
     }
-    stale_log::set_aside(path, &unchanging(path))?;
+    stale_log::set_aside(path, &immutable_file_uri(path))?;
     let mut connection = connect(path)?;
-    let configured = configure(&mut connection);
+    let configured = configure_connection(&mut connection);
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
     let application = configured
         .and_then(|()| Ok(pragma("application_id")?))
         .map_err(|error| match &error {
-            Error::Database(fault)
-                if fault.sqlite_error_code() == Some(ErrorCode::NotADatabase) =>
-            {
-                refuse("it is no database".into(), choose())
+            CorpusError::Database(fault) if fault.sqlite_error_code() == Some(ErrorCode::NotADatabase) => {
+                refuse("it is no database".into(), choose_corpus_remedy())
             }
             _ => error,
         })?;
     if application != APPLICATION_ID {
         return Err(refuse(
             "it is a database of another program".into(),
-            choose(),
+            choose_corpus_remedy(),
         ));
     }
     let version = pragma("user_version")?;
     if version > SCHEMA_VERSION {
         return Err(refuse(
-            format!(
-                "its schema is version {version}, and this program knows up to {SCHEMA_VERSION}"
-            ),
+            format!("its schema is version {version}, and this program knows up to {SCHEMA_VERSION}"),
             "open it with a newer version of Chereme".into(),
         ));
     }
@@ -324,9 +301,7 @@ fn checked(path: &Path) -> Result<(Connection, i32)> {
     )?;
     if foreign > 0 {
         return Err(refuse(
-            format!(
-                "it holds {foreign} views, triggers or virtual tables that Chereme did not create"
-            ),
+            format!("it holds {foreign} views, triggers or virtual tables that Chereme did not create"),
             "take the file as untrusted: somebody has put code into it".into(),
         ));
     }
@@ -334,10 +309,10 @@ fn checked(path: &Path) -> Result<(Connection, i32)> {
 }
 
 /// Refuses a file of this version with roles of a newer program, and adds the roles that it lacks.
-fn finish(connection: &Connection, path: &Path) -> Result<()> {
-    let unknown = roles::unknown(connection)?;
+fn finish_opened_file(connection: &Connection, path: &Path) -> CorpusResult<()> {
+    let unknown = stored_roles::find_unknown_roles(connection)?;
     if !unknown.is_empty() {
-        return Err(Error::NotACorpus {
+        return Err(CorpusError::NotACorpus {
             path: path.to_owned(),
             reason: format!(
                 "its tiers may have roles that this program does not know: {}",
@@ -347,13 +322,13 @@ fn finish(connection: &Connection, path: &Path) -> Result<()> {
         });
     }
     if !connection.is_readonly("main")? {
-        roles::add_missing(connection)?;
+        stored_roles::add_missing(connection)?;
     }
     Ok(())
 }
 
 /// Returns whether any table has a row.
-fn holds_rows(connection: &Connection) -> Result<bool> {
+fn holds_rows(connection: &Connection) -> CorpusResult<bool> {
     let sql = "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite\\_%' ESCAPE '\\'";
     let mut statement = connection.prepare(sql)?;
     let mut tables = statement.query([])?;
@@ -367,18 +342,18 @@ fn holds_rows(connection: &Connection) -> Result<bool> {
     Ok(false)
 }
 
-static WAITING: OnceLock<fn()> = OnceLock::new();
+static WAITING_REPORT_FUNCTION: OnceLock<fn()> = OnceLock::new();
 
 /// Sets a function that is called when work has waited for one second for another program that writes to the corpus.
 ///
 /// It applies to the whole program, and only the first call has an effect. After 20 seconds of waiting the work fails.
 pub fn on_waiting(report: fn()) {
     // A second listener is not an error: the first one reports already.
-    let _ = WAITING.set(report);
+    let _ = WAITING_REPORT_FUNCTION.set(report);
 }
 
 /// The longest pause between two tries, in milliseconds; the first pause is the shortest.
-const PAUSE: u64 = 25;
+const MAX_RETRY_PAUSE_MS: u64 = 25;
 /// The try at which the program reports that it waits: after about one second.
 const REPORTED_AFTER: i32 = 44;
 /// The last try: after about 20 seconds.
@@ -387,15 +362,15 @@ const REFUSED_AFTER: i32 = 804;
 /// Waits after a try to lock the database; returns whether to try again. `before` is the number of earlier waits.
 fn wait(before: i32) -> bool {
     if before == REPORTED_AFTER
-        && let Some(report) = WAITING.get()
+        && let Some(report) = WAITING_REPORT_FUNCTION.get()
     {
         report();
     }
-    std::thread::sleep(Duration::from_millis(PAUSE.min(1 << before.clamp(0, 5))));
+    std::thread::sleep(Duration::from_millis(MAX_RETRY_PAUSE_MS.min(1 << before.clamp(0, 5))));
     before < REFUSED_AFTER
 }
 
-pub(super) fn configure(connection: &mut Connection) -> Result<()> {
+pub(super) fn configure_connection(connection: &mut Connection) -> CorpusResult<()> {
     connection.busy_handler(Some(wait))?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
@@ -414,22 +389,21 @@ pub(super) fn configure(connection: &mut Connection) -> Result<()> {
 ///
 /// Foreign keys are not enforced meanwhile, because a step may build a table again that others refer to; the steps fail
 /// if they leave more broken references than there were.
-fn raise(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
+fn raise_schema_version(
+    connection: &mut Connection,
+    fill: impl FnOnce(&Connection) -> CorpusResult<()>,
+) -> CorpusResult<()> {
     connection.pragma_update(None, "foreign_keys", false)?;
     let raised = take_steps(connection, fill);
     connection.pragma_update(None, "foreign_keys", true)?;
     raised
 }
 
-fn take_steps(
-    connection: &mut Connection,
-    fill: impl FnOnce(&Connection) -> Result<()>,
-) -> Result<()> {
-    let transaction =
-        connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
+fn take_steps(connection: &mut Connection, fill: impl FnOnce(&Connection) -> CorpusResult<()>) -> CorpusResult<()> {
+    let transaction = connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
     let version: i32 = transaction.pragma_query_value(None, "user_version", |row| row.get(0))?;
     let broken_before = broken_references(&transaction)?;
-    for step in STEPS.iter().skip(usize::try_from(version).unwrap_or(0)) {
+    for step in SCHEMA_STEPS_SQL.iter().skip(usize::try_from(version).unwrap_or(0)) {
         transaction.execute_batch(step)?;
         upgrade::after_step(&transaction)?;
     }
@@ -439,16 +413,16 @@ fn take_steps(
     if version < EFFECTS_STORED_FROM {
         upgrade::read_old_summaries(&transaction)?;
         // An index of version 12 has no seal of its own; the next search builds it again.
-        super::search::delete_files(&transaction)?;
+        super::stored_search::delete_files(&transaction)?;
     }
     upgrade::rewrite_json_rules(&transaction)?;
-    roles::add_missing(&transaction)?;
+    stored_roles::add_missing(&transaction)?;
     fill(&transaction)?;
     seals::seal_tables(&transaction, seals::sealed_tables())?;
     let broken = broken_references(&transaction)?;
     if broken > broken_before {
         let reason = format!("its upgrade would break {broken} references between rows");
-        return Err(damaged(format!("schema version {version}"), reason));
+        return Err(damaged_row_error(format!("schema version {version}"), reason));
     }
     transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
     transaction.commit()?;
@@ -456,7 +430,7 @@ fn take_steps(
 }
 
 /// Returns the number of rows that refer to a row that does not exist.
-fn broken_references(connection: &Connection) -> Result<i64> {
+fn broken_references(connection: &Connection) -> CorpusResult<i64> {
     let sql = "SELECT count(*) FROM pragma_foreign_key_check";
     Ok(connection.query_row(sql, [], |row| row.get(0))?)
 }
@@ -469,10 +443,9 @@ mod tests {
     fn roles_are_rows_that_the_program_adds_and_tiers_have_no_others() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
-        let connection = create(&path, |_| Ok(())).expect("made");
+        let connection = create_corpus_file(&path, |_| Ok(())).expect("made");
         let run = |sql: &str| connection.execute_batch(sql);
-        run("INSERT INTO recording (id, name, origin) VALUES (1, 'A', 'captured')")
-            .expect("stored");
+        run("INSERT INTO recording (id, name, origin) VALUES (1, 'A', 'captured')").expect("stored");
         let tier = |role: &str| {
             run(&format!(
                 "INSERT INTO tier (recording_id, name, position, role) VALUES (1, '{role}', 0, '{role}')"
@@ -483,23 +456,19 @@ mod tests {
         // A role that an earlier version of the program did not know is added when this one opens the corpus.
         run("DELETE FROM tier_role WHERE name = 'comment'").expect("removed");
         assert!(tier("comment").is_err());
-        let (again, upgrade) = open(&path).expect("opened");
+        let (again, upgrade) = open_corpus_file(&path).expect("opened");
         assert_eq!(upgrade, None);
-        assert_eq!(roles::unknown(&again).ok(), Some(Vec::new()));
+        assert_eq!(stored_roles::find_unknown_roles(&again).ok(), Some(Vec::new()));
         tier("comment").expect("stored");
-        run("INSERT INTO tier_role (name, note) VALUES ('unheard', 'of a newer program')")
-            .expect("stored");
-        let error = open(&path).expect_err("a newer program wrote it");
-        assert!(
-            error.to_string().contains("does not know: unheard"),
-            "{error}"
-        );
+        run("INSERT INTO tier_role (name, note) VALUES ('unheard', 'of a newer program')").expect("stored");
+        let error = open_corpus_file(&path).expect_err("a newer program wrote it");
+        assert!(error.to_string().contains("does not know: unheard"), "{error}");
     }
 
     /// Writes a file of the third version.
     fn write_old(path: &Path) {
         let old = Connection::open(path).expect("made");
-        for step in &STEPS[..3] {
+        for step in &SCHEMA_STEPS_SQL[..3] {
             old.execute_batch(step).expect("a step");
         }
         old.pragma_update(None, "application_id", APPLICATION_ID)
@@ -521,20 +490,20 @@ mod tests {
             // The file may not exist.
             let _ = fs::remove_file(&path);
             write_old(&path);
-            let (connection, upgrade) = open(&path).expect("opened");
+            let (connection, upgrade) = open_corpus_file(&path).expect("opened");
             drop(connection);
             let kept = folder.path().join(name);
             let (from, to) = (3, SCHEMA_VERSION);
             assert_eq!(
                 upgrade,
-                Some(Upgrade {
+                Some(SchemaUpgrade {
                     from,
                     to,
                     kept: kept.clone()
                 })
             );
             assert_eq!((version(&path), version(&kept)), (SCHEMA_VERSION, 3));
-            assert_eq!(open(&path).expect("opened").1, None, "once");
+            assert_eq!(open_corpus_file(&path).expect("opened").1, None, "once");
         }
     }
 
@@ -573,7 +542,7 @@ mod tests {
         ] {
             // The file may not exist.
             let _ = fs::remove_file(&path);
-            drop(create(&path, |_| Ok(())).expect("made"));
+            drop(create_corpus_file(&path, |_| Ok(())).expect("made"));
             let foreign = Connection::open(&path).expect("opened");
             foreign.execute_batch(change).expect("changed");
             if deletable {
@@ -586,25 +555,16 @@ mod tests {
                     foreign.execute_batch(&sql).expect("emptied");
                 }
             }
-            foreign
-                .pragma_update(None, "user_version", version)
-                .expect("set");
+            foreign.pragma_update(None, "user_version", version).expect("set");
             drop(foreign);
-            let Err(error) = open(&path) else {
+            let Err(error) = open_corpus_file(&path) else {
                 panic!("opened: {change} {version}");
             };
             let message = error.to_string();
-            let remedy = error.remedy().map(|it| it.to_string()).unwrap_or_default();
-            assert_eq!(
-                remedy.contains("delete it"),
-                deletable,
-                "{change}: {remedy}"
-            );
+            let remedy = error.error_remedy().map(|it| it.to_string()).unwrap_or_default();
+            assert_eq!(remedy.contains("delete it"), deletable, "{change}: {remedy}");
             if !deletable {
-                assert!(
-                    message.contains(&format!("wrong: it is {version}")),
-                    "{message}"
-                );
+                assert!(message.contains(&format!("wrong: it is {version}")), "{message}");
                 assert!(remedy.contains("from a backup"), "{remedy}");
             }
         }
@@ -615,13 +575,13 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
         let rules = |path: &Path| -> Vec<String> {
-            let (connection, _) = open(path).expect("opened");
+            let (connection, _) = open_corpus_file(path).expect("opened");
             let sql = "SELECT sql FROM sqlite_schema WHERE sql LIKE '%json_valid%'";
             let mut statement = connection.prepare(sql).expect("read");
             let rules = statement.query_map([], |row| row.get(0)).expect("read");
             rules.map(|it| it.expect("a rule")).collect()
         };
-        drop(create(&path, |_| Ok(())).expect("made"));
+        drop(create_corpus_file(&path, |_| Ok(())).expect("made"));
         let new = rules(&path);
         let old = folder.path().join("old.chereme");
         write_old(&old);
@@ -634,9 +594,7 @@ mod tests {
             .collect();
         assert_eq!(loose.len(), 8, "{loose:#?}");
         assert!(
-            loose
-                .iter()
-                .all(|it| it.contains(" IS NULL OR json_valid(")),
+            loose.iter().all(|it| it.contains(" IS NULL OR json_valid(")),
             "{loose:#?}"
         );
         let foreign = Connection::open(&path).expect("opened");
@@ -653,9 +611,9 @@ mod tests {
         let shelf = folder.path().join("50% of #1");
         fs::create_dir(&shelf).expect("made");
         let path = shelf.join("c.chereme");
-        drop(create(&path, |_| Ok(())).expect("made"));
+        drop(create_corpus_file(&path, |_| Ok(())).expect("made"));
         let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
-        let still = Connection::open_with_flags(unchanging(&path), flags).expect("opened");
+        let still = Connection::open_with_flags(immutable_file_uri(&path), flags).expect("opened");
         assert!(still.is_readonly("main").is_ok_and(|it| it));
         drop(still);
         let lock = |file: &Path, locked: bool| {
@@ -665,11 +623,9 @@ mod tests {
         };
         lock(&path, true);
         lock(&shelf, true);
-        let opened =
-            open(&path).and_then(|(connection, _)| {
-                Ok(connection
-                    .query_row("SELECT count(*) FROM sign", [], |row| row.get::<_, i64>(0))?)
-            });
+        let opened = open_corpus_file(&path).and_then(|(connection, _)| {
+            Ok(connection.query_row("SELECT count(*) FROM sign", [], |row| row.get::<_, i64>(0))?)
+        });
         assert_eq!(opened.ok(), Some(0));
         // Restores access so that the folder can be removed.
         lock(&shelf, false);

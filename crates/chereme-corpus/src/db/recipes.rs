@@ -4,7 +4,7 @@ use rusqlite::{Connection, OptionalExtension, params};
 use serde::Serialize;
 
 use super::signs::json_list;
-use crate::error::Result;
+use crate::error::CorpusResult;
 
 /// The recipe of a generated recording.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -24,7 +24,7 @@ pub(crate) struct RecipeRow {
 }
 
 /// Writes a recipe and returns its row; its `id` is not used.
-pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
+pub(crate) fn insert_recipe_row(connection: &Connection, row: &RecipeRow) -> CorpusResult<i64> {
     connection
         .prepare_cached(
             "INSERT INTO recipe (recording_id, text, document, report, engine)
@@ -41,18 +41,10 @@ pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
 }
 
 /// Writes the recipe of a recording again, and deletes its earlier inputs.
-pub(crate) fn update(connection: &Connection, row: &RecipeRow) -> Result<()> {
+pub(crate) fn update_recipe_row(connection: &Connection, row: &RecipeRow) -> CorpusResult<()> {
     connection
-        .prepare_cached(
-            "UPDATE recipe SET text = ?2, document = ?3, report = ?4, engine = ?5 WHERE id = ?1",
-        )?
-        .execute(params![
-            row.id,
-            row.text,
-            row.document,
-            row.report,
-            row.engine
-        ])?;
+        .prepare_cached("UPDATE recipe SET text = ?2, document = ?3, report = ?4, engine = ?5 WHERE id = ?1")?
+        .execute(params![row.id, row.text, row.document, row.report, row.engine])?;
     connection
         .prepare_cached("DELETE FROM recipe_input WHERE recipe_id = ?1")?
         .execute([row.id])?;
@@ -60,7 +52,7 @@ pub(crate) fn update(connection: &Connection, row: &RecipeRow) -> Result<()> {
 }
 
 /// Returns the recordings that a recipe takes movement from.
-pub(crate) fn input_recordings(connection: &Connection, recipe: i64) -> Result<Vec<i64>> {
+pub(crate) fn input_recordings(connection: &Connection, recipe: i64) -> CorpusResult<Vec<i64>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT recording_id FROM recipe_input
          WHERE recipe_id = ?1 AND recording_id IS NOT NULL ORDER BY recording_id",
@@ -72,10 +64,7 @@ pub(crate) fn input_recordings(connection: &Connection, recipe: i64) -> Result<V
 }
 
 /// Returns the recordings, by row and name, that take movement from a recording.
-pub(crate) fn made_from_recording(
-    connection: &Connection,
-    recording: i64,
-) -> Result<Vec<(i64, String)>> {
+pub(crate) fn made_from_recording(connection: &Connection, recording: i64) -> CorpusResult<Vec<(i64, String)>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT r.id, r.name FROM recipe_input i
          JOIN recipe p ON p.id = i.recipe_id JOIN recording r ON r.id = p.recording_id
@@ -95,7 +84,7 @@ pub(crate) fn insert_input(
     recording: Option<i64>,
     token: Option<i64>,
     hash: &str,
-) -> Result<()> {
+) -> CorpusResult<()> {
     connection
         .prepare_cached(
             "INSERT INTO recipe_input (recipe_id, address, recording_id, token_id, hash)
@@ -106,7 +95,7 @@ pub(crate) fn insert_input(
 }
 
 /// Returns the recipe of a recording, if it was generated.
-pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Option<RecipeRow>> {
+pub(crate) fn find_recording_recipe(connection: &Connection, recording: i64) -> CorpusResult<Option<RecipeRow>> {
     Ok(connection
         .prepare_cached(
             "SELECT id, recording_id, text, document, report, engine
@@ -127,11 +116,7 @@ pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Op
 
 /// Returns the recording that provided the body of a generated recording: the first of its inputs, direct or indirect,
 /// that is not generated itself and has that skeleton.
-pub(crate) fn body_of(
-    connection: &Connection,
-    recording: i64,
-    skeleton: i64,
-) -> Result<Option<i64>> {
+pub(crate) fn body_of(connection: &Connection, recording: i64, skeleton: i64) -> CorpusResult<Option<i64>> {
     Ok(connection
         .prepare_cached(
             "WITH RECURSIVE source (recording_id, input) AS (
@@ -153,10 +138,7 @@ pub(crate) fn body_of(
 }
 
 /// Returns the gloss and the recipe's JSON of generated tokens that are alone in their recording: token, gloss, JSON.
-pub(crate) fn of_lone_tokens(
-    connection: &Connection,
-    tokens: &[i64],
-) -> Result<Vec<(i64, String, String)>> {
+pub(crate) fn of_lone_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<Vec<(i64, String, String)>> {
     let mut statement = connection.prepare_cached(
         "SELECT t.id, s.gloss, r.document FROM token t
          JOIN sign s ON s.id = t.sign_id JOIN recipe r ON r.recording_id = t.recording_id
@@ -164,18 +146,15 @@ pub(crate) fn of_lone_tokens(
              (SELECT 1 FROM token other WHERE other.recording_id = t.recording_id AND other.id <> t.id)",
     )?;
     let rows = statement
-        .query_map([json_list(tokens)], |row| {
-            Ok((row.get(0)?, row.get(1)?, row.get(2)?))
-        })?
+        .query_map([json_list(tokens)], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }
 
 /// Returns the addresses of a recipe's inputs, in order, each once.
-pub(crate) fn inputs(connection: &Connection, recipe: i64) -> Result<Vec<String>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT address FROM recipe_input WHERE recipe_id = ?1 GROUP BY address ORDER BY min(id)",
-    )?;
+pub(crate) fn list_recipe_inputs(connection: &Connection, recipe: i64) -> CorpusResult<Vec<String>> {
+    let mut statement = connection
+        .prepare_cached("SELECT address FROM recipe_input WHERE recipe_id = ?1 GROUP BY address ORDER BY min(id)")?;
     let rows = statement
         .query_map([recipe], |row| row.get(0))?
         .collect::<rusqlite::Result<_>>()?;
@@ -183,7 +162,7 @@ pub(crate) fn inputs(connection: &Connection, recipe: i64) -> Result<Vec<String>
 }
 
 /// Returns the recordings, by row and name, that were generated from a token.
-pub(crate) fn made_from(connection: &Connection, token: i64) -> Result<Vec<(i64, String)>> {
+pub(crate) fn made_from(connection: &Connection, token: i64) -> CorpusResult<Vec<(i64, String)>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT r.id, r.name FROM recipe_input i
          JOIN recipe p ON p.id = i.recipe_id JOIN recording r ON r.id = p.recording_id

@@ -2,13 +2,12 @@
 
 use rusqlite::{Connection, params};
 
-use crate::db::rows::KeptSearch;
-use crate::error::Result;
+use crate::db::stored_rows::KeptSearch;
+use crate::error::CorpusResult;
 
 /// Returns the saved searches with their rows, by name.
-pub(crate) fn searches(connection: &Connection) -> Result<Vec<(i64, KeptSearch)>> {
-    let mut statement =
-        connection.prepare_cached("SELECT id, name, query FROM kept_search ORDER BY name, id")?;
+pub(crate) fn load_saved_searches(connection: &Connection) -> CorpusResult<Vec<(i64, KeptSearch)>> {
+    let mut statement = connection.prepare_cached("SELECT id, name, query FROM kept_search ORDER BY name, id")?;
     let rows = statement
         .query_map([], |row| {
             let (name, query) = (row.get(1)?, row.get(2)?);
@@ -19,7 +18,7 @@ pub(crate) fn searches(connection: &Connection) -> Result<Vec<(i64, KeptSearch)>
 }
 
 /// Adds a search under a name that is not in use.
-pub(crate) fn insert(connection: &Connection, search: &KeptSearch) -> Result<()> {
+pub(crate) fn insert_saved_search(connection: &Connection, search: &KeptSearch) -> CorpusResult<()> {
     connection
         .prepare_cached("INSERT INTO kept_search (name, query) VALUES (?1, ?2)")?
         .execute(params![search.name, search.query])?;
@@ -27,7 +26,7 @@ pub(crate) fn insert(connection: &Connection, search: &KeptSearch) -> Result<()>
 }
 
 /// Changes the name and query of a search.
-pub(crate) fn update(connection: &Connection, id: i64, search: &KeptSearch) -> Result<()> {
+pub(crate) fn update_saved_search(connection: &Connection, id: i64, search: &KeptSearch) -> CorpusResult<()> {
     connection
         .prepare_cached("UPDATE kept_search SET name = ?2, query = ?3 WHERE id = ?1")?
         .execute(params![id, search.name, search.query])?;
@@ -35,7 +34,7 @@ pub(crate) fn update(connection: &Connection, id: i64, search: &KeptSearch) -> R
 }
 
 /// Removes a search.
-pub(crate) fn delete(connection: &Connection, id: i64) -> Result<()> {
+pub(crate) fn delete_saved_search(connection: &Connection, id: i64) -> CorpusResult<()> {
     connection
         .prepare_cached("DELETE FROM kept_search WHERE id = ?1")?
         .execute([id])?;

@@ -11,13 +11,13 @@ use rusqlite::{Connection, OptionalExtension as _, params};
 use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
-use super::damaged;
-use super::history::tracked::{TRACKED, columns, row_image};
-use crate::error::{Error, Result};
+use super::damaged_row_error;
+use super::stored_history::tracked::{TRACKED_TABLE_REFERENCES, load_table_columns, row_image};
+use crate::error::{CorpusError, CorpusResult};
 
 /// Tables with a row for each sign, annotation or block; [`SHARED_BITS`] says how many of their rows share a seal. Each
 /// row of the other tables has its own.
-const CROWDED: [&str; 9] = [
+const SHARED_SEAL_TABLES: [&str; 9] = [
     "annotation",
     "attribute",
     "channel",
@@ -30,8 +30,8 @@ const CROWDED: [&str; 9] = [
 ];
 /// The number of rows that share a seal, as a power of two.
 const SHARED_BITS: u32 = 6;
-const OPERATION: &str = "operation";
-const CHANGESET: &str = "changeset";
+const OPERATION_TABLE_NAME: &str = "operation";
+const CHANGESET_TABLE_NAME: &str = "changeset";
 
 /// Rows that are not as the program stored them; one or more of them were changed, added or removed.
 #[derive(Debug, PartialEq, Eq)]
@@ -45,8 +45,8 @@ pub(crate) const NOT_AS_STORED: &str = "its content does not match its checksum"
 
 impl BrokenSeal {
     /// Returns the error of work that needs these rows.
-    pub(crate) fn error(&self) -> Error {
-        damaged(self.to_string(), NOT_AS_STORED)
+    pub(crate) fn broken_seal_error(&self) -> CorpusError {
+        damaged_row_error(self.to_string(), NOT_AS_STORED)
     }
 }
 
@@ -63,8 +63,8 @@ impl std::fmt::Display for BrokenSeal {
 
 /// Returns the tables whose rows have seals.
 pub(crate) fn sealed_tables() -> impl Iterator<Item = &'static str> {
-    let tracked = TRACKED.iter().map(|(table, _)| *table);
-    tracked.chain([OPERATION, CHANGESET])
+    let tracked = TRACKED_TABLE_REFERENCES.iter().map(|(table, _)| *table);
+    tracked.chain([OPERATION_TABLE_NAME, CHANGESET_TABLE_NAME])
 }
 
 /// The changes of seals that an operation brings about.
@@ -75,27 +75,23 @@ impl SealChanges {
     /// Takes a row's image out of its seal, or puts it in.
     pub(super) fn turn_row(&mut self, table: &str, image: &str) {
         if let Some(table) = sealed_tables().find(|name| *name == table) {
-            self.turn(
-                table,
-                bucket_of(table, image),
-                checksum(&[image.as_bytes()]),
-            );
+            self.toggle_seal_sum(table, bucket_of(table, image), checksum(&[image.as_bytes()]));
         }
     }
 
     /// Puts a part of a changeset into the operation's seal.
     pub(super) fn turn_part(&mut self, operation: i64, part: i64, data: &[u8]) {
-        self.turn(CHANGESET, operation, part_checksum(part, data));
+        self.toggle_seal_sum(CHANGESET_TABLE_NAME, operation, part_checksum(part, data));
     }
 
-    fn turn(&mut self, table: &'static str, bucket: i64, sum: u64) {
+    fn toggle_seal_sum(&mut self, table: &'static str, bucket: i64, sum: u64) {
         *self.0.entry((table, bucket)).or_default() ^= sum;
     }
 
     /// Stores the seals as they are with the row of the operation itself.
-    pub(super) fn store(mut self, connection: &Connection, operation: i64) -> Result<()> {
-        for (bucket, sum) in row_sums(connection, OPERATION, &(operation..=operation))? {
-            self.turn(OPERATION, bucket, sum);
+    pub(super) fn store_seal_changes(mut self, connection: &Connection, operation: i64) -> CorpusResult<()> {
+        for (bucket, sum) in row_sums(connection, OPERATION_TABLE_NAME, &(operation..=operation))? {
+            self.toggle_seal_sum(OPERATION_TABLE_NAME, bucket, sum);
         }
         for ((table, bucket), change) in self.0 {
             let before = stored_seal(connection, table, bucket)?;
@@ -106,10 +102,7 @@ impl SealChanges {
 }
 
 /// Computes the seals of tables from their rows as they are.
-pub(crate) fn seal_tables(
-    connection: &Connection,
-    tables: impl IntoIterator<Item = &'static str>,
-) -> Result<()> {
+pub(crate) fn seal_tables(connection: &Connection, tables: impl IntoIterator<Item = &'static str>) -> CorpusResult<()> {
     for table in tables {
         connection.execute("DELETE FROM row_seal WHERE tbl = ?1", [table])?;
         for (bucket, sum) in row_sums(connection, table, &ALL_ROWS)? {
@@ -120,10 +113,7 @@ pub(crate) fn seal_tables(
 }
 
 /// Returns the rows of a table that do not have their seal.
-pub(crate) fn broken_seals(
-    connection: &Connection,
-    table: &'static str,
-) -> Result<Vec<BrokenSeal>> {
+pub(crate) fn broken_seals(connection: &Connection, table: &'static str) -> CorpusResult<Vec<BrokenSeal>> {
     let mut differing = row_sums(connection, table, &ALL_ROWS)?;
     let mut statement = connection.prepare("SELECT bucket, seal FROM row_seal WHERE tbl = ?1")?;
     let mut stored = statement.query([table])?;
@@ -133,7 +123,7 @@ pub(crate) fn broken_seals(
     differing.retain(|_, difference| *difference != 0);
     Ok(differing
         .into_keys()
-        .map(|bucket| named(table, bucket))
+        .map(|bucket| broken_seal_of_bucket(table, bucket))
         .collect())
 }
 
@@ -143,15 +133,15 @@ fn first_broken(
     table: &'static str,
     ids: &str,
     scope: &str,
-) -> Result<Option<BrokenSeal>> {
+) -> CorpusResult<Option<BrokenSeal>> {
     let sql = format!(
         "SELECT DISTINCT id >> {} FROM ({ids}) WHERE id IS NOT NULL",
-        bits(table)
+        bucket_bits(table)
     );
     let mut statement = connection.prepare_cached(&sql)?;
     let mut buckets = statement.query([scope])?;
     while let Some(row) = buckets.next()? {
-        let broken = named(table, row.get(0)?);
+        let broken = broken_seal_of_bucket(table, row.get(0)?);
         let sums = row_sums(connection, table, &broken.rows)?;
         let seal = stored_seal(connection, table, row.get(0)?)?;
         if sums.into_values().next().unwrap_or_default() != seal {
@@ -164,17 +154,17 @@ fn first_broken(
 const ALL_ROWS: RangeInclusive<i64> = i64::MIN..=i64::MAX;
 
 /// Returns the number of bits of a row's number within its bucket.
-fn bits(table: &str) -> u32 {
-    if CROWDED.contains(&table) {
+fn bucket_bits(table: &str) -> u32 {
+    if SHARED_SEAL_TABLES.contains(&table) {
         SHARED_BITS
     } else {
         0
     }
 }
 
-fn named(table: &'static str, bucket: i64) -> BrokenSeal {
-    let first = bucket << bits(table);
-    let last = first + (1 << bits(table)) - 1;
+fn broken_seal_of_bucket(table: &'static str, bucket: i64) -> BrokenSeal {
+    let first = bucket << bucket_bits(table);
+    let last = first + (1 << bucket_bits(table)) - 1;
     BrokenSeal {
         table,
         rows: first..=last,
@@ -185,7 +175,7 @@ fn named(table: &'static str, bucket: i64) -> BrokenSeal {
 fn bucket_of(table: &str, image: &str) -> i64 {
     let number = image.strip_prefix("{\"id\":").unwrap_or_default();
     let end = number.find([',', '}']).unwrap_or_default();
-    number[..end].parse::<i64>().unwrap_or_default() >> bits(table)
+    number[..end].parse::<i64>().unwrap_or_default() >> bucket_bits(table)
 }
 
 fn checksum(parts: &[&[u8]]) -> u64 {
@@ -202,16 +192,11 @@ fn part_checksum(part: i64, data: &[u8]) -> u64 {
 }
 
 /// Returns the sums of the buckets of those rows, as their seals should be.
-fn row_sums(
-    connection: &Connection,
-    table: &str,
-    rows: &RangeInclusive<i64>,
-) -> Result<BTreeMap<i64, u64>> {
+fn row_sums(connection: &Connection, table: &str, rows: &RangeInclusive<i64>) -> CorpusResult<BTreeMap<i64, u64>> {
     let mut sums = BTreeMap::<i64, u64>::new();
     let range = [rows.start(), rows.end()];
-    if table == CHANGESET {
-        let sql =
-            "SELECT operation_id, part, data FROM changeset WHERE operation_id BETWEEN ?1 AND ?2";
+    if table == CHANGESET_TABLE_NAME {
+        let sql = "SELECT operation_id, part, data FROM changeset WHERE operation_id BETWEEN ?1 AND ?2";
         let mut statement = connection.prepare_cached(sql)?;
         let mut parts = statement.query(range)?;
         while let Some(row) = parts.next()? {
@@ -220,7 +205,7 @@ fn row_sums(
         }
         return Ok(sums);
     }
-    let columns = columns(connection, table)?;
+    let columns = load_table_columns(connection, table)?;
     let wanted = match columns.first() {
         Some(key) if key.name == "id" => "r.id BETWEEN ?1 AND ?2",
         _ => "?1 <= ?2",
@@ -236,20 +221,15 @@ fn row_sums(
     Ok(sums)
 }
 
-pub(super) fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> Result<u64> {
-    let found: Option<i64> = connection
+pub(super) fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> CorpusResult<u64> {
+    let seal: Option<i64> = connection
         .prepare_cached("SELECT seal FROM row_seal WHERE tbl = ?1 AND bucket = ?2")?
         .query_row(params![table, bucket], |row| row.get(0))
         .optional()?;
-    Ok(found.unwrap_or_default().cast_unsigned())
+    Ok(seal.unwrap_or_default().cast_unsigned())
 }
 
-pub(super) fn store_seal(
-    connection: &Connection,
-    table: &str,
-    bucket: i64,
-    seal: u64,
-) -> Result<()> {
+pub(super) fn store_seal(connection: &Connection, table: &str, bucket: i64, seal: u64) -> CorpusResult<()> {
     let sql = if seal == 0 {
         "DELETE FROM row_seal WHERE tbl = ?1 AND bucket = ?2 AND ?3 = 0"
     } else {
@@ -257,9 +237,7 @@ pub(super) fn store_seal(
          ON CONFLICT DO UPDATE SET seal = excluded.seal"
     };
     let seal = seal.cast_signed();
-    connection
-        .prepare_cached(sql)?
-        .execute(params![table, bucket, seal])?;
+    connection.prepare_cached(sql)?.execute(params![table, bucket, seal])?;
     Ok(())
 }
 
@@ -341,24 +319,24 @@ pub(crate) fn tables_of(are_tokens: bool) -> impl Iterator<Item = &'static str> 
 }
 
 /// Fails at the first row of any recording, token or inventory that does not have its seal.
-pub(crate) fn verify_material(connection: &Connection) -> Result<()> {
+pub(crate) fn verify_material(connection: &Connection) -> CorpusResult<()> {
     let tables = tables_of(false).chain(["inventory", "inventory_value"]);
     verify_tables(connection, tables)
 }
 
 /// Fails at the first row of these recordings, with their tiers and movement, that does not have its seal.
-pub(crate) fn verify_recordings(connection: &Connection, recordings: &[i64]) -> Result<()> {
+pub(crate) fn verify_recordings(connection: &Connection, recordings: &[i64]) -> CorpusResult<()> {
     verify_scope(connection, &OF_RECORDINGS, recordings)
 }
 
 /// Fails at the first row of these tokens, with their signs and values, that does not have its seal.
-pub(crate) fn verify_tokens(connection: &Connection, tokens: &[i64]) -> Result<()> {
+pub(crate) fn verify_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<()> {
     verify_scope(connection, &OF_TOKENS, tokens)
 }
 
 /// Fails if the changeset of an operation is not as it was stored.
-pub(super) fn verify_changeset(connection: &Connection, operation: i64) -> Result<()> {
-    let itself = [(CHANGESET, "SELECT value AS id FROM json_each(?1)")];
+pub(super) fn verify_changeset(connection: &Connection, operation: i64) -> CorpusResult<()> {
+    let itself = [(CHANGESET_TABLE_NAME, "SELECT value AS id FROM json_each(?1)")];
     verify_scope(connection, &itself, &[operation])
 }
 
@@ -366,24 +344,20 @@ pub(super) fn verify_changeset(connection: &Connection, operation: i64) -> Resul
 pub(crate) fn verify_tables(
     connection: &Connection,
     tables: impl IntoIterator<Item = &'static str>,
-) -> Result<()> {
+) -> CorpusResult<()> {
     for table in tables {
         if let Some(broken) = broken_seals(connection, table)?.first() {
-            return Err(broken.error());
+            return Err(broken.broken_seal_error());
         }
     }
     Ok(())
 }
 
-fn verify_scope(
-    connection: &Connection,
-    tables: &[(&'static str, &str)],
-    numbers: &[i64],
-) -> Result<()> {
+fn verify_scope(connection: &Connection, tables: &[(&'static str, &str)], numbers: &[i64]) -> CorpusResult<()> {
     let scope = json!(numbers).to_string();
     for (table, ids) in tables {
         if let Some(broken) = first_broken(connection, table, ids, &scope)? {
-            return Err(broken.error());
+            return Err(broken.broken_seal_error());
         }
     }
     Ok(())

@@ -2,21 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::Remedy;
-use chereme_sign::text::{composed, decomposed};
-use chereme_sign::tier::Hands;
-use chereme_sign::{Component, Field, Phase, Reading};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::{compose_accents, decompose_accents};
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{ComponentField, ComponentReading, SignComponent, SignPhase};
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
-use super::columns::{Col, Origin, ValueState, phase, phase_name, phase_place, word, word_or_null};
-use super::tiers;
-use crate::error::{Error, Result};
+use super::stored_columns::{
+    NamedColumn, RecordOrigin, ValueState, phase_name, phase_place, read_phase_columns, read_word_column, word_or_null,
+};
+use super::stored_tiers;
+use crate::error::{CorpusError, CorpusResult};
 
 /// A sign: a lexical entry.
 #[cfg(test)]
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct SignRow {
+pub(crate) struct SignEntryRow {
     /// The row.
     pub id: i64,
     /// The gloss, which no other sign of the corpus has.
@@ -49,9 +51,9 @@ pub struct TokenRow {
     /// The first microsecond after it.
     pub end_us: Option<i64>,
     /// The hand or hands that make it.
-    pub hand: Option<Hands>,
+    pub hand: Option<AnnotatedHands>,
     /// Its origin.
-    pub origin: Origin,
+    pub origin: RecordOrigin,
     /// Whether it is the sign's citation form.
     pub citation: bool,
     /// Properties from its file that have no column, as JSON.
@@ -62,13 +64,13 @@ pub struct TokenRow {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct TokenValueRow {
     /// The hand or hands; nothing if the component belongs to no hand or to the whole sign.
-    pub hand: Option<Hands>,
+    pub hand: Option<AnnotatedHands>,
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The feature of the component.
     pub feature: Option<String>,
     /// Its phase, if the sign has several successive values.
-    pub phase: Option<Phase>,
+    pub phase: Option<SignPhase>,
     /// Whether there is a value.
     pub state: ValueState,
     /// The value.
@@ -81,14 +83,14 @@ pub(crate) struct TokenValueRow {
 
 impl TokenValueRow {
     /// Returns the row for a reading of `field`, without inventory and annotation.
-    pub(crate) fn of(field: &Field, reading: &Reading) -> Self {
+    pub(crate) fn from_field_reading(field: &ComponentField, reading: &ComponentReading) -> Self {
         Self {
-            hand: field.hand.map(Hands::One),
+            hand: field.hand.map(AnnotatedHands::One),
             component: field.component,
             feature: field.feature.clone(),
             phase: field.phase,
-            state: ValueState::of(reading),
-            value: reading.value().map(str::to_owned),
+            state: ValueState::state_of_reading(reading),
+            value: reading.reading_value().map(str::to_owned),
             inventory_id: None,
             annotation_id: None,
         }
@@ -96,12 +98,12 @@ impl TokenValueRow {
 }
 
 /// Returns the row of the sign with this gloss; inserts it if it is missing.
-pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> {
+pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> CorpusResult<i64> {
     if let Some(id) = find_sign(connection, gloss)? {
         return Ok(id);
     }
     let place = || format!("sign {:?}", gloss.chars().take(40).collect::<String>());
-    tiers::check_text(place, gloss)?;
+    stored_tiers::check_text(place, gloss)?;
     connection
         .prepare_cached("INSERT INTO sign (gloss) VALUES (?1)")?
         .execute([gloss])?;
@@ -110,15 +112,15 @@ pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> 
 
 /// Returns the row of the sign with exactly this gloss, or with a gloss that differs only by the characters in which a
 /// program stores accents.
-pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> Result<Option<i64>> {
-    let find = |gloss: &str| -> Result<Option<i64>> {
+pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> CorpusResult<Option<i64>> {
+    let find = |gloss: &str| -> CorpusResult<Option<i64>> {
         let mut statement = connection.prepare_cached("SELECT id FROM sign WHERE gloss = ?1")?;
         Ok(statement.query_row([gloss], |row| row.get(0)).optional()?)
     };
     if let Some(id) = find(gloss)? {
         return Ok(Some(id));
     }
-    for other in [composed(gloss), decomposed(gloss)] {
+    for other in [compose_accents(gloss), decompose_accents(gloss)] {
         if other != gloss
             && let Some(id) = find(&other)?
         {
@@ -130,14 +132,14 @@ pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> Result<Option<i
 
 /// Returns all signs by gloss.
 #[cfg(test)]
-pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignRow>> {
+pub(crate) fn load_sign_rows(connection: &Connection) -> CorpusResult<Vec<SignEntryRow>> {
     let mut statement = connection.prepare_cached(
         "SELECT id, gloss, notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id)
          FROM sign s ORDER BY gloss",
     )?;
     let mut signs = statement
         .query_map([], |row| {
-            Ok(SignRow {
+            Ok(SignEntryRow {
                 id: row.get(0)?,
                 gloss: row.get(1)?,
                 notes: row.get(2)?,
@@ -147,13 +149,13 @@ pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignRow>> {
         })?
         .collect::<rusqlite::Result<Vec<_>>>()?;
     for sign in &mut signs {
-        sign.texts = texts(connection, sign.id)?;
+        sign.texts = list_sign_translations(connection, sign.id)?;
     }
     Ok(signs)
 }
 
 /// Returns every gloss, in order.
-pub(crate) fn glosses(connection: &Connection) -> Result<Vec<String>> {
+pub(crate) fn list_all_glosses(connection: &Connection) -> CorpusResult<Vec<String>> {
     let mut statement = connection.prepare_cached("SELECT gloss FROM sign ORDER BY gloss")?;
     let glosses = statement
         .query_map([], |row| row.get(0))?
@@ -162,7 +164,7 @@ pub(crate) fn glosses(connection: &Connection) -> Result<Vec<String>> {
 }
 
 /// Returns the translations of a sign as language and text.
-pub(crate) fn texts(connection: &Connection, sign: i64) -> Result<Vec<(String, String)>> {
+pub(crate) fn list_sign_translations(connection: &Connection, sign: i64) -> CorpusResult<Vec<(String, String)>> {
     let sql = "SELECT language, text FROM sign_text WHERE sign_id = ?1 ORDER BY id";
     let mut statement = connection.prepare_cached(sql)?;
     let texts = statement
@@ -172,22 +174,15 @@ pub(crate) fn texts(connection: &Connection, sign: i64) -> Result<Vec<(String, S
 }
 
 /// Adds a translation of a sign unless it exists.
-pub(crate) fn add_text(
-    connection: &Connection,
-    sign: i64,
-    language: &str,
-    text: &str,
-) -> Result<()> {
+pub(crate) fn add_text(connection: &Connection, sign: i64, language: &str, text: &str) -> CorpusResult<()> {
     connection
-        .prepare_cached(
-            "INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)",
-        )?
+        .prepare_cached("INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)")?
         .execute(params![sign, language, text])?;
     Ok(())
 }
 
 /// Writes a token and returns its row; its `id`, `gloss` and `recording` are not used.
-pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> Result<i64> {
+pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> CorpusResult<i64> {
     connection
         .prepare_cached(
             "INSERT INTO token (sign_id, recording_id, annotation_id, start_us, end_us, hand, origin,
@@ -199,8 +194,8 @@ pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> Result<i6
             row.annotation_id,
             row.start_us,
             row.end_us,
-            row.hand.map(Col),
-            Col(row.origin),
+            row.hand.map(NamedColumn),
+            NamedColumn(row.origin),
             row.citation,
             row.source
         ])?;
@@ -208,7 +203,7 @@ pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> Result<i6
 }
 
 /// Writes a token's row again.
-pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()> {
+pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> CorpusResult<()> {
     connection
         .prepare_cached(
             "UPDATE token SET sign_id = ?2, start_us = ?3, end_us = ?4, hand = ?5, origin = ?6,
@@ -219,8 +214,8 @@ pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()
             row.sign_id,
             row.start_us,
             row.end_us,
-            row.hand.map(Col),
-            Col(row.origin),
+            row.hand.map(NamedColumn),
+            NamedColumn(row.origin),
             row.citation,
             row.source
         ])?;
@@ -228,9 +223,9 @@ pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()
 }
 
 /// Deletes a token with its values, its attributes and its notation.
-pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
-    super::notations::delete(connection, id)?;
-    super::attributes::set(connection, id, &[])?;
+pub(crate) fn delete_token(connection: &Connection, id: i64) -> CorpusResult<()> {
+    super::notations::delete_token_notation(connection, id)?;
+    super::stored_attributes::set_token_attributes(connection, id, &[])?;
     connection
         .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
         .execute([id])?;
@@ -241,7 +236,7 @@ pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
 }
 
 /// Deletes a sign that has no token and no translation any more, and returns whether it did.
-pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<bool> {
+pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> CorpusResult<bool> {
     let deleted = connection
         .prepare_cached(
             "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
@@ -253,12 +248,8 @@ pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<bo
 }
 
 /// Sets the values of a token; leaves unchanged rows untouched.
-pub(crate) fn set_values(
-    connection: &Connection,
-    token: i64,
-    rows: &[TokenValueRow],
-) -> Result<()> {
-    if values(connection, token)? == rows {
+pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValueRow]) -> CorpusResult<()> {
+    if load_token_values(connection, token)? == rows {
         return Ok(());
     }
     connection
@@ -271,12 +262,12 @@ pub(crate) fn set_values(
     for row in rows {
         statement.execute(params![
             token,
-            row.hand.map(Col),
-            Col(row.component),
+            row.hand.map(NamedColumn),
+            NamedColumn(row.component),
             row.feature,
             row.phase.map(phase_name),
             phase_place(row.phase),
-            Col(row.state),
+            NamedColumn(row.state),
             row.value,
             row.inventory_id,
             row.annotation_id
@@ -286,12 +277,9 @@ pub(crate) fn set_values(
 }
 
 /// Returns the values of several tokens by token, in the order in which they were written.
-pub(crate) fn values_of(
-    connection: &Connection,
-    tokens: &[i64],
-) -> Result<BTreeMap<i64, Vec<TokenValueRow>>> {
+pub(crate) fn values_of(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, Vec<TokenValueRow>>> {
     let mut statement = connection.prepare_cached(&format!(
-        "{VALUE}, token_id FROM token_value
+        "{SELECT_TOKEN_VALUES_SQL}, token_id FROM token_value
          WHERE token_id IN (SELECT value FROM json_each(?1)) ORDER BY token_id, id"
     ))?;
     let mut values: BTreeMap<i64, Vec<TokenValueRow>> = BTreeMap::new();
@@ -303,8 +291,8 @@ pub(crate) fn values_of(
 }
 
 /// Returns the values of a token, in the order in which they were written.
-pub(crate) fn values(connection: &Connection, token: i64) -> Result<Vec<TokenValueRow>> {
-    let sql = format!("{VALUE} FROM token_value WHERE token_id = ?1 ORDER BY id");
+pub(crate) fn load_token_values(connection: &Connection, token: i64) -> CorpusResult<Vec<TokenValueRow>> {
+    let sql = format!("{SELECT_TOKEN_VALUES_SQL} FROM token_value WHERE token_id = ?1 ORDER BY id");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
         .query_map([token], value_row)?
@@ -312,23 +300,23 @@ pub(crate) fn values(connection: &Connection, token: i64) -> Result<Vec<TokenVal
     Ok(rows)
 }
 
-const VALUE: &str = "SELECT hand, component, feature, phase, position, state, value, inventory_id,
+const SELECT_TOKEN_VALUES_SQL: &str = "SELECT hand, component, feature, phase, position, state, value, inventory_id,
     annotation_id";
 
 fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
     Ok(TokenValueRow {
         hand: word_or_null(row, 0)?,
-        component: word(row, 1)?,
+        component: read_word_column(row, 1)?,
         feature: row.get(2)?,
-        phase: phase(row, 3)?,
-        state: word(row, 5)?,
+        phase: read_phase_columns(row, 3)?,
+        state: read_word_column(row, 5)?,
         value: row.get(6)?,
         inventory_id: row.get(7)?,
         annotation_id: row.get(8)?,
     })
 }
 
-const TOKEN: &str = "
+const SELECT_TOKEN_SQL: &str = "
     SELECT t.id, t.sign_id, s.gloss, t.recording_id, r.name, t.annotation_id, t.start_us, t.end_us,
            t.hand, t.origin, t.citation, t.source
     FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id";
@@ -344,31 +332,31 @@ fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
         start_us: row.get(6)?,
         end_us: row.get(7)?,
         hand: word_or_null(row, 8)?,
-        origin: word(row, 9)?,
+        origin: read_word_column(row, 9)?,
         citation: row.get(10)?,
         source: row.get(11)?,
     })
 }
 
 /// Returns the token of that row.
-pub(crate) fn token(connection: &Connection, id: i64) -> Result<TokenRow> {
+pub(crate) fn load_token_row(connection: &Connection, id: i64) -> CorpusResult<TokenRow> {
     connection
-        .prepare_cached(&format!("{TOKEN} WHERE t.id = ?1"))?
+        .prepare_cached(&format!("{SELECT_TOKEN_SQL} WHERE t.id = ?1"))?
         .query_row([id], token_row)
         .optional()?
         .ok_or_else(|| {
-            Error::wrong(format!("there is no token:{id}"))
-                .at(format!("token:{id}"))
-                .advise(Remedy::command("`chereme list CORPUS tokens` lists them"))
+            CorpusError::from_wrong_message(format!("there is no token:{id}"))
+                .with_error_place(format!("token:{id}"))
+                .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tokens` lists them"))
         })
 }
 
 /// The number of rows that one query asks for when a list of rows is read.
-pub(crate) const AT_ONCE: usize = 512;
+pub(crate) const MAX_ROWS_PER_QUERY: usize = 512;
 
 /// Returns the existing tokens among these rows, by row.
-pub(crate) fn tokens(connection: &Connection, ids: &[i64]) -> Result<BTreeMap<i64, TokenRow>> {
-    let sql = format!("{TOKEN} WHERE t.id IN (SELECT value FROM json_each(?1))");
+pub(crate) fn load_token_rows(connection: &Connection, ids: &[i64]) -> CorpusResult<BTreeMap<i64, TokenRow>> {
+    let sql = format!("{SELECT_TOKEN_SQL} WHERE t.id IN (SELECT value FROM json_each(?1))");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
         .query_map([json_list(ids)], |row| Ok((row.get(0)?, token_row(row)?)))?
@@ -383,11 +371,8 @@ pub(super) fn json_list(ids: &[i64]) -> String {
 }
 
 /// Returns the tokens of a recording by time.
-pub(crate) fn tokens_of_recording(
-    connection: &Connection,
-    recording: i64,
-) -> Result<Vec<TokenRow>> {
-    let sql = format!("{TOKEN} WHERE t.recording_id = ?1 ORDER BY t.start_us, t.id");
+pub(crate) fn tokens_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Vec<TokenRow>> {
+    let sql = format!("{SELECT_TOKEN_SQL} WHERE t.recording_id = ?1 ORDER BY t.start_us, t.id");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
         .query_map([recording], token_row)?
@@ -401,9 +386,9 @@ pub(crate) fn tokens_near(
     recording: i64,
     start_us: i64,
     end_us: i64,
-) -> Result<Vec<TokenRow>> {
+) -> CorpusResult<Vec<TokenRow>> {
     let sql = format!(
-        "{TOKEN} WHERE t.recording_id = ?1 AND t.end_us >= ?2 AND t.start_us <= ?3
+        "{SELECT_TOKEN_SQL} WHERE t.recording_id = ?1 AND t.end_us >= ?2 AND t.start_us <= ?3
              AND t.start_us >= ?2 - (SELECT o.end_us - o.start_us FROM token o
                                      WHERE o.recording_id = ?1
                                      ORDER BY o.end_us - o.start_us DESC LIMIT 1)
@@ -417,8 +402,8 @@ pub(crate) fn tokens_near(
 }
 
 /// Returns the tokens of a sign, citation forms first.
-pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<TokenRow>> {
-    let sql = format!("{TOKEN} WHERE t.sign_id = ?1 ORDER BY t.citation DESC, t.id");
+pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> CorpusResult<Vec<TokenRow>> {
+    let sql = format!("{SELECT_TOKEN_SQL} WHERE t.sign_id = ?1 ORDER BY t.citation DESC, t.id");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
         .query_map([sign], token_row)?
@@ -427,25 +412,23 @@ pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<T
 }
 
 /// Returns whether a sign has a citation form.
-pub(crate) fn has_citation(connection: &Connection, sign: i64) -> Result<bool> {
+pub(crate) fn has_citation(connection: &Connection, sign: i64) -> CorpusResult<bool> {
     Ok(connection
         .prepare_cached("SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1")?
         .exists([sign])?)
 }
 
 /// Returns whether a sign has a citation form that moves.
-pub(crate) fn is_cited(connection: &Connection, sign: i64) -> Result<bool> {
+pub(crate) fn is_cited(connection: &Connection, sign: i64) -> CorpusResult<bool> {
     Ok(connection
-        .prepare_cached(
-            "SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1 AND recording_id IS NOT NULL",
-        )?
+        .prepare_cached("SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1 AND recording_id IS NOT NULL")?
         .exists([sign])?)
 }
 
 /// A token of a recording that holds a value.
 pub(crate) struct HoldingRow {
     pub(crate) token: i64,
-    pub(crate) hand: Option<Hands>,
+    pub(crate) hand: Option<AnnotatedHands>,
     pub(crate) left_handed: bool,
     /// The annotation that gives the value, within the token.
     pub(crate) span_us: Option<(i64, i64)>,
@@ -453,11 +436,7 @@ pub(crate) struct HoldingRow {
 
 /// Returns the tokens of recordings that have a value of a component, captured ones first. Generated tokens are left
 /// out: they show nothing beyond their sources, and would be compared with themselves.
-pub(crate) fn tokens_holding(
-    connection: &Connection,
-    component: &str,
-    value: &str,
-) -> Result<Vec<HoldingRow>> {
+pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &str) -> CorpusResult<Vec<HoldingRow>> {
     let mut statement = connection.prepare_cached(
         "SELECT t.id, v.hand, coalesce(g.handedness = 'left', 0),
                 max(a.start_us, t.start_us), min(a.end_us, t.end_us)
@@ -485,7 +464,7 @@ pub(crate) fn tokens_holding(
 }
 
 /// Returns how many tokens have a value of the inventory of that row.
-pub(crate) fn tokens_with(connection: &Connection, inventory: i64, value: &str) -> Result<u64> {
+pub(crate) fn tokens_with(connection: &Connection, inventory: i64, value: &str) -> CorpusResult<u64> {
     let count: i64 = connection
         .prepare_cached(
             "SELECT count(DISTINCT token_id) FROM token_value
@@ -496,28 +475,26 @@ pub(crate) fn tokens_with(connection: &Connection, inventory: i64, value: &str) 
 }
 
 /// Returns the entries of lexicons, of all signs.
-pub(crate) fn lexicon_entries(connection: &Connection) -> Result<Vec<TokenRow>> {
-    let sql = format!("{TOKEN} WHERE t.origin = ?1 ORDER BY t.id");
+pub(crate) fn lexicon_entries(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
+    let sql = format!("{SELECT_TOKEN_SQL} WHERE t.origin = ?1 ORDER BY t.id");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
-        .query_map([Col(Origin::Lexicon)], token_row)?
+        .query_map([NamedColumn(RecordOrigin::Lexicon)], token_row)?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }
 
 /// Returns one citation form of each sign. A sign that has one in a lexicon and one with movement is represented by the
 /// one that is coded for more components, else by the one with movement.
-pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
+pub(crate) fn load_citation_tokens(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
     let mut statement = connection.prepare_cached(&format!(
-        "{TOKEN} WHERE t.citation = 1 AND t.id =
+        "{SELECT_TOKEN_SQL} WHERE t.citation = 1 AND t.id =
                 (SELECT c.id FROM token c WHERE c.sign_id = t.sign_id AND c.citation = 1
                  ORDER BY (SELECT count(DISTINCT v.component) FROM token_value v WHERE v.token_id = c.id) DESC,
                           c.recording_id IS NULL, c.id
                  LIMIT 1)
          ORDER BY t.id"
     ))?;
-    let rows = statement
-        .query_map([], token_row)?
-        .collect::<rusqlite::Result<_>>()?;
+    let rows = statement.query_map([], token_row)?.collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }

@@ -10,24 +10,24 @@ use std::time::SystemTime;
 use rusqlite::config::DbConfig;
 use rusqlite::{Connection, OpenFlags};
 
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 
 /// Moves a log aside that does not belong to the file at `path`: the file came there after the log was written, is
 /// whole without it, and broken with it. `unchanging` is the URI of the file without its log.
-pub(super) fn set_aside(path: &Path, unchanging: &str) -> Result<()> {
-    let log = beside(path, "-wal");
+pub(super) fn set_aside(path: &Path, unchanging: &str) -> CorpusResult<()> {
+    let log = companion_path(path, "-wal");
     if !came_later(path, &log) || is_whole(path.as_os_str()) || !is_whole(unchanging) {
         return Ok(());
     }
-    let fault = |error| Error::file(&log, error);
-    fs::rename(&log, beside(path, "-wal.stale")).map_err(fault)?;
+    let fault = |error| CorpusError::from_file_failure(&log, error);
+    fs::rename(&log, companion_path(path, "-wal.stale")).map_err(fault)?;
     // The index of the log is made again from the log.
-    drop(fs::remove_file(beside(path, "-shm")));
+    drop(fs::remove_file(companion_path(path, "-shm")));
     Ok(())
 }
 
 /// Returns the path of a companion of the file.
-pub(super) fn beside(path: &Path, ending: &str) -> PathBuf {
+pub(super) fn companion_path(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);
     name.into()
@@ -38,12 +38,12 @@ fn came_later(path: &Path, log: &Path) -> bool {
     let (Ok(file), Ok(log)) = (path.metadata(), log.metadata()) else {
         return false;
     };
-    log.len() > 0 && log.modified().is_ok_and(|written| written < placed(&file))
+    log.len() > 0 && log.modified().is_ok_and(|written| written < file_placed_time(&file))
 }
 
 /// Returns when a file was written or put at its path.
 #[cfg(unix)]
-fn placed(file: &Metadata) -> SystemTime {
+fn file_placed_time(file: &Metadata) -> SystemTime {
     use std::os::unix::fs::MetadataExt as _;
     let nanos = u32::try_from(file.ctime_nsec()).unwrap_or_default();
     let changed = Duration::new(file.ctime().max(0).cast_unsigned(), nanos);
@@ -58,9 +58,7 @@ fn placed(file: &Metadata) -> SystemTime {
 
 /// Returns whether the pages of a database fit each other; a reader never writes the log into the file.
 fn is_whole(name: impl AsRef<Path>) -> bool {
-    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
-        | OpenFlags::SQLITE_OPEN_NO_MUTEX
-        | OpenFlags::SQLITE_OPEN_URI;
+    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
     let answer = Connection::open_with_flags(name, flags).and_then(|reader| {
         reader.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)?;
         reader.query_row("PRAGMA quick_check(1)", [], |row| row.get::<_, String>(0))
@@ -71,9 +69,9 @@ fn is_whole(name: impl AsRef<Path>) -> bool {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
-    use crate::{Corpus, KeptSearch, unheard};
+    use crate::{Corpus, KeptSearch, ignore_progress_step};
 
-    fn keep(corpus: &mut Corpus, name: &str) {
+    fn keep_many_searches(corpus: &mut Corpus, name: &str) {
         for at in 0..40 {
             let query = KeptSearch {
                 name: format!("{name} {at} {}", "x".repeat(2000)),
@@ -83,9 +81,9 @@ mod tests {
         }
     }
 
-    fn count(path: &Path) -> usize {
-        let corpus = Corpus::open(path, "A").expect("opened");
-        corpus.overview(1).expect("read").searches.len()
+    fn count_saved_searches(path: &Path) -> usize {
+        let corpus = Corpus::open_corpus(path, "A").expect("opened");
+        corpus.load_corpus_overview(1).expect("read").searches.len()
     }
 
     #[test]
@@ -93,29 +91,29 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let place = |name: &str| folder.path().join(name);
         let path = place("c.chereme");
-        let mut corpus = Corpus::create(&path, "A").expect("made");
-        keep(&mut corpus, "first");
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+        keep_many_searches(&mut corpus, "first");
         drop(corpus);
         fs::copy(&path, place("backup")).expect("copied");
-        let mut corpus = Corpus::open(&path, "A").expect("opened");
-        keep(&mut corpus, "second");
+        let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+        keep_many_searches(&mut corpus, "second");
         let checkpoint = "PRAGMA wal_checkpoint(TRUNCATE)";
-        let read = |corpus: &Corpus| corpus.store.read().query_row(checkpoint, [], |_| Ok(()));
+        let read = |corpus: &Corpus| corpus.store.read_connection().query_row(checkpoint, [], |_| Ok(()));
         read(&corpus).expect("written");
-        keep(&mut corpus, "third");
+        keep_many_searches(&mut corpus, "third");
         // What a killed program leaves.
         fs::copy(&path, place("killed")).expect("copied");
-        fs::copy(beside(&path, "-wal"), place("log")).expect("copied");
+        fs::copy(companion_path(&path, "-wal"), place("log")).expect("copied");
         drop(corpus);
         for (file, searches, stale) in [("killed", 120, false), ("backup", 40, true)] {
             let path = place(&format!("{file}.chereme"));
-            fs::copy(place("log"), beside(&path, "-wal")).expect("copied");
+            fs::copy(place("log"), companion_path(&path, "-wal")).expect("copied");
             fs::copy(place(file), &path).expect("copied");
-            assert_eq!(count(&path), searches, "{file}");
-            assert_eq!(beside(&path, "-wal.stale").exists(), stale, "{file}");
-            let mut corpus = Corpus::open(&path, "A").expect("opened");
-            let mut hear = unheard;
-            let report = corpus.check(false, &mut crate::Progress::new(&mut hear));
+            assert_eq!(count_saved_searches(&path), searches, "{file}");
+            assert_eq!(companion_path(&path, "-wal.stale").exists(), stale, "{file}");
+            let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+            let mut hear = ignore_progress_step;
+            let report = corpus.check_corpus(false, &mut crate::ProgressReceiver::new(&mut hear));
             assert_eq!(report.expect("checked").faults, [], "{file}");
         }
     }

@@ -11,44 +11,44 @@ use uuid::Uuid;
 /// A leftover is at least this old: a younger one may be about to be locked.
 const LEAST_AGE: Duration = Duration::from_secs(if cfg!(unix) { 2 } else { 24 * 60 * 60 });
 /// The endings of the files that a database has beside it.
-const COMPANIONS: [&str; 3] = ["-wal", "-shm", "-journal"];
+const DATABASE_COMPANION_ENDINGS: [&str; 3] = ["-wal", "-shm", "-journal"];
 
 /// A file or folder under a temporary name; it is removed when it is dropped, unless it got its final name.
-pub(crate) struct Unfinished {
+pub(crate) struct UnfinishedFile {
     path: PathBuf,
     /// Locked, so that other processes see that somebody works on it.
     _held: Option<File>,
 }
 
-impl Unfinished {
+impl UnfinishedFile {
     /// Creates an empty file beside `to`.
-    pub(crate) fn file(to: &Path) -> io::Result<Self> {
+    pub(crate) fn create_unfinished_file(to: &Path) -> io::Result<Self> {
         let path = temporary_name(to);
-        let held = hold(File::create_new(&path)?);
-        Ok(Self { path, _held: held })
+        let lock = hold_file_lock(File::create_new(&path)?);
+        Ok(Self { path, _held: lock })
     }
 
     /// Creates an empty folder beside `to`.
-    pub(crate) fn folder(to: &Path) -> io::Result<Self> {
+    pub(crate) fn create_unfinished_folder(to: &Path) -> io::Result<Self> {
         let path = temporary_name(to);
         fs::create_dir(&path)?;
-        let held = File::open(&path).ok().and_then(hold);
-        Ok(Self { path, _held: held })
+        let lock = File::open(&path).ok().and_then(hold_file_lock);
+        Ok(Self { path, _held: lock })
     }
 
-    pub(crate) fn path(&self) -> &Path {
+    pub(crate) fn unfinished_path(&self) -> &Path {
         &self.path
     }
 
     /// Gives it its final name.
-    pub(crate) fn rename(&self, to: &Path) -> io::Result<()> {
+    pub(crate) fn rename_unfinished(&self, to: &Path) -> io::Result<()> {
         fs::rename(&self.path, to)
     }
 }
 
-impl Drop for Unfinished {
+impl Drop for UnfinishedFile {
     fn drop(&mut self) {
-        remove(&self.path);
+        remove_unfinished_path(&self.path);
     }
 }
 
@@ -69,18 +69,15 @@ pub(crate) fn remove_leftovers_in(folder: &Path, is_own: impl Fn(&str) -> bool) 
         let is_wanted = final_name(main).is_some_and(&is_own);
         let path = folder.join(main);
         // Companions go with their file, or alone if it is gone.
-        if is_wanted
-            && (name.to_str() == Some(main) || !path.exists())
-            && is_abandoned(&entry.path())
-        {
-            remove(&path);
+        if is_wanted && (name.to_str() == Some(main) || !path.exists()) && is_abandoned(&entry.path()) {
+            remove_unfinished_path(&path);
         }
     }
 }
 
 /// Returns the name of the file to which a file belongs: that of the database for its companions.
 fn main_name(name: &str) -> Option<&str> {
-    let ending = COMPANIONS
+    let ending = DATABASE_COMPANION_ENDINGS
         .iter()
         .find_map(|ending| name.strip_suffix(ending));
     Some(ending.unwrap_or(name)).filter(|main| main.starts_with('.'))
@@ -106,7 +103,7 @@ fn is_abandoned(path: &Path) -> bool {
 }
 
 #[cfg(unix)]
-fn hold(file: File) -> Option<File> {
+fn hold_file_lock(file: File) -> Option<File> {
     file.try_lock().is_ok().then_some(file)
 }
 
@@ -127,13 +124,13 @@ fn is_free(_: &Path) -> bool {
 }
 
 /// Removes a file with its companions, or a folder; what is not there needs no removal.
-fn remove(path: &Path) {
+fn remove_unfinished_path(path: &Path) {
     if fs::symlink_metadata(path).is_ok_and(|found| found.is_dir()) {
         drop(fs::remove_dir_all(path));
         return;
     }
     drop(fs::remove_file(path));
-    for ending in COMPANIONS {
+    for ending in DATABASE_COMPANION_ENDINGS {
         let mut name = path.as_os_str().to_owned();
         name.push(ending);
         drop(fs::remove_file(name));
@@ -149,9 +146,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let to = folder.path().join("c.chereme");
         let id = Uuid::now_v7().simple();
-        let held = Unfinished::file(&to).expect("made");
-        let held_name = held
-            .path()
+        let unfinished = UnfinishedFile::create_unfinished_file(&to).expect("made");
+        let held_name = unfinished
+            .unfinished_path()
             .file_name()
             .expect("a name")
             .to_string_lossy()
@@ -173,8 +170,8 @@ mod tests {
         let make = |name: &String, age: u64| {
             let path = folder.path().join(name);
             let mut options = File::options();
-            let file = options.create(true).truncate(false).write(true);
-            let file = file.open(path).expect("made");
+            let open_options = options.create(true).truncate(false).write(true);
+            let file = open_options.open(path).expect("made");
             let made = file.metadata().and_then(|own| own.modified());
             let then = made.expect("a time") - Duration::from_secs(age);
             file.set_modified(then).expect("set");
@@ -182,17 +179,15 @@ mod tests {
         left.iter().chain(&kept).for_each(|name| make(name, 60));
         let young = format!(".c.chereme.{}", Uuid::now_v7().simple());
         make(&young, 0);
-        let shelf = folder
-            .path()
-            .join(format!(".c.chereme.{}", Uuid::now_v7().simple()));
+        let shelf = folder.path().join(format!(".c.chereme.{}", Uuid::now_v7().simple()));
         fs::create_dir(&shelf).expect("made");
         fs::write(shelf.join("a"), "a").expect("written");
         File::open(&shelf)
             .and_then(|held| held.set_modified(std::time::SystemTime::UNIX_EPOCH))
             .expect("set");
         remove_leftovers(&to);
-        let names = fs::read_dir(folder.path()).expect("a folder").flatten();
-        let mut names: Vec<String> = names
+        let entries = fs::read_dir(folder.path()).expect("a folder").flatten();
+        let mut names: Vec<String> = entries
             .map(|entry| entry.file_name().to_string_lossy().into_owned())
             .collect();
         let mut wanted: Vec<String> = kept.into_iter().chain([young]).collect();

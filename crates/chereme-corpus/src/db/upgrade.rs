@@ -8,16 +8,16 @@ use rusqlite::{Connection, params};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
-use super::history;
-use super::motion::hex;
-use crate::error::Result;
+use super::stored_history;
+use super::stored_motion::to_hex_text;
+use crate::error::CorpusResult;
 use crate::words::old_effect::effect_of_summary;
 
 /// The name of tracks that hold the scalar curves of generated movement.
-pub(crate) const NONMANUALS: &str = "nonmanuals";
+pub(crate) const NONMANUALS_TRACK_NAME: &str = "nonmanuals";
 
 /// Completes a schema step with the work that its SQL left to the program, if there is any.
-pub(super) fn after_step(connection: &Connection) -> Result<()> {
+pub(super) fn after_step(connection: &Connection) -> CorpusResult<()> {
     let left: i64 = connection.query_row(
         "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'old_curve'",
         [],
@@ -31,7 +31,7 @@ pub(super) fn after_step(connection: &Connection) -> Result<()> {
 }
 
 /// Reads the summaries of operations that an older program stored without their effects.
-pub(super) fn read_old_summaries(connection: &Connection) -> Result<()> {
+pub(super) fn read_old_summaries(connection: &Connection) -> CorpusResult<()> {
     let mut statement = connection.prepare("SELECT id, name, summary FROM operation")?;
     let rows = statement
         .query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?
@@ -39,28 +39,18 @@ pub(super) fn read_old_summaries(connection: &Connection) -> Result<()> {
     for (id, name, summary) in rows {
         if let Some(effect) = effect_of_summary(&name, &summary) {
             let (_, _, json) = effect.stored_texts();
-            connection.execute(
-                "UPDATE operation SET effect = ?2 WHERE id = ?1",
-                params![id, json],
-            )?;
+            connection.execute("UPDATE operation SET effect = ?2 WHERE id = ?1", params![id, json])?;
         }
     }
     Ok(())
 }
 
 /// Columns of JSON that may be empty.
-const MISSING_JSON: [&str; 6] = [
-    "roles",
-    "channel_groups",
-    "layout",
-    "source",
-    "consent",
-    "mapping",
-];
+const MISSING_JSON: [&str; 6] = ["roles", "channel_groups", "layout", "source", "consent", "mapping"];
 
 /// Rewrites the rules of columns that may be empty: for SQLite before 3.45 `json_valid` of nothing is false, so that its
 /// `integrity_check` would find each such row broken.
-pub(super) fn rewrite_json_rules(connection: &Connection) -> Result<()> {
+pub(super) fn rewrite_json_rules(connection: &Connection) -> CorpusResult<()> {
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, false)?;
     connection.pragma_update(None, "writable_schema", true)?;
     let rewritten = MISSING_JSON.iter().try_for_each(|column| {
@@ -79,7 +69,7 @@ pub(super) const PHASED_SINCE: i32 = 12;
 
 /// Gives values without a phase in rows of imported tables the phase that imports give them since
 /// [`PHASED_SINCE`], also in the history.
-pub(super) fn begin_before_final(connection: &Connection) -> Result<()> {
+pub(super) fn begin_before_final(connection: &Connection) -> CorpusResult<()> {
     let sql = "SELECT own.id, own.token_id FROM token_value own JOIN token ON token.id = own.token_id
          WHERE own.phase IS NULL AND own.annotation_id IS NULL AND token.origin = 'lexicon'
              AND instr(token.source, '\"cells\":')
@@ -94,10 +84,7 @@ pub(super) fn begin_before_final(connection: &Connection) -> Result<()> {
         return Ok(());
     }
     for id in begun.keys() {
-        connection.execute(
-            "UPDATE token_value SET phase = 'initial' WHERE id = ?1",
-            [id],
-        )?;
+        connection.execute("UPDATE token_value SET phase = 'initial' WHERE id = ?1", [id])?;
     }
     let begin = |image: &mut Value| {
         let number = |name: &str| image[name].as_i64().unwrap_or_default();
@@ -106,22 +93,22 @@ pub(super) fn begin_before_final(connection: &Connection) -> Result<()> {
             image["phase"] = json!("initial");
         }
     };
-    for (operation, part) in history::parts(connection)? {
-        let text = history::read_part(connection, operation, part)?;
+    for (operation, part) in stored_history::list_changeset_parts(connection)? {
+        let text = stored_history::read_part(connection, operation, part)?;
         let lines = text.lines().map(|line| {
             let phaseless = line.starts_with("[\"token_value\"") && line.contains("\"phase\":null");
-            match phaseless.then(|| Change::read(line)).flatten() {
+            match phaseless.then(|| ChangesetLine::parse_changeset_line(line)).flatten() {
                 Some(mut change) => {
                     begin(&mut change.before);
                     begin(&mut change.after);
-                    change.write()
+                    change.write_changeset_line()
                 }
                 None => format!("{line}\n"),
             }
         });
         let lines: String = lines.collect();
         if lines != text {
-            history::replace_part(connection, operation, part, &lines, 0)?;
+            stored_history::replace_part(connection, operation, part, &lines, 0)?;
         }
     }
     Ok(())
@@ -130,44 +117,44 @@ pub(super) fn begin_before_final(connection: &Connection) -> Result<()> {
 /// Converts scalar curves to tracks. Up to version 4 they were rows next to a skeleton's track; now they are a track of
 /// their own on the same frames. Changesets refer to rows by id, so the same mapping of ids serves the rows and the
 /// history.
-fn curves_become_tracks(connection: &Connection) -> Result<()> {
-    let parts = history::parts(connection)?;
-    let mut largest = Largest::of_rows(connection)?;
+fn curves_become_tracks(connection: &Connection) -> CorpusResult<()> {
+    let parts = stored_history::list_changeset_parts(connection)?;
+    let mut largest = LargestTrackIds::of_rows(connection)?;
     let mut any = largest.curves > 0;
     for (operation, part) in &parts {
-        for line in history::read_part(connection, *operation, *part)?.lines() {
+        for line in stored_history::read_part(connection, *operation, *part)?.lines() {
             any |= line.starts_with("[\"curve");
-            largest.look(line);
+            largest.note_changeset_line(line);
         }
     }
     if !any {
         return Ok(());
     }
-    let moved = Moved {
+    let moved = CurveIdOffsets {
         track: largest.track,
         block: largest.block,
     };
-    moved.rows(connection)?;
-    let mut known = BTreeMap::new();
+    moved.move_curve_rows(connection)?;
+    let mut curve_tracks = BTreeMap::new();
     for (operation, part) in parts {
-        let text = history::read_part(connection, operation, part)?;
-        let (lines, added) = moved.lines(&text, &mut known);
+        let text = stored_history::read_part(connection, operation, part)?;
+        let (lines, added) = moved.convert_changeset_lines(&text, &mut curve_tracks);
         if lines != text {
-            history::replace_part(connection, operation, part, &lines, added)?;
+            stored_history::replace_part(connection, operation, part, &lines, added)?;
         }
     }
     Ok(())
 }
 
 /// The largest ids that tracks and their blocks have ever had.
-struct Largest {
+struct LargestTrackIds {
     track: i64,
     block: i64,
     curves: i64,
 }
 
-impl Largest {
-    fn of_rows(connection: &Connection) -> Result<Self> {
+impl LargestTrackIds {
+    fn of_rows(connection: &Connection) -> CorpusResult<Self> {
         Ok(connection.query_row(
             "SELECT coalesce((SELECT max(id) FROM track), 0),
                     coalesce((SELECT max(id) FROM track_block), 0),
@@ -183,20 +170,20 @@ impl Largest {
         )?)
     }
 
-    fn look(&mut self, line: &str) {
+    fn note_changeset_line(&mut self, line: &str) {
         let largest = match () {
             () if line.starts_with("[\"track\"") => &mut self.track,
             () if line.starts_with("[\"track_block\"") => &mut self.block,
             () => return,
         };
-        if let Some(change) = Change::read(line) {
-            *largest = (*largest).max(change.id());
+        if let Some(change) = ChangesetLine::parse_changeset_line(line) {
+            *largest = (*largest).max(change.changed_row_id());
         }
     }
 }
 
 /// A line of a changeset.
-struct Change {
+struct ChangesetLine {
     table: String,
     kind: String,
     before: Value,
@@ -204,8 +191,8 @@ struct Change {
     refs: Value,
 }
 
-impl Change {
-    fn read(line: &str) -> Option<Self> {
+impl ChangesetLine {
+    fn parse_changeset_line(line: &str) -> Option<Self> {
         let (table, kind, before, after, refs) = serde_json::from_str(line).ok()?;
         Some(Self {
             table,
@@ -216,7 +203,7 @@ impl Change {
         })
     }
 
-    fn row(&self) -> &Value {
+    fn latest_row_value(&self) -> &Value {
         if self.after.is_null() {
             &self.before
         } else {
@@ -224,11 +211,11 @@ impl Change {
         }
     }
 
-    fn id(&self) -> i64 {
-        self.row()["id"].as_i64().unwrap_or_default()
+    fn changed_row_id(&self) -> i64 {
+        self.latest_row_value()["id"].as_i64().unwrap_or_default()
     }
 
-    fn write(&self) -> String {
+    fn write_changeset_line(&self) -> String {
         let Self {
             table,
             kind,
@@ -241,16 +228,16 @@ impl Change {
 }
 
 /// The latest state of each skeleton track in the history, with the uids that it refers to.
-type Known = BTreeMap<i64, (Value, Value)>;
+type KnownTrackStates = BTreeMap<i64, (Value, Value)>;
 
 /// Offsets that are added to ids: a curve track has the id of the skeleton's track plus `track`.
-struct Moved {
+struct CurveIdOffsets {
     track: i64,
     block: i64,
 }
 
-impl Moved {
-    fn rows(&self, connection: &Connection) -> Result<()> {
+impl CurveIdOffsets {
+    fn move_curve_rows(&self, connection: &Connection) -> CorpusResult<()> {
         let mut statement = connection.prepare(
             "SELECT json_object('id', id, 'uid', hex(uid), 'recording_id', recording_id,
                  'offset_us', offset_us, 'frames', frames, 'rate_frames', rate_frames,
@@ -310,45 +297,39 @@ impl Moved {
         image.insert("id".into(), json!(number("id") + self.track));
         image.insert("uid".into(), json!(curves_uid(uid)));
         image.insert("kind".into(), json!("curves"));
-        image.insert("name".into(), json!(NONMANUALS));
+        image.insert("name".into(), json!(NONMANUALS_TRACK_NAME));
         image.insert("duration_us".into(), json!(duration as i64));
-        for column in [
-            "recording_id",
-            "offset_us",
-            "frames",
-            "rate_frames",
-            "rate_seconds",
-        ] {
+        for column in ["recording_id", "offset_us", "frames", "rate_frames", "rate_seconds"] {
             image.insert(column.into(), json!(number(column)));
         }
         Value::Object(image)
     }
 
     /// Returns the lines of a changeset in the new format, and the number of added lines.
-    fn lines(&self, text: &str, known: &mut Known) -> (String, i64) {
+    fn convert_changeset_lines(&self, text: &str, known: &mut KnownTrackStates) -> (String, i64) {
         let (mut lines, mut added) = (String::with_capacity(text.len()), 0);
         for line in text.lines() {
             let of_tracks = ["[\"track\"", "[\"curve\"", "[\"curve_block\""];
             let change = of_tracks
                 .iter()
                 .any(|start| line.starts_with(start))
-                .then(|| Change::read(line))
+                .then(|| ChangesetLine::parse_changeset_line(line))
                 .flatten();
             match change {
                 Some(change) if change.table == "track" => {
-                    let row = (change.row().clone(), change.refs.clone());
-                    known.insert(change.id(), row);
+                    let row = (change.latest_row_value().clone(), change.refs.clone());
+                    known.insert(change.changed_row_id(), row);
                     lines.push_str(line);
                     lines.push('\n');
                 }
                 Some(change) => {
-                    let first = change.row()["position"] == json!(0);
-                    let skeleton = change.row()["track_id"].as_i64().unwrap_or_default();
+                    let first = change.latest_row_value()["position"] == json!(0);
+                    let skeleton = change.latest_row_value()["track_id"].as_i64().unwrap_or_default();
                     if let Some((row, refs)) = known.get(&skeleton).filter(|_| first) {
-                        lines.push_str(&self.track_change(&change, row, refs).write());
+                        lines.push_str(&self.track_change(&change, row, refs).write_changeset_line());
                         added += 1;
                     }
-                    lines.push_str(&self.row_change(change).write());
+                    lines.push_str(&self.row_change(change).write_changeset_line());
                 }
                 None => {
                     lines.push_str(line);
@@ -360,12 +341,12 @@ impl Moved {
     }
 
     /// Returns the change of the curve track that accompanies the change of its first curve.
-    fn track_change(&self, curve: &Change, skeleton: &Value, refs: &Value) -> Change {
+    fn track_change(&self, curve: &ChangesetLine, skeleton: &Value, refs: &Value) -> ChangesetLine {
         let image = |of: &Value| match of {
             Value::Null => Value::Null,
             _ => self.track_image(skeleton),
         };
-        Change {
+        ChangesetLine {
             table: "track".into(),
             kind: curve.kind.clone(),
             before: image(&curve.before),
@@ -374,7 +355,7 @@ impl Moved {
         }
     }
 
-    fn row_change(&self, change: Change) -> Change {
+    fn row_change(&self, change: ChangesetLine) -> ChangesetLine {
         let curve = change.table == "curve";
         let image = |old: Value| {
             let Value::Object(mut row) = old else {
@@ -395,7 +376,7 @@ impl Moved {
             Value::Object(row)
         };
         let uid = change.refs["track_id"].as_str().unwrap_or_default();
-        Change {
+        ChangesetLine {
             table: if curve { "channel" } else { "track_block" }.into(),
             kind: change.kind,
             refs: json!({ "track_id": curves_uid(uid) }),
@@ -407,6 +388,6 @@ impl Moved {
 
 /// Returns the uid of the curve track for that of the skeleton track, in hexadecimal.
 fn curves_uid(skeleton: &str) -> String {
-    let digest = Sha256::digest(format!("{NONMANUALS} {skeleton}").as_bytes());
-    hex(&digest[..16]).to_uppercase()
+    let digest = Sha256::digest(format!("{NONMANUALS_TRACK_NAME} {skeleton}").as_bytes());
+    to_hex_text(&digest[..16]).to_uppercase()
 }

@@ -1,22 +1,22 @@
 use std::path::PathBuf;
 
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use rusqlite::types::Value;
 
 use super::*;
 use crate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, ImportOptions, Moment, SearchOptions,
-    SignChange, unheard, unpack_starter,
+    AnnotateOptions, AnnotationAction, AnnotationChange, ImportOptions, SearchOptions, SignChange, TableMoment,
+    ignore_progress_step, unpack_starter,
 };
 
 /// Returns a new corpus in `folder` with the content of `files`.
 fn imported(folder: &tempfile::TempDir, files: &[PathBuf]) -> Corpus {
-    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("a.chereme"), "A").expect("created");
     corpus
-        .import(
+        .import_paths(
             files,
             &ImportOptions::default(),
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("imported");
     corpus
@@ -27,20 +27,17 @@ fn corpus() -> (tempfile::TempDir, Corpus) {
     let folder = tempfile::tempdir().expect("a folder");
     let files = unpack_starter(&folder.path().join("files")).expect("unpacked");
     let wanted = ["escargot", "bol", "lexicon"];
-    let named = |path: &PathBuf| {
-        path.file_stem()
-            .is_some_and(|it| wanted.iter().any(|w| it == *w))
-    };
+    let named = |path: &PathBuf| path.file_stem().is_some_and(|it| wanted.iter().any(|w| it == *w));
     let files: Vec<PathBuf> = files.into_iter().filter(named).collect();
     let mut corpus = imported(&folder, &files);
     corpus
-        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .recombine_recipe("ESCARGOT | configure right U", "LIMACE")
         .expect("generated");
     (folder, corpus)
 }
 
-fn delete(corpus: &mut Corpus, what: &str, dependents: Dependents) -> Result<Deleted> {
-    let what: Vec<Address> = what
+fn delete(corpus: &mut Corpus, what: &str, dependents: DependentsPolicy) -> CorpusResult<DeletionReport> {
+    let what: Vec<CorpusAddress> = what
         .split_whitespace()
         .map(|it| it.parse().expect("an address"))
         .collect();
@@ -48,12 +45,12 @@ fn delete(corpus: &mut Corpus, what: &str, dependents: Dependents) -> Result<Del
         dependents,
         dry_run: false,
     };
-    corpus.delete(&what, options, &mut Progress::new(&mut unheard))
+    corpus.delete_objects(&what, options, &mut ProgressReceiver::new(&mut ignore_progress_step))
 }
 
 /// Every row of every table, except the history and the search index.
 fn state(corpus: &Corpus) -> Vec<(String, Vec<Value>)> {
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     let tables = "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'search_%'
                   AND name NOT IN ('operation', 'changeset', 'search_file') ORDER BY name";
     let mut tables = connection.prepare(tables).expect("a schema");
@@ -85,7 +82,7 @@ fn same(corpus: &Corpus, before: &[(String, Vec<Value>)], what: &str) {
 
 fn found(corpus: &mut Corpus, query: &str) -> usize {
     corpus
-        .search(query, &SearchOptions::default())
+        .search_tokens(query, &SearchOptions::default())
         .expect("an answer")
         .total
 }
@@ -94,14 +91,14 @@ fn blocks(corpus: &Corpus) -> i64 {
     let sql = "SELECT count(*) FROM block";
     corpus
         .store
-        .read()
+        .read_connection()
         .query_row(sql, [], |row| row.get(0))
         .expect("a number")
 }
 
 fn faultless(corpus: &mut Corpus) {
-    let checked = corpus.check(false, &mut Progress::new(&mut unheard));
-    assert_eq!(checked.expect("checked").findings().next(), None);
+    let checked = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut ignore_progress_step));
+    assert_eq!(checked.expect("checked").all_findings().next(), None);
 }
 
 #[test]
@@ -109,7 +106,7 @@ fn a_recording_is_deleted_with_its_rows_and_undo_restores_them_all() {
     let (_folder, mut corpus) = corpus();
     let (before, stored) = (state(&corpus), blocks(&corpus));
     assert_eq!(found(&mut corpus, "gloss=BOL"), 1);
-    let done = delete(&mut corpus, "recording:bol", Dependents::Refuse).expect("deleted");
+    let done = delete(&mut corpus, "recording:bol", DependentsPolicy::Refuse).expect("deleted");
     assert_eq!(done.recordings.len(), 1);
     let own = done.recordings[0].belongings;
     assert!(
@@ -119,10 +116,10 @@ fn a_recording_is_deleted_with_its_rows_and_undo_restores_them_all() {
     assert_eq!(found(&mut corpus, "gloss=BOL"), 0);
     assert!(
         corpus
-            .movement(&"recording:bol".parse().expect("an address"))
+            .movement_at_address(&"recording:bol".parse().expect("an address"))
             .is_err()
     );
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     for (table, condition) in [
         ("tier", "recording_id NOT IN (SELECT id FROM recording)"),
         ("annotation", "tier_id NOT IN (SELECT id FROM tier)"),
@@ -130,24 +127,22 @@ fn a_recording_is_deleted_with_its_rows_and_undo_restores_them_all() {
         ("token_value", "token_id NOT IN (SELECT id FROM token)"),
     ] {
         let sql = format!("SELECT count(*) FROM {table} WHERE {condition}");
-        let left: i64 = connection
-            .query_row(&sql, [], |row| row.get(0))
-            .expect("a number");
+        let left: i64 = connection.query_row(&sql, [], |row| row.get(0)).expect("a number");
         assert_eq!(left, 0, "{table}");
     }
     assert_eq!(blocks(&corpus), stored, "undo needs the blocks");
     faultless(&mut corpus);
     let after = state(&corpus);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     same(&corpus, &before, "undone");
     assert_eq!(found(&mut corpus, "gloss=BOL"), 1);
     assert!(
         corpus
-            .movement(&"recording:bol".parse().expect("an address"))
+            .movement_at_address(&"recording:bol".parse().expect("an address"))
             .is_ok()
     );
     faultless(&mut corpus);
-    corpus.redo().expect("done again");
+    corpus.redo_operation().expect("done again");
     same(&corpus, &after, "done again");
 }
 
@@ -155,46 +150,39 @@ fn a_recording_is_deleted_with_its_rows_and_undo_restores_them_all() {
 fn a_source_is_deleted_only_if_the_fate_of_its_generated_signs_is_given() {
     let (_folder, mut corpus) = corpus();
     let before = state(&corpus);
-    let limace: Address = "LIMACE".parse().expect("an address");
-    let movement = |corpus: &Corpus| corpus.movement(&limace).map(|it| it.clip);
+    let limace: CorpusAddress = "LIMACE".parse().expect("an address");
+    let movement = |corpus: &Corpus| corpus.movement_at_address(&limace).map(|it| it.clip);
     let own = movement(&corpus).expect("it moves");
-    let refused = delete(&mut corpus, "recording:escargot", Dependents::Refuse);
+    let refused = delete(&mut corpus, "recording:escargot", DependentsPolicy::Refuse);
     let refused = refused.expect_err("LIMACE depends on it");
-    assert!(
-        refused.to_string().ends_with("from escargot: LIMACE"),
-        "{refused}"
-    );
+    assert!(refused.to_string().ends_with("from escargot: LIMACE"), "{refused}");
     same(&corpus, &before, "refused");
-    let seen = corpus.delete(
+    let seen = corpus.delete_objects(
         &["recording:escargot".parse().expect("an address")],
         DeleteOptions {
             dry_run: true,
             ..DeleteOptions::default()
         },
-        &mut Progress::new(&mut unheard),
+        &mut ProgressReceiver::new(&mut ignore_progress_step),
     );
     let seen = seen.expect("a report");
     assert!(seen.dry_run && seen.dependents.len() == 1, "{seen:?}");
     same(&corpus, &before, "tried");
 
-    let kept = delete(&mut corpus, "recording:escargot", Dependents::Keep).expect("deleted");
+    let kept = delete(&mut corpus, "recording:escargot", DependentsPolicy::Keep).expect("deleted");
     assert_eq!((kept.recordings.len(), kept.dependents.len()), (1, 1));
-    assert_eq!(
-        movement(&corpus).expect("it moves"),
-        own,
-        "it keeps its movement"
-    );
+    assert_eq!(movement(&corpus).expect("it moves"), own, "it keeps its movement");
     assert_eq!(found(&mut corpus, "gloss=LIMACE origin=made"), 1);
     faultless(&mut corpus);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     same(&corpus, &before, "undone");
 
-    let both = delete(&mut corpus, "recording:escargot", Dependents::Delete).expect("deleted");
+    let both = delete(&mut corpus, "recording:escargot", DependentsPolicy::Delete).expect("deleted");
     let names: Vec<&str> = both.recordings.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["escargot", "LIMACE"]);
     assert!(movement(&corpus).is_err());
     faultless(&mut corpus);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     same(&corpus, &before, "undone");
 }
 
@@ -202,13 +190,13 @@ fn a_source_is_deleted_only_if_the_fate_of_its_generated_signs_is_given() {
 fn a_sign_is_deleted_with_its_entry_and_its_generated_recording() {
     let (_folder, mut corpus) = corpus();
     let before = state(&corpus);
-    let done = delete(&mut corpus, "sign:LIMACE", Dependents::Refuse).expect("deleted");
+    let done = delete(&mut corpus, "sign:LIMACE", DependentsPolicy::Refuse).expect("deleted");
     assert_eq!(done.signs, ["LIMACE"]);
     let names: Vec<&str> = done.recordings.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["LIMACE"]);
     assert_eq!(found(&mut corpus, "gloss=LIMACE"), 0);
     faultless(&mut corpus);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     same(&corpus, &before, "undone");
 }
 
@@ -216,62 +204,57 @@ fn a_sign_is_deleted_with_its_entry_and_its_generated_recording() {
 fn an_annotated_sign_is_deleted_with_its_annotations_only_on_request() {
     let (_folder, mut corpus) = corpus();
     let before = state(&corpus);
-    let refused = delete(&mut corpus, "sign:BOL", Dependents::Keep).expect_err("it is annotated");
+    let refused = delete(&mut corpus, "sign:BOL", DependentsPolicy::Keep).expect_err("it is annotated");
     assert!(
-        refused
-            .to_string()
-            .contains("BOL has 1 token in recordings that stay"),
+        refused.to_string().contains("BOL has 1 token in recordings that stay"),
         "{refused}"
     );
-    let done = delete(&mut corpus, "sign:BOL", Dependents::Delete).expect("deleted");
-    assert!(
-        done.recordings.is_empty() && done.annotations > 0,
-        "{done:?}"
-    );
+    let done = delete(&mut corpus, "sign:BOL", DependentsPolicy::Delete).expect("deleted");
+    assert!(done.recordings.is_empty() && done.annotations > 0, "{done:?}");
     assert!(
         corpus
-            .movement(&"recording:bol".parse().expect("an address"))
+            .movement_at_address(&"recording:bol".parse().expect("an address"))
             .is_ok()
     );
     assert_eq!(found(&mut corpus, "gloss=BOL"), 0);
     faultless(&mut corpus);
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
     same(&corpus, &before, "undone");
 }
 
 #[test]
 fn deleting_a_citation_form_promotes_another_token_and_keeps_a_described_sign() {
     let (_folder, mut corpus) = corpus();
-    let bol = Name::Text("BOL".into());
+    let bol = RowName::Text("BOL".into());
     let note = SignChange {
         notes: Some(Some("rare".into())),
         ..SignChange::default()
     };
     corpus.change_sign(&bol, &note).expect("changed");
-    let copy = corpus.recombine("BOL", "ESCARGOT").expect("generated");
+    let copy = corpus.recombine_recipe("BOL", "ESCARGOT").expect("generated");
     let add = AnnotationChange::from(AnnotationAction::Set {
         annotation: crate::AnnotationName::Number(
-            signs::token(corpus.store.read(), copy.token.expect("a token"))
+            signs::load_token_row(corpus.store.read_connection(), copy.token.expect("a token"))
                 .expect("read")
                 .annotation_id
                 .expect("an annotation"),
         ),
         start: None,
-        end: Some(Moment::Time(Instant::from_micros(400_000))),
+        end: Some(TableMoment::Time(RecordingInstant::from_micros(400_000))),
         value: Some("BOL".into()),
     });
     corpus
-        .annotate(
+        .annotate_corpus(
             &[add],
             &AnnotateOptions::default(),
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("changed");
-    delete(&mut corpus, "recording:bol", Dependents::Keep).expect("deleted");
-    let cited = address::token(corpus.store.read(), &Address::Gloss("BOL".into()));
+    delete(&mut corpus, "recording:bol", DependentsPolicy::Keep).expect("deleted");
+    let cited = address::find_addressed_token(corpus.store.read_connection(), &CorpusAddress::Gloss("BOL".into()));
     assert_eq!(cited.expect("a token").recording_id, copy.recording);
     faultless(&mut corpus);
-    delete(&mut corpus, "recording:ESCARGOT", Dependents::Refuse).expect("deleted");
+    delete(&mut corpus, "recording:ESCARGOT", DependentsPolicy::Refuse).expect("deleted");
     assert!(
         corpus
             .sign_details(&bol)
@@ -293,9 +276,9 @@ fn only_recordings_and_signs_are_deleted_here() {
         ("recording:nobody", "list CORPUS recordings"),
         ("sign:9999", "list CORPUS signs"),
     ] {
-        let refused = delete(&mut corpus, what, Dependents::Delete).expect_err(what);
-        let said = refused.remedy().unwrap_or_default();
-        assert!(said.text().contains(remedy), "{what}: {said}");
+        let refused = delete(&mut corpus, what, DependentsPolicy::Delete).expect_err(what);
+        let said = refused.error_remedy().unwrap_or_default();
+        assert!(said.remedy_text().contains(remedy), "{what}: {said}");
     }
 }
 
@@ -304,7 +287,7 @@ fn a_bare_name_deletes_a_recording_but_no_sign() {
     let (_folder, mut corpus) = corpus();
     corpus
         .change_recording(
-            &Name::Text("bol".into()),
+            &RowName::Text("bol".into()),
             &crate::RecordingChange {
                 name: Some("take one".into()),
                 ..Default::default()
@@ -314,19 +297,17 @@ fn a_bare_name_deletes_a_recording_but_no_sign() {
     let mut delete = |name: &str| {
         let what = [name.parse().expect("an address")];
         let options = DeleteOptions {
-            dependents: Dependents::Delete,
+            dependents: DependentsPolicy::Delete,
             dry_run: true,
         };
-        corpus.delete(&what, options, &mut Progress::new(&mut unheard))
+        corpus.delete_objects(&what, options, &mut ProgressReceiver::new(&mut ignore_progress_step))
     };
     let deleted = delete("\"take one\"").expect("a recording");
     assert_eq!(
         (deleted.recordings.len(), &*deleted.signs),
         (1, &["BOL".to_owned()][..])
     );
-    let refused = delete("BOL")
-        .expect_err("a sign with all its tokens")
-        .to_string();
+    let refused = delete("BOL").expect_err("a sign with all its tokens").to_string();
     assert!(refused.contains("with all its tokens"), "{refused}");
 }
 
@@ -364,9 +345,9 @@ fn tracks_of_every_kind_are_listed_counted_exported_deleted_and_restored() {
     let (folder, mut corpus) = kinds();
     let all = ["curves", "markers", "media", "skeleton"];
     let counted = |corpus: &Corpus| {
-        let info = corpus.info().expect("information");
+        let info = corpus.load_corpus_info().expect("information");
         let counts = all.map(|kind| info.tracks.get(kind).copied().unwrap_or_default());
-        let listed = corpus.list(crate::ListKind::Tracks, &crate::ListFilter::default());
+        let listed = corpus.list_rows(crate::ListKind::Tracks, &crate::ListFilter::default());
         assert_eq!(listed.expect("a list").total, counts.iter().sum::<u64>());
         counts
     };
@@ -375,31 +356,31 @@ fn tracks_of_every_kind_are_listed_counted_exported_deleted_and_restored() {
     let out = folder.path().join("all");
     let options = crate::ExportOptions::default();
     corpus
-        .export(
+        .export_corpus(
             &crate::ExportWhat::All,
             &out,
             &options,
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("exported");
     for name in ["body.bvh", "points.markers.csv", "face.face.csv"] {
         assert!(out.join("recordings").join(name).is_file(), "{name}");
     }
     let before = state(&corpus);
-    let rows = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    let rows = crate::db::stored_recordings::load_recording_rows(corpus.store.read_connection()).expect("recordings");
     let names: Vec<i64> = rows.iter().map(|it| it.id).collect();
     for id in &names {
-        let done = delete(&mut corpus, &format!("recording:{id}"), Dependents::Refuse);
+        let done = delete(&mut corpus, &format!("recording:{id}"), DependentsPolicy::Refuse);
         assert_eq!(done.expect("deleted").recordings[0].belongings.tracks, 1);
         faultless(&mut corpus);
     }
     assert_eq!(counted(&corpus), [0; 4]);
     for _ in &names {
-        corpus.undo().expect("undone");
+        corpus.undo_operation().expect("undone");
     }
     same(&corpus, &before, "restored");
     faultless(&mut corpus);
-    corpus.undo().expect("the import undone");
+    corpus.undo_operation().expect("the import undone");
     assert_eq!(counted(&corpus), [0; 4]);
     faultless(&mut corpus);
 }

@@ -13,18 +13,8 @@ fn an_avatar_blinks_looks_and_speaks_by_the_names_of_vrm() {
         )
     };
     for (at, (tier, act, shown, note)) in [
-        (
-            "facialexpr_tier",
-            "<eye_lids movement=\"CB\"/>",
-            "blink",
-            "",
-        ),
-        (
-            "eyegaze_tier",
-            "<eye_gaze direction=\"LE\"/>",
-            "gaze_left_degrees",
-            "",
-        ),
+        ("facialexpr_tier", "<eye_lids movement=\"CB\"/>", "blink", ""),
+        ("eyegaze_tier", "<eye_gaze direction=\"LE\"/>", "gaze_left_degrees", ""),
         ("mouthing_tier", "<mouth_picture picture=\"a\"/>", "aa", ""),
         (
             "facialexpr_tier",
@@ -39,27 +29,22 @@ fn an_avatar_blinks_looks_and_speaks_by_the_names_of_vrm() {
         let [sigml, to] = ["sigml", "vrma"].map(|it| place.path(&format!("{at}.{it}")));
         std::fs::write(&sigml, face(tier, act)).expect("written");
         let mut corpus = place.corpus(&[]);
-        let staging = crate::Staging {
+        let staging = crate::NotationStaging {
             language: Some("quiet"),
-            ..crate::Staging::default()
+            ..crate::NotationStaging::default()
         };
         let sigml = sigml.display().to_string();
-        let made = corpus.animate(&[&sigml], &staging, Some("X"));
+        let made = corpus.animate_notation(&[&sigml], &staging, Some("X"));
         made.expect("a sign");
         let report = export(&corpus, &address("X"), &to).expect("a VRMA");
-        assert_eq!(
-            report.notes.is_empty(),
-            note.is_empty(),
-            "{:?}",
-            report.notes
-        );
+        assert_eq!(report.notes.is_empty(), note.is_empty(), "{:?}", report.notes);
         assert!(report.notes.concat().ends_with(note), "{:?}", report.notes);
         let bytes = std::fs::read(&to).expect("read");
-        let (scene, _) = chereme_formats::gltf::read(&bytes, &|_| None).expect("a VRMA");
+        let (scene, _) = chereme_formats::gltf::read_gltf(&bytes, &|_| None).expect("a VRMA");
         assert_eq!(scene.take.as_deref(), Some("X"), "the gloss");
         let curves = scene.morphs.expect("a face");
-        let curve = curves.curves().iter().find(|it| it.name == shown);
-        let values = curve.expect("the expression").values.values().flatten();
+        let curve = curves.track_curves().iter().find(|it| it.name == shown);
+        let values = curve.expect("the expression").values.column_values().flatten();
         assert!(values.fold(0.0, f64::max) > 0.2, "{shown}");
         // Curves beside a skeleton come back as a table, even if they are no face that the program knows.
         let again = place.corpus(std::slice::from_ref(&to));
@@ -80,7 +65,7 @@ fn an_animation_has_the_name_of_the_sign_or_of_the_recording() {
             let to = place.path(&format!("{}.{ending}", what.replace(':', "_")));
             export(&corpus, &address(what), &to).expect("written");
             let bytes = std::fs::read(&to).expect("read");
-            let (scene, _) = chereme_formats::gltf::read(&bytes, &|_| None).expect("a scene");
+            let (scene, _) = chereme_formats::gltf::read_gltf(&bytes, &|_| None).expect("a scene");
             assert_eq!(scene.take.as_deref(), Some(name), "{what} {ending}");
         }
     }

@@ -3,32 +3,27 @@
 //! The columns of components have the names of fields in queries. Several values of one field are written in one cell
 //! as in lexicons (`chin > chest`, `S + W`), so that importing the table gives the same codings.
 
-use chereme_sign::Phase;
-use chereme_sign::tier::Hands;
+use chereme_sign::SignPhase;
+use chereme_sign::tier::AnnotatedHands;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
 use ::csv::{Writer, WriterBuilder};
 use rusqlite::Connection;
 
-use crate::db::attributes;
-use crate::db::columns::ValueState;
 use crate::db::notations;
-use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::db::tiers;
-use crate::error::{Error, Result};
+use crate::db::stored_attributes;
+use crate::db::stored_columns::ValueState;
+use crate::db::stored_recordings;
+use crate::db::stored_tiers;
+use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
-use crate::progress::{Progress, Step, Unit};
-use crate::words::counted;
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::words::format_noun_count;
 
 /// A column of values: component, feature, hand, and the phase if it has a column of its own.
-type Column = (
-    &'static str,
-    Option<String>,
-    Option<&'static str>,
-    Option<Phase>,
-);
+type TokenTableColumn = (&'static str, Option<String>, Option<&'static str>, Option<SignPhase>);
 
 /// How a table is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +42,7 @@ impl TableForm {
     }
 }
 
-const FIXED: [&str; 9] = [
+const FIXED_TOKEN_COLUMNS: [&str; 9] = [
     "token",
     "gloss",
     "recording",
@@ -60,43 +55,40 @@ const FIXED: [&str; 9] = [
 ];
 
 /// Writes one row for each token, with all its components and its own attributes.
-pub(super) fn tokens(
+pub(super) fn write_token_csv(
     connection: &Connection,
     tokens: &[i64],
     form: TableForm,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    let signers = signers(connection)?;
-    let mut columns: BTreeSet<Column> = BTreeSet::new();
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
+    let signers = signers_by_recording(connection)?;
+    let mut columns: BTreeSet<TokenTableColumn> = BTreeSet::new();
     let mut languages: BTreeMap<String, usize> = BTreeMap::new();
     let mut unclear = 0;
     let mut signs: BTreeSet<i64> = BTreeSet::new();
     let mut notated = false;
     let mut named: Vec<String> = Vec::new();
-    for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
+    for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
         for values in signs::values_of(connection, ids)?.values() {
-            columns.extend(cells(values, &mut unclear).into_keys());
+            columns.extend(token_cells_by_column(values, &mut unclear).into_keys());
         }
-        notated |= notations::any(connection, ids)?;
-        for row in attributes::of_tokens(connection, ids)?
-            .into_values()
-            .flatten()
-        {
+        notated |= notations::has_any_notation(connection, ids)?;
+        for row in stored_attributes::of_tokens(connection, ids)?.into_values().flatten() {
             if !named.contains(&row.name) {
                 named.push(row.name);
             }
         }
         signs.extend(
-            signs::tokens(connection, ids)?
+            signs::load_token_rows(connection, ids)?
                 .values()
                 .map(|token| token.sign_id),
         );
-        report(progress, part * signs::AT_ONCE, tokens.len() * 2)?;
+        report_csv_progress(progress, part * signs::MAX_ROWS_PER_QUERY, tokens.len() * 2)?;
     }
     for sign in &signs {
-        for (language, texts) in texts(connection, *sign)? {
+        for (language, texts) in sign_translations_by_language(connection, *sign)? {
             let most = languages.entry(language).or_default();
             *most = texts.len().max(*most);
         }
@@ -104,146 +96,119 @@ pub(super) fn tokens(
     if unclear > 0 {
         notes.push(format!(
             "{} with \">\" or \"+\" in it would be read back as several",
-            counted(unclear as u64, "values")
+            format_noun_count(unclear as u64, "values")
         ));
     }
-    let mut table = Table::new(form, out);
-    let titles = FIXED.iter().map(|title| (*title).to_owned());
+    let mut table = CsvTableWriter::new(form, out);
+    let titles = FIXED_TOKEN_COLUMNS.iter().map(|title| (*title).to_owned());
     let translations = languages
         .iter()
-        .flat_map(|(language, most)| std::iter::repeat_n(translation(language), *most));
+        .flat_map(|(language, most)| std::iter::repeat_n(translation_column_title(language), *most));
     let notation = notated.then(|| "hamnosys".to_owned());
-    let titles = titles.chain(translations).chain(notation);
-    let titles = titles.chain(columns.iter().map(title));
+    let sign_titles = titles.chain(translations).chain(notation);
+    let titles = sign_titles.chain(columns.iter().map(token_column_title));
     let titles: Vec<String> = titles.collect();
     named.retain(|name| !titles.contains(name));
     let titles = titles.into_iter().chain(named.iter().cloned());
     table.write_record(titles)?;
-    for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
-        let rows = signs::tokens(connection, ids)?;
+    for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
+        let rows = signs::load_token_rows(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
         let notations = notation::of_tokens(connection, ids)?;
-        let own_attributes = attributes::of_tokens(connection, ids)?;
+        let own_attributes = stored_attributes::of_tokens(connection, ids)?;
         for id in ids {
             let token = rows
                 .get(id)
-                .map_or_else(|| signs::token(connection, *id), |row| Ok(row.clone()))?;
+                .map_or_else(|| signs::load_token_row(connection, *id), |row| Ok(row.clone()))?;
             let mut row = fixed(&token, &signers);
-            let mut texts = texts(connection, token.sign_id)?;
+            let mut texts = sign_translations_by_language(connection, token.sign_id)?;
             for (language, most) in &languages {
-                let mut own = texts.remove(language).unwrap_or_default();
-                own.resize(*most, String::new());
-                row.append(&mut own);
+                let mut language_texts = texts.remove(language).unwrap_or_default();
+                language_texts.resize(*most, String::new());
+                row.append(&mut language_texts);
             }
             if notated {
-                let own = notations.get(id);
-                row.push(own.map_or_else(String::new, |own| own.document.hamnosys().text));
+                let sign_notation = notations.get(id);
+                row.push(sign_notation.map_or_else(String::new, |own| own.document.hamnosys_text().text));
             }
             let mut cells = values
                 .get(id)
-                .map(|values| cells(values, &mut 0))
+                .map(|values| token_cells_by_column(values, &mut 0))
                 .unwrap_or_default();
-            row.extend(
-                columns
-                    .iter()
-                    .map(|column| cells.remove(column).unwrap_or_default()),
-            );
-            let own = own_attributes.get(id).map_or(&[][..], Vec::as_slice);
+            row.extend(columns.iter().map(|column| cells.remove(column).unwrap_or_default()));
+            let token_attributes = own_attributes.get(id).map_or(&[][..], Vec::as_slice);
             row.extend(named.iter().map(|name| {
-                let found = own.iter().find(|it| it.name == *name);
-                found.map_or_else(String::new, |it| it.text.clone())
+                let named_attribute = token_attributes.iter().find(|attribute| attribute.name == *name);
+                named_attribute.map_or_else(String::new, |attribute| attribute.text.clone())
             }));
             table.write_record(row)?;
         }
-        report(
+        report_csv_progress(
             progress,
-            tokens.len() + part * signs::AT_ONCE,
+            tokens.len() + part * signs::MAX_ROWS_PER_QUERY,
             tokens.len() * 2,
         )?;
     }
-    table.finish()
+    table.finish_csv_table()
 }
 
 /// Writes the annotations of a tier as a table of changes; applied unchanged, it leaves the tier as it is.
-pub(super) fn annotations(
+pub(super) fn write_annotation_csv(
     connection: &Connection,
     tier: i64,
     form: TableForm,
     out: &mut dyn Write,
-) -> Result<()> {
-    let tier = tiers::tier(connection, tier)?;
-    let recording = recordings::recording(connection, tier.recording_id)?;
-    let mut table = Table::new(form, out);
-    let titles = [
-        "recording",
-        "tier",
-        "start",
-        "end",
-        "value",
-        "action",
-        "id",
-        "parent",
-    ];
+) -> CorpusResult<()> {
+    let tier = stored_tiers::load_tier_row(connection, tier)?;
+    let recording = stored_recordings::load_recording_row(connection, tier.recording_id)?;
+    let mut table = CsvTableWriter::new(form, out);
+    let titles = ["recording", "tier", "start", "end", "value", "action", "id", "parent"];
     table.write_record(titles)?;
-    let symbolic = tier.stereotype.is_some_and(|it| !it.is_alignable());
-    for row in tiers::annotations(connection, tier.id)? {
+    let symbolic = tier.stereotype.is_some_and(|stereotype| !stereotype.is_alignable());
+    for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
         let time = |micros| {
             if symbolic {
                 String::new()
             } else {
-                seconds(Some(micros))
+                micros_as_seconds_text(Some(micros))
             }
         };
         let value = row.state.missing_text().unwrap_or(&row.value);
-        let parent = row
-            .parent_id
-            .map(|id| format!("annotation:{id}"))
-            .unwrap_or_default();
+        let parent = row.parent_id.map(|id| format!("annotation:{id}")).unwrap_or_default();
         let id = format!("annotation:{}", row.id);
         let (start, end) = (time(row.start_us), time(row.end_us));
-        table.write_record([
-            &recording.name,
-            &tier.name,
-            &start,
-            &end,
-            value,
-            "set",
-            &id,
-            &parent,
-        ])?;
+        table.write_record([&recording.name, &tier.name, &start, &end, value, "set", &id, &parent])?;
     }
-    table.finish()
+    table.finish_csv_table()
 }
 
-struct Table<'o> {
+struct CsvTableWriter<'o> {
     writer: Writer<&'o mut dyn Write>,
     is_spreadsheet_safe: bool,
 }
 
-impl<'o> Table<'o> {
+impl<'o> CsvTableWriter<'o> {
     fn new(form: TableForm, out: &'o mut dyn Write) -> Self {
         Self {
-            writer: WriterBuilder::new()
-                .delimiter(form.delimiter)
-                .from_writer(out),
+            writer: WriterBuilder::new().delimiter(form.delimiter).from_writer(out),
             is_spreadsheet_safe: form.is_spreadsheet_safe,
         }
     }
 
-    fn write_record<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> Result<()> {
+    fn write_record<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> CorpusResult<()> {
         for cell in cells {
             let cell = cell.as_ref();
             let written = match self.is_spreadsheet_safe && is_formula(cell) {
                 true => self.writer.write_field(format!("'{cell}")),
                 false => self.writer.write_field(cell),
             };
-            written.map_err(fault)?;
+            written.map_err(csv_write_error)?;
         }
-        self.writer.write_record(None::<&[u8]>).map_err(fault)
+        self.writer.write_record(None::<&[u8]>).map_err(csv_write_error)
     }
 
-    fn finish(mut self) -> Result<()> {
-        self.writer.flush().map_err(|error| fault(error.into()))
+    fn finish_csv_table(mut self) -> CorpusResult<()> {
+        self.writer.flush().map_err(|error| csv_write_error(error.into()))
     }
 }
 
@@ -252,33 +217,33 @@ fn is_formula(cell: &str) -> bool {
     cell.starts_with(['=', '+', '-', '@', '\t', '\r']) && cell.parse::<f64>().is_err()
 }
 
-fn fault(error: ::csv::Error) -> Error {
-    Error::wrong(format!("the table cannot be written: {error}"))
+fn csv_write_error(error: ::csv::Error) -> CorpusError {
+    CorpusError::from_wrong_message(format!("the table cannot be written: {error}"))
 }
 
-fn report(progress: &mut Progress<'_>, done: usize, total: usize) -> Result<()> {
-    progress.report(Step {
+fn report_csv_progress(progress: &mut ProgressReceiver<'_>, done: usize, total: usize) -> CorpusResult<()> {
+    progress.report_step(ProgressStep {
         task: "tokens",
         done: done as u64,
         total: Some(total as u64),
-        unit: Unit::Items,
+        unit: ProgressUnit::Items,
     })
 }
 
-fn signers(connection: &Connection) -> Result<BTreeMap<i64, String>> {
-    let all = recordings::recordings(connection)?.into_iter();
+fn signers_by_recording(connection: &Connection) -> CorpusResult<BTreeMap<i64, String>> {
+    let all = stored_recordings::load_recording_rows(connection)?.into_iter();
     Ok(all.filter_map(|row| Some((row.id, row.signer?))).collect())
 }
 
-fn texts(connection: &Connection, sign: i64) -> Result<BTreeMap<String, Vec<String>>> {
+fn sign_translations_by_language(connection: &Connection, sign: i64) -> CorpusResult<BTreeMap<String, Vec<String>>> {
     let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for (language, text) in signs::texts(connection, sign)? {
+    for (language, text) in signs::list_sign_translations(connection, sign)? {
         texts.entry(language).or_default().push(text);
     }
     Ok(texts)
 }
 
-fn translation(language: &str) -> String {
+fn translation_column_title(language: &str) -> String {
     match language {
         "" => "translation".to_owned(),
         language => format!("translation.{language}"),
@@ -291,17 +256,17 @@ fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
         token.id.to_string(),
         token.gloss.clone(),
         token.recording.clone().unwrap_or_default(),
-        seconds(token.start_us),
-        seconds(token.end_us),
-        token.origin.name().to_owned(),
+        micros_as_seconds_text(token.start_us),
+        micros_as_seconds_text(token.end_us),
+        token.origin.record_origin_name().to_owned(),
         signer.cloned().unwrap_or_default(),
-        token.hand.map_or("", Hands::name).to_owned(),
+        token.hand.map_or("", AnnotatedHands::annotated_hands_name).to_owned(),
         if token.citation { "yes" } else { "no" }.to_owned(),
     ]
 }
 
 /// Returns microseconds as seconds with six decimals.
-fn seconds(micros: Option<i64>) -> String {
+fn micros_as_seconds_text(micros: Option<i64>) -> String {
     let Some(micros) = micros else {
         return String::new();
     };
@@ -310,12 +275,9 @@ fn seconds(micros: Option<i64>) -> String {
     format!("{sign}{}.{:06}", micros / 1_000_000, micros % 1_000_000)
 }
 
-fn title((component, feature, hand, phase): &Column) -> String {
+fn token_column_title((component, feature, hand, phase): &TokenTableColumn) -> String {
     let phase = phase.map_or_else(String::new, |phase| format!("{phase}."));
-    let hand = hand
-        .as_ref()
-        .map(|hand| format!("{hand}."))
-        .unwrap_or_default();
+    let hand = hand.as_ref().map(|hand| format!("{hand}.")).unwrap_or_default();
     let feature = feature
         .as_ref()
         .map(|feature| format!(".{feature}"))
@@ -325,16 +287,16 @@ fn title((component, feature, hand, phase): &Column) -> String {
 }
 
 /// Returns the cells of a token; counts values in `unclear` that could not be read back as a single value.
-fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, String> {
-    let mut fields: BTreeMap<Column, BTreeMap<Option<Phase>, Vec<&str>>> = BTreeMap::new();
+fn token_cells_by_column(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<TokenTableColumn, String> {
+    let mut fields: BTreeMap<TokenTableColumn, BTreeMap<Option<SignPhase>, Vec<&str>>> = BTreeMap::new();
     for row in values {
         let field = (
-            row.component.name(),
+            row.component.component_name(),
             row.feature.clone(),
-            row.hand.map(Hands::name),
+            row.hand.map(AnnotatedHands::annotated_hands_name),
             None,
         );
-        let text = text(row);
+        let text = token_value_text(row);
         *unclear += usize::from(text.contains(['>', '+']));
         fields
             .entry(field)
@@ -353,13 +315,13 @@ fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, Stri
                 cells.insert((component, feature, hand, phase), texts.join(" + "));
             }
         } else {
-            cells.insert(field, compound(&phases));
+            cells.insert(field, join_phase_values(&phases));
         }
     }
     cells
 }
 
-fn text(row: &TokenValueRow) -> &str {
+fn token_value_text(row: &TokenValueRow) -> &str {
     match row.state {
         ValueState::Value => row.value.as_deref().unwrap_or_default(),
         ValueState::NotApplicable => "n/a",
@@ -370,19 +332,19 @@ fn text(row: &TokenValueRow) -> &str {
 
 /// Returns simultaneous values separated by `+`, or successive ones by `>`, with an empty part for each phase without a
 /// value.
-pub(crate) fn compound(phases: &BTreeMap<Option<Phase>, Vec<&str>>) -> String {
+pub(crate) fn join_phase_values(phases: &BTreeMap<Option<SignPhase>, Vec<&str>>) -> String {
     if let Some(texts) = phases.get(&None) {
         return texts.join(" + ");
     }
-    let middle = |phase: &Option<Phase>| match phase {
-        Some(Phase::Middle(place)) => Some(*place),
+    let middle = |phase: &Option<SignPhase>| match phase {
+        Some(SignPhase::Middle(place)) => Some(*place),
         _ => None,
     };
     let last = phases.keys().filter_map(middle).max().unwrap_or(0);
-    let middles = (1..=last).map(Phase::Middle);
-    let order = std::iter::once(Phase::Initial)
+    let middles = (1..=last).map(SignPhase::Middle);
+    let order = std::iter::once(SignPhase::Initial)
         .chain(middles)
-        .chain([Phase::Final]);
+        .chain([SignPhase::Final]);
     let parts: Vec<String> = order
         .map(|place| {
             phases

@@ -3,17 +3,17 @@
 use std::io::Write;
 use std::ops::Range;
 
-use chereme_formats::gltf::vrma::{self, AvatarFace, Expression};
+use chereme_formats::gltf::vrma::{self, AvatarFace, ExpressionTrack};
 use chereme_formats::table::annotations;
 use chereme_formats::{TooFar, c3d, gltf, textgrid, trc};
-use chereme_motion::{Clip, Instant, Space, Span};
-use chereme_sign::Remedy;
+use chereme_motion::{Clip, MarkerSpace, RecordingInstant, TimeSpan};
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
-use crate::address::Stretch;
-use crate::db::recordings::RecordingRow;
-use crate::db::{tiers, tracks};
-use crate::error::{Error, Result};
+use crate::address::RecordingStretch;
+use crate::db::stored_recordings::RecordingRow;
+use crate::db::{stored_tiers, stored_tracks};
+use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::track::{self, TrackKind};
 
@@ -21,51 +21,53 @@ use crate::track::{self, TrackKind};
 ///
 /// # Errors
 /// Fails if the recording has no movement, or writing fails.
-pub(super) fn glb(
+pub(super) fn write_glb_stretch(
     connection: &Connection,
-    stretch: &Stretch,
+    stretch: &RecordingStretch,
     out: &mut dyn Write,
-) -> Result<usize> {
-    let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = track.frames_of(stretch);
-    let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
+) -> CorpusResult<usize> {
+    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    let frames = track.stretch_frames(stretch);
+    let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
     let span = on_the_clock(&track, &clip, &frames);
-    let about = about(connection, stretch, span)?;
-    let bytes = gltf::write(&clip, &about).map_err(|error| too_far(&error))?;
-    put(out, &bytes)?;
+    let about = describe_gltf_stretch(connection, stretch, span)?;
+    let bytes = gltf::write_glb(&clip, &about).map_err(|error| too_far(&error))?;
+    write_export_bytes(out, &bytes)?;
     Ok(about.notes.len())
 }
 
 /// Returns the names, the licence and the annotations of a stretch: a sign is named by its gloss, and its scene by the
 /// recording and the time.
-fn about(connection: &Connection, stretch: &Stretch, span: Span) -> Result<gltf::About> {
+fn describe_gltf_stretch(
+    connection: &Connection,
+    stretch: &RecordingStretch,
+    span: TimeSpan,
+) -> CorpusResult<gltf::GlbDescription> {
     let recording = &stretch.recording;
     let token = stretch.token.as_ref();
-    let gloss = token
-        .map(|token| &token.gloss)
-        .filter(|gloss| !gloss.is_empty());
-    Ok(gltf::About {
+    let gloss = token.map(|token| &token.gloss).filter(|gloss| !gloss.is_empty());
+    Ok(gltf::GlbDescription {
         name: gloss.unwrap_or(&recording.name).clone(),
-        source: token.map(|_| format!("{} {}", recording.name, span.start())),
+        source: token.map(|_| format!("{} {}", recording.name, span.span_start_instant())),
         licence: recording.licence.clone(),
-        notes: notes(connection, recording.id, span)?,
+        notes: gltf_notes_in_span(connection, recording.id, span)?,
     })
 }
 
 /// Returns the error for a place that does not fit into the file.
-fn too_far(error: &TooFar) -> Error {
-    Error::wrong(error.to_string()).advise(Remedy::command(
+fn too_far(error: &TooFar) -> CorpusError {
+    CorpusError::from_wrong_message(error.to_string()).with_advice(ErrorRemedy::command_remedy(
         "import it again with the right --unit, or write .bvh, which holds any number",
     ))
 }
 
 /// Returns the span of frames of a track on the clock of its recording.
-fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> Span {
-    let own = Span::between(
-        clip.rate().instant(frames.start),
-        clip.rate().instant(frames.end),
+fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> TimeSpan {
+    let clip_span = TimeSpan::span_between(
+        clip.clip_frame_rate().frame_start_instant(frames.start),
+        clip.clip_frame_rate().frame_start_instant(frames.end),
     );
-    own.shifted(track.row.offset_us)
+    clip_span.shifted_span(track.row.offset_us)
 }
 
 /// Writes the movement of a stretch as VRMA, for avatars. Its face gives the presets of VRM and the gaze; each
@@ -73,39 +75,39 @@ fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> Span
 ///
 /// # Errors
 /// Fails if the recording has no movement of a humanoid, or writing fails.
-pub(super) fn vrma(
+pub(super) fn write_vrma_stretch(
     connection: &Connection,
-    stretch: &Stretch,
+    stretch: &RecordingStretch,
     out: &mut dyn Write,
     notes_of_file: &mut Vec<String>,
-) -> Result<()> {
-    let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = track.frames_of(stretch);
+) -> CorpusResult<()> {
+    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    let frames = track.stretch_frames(stretch);
     if frames.is_empty() {
         let name = &stretch.recording.name;
         return Err(
-            Error::wrong(format!("the movement of {name:?} has no frames"))
-                .advise("write .bvh, which holds a skeleton that does not move")
-                .lacking(),
+            CorpusError::from_wrong_message(format!("the movement of {name:?} has no frames"))
+                .with_advice("write .bvh, which holds a skeleton that does not move")
+                .into_lacking_content(),
         );
     }
-    let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
-    let anatomy = track.anatomy(connection)?;
+    let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+    let anatomy = track.track_anatomy(connection)?;
     let span = on_the_clock(&track, &clip, &frames);
     let curves = crate::curves::of_track(connection, &track, frames)?;
-    let mut face = AvatarFace::of(&chereme_compose::faces(&curves));
-    let has = |face: &AvatarFace, name: &str| face.expressions.iter().any(|it| it.name == name);
+    let mut face = AvatarFace::avatar_face_from_faces(&chereme_compose::faces_from_curves(&curves));
+    let has = |face: &AvatarFace, name: &str| face.expressions.iter().any(|expression| expression.name == name);
     for curve in curves {
         if !has(&face, &curve.name) {
-            face.expressions.push(Expression {
+            face.expressions.push(ExpressionTrack {
                 name: curve.name,
                 weights: curve.values,
             });
         }
     }
-    let custom = face.expressions.iter().map(|it| it.name.as_str());
-    let custom: Vec<&str> = custom
-        .filter(|it| !vrma::is_preset(it) && !is_shown_by_presets(it))
+    let expression_names = face.expressions.iter().map(|expression| expression.name.as_str());
+    let custom: Vec<&str> = expression_names
+        .filter(|name| !vrma::is_preset(name) && !is_shown_by_presets(name))
         .collect();
     if !custom.is_empty() {
         notes_of_file.push(format!(
@@ -113,45 +115,39 @@ pub(super) fn vrma(
             custom.join(", ")
         ));
     }
-    let missing = vrma::missing(&anatomy);
+    let missing = vrma::missing_vrm_bones(&anatomy);
     if !missing.is_empty() {
         notes_of_file.push(format!(
             "the body lacks bones that VRM requires, so some programs refuse the file: {}",
             missing.join(", ")
         ));
     }
-    let about = about(connection, stretch, span)?;
-    let bytes = vrma::write(&clip, &anatomy, &face, &about).map_err(|error| match error {
-        vrma::WriteError::TooFar(error) => too_far(&error),
-        vrma::WriteError::NoAvatar(reason) => Error::wrong(reason)
-            .advise(Remedy::command(
+    let about = describe_gltf_stretch(connection, stretch, span)?;
+    let bytes = vrma::write_vrma(&clip, &anatomy, &face, &about).map_err(|error| match error {
+        vrma::VrmaWriteError::TooFar(error) => too_far(&error),
+        vrma::VrmaWriteError::NoAvatar(reason) => CorpusError::from_wrong_message(reason)
+            .with_advice(ErrorRemedy::command_remedy(
                 "say which joint is what with `chereme track`, or write .glb",
             ))
-            .lacking(),
+            .into_lacking_content(),
     })?;
-    put(out, &bytes)
+    write_export_bytes(out, &bytes)
 }
 
 /// Returns whether a curve of a face moves eyelids, eyes or lips, which presets of VRM and its gaze show.
 fn is_shown_by_presets(curve: &str) -> bool {
-    const PARTS: [&str; 3] = ["lids", "gaze", "mouthing"];
-    const NUMBERS: [&str; 5] = [
-        "eye_close",
-        "gaze",
-        "jaw_open",
-        "lips_part",
-        "mouth_stretch",
-    ];
+    const PRESET_FACE_PARTS: [&str; 3] = ["lids", "gaze", "mouthing"];
+    const PRESET_FACE_NUMBERS: [&str; 5] = ["eye_close", "gaze", "jaw_open", "lips_part", "mouth_stretch"];
     match curve.split_once('.') {
-        Some(("face", number)) => NUMBERS.iter().any(|it| number.starts_with(it)),
-        Some((part, _)) => PARTS.contains(&part),
+        Some(("face", number)) => PRESET_FACE_NUMBERS.iter().any(|prefix| number.starts_with(prefix)),
+        Some((part, _)) => PRESET_FACE_PARTS.contains(&part),
         None => false,
     }
 }
 
 /// The formats of marker tracks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Points {
+pub(super) enum MarkerFileFormat {
     C3d,
     Trc,
 }
@@ -160,31 +156,31 @@ pub(super) enum Points {
 ///
 /// # Errors
 /// Fails if the recording has no markers, if these are not positions in a room, or if the file cannot be written.
-pub(super) fn points(
+pub(super) fn write_marker_file(
     connection: &Connection,
-    stretch: &Stretch,
-    form: Points,
+    stretch: &RecordingStretch,
+    form: MarkerFileFormat,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
-) -> Result<()> {
-    let row = only(connection, stretch, TrackKind::Markers, notes)?;
+) -> CorpusResult<()> {
+    let row = first_track_of_kind(connection, stretch, TrackKind::Markers, notes)?;
     let span = stretch.token.as_ref().map(|_| stretch.span);
-    let markers = track::read::markers(connection, &row, span)?;
-    let offset = Instant::from_micros(row.offset_us.max(0));
-    let is_even = markers.times().rate().is_some() || form == Points::Trc;
-    let has_form = is_even && matches!(markers.space(), Space::World(_));
+    let markers = track::track_read::read_track_markers(connection, &row, span)?;
+    let offset = RecordingInstant::from_micros(row.offset_us.max(0));
+    let is_even = markers.marker_times().even_times_rate().is_some() || form == MarkerFileFormat::Trc;
+    let has_form = is_even && matches!(markers.marker_space(), MarkerSpace::World(_));
     let fault = |error: String| {
         let remedy = "write .markers.csv, which has its exact numbers";
-        let error = Error::wrong(error).advise(remedy);
+        let error = CorpusError::from_wrong_message(error).with_advice(remedy);
         match has_form {
             true => error,
-            false => error.lacking(),
+            false => error.into_lacking_content(),
         }
     };
-    if let Points::C3d = form {
-        let all = tracks::tracks(connection, stretch.recording.id)?;
-        let curves = all.into_iter().filter(|it| it.kind == TrackKind::Curves);
-        let names: Vec<String> = curves.map(|it| it.name).collect();
+    if let MarkerFileFormat::C3d = form {
+        let all = stored_tracks::load_track_rows(connection, stretch.recording.id)?;
+        let curves = all.into_iter().filter(|track| track.kind == TrackKind::Curves);
+        let names: Vec<String> = curves.map(|track| track.name).collect();
         if !names.is_empty() {
             notes.push(format!(
                 "the file holds markers alone, without the curves {}; .curves.csv holds those",
@@ -193,63 +189,59 @@ pub(super) fn points(
         }
     }
     let bytes = match form {
-        Points::C3d => c3d::write(&markers, offset).map_err(fault)?,
-        Points::Trc => trc::write(&row.name, &markers, offset)
+        MarkerFileFormat::C3d => c3d::write_c3d(&markers, offset).map_err(fault)?,
+        MarkerFileFormat::Trc => trc::write_trc_file(&row.name, &markers, offset)
             .map_err(fault)?
             .into_bytes(),
     };
-    put(out, &bytes)
+    write_export_bytes(out, &bytes)
 }
 
 /// Writes the curves or markers of a stretch as a table with one row for each frame.
 ///
 /// # Errors
 /// Fails if the recording has neither, or writing fails.
-pub(super) fn numbers(
+pub(super) fn write_number_table(
     connection: &Connection,
-    stretch: &Stretch,
+    stretch: &RecordingStretch,
     kind: TrackKind,
     delimiter: u8,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
-) -> Result<()> {
-    let row = only(connection, stretch, kind, notes)?;
+) -> CorpusResult<()> {
+    let row = first_track_of_kind(connection, stretch, kind, notes)?;
     let span = stretch.token.as_ref().map(|_| stretch.span);
-    let track = track::read::track(connection, &row, span)?;
-    track::table::write(&track, delimiter, out)
+    let track = track::track_read::read_stored_track(connection, &row, span)?;
+    track::track_table::write_track_table(&track, delimiter, out)
 }
 
 /// Reports whether a recording has a track of that kind.
-pub(super) fn has(connection: &Connection, recording: i64, kind: TrackKind) -> Result<bool> {
-    Ok(tracks::tracks(connection, recording)?
+pub(super) fn has_track_kind(connection: &Connection, recording: i64, kind: TrackKind) -> CorpusResult<bool> {
+    Ok(stored_tracks::load_track_rows(connection, recording)?
         .iter()
         .any(|row| row.kind == kind))
 }
 
 /// Returns the first track of a kind; adds a note that names the others.
-fn only(
+fn first_track_of_kind(
     connection: &Connection,
-    stretch: &Stretch,
+    stretch: &RecordingStretch,
     kind: TrackKind,
     notes: &mut Vec<String>,
-) -> Result<tracks::TrackRow> {
-    let mut all = tracks::tracks(connection, stretch.recording.id)?;
+) -> CorpusResult<stored_tracks::TrackRow> {
+    let mut all = stored_tracks::load_track_rows(connection, stretch.recording.id)?;
     all.retain(|row| row.kind == kind);
-    let names: Vec<String> = all
-        .iter()
-        .skip(1)
-        .map(|row| format!("{:?}", row.name))
-        .collect();
+    let names: Vec<String> = all.iter().skip(1).map(|row| format!("{:?}", row.name)).collect();
     let first = all.into_iter().next().ok_or_else(|| {
         let name = &stretch.recording.name;
-        Error::wrong(format!(
+        CorpusError::from_wrong_message(format!(
             "the recording {name:?} has no track of {}",
-            kind.name()
+            kind.track_kind_name()
         ))
-        .advise(Remedy::command(
+        .with_advice(ErrorRemedy::command_remedy(
             "`chereme track CORPUS RECORDING` lists its tracks",
         ))
-        .lacking()
+        .into_lacking_content()
     })?;
     if !names.is_empty() {
         notes.push(format!(
@@ -265,32 +257,32 @@ fn only(
 ///
 /// # Errors
 /// Fails if the rows or files of the recording are damaged, or writing fails.
-pub(super) fn elan_table(
-    connection: &Connection,
-    recording: &RecordingRow,
-    out: &mut dyn Write,
-) -> Result<()> {
-    let transcript = super::eaf::tiers_of(connection, recording)?;
-    put(out, annotations::write(&transcript).as_bytes())
+pub(super) fn elan_table(connection: &Connection, recording: &RecordingRow, out: &mut dyn Write) -> CorpusResult<()> {
+    let transcript = super::export_eaf::tiers_of(connection, recording)?;
+    write_export_bytes(out, annotations::write_elan_table(&transcript).as_bytes())
 }
 
 /// Returns the annotations within a span, cut to it, in seconds from its start.
-fn notes(connection: &Connection, recording: i64, span: Span) -> Result<Vec<gltf::Note>> {
+fn gltf_notes_in_span(
+    connection: &Connection,
+    recording: i64,
+    span: TimeSpan,
+) -> CorpusResult<Vec<gltf::MovementNote>> {
     let mut notes = Vec::new();
-    for tier in tiers::tiers(connection, recording)? {
-        for row in tiers::annotations(connection, tier.id)? {
-            let own = Span::between(
-                Instant::from_micros(row.start_us),
-                Instant::from_micros(row.end_us),
+    for tier in stored_tiers::load_tier_rows(connection, recording)? {
+        for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
+            let row_span = TimeSpan::span_between(
+                RecordingInstant::from_micros(row.start_us),
+                RecordingInstant::from_micros(row.end_us),
             );
-            let Some(inside) = own.intersection(span).filter(|inside| !inside.is_empty()) else {
+            let Some(inside) = row_span.span_intersection(span).filter(|inside| !inside.is_empty()) else {
                 continue;
             };
-            let seconds = |at: Instant| at.seconds() - span.start().seconds();
-            notes.push(gltf::Note {
+            let seconds = |at: RecordingInstant| at.instant_seconds() - span.span_start_instant().instant_seconds();
+            notes.push(gltf::MovementNote {
                 tier: tier.name.clone(),
-                begin: seconds(inside.start()),
-                end: seconds(inside.end()),
+                begin: seconds(inside.span_start_instant()),
+                end: seconds(inside.span_end_instant()),
                 value: row.value,
             });
         }
@@ -307,16 +299,16 @@ pub(super) fn text_grid(
     recording: &RecordingRow,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
-) -> Result<()> {
-    let transcript = super::eaf::tiers_of(connection, recording)?;
-    let end = Instant::from_micros(recording.duration_us);
-    let (text, findings) = textgrid::write(&transcript, textgrid::Form::Long, end);
+) -> CorpusResult<()> {
+    let transcript = super::export_eaf::tiers_of(connection, recording)?;
+    let end = RecordingInstant::from_micros(recording.duration_us);
+    let (text, findings) = textgrid::write_textgrid(&transcript, textgrid::TextGridForm::Long, end);
     notes.extend(findings.into_iter().map(|finding| finding.message));
-    put(out, text.as_bytes())
+    write_export_bytes(out, text.as_bytes())
 }
 
 /// Writes bytes.
-pub(super) fn put(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
+pub(super) fn write_export_bytes(out: &mut dyn Write, bytes: &[u8]) -> CorpusResult<()> {
     out.write_all(bytes)
-        .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
+        .map_err(|error| CorpusError::from_wrong_message(format!("the file cannot be written: {error}")))
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::tests::{Place, address, export};
 use super::*;
-use crate::{ListFilter, ListKind, unheard};
+use crate::{ListFilter, ListKind, ignore_progress_step};
 
 /// A recording that moves, with tokens, translations in two languages and markers; each is left out of
 /// the formats that only another one has something for.
@@ -40,28 +40,20 @@ fn a_folder_of_files_has_each_recording_that_holds_something_for_the_format() {
             ..ExportOptions::default()
         };
         let to = place.path(&format.replace('.', "-"));
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
-        (corpus.export(&ExportWhat::All, &to, &options, progress), to)
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
+        (corpus.export_corpus(&ExportWhat::All, &to, &options, progress), to)
     };
     for (format, expected, left_out) in [
         ("csv", &["bol.csv", "lexicon.csv"][..], 3),
         ("bvh", &["a-still.bvh", "bol.bvh"], 2),
-        (
-            "glb",
-            &["a-still.glb", "annotations_to_markers.py", "bol.glb"],
-            2,
-        ),
+        ("glb", &["a-still.glb", "annotations_to_markers.py", "bol.glb"], 2),
         ("vrma", &["bol.vrma"], 3),
         ("trc", &["b-points.trc"], 3),
         ("c3d", &["b-points.c3d"], 3),
         ("markers.csv", &["b-points.markers.csv"], 3),
         ("curves.csv", &["c-face.curves.csv"], 3),
-        (
-            "srt",
-            &["bol.Translation EN.srt", "bol.Translation FR.srt"],
-            3,
-        ),
+        ("srt", &["bol.Translation EN.srt", "bol.Translation FR.srt"], 3),
         ("TextGrid", &["bol.textgrid"], 3),
     ] {
         let (report, to) = folder(format);
@@ -85,7 +77,7 @@ fn a_folder_of_files_has_each_recording_that_holds_something_for_the_format() {
     let (refused, to) = folder("sigml");
     let error = refused.expect_err("nothing is notated");
     assert!(error.to_string().contains("none of the 6"), "{error}");
-    assert!(error.remedy().is_some());
+    assert!(error.error_remedy().is_some());
     assert!(!to.exists(), "nothing is left behind");
 }
 
@@ -101,7 +93,7 @@ fn subtitles_hold_one_language_and_name_the_others() {
     let (first, notes) = text("recording:bol", "first.srt");
     let [(fr, fr_id), (en, en_id)] = ["Translation FR", "Translation EN"].map(|name| {
         let rows = corpus
-            .list(ListKind::Tiers, &ListFilter::default())
+            .list_rows(ListKind::Tiers, &ListFilter::default())
             .expect("listed")
             .rows;
         let row = rows.iter().find(|row| row["name"] == name).expect(name);
@@ -131,8 +123,8 @@ fn exported_curves_are_read_again_with_their_names_times_and_numbers() {
         text += &format!("{time},0.{frame:02}5,-1.{frame:03},\n");
     }
     let first = place.corpus(&[place.file("face.csv", text.as_bytes())]);
-    let rate = |corpus: &Corpus| corpus.tracks(&Name::Number(1)).expect("tracks")[0].rate;
-    let expected = chereme_motion::Rate::new(29988, 1000).expect("a rate");
+    let rate = |corpus: &Corpus| corpus.recording_tracks(&RowName::Number(1)).expect("tracks")[0].rate;
+    let expected = chereme_motion::FrameRate::new(29988, 1000).expect("a rate");
     assert_eq!(rate(&first), Some(expected));
     for name in ["out/take.curves.csv", "out/take.curves.tsv"] {
         let out = place.file(name, b"");
@@ -141,13 +133,13 @@ fn exported_curves_are_read_again_with_their_names_times_and_numbers() {
         let again = place.corpus(std::slice::from_ref(&out));
         let of = |corpus: &Corpus| {
             let row = corpus
-                .tracks(&Name::Number(1))
+                .recording_tracks(&RowName::Number(1))
                 .expect("tracks")
                 .swap_remove(0);
-            corpus.track(row.id, None).expect("a track")
+            corpus.read_track_content(row.id, None).expect("a track")
         };
         assert_eq!(of(&again), of(&first), "{name}");
-        let recordings = again.list(ListKind::Recordings, &ListFilter::default());
+        let recordings = again.list_rows(ListKind::Recordings, &ListFilter::default());
         assert_eq!(recordings.expect("listed").rows[0]["name"], "take");
     }
 }
@@ -163,16 +155,13 @@ fn cells_that_spreadsheets_take_for_formulas_get_an_apostrophe_on_request() {
             spreadsheet_safe,
             ..ExportOptions::from(format)
         };
-        let (mut out, mut hear) = (Vec::new(), unheard);
-        let progress = &mut Progress::new(&mut hear);
+        let (mut out, mut hear) = (Vec::new(), ignore_progress_step);
+        let progress = &mut ProgressReceiver::new(&mut hear);
         let done = corpus.export_stream(&ExportWhat::All, options, &mut out, progress);
         done.map(|_| String::from_utf8(out).expect("text"))
     };
     let plain = table(false, "csv").expect("exported");
-    assert!(
-        plain.contains(",=HYPERLINK(1),") && !plain.contains('\''),
-        "{plain}"
-    );
+    assert!(plain.contains(",=HYPERLINK(1),") && !plain.contains('\''), "{plain}");
     let safe = table(true, "csv").expect("exported");
     for cell in [",'=HYPERLINK(1),", ",'@SUM(A1),", ",'-x,", ",-0.5", ",+1"] {
         assert!(safe.contains(cell), "{cell} in {safe}");

@@ -2,59 +2,59 @@
 
 #[cfg(test)]
 mod avatar_tests;
-mod bvh;
 mod csv;
-mod dictionary;
-pub(crate) mod eaf;
 mod enriched;
+mod export_bvh;
+mod export_dictionary;
+pub(crate) mod export_eaf;
+mod export_long;
+mod export_notation;
+mod export_subtitles;
 mod foreign;
-mod long;
 #[cfg(test)]
 mod mixed_tests;
-mod notation;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod several;
-mod subtitles;
 #[cfg(test)]
 mod tests;
 
 use csv::TableForm;
-pub(crate) use csv::compound;
+pub(crate) use csv::join_phase_values;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use chereme_formats::subtitles::Form as Subtitles;
-use chereme_sign::Remedy;
+use chereme_formats::subtitles::SubtitleFormat as Subtitles;
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::address::{self, Address, Name, Stretch};
+use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
 use crate::curves;
-use crate::db::motion::hex;
-use crate::db::search as rows;
-use crate::db::unfinished::{Unfinished, remove_leftovers};
-use crate::db::{list, recordings, seals, signs, tiers};
-use crate::error::{Error, Result};
-use crate::progress::Progress;
+use crate::db::stored_motion::to_hex_text;
+use crate::db::stored_search as rows;
+use crate::db::unfinished::{UnfinishedFile, remove_leftovers};
+use crate::db::{seals, signs, stored_list, stored_recordings, stored_tiers};
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::ProgressReceiver;
 use crate::track::TrackKind;
 use crate::values;
-use crate::words::counted;
-use long::Long;
+use crate::words::format_noun_count;
+use export_long::LongTable;
 
 /// The part of the corpus to export.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExportWhat {
     /// The object at an address.
-    Address(Address),
+    Address(CorpusAddress),
     /// These tokens in this order, such as the results of a query.
     Tokens(Vec<i64>),
     /// The objects at several addresses.
-    Several(Vec<Address>),
+    Several(Vec<CorpusAddress>),
     /// The inventory of this name.
     Inventory(String),
     /// Everything.
@@ -91,12 +91,12 @@ pub struct ExportReport {
     /// Notes for the reader of the files.
     pub notes: Vec<String>,
     /// The recordings and tokens without a file, because they hold nothing for the format.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutExport>,
 }
 
 /// A recording or token without a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub struct LeftOutExport {
     /// The recording's name, or the token's gloss.
     pub name: String,
     /// What it lacks.
@@ -144,20 +144,18 @@ impl Corpus {
     /// # Errors
     /// Fails if the extension belongs to no format, if `what` cannot be written in it, or if the file or folder already
     /// exists.
-    pub fn export(
+    pub fn export_corpus(
         &self,
         what: &ExportWhat,
         to: &Path,
         options: &ExportOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<ExportReport> {
-        let connection = self.store.read();
-        let extension = to
-            .extension()
-            .map(|text| text.to_string_lossy().to_lowercase());
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<ExportReport> {
+        let connection = self.store.read_connection();
+        let extension = to.extension().map(|text| text.to_string_lossy().to_lowercase());
         let mut report = ExportReport::default();
-        let form = options.format.as_deref().map(named).transpose()?;
-        let form = match form {
+        let named_form = options.format.as_deref().map(find_export_format).transpose()?;
+        let form = match named_form {
             Some((format, extension)) => Some((format.fit_for(options)?, extension)),
             None => None,
         };
@@ -165,12 +163,12 @@ impl Corpus {
             (None, _) if let Some((format, extension)) = form => {
                 let reading = rows::begin_reading(connection)?;
                 let form = (format, extension.as_str());
-                return several::write(&reading, what, form, to, options, progress);
+                return several::write_export_folder(&reading, what, form, to, options, progress);
             }
             (None, ExportWhat::All) => {
                 report.notes = damaged_rows(connection)?;
-                let files = enriched::write(connection, to, progress)?;
-                report.files = files.into_iter().map(exported).collect::<Result<_>>()?;
+                let files = enriched::write_enriched_folder(connection, to, progress)?;
+                report.files = files.into_iter().map(exported).collect::<CorpusResult<_>>()?;
             }
             (None, _) => {
                 let message = "only everything can be written as a folder of all formats";
@@ -179,22 +177,23 @@ impl Corpus {
             (Some(extension), _) => {
                 let reading = rows::begin_reading(connection)?;
                 let inner = inner_extension(to);
-                let by_name = Format::of(extension).map(|format| format.within(&inner));
+                let by_name = SingleFileFormat::from_export_extension(extension)
+                    .map(|format| format.select_format_variant(&inner));
                 let format = match form {
-                    Some((format, named)) if by_name.is_some_and(|it| it != format) => {
-                        return Err(Error::wrong(format!(
+                    Some((format, named)) if by_name.is_some_and(|named_format| named_format != format) => {
+                        return Err(CorpusError::from_wrong_message(format!(
                             "the name ends in .{extension}, and the format is {named}"
                         ))
-                        .at(to.display().to_string())
-                        .advise(Remedy::command(format!(
+                        .with_error_place(to.display().to_string())
+                        .with_advice(ErrorRemedy::command_remedy(format!(
                             "leave --format out, or end the name in .{named}"
                         ))));
                     }
                     Some((format, _)) => format,
-                    None => by_name.ok_or_else(|| unknown(to, extension))?,
+                    None => by_name.ok_or_else(|| unknown_format_error(to, extension))?,
                 }
                 .fit_for(options)?;
-                let file = whole(to, options.force, &mut |out| {
+                let file = write_whole_file(to, options.force, &mut |out| {
                     let notes = &mut report.notes;
                     write_file(&reading, what, format, out, notes, progress)
                 })?;
@@ -214,12 +213,12 @@ impl Corpus {
         what: &ExportWhat,
         options: impl Into<ExportOptions>,
         out: &mut dyn Write,
-        progress: &mut Progress<'_>,
-    ) -> Result<Vec<String>> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<Vec<String>> {
         let options = options.into();
-        let (format, _) = named(options.format.as_deref().unwrap_or_default())?;
+        let (format, _) = find_export_format(options.format.as_deref().unwrap_or_default())?;
         let format = format.fit_for(&options)?;
-        let reading = rows::begin_reading(self.store.read())?;
+        let reading = rows::begin_reading(self.store.read_connection())?;
         let mut notes = Vec::new();
         write_file(&reading, what, format, out, &mut notes, progress)?;
         Ok(notes)
@@ -227,22 +226,22 @@ impl Corpus {
 }
 
 /// Returns the format with this extension, and the extension.
-fn named(format: &str) -> Result<(Format, String)> {
+fn find_export_format(format: &str) -> CorpusResult<(SingleFileFormat, String)> {
     let extension = format.trim().trim_start_matches('.').to_lowercase();
     let (inner, last) = extension.split_once('.').unwrap_or(("", &extension));
-    let found = Format::of(last).map(|format| format.within(inner));
-    match found {
+    let inner_format = SingleFileFormat::from_export_extension(last).map(|format| format.select_format_variant(inner));
+    match inner_format {
         Some(format) => Ok((format, extension)),
-        None => Err(unknown(Path::new(format), &extension)),
+        None => Err(unknown_format_error(Path::new(format), &extension)),
     }
 }
 
 /// Returns the error for an unknown format, with the most similar common ones.
-fn unknown(to: &Path, extension: &str) -> Error {
+fn unknown_format_error(to: &Path, extension: &str) -> CorpusError {
     let wrong = |message: String, remedy: &str| {
-        Error::wrong(message)
-            .at(to.display().to_string())
-            .advise(remedy)
+        CorpusError::from_wrong_message(message)
+            .with_error_place(to.display().to_string())
+            .with_advice(remedy)
     };
     match extension {
         "gltf" | "fbx" | "usd" | "usda" | "usdz" => wrong(
@@ -263,7 +262,7 @@ fn unknown(to: &Path, extension: &str) -> Error {
 
 /// A format of single files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
+enum SingleFileFormat {
     /// A table of tokens or annotations.
     Table(TableForm),
     /// A table of curves with this separator.
@@ -272,20 +271,20 @@ enum Format {
     Bvh,
     Json,
     Glb,
-    Parquet(Long),
+    Parquet(LongTable),
     Vrma,
     /// Markers as a file of their own.
-    Points(foreign::Points),
+    Points(foreign::MarkerFileFormat),
     /// Markers as a table with this separator.
     Markers(u8),
     TextGrid,
     ElanTable,
     Subtitles(Subtitles),
-    Notation(notation::Form),
+    Notation(export_notation::NotationFileFormat),
 }
 
-impl Format {
-    fn of(extension: &str) -> Option<Self> {
+impl SingleFileFormat {
+    fn from_export_extension(extension: &str) -> Option<Self> {
         match extension {
             "csv" => Some(Self::Table(TableForm::new(b','))),
             "tsv" => Some(Self::Table(TableForm::new(b'\t'))),
@@ -293,52 +292,49 @@ impl Format {
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
             "glb" => Some(Self::Glb),
-            "parquet" => Some(Self::Parquet(Long::Tokens)),
+            "parquet" => Some(Self::Parquet(LongTable::Tokens)),
             "vrma" => Some(Self::Vrma),
-            "c3d" => Some(Self::Points(foreign::Points::C3d)),
-            "trc" => Some(Self::Points(foreign::Points::Trc)),
+            "c3d" => Some(Self::Points(foreign::MarkerFileFormat::C3d)),
+            "trc" => Some(Self::Points(foreign::MarkerFileFormat::Trc)),
             "textgrid" => Some(Self::TextGrid),
             "srt" => Some(Self::Subtitles(Subtitles::Srt)),
             "vtt" => Some(Self::Subtitles(Subtitles::Vtt)),
-            "sigml" => Some(Self::Notation(notation::Form::Gestural)),
-            "hsigml" => Some(Self::Notation(notation::Form::Symbols)),
-            "hns" | "txt" => Some(Self::Notation(notation::Form::Text)),
+            "sigml" => Some(Self::Notation(export_notation::NotationFileFormat::Gestural)),
+            "hsigml" => Some(Self::Notation(export_notation::NotationFileFormat::Symbols)),
+            "hns" | "txt" => Some(Self::Notation(export_notation::NotationFileFormat::Text)),
             _ => None,
         }
     }
 
     /// Returns the format with the options that change what it writes.
-    fn fit_for(self, options: &ExportOptions) -> Result<Self> {
+    fn fit_for(self, options: &ExportOptions) -> CorpusResult<Self> {
         match self {
             Self::Table(form) => Ok(Self::Table(TableForm {
                 is_spreadsheet_safe: options.spreadsheet_safe,
                 ..form
             })),
-            _ if options.spreadsheet_safe => Err(Error::wrong(
+            _ if options.spreadsheet_safe => Err(CorpusError::from_wrong_message(
                 "only a table of tokens or annotations is written for spreadsheets",
             )
-            .advise("end the name in .csv or .tsv, or leave --spreadsheet-safe out")),
+            .with_advice("end the name in .csv or .tsv, or leave --spreadsheet-safe out")),
             other => Ok(other),
         }
     }
 
     /// Returns the variant of a format that the extension before the last one selects, such as that of `x.curves.csv`.
-    fn within(self, inner: &str) -> Self {
+    fn select_format_variant(self, inner: &str) -> Self {
         match (self, inner) {
             (Self::Table(form), "curves") => Self::Curves(form.delimiter),
             (Self::Table(form), "markers") => Self::Markers(form.delimiter),
-            (Self::Notation(notation::Form::Text), "elan") => Self::ElanTable,
-            (Self::Parquet(_), inner) => Self::Parquet(Long::of(inner)),
+            (Self::Notation(export_notation::NotationFileFormat::Text), "elan") => Self::ElanTable,
+            (Self::Parquet(_), inner) => Self::Parquet(LongTable::from_inner_extension(inner)),
             (other, _) => other,
         }
     }
 
     /// Reports whether the format holds tiers; a token then stands for its recording.
     fn is_of_tiers(self) -> bool {
-        matches!(
-            self,
-            Self::Eaf | Self::TextGrid | Self::ElanTable | Self::Subtitles(_)
-        )
+        matches!(self, Self::Eaf | Self::TextGrid | Self::ElanTable | Self::Subtitles(_))
     }
 }
 
@@ -347,140 +343,143 @@ fn inner_extension(to: &Path) -> String {
     let stem = to.file_stem().map(Path::new);
     let inner = stem.and_then(Path::extension);
     inner
-        .map(|it| it.to_string_lossy().to_lowercase())
+        .map(|extension| extension.to_string_lossy().to_lowercase())
         .unwrap_or_default()
 }
 
 /// The note on importing the annotations of a GLB file as markers.
-const MARKERS: &str = "annotations become markers of Blender's timeline by `exec(bpy.context.scene[\"chereme_markers\"])` \
+const GLB_MARKERS_NOTE: &str = "annotations become markers of Blender's timeline by `exec(bpy.context.scene[\"chereme_markers\"])` \
                        in its Python console after the import";
 
 fn write_file(
     connection: &Connection,
     what: &ExportWhat,
-    format: Format,
+    format: SingleFileFormat,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
     verify(connection, what, format)?;
     match (format, what) {
-        (Format::Json, ExportWhat::Inventory(name)) => {
-            let text = values::named(connection, name)?.inventory.to_json();
-            let fault = |error: io::Error| Error::wrong(error.to_string());
+        (SingleFileFormat::Json, ExportWhat::Inventory(name)) => {
+            let text = values::find_stored_inventory(connection, name)?.inventory.to_json();
+            let fault = |error: io::Error| CorpusError::from_wrong_message(error.to_string());
             out.write_all(text.as_bytes()).map_err(fault)
         }
-        (Format::Json, _) => Err(Error::wrong("only an inventory is written as JSON").advise(
-            "name one, such as inventory:configurations; tokens go into .csv or .tsv, everything into a folder",
-        )),
-        (_, ExportWhat::Inventory(name)) => {
-            Err(Error::wrong(format!("the inventory {name:?} is written as JSON"))
-                .advise("end the name of the file in .json"))
+        (SingleFileFormat::Json, _) => Err(CorpusError::from_wrong_message("only an inventory is written as JSON")
+            .with_advice(
+                "name one, such as inventory:configurations; tokens go into .csv or .tsv, everything into a folder",
+            )),
+        (_, ExportWhat::Inventory(name)) => Err(CorpusError::from_wrong_message(format!(
+            "the inventory {name:?} is written as JSON"
+        ))
+        .with_advice("end the name of the file in .json")),
+        (SingleFileFormat::Table(form), ExportWhat::Address(CorpusAddress::Tier(tier))) => {
+            csv::write_annotation_csv(connection, *tier, form, out)
         }
-        (Format::Table(form), ExportWhat::Address(Address::Tier(tier))) => {
-            csv::annotations(connection, *tier, form, out)
-        }
-        (Format::Table(form), ExportWhat::Address(Address::Recording(_)))
-            if let Ok(stretch) = stretch(connection, what)
-                && tokens(connection, what)?.is_empty()
-                && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? =>
+        (SingleFileFormat::Table(form), ExportWhat::Address(CorpusAddress::Recording(_)))
+            if let Ok(stretch) = selected_export_stretch(connection, what)
+                && selected_export_tokens(connection, what)?.is_empty()
+                && foreign::has_track_kind(connection, stretch.recording.id, TrackKind::Curves)? =>
         {
             notes.push("the recording has no tokens: the table holds its curves".to_owned());
-            foreign::numbers(connection, &stretch, TrackKind::Curves, form.delimiter, out, notes)
+            foreign::write_number_table(connection, &stretch, TrackKind::Curves, form.delimiter, out, notes)
         }
-        (Format::Table(form), _) => {
-            let tokens = tokens(connection, what)?;
-            csv::tokens(connection, &tokens, form, out, notes, progress)
+        (SingleFileFormat::Table(form), _) => {
+            let tokens = selected_export_tokens(connection, what)?;
+            csv::write_token_csv(connection, &tokens, form, out, notes, progress)
         }
-        (Format::Curves(delimiter), _) => {
-            let stretch = stretch(connection, what)?;
-            let moves = recordings::body_track(connection, stretch.recording.id)?.is_some();
+        (SingleFileFormat::Curves(delimiter), _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            let moves = stored_recordings::body_track(connection, stretch.recording.id)?.is_some();
             let shows = moves && curves::has_some(connection, &stretch)?;
             if !shows {
-                return foreign::numbers(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
+                return foreign::write_number_table(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
             }
             curves::write_table(connection, &stretch, delimiter, out)
         }
-        (Format::Eaf, _) => {
-            let stretch = stretch(connection, what)?;
+        (SingleFileFormat::Eaf, _) => {
+            let stretch = selected_export_stretch(connection, what)?;
             if stretch.token.is_some() {
                 let name = &stretch.recording.name;
                 notes.push(format!("the file holds all of the recording {name:?}"));
             }
-            eaf::write(connection, &stretch.recording, out)
+            export_eaf::write_recording_eaf(connection, &stretch.recording, out)
         }
-        (Format::Bvh, _) => {
-            let stretch = stretch(connection, what)?;
-            notes.extend(bvh::late_start(connection, &stretch)?);
-            bvh::write(connection, &stretch, out, progress).map(|_| ())
+        (SingleFileFormat::Bvh, _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            notes.extend(export_bvh::late_start(connection, &stretch)?);
+            export_bvh::write_bvh_stretch(connection, &stretch, out, progress).map(|_| ())
         }
-        (Format::Glb, _) => {
-            let stretch = stretch(connection, what)?;
-            if foreign::glb(connection, &stretch, out)? > 0 {
-                notes.push(MARKERS.to_owned());
+        (SingleFileFormat::Glb, _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            if foreign::write_glb_stretch(connection, &stretch, out)? > 0 {
+                notes.push(GLB_MARKERS_NOTE.to_owned());
             }
             Ok(())
         }
-        (Format::Parquet(long), _) => long::write(connection, what, long, out, notes, progress),
-        (Format::Vrma, _) => {
-            let stretch = stretch(connection, what)?;
-            foreign::vrma(connection, &stretch, out, notes)
+        (SingleFileFormat::Parquet(long), _) => {
+            export_long::write_long_table(connection, what, long, out, notes, progress)
         }
-        (Format::Points(form), _) => {
-            let stretch = stretch(connection, what)?;
-            foreign::points(connection, &stretch, form, out, notes)
+        (SingleFileFormat::Vrma, _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            foreign::write_vrma_stretch(connection, &stretch, out, notes)
         }
-        (Format::Markers(delimiter), _) => {
-            let stretch = stretch(connection, what)?;
-            foreign::numbers(connection, &stretch, TrackKind::Markers, delimiter, out, notes)
+        (SingleFileFormat::Points(form), _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            foreign::write_marker_file(connection, &stretch, form, out, notes)
         }
-        (Format::ElanTable, _) => {
-            let stretch = stretch(connection, what)?;
+        (SingleFileFormat::Markers(delimiter), _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            foreign::write_number_table(connection, &stretch, TrackKind::Markers, delimiter, out, notes)
+        }
+        (SingleFileFormat::ElanTable, _) => {
+            let stretch = selected_export_stretch(connection, what)?;
             has_tiers(connection, &stretch)?;
             foreign::elan_table(connection, &stretch.recording, out)
         }
-        (Format::TextGrid, _) => {
-            let stretch = stretch(connection, what)?;
+        (SingleFileFormat::TextGrid, _) => {
+            let stretch = selected_export_stretch(connection, what)?;
             has_tiers(connection, &stretch)?;
             foreign::text_grid(connection, &stretch.recording, out, notes)
         }
-        (Format::Subtitles(form), ExportWhat::Address(Address::Tier(tier))) => {
-            subtitles::tier(connection, *tier, form, out)
+        (SingleFileFormat::Subtitles(form), ExportWhat::Address(CorpusAddress::Tier(tier))) => {
+            export_subtitles::write_tier_subtitles(connection, *tier, form, out)
         }
-        (Format::Subtitles(form), _) => {
-            let stretch = stretch(connection, what)?;
-            subtitles::first_group(connection, &stretch.recording, form, out, notes)
+        (SingleFileFormat::Subtitles(form), _) => {
+            let stretch = selected_export_stretch(connection, what)?;
+            export_subtitles::first_group(connection, &stretch.recording, form, out, notes)
         }
-        (Format::Notation(form), _) => {
-            let tokens = tokens(connection, what)?;
-            notation::write(connection, &tokens, form, out, notes, progress)
+        (SingleFileFormat::Notation(form), _) => {
+            let tokens = selected_export_tokens(connection, what)?;
+            export_notation::write_token_notations(connection, &tokens, form, out, notes, progress)
         }
     }
 }
 
 /// Returns a note on each row that is not as it was stored: what can be read of a damaged corpus can be saved whole.
-fn damaged_rows(connection: &Connection) -> Result<Vec<String>> {
+fn damaged_rows(connection: &Connection) -> CorpusResult<Vec<String>> {
     let mut notes = Vec::new();
     for table in seals::sealed_tables() {
         let broken = seals::broken_seals(connection, table)?;
-        notes.extend(broken.iter().map(|rows| rows.error().to_string()));
+        notes.extend(broken.iter().map(|rows| rows.broken_seal_error().to_string()));
     }
     Ok(notes)
 }
 
 /// Fails if rows that are written are not as they were stored.
-fn verify(connection: &Connection, what: &ExportWhat, format: Format) -> Result<()> {
+fn verify(connection: &Connection, what: &ExportWhat, format: SingleFileFormat) -> CorpusResult<()> {
     let is_of_tokens = matches!(
         format,
-        Format::Table(_) | Format::Notation(_) | Format::Parquet(Long::Tokens | Long::Components)
+        SingleFileFormat::Table(_)
+            | SingleFileFormat::Notation(_)
+            | SingleFileFormat::Parquet(LongTable::Tokens | LongTable::Components)
     );
     match what {
-        ExportWhat::Inventory(_) => {
-            seals::verify_tables(connection, ["inventory", "inventory_value"])
-        }
+        ExportWhat::Inventory(_) => seals::verify_tables(connection, ["inventory", "inventory_value"]),
         ExportWhat::All => seals::verify_tables(connection, seals::tables_of(is_of_tokens)),
-        ExportWhat::Address(Address::Tier(tier)) => {
-            let tier = tiers::tier(connection, *tier)?;
+        ExportWhat::Address(CorpusAddress::Tier(tier)) => {
+            let tier = stored_tiers::load_tier_row(connection, *tier)?;
             seals::verify_recordings(connection, &[tier.recording_id])
         }
         ExportWhat::Several(addresses) => addresses
@@ -488,16 +487,16 @@ fn verify(connection: &Connection, what: &ExportWhat, format: Format) -> Result<
             .try_for_each(|one| verify(connection, &ExportWhat::Address(one.clone()), format)),
         ExportWhat::Tokens(_) | ExportWhat::Address(_) => {
             // What cannot be found is refused by the format.
-            let tokens = tokens(connection, what).unwrap_or_default();
+            let tokens = selected_export_tokens(connection, what).unwrap_or_default();
             seals::verify_tokens(connection, &tokens)?;
-            let mut recordings: Vec<i64> = match stretch(connection, what) {
+            let mut recordings: Vec<i64> = match selected_export_stretch(connection, what) {
                 Ok(stretch) if !is_of_tokens || stretch.token.is_none() => {
                     vec![stretch.recording.id]
                 }
                 _ => Vec::new(),
             };
             if !is_of_tokens {
-                let rows = signs::tokens(connection, &tokens)?;
+                let rows = signs::load_token_rows(connection, &tokens)?;
                 recordings.extend(rows.values().filter_map(|token| token.recording_id));
             }
             seals::verify_recordings(connection, &recordings)
@@ -506,20 +505,22 @@ fn verify(connection: &Connection, what: &ExportWhat, format: Format) -> Result<
 }
 
 /// Fails if a recording has no tiers.
-fn has_tiers(connection: &Connection, stretch: &Stretch) -> Result<()> {
-    if !tiers::tiers(connection, stretch.recording.id)?.is_empty() {
+fn has_tiers(connection: &Connection, stretch: &RecordingStretch) -> CorpusResult<()> {
+    if !stored_tiers::load_tier_rows(connection, stretch.recording.id)?.is_empty() {
         return Ok(());
     }
     let name = &stretch.recording.name;
-    Err(Error::wrong(format!("the recording {name:?} has no tiers"))
-        .advise(Remedy::command(
-            "add one with `chereme annotate CORPUS add-tier --in RECORDING NAME`, or export .eaf, which needs none",
-        ))
-        .lacking())
+    Err(
+        CorpusError::from_wrong_message(format!("the recording {name:?} has no tiers"))
+            .with_advice(ErrorRemedy::command_remedy(
+                "add one with `chereme annotate CORPUS add-tier --in RECORDING NAME`, or export .eaf, which needs none",
+            ))
+            .into_lacking_content(),
+    )
 }
 
-fn no_format(to: &Path, message: &str) -> Error {
-    Error::wrong(message).at(to.display().to_string()).advise(
+fn no_format(to: &Path, message: &str) -> CorpusError {
+    CorpusError::from_wrong_message(message).with_error_place(to.display().to_string()).with_advice(
         "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .parquet, .TextGrid, \
          .elan.txt, .srt, .vtt, .sigml, .hsigml or .hns, an \
          inventory's in .json; a name without a dot is a folder of everything, or with --format of a file for each \
@@ -528,16 +529,16 @@ fn no_format(to: &Path, message: &str) -> Error {
 }
 
 /// Returns the selected tokens.
-fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
+fn selected_export_tokens(connection: &Connection, what: &ExportWhat) -> CorpusResult<Vec<i64>> {
     let ids = |rows: Vec<signs::TokenRow>| rows.into_iter().map(|row| row.id).collect();
     match what {
-        ExportWhat::All => list::token_ids(connection),
+        ExportWhat::All => stored_list::token_ids(connection),
         ExportWhat::Inventory(_) => Ok(Vec::new()),
         ExportWhat::Tokens(tokens) => Ok(tokens.clone()),
         ExportWhat::Several(addresses) => {
             let mut all = Vec::new();
             for address in addresses {
-                for id in self::tokens(connection, &ExportWhat::Address(address.clone()))? {
+                for id in self::selected_export_tokens(connection, &ExportWhat::Address(address.clone()))? {
                     if !all.contains(&id) {
                         all.push(id);
                     }
@@ -545,138 +546,138 @@ fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
             }
             Ok(all)
         }
-        ExportWhat::Address(Address::Recording(name)) => {
-            let recording = address::recording(connection, name)?;
+        ExportWhat::Address(CorpusAddress::Recording(name)) => {
+            let recording = address::find_recording_by_name(connection, name)?;
             Ok(ids(signs::tokens_of_recording(connection, recording.id)?))
         }
-        ExportWhat::Address(Address::Signer(name)) => {
-            let signer = address::signer(connection, name)?;
-            list::token_ids_of_signer(connection, signer.id)
+        ExportWhat::Address(CorpusAddress::Signer(name)) => {
+            let signer = address::find_signer_by_name(connection, name)?;
+            stored_list::token_ids_of_signer(connection, signer.id)
         }
-        ExportWhat::Address(Address::Sign(Name::Number(sign))) => {
+        ExportWhat::Address(CorpusAddress::Sign(RowName::Number(sign))) => {
             Ok(ids(signs::tokens_of_sign(connection, *sign)?))
         }
-        ExportWhat::Address(Address::Sign(Name::Text(gloss))) => {
-            let sign = address::sign(connection, gloss)?;
+        ExportWhat::Address(CorpusAddress::Sign(RowName::Text(gloss))) => {
+            let sign = address::find_sign_by_gloss(connection, gloss)?;
             Ok(ids(signs::tokens_of_sign(connection, sign)?))
         }
-        ExportWhat::Address(token) => Ok(vec![address::token(connection, token)?.id]),
+        ExportWhat::Address(token) => Ok(vec![address::find_addressed_token(connection, token)?.id]),
     }
 }
 
 /// Returns the selected recording or token, if it is a single one.
-fn stretch(connection: &Connection, what: &ExportWhat) -> Result<Stretch> {
+fn selected_export_stretch(connection: &Connection, what: &ExportWhat) -> CorpusResult<RecordingStretch> {
     let several = |count: usize, what: &str| {
-        Error::wrong(format!(
+        CorpusError::from_wrong_message(format!(
             "such a file holds one recording, and these are {}",
-            counted(count as u64, what)
+            format_noun_count(count as u64, what)
         ))
-        .advise("name one, such as recording:3 or token:41, or write a file for each with --to FOLDER --format bvh")
+        .with_advice(
+            "name one, such as recording:3 or token:41, or write a file for each with --to FOLDER --format bvh",
+        )
     };
     match what {
-        ExportWhat::Address(address) => address::stretch(connection, address),
+        ExportWhat::Address(address) => address::find_addressed_stretch(connection, address),
         ExportWhat::Tokens(tokens) => match tokens.as_slice() {
-            [one] => address::stretch(connection, &Address::Token(*one)),
+            [one] => address::find_addressed_stretch(connection, &CorpusAddress::Token(*one)),
             tokens => Err(several(tokens.len(), "tokens")),
         },
         ExportWhat::Several(addresses) => match addresses.as_slice() {
-            [one] => address::stretch(connection, one),
+            [one] => address::find_addressed_stretch(connection, one),
             all => Err(several(all.len(), "recordings and tokens")),
         },
         ExportWhat::Inventory(_) => Err(several(0, "recordings")),
-        ExportWhat::All => match recordings::recordings(connection)?.as_slice() {
-            [one] => address::stretch(connection, &Address::Recording(Name::Number(one.id))),
+        ExportWhat::All => match stored_recordings::load_recording_rows(connection)?.as_slice() {
+            [one] => address::find_addressed_stretch(connection, &CorpusAddress::Recording(RowName::Number(one.id))),
             all => Err(several(all.len(), "recordings")),
         },
     }
 }
 
 /// Writes a file under a temporary name beside its path, and renames it when it is complete.
-fn whole(
+fn write_whole_file(
     to: &Path,
     force: bool,
-    write: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
-) -> Result<ExportedFile> {
+    write: &mut dyn FnMut(&mut dyn Write) -> CorpusResult<()>,
+) -> CorpusResult<ExportedFile> {
     remove_leftovers(to);
-    Unnamed::write(to, force, write)?.name()
+    UnnamedExportFile::write_unnamed_file(to, force, write)?.name_exported_file()
 }
 
 /// A complete file under a temporary name beside its path; it is removed unless it gets its name.
-struct Unnamed {
-    part: Unfinished,
+struct UnnamedExportFile {
+    part: UnfinishedFile,
     file: ExportedFile,
 }
 
-impl Unnamed {
-    fn write(
+impl UnnamedExportFile {
+    fn write_unnamed_file(
         to: &Path,
         force: bool,
-        write: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
-    ) -> Result<Self> {
+        write: &mut dyn FnMut(&mut dyn Write) -> CorpusResult<()>,
+    ) -> CorpusResult<Self> {
         if to.is_dir() || (to.exists() && !force) {
-            return Err(Error::file(to, io::ErrorKind::AlreadyExists.into()));
+            return Err(CorpusError::from_file_failure(to, io::ErrorKind::AlreadyExists.into()));
         }
         check_folder(to)?;
         let mut unnamed = Self {
-            part: Unfinished::file(to).map_err(|error| Error::file(to, error))?,
+            part: UnfinishedFile::create_unfinished_file(to)
+                .map_err(|error| CorpusError::from_file_failure(to, error))?,
             file: ExportedFile {
                 path: to.to_owned(),
                 bytes: 0,
                 sha256: String::new(),
             },
         };
-        unnamed.fill(write)?;
+        unnamed.fill_unnamed_file(write)?;
         Ok(unnamed)
     }
 
-    fn fill(&mut self, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Result<()> {
+    fn fill_unnamed_file(&mut self, write: &mut dyn FnMut(&mut dyn Write) -> CorpusResult<()>) -> CorpusResult<()> {
         let to = self.file.path.clone();
-        let fault = |error| Error::file(&to, error);
-        let file = File::options().write(true).open(self.part.path());
-        let file = file.map_err(fault)?;
-        let mut out = Hashed {
+        let fault = |error| CorpusError::from_file_failure(&to, error);
+        let opened = File::options().write(true).open(self.part.unfinished_path());
+        let file = opened.map_err(fault)?;
+        let mut out = HashingWriter {
             out: BufWriter::with_capacity(1 << 20, file),
             digest: Sha256::new(),
             bytes: 0,
         };
         write(&mut out)?;
-        let file = out
-            .out
-            .into_inner()
-            .map_err(|error| fault(error.into_error()))?;
+        let file = out.out.into_inner().map_err(|error| fault(error.into_error()))?;
         file.sync_all().map_err(fault)?;
         self.file.bytes = out.bytes;
-        self.file.sha256 = hex(&out.digest.finalize());
+        self.file.sha256 = to_hex_text(&out.digest.finalize());
         Ok(())
     }
 
     /// Gives the file its name.
-    fn name(self) -> Result<ExportedFile> {
+    fn name_exported_file(self) -> CorpusResult<ExportedFile> {
         let path = &self.file.path;
-        let named = self.part.rename(path);
-        named.map_err(|error| Error::file(path, error))?;
+        let named = self.part.rename_unfinished(path);
+        named.map_err(|error| CorpusError::from_file_failure(path, error))?;
         Ok(self.file)
     }
 }
 
 /// Fails if the folder of the path does not exist.
-pub(crate) fn check_folder(to: &Path) -> Result<()> {
+pub(crate) fn check_folder(to: &Path) -> CorpusResult<()> {
     let folder = to.parent().unwrap_or(to);
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
     }
     let message = format!("the folder {} is not there", folder.display());
-    Err(Error::wrong(message).advise("make it first, or choose another place"))
+    Err(CorpusError::from_wrong_message(message).with_advice("make it first, or choose another place"))
 }
 
 /// Writer that counts and hashes the bytes written to it.
-struct Hashed<W> {
+struct HashingWriter<W> {
     out: W,
     digest: Sha256,
     bytes: u64,
 }
 
-impl<W: Write> Write for Hashed<W> {
+impl<W: Write> Write for HashingWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.out.write(bytes)?;
         self.digest.update(&bytes[..written]);
@@ -690,8 +691,8 @@ impl<W: Write> Write for Hashed<W> {
 }
 
 /// Returns a file of a folder in the form for reports.
-fn exported(path: PathBuf) -> Result<ExportedFile> {
-    let fault = |error| Error::file(&path, error);
+fn exported(path: PathBuf) -> CorpusResult<ExportedFile> {
+    let fault = |error| CorpusError::from_file_failure(&path, error);
     let mut file = File::open(&path).map_err(fault)?;
     let (mut digest, mut buffer, mut bytes) = (Sha256::new(), vec![0; 1 << 20], 0);
     loop {
@@ -703,10 +704,6 @@ fn exported(path: PathBuf) -> Result<ExportedFile> {
             }
         }
     }
-    let sha256 = hex(&digest.finalize());
-    Ok(ExportedFile {
-        path,
-        bytes,
-        sha256,
-    })
+    let sha256 = to_hex_text(&digest.finalize());
+    Ok(ExportedFile { path, bytes, sha256 })
 }

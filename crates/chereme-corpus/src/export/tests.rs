@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use chereme_formats::eaf;
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
-use chereme_sign::{Component, TierRole};
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
+use chereme_sign::{SignComponent, TierRole};
 
 use super::*;
 use crate::db::signs::TokenValueRow;
 use crate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, ImportOptions, ListFilter,
-    ListKind, NewTier, TierName, TrackChange, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, ImportOptions, ListFilter, ListKind, NewTier,
+    TierRequestName, TrackChange, ignore_progress_step,
 };
 
 const EAF: &str = include_str!("tests.eaf");
@@ -38,14 +38,10 @@ impl Place {
     pub(super) fn corpus(&mut self, files: &[PathBuf]) -> Corpus {
         self.corpora += 1;
         let path = self.folder.path().join(format!("{}.chereme", self.corpora));
-        let mut corpus = Corpus::create(&path, "A").expect("made");
-        let mut hear = unheard;
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+        let mut hear = ignore_progress_step;
         let report = corpus
-            .import(
-                files,
-                &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
-            )
+            .import_paths(files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
             .expect("imported");
         assert!(!report.has_refusals(), "{report:?}");
         corpus
@@ -56,13 +52,13 @@ impl Place {
     }
 }
 
-pub(super) fn export(corpus: &Corpus, what: &ExportWhat, to: &Path) -> Result<ExportReport> {
-    let mut hear = unheard;
-    corpus.export(
+pub(super) fn export(corpus: &Corpus, what: &ExportWhat, to: &Path) -> CorpusResult<ExportReport> {
+    let mut hear = ignore_progress_step;
+    corpus.export_corpus(
         what,
         to,
         &ExportOptions::default(),
-        &mut Progress::new(&mut hear),
+        &mut ProgressReceiver::new(&mut hear),
     )
 }
 
@@ -79,10 +75,7 @@ fn an_annotation_file_is_exported_unchanged() {
     let report = export(&corpus, &address("recording:1"), &out).expect("exported");
     let text = std::fs::read_to_string(&out).expect("text");
     assert_eq!(text, EAF);
-    assert_eq!(
-        (report.files[0].bytes, report.notes.len()),
-        (text.len() as u64, 0)
-    );
+    assert_eq!((report.files[0].bytes, report.notes.len()), (text.len() as u64, 0));
     let again = place.corpus(&[out]);
     let twice = place.path("twice.eaf");
     export(&again, &ExportWhat::All, &twice).expect("exported");
@@ -94,10 +87,10 @@ fn export_writes_changes_and_keeps_the_rest_of_the_file() {
     let mut place = Place::new();
     let file = place.file("Take 1.eaf", EAF.as_bytes());
     let mut corpus = place.corpus(&[file]);
-    let recording = Name::Number(1);
-    let tier = |name: &str| TierName::read(name, Some(&recording)).expect("a name");
-    let at = |millis| Some(Moment::Time(Instant::from_millis(millis)));
-    let called = |id: &str| AnnotationName::read(id, Some(&recording));
+    let recording = RowName::Number(1);
+    let tier = |name: &str| TierRequestName::parse_tier_name(name, Some(&recording)).expect("a name");
+    let at = |millis| Some(TableMoment::Time(RecordingInstant::from_millis(millis)));
+    let called = |id: &str| AnnotationName::parse_annotation_name(id, Some(&recording));
     let changes = [
         AnnotationAction::Set {
             annotation: called("a1"),
@@ -122,16 +115,16 @@ fn export_writes_changes_and_keeps_the_rest_of_the_file() {
         },
     ];
     let changes: Vec<_> = changes.into_iter().map(Into::into).collect();
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .annotate(
+        .annotate_corpus(
             &changes,
             &AnnotateOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("changed");
     let role = TierRole::Component {
-        component: Component::Placement,
+        component: SignComponent::Placement,
         feature: None,
     };
     let new = NewTier {
@@ -151,21 +144,17 @@ fn export_writes_changes_and_keeps_the_rest_of_the_file() {
         })
     };
     corpus
-        .annotate(
-            &[
-                say(0, 100, "chin"),
-                say(100, 400, "?"),
-                say(2000, 2500, "N/A"),
-            ],
+        .annotate_corpus(
+            &[say(0, 100, "chin"), say(100, 400, "?"), say(2000, 2500, "N/A")],
             &AnnotateOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("added");
     let out = place.path("out.eaf");
     export(&corpus, &address("recording:1"), &out).expect("exported");
     let bytes = std::fs::read(&out).expect("bytes");
-    let (before, _) = eaf::read(EAF.as_bytes()).expect("a document");
-    let (after, findings) = eaf::read(&bytes).expect("a document");
+    let (before, _) = eaf::read_eaf(EAF.as_bytes()).expect("a document");
+    let (after, findings) = eaf::read_eaf(&bytes).expect("a document");
     assert!(findings.is_empty(), "{findings:?}");
     let find = |id: &str| {
         let all = after
@@ -179,16 +168,10 @@ fn export_writes_changes_and_keeps_the_rest_of_the_file() {
     };
     assert_eq!(find("a1").1.millis, Some([5, 505]));
     let (_, shape) = find("a7");
-    assert_eq!(
-        (shape.value.as_str(), shape.entry.as_deref()),
-        ("H", Some("cve_h"))
-    );
+    assert_eq!((shape.value.as_str(), shape.entry.as_deref()), ("H", Some("cve_h")));
     assert_eq!(find("a21").0, "Gloss RH");
     let (name, chin) = find("a22");
-    assert_eq!(
-        (name.as_str(), chin.value.as_str()),
-        ("RH location", "chin")
-    );
+    assert_eq!((name.as_str(), chin.value.as_str()), ("RH location", "chin"));
     let placements = after
         .vocabularies
         .iter()
@@ -205,15 +188,13 @@ fn export_writes_changes_and_keeps_the_rest_of_the_file() {
     let again = place.corpus(&[out]);
     let tokens = |corpus: &Corpus| {
         let rows = corpus
-            .list(ListKind::Tokens, &ListFilter::default())
+            .list_rows(ListKind::Tokens, &ListFilter::default())
             .expect("listed")
             .rows;
         let cell = |row: &serde_json::Map<String, serde_json::Value>| {
             format!("{} {} {}", row["gloss"], row["start_us"], row["components"])
         };
-        rows.iter()
-            .map(cell)
-            .collect::<std::collections::BTreeSet<_>>()
+        rows.iter().map(cell).collect::<std::collections::BTreeSet<_>>()
     };
     assert_eq!(tokens(&again), tokens(&corpus));
 }
@@ -225,29 +206,22 @@ fn generated_recordings_are_marked_in_their_file() {
     let mut corpus = place.corpus(&[file]);
     let change = crate::RecordingChange {
         signer: Some(Some("Berta".into())),
-        origin: Some(crate::Origin::Made),
+        origin: Some(crate::RecordOrigin::Made),
         licence: Some(Some("CC BY 4.0".into())),
         ..Default::default()
     };
-    corpus
-        .change_recording(&Name::Number(1), &change)
-        .expect("changed");
+    corpus.change_recording(&RowName::Number(1), &change).expect("changed");
     let left = crate::SignerChange {
-        handedness: Some(Some(chereme_motion::Side::Left)),
+        handedness: Some(Some(chereme_motion::BodySide::Left)),
         ..Default::default()
     };
     corpus
-        .change_signer(&Name::Text("Berta".into()), &left)
+        .change_signer(&RowName::Text("Berta".into()), &left)
         .expect("changed");
     let out = place.path("out.eaf");
     export(&corpus, &address("recording:1"), &out).expect("exported");
     let again = place.corpus(&[out]);
-    let shown = |corpus: &Corpus, kind| {
-        corpus
-            .list(kind, &ListFilter::default())
-            .expect("listed")
-            .rows
-    };
+    let shown = |corpus: &Corpus, kind| corpus.list_rows(kind, &ListFilter::default()).expect("listed").rows;
     for column in ["signer", "origin", "licence"] {
         let of = |corpus: &Corpus| shown(corpus, ListKind::Recordings)[0][column].clone();
         assert_eq!(of(&again), of(&corpus), "{column}");
@@ -260,13 +234,13 @@ type Coded = (String, Vec<(String, String)>, Vec<String>);
 
 /// Returns the codings of each sign's lexicon entry, in an order that does not depend on columns.
 fn codings(corpus: &Corpus) -> Vec<Coded> {
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     let mut all = Vec::new();
-    for sign in signs::signs(connection).expect("signs") {
+    for sign in signs::load_sign_rows(connection).expect("signs") {
         let tokens = signs::tokens_of_sign(connection, sign.id).expect("tokens");
         let mut values: Vec<String> = tokens
             .iter()
-            .flat_map(|token| signs::values(connection, token.id).expect("values"))
+            .flat_map(|token| signs::load_token_values(connection, token.id).expect("values"))
             .map(|row| {
                 let row = TokenValueRow {
                     inventory_id: None,
@@ -332,7 +306,7 @@ fn shared_annotation_files_are_exported_unchanged() {
     let mut place = Place::new();
     for file in files {
         let bytes = std::fs::read(&file).expect("bytes");
-        if eaf::read(&bytes).is_err() {
+        if eaf::read_eaf(&bytes).is_err() {
             continue;
         }
         let corpus = place.corpus(std::slice::from_ref(&file));
@@ -341,13 +315,13 @@ fn shared_annotation_files_are_exported_unchanged() {
             force: true,
             ..ExportOptions::default()
         };
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .export(
+            .export_corpus(
                 &address("recording:1"),
                 &out,
                 &options,
-                &mut Progress::new(&mut hear),
+                &mut ProgressReceiver::new(&mut hear),
             )
             .expect("exported");
         assert!(
@@ -375,27 +349,21 @@ fn exporting_tables_changes_no_annotation() {
     let file = place.file("Take 1.eaf", EAF.as_bytes());
     let mut corpus = place.corpus(&[file]);
     let tiers = corpus
-        .list(ListKind::Tiers, &ListFilter::default())
+        .list_rows(ListKind::Tiers, &ListFilter::default())
         .expect("listed")
         .total;
-    let log = corpus.log(9).expect("log").len();
+    let log = corpus.operation_log(9).expect("log").len();
     for tier in 1..=tiers {
         let out = place.path(&format!("{tier}.csv"));
         export(&corpus, &address(&format!("tier:{tier}")), &out).expect("exported");
         let bytes = std::fs::read(&out).expect("bytes");
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let options = AnnotateOptions::default();
         corpus
-            .annotate_table(
-                &bytes,
-                "t.csv",
-                None,
-                &options,
-                &mut Progress::new(&mut hear),
-            )
+            .annotate_table(&bytes, "t.csv", None, &options, &mut ProgressReceiver::new(&mut hear))
             .expect("carried out");
     }
-    assert_eq!(corpus.log(9).expect("log").len(), log, "nothing changed");
+    assert_eq!(corpus.operation_log(9).expect("log").len(), log, "nothing changed");
 }
 
 #[test]
@@ -407,11 +375,7 @@ fn files_appear_whole_and_replace_nothing_unasked() {
     for (what, to, want) in [
         (ExportWhat::All, "there.csv", "there.csv"),
         (address("recording:7"), "new.eaf", "there is no recording:7"),
-        (
-            ExportWhat::Tokens(vec![1, 2]),
-            "new.bvh",
-            "these are 2 tokens",
-        ),
+        (ExportWhat::Tokens(vec![1, 2]), "new.bvh", "these are 2 tokens"),
         (address("recording:1"), "new.xyz", "\"xyz\" is no format"),
         (address("recording:1"), "folder", "only everything"),
         (ExportWhat::All, "missing/new.csv", "missing"),
@@ -426,13 +390,13 @@ fn files_appear_whole_and_replace_nothing_unasked() {
         force: true,
         ..ExportOptions::default()
     };
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let report = corpus
-        .export(
+        .export_corpus(
             &ExportWhat::All,
             &there,
             &options,
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("exported");
     let text = std::fs::read_to_string(&there).expect("text");
@@ -463,8 +427,8 @@ fn several_recordings_go_into_one_folder_a_file_each() {
             force,
             ..ExportOptions::from(format)
         };
-        let mut hear = unheard;
-        corpus.export(what, to, &options, &mut Progress::new(&mut hear))
+        let mut hear = ignore_progress_step;
+        corpus.export_corpus(what, to, &options, &mut ProgressReceiver::new(&mut hear))
     };
     let to = place.path("takes");
     let several = ExportWhat::Several(vec![
@@ -473,11 +437,7 @@ fn several_recordings_go_into_one_folder_a_file_each() {
         "recording:1".parse().expect("an address"),
     ]);
     let report = write(&several, &to, false, "eaf").expect("written");
-    let names: Vec<_> = report
-        .files
-        .iter()
-        .filter_map(|file| file.path.file_name())
-        .collect();
+    let names: Vec<_> = report.files.iter().filter_map(|file| file.path.file_name()).collect();
     assert_eq!(names, ["one.eaf", "two.eaf"], "each once");
     assert!(
         write(&several, &to, false, "eaf").is_err(),
@@ -494,14 +454,14 @@ fn several_recordings_go_into_one_folder_a_file_each() {
         let written = write(&address("recording:one"), &place.path(name), false, "eaf");
         assert_eq!(written.is_ok(), fits, "{name}");
     }
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let mut bytes = Vec::new();
     corpus
         .export_stream(
             &address("recording:one"),
             "eaf",
             &mut bytes,
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("written");
     assert_eq!(bytes, std::fs::read(to.join("one.eaf")).expect("read"));
@@ -516,9 +476,7 @@ fn captures(folder: &Path, most: u64) -> Vec<PathBuf> {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|it| it == "bvh")
-                && path.metadata().expect("a size").len() < most
-            {
+            } else if path.extension().is_some_and(|it| it == "bvh") && path.metadata().expect("a size").len() < most {
                 found.push(path);
             }
         }
@@ -530,11 +488,11 @@ fn captures(folder: &Path, most: u64) -> Vec<PathBuf> {
 /// Returns the positions of all joints in all frames, with their names in GLB.
 fn places(corpus: &Corpus) -> (Vec<String>, Vec<Vec<chereme_motion::glam::DVec3>>) {
     let clip = corpus
-        .movement(&"recording:1".parse().expect("an address"))
+        .movement_at_address(&"recording:1".parse().expect("an address"))
         .expect("movement")
         .clip;
-    let names = clip.skeleton().joints().iter().map(|it| it.name.clone());
-    let frames = (0..clip.frames()).map(|at| clip.model_pose(at).positions().to_vec());
+    let names = clip.clip_skeleton().skeleton_joints().iter().map(|it| it.name.clone());
+    let frames = (0..clip.clip_frame_count()).map(|at| clip.model_pose(at).model_joint_positions().to_vec());
     (names.collect(), frames.collect())
 }
 
@@ -544,8 +502,8 @@ fn a_bvh_file_of_movement_that_begins_late_says_what_it_lacks() {
     let file = captures(&own, 1 << 20).swap_remove(0);
     let mut place = Place::new();
     let mut corpus = place.corpus(std::slice::from_ref(&file));
-    let take = Name::Number(1);
-    let name = corpus.tracks(&take).expect("tracks")[0].name.clone();
+    let take = RowName::Number(1);
+    let name = corpus.recording_tracks(&take).expect("tracks")[0].name.clone();
     for (offset_us, expected) in [(0, None), (500_000, Some("begins 0.5 s after"))] {
         let change = TrackChange::Offset(offset_us);
         corpus.change_track(&take, &name, &change).expect("moved");
@@ -571,7 +529,7 @@ fn movement_goes_through_glb_and_back_to_bvh_within_a_hundredth_of_a_millimetre(
     for file in files {
         let first = place.corpus(std::slice::from_ref(&file));
         if first
-            .movement(&"recording:1".parse().expect("an address"))
+            .movement_at_address(&"recording:1".parse().expect("an address"))
             .is_err()
         {
             continue;
@@ -610,12 +568,7 @@ fn markers_without_the_curves_beside_them_are_named() {
         let to = place.path(&format!("{reported}.c3d"));
         let report = export(&corpus, &address("recording:1"), &to).expect("exported");
         let named = |it: &String| it.contains("without the curves face");
-        assert_eq!(
-            report.notes.iter().any(named),
-            reported,
-            "{:?}",
-            report.notes
-        );
+        assert_eq!(report.notes.iter().any(named), reported, "{:?}", report.notes);
     }
 }
 
@@ -624,15 +577,11 @@ fn markers_without_the_curves_beside_them_are_named() {
 fn a_program_without_parquet_says_what_to_do() {
     let mut place = Place::new();
     let corpus = place.corpus(&[]);
-    for name in [
-        "all.parquet",
-        "all.annotations.parquet",
-        "all.frames.parquet",
-    ] {
+    for name in ["all.parquet", "all.annotations.parquet", "all.frames.parquet"] {
         let refused = export(&corpus, &ExportWhat::All, &place.path(name));
         let error = refused.expect_err("refused");
-        let remedy = error.remedy().expect("a remedy");
-        assert!(remedy.text().contains("--features parquet"), "{remedy}");
+        let remedy = error.error_remedy().expect("a remedy");
+        assert!(remedy.remedy_text().contains("--features parquet"), "{remedy}");
         assert!(!place.path(name).exists());
     }
 }

@@ -1,20 +1,22 @@
 //! Finds expressions by function: annotations on function tiers, with milestones that were written or that follow from
 //! the glosses.
 
-use chereme_motion::{Instant, Span};
-use chereme_sign::milestones::{EDGE, Function, Milestones, Phase, milestones};
-use chereme_sign::text::fold;
-use chereme_sign::tier::Hands;
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::milestones::{
+    ExpressionFunction, ExpressionMilestones, ExpressionPhase, UTTERANCE_EDGE_MICROS, find_expression_milestones,
+};
+use chereme_sign::text::fold_text;
+use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{HandRef, TierRole};
 use rusqlite::Connection;
 
-use crate::address::Address;
-use crate::db::columns::AnnotationOrigin;
-use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::address::CorpusAddress;
+use crate::db::stored_columns::AnnotationOrigin;
+use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 
 /// Names of function tiers, folded and without punctuation.
-const NAMES: [&str; 14] = [
+const FUNCTION_TIER_NAMES: [&str; 14] = [
     "function",
     "functions",
     "grammaticalfunction",
@@ -31,15 +33,15 @@ const NAMES: [&str; 14] = [
     "zinstype",
 ];
 /// The prefix of the name of a tier of milestones; the function follows.
-pub(crate) const TIER: &str = "milestones ";
+pub(crate) const MILESTONE_TIER_PREFIX: &str = "milestones ";
 
 /// An expression of the face in a recording.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Expression {
+pub(crate) struct FaceExpression {
     pub(crate) recording: i64,
-    pub(crate) function: Function,
+    pub(crate) function: ExpressionFunction,
     /// The milestones on the recording's clock.
-    pub(crate) milestones: Milestones,
+    pub(crate) milestones: ExpressionMilestones,
     /// The annotation of its function, or of its first phase if no tier names a function.
     pub(crate) annotation: i64,
     /// The glosses that it spans.
@@ -53,155 +55,169 @@ pub(crate) struct Expression {
 }
 
 /// The signs of one signer in order of time, and the utterances that contain them.
-struct Signing {
-    signs: Vec<(Span, String)>,
-    utterances: Vec<Span>,
+struct SignerSigns {
+    signs: Vec<(TimeSpan, String)>,
+    utterances: Vec<TimeSpan>,
 }
 
 fn is_function_tier(row: &TierRow, named: Option<&str>) -> bool {
-    let plain: String = fold(&row.name)
+    let plain: String = fold_text(&row.name)
         .chars()
-        .filter(|it| it.is_alphanumeric())
+        .filter(|letter| letter.is_alphanumeric())
         .collect();
     match named {
-        Some(name) => row.name == name || fold(&row.name) == fold(name),
-        None => NAMES.contains(&&*plain),
+        Some(name) => row.name == name || fold_text(&row.name) == fold_text(name),
+        None => FUNCTION_TIER_NAMES.contains(&&*plain),
     }
 }
 
-fn span_of(row: &AnnotationRow) -> Span {
-    Span::between(
-        Instant::from_micros(row.start_us),
-        Instant::from_micros(row.end_us),
+fn span_of(row: &AnnotationRow) -> TimeSpan {
+    TimeSpan::span_between(
+        RecordingInstant::from_micros(row.start_us),
+        RecordingInstant::from_micros(row.end_us),
     )
 }
 
-fn middle(span: Span) -> Instant {
-    span.start().shifted(span.micros() / 2)
+fn span_middle(span: TimeSpan) -> RecordingInstant {
+    span.span_start_instant().shifted_instant(span.span_micros() / 2)
 }
 
 /// Returns the expressions of a recording in order of time, of one function or of all; `tier` is the name of the
 /// function tier.
-pub(crate) fn of_recording(
+pub(crate) fn load_recording_expressions(
     connection: &Connection,
     recording: i64,
-    function: Option<&Function>,
+    function: Option<&ExpressionFunction>,
     tier: Option<&str>,
-) -> Result<Vec<Expression>> {
-    let all = tiers::tiers(connection, recording)?;
-    let mut written = written(connection, recording, &all, function)?;
-    let mut found = Vec::new();
+) -> CorpusResult<Vec<FaceExpression>> {
+    let all = stored_tiers::load_tier_rows(connection, recording)?;
+    let mut written = load_written_expressions(connection, recording, &all, function)?;
+    let mut expressions = Vec::new();
     for row in all.iter().filter(|row| is_function_tier(row, tier)) {
         let mut signing = None;
-        for annotation in tiers::annotations(connection, row.id)? {
-            let own = Function::of(&annotation.value);
-            let wanted = function.is_none_or(|function| *function == own);
+        for annotation in stored_tiers::load_tier_annotation_rows(connection, row.id)? {
+            let annotation_function = ExpressionFunction::from_function_name(&annotation.value);
+            let wanted = function.is_none_or(|function| *function == annotation_function);
             if !annotation.is_filled() || !wanted {
                 continue;
             }
             let span = span_of(&annotation);
-            let same = |it: &Expression| it.function == own && it.milestones.body().overlaps(span);
+            let same = |expression: &FaceExpression| {
+                expression.function == annotation_function
+                    && expression.milestones.expression_body_span().is_overlapping_span(span)
+            };
             let signing = match &signing {
                 Some(signing) => signing,
-                None => signing.insert(Signing::of(connection, &all, row.participant.as_deref())?),
+                None => signing.insert(SignerSigns::load_participant_signs(
+                    connection,
+                    &all,
+                    row.participant.as_deref(),
+                )?),
             };
             if let Some(at) = written.iter().position(same) {
                 let stored = written.remove(at);
-                found.push(Expression {
+                expressions.push(FaceExpression {
                     annotation: annotation.id,
-                    signs: signing.glosses(stored.milestones.body()),
-                    odd: stored.milestones.oddities(),
+                    signs: signing.glosses_in_span(stored.milestones.expression_body_span()),
+                    odd: stored.milestones.milestone_oddities(),
                     ..stored
                 });
                 continue;
             }
-            found.push(signing.expression(recording, own, &annotation));
+            expressions.push(signing.expression_over_annotation(recording, annotation_function, &annotation));
         }
     }
-    found.extend(written);
-    found.sort_by_key(|it| (it.milestones.m2, it.annotation));
-    Ok(found)
+    expressions.extend(written);
+    expressions.sort_by_key(|expression| (expression.milestones.m2, expression.annotation));
+    Ok(expressions)
 }
 
-impl Signing {
+impl SignerSigns {
     /// Returns the signs on a participant's gloss tier with the most annotations; if there are several, that of the
     /// dominant hand.
-    fn of(connection: &Connection, all: &[TierRow], participant: Option<&str>) -> Result<Self> {
+    fn load_participant_signs(
+        connection: &Connection,
+        all: &[TierRow],
+        participant: Option<&str>,
+    ) -> CorpusResult<Self> {
         let mut best = ((false, false, 0), Vec::new());
         let mut utterances = Vec::new();
         for row in all {
             let rows = match row.role {
-                TierRole::Gloss | TierRole::Translation => tiers::annotations(connection, row.id)?,
+                TierRole::Gloss | TierRole::Translation => stored_tiers::load_tier_annotation_rows(connection, row.id)?,
                 _ => continue,
             };
-            let said = rows.iter().filter(|it| it.is_filled());
+            let filled_rows = rows.iter().filter(|annotation| annotation.is_filled());
             if row.role == TierRole::Translation {
-                utterances.extend(said.map(span_of));
+                utterances.extend(filled_rows.map(span_of));
                 continue;
             }
-            let mut signs: Vec<(Span, String)> = said
-                .map(|it| (span_of(it), it.value.trim().to_owned()))
+            let mut signs: Vec<(TimeSpan, String)> = filled_rows
+                .map(|annotation| (span_of(annotation), annotation.value.trim().to_owned()))
                 .collect();
-            signs.sort_by_key(|(span, _)| (span.start(), span.end()));
+            signs.sort_by_key(|(span, _)| (span.span_start_instant(), span.span_end_instant()));
             let same = participant.is_none() || row.participant.as_deref() == participant;
-            let other_hand = matches!(row.hand, Some(Hands::One(HandRef::Left | HandRef::Weak)));
+            let other_hand = matches!(row.hand, Some(AnnotatedHands::One(HandRef::Left | HandRef::Weak)));
             let rank = (same, !other_hand, signs.len());
             if best.1.is_empty() || rank > best.0 {
                 best = (rank, signs);
             }
         }
-        utterances.sort_by_key(|span| (span.start(), span.end()));
+        utterances.sort_by_key(|span| (span.span_start_instant(), span.span_end_instant()));
         Ok(Self {
             signs: best.1,
             utterances,
         })
     }
 
-    fn glosses(&self, span: Span) -> Vec<String> {
+    fn glosses_in_span(&self, span: TimeSpan) -> Vec<String> {
         let inside = self
             .signs
             .iter()
-            .filter(|(sign, _)| span.contains(middle(*sign)));
+            .filter(|(sign, _)| span.has_instant(span_middle(*sign)));
         inside.map(|(_, gloss)| gloss.clone()).collect()
     }
 
     /// Returns the expression over the signs whose middle lies in an annotation; without signs, over the
     /// annotation's own span.
-    fn expression(&self, recording: i64, function: Function, of: &AnnotationRow) -> Expression {
+    fn expression_over_annotation(
+        &self,
+        recording: i64,
+        function: ExpressionFunction,
+        of: &AnnotationRow,
+    ) -> FaceExpression {
         let span = span_of(of);
-        let own = self.utterances.iter().find(|it| it.contains(middle(span)));
-        let signs: Vec<&(Span, String)> = self
+        let utterance = self
+            .utterances
+            .iter()
+            .find(|candidate| candidate.has_instant(span_middle(span)));
+        let signs: Vec<&(TimeSpan, String)> = self
             .signs
             .iter()
-            .filter(|(sign, _)| own.is_none_or(|own| own.contains(middle(*sign))))
+            .filter(|(sign, _)| utterance.is_none_or(|own| own.has_instant(span_middle(*sign))))
             .collect();
-        let inside = |(sign, _): &&(Span, String)| span.contains(middle(*sign));
+        let inside = |(sign, _): &&(TimeSpan, String)| span.has_instant(span_middle(*sign));
         let first = signs.iter().position(inside);
         let last = signs.iter().rposition(inside).map(|last| last + 1);
-        let times: Vec<Span> = signs.iter().map(|(sign, _)| *sign).collect();
+        let times: Vec<TimeSpan> = signs.iter().map(|(sign, _)| *sign).collect();
         let range = first.zip(last).map(|(first, last)| first..last);
-        let found = range
+        let sign_milestones = range
             .clone()
-            .and_then(|of| milestones(&times, of, &function, EDGE));
+            .and_then(|of| find_expression_milestones(&times, of, &function, UTTERANCE_EDGE_MICROS));
         let mut odd = Vec::new();
-        let marks = found.unwrap_or_else(|| {
+        let marks = sign_milestones.unwrap_or_else(|| {
             odd.push("no gloss lies in it, so its own span stands for one sign".to_owned());
-            Milestones {
-                m1: span.start().shifted(-EDGE),
-                m2: span.start(),
+            ExpressionMilestones {
+                m1: span.span_start_instant().shifted_instant(-UTTERANCE_EDGE_MICROS),
+                m2: span.span_start_instant(),
                 m3: None,
-                m4: span.end(),
-                m5: span.end().shifted(EDGE),
+                m4: span.span_end_instant(),
+                m5: span.span_end_instant().shifted_instant(UTTERANCE_EDGE_MICROS),
             }
         });
-        odd.extend(marks.oddities());
-        let glosses = range.map(|range| {
-            signs[range]
-                .iter()
-                .map(|(_, gloss)| gloss.clone())
-                .collect()
-        });
-        Expression {
+        odd.extend(marks.milestone_oddities());
+        let glosses = range.map(|range| signs[range].iter().map(|(_, gloss)| gloss.clone()).collect());
+        FaceExpression {
             recording,
             function,
             milestones: marks,
@@ -215,13 +231,13 @@ impl Signing {
 }
 
 /// Returns the expressions with milestones written on tiers, phase by phase.
-fn written(
+fn load_written_expressions(
     connection: &Connection,
     recording: i64,
     all: &[TierRow],
-    function: Option<&Function>,
-) -> Result<Vec<Expression>> {
-    let mut found = Vec::new();
+    function: Option<&ExpressionFunction>,
+) -> CorpusResult<Vec<FaceExpression>> {
+    let mut expressions = Vec::new();
     for row in all {
         let Some(own) = function_of_tier(&row.name) else {
             continue;
@@ -229,92 +245,89 @@ fn written(
         if function.is_some_and(|function| *function != own) {
             continue;
         }
-        let mut phases: Vec<(Phase, AnnotationRow)> = Vec::new();
-        for annotation in tiers::annotations(connection, row.id)? {
+        let mut phases: Vec<(ExpressionPhase, AnnotationRow)> = Vec::new();
+        for annotation in stored_tiers::load_tier_annotation_rows(connection, row.id)? {
             let Some(phase) = phase_of(&annotation.value) else {
                 continue;
             };
-            let follows = phases.last().is_some_and(|(last, before)| {
-                *last < phase && annotation.start_us - before.end_us < 2_000
-            });
+            let follows = phases
+                .last()
+                .is_some_and(|(last, before)| *last < phase && annotation.start_us - before.end_us < 2_000);
             if !follows && !phases.is_empty() {
-                found.extend(joined(recording, &own, &phases));
+                expressions.extend(join_milestone_phases(recording, &own, &phases));
                 phases.clear();
             }
             phases.push((phase, annotation));
         }
-        found.extend(joined(recording, &own, &phases));
+        expressions.extend(join_milestone_phases(recording, &own, &phases));
     }
-    Ok(found)
+    Ok(expressions)
 }
 
 /// Returns the function of a tier of milestones, such as `milestones wh` or `milestones wh 2`.
-fn function_of_tier(name: &str) -> Option<Function> {
-    let rest = name.strip_prefix(TIER)?.trim();
-    let bare = rest
-        .trim_end_matches(|it: char| it.is_ascii_digit())
-        .trim_end();
+fn function_of_tier(name: &str) -> Option<ExpressionFunction> {
+    let rest = name.strip_prefix(MILESTONE_TIER_PREFIX)?.trim();
+    let bare = rest.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end();
     let name = if bare.is_empty() { rest } else { bare };
-    (!name.is_empty()).then(|| Function::of(name))
+    (!name.is_empty()).then(|| ExpressionFunction::from_function_name(name))
 }
 
-fn phase_of(value: &str) -> Option<Phase> {
+fn phase_of(value: &str) -> Option<ExpressionPhase> {
     let first = value.split_whitespace().next()?;
     // A body that consists of one phase.
     if first == "M2-M4" {
-        return Some(Phase::Rest);
+        return Some(ExpressionPhase::Rest);
     }
-    Phase::ALL
+    ExpressionPhase::ALL_EXPRESSION_PHASES
         .into_iter()
-        .find(|phase| phase.between() == first)
+        .find(|phase| phase.milestone_range_name() == first)
 }
 
 /// Returns the end outside of the recording that a value states, as in `M1-M2 from -0.300s`.
-fn outside(value: &str, word: &str) -> Option<Instant> {
-    let mut words = value
-        .split_whitespace()
-        .skip_while(|it| *it != word)
-        .skip(1);
+fn parse_outside_end(value: &str, word: &str) -> Option<RecordingInstant> {
+    let mut words = value.split_whitespace().skip_while(|part| *part != word).skip(1);
     let seconds: f64 = words.next()?.strip_suffix('s')?.parse().ok()?;
-    Some(Instant::from_seconds(seconds))
+    Some(RecordingInstant::from_seconds(seconds))
 }
 
-fn joined(
+fn join_milestone_phases(
     recording: i64,
-    function: &Function,
-    phases: &[(Phase, AnnotationRow)],
-) -> Option<Expression> {
+    function: &ExpressionFunction,
+    phases: &[(ExpressionPhase, AnnotationRow)],
+) -> Option<FaceExpression> {
     let (first, last) = (phases.first()?, phases.last()?);
-    let mut times: [Option<Instant>; 5] = [None; 5];
+    let mut times: [Option<RecordingInstant>; 5] = [None; 5];
     for (phase, row) in phases {
-        let at = Phase::ALL.iter().position(|it| it == phase)?;
+        let phase_index = ExpressionPhase::ALL_EXPRESSION_PHASES
+            .iter()
+            .position(|candidate| candidate == phase)?;
         let span = span_of(row);
         let one = row.value.starts_with("M2-M4");
-        times[if one { 1 } else { at }] = Some(span.start());
-        times[at + 1] = Some(span.end());
+        times[if one { 1 } else { phase_index }] = Some(span.span_start_instant());
+        times[phase_index + 1] = Some(span.span_end_instant());
     }
-    let whole = times[2].is_none();
+    let is_undivided = times[2].is_none();
     for at in 1..5 {
         times[at] = times[at].or(times[at - 1]);
     }
     for at in (0..4).rev() {
         times[at] = times[at].or(times[at + 1]);
     }
-    let [m1, m2, m3, m4, m5] = times.map(|at| at.unwrap_or(span_of(&first.1).start()));
-    let m2 = if whole && phases.len() == 1 {
-        span_of(&first.1).start()
+    let [m1, m2, m3, m4, m5] = times.map(|at| at.unwrap_or(span_of(&first.1).span_start_instant()));
+    let m2 = if is_undivided && phases.len() == 1 {
+        span_of(&first.1).span_start_instant()
     } else {
         m2
     };
-    Some(Expression {
+    Some(FaceExpression {
         recording,
         function: function.clone(),
-        milestones: Milestones {
-            m1: outside(&first.1.value, "from").unwrap_or(m1),
+        milestones: ExpressionMilestones {
+            m1: parse_outside_end(&first.1.value, "from").unwrap_or(m1),
             m2,
-            m3: (!whole && m3 != m2).then_some(m3),
+            m3: (!is_undivided && m3 != m2).then_some(m3),
             m4,
-            m5: outside(&last.1.value, "to").unwrap_or(m5),
+            m5: parse_outside_end(&last.1.value, "to").unwrap_or(m5),
         },
         annotation: first.1.id,
         signs: Vec::new(),
@@ -328,31 +341,36 @@ fn joined(
 
 /// Returns the single expression at an address: that of a recording with only one, that of an annotation of a function
 /// or phase, or the one over a token.
-pub(crate) fn at(
+pub(crate) fn find_expression_at(
     connection: &Connection,
-    address: &Address,
-    function: Option<&Function>,
-) -> Result<Expression> {
-    let recording = super::recording_of(connection, address)?;
-    let mut all = of_recording(connection, recording, function, None)?;
+    address: &CorpusAddress,
+    function: Option<&ExpressionFunction>,
+) -> CorpusResult<FaceExpression> {
+    let recording = super::find_addressed_recording(connection, address)?;
+    let mut all = load_recording_expressions(connection, recording, function, None)?;
     match address {
-        Address::Annotation(id) => {
-            all.retain(|it| it.annotation == *id || it.stored.contains(id));
+        CorpusAddress::Annotation(id) => {
+            all.retain(|expression| expression.annotation == *id || expression.stored.contains(id));
         }
-        Address::Recording(_) => {}
+        CorpusAddress::Recording(_) => {}
         other => {
-            let stretch = crate::address::stretch(connection, other)?;
+            let stretch = crate::address::find_addressed_stretch(connection, other)?;
             if stretch.token.is_some() {
-                all.retain(|it| it.milestones.body().overlaps(stretch.span));
+                all.retain(|expression| {
+                    expression
+                        .milestones
+                        .expression_body_span()
+                        .is_overlapping_span(stretch.span)
+                });
             }
         }
     }
     let of = function.map_or(String::new(), |function| format!(" of {function}"));
     match all.len() {
         1 => Ok(all.remove(0)),
-        0 => Err(Error::wrong(format!("{address} has no expression{of}"))
-            .at(address.to_string())
-            .advise(
+        0 => Err(CorpusError::from_wrong_message(format!("{address} has no expression{of}"))
+            .with_error_place(address.to_string())
+            .with_advice(
                 "annotate its function (wh, yn, negation, topic …) on a tier called \"function\" over its signs, or write \
                  its phases on a tier such as \"milestones wh\"",
             )),
@@ -360,23 +378,26 @@ pub(crate) fn at(
             let names: Vec<String> = all
                 .iter()
                 .take(8)
-                .map(|it| format!("annotation:{} ({} at {})", it.annotation, it.function, it.milestones.m2))
+                .map(|expression| format!("annotation:{} ({} at {})", expression.annotation, expression.function, expression.milestones.m2))
                 .collect();
-            Err(Error::wrong(format!("{address} has {count} expressions{of}: {}", names.join(", ")))
-                .at(address.to_string())
-                .advise("name one of them"))
+            Err(CorpusError::from_wrong_message(format!("{address} has {count} expressions{of}: {}", names.join(", ")))
+                .with_error_place(address.to_string())
+                .with_advice("name one of them"))
         }
     }
 }
 
 /// Returns an expression with the milestones that follow from the glosses, ignoring tiers of milestones.
-pub(crate) fn derived(connection: &Connection, it: &Expression) -> Result<Expression> {
-    let annotation = tiers::annotation(connection, it.annotation)?;
-    let tier = tiers::tier(connection, annotation.tier_id)?;
-    let all = tiers::tiers(connection, it.recording)?;
-    let signing = Signing::of(connection, &all, tier.participant.as_deref())?;
-    let fresh = signing.expression(it.recording, it.function.clone(), &annotation);
-    Ok(Expression {
+pub(crate) fn derive_expression_milestones(
+    connection: &Connection,
+    it: &FaceExpression,
+) -> CorpusResult<FaceExpression> {
+    let annotation = stored_tiers::load_annotation_row(connection, it.annotation)?;
+    let tier = stored_tiers::load_tier_row(connection, annotation.tier_id)?;
+    let all = stored_tiers::load_tier_rows(connection, it.recording)?;
+    let signing = SignerSigns::load_participant_signs(connection, &all, tier.participant.as_deref())?;
+    let fresh = signing.expression_over_annotation(it.recording, it.function.clone(), &annotation);
+    Ok(FaceExpression {
         stored: it.stored.clone(),
         ..fresh
     })
@@ -387,13 +408,13 @@ pub(crate) fn derived(connection: &Connection, it: &Expression) -> Result<Expres
 pub(crate) fn over_all(
     connection: &Connection,
     recording: i64,
-    function: &Function,
-) -> Result<Option<Expression>> {
-    let all = tiers::tiers(connection, recording)?;
-    let signing = Signing::of(connection, &all, None)?;
-    let times: Vec<Span> = signing.signs.iter().map(|(span, _)| *span).collect();
-    let found = milestones(&times, 0..times.len(), function, EDGE);
-    Ok(found.map(|marks| Expression {
+    function: &ExpressionFunction,
+) -> CorpusResult<Option<FaceExpression>> {
+    let all = stored_tiers::load_tier_rows(connection, recording)?;
+    let signing = SignerSigns::load_participant_signs(connection, &all, None)?;
+    let times: Vec<TimeSpan> = signing.signs.iter().map(|(span, _)| *span).collect();
+    let recording_milestones = find_expression_milestones(&times, 0..times.len(), function, UTTERANCE_EDGE_MICROS);
+    Ok(recording_milestones.map(|marks| FaceExpression {
         recording,
         function: function.clone(),
         milestones: marks,
@@ -401,6 +422,6 @@ pub(crate) fn over_all(
         signs: signing.signs.into_iter().map(|(_, gloss)| gloss).collect(),
         stored: Vec::new(),
         corrected: false,
-        odd: marks.oddities(),
+        odd: marks.milestone_oddities(),
     }))
 }

@@ -16,48 +16,50 @@
 //! | [`propose`] | proposals for brows, lids, gaze, mouth and head |
 //! | [`choose`] | ranking of performances for a sentence |
 
-mod captured;
-mod choose;
-mod course;
 #[cfg(test)]
 #[path = "tests/derived.rs"]
 mod derived_tests;
 mod expressions;
-mod fit;
-mod head;
-mod milestones;
-mod onsets;
+mod face_captured;
+mod face_choose;
+mod face_course;
+mod face_fit;
+mod face_head;
+mod face_milestones;
+mod face_onsets;
+mod face_propose;
+pub(crate) mod face_stage;
 mod performances;
-mod propose;
 mod shelf;
-pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
 mod touched;
 
-use chereme_compose::Curve;
-use chereme_formats::{Finding, Severity};
-use chereme_motion::{Face, Instant, Span};
-use chereme_sign::Remedy;
+use chereme_compose::GeneratedCurve;
+use chereme_formats::{FindingSeverity, ImportFinding};
+use chereme_motion::{FacePosture, RecordingInstant, TimeSpan};
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, Address, Name};
-use crate::error::{Error, Result};
+use crate::address::{self, CorpusAddress, RowName};
+use crate::error::{CorpusError, CorpusResult};
 
-pub(crate) use captured::{captured, captured_with};
-pub use choose::{Choice, ChooseOptions, FaceScore, Rank, Ranked, ScoredChannel};
-pub(crate) use course::Course;
-pub(crate) use expressions::at as expression_at;
-pub(crate) use fit::Fits;
-pub use fit::{FaceFit, FittedNumber};
-pub use milestones::{Expressions, FoundExpression, MilestoneOptions};
-pub use onsets::{OnsetRow, Onsets, Quartiles};
-pub(crate) use performances::Pool;
-pub use performances::{CHANNELS, FaceChannel};
-pub(crate) use propose::FaceCurves;
-pub use propose::FaceProposals;
+pub(crate) use expressions::find_expression_at as expression_at;
+pub(crate) use face_captured::{captured_with, load_captured_face};
+pub use face_choose::{
+    ChooseOptions, FaceScore, PerformanceChoice, RankedPerformance, RankingCriterion, ScoredChannel,
+};
+pub(crate) use face_course::ChannelCourse;
+pub(crate) use face_fit::CorpusFits;
+pub use face_fit::{FaceFit, FittedNumber};
+pub use face_milestones::{FoundExpression, FoundExpressions, MilestoneOptions};
+pub use face_onsets::{NonmanualOnsets, NumberQuartiles, OnsetRow};
+pub(crate) use face_propose::FaceCurves;
+pub use face_propose::FaceProposals;
+pub(crate) use performances::PerformancePool;
+pub use performances::{FACE_CHANNELS, FaceChannel};
 
 /// The face of a recording, derived from its capture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -85,7 +87,7 @@ pub struct FaceReport {
 /// One number of a face over all frames of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FaceNumber {
-    /// The name, one of [`Face::NAMES`], or `head_pitch`, `head_yaw`, `head_roll` in degrees.
+    /// The name, one of [`FacePosture::FACE_NUMBER_NAMES`], or `head_pitch`, `head_yaw`, `head_roll` in degrees.
     pub name: String,
     /// Whether the capture provides it; otherwise it is unknown, not at rest.
     pub known: bool,
@@ -101,15 +103,15 @@ pub struct FaceNumber {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct FaceFinding {
     /// The severity.
-    pub severity: Severity,
+    pub severity: FindingSeverity,
     /// The finding.
     pub message: String,
     /// A remedy, if there is one.
-    pub remedy: Option<Remedy>,
+    pub remedy: Option<ErrorRemedy>,
 }
 
-impl From<Finding> for FaceFinding {
-    fn from(finding: Finding) -> Self {
+impl From<ImportFinding> for FaceFinding {
+    fn from(finding: ImportFinding) -> Self {
         Self {
             severity: finding.severity,
             message: finding.message,
@@ -124,18 +126,14 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if nothing has that address, or it has no captured face.
-    pub fn face(&self, address: &Address) -> Result<FaceReport> {
-        let connection = self.store.read();
-        let recording = recording_of(connection, address)?;
-        let row = address::recording(connection, &Name::Number(recording))?;
-        let captured = captured(connection, recording, None)?.ok_or_else(|| no_face(&row.name))?;
+    pub fn report_captured_face(&self, address: &CorpusAddress) -> CorpusResult<FaceReport> {
+        let connection = self.store.read_connection();
+        let recording = find_addressed_recording(connection, address)?;
+        let row = address::find_recording_by_name(connection, &RowName::Number(recording))?;
+        let captured = load_captured_face(connection, recording, None)?.ok_or_else(|| no_face(&row.name))?;
         let view = captured.view;
         let number = |name: &str, values: Option<Vec<f64>>| {
-            let of = |choose: fn(f64, f64) -> f64| {
-                values
-                    .as_ref()
-                    .and_then(|all| all.iter().copied().reduce(choose))
-            };
+            let of = |choose: fn(f64, f64) -> f64| values.as_ref().and_then(|all| all.iter().copied().reduce(choose));
             FaceNumber {
                 name: name.to_owned(),
                 known: values.is_some(),
@@ -146,14 +144,11 @@ impl Corpus {
                 most: of(f64::max),
             }
         };
-        let mut numbers: Vec<FaceNumber> = Face::NAMES
+        let mut numbers: Vec<FaceNumber> = FacePosture::FACE_NUMBER_NAMES
             .iter()
-            .map(|name| number(name, view.value(name)))
+            .map(|name| number(name, view.face_number_values(name)))
             .collect();
-        for (at, name) in ["head_pitch", "head_yaw", "head_roll"]
-            .into_iter()
-            .enumerate()
-        {
+        for (at, name) in ["head_pitch", "head_yaw", "head_roll"].into_iter().enumerate() {
             let turned = view
                 .head
                 .as_ref()
@@ -169,7 +164,7 @@ impl Corpus {
             numbers,
             bridged: view.bridged as u64,
             fitted_on: match captured.fitted {
-                Some(id) => Some(address::recording(connection, &Name::Number(id))?.name),
+                Some(id) => Some(address::find_recording_by_name(connection, &RowName::Number(id))?.name),
                 None => None,
             },
             findings: view.findings.into_iter().map(FaceFinding::from).collect(),
@@ -178,41 +173,44 @@ impl Corpus {
 }
 
 /// Returns the recording that contains the object at an address: a recording, token, tier or annotation.
-pub(crate) fn recording_of(connection: &Connection, address: &Address) -> Result<i64> {
-    use crate::db::tiers;
+pub(crate) fn find_addressed_recording(connection: &Connection, address: &CorpusAddress) -> CorpusResult<i64> {
+    use crate::db::stored_tiers;
     Ok(match address {
-        Address::Recording(name) => address::recording(connection, name)?.id,
-        Address::Annotation(id) => {
-            let row = tiers::annotation(connection, *id)?;
-            tiers::tier(connection, row.tier_id)?.recording_id
+        CorpusAddress::Recording(name) => address::find_recording_by_name(connection, name)?.id,
+        CorpusAddress::Annotation(id) => {
+            let row = stored_tiers::load_annotation_row(connection, *id)?;
+            stored_tiers::load_tier_row(connection, row.tier_id)?.recording_id
         }
-        Address::Tier(id) => tiers::tier(connection, *id)?.recording_id,
-        other => address::stretch(connection, other)?.recording.id,
+        CorpusAddress::Tier(id) => stored_tiers::load_tier_row(connection, *id)?.recording_id,
+        other => address::find_addressed_stretch(connection, other)?.recording.id,
     })
 }
 
 /// Returns whether a recording has a captured face.
-pub(crate) fn has_face(connection: &Connection, recording: i64) -> Result<bool> {
-    Ok(captured(connection, recording, None)?.is_some())
+pub(crate) fn has_face(connection: &Connection, recording: i64) -> CorpusResult<bool> {
+    Ok(load_captured_face(connection, recording, None)?.is_some())
 }
 
-pub(crate) fn no_face(recording: &str) -> Error {
-    Error::wrong(format!("the recording {recording:?} has no captured face"))
-        .at(recording)
-        .advise("import its face file (Live Link CSV, OpenFace CSV, MediaPipe JSON, .fap) under the same name")
+pub(crate) fn no_face(recording: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("the recording {recording:?} has no captured face"))
+        .with_error_place(recording)
+        .with_advice("import its face file (Live Link CSV, OpenFace CSV, MediaPipe JSON, .fap) under the same name")
 }
 
 /// Returns a curve for each number of the captured face of a recording, at these moments of its clock; empty without one.
 pub(crate) fn curves_at(
     connection: &Connection,
     recording: i64,
-    moments: impl Iterator<Item = Instant> + Clone,
-) -> Result<Vec<Curve>> {
+    moments: impl Iterator<Item = RecordingInstant> + Clone,
+) -> CorpusResult<Vec<GeneratedCurve>> {
     let (Some(first), Some(last)) = (moments.clone().next(), moments.clone().last()) else {
         return Ok(Vec::new());
     };
-    const AROUND: i64 = 200_000;
-    let span = Span::between(first.shifted(-AROUND), last.shifted(AROUND));
-    let found = captured(connection, recording, Some(span))?;
-    Ok(found.map_or(Vec::new(), |face| face.curves(moments)))
+    const CURVE_MARGIN_US: i64 = 200_000;
+    let span = TimeSpan::span_between(
+        first.shifted_instant(-CURVE_MARGIN_US),
+        last.shifted_instant(CURVE_MARGIN_US),
+    );
+    let captured_face = load_captured_face(connection, recording, Some(span))?;
+    Ok(captured_face.map_or(Vec::new(), |face| face.sample_capture_curves(moments)))
 }

@@ -1,13 +1,13 @@
 //! Conversion between the colour numbers of films and screen colours (ITU-R BT.601, BT.709, BT.2020).
 
-use chereme_figure::Image;
-use chereme_formats::mp4::{Colours, Turn};
+use chereme_figure::RasterImage;
+use chereme_formats::mp4::{PictureColours, PictureRotation};
 
 use super::FilmPicture;
 
 /// A decoded picture: luma of each pixel, and two colour differences of each square of four.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Planes {
+pub struct PicturePlanes {
     /// Coded width in pixels.
     pub width: usize,
     /// Coded height in pixels.
@@ -19,7 +19,7 @@ pub struct Planes {
     /// The red difference, in the same layout.
     pub v: Vec<u8>,
     /// The meaning of the numbers as colours, if the film states it.
-    pub(crate) colours: Option<Colours>,
+    pub(crate) colours: Option<PictureColours>,
 }
 
 /// Returns the weights of red and blue in luma.
@@ -32,15 +32,15 @@ fn weights(matrix: u8) -> (f32, f32) {
 }
 
 /// Returns the coding of colours for a picture of that height if a film does not name it: that of television.
-pub(crate) fn usual(height: usize) -> Colours {
-    Colours {
+pub(crate) fn default_film_colours(height: usize) -> PictureColours {
+    PictureColours {
         matrix: if height < 720 { 6 } else { 1 },
         full_range: false,
     }
 }
 
 /// Factors from numbers to colours, in 65,536ths.
-struct Factors {
+struct ColourFactors {
     bright: i32,
     black: i32,
     red: i32,
@@ -48,8 +48,8 @@ struct Factors {
     blue: i32,
 }
 
-impl Factors {
-    fn of(colours: Colours) -> Self {
+impl ColourFactors {
+    fn factors_of_colours(colours: PictureColours) -> Self {
         let (red, blue) = weights(colours.matrix);
         let green = 1.0 - red - blue;
         let (bright, chroma) = if colours.full_range {
@@ -70,7 +70,7 @@ impl Factors {
         }
     }
 
-    fn colour(&self, y: i32, u: i32, v: i32) -> [u8; 3] {
+    fn convert_yuv_colour(&self, y: i32, u: i32, v: i32) -> [u8; 3] {
         let bright = (y - self.black) * self.bright + 32768;
         let (u, v) = (u - 128, v - 128);
         [
@@ -82,18 +82,19 @@ impl Factors {
     }
 }
 
-impl Planes {
+impl PicturePlanes {
     /// Returns its size in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn plane_byte_count(&self) -> usize {
         self.y.len() + self.u.len() + self.v.len()
     }
 
     /// Returns it in screen colours, rotated, and reduced to fit into `within`.
     #[must_use]
-    pub fn picture(&self, turn: Turn, within: [usize; 2]) -> FilmPicture {
-        let turned = turn.size([self.width, self.height]);
-        let [width, height] = fitted(turned, within);
-        let factors = Factors::of(self.colours.unwrap_or_else(|| usual(self.height)));
+    pub fn to_screen_picture(&self, turn: PictureRotation, within: [usize; 2]) -> FilmPicture {
+        let turned = turn.rotated_picture_size([self.width, self.height]);
+        let [width, height] = fit_picture_size(turned, within);
+        let factors =
+            ColourFactors::factors_of_colours(self.colours.unwrap_or_else(|| default_film_colours(self.height)));
         let chroma = self.width.div_ceil(2);
         // The ranges of the coded picture that correspond to columns and rows of the result.
         let spans = |count: usize, of: usize| -> Vec<(usize, usize)> {
@@ -108,10 +109,10 @@ impl Planes {
         for row in &rows {
             for column in &columns {
                 let (xs, ys) = match turn {
-                    Turn::None => (*column, *row),
-                    Turn::Half => (back(*column, self.width), back(*row, self.height)),
-                    Turn::Quarter => (*row, back(*column, self.height)),
-                    Turn::ThreeQuarters => (back(*row, self.width), *column),
+                    PictureRotation::None => (*column, *row),
+                    PictureRotation::Half => (back(*column, self.width), back(*row, self.height)),
+                    PictureRotation::Quarter => (*row, back(*column, self.height)),
+                    PictureRotation::ThreeQuarters => (back(*row, self.width), *column),
                 };
                 let mut sum = 0_u32;
                 for y in ys.0..ys.1 {
@@ -119,38 +120,30 @@ impl Planes {
                     sum += line.iter().map(|value| u32::from(*value)).sum::<u32>();
                 }
                 let count = ((xs.1 - xs.0) * (ys.1 - ys.0)) as u32;
-                let at = (ys.0 + ys.1) / 4 * chroma + (xs.0 + xs.1) / 4;
-                let near = at.min(self.u.len().saturating_sub(1));
+                let chroma_index = (ys.0 + ys.1) / 4 * chroma + (xs.0 + xs.1) / 4;
+                let near = chroma_index.min(self.u.len().saturating_sub(1));
                 let bright = ((sum + count / 2) / count) as i32;
                 let (u, v) = (i32::from(self.u[near]), i32::from(self.v[near]));
-                let [red, green, blue] = factors.colour(bright, u, v);
+                let [red, green, blue] = factors.convert_yuv_colour(bright, u, v);
                 rgba.extend_from_slice(&[red, green, blue, 255]);
             }
         }
-        FilmPicture {
-            width,
-            height,
-            rgba,
-        }
+        FilmPicture { width, height, rgba }
     }
 
     /// Converts a drawn picture to film colours; an odd width or height is made even by repeating the edge.
-    pub(crate) fn of(image: &Image, colours: Colours) -> Self {
-        let (wide, high) = (image.width(), image.height());
+    pub(crate) fn from_drawn_image(image: &RasterImage, colours: PictureColours) -> Self {
+        let (wide, high) = (image.image_width(), image.image_height());
         let (width, height) = (wide.next_multiple_of(2), high.next_multiple_of(2));
         let (red, blue) = weights(colours.matrix);
         let green = 1.0 - red - blue;
-        let pixels = image.pixels();
-        let at = |x: usize, y: usize| {
-            pixels[y.min(high - 1) * wide + x.min(wide - 1)]
-                .0
-                .map(f32::from)
-        };
+        let pixels = image.image_pixels();
+        let pixel_at = |x: usize, y: usize| pixels[y.min(high - 1) * wide + x.min(wide - 1)].0.map(f32::from);
         let bright = |[r, g, b]: [f32; 3]| red * r + green * g + blue * b;
         let mut y = Vec::with_capacity(width * height);
         for row in 0..height {
             y.extend((0..width).map(|x| {
-                let value = bright(at(x, row)) * (219.0 / 255.0) + 16.0;
+                let value = bright(pixel_at(x, row)) * (219.0 / 255.0) + 16.0;
                 (value + 0.5) as u8
             }));
         }
@@ -158,12 +151,12 @@ impl Planes {
         for row in (0..height).step_by(2) {
             for x in (0..width).step_by(2) {
                 let four = [
-                    at(x, row),
-                    at(x + 1, row),
-                    at(x, row + 1),
-                    at(x + 1, row + 1),
+                    pixel_at(x, row),
+                    pixel_at(x + 1, row),
+                    pixel_at(x, row + 1),
+                    pixel_at(x + 1, row + 1),
                 ];
-                let mean = |channel: usize| four.iter().map(|it| it[channel]).sum::<f32>() / 4.0;
+                let mean = |channel: usize| four.iter().map(|pixel| pixel[channel]).sum::<f32>() / 4.0;
                 let colour = [mean(0), mean(1), mean(2)];
                 let middle = bright(colour);
                 let put = |value: f32, weight: f32| {
@@ -186,7 +179,7 @@ impl Planes {
 }
 
 /// Returns the largest size of the same proportions that fits into `within` and is not larger than the original.
-fn fitted([width, height]: [usize; 2], within: [usize; 2]) -> [usize; 2] {
+fn fit_picture_size([width, height]: [usize; 2], within: [usize; 2]) -> [usize; 2] {
     let share = (within[0] as f64 / width.max(1) as f64)
         .min(within[1] as f64 / height.max(1) as f64)
         .min(1.0);

@@ -4,24 +4,24 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use chereme_formats::mp4::{self, Colours};
+use chereme_formats::mp4::{self, PictureColours};
 
-use super::colours::Planes;
-use super::{Decode, Error, FilmFacts, FilmTimes, Result};
+use super::colours::PicturePlanes;
+use super::{CorpusError, CorpusResult, FilmFacts, FilmTimes, FrameDecoder};
 
-const PROGRAM: &str = "ffmpeg";
+const FFMPEG_PROGRAM: &str = "ffmpeg";
 /// The largest side of a picture that is decoded.
-const LARGEST: usize = 8192;
+const MAX_DECODED_SIDE_PIXELS: usize = 8192;
 
 /// Returns whether `ffmpeg` is installed.
 pub(super) fn is_there() -> bool {
-    let mut command = quiet();
+    let mut command = quiet_ffmpeg_command();
     command.arg("-version").stdout(Stdio::null());
     command.status().is_ok_and(|status| status.success())
 }
 
-fn quiet() -> Command {
-    let mut command = Command::new(PROGRAM);
+fn quiet_ffmpeg_command() -> Command {
+    let mut command = Command::new(FFMPEG_PROGRAM);
     command
         .args(["-nostdin", "-v", "error"])
         .stdin(Stdio::null())
@@ -30,14 +30,14 @@ fn quiet() -> Command {
 }
 
 /// Opens a film; its index is given if it is an MP4.
-pub(super) fn open(
+pub(super) fn open_ffmpeg_film(
     path: &Path,
-    known: Option<(mp4::Container, Vec<String>)>,
-) -> Result<(FilmFacts, FilmTimes, Helper)> {
+    known: Option<(mp4::Mp4Container, Vec<String>)>,
+) -> CorpusResult<(FilmFacts, FilmTimes, FfmpegFilm)> {
     let failed = |reason: String| {
-        Error::wrong(format!("the film cannot be played: {reason}"))
-            .at(path.display().to_string())
-            .advise("export or copy it again from where it was recorded")
+        CorpusError::from_wrong_message(format!("the film cannot be played: {reason}"))
+            .with_error_place(path.display().to_string())
+            .with_advice("export or copy it again from where it was recorded")
     };
     let (coding, size, turn, colours, times, findings) = match known {
         Some((container, findings)) => (
@@ -45,46 +45,48 @@ pub(super) fn open(
             [container.width as usize, container.height as usize],
             container.turn,
             container.colours,
-            super::times(&container),
+            super::container_film_times(&container),
             findings,
         ),
         None => {
-            let listed = listed(path).map_err(failed)?;
+            let listed = list_film_frames(path).map_err(failed)?;
             let coding = "coding known to ffmpeg".to_owned();
-            let turn = mp4::Turn::None;
+            let turn = mp4::PictureRotation::None;
             (coding, listed.0, turn, None, listed.1, Vec::new())
         }
     };
     let [width, height] = size;
-    if !(1..=LARGEST).contains(&width) || !(1..=LARGEST).contains(&height) {
+    if !(1..=MAX_DECODED_SIDE_PIXELS).contains(&width) || !(1..=MAX_DECODED_SIDE_PIXELS).contains(&height) {
         return Err(failed(format!("pictures of {width} by {height} pixels")));
     }
-    let mut helper = Helper {
+    let mut helper = FfmpegFilm {
         path: path.to_owned(),
         size,
         colours,
-        starts: (0..times.frames()).map(|it| times.start(it)).collect(),
+        starts: (0..times.film_frame_count())
+            .map(|frame| times.film_frame_start(frame))
+            .collect(),
         running: None,
     };
-    helper.decode(0, &|| false, &mut |_, _| {})?;
-    let [shown_width, shown_height] = turn.size(size);
+    helper.decode_film_frames(0, &|| false, &mut |_, _| {})?;
+    let [shown_width, shown_height] = turn.rotated_picture_size(size);
     let facts = FilmFacts {
         coding,
         width: shown_width,
         height: shown_height,
-        frames: times.frames(),
-        rate: times.rate(),
-        duration_us: times.end(),
+        frames: times.film_frame_count(),
+        rate: times.mean_picture_rate(),
+        duration_us: times.film_end(),
         turn,
-        decoder: PROGRAM,
+        decoder: FFMPEG_PROGRAM,
         findings,
     };
     Ok((facts, times, helper))
 }
 
 /// Returns the size of a film and the times of its frames, which `ffmpeg` lists without decoding them.
-fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
-    let mut command = quiet();
+fn list_film_frames(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
+    let mut command = quiet_ffmpeg_command();
     command.arg("-i").arg(path);
     command.args(["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]);
     let output = command.output().map_err(|error| error.to_string())?;
@@ -94,8 +96,8 @@ fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
         let (a, b) = text.trim().split_once(between)?;
         Some((a.trim().parse().ok()?, b.trim().parse().ok()?))
     };
-    let base = value_of("#tb 0:").and_then(|it| parts(it, '/'));
-    let size = value_of("#dimensions 0:").and_then(|it| parts(it, 'x'));
+    let base = value_of("#tb 0:").and_then(|text| parts(text, '/'));
+    let size = value_of("#dimensions 0:").and_then(|text| parts(text, 'x'));
     let (Some((part, whole)), Some((width, height))) = (base, size) else {
         return Err("ffmpeg finds no pictures in it".to_owned());
     };
@@ -123,32 +125,26 @@ fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
         end: micros(last.saturating_add(lasts.max(1))),
         sync: vec![true; rows.len()],
     };
-    Ok((
-        [
-            width.unsigned_abs() as usize,
-            height.unsigned_abs() as usize,
-        ],
-        times,
-    ))
+    Ok(([width.unsigned_abs() as usize, height.unsigned_abs() as usize], times))
 }
 
 /// A film that `ffmpeg` decodes from any frame on.
-pub(super) struct Helper {
+pub(super) struct FfmpegFilm {
     path: PathBuf,
     size: [usize; 2],
-    colours: Option<Colours>,
+    colours: Option<PictureColours>,
     starts: Vec<i64>,
-    running: Option<Running>,
+    running: Option<RunningFfmpeg>,
 }
 
 /// A running `ffmpeg` process.
-struct Running {
+struct RunningFfmpeg {
     child: Child,
     pictures: ChildStdout,
     next: usize,
 }
 
-impl Drop for Running {
+impl Drop for RunningFfmpeg {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -156,12 +152,12 @@ impl Drop for Running {
 }
 
 /// The most frames that are decoded and dropped before `ffmpeg` is started again instead.
-const NEAR: usize = 48;
+const MAX_DROPPED_FRAMES: usize = 48;
 
-impl Helper {
-    fn begin(&mut self, frame: usize) -> Result<()> {
+impl FfmpegFilm {
+    fn begin_ffmpeg_at(&mut self, frame: usize) -> CorpusResult<()> {
         self.running = None;
-        let mut command = quiet();
+        let mut command = quiet_ffmpeg_command();
         command.arg("-noautorotate");
         if frame > 0 {
             // Seeks half a frame earlier, so that rounding does not skip the frame.
@@ -172,11 +168,11 @@ impl Helper {
         command.arg("-i").arg(&self.path);
         command.args(["-an", "-sn", "-map", "0:v:0", "-fps_mode", "passthrough"]);
         command.args(["-f", "rawvideo", "-pix_fmt", "yuv420p", "pipe:1"]);
-        let fault = |error| Error::file(PROGRAM, error);
+        let fault = |error| CorpusError::from_file_failure(FFMPEG_PROGRAM, error);
         let mut child = command.stdout(Stdio::piped()).spawn().map_err(fault)?;
-        let pictures = child.stdout.take();
-        let pictures = pictures.ok_or_else(|| fault(std::io::ErrorKind::BrokenPipe.into()))?;
-        self.running = Some(Running {
+        let stdout = child.stdout.take();
+        let pictures = stdout.ok_or_else(|| fault(std::io::ErrorKind::BrokenPipe.into()))?;
+        self.running = Some(RunningFfmpeg {
             child,
             pictures,
             next: frame,
@@ -185,40 +181,40 @@ impl Helper {
     }
 }
 
-impl Decode for Helper {
-    fn decode(
+impl FrameDecoder for FfmpegFilm {
+    fn decode_film_frames(
         &mut self,
         frame: usize,
         stop: &dyn Fn() -> bool,
-        keep: &mut dyn FnMut(usize, Planes),
-    ) -> Result<()> {
-        let next = self.running.as_ref().map(|it| it.next);
-        if !next.is_some_and(|next| (next..next + NEAR).contains(&frame)) {
-            self.begin(frame)?;
+        keep: &mut dyn FnMut(usize, PicturePlanes),
+    ) -> CorpusResult<()> {
+        let next = self.running.as_ref().map(|running| running.next);
+        if !next.is_some_and(|next| (next..next + MAX_DROPPED_FRAMES).contains(&frame)) {
+            self.begin_ffmpeg_at(frame)?;
         }
         let [width, height] = self.size;
         let part = width.div_ceil(2) * height.div_ceil(2);
         while let Some(running) = &mut self.running {
             if stop() {
-                return Err(Error::Stopped);
+                return Err(CorpusError::Stopped);
             }
             let mut read = |size: usize| {
                 let mut bytes = vec![0; size];
                 running.pictures.read_exact(&mut bytes).map(|()| bytes)
             };
             let planes = read(width * height).and_then(|y| Ok((y, read(part)?, read(part)?)));
-            let at = running.next;
+            let frame_index = running.next;
             running.next += 1;
             let Ok((y, u, v)) = planes else {
                 self.running = None;
-                return Err(Error::wrong(format!(
+                return Err(CorpusError::from_wrong_message(format!(
                     "frame {frame} of the film cannot be decoded by ffmpeg"
                 ))
-                .at(self.path.display().to_string())
-                .advise("the file is damaged there; copy it again, or look at another frame"));
+                .with_error_place(self.path.display().to_string())
+                .with_advice("the file is damaged there; copy it again, or look at another frame"));
             };
             let colours = self.colours;
-            let planes = Planes {
+            let planes = PicturePlanes {
                 width,
                 height,
                 y,
@@ -226,8 +222,8 @@ impl Decode for Helper {
                 v,
                 colours,
             };
-            keep(at, planes);
-            if at == frame {
+            keep(frame_index, planes);
+            if frame_index == frame {
                 return Ok(());
             }
         }

@@ -1,14 +1,14 @@
 //! A single picture of a recording's film, as lists of recordings and results show it.
 
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 
-use super::{Film, FilmPicture};
+use super::{FilmFile, FilmPicture};
 use crate::Corpus;
-use crate::address::Name;
-use crate::error::Result;
+use crate::address::RowName;
+use crate::error::CorpusResult;
 
 /// The most frames that are decoded to reach a moment; beyond, the frame at which decoding begins stands for it.
-const NEAR: usize = 30;
+const MAX_STILL_DECODED_FRAMES: usize = 30;
 
 impl Corpus {
     /// Returns a picture of the first film of a recording that can be decoded, at most as large as `within` (width,
@@ -19,20 +19,24 @@ impl Corpus {
     /// Fails if the recording does not exist, or the database fails.
     pub fn film_still(
         &self,
-        recording: &Name,
-        at: Instant,
+        recording: &RowName,
+        at: RecordingInstant,
         within: [usize; 2],
-    ) -> Result<Option<FilmPicture>> {
-        let films = self.media(recording)?.into_iter();
-        let films = films.filter(|it| it.is_there && it.track.is_film());
+    ) -> CorpusResult<Option<FilmPicture>> {
+        let media_places = self.recording_media(recording)?.into_iter();
+        let films = media_places.filter(|place| place.is_there && place.track.is_film());
         let stills = films.filter_map(|place| {
-            let mut film = Film::open(&place.path?).ok()?;
-            let times = film.times().clone();
-            let own = at.micros() - place.track.offset_us;
-            let frame = times.frame_at(own.clamp(0, (times.end() - 1).max(0)))?;
+            let mut film = FilmFile::open_film(&place.path?).ok()?;
+            let times = film.film_times().clone();
+            let film_time = at.instant_micros() - place.track.offset_us;
+            let frame = times.displayed_frame_at(film_time.clamp(0, (times.film_end() - 1).max(0)))?;
             let begins = times.sync_before(frame);
-            let frame = if frame - begins > NEAR { begins } else { frame };
-            film.picture(frame, within, &|| false).ok()
+            let frame = if frame - begins > MAX_STILL_DECODED_FRAMES {
+                begins
+            } else {
+                frame
+            };
+            film.screen_frame_picture(frame, within, &|| false).ok()
         });
         Ok({ stills }.next())
     }

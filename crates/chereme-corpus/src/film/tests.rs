@@ -4,11 +4,11 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use chereme_figure::{Image, Pictures, Theme};
-use chereme_formats::mp4::{Colours, Turn};
+use chereme_figure::{PaperTheme, PictureSequence, RasterImage};
+use chereme_formats::mp4::{PictureColours, PictureRotation};
 use sha2::{Digest, Sha256};
 
-use super::colours::Planes;
+use super::colours::PicturePlanes;
 use super::*;
 
 /// Squares that wander over a gradient, so that pictures differ from each other and move.
@@ -17,12 +17,12 @@ struct Squares {
     frames: usize,
 }
 
-impl Pictures for Squares {
-    fn frames(&self) -> usize {
+impl PictureSequence for Squares {
+    fn picture_count(&self) -> usize {
         self.frames
     }
 
-    fn size(&self) -> [usize; 2] {
+    fn picture_size(&self) -> [usize; 2] {
         self.size
     }
 
@@ -30,11 +30,9 @@ impl Pictures for Squares {
         4
     }
 
-    fn draw(&mut self, frame: usize) -> Image {
+    fn draw_sequence_picture(&mut self, frame: usize) -> RasterImage {
         painted(self.size, |x, y| {
-            let inside = |left: usize, top: usize| {
-                (left..left + 20).contains(&x) && (top..top + 20).contains(&y)
-            };
+            let inside = |left: usize, top: usize| (left..left + 20).contains(&x) && (top..top + 20).contains(&y);
             if inside(frame * 3, frame * 2) {
                 [220, 40, 30]
             } else if inside(90 - frame.min(80), 40) {
@@ -47,11 +45,11 @@ impl Pictures for Squares {
 }
 
 /// Returns a picture of these colours.
-fn painted([width, height]: [usize; 2], colour: impl Fn(usize, usize) -> [u8; 3]) -> Image {
-    let mut image = Image::new(width, height, Theme::Light.background());
+fn painted([width, height]: [usize; 2], colour: impl Fn(usize, usize) -> [u8; 3]) -> RasterImage {
+    let mut image = RasterImage::new(width, height, PaperTheme::Light.theme_paper_colour());
     for y in 0..height {
         for x in 0..width {
-            image.set_colour([x, y], chereme_figure::Colour(colour(x, y)));
+            image.set_colour([x, y], chereme_figure::RgbColour(colour(x, y)));
         }
     }
     image
@@ -62,7 +60,7 @@ pub(crate) fn film(folder: &Path, size: [usize; 2], frames: usize) -> PathBuf {
     let path = folder.join(format!("{}x{}.mp4", size[0], size[1]));
     let out = std::fs::File::create(&path).expect("made");
     let mut squares = Squares { size, frames };
-    let shape = Shape { rate: 25 };
+    let shape = WrittenFilmShape { rate: 25 };
     let written = write_film(&mut squares, shape, out, &mut |_, _| Ok(()));
     assert_eq!(written.expect("written"), frames);
     path
@@ -73,20 +71,18 @@ fn never() -> bool {
 }
 
 /// Returns the hash of all numbers of a film, frame by frame: luma, then both colour differences.
-fn hash(film: &mut Film) -> String {
+fn hash(film: &mut FilmFile) -> String {
     let mut hash = Sha256::new();
-    for frame in 0..film.times().frames() {
-        let planes = film.planes(frame, &never).expect("a frame");
+    for frame in 0..film.film_times().film_frame_count() {
+        let planes = film.decoded_frame_planes(frame, &never).expect("a frame");
         hash.update(&planes.y);
         hash.update(&planes.u);
         hash.update(&planes.v);
     }
-    hash.finalize()
-        .iter()
-        .fold(String::new(), |mut text, byte| {
-            let _ = write!(text, "{byte:02x}");
-            text
-        })
+    hash.finalize().iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }
 
 #[test]
@@ -94,8 +90,8 @@ fn a_film_that_is_written_is_decoded_to_what_ffmpeg_decodes() {
     let folder = tempfile::tempdir().expect("a folder");
     // FFmpeg decodes these films to numbers with this hash.
     for (size, frames, known) in [([128, 96], 60, HASHES[0]), ([161, 91], 30, HASHES[1])] {
-        let mut film = Film::open(&film(folder.path(), size, frames)).expect("opened");
-        let facts = film.facts().clone();
+        let mut film = FilmFile::open_film(&film(folder.path(), size, frames)).expect("opened");
+        let facts = film.film_facts().clone();
         assert_eq!(facts.frames, frames);
         assert_eq!((facts.coding.as_str(), facts.decoder), ("H.264", "chereme"));
         assert_eq!(facts.rate, 25.0);
@@ -113,52 +109,49 @@ const HASHES: [&str; 2] = [
 fn frames_are_the_same_in_whatever_order_they_are_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = film(folder.path(), [128, 96], 120);
-    let mut one = Film::open(&path).expect("opened");
+    let mut one = FilmFile::open_film(&path).expect("opened");
     let all: Vec<_> = (0..120)
-        .map(|frame| one.planes(frame, &never).expect("a frame"))
+        .map(|frame| one.decoded_frame_planes(frame, &never).expect("a frame"))
         .collect();
-    for order in [
-        [119, 0, 77, 76, 75, 51, 50, 49],
-        [3, 99, 100, 98, 10, 118, 0, 60],
-    ] {
-        let mut other = Film::open(&path).expect("opened");
+    for order in [[119, 0, 77, 76, 75, 51, 50, 49], [3, 99, 100, 98, 10, 118, 0, 60]] {
+        let mut other = FilmFile::open_film(&path).expect("opened");
         for frame in order {
-            let planes = other.planes(frame, &never).expect("a frame");
+            let planes = other.decoded_frame_planes(frame, &never).expect("a frame");
             assert_eq!(planes, all[frame], "{frame}");
         }
     }
-    let times = one.times();
+    let times = one.film_times();
     assert_eq!(times.sync_before(60), 50);
-    assert_eq!(times.frame_at(-1), None);
-    assert_eq!(times.frame_at(0), Some(0));
-    assert_eq!(times.frame_at(39_999), Some(0));
-    assert_eq!(times.frame_at(40_000), Some(1));
-    assert_eq!(times.frame_at(119 * 40_000), Some(119));
-    assert_eq!(times.frame_at(120 * 40_000), None);
-    assert!(one.planes(120, &never).is_err());
+    assert_eq!(times.displayed_frame_at(-1), None);
+    assert_eq!(times.displayed_frame_at(0), Some(0));
+    assert_eq!(times.displayed_frame_at(39_999), Some(0));
+    assert_eq!(times.displayed_frame_at(40_000), Some(1));
+    assert_eq!(times.displayed_frame_at(119 * 40_000), Some(119));
+    assert_eq!(times.displayed_frame_at(120 * 40_000), None);
+    assert!(one.decoded_frame_planes(120, &never).is_err());
 }
 
 #[test]
 fn decoding_stops_on_request_and_continues() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = film(folder.path(), [128, 96], 60);
-    let mut film = Film::open(&path).expect("opened");
-    let stopped = film.planes(40, &|| true);
-    assert!(matches!(stopped, Err(Error::Stopped)));
-    assert!(film.planes(40, &never).is_ok());
+    let mut film = FilmFile::open_film(&path).expect("opened");
+    let stopped = film.decoded_frame_planes(40, &|| true);
+    assert!(matches!(stopped, Err(CorpusError::Stopped)));
+    assert!(film.decoded_frame_planes(40, &never).is_ok());
 }
 
 #[test]
 fn a_film_looks_like_what_was_drawn() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = film(folder.path(), [128, 96], 30);
-    let mut film = Film::open(&path).expect("opened");
+    let mut film = FilmFile::open_film(&path).expect("opened");
     let mut squares = Squares {
         size: [128, 96],
         frames: 30,
     };
-    let drawn = squares.draw(12).to_rgb();
-    let seen = film.picture(12, [1000, 1000], &never).expect("a picture");
+    let drawn = squares.draw_sequence_picture(12).to_rgb();
+    let seen = film.screen_frame_picture(12, [1000, 1000], &never).expect("a picture");
     assert_eq!((seen.width, seen.height), (128, 96));
     let pairs = drawn.chunks(3).zip(seen.rgba.chunks(4));
     let off: u64 = pairs
@@ -166,32 +159,26 @@ fn a_film_looks_like_what_was_drawn() {
         .sum();
     let mean = off as f64 / (128.0 * 96.0 * 3.0);
     assert!(mean < 6.0, "colours are off by {mean}");
-    let small = film.picture(12, [64, 1000], &never).expect("a picture");
-    assert_eq!(
-        (small.width, small.height, small.rgba.len()),
-        (64, 48, 64 * 48 * 4)
-    );
+    let small = film.screen_frame_picture(12, [64, 1000], &never).expect("a picture");
+    assert_eq!((small.width, small.height, small.rgba.len()), (64, 48, 64 * 48 * 4));
 }
 
 #[test]
 fn pictures_are_rotated_as_the_film_of_a_phone_states() {
-    let colours = Colours {
+    let colours = PictureColours {
         matrix: 1,
         full_range: true,
     };
     // White at the top left, black elsewhere.
-    let image = painted(
-        [8, 4],
-        |x, y| if x < 2 && y < 2 { [255; 3] } else { [0; 3] },
-    );
-    let planes = Planes::of(&image, colours);
+    let image = painted([8, 4], |x, y| if x < 2 && y < 2 { [255; 3] } else { [0; 3] });
+    let planes = PicturePlanes::from_drawn_image(&image, colours);
     for (turn, size, corner) in [
-        (Turn::None, [8, 4], [0, 0]),
-        (Turn::Quarter, [4, 8], [3, 0]),
-        (Turn::Half, [8, 4], [7, 3]),
-        (Turn::ThreeQuarters, [4, 8], [0, 7]),
+        (PictureRotation::None, [8, 4], [0, 0]),
+        (PictureRotation::Quarter, [4, 8], [3, 0]),
+        (PictureRotation::Half, [8, 4], [7, 3]),
+        (PictureRotation::ThreeQuarters, [4, 8], [0, 7]),
     ] {
-        let picture = planes.picture(turn, [100, 100]);
+        let picture = planes.to_screen_picture(turn, [100, 100]);
         assert_eq!([picture.width, picture.height], size, "{turn:?}");
         for y in 0..size[1] {
             for x in 0..size[0] {
@@ -206,25 +193,15 @@ fn pictures_are_rotated_as_the_film_of_a_phone_states() {
 #[test]
 fn colours_survive_every_colour_matrix() {
     for matrix in [1, 6, 9] {
-        for colour in [
-            [0, 0, 0],
-            [255, 255, 255],
-            [200, 30, 40],
-            [10, 90, 220],
-            [120; 3],
-        ] {
-            let colours = Colours {
+        for colour in [[0, 0, 0], [255, 255, 255], [200, 30, 40], [10, 90, 220], [120; 3]] {
+            let colours = PictureColours {
                 matrix,
                 full_range: false,
             };
-            let planes = Planes::of(&painted([2, 2], |_, _| colour), colours);
-            let picture = planes.picture(Turn::None, [2, 2]);
+            let planes = PicturePlanes::from_drawn_image(&painted([2, 2], |_, _| colour), colours);
+            let picture = planes.to_screen_picture(PictureRotation::None, [2, 2]);
             for (a, b) in colour.iter().zip(&picture.rgba) {
-                assert!(
-                    a.abs_diff(*b) <= 3,
-                    "{matrix} {colour:?} {:?}",
-                    picture.rgba
-                );
+                assert!(a.abs_diff(*b) <= 3, "{matrix} {colour:?} {:?}", picture.rgba);
             }
         }
     }
@@ -252,24 +229,24 @@ fn damaged_films_are_refused_or_shown_in_part_without_a_hang() {
             bytes.truncate(1 + random(whole.len()));
         }
         std::fs::write(&broken, &bytes).expect("written");
-        match Film::open(&broken) {
+        match FilmFile::open_film(&broken) {
             Ok(mut film) => {
                 for frame in [0, 59, 30, 31] {
-                    let frame = frame.min(film.times().frames() - 1);
-                    refused += usize::from(film.picture(frame, [32, 32], &never).is_err());
+                    let frame = frame.min(film.film_times().film_frame_count() - 1);
+                    refused += usize::from(film.screen_frame_picture(frame, [32, 32], &never).is_err());
                 }
             }
             Err(error) => {
                 refused += 1;
-                assert!(error.remedy().is_some(), "{error}");
+                assert!(error.error_remedy().is_some(), "{error}");
             }
         }
     }
     assert!(refused > 0, "some are refused");
     std::fs::write(&broken, b"no film at all").expect("written");
-    let error = Film::open(&broken).map(|_| ()).expect_err("refused");
-    assert!(error.remedy().is_some_and(|it| !it.is_empty()), "{error}");
-    let missing = Film::open(&folder.path().join("none.mp4"));
+    let error = FilmFile::open_film(&broken).map(|_| ()).expect_err("refused");
+    assert!(error.error_remedy().is_some_and(|it| !it.is_empty()), "{error}");
+    let missing = FilmFile::open_film(&folder.path().join("none.mp4"));
     assert!(missing.is_err());
 }
 
@@ -279,13 +256,13 @@ fn a_film_that_players_cannot_show_is_not_written() {
         size: [6000, 5000],
         frames: 1,
     };
-    let shape = Shape { rate: 25 };
+    let shape = WrittenFilmShape { rate: 25 };
     let error = write_film(&mut squares, shape, Vec::new(), &mut |_, _| Ok(()));
     let error = error.expect_err("refused");
     assert!(
         error
-            .remedy()
-            .is_some_and(|it| it.text().contains("--height"))
+            .error_remedy()
+            .is_some_and(|it| it.remedy_text().contains("--height"))
     );
 }
 
@@ -296,17 +273,13 @@ fn a_film_that_is_stopped_is_not_written() {
         frames: 50,
     };
     let mut heard = 0;
-    let shape = Shape { rate: 25 };
+    let shape = WrittenFilmShape { rate: 25 };
     let mut out = Vec::new();
     let stopped = write_film(&mut squares, shape, &mut out, &mut |done, total| {
         heard = done;
         assert_eq!(total, 50);
-        if done == 10 {
-            Err(Error::Stopped)
-        } else {
-            Ok(())
-        }
+        if done == 10 { Err(CorpusError::Stopped) } else { Ok(()) }
     });
-    assert!(matches!(stopped, Err(Error::Stopped)));
+    assert!(matches!(stopped, Err(CorpusError::Stopped)));
     assert_eq!((heard, out.len()), (10, 0));
 }

@@ -3,62 +3,60 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::Finding;
-use chereme_formats::lexicon::{self, Coding, Column, Lexicon, LexiconEntry, Meaning};
-use chereme_formats::roles::Mapping;
+use chereme_formats::ImportFinding;
+use chereme_formats::lexicon::{self, ComponentCoding, LexiconColumn, LexiconColumnMeaning, LexiconEntry, SignLexicon};
+use chereme_formats::roles::TierMapping;
 use chereme_formats::table::TableError;
-use chereme_sign::Remedy;
-use chereme_sign::query::Numerals;
-use chereme_sign::text::{composed, fold};
-use chereme_sign::{Component, Inventory, InventoryValue, Reading};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::query::NumberSpelling;
+use chereme_sign::text::{compose_accents, fold_text};
+use chereme_sign::{ComponentInventory, ComponentReading, InventoryValue, SignComponent};
 use serde_json::{Map, Value, json};
 
-use super::notation::{Text, Words};
-use super::report::ReportFinding;
-use super::{FileReport, FileStatus, Job};
-use crate::db::attributes::{self, AttributeRow};
-use crate::db::columns::{Origin, ValueState};
+use super::import_notation::{LexiconNotationText, NotationValueMapper};
+use super::import_report::ReportFinding;
+use super::{FileReport, FileStatus, ImportJob};
 use crate::db::edits;
-use crate::db::recordings::{self, SourceFileRow};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::error::{Error, Result};
+use crate::db::stored_attributes::{self, AttributeRow};
+use crate::db::stored_columns::{RecordOrigin, ValueState};
+use crate::db::stored_recordings::{self, SourceFileRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::forms::row_has_cells;
 use crate::inventories;
-use crate::progress::{Progress, Step, Unit};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 /// The number of names of values that a finding lists.
 const SHOWN_NAMES: usize = 8;
 
-pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    let source = Source::of(job);
-    let known = job.unchanged();
-    if let Some(report) = &known
-        && job.options.mapping.entries().next().is_none()
+pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
+    let source = LexiconFileSource::find_lexicon_source(job);
+    let earlier_report = job.report_unchanged_file();
+    if let Some(report) = &earlier_report
+        && job.options.mapping.mapping_entry_names().next().is_none()
     {
         return Ok(report.clone());
     }
-    let bytes = job.bytes()?;
-    let mut read = lexicon::read(&bytes, &job.options.mapping);
-    let mapped = read
-        .as_ref()
-        .is_ok_and(|(table, _)| map_columns(job, table));
+    let bytes = job.read_job_bytes()?;
+    let mut read = lexicon::read_lexicon(&bytes, &job.options.mapping);
+    let mapped = read.as_ref().is_ok_and(|(table, _)| map_columns(job, table));
     let mut mapping = job.options.mapping.clone();
     let before = match source.newest {
-        Some(id) if !mapped => recordings::source_mapping(job.connection, id)?,
+        Some(id) if !mapped => stored_recordings::source_mapping(job.connection, id)?,
         _ => None,
     };
     let is_mapped_before = before.is_some();
     if let Some(before) = before {
-        read = lexicon::read(&bytes, &before);
+        read = lexicon::read_lexicon(&bytes, &before);
         mapping = before;
     }
     let (table, findings) = match read {
         Err(error @ TableError::Missing { .. }) if !job.named => {
-            return Ok(FileReport::skipped(job.path, &wrong(&error)));
+            return Ok(FileReport::skipped_file_report(job.path, &lexicon_table_error(&error)));
         }
-        other => other.map_err(|error| wrong(&error))?,
+        other => other.map_err(|error| lexicon_table_error(&error))?,
     };
-    let mut report = match known {
+    let mut report = match earlier_report {
         Some(report) if !mapped => return Ok(report),
         Some(_) => FileReport::new(job.path, FileStatus::Updated),
         None => FileReport::new(job.path, FileStatus::Imported),
@@ -66,69 +64,65 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let remapped = report.status == FileStatus::Updated;
     let stated = stated_meanings(&table, &mapping);
     if remapped {
-        report.findings.push(ReportFinding::note(
+        report.findings.push(ReportFinding::finding_note(
             "it was imported before: its columns were read again, as the mapping says",
         ));
     } else if is_mapped_before && !stated.is_empty() {
-        let named = stated
-            .iter()
-            .map(|(title, text)| format!("{title:?} {text}"));
-        let named: Vec<String> = named.collect();
-        report.findings.push(ReportFinding::note(format!(
+        let stated_texts = stated.iter().map(|(title, text)| format!("{title:?} {text}"));
+        let named: Vec<String> = stated_texts.collect();
+        report.findings.push(ReportFinding::finding_note(format!(
             "its columns were read as in the import before, by the mapping given then: {}",
             named.join(", ")
         )));
     }
-    report
-        .findings
-        .extend(findings.into_iter().map(ReportFinding::from));
+    report.findings.extend(findings.into_iter().map(ReportFinding::from));
     report.understood.columns = Some(table.columns.clone());
     let inventories = store_inventories(job, &table, &mut report)?;
     let file = match source.same_bytes {
         Some(id) if remapped => id,
-        _ => job.keep(None, Some(&bytes))?,
+        _ => job.keep_source_file(None, Some(&bytes))?,
     };
-    recordings::set_source_mapping(job.connection, file, &stated)?;
+    stored_recordings::set_source_mapping(job.connection, file, &stated)?;
     let numerals = numerals(&table);
     report.findings.extend(unsure_numbers(&table, &numerals));
     let stored = job.inventories.clone();
-    let words = Words::new(&stored);
+    let words = NotationValueMapper::new(&stored);
     let total = Some(table.entries.len() as u64);
-    let mut signs = Signs {
-        earlier: EarlierEntries::load(job, &source)?,
+    let mut signs = LexiconSigns {
+        earlier: EarlierEntries::load_earlier_entries(job, &source)?,
         source,
-        ..Signs::default()
+        ..LexiconSigns::default()
     };
     for (done, entry) in table.entries.iter().enumerate() {
         let token = import_entry(job, &table, entry, (&inventories, &numerals), &mut signs)?;
         if let Some(text) = &entry.notation {
-            let notation = Text {
+            let notation = LexiconNotationText {
                 token,
                 file,
                 line: entry.line,
                 gloss: &entry.gloss,
                 text,
             };
-            notation.import(job, &words, &mut report)?;
+            notation.import_sign_notation(job, &words, &mut report)?;
         }
         if done % 256 == 0 {
             let done = done as u64;
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: &job.file_name,
                 done,
                 total,
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
         }
     }
     signs.leave_emptied(job)?;
-    report.findings.extend(signs.earlier.missing());
+    report.findings.extend(signs.earlier.missing_entries_finding());
     Ok(report)
 }
 
 /// The earlier imports of a file.
 #[derive(Default)]
-struct Source {
+struct LexiconFileSource {
     /// The path under which entries of the file are known.
     place: String,
     /// The newest file at that path, of any bytes.
@@ -137,18 +131,14 @@ struct Source {
     same_bytes: Option<i64>,
 }
 
-impl Source {
-    fn of(job: &Job<'_>) -> Self {
-        let own = || {
-            job.places
-                .hashed(&job.hash)
-                .filter(|row| row.kind == job.kind)
-        };
+impl LexiconFileSource {
+    fn find_lexicon_source(job: &ImportJob<'_>) -> Self {
+        let same_file = || job.places.files_with_hash(&job.hash).filter(|row| row.kind == job.kind);
         let here = |row: &&SourceFileRow| row.path.as_deref() == Some(&job.place);
-        let same = own().find(here).or_else(|| own().next());
-        let place = same.and_then(|row| row.path.as_ref());
-        let place = place.unwrap_or(&job.place).clone();
-        let newest = job.places.at(&place, job.kind).or(same);
+        let same = same_file().find(here).or_else(|| same_file().next());
+        let earlier_place = same.and_then(|row| row.path.as_ref());
+        let place = earlier_place.unwrap_or(&job.place).clone();
+        let newest = job.places.find_file_at(&place, job.kind).or(same);
         Self {
             newest: newest.map(|row| row.id),
             same_bytes: same.map(|row| row.id),
@@ -158,32 +148,32 @@ impl Source {
 }
 
 /// Returns the meanings of the columns that a mapping names, as mappings spell them, by title.
-fn stated_meanings(table: &Lexicon, mapping: &Mapping) -> BTreeMap<String, String> {
+fn stated_meanings(table: &SignLexicon, mapping: &TierMapping) -> BTreeMap<String, String> {
     let columns = table.columns.iter();
-    let stated = columns.filter(|column| mapping.column(&column.title).is_some());
-    let meaning = |column: &Column| (column.title.clone(), column.meaning.to_string());
+    let stated = columns.filter(|column| mapping.column_mapping_entry(&column.title).is_some());
+    let meaning = |column: &LexiconColumn| (column.title.clone(), column.meaning.to_string());
     stated.map(meaning).collect()
 }
 
 /// Returns the spelling of the numbers in each column of attributes.
-fn numerals(table: &Lexicon) -> BTreeMap<&str, Numerals> {
+fn numerals(table: &SignLexicon) -> BTreeMap<&str, NumberSpelling> {
     let mut cells: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (name, text) in table.entries.iter().flat_map(|entry| &entry.attributes) {
         cells.entry(name).or_default().push(text);
     }
-    let spelled = |(name, cells): (_, Vec<&str>)| (name, Numerals::of(cells));
+    let spelled = |(name, cells): (_, Vec<&str>)| (name, NumberSpelling::from_column_cells(cells));
     cells.into_iter().map(spelled).collect()
 }
 
 /// Returns a finding for each column with numbers such as `1,234` whose comma may as well part thousands.
-fn unsure_numbers(table: &Lexicon, numerals: &BTreeMap<&str, Numerals>) -> Vec<ReportFinding> {
+fn unsure_numbers(table: &SignLexicon, numerals: &BTreeMap<&str, NumberSpelling>) -> Vec<ReportFinding> {
     let mut unsure: BTreeMap<&str, (u64, &str, f64, usize)> = BTreeMap::new();
     for entry in &table.entries {
         for (name, text) in &entry.attributes {
             let column = numerals
                 .get(name.as_str())
-                .filter(|it| it.is_ambiguous(text));
-            if let Some(number) = column.and_then(|column| column.number(text)) {
+                .filter(|candidate| candidate.is_ambiguous(text));
+            if let Some(number) = column.and_then(|column| column.parse_cell_number(text)) {
                 let first = (entry.line, text.trim(), number, 0);
                 unsure.entry(name).or_insert(first).3 += 1;
             }
@@ -191,7 +181,7 @@ fn unsure_numbers(table: &Lexicon, numerals: &BTreeMap<&str, Numerals>) -> Vec<R
     }
     let finding = |(name, (line, text, number, count)): (&str, (u64, &str, f64, usize))| {
         ReportFinding::from(
-            Finding::warning(
+            ImportFinding::new_warning_finding(
                 line,
                 format!(
                     "numbers in the column {name:?} may have a comma before decimals or before thousands; {text:?} was \
@@ -204,16 +194,16 @@ fn unsure_numbers(table: &Lexicon, numerals: &BTreeMap<&str, Numerals>) -> Vec<R
     unsure.into_iter().map(finding).collect()
 }
 
-fn wrong(error: &TableError) -> Error {
-    Error::wrong(error.to_string())
-        .advise("a lexicon is a table with a header row and a column of glosses")
+fn lexicon_table_error(error: &TableError) -> CorpusError {
+    CorpusError::from_wrong_message(error.to_string())
+        .with_advice("a lexicon is a table with a header row and a column of glosses")
 }
 
 /// Records which entries of the mapping name a column of the table, and returns whether any does.
-fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
+fn map_columns(job: &mut ImportJob<'_>, table: &SignLexicon) -> bool {
     let mut any = false;
     for column in &table.columns {
-        if let Some((entry, _)) = job.options.mapping.column(&column.title) {
+        if let Some((entry, _)) = job.options.mapping.column_mapping_entry(&column.title) {
             job.used.insert(entry.to_owned());
             any = true;
         }
@@ -221,18 +211,18 @@ fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
     any
 }
 
-type InventoryKey = (Component, Option<String>);
+type InventoryKey = (SignComponent, Option<String>);
 
 /// The row of a part's inventory, and the value for each spelling in the table.
-struct Known {
+struct KnownInventoryPart {
     row: i64,
     values: BTreeMap<String, String>,
 }
 
 /// The signs of the table so far, by gloss; each is looked up once, however many rows share it.
 #[derive(Default)]
-struct Signs {
-    source: Source,
+struct LexiconSigns {
+    source: LexiconFileSource,
     known: BTreeMap<String, KnownSign>,
     earlier: EarlierEntries,
     /// The signs that lost an entry to another gloss, with the cells of its row.
@@ -246,33 +236,33 @@ struct KnownSign {
     has_citation: bool,
 }
 
-impl Signs {
+impl LexiconSigns {
     /// Returns the sign with a gloss; inserts it if it is missing.
-    fn glossed(&mut self, job: &mut Job<'_>, gloss: &str) -> Result<&mut KnownSign> {
-        match self.known.entry(composed(gloss).into_owned()) {
+    fn glossed(&mut self, job: &mut ImportJob<'_>, gloss: &str) -> CorpusResult<&mut KnownSign> {
+        match self.known.entry(compose_accents(gloss).into_owned()) {
             Entry::Occupied(known) => Ok(known.into_mut()),
-            Entry::Vacant(new) => Ok(new.insert(KnownSign::load(job, gloss)?)),
+            Entry::Vacant(new) => Ok(new.insert(KnownSign::load_known_sign(job, gloss)?)),
         }
     }
 
     /// Deletes the signs that have no entry any more, with the translations that the table gave them, and gives the
     /// others a citation form.
-    fn leave_emptied(&self, job: &mut Job<'_>) -> Result<()> {
+    fn leave_emptied(&self, job: &mut ImportJob<'_>) -> CorpusResult<()> {
         for (sign, cells) in &self.left {
             let tokens = signs::tokens_of_sign(job.connection, *sign)?;
             match tokens.first() {
                 Some(first) if !first.citation => {
-                    edits::cite(job.connection, *sign, first.id)?;
+                    edits::set_citation_token(job.connection, *sign, first.id)?;
                 }
                 Some(_) => {}
                 None => {
-                    for (language, text) in signs::texts(job.connection, *sign)? {
+                    for (language, text) in signs::list_sign_translations(job.connection, *sign)? {
                         if cells.contains(&text) {
                             edits::remove_text(job.connection, *sign, &language, &text)?;
                         }
                     }
                     let gone = signs::delete_empty_sign(job.connection, *sign)?;
-                    job.counts.removed("signs", usize::from(gone));
+                    job.counts.count_removed_rows("signs", usize::from(gone));
                 }
             }
         }
@@ -281,9 +271,9 @@ impl Signs {
 }
 
 impl KnownSign {
-    fn load(job: &mut Job<'_>, gloss: &str) -> Result<Self> {
+    fn load_known_sign(job: &mut ImportJob<'_>, gloss: &str) -> CorpusResult<Self> {
         let is_new = signs::find_sign(job.connection, gloss)?.is_none();
-        job.count("signs", usize::from(is_new));
+        job.count_created_rows("signs", usize::from(is_new));
         let id = signs::sign_glossed(job.connection, gloss)?;
         Ok(Self {
             id,
@@ -304,9 +294,9 @@ struct EarlierEntry {
 }
 
 impl EarlierEntries {
-    fn load(job: &Job<'_>, source: &Source) -> Result<Self> {
+    fn load_earlier_entries(job: &ImportJob<'_>, source: &LexiconFileSource) -> CorpusResult<Self> {
         let mut all = Self::default();
-        let mut namesakes = job.places.namesakes(&job.file_name);
+        let mut namesakes = job.places.files_of_same_name(&job.file_name);
         if source.newest.is_none() && !namesakes.any(|row| row.path.is_none()) {
             return Ok(all);
         }
@@ -323,7 +313,7 @@ impl EarlierEntries {
             if let Value::Object(cells) = origin["cells"].take()
                 && same
             {
-                let gloss = composed(&token.gloss).into_owned();
+                let gloss = compose_accents(&token.gloss).into_owned();
                 let entries = all.0.entry(gloss).or_default();
                 entries.push(EarlierEntry { token, cells });
             }
@@ -333,14 +323,14 @@ impl EarlierEntries {
 
     /// Takes the entry of a row: the one with the same cells, whose gloss is that of the row or, because another column
     /// was the gloss, that of another cell; otherwise the oldest with the row's gloss.
-    fn take(&mut self, table: &Lexicon, row: &LexiconEntry) -> Option<TokenRow> {
+    fn take_earlier_entry(&mut self, table: &SignLexicon, row: &LexiconEntry) -> Option<TokenRow> {
         if self.0.is_empty() {
             return None;
         }
         for (column, cell) in table.columns.iter().zip(&row.cells) {
-            let entries = self.0.get_mut(&*composed(cell.trim()));
-            let is_row = |it: &EarlierEntry| {
-                !it.cells.contains_key(&column.title) && row_has_cells(table, row, &it.cells)
+            let entries = self.0.get_mut(&*compose_accents(cell.trim()));
+            let is_row = |entry: &EarlierEntry| {
+                !entry.cells.contains_key(&column.title) && row_has_cells(table, row, &entry.cells)
             };
             if let Some(entries) = entries
                 && let Some(at) = entries.iter().position(is_row)
@@ -348,16 +338,16 @@ impl EarlierEntries {
                 return Some(entries.remove(at).token);
             }
         }
-        let entries = self.0.get_mut(&*composed(&row.gloss));
-        let entries = entries.filter(|entries| !entries.is_empty())?;
+        let gloss_entries = self.0.get_mut(&*compose_accents(&row.gloss));
+        let entries = gloss_entries.filter(|entries| !entries.is_empty())?;
         Some(entries.remove(0).token)
     }
 
     /// Returns a finding about the entries that no row of the table has taken.
-    fn missing(&self) -> Option<ReportFinding> {
+    fn missing_entries_finding(&self) -> Option<ReportFinding> {
         let mut glosses = self.0.iter().filter(|(_, left)| !left.is_empty());
-        let shown = glosses.by_ref().take(SHOWN_NAMES);
-        let shown: Vec<&str> = shown.map(|(gloss, _)| gloss.as_str()).collect();
+        let shown_glosses = glosses.by_ref().take(SHOWN_NAMES);
+        let shown: Vec<&str> = shown_glosses.map(|(gloss, _)| gloss.as_str()).collect();
         let more = match glosses.count() {
             0 => String::new(),
             more => format!(", and {more} more"),
@@ -366,24 +356,24 @@ impl EarlierEntries {
             "signs of an earlier version of this table that have no row here, and were kept: {}{more}",
             shown.join(", ")
         );
-        let remedy = Remedy::command(
+        let remedy = ErrorRemedy::command_remedy(
             "`chereme delete CORPUS sign:GLOSS` deletes a sign that is not wanted any more; or put its row back into the \
              table, and import that again",
         );
-        (!shown.is_empty()).then(|| ReportFinding::warning(message, remedy))
+        (!shown.is_empty()).then(|| ReportFinding::finding_warning(message, remedy))
     }
 }
 
 /// Stores the values that the table uses, unless an inventory of the corpus already has them all and keeps them apart.
 fn store_inventories(
-    job: &mut Job<'_>,
-    table: &Lexicon,
+    job: &mut ImportJob<'_>,
+    table: &SignLexicon,
     report: &mut FileReport,
-) -> Result<BTreeMap<InventoryKey, Known>> {
-    let mut known = BTreeMap::new();
-    for used in table.inventories() {
+) -> CorpusResult<BTreeMap<InventoryKey, KnownInventoryPart>> {
+    let mut known_inventories = BTreeMap::new();
+    for used in table.component_inventories() {
         let part = (used.component, used.feature.clone());
-        let same = |inventory: &Inventory| {
+        let same = |inventory: &ComponentInventory| {
             (inventory.component, &inventory.feature) == (used.component, &used.feature)
         };
         let complete = job.inventories.iter().find(|stored| {
@@ -393,66 +383,63 @@ fn store_inventories(
         let (row, inventory) = match complete {
             Some(stored) => {
                 let texts = used.values.keys().map(String::as_str);
-                report.findings.extend(renamed(&stored.inventory, texts));
+                report.findings.extend(renamed_values_finding(&stored.inventory, texts));
                 (stored.id, stored.inventory.clone())
             }
             None => {
-                let own = own_inventory(&job.stem, &used);
-                let mut stored = job.inventories.iter().map(|it| &it.inventory);
-                let before = stored.find(|it| it.id == own.id);
+                let new_inventory = own_inventory(&job.stem, &used);
+                let mut stored = job.inventories.iter().map(|entry| &entry.inventory);
+                let before = stored.find(|inventory| inventory.id == new_inventory.id);
                 let is_new = before.is_none();
-                let inventory = inventories::joined(before, own);
-                let row = inventories::store(job.connection, &inventory)?;
-                job.count("inventories", usize::from(is_new));
+                let inventory = inventories::join_stored_inventory(before, new_inventory);
+                let row = inventories::store_inventory(job.connection, &inventory)?;
+                job.count_created_rows("inventories", usize::from(is_new));
                 (row, inventory)
             }
         };
-        let meant = |value: &String| Some((value.clone(), inventory.find(value)?.id.clone()));
-        let values = used.values.keys().filter_map(meant).collect();
-        known.insert(part, Known { row, values });
+        let value_id = |value: &String| Some((value.clone(), inventory.find_inventory_value(value)?.id.clone()));
+        let values = used.values.keys().filter_map(value_id).collect();
+        known_inventories.insert(part, KnownInventoryPart { row, values });
     }
-    Ok(known)
+    Ok(known_inventories)
 }
 
 /// Returns a finding about the values that have different names in the table and in the inventory.
-fn renamed<'t>(
-    inventory: &Inventory,
+fn renamed_values_finding<'t>(
+    inventory: &ComponentInventory,
     texts: impl Iterator<Item = &'t str>,
 ) -> Option<ReportFinding> {
     let renamed = texts.filter_map(|text| {
-        let id = &inventory.find(text)?.id;
-        (fold(id) != fold(text.trim())).then(|| format!("{} = {id}", text.trim()))
+        let id = &inventory.find_inventory_value(text)?.id;
+        (fold_text(id) != fold_text(text.trim())).then(|| format!("{} = {id}", text.trim()))
     });
     let renamed: Vec<String> = renamed.collect();
-    let shown = renamed.iter().take(SHOWN_NAMES).map(String::as_str);
-    let shown = shown.collect::<Vec<_>>().join(", ");
+    let shown_names = renamed.iter().take(SHOWN_NAMES).map(String::as_str);
+    let shown = shown_names.collect::<Vec<_>>().join(", ");
     let more = match renamed.len().saturating_sub(SHOWN_NAMES) {
         0 => String::new(),
         more => format!(", and {more} more"),
     };
     (!renamed.is_empty()).then(|| {
-        ReportFinding::note(format!(
+        ReportFinding::finding_note(format!(
             "the inventory {:?} has other names for values, under which they are stored: {shown}{more}",
             inventory.id
         ))
     })
 }
 
-fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {
+fn own_inventory(stem: &str, used: &lexicon::LexiconInventory) -> ComponentInventory {
     let feature = used
         .feature
         .as_ref()
         .map_or(String::new(), |feature| format!(".{feature}"));
-    Inventory {
+    ComponentInventory {
         id: format!("{stem}/{}{feature}", used.component),
         component: used.component,
         feature: used.feature.clone(),
         version: 1,
         language: None,
-        names: BTreeMap::from([(
-            "en".to_owned(),
-            format!("{}{feature} of {stem}", used.component),
-        )]),
+        names: BTreeMap::from([("en".to_owned(), format!("{}{feature} of {stem}", used.component))]),
         description: format!("The values that the table {stem} uses."),
         values: used
             .values
@@ -466,21 +453,24 @@ fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {
 }
 
 fn import_entry(
-    job: &mut Job<'_>,
-    table: &Lexicon,
+    job: &mut ImportJob<'_>,
+    table: &SignLexicon,
     entry: &LexiconEntry,
-    (inventories, numerals): (&BTreeMap<InventoryKey, Known>, &BTreeMap<&str, Numerals>),
-    signs: &mut Signs,
-) -> Result<i64> {
+    (inventories, numerals): (
+        &BTreeMap<InventoryKey, KnownInventoryPart>,
+        &BTreeMap<&str, NumberSpelling>,
+    ),
+    signs: &mut LexiconSigns,
+) -> CorpusResult<i64> {
     let connection = job.connection;
-    let known = signs.earlier.take(table, entry);
-    let (is_known, mut is_moved) = (known.is_some(), false);
-    let source = Some(cells(job, (table, &signs.source), entry).to_string());
+    let earlier_token = signs.earlier.take_earlier_entry(table, entry);
+    let (is_known, mut is_moved) = (earlier_token.is_some(), false);
+    let source = Some(lexicon_row_cells(job, (table, &signs.source), entry).to_string());
     let sign = signs.glossed(job, &entry.gloss)?;
     for (language, text) in &entry.translations {
         signs::add_text(connection, sign.id, language, text)?;
     }
-    let token = match known {
+    let token = match earlier_token {
         Some(token) => {
             let row = TokenRow {
                 sign_id: sign.id,
@@ -505,63 +495,67 @@ fn import_entry(
         None => {
             let row = TokenRow {
                 sign_id: sign.id,
-                origin: Origin::Lexicon,
+                origin: RecordOrigin::Lexicon,
                 citation: !sign.has_citation,
                 source,
                 ..TokenRow::default()
             };
             sign.has_citation = true;
-            job.count("tokens", 1);
+            job.count_created_rows("tokens", 1);
             signs::insert_token(connection, &row)?
         }
     };
-    let own: Vec<AttributeRow> = (entry.attributes.iter())
+    let attributes: Vec<AttributeRow> = (entry.attributes.iter())
         .map(|(name, text)| AttributeRow {
             name: name.clone(),
             text: text.clone(),
-            number: (numerals.get(name.as_str())).and_then(|column| column.number(text)),
+            number: (numerals.get(name.as_str())).and_then(|column| column.parse_cell_number(text)),
         })
         .collect();
-    attributes::set(connection, token, &own)?;
+    stored_attributes::set_token_attributes(connection, token, &attributes)?;
     let values: Vec<TokenValueRow> = entry
         .codings
         .iter()
         .map(|coding| value_row(coding, inventories))
         .collect();
-    if is_moved || is_known && !signs::values(connection, token)?.starts_with(&values) {
-        job.counts.changed("tokens", 1);
+    if is_moved || is_known && !signs::load_token_values(connection, token)?.starts_with(&values) {
+        job.counts.count_changed_rows("tokens", 1);
     }
     signs::set_values(connection, token, &values)?;
     Ok(token)
 }
 
-fn value_row(coding: &Coding, inventories: &BTreeMap<InventoryKey, Known>) -> TokenValueRow {
-    let known = inventories.get(&(coding.component, coding.feature.clone()));
-    let value = coding.reading.value().map(|value| {
-        let same = known.and_then(|known| known.values.get(value));
+fn value_row(coding: &ComponentCoding, inventories: &BTreeMap<InventoryKey, KnownInventoryPart>) -> TokenValueRow {
+    let known_inventory = inventories.get(&(coding.component, coding.feature.clone()));
+    let value = coding.reading.reading_value().map(|value| {
+        let same = known_inventory.and_then(|known| known.values.get(value));
         same.cloned().unwrap_or_else(|| value.to_owned())
     });
-    let is_value = matches!(coding.reading, Reading::Value(_));
+    let is_value = matches!(coding.reading, ComponentReading::Value(_));
     TokenValueRow {
         hand: coding.hand,
         component: coding.component,
         feature: coding.feature.clone(),
         phase: coding.phase,
-        state: ValueState::of(&coding.reading),
+        state: ValueState::state_of_reading(&coding.reading),
         value,
-        inventory_id: known.filter(|_| is_value).map(|known| known.row),
+        inventory_id: known_inventory.filter(|_| is_value).map(|known| known.row),
         annotation_id: None,
     }
 }
 
 /// Returns the cells of a row as in the table, so that nothing is lost.
-fn cells(job: &Job<'_>, (table, source): (&Lexicon, &Source), entry: &LexiconEntry) -> Value {
+fn lexicon_row_cells(
+    job: &ImportJob<'_>,
+    (table, source): (&SignLexicon, &LexiconFileSource),
+    entry: &LexiconEntry,
+) -> Value {
     let cells: Map<String, Value> = table
         .columns
         .iter()
         .zip(&entry.cells)
         .filter(|(column, cell)| {
-            !cell.trim().is_empty() && !matches!(column.meaning, Meaning::Gloss { .. })
+            !cell.trim().is_empty() && !matches!(column.meaning, LexiconColumnMeaning::Gloss { .. })
         })
         .map(|(column, cell)| (column.title.clone(), Value::from(cell.as_str())))
         .collect();

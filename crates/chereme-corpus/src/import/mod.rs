@@ -3,67 +3,67 @@
 //! One import is one operation, however many files it reads. A file that is refused leaves nothing behind and does not
 //! prevent the others from being imported.
 
-mod again;
-mod bvh;
-mod captured;
-mod clock;
-pub(crate) mod eaf;
 mod elan;
-mod film;
-mod inventory;
+mod import_again;
+mod import_bvh;
+mod import_captured;
+mod import_clock;
+pub(crate) mod import_eaf;
+mod import_film;
+mod import_inventory;
+mod import_notated;
+mod import_notation;
+mod import_places;
+mod import_points;
+mod import_report;
+mod import_tracks;
+mod import_unread;
+mod import_whole;
 mod lexicon;
-mod notated;
-mod notation;
-mod places;
-mod points;
 pub(crate) mod readers;
-mod report;
 #[cfg(test)]
 mod tests;
-mod tracks;
 mod understood;
-mod unread;
-mod whole;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use chereme_formats::roles::Mapping;
-use chereme_motion::anatomy::Roles;
-use chereme_motion::{Axes, Instant, Rate};
+use chereme_formats::roles::TierMapping;
+use chereme_motion::anatomy::AssignedJointRoles;
+use chereme_motion::{FrameRate, RecordingInstant, SignerAxes};
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::address::Name;
-use crate::db::columns::Origin;
-use crate::db::motion::hex;
-use crate::db::recordings::{self, SourceFileRow};
-use crate::error::{Error, Result};
+use crate::address::RowName;
+use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_motion::to_hex_text;
+use crate::db::stored_recordings::{self, SourceFileRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
-use crate::paths::legible;
-use crate::progress::{Progress, Step, Unit};
+use crate::paths::legible_path_text;
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
-use places::Places;
-use readers::READERS;
+use import_places::ImportedFilePlaces;
+use import_report::RowChangeCounts;
+pub use import_report::{
+    AnnotationSide, EditOutcome, FileReport, FileStatus, ImportReport, OwnEdit, ReportFinding, UnreadFileKind,
+};
+pub use import_whole::read_stream;
+use readers::FILE_READERS;
 pub use readers::readable_files;
-use report::Counts;
-pub use report::{
-    FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
-};
-use understood::Earlier;
+use understood::EarlierInterpretations;
 pub use understood::{
-    BodyRead, Changes, ConventionRead, JointRole, MovementRead, RootRead, Shared, TiersRead,
-    TrackRead, Understood,
+    BodyRead, ConventionRead, FileInterpretation, JointRole, MovementRead, ReimportChanges, RootRead, SharedPart,
+    TiersRead, TrackRead,
 };
-pub use whole::read_stream;
 
 /// Returns the time of day for a timecode such as `12:34:56:07` or `12:34:56:07@25`; the number behind `@` is the
 /// frames per second, 30 by default.
 #[must_use]
-pub fn time_of_day(timecode: &str) -> Option<Instant> {
+pub fn time_of_day(timecode: &str) -> Option<RecordingInstant> {
     chereme_formats::timecode::time_of_day(timecode, 30.0)
 }
 
@@ -80,28 +80,28 @@ pub struct ImportOptions {
     /// The length of one unit of the motion files in metres.
     pub metres_per_unit: Option<f64>,
     /// The motion files' axes.
-    pub axes: Option<Axes>,
+    pub axes: Option<SignerAxes>,
     /// The assignment of joints to parts of the body.
-    pub roles: Option<Roles>,
+    pub roles: Option<AssignedJointRoles>,
     /// Whether root columns whose order differs from their header are read in their actual order.
     pub mend_root: bool,
     /// The meaning of tiers and columns; it takes precedence over statements in an annotation file.
-    pub mapping: Mapping,
+    pub mapping: TierMapping,
     /// The origin of the recordings.
-    pub origin: Option<Origin>,
+    pub origin: Option<RecordOrigin>,
     /// The terms under which the recordings may be used.
     pub licence: Option<String>,
     /// The treatment of edits in the corpus that an annotation file would revert when it is imported again.
     pub own_edits: OwnEdits,
     /// The recording that all files belong to, instead of the one that their names indicate.
-    pub into: Option<Name>,
+    pub into: Option<RowName>,
     /// The start of the files' tracks on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
     /// The time of day at which the tracks start, if the files do not state it; tracks of one recording with known
     /// times of day are aligned by these.
-    pub clock: Option<Instant>,
+    pub clock: Option<RecordingInstant>,
     /// The frame rate of films whose files do not state it.
-    pub rate: Option<Rate>,
+    pub rate: Option<FrameRate>,
     /// Whether the import only reports what it would do, and writes nothing.
     pub dry_run: bool,
     /// The temporary file that holds standard input; the corpus and the report know it as `-`.
@@ -126,7 +126,7 @@ pub enum OwnEdits {
 }
 
 /// The file being imported, and the state that every reader needs.
-struct Job<'a> {
+struct ImportJob<'a> {
     connection: &'a Connection,
     options: &'a ImportOptions,
     path: &'a Path,
@@ -142,8 +142,8 @@ struct Job<'a> {
     hash: String,
     inventories: Rc<Vec<StoredInventory>>,
     /// The files that were imported into the corpus.
-    places: &'a mut Places,
-    counts: Counts,
+    places: &'a mut ImportedFilePlaces,
+    counts: RowChangeCounts,
     /// Names and patterns of the mapping that match a tier or column of this import.
     used: &'a mut BTreeSet<String>,
     /// Whether the caller named the file itself rather than a folder that contains it.
@@ -156,35 +156,37 @@ struct Job<'a> {
     again: Option<i64>,
 }
 
-impl Job<'_> {
-    fn count(&mut self, what: &'static str, many: usize) {
-        self.counts.created(what, many);
+impl ImportJob<'_> {
+    fn count_created_rows(&mut self, what: &'static str, many: usize) {
+        self.counts.count_added_rows(what, many);
     }
 
     /// Returns the recording of files in the same folder whose names differ only in the ending, also in a second one
     /// such as `.curves`.
-    fn beside(&self) -> Option<i64> {
+    fn find_sibling_recording(&self) -> Option<i64> {
         let folder = self.place.rfind('/').map_or(0, |at| at + 1);
         let named = format!("{}{}.", &self.place[..folder], self.stem);
         let places = &self.places;
-        places.beside(&self.place).or_else(|| places.beside(&named))
+        places
+            .recording_beside_file(&self.place)
+            .or_else(|| places.recording_beside_file(&named))
     }
 
     /// Reports progress; fails if the caller asks the work to stop.
-    fn report_progress(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+    fn report_progress(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         self.steps += 1;
-        progress.report(Step {
+        progress.report_step(ProgressStep {
             task: &self.file_name,
             done: self.steps,
             total: None,
-            unit: Unit::Items,
+            unit: ProgressUnit::Items,
         })
     }
 
     /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path, and no
     /// other bytes from this path since: new versions of a file take the place of earlier ones.
-    fn unchanged(&mut self) -> Option<FileReport> {
-        let newest = self.places.at(&self.place, self.kind);
+    fn report_unchanged_file(&mut self) -> Option<FileReport> {
+        let newest = self.places.find_file_at(&self.place, self.kind);
         let replaced = newest.is_some_and(|row| row.hash != self.hash);
         (!replaced).then(|| self.imported_before()).flatten()
     }
@@ -192,17 +194,17 @@ impl Job<'_> {
     /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path; what it
     /// brought stays beside what was imported from its path since, as movement does.
     fn imported_before(&mut self) -> Option<FileReport> {
-        let known = self
+        let earlier_file = self
             .places
-            .hashed(&self.hash)
+            .files_with_hash(&self.hash)
             .find(|row| row.kind == self.kind)?;
-        self.again = known.recording_id;
-        let elsewhere = known.path.as_deref().filter(|path| *path != self.place);
-        Some(FileReport::unchanged(self.path, elsewhere))
+        self.again = earlier_file.recording_id;
+        let elsewhere = earlier_file.path.as_deref().filter(|path| *path != self.place);
+        Some(FileReport::unchanged_file_report(self.path, elsewhere))
     }
 
     /// Records the file, with its bytes if they are to be stored, and returns its row.
-    fn keep(&mut self, recording_id: Option<i64>, bytes: Option<&[u8]>) -> Result<i64> {
+    fn keep_source_file(&mut self, recording_id: Option<i64>, bytes: Option<&[u8]>) -> CorpusResult<i64> {
         let mut row = SourceFileRow {
             id: 0,
             recording_id,
@@ -211,14 +213,14 @@ impl Job<'_> {
             path: Some(self.place.clone()),
             hash: self.hash.clone(),
         };
-        row.id = recordings::insert_source_file(self.connection, &row, bytes)?;
+        row.id = stored_recordings::insert_source_file(self.connection, &row, bytes)?;
         let id = row.id;
-        self.places.add(row);
+        self.places.add_file_place(row);
         Ok(id)
     }
 
-    fn bytes(&self) -> Result<Vec<u8>> {
-        whole::read(self.path)
+    fn read_job_bytes(&self) -> CorpusResult<Vec<u8>> {
+        import_whole::read_whole_file(self.path)
     }
 }
 
@@ -233,46 +235,44 @@ impl Corpus {
     /// # Errors
     /// Fails if the only file to read does not exist or has an unknown format, if the work is stopped, or if the
     /// database fails.
-    pub fn import(
+    pub fn import_paths(
         &mut self,
         paths: &[PathBuf],
         options: &ImportOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<ImportReport> {
-        let mut files = gather(paths);
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<ImportReport> {
+        let mut files = gather_import_candidates(paths);
         if let [only] = files.as_slice()
             && only.named
             && only.reader.is_err()
-            && let Some(Candidate {
-                reader: Err(error), ..
-            }) = files.pop()
+            && let Some(ImportCandidate { reader: Err(error), .. }) = files.pop()
         {
             return Err(error);
         }
-        let base = absolute(self.store.path());
+        let base = absolute(self.store.store_path());
         let mut report = ImportReport::default();
-        let run = |connection: &Connection, progress: &mut Progress<'_>| {
-            let mut import = Import {
+        let run = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
+            let mut import = ImportRun {
                 connection,
                 options,
                 base: base.parent().unwrap_or(Path::new("")),
-                places: Places::load(connection)?,
+                places: ImportedFilePlaces::load_file_places(connection)?,
                 inventories: None,
                 used: BTreeSet::new(),
-                earlier: Earlier::default(),
+                earlier: EarlierInterpretations::default(),
                 one_take: one_take(&files),
             };
-            import.files(&files, &mut report, progress)?;
+            import.import_candidate_files(&files, &mut report, progress)?;
             import.warn_of_mapping(&mut report);
-            let effect = report.effect();
+            let effect = report.import_effect();
             if options.dry_run {
-                Err(Error::Stopped)
+                Err(CorpusError::Stopped)
             } else {
                 Ok(((), effect))
             }
         };
         match self.store.operation_with_progress(progress, run) {
-            Err(Error::Stopped) if options.dry_run && report.complete => {}
+            Err(CorpusError::Stopped) if options.dry_run && report.complete => {}
             other => other?,
         }
         report.dry_run = options.dry_run;
@@ -281,111 +281,106 @@ impl Corpus {
 }
 
 /// A file to import, or the reason why it is not read.
-struct Candidate {
+struct ImportCandidate {
     path: PathBuf,
-    /// Its index in [`READERS`], or the reason why it is not read.
-    reader: std::result::Result<usize, Error>,
+    /// Its index in [`FILE_READERS`], or the reason why it is not read.
+    reader: std::result::Result<usize, CorpusError>,
     /// Whether the caller named it rather than a folder that contains it.
     named: bool,
 }
 
 /// State shared by the files of an import.
-struct Import<'a> {
+struct ImportRun<'a> {
     connection: &'a Connection,
     options: &'a ImportOptions,
     /// The folder of the corpus.
     base: &'a Path,
-    places: Places,
+    places: ImportedFilePlaces,
     inventories: Option<Rc<Vec<StoredInventory>>>,
     /// Names and patterns of the mapping that match a tier or column.
     used: BTreeSet<String>,
     /// The interpretations of earlier files, to be held once.
-    earlier: Earlier,
+    earlier: EarlierInterpretations,
     /// Files that are the only one of their kind and name beside a single motion file in their folder.
     one_take: BTreeSet<PathBuf>,
 }
 
 /// Returns the files of folders that hold one take: each is beside a single motion file, is the only one of its kind,
 /// and has a name that no other file in the folder has.
-fn one_take(files: &[Candidate]) -> BTreeSet<PathBuf> {
-    let readable = |it: &&Candidate| it.reader.is_ok() && !it.named;
+fn one_take(files: &[ImportCandidate]) -> BTreeSet<PathBuf> {
+    let readable = |candidate: &&ImportCandidate| candidate.reader.is_ok() && !candidate.named;
     let mut kinds: BTreeMap<(&Path, &str), usize> = BTreeMap::new();
     let mut stems: BTreeMap<(&Path, String), usize> = BTreeMap::new();
-    let kind = |it: &Candidate| match it.reader {
-        Ok(reader) if READERS[reader].is_movement() => "movement",
-        Ok(reader) => READERS[reader].kind,
+    let kind = |candidate: &ImportCandidate| match candidate.reader {
+        Ok(reader) if FILE_READERS[reader].is_movement() => "movement",
+        Ok(reader) => FILE_READERS[reader].kind,
         Err(_) => "",
     };
-    let folder = |it: &'_ Candidate| it.path.parent().map(Path::to_owned).unwrap_or_default();
+    let folder = |candidate: &'_ ImportCandidate| candidate.path.parent().map(Path::to_owned).unwrap_or_default();
     let folders: Vec<PathBuf> = files.iter().map(folder).collect();
-    let stem = |path: &Path| legible(path.file_stem().unwrap_or_default()).to_lowercase();
-    for (it, folder) in files.iter().zip(&folders).filter(|it| readable(&it.0)) {
+    let stem = |path: &Path| legible_path_text(path.file_stem().unwrap_or_default()).to_lowercase();
+    for (it, folder) in files.iter().zip(&folders).filter(|pair| readable(&pair.0)) {
         *kinds.entry((folder, kind(it))).or_default() += 1;
         *stems.entry((folder, stem(&it.path))).or_default() += 1;
     }
-    let alone = |(it, folder): &(&Candidate, &PathBuf)| {
+    let alone = |(candidate, folder): &(&ImportCandidate, &PathBuf)| {
         let one = |kind: &str| kinds.get(&(folder.as_path(), kind)) == Some(&1);
-        let own = kind(it);
-        readable(it)
-            && own != "movement"
+        let own_kind = kind(candidate);
+        readable(candidate)
+            && own_kind != "movement"
             && one("movement")
-            && one(own)
-            && stems.get(&(folder.as_path(), stem(&it.path))) == Some(&1)
+            && one(own_kind)
+            && stems.get(&(folder.as_path(), stem(&candidate.path))) == Some(&1)
     };
-    let found = files.iter().zip(&folders).filter(alone);
-    found.map(|(it, _)| it.path.clone()).collect()
+    let lone_files = files.iter().zip(&folders).filter(alone);
+    lone_files.map(|(candidate, _)| candidate.path.clone()).collect()
 }
 
-impl Import<'_> {
-    fn files(
+impl ImportRun<'_> {
+    fn import_candidate_files(
         &mut self,
-        files: &[Candidate],
+        files: &[ImportCandidate],
         report: &mut ImportReport,
-        progress: &mut Progress<'_>,
-    ) -> Result<()> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<()> {
         let connection = self.connection;
-        let mut before = vec![0; READERS.len()];
+        let mut before = vec![0; FILE_READERS.len()];
         let total = |reader| {
             files
                 .iter()
-                .filter(move |it| it.reader.as_ref().is_ok_and(|it| *it == reader))
+                .filter(move |candidate| candidate.reader.as_ref().is_ok_and(|index| *index == reader))
         };
-        for Candidate {
-            path,
-            reader,
-            named,
-        } in files
-        {
+        for ImportCandidate { path, reader, named } in files {
             let reader = match reader {
                 Ok(reader) => *reader,
                 Err(error) if *named => {
-                    report.files.push(FileReport::refused(path, error));
+                    report.files.push(FileReport::refused_file_report(path, error));
                     continue;
                 }
                 Err(error) => {
-                    report.files.push(FileReport::skipped(path, error));
+                    report.files.push(FileReport::skipped_file_report(path, error));
                     continue;
                 }
             };
-            progress.report(Step {
-                task: READERS[reader].holds.en,
+            progress.report_step(ProgressStep {
+                task: FILE_READERS[reader].holds.en,
                 done: before[reader],
                 total: Some(total(reader).count() as u64),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             before[reader] += 1;
             connection.execute_batch("SAVEPOINT file")?;
-            let known = self.places.len();
-            let counts = Counts {
+            let place_count = self.places.len();
+            let counts = RowChangeCounts {
                 created: report.created.clone(),
                 changed: report.changed.clone(),
                 removed: report.removed.clone(),
             };
-            let file = match self.file(path, (reader, *named), counts, progress) {
+            let file = match self.import_single_file(path, (reader, *named), counts, progress) {
                 Ok((mut file, counts)) if file.status != FileStatus::Refused => {
-                    self.earlier.share(&mut file.understood);
+                    self.earlier.share_equal_parts(&mut file.understood);
                     connection.execute_batch("RELEASE file")?;
-                    let Counts {
+                    let RowChangeCounts {
                         created,
                         changed,
                         removed,
@@ -395,38 +390,38 @@ impl Import<'_> {
                     continue;
                 }
                 Ok((file, _)) => file,
-                Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(error) => FileReport::refused(path, &error),
+                Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
+                Err(error) => FileReport::refused_file_report(path, &error),
             };
             connection.execute_batch("ROLLBACK TO file; RELEASE file")?;
             // The rows that the file had added were removed again.
             self.inventories = None;
-            self.places.forget(known);
+            self.places.forget_later_files(place_count);
             report.files.push(file);
         }
         if let Some(path) = &self.options.standard_input {
-            let stands = legible(path);
-            let shown = report.files.iter_mut().filter(|it| it.path == stands);
-            shown.for_each(|it| "-".clone_into(&mut it.path));
+            let stands = legible_path_text(path);
+            let shown = report.files.iter_mut().filter(|file| file.path == stands);
+            shown.for_each(|file| "-".clone_into(&mut file.path));
         }
         report.complete = true;
         Ok(())
     }
 
-    fn file(
+    fn import_single_file(
         &mut self,
         path: &Path,
         (reader, named): (usize, bool),
-        counts: Counts,
-        progress: &mut Progress<'_>,
-    ) -> Result<(FileReport, Counts)> {
-        let text = |part: Option<&std::ffi::OsStr>| part.map(legible).unwrap_or_default();
+        counts: RowChangeCounts,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<(FileReport, RowChangeCounts)> {
+        let text = |part: Option<&std::ffi::OsStr>| part.map(legible_path_text).unwrap_or_default();
         check_name(path)?;
         let inventories = match &self.inventories {
             Some(loaded) => loaded.clone(),
-            None => inventories::load(self.connection)?.into(),
+            None => inventories::load_all_inventories(self.connection)?.into(),
         };
-        let mut job = Job {
+        let mut job = ImportJob {
             connection: self.connection,
             options: self.options,
             path,
@@ -434,14 +429,14 @@ impl Import<'_> {
             file_name: text(path.file_name()),
             place: match self.options.standard_input.as_deref() == Some(path) {
                 true => format!("-/{}", text(path.file_name())),
-                false => place(&absolute(path), self.base),
+                false => relative_file_path(&absolute(path), self.base),
             },
-            kind: READERS[reader].kind,
-            hash: match READERS[reader].kind {
-                film::KIND => film::hash(path)?,
+            kind: FILE_READERS[reader].kind,
+            hash: match FILE_READERS[reader].kind {
+                import_film::FILM_KIND => import_film::hash(path)?,
                 _ => {
-                    if !READERS[reader].is_streamed() {
-                        whole::check(path)?;
+                    if !FILE_READERS[reader].is_streamed() {
+                        import_whole::check_whole_file(path)?;
                     }
                     hash_file(path, progress)?
                 }
@@ -459,12 +454,12 @@ impl Import<'_> {
         if !named && self.one_take.contains(path) {
             job.folder_take = job.places.movement_beside(&job.place);
         }
-        let mut done = READERS[reader].import(&mut job, progress)?;
+        let mut done = FILE_READERS[reader].import_with_reader(&mut job, progress)?;
         if let Some(recording) = job.again.filter(|_| done.status != FileStatus::Refused) {
-            again::describe(&mut job, recording, &mut done)?;
+            import_again::update_recording_description(&mut job, recording, &mut done)?;
         }
         // Files that add inventories make the next file load the inventories again.
-        let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
+        let same = Rc::ptr_eq(&job.inventories, &inventories) && FILE_READERS[reader].keeps_inventories;
         let counts = job.counts;
         self.inventories = same.then_some(inventories);
         Ok((done, counts))
@@ -472,13 +467,13 @@ impl Import<'_> {
 
     /// Warns about names in the mapping that match no tier and no column of the files.
     fn warn_of_mapping(&self, report: &mut ImportReport) {
-        let all = self.options.mapping.entries();
+        let all = self.options.mapping.mapping_entry_names();
         let unused: Vec<String> = all
             .filter(|entry| !self.used.contains(*entry))
             .map(|entry| format!("{entry:?}"))
             .collect();
         if !unused.is_empty() {
-            report.findings.push(ReportFinding::warning(
+            report.findings.push(ReportFinding::finding_warning(
                 format!(
                     "the mapping names what no tier or column of these files is called: {}",
                     unused.join(", ")
@@ -498,46 +493,45 @@ fn absolute(path: &Path) -> PathBuf {
 
 /// Returns the path of a file relative to a folder: `A/x.eaf`, or `../A/x.eaf`, with `/` on every system. On another
 /// drive it is the absolute path.
-fn place(path: &Path, folder: &Path) -> String {
-    let (own, base): (Vec<_>, Vec<_>) =
-        (path.components().collect(), folder.components().collect());
+fn relative_file_path(path: &Path, folder: &Path) -> String {
+    let (own, base): (Vec<_>, Vec<_>) = (path.components().collect(), folder.components().collect());
     let shared = own.iter().zip(&base).take_while(|(a, b)| a == b).count();
     let up = if shared == 0 { 0 } else { base.len() - shared };
-    let names = own[shared..].iter().map(legible);
+    let names = own[shared..].iter().map(legible_path_text);
     let parts: Vec<_> = std::iter::repeat_n("..".into(), up).chain(names).collect();
     parts.join("/")
 }
 
 /// Refuses a path that is not UTF-8 if its text is the path of another file, so that the two are not taken for one.
-fn check_name(path: &Path) -> Result<()> {
-    let text = legible(path);
+fn check_name(path: &Path) -> CorpusResult<()> {
+    let text = legible_path_text(path);
     match path.to_str().is_none() && Path::new(&text).exists() {
-        true => Err(Error::wrong(format!(
+        true => Err(CorpusError::from_wrong_message(format!(
             "the path is not UTF-8, and as text it is that of another file: {text}"
         ))
-        .at(text)
-        .advise("rename one of the two files")),
+        .with_error_place(text)
+        .with_advice("rename one of the two files")),
         false => Ok(()),
     }
 }
 
-fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
+fn hash_file(path: &Path, progress: &mut ProgressReceiver<'_>) -> CorpusResult<String> {
     use std::io::Read;
-    let fault = |error| Error::file(path, error);
+    let fault = |error| CorpusError::from_file_failure(path, error);
     let mut file = fs::File::open(path).map_err(fault)?;
     let total = file.metadata().map_err(fault)?.len();
     let (mut digest, mut buffer, mut done) = (Sha256::new(), vec![0; 1 << 20], 0u64);
     loop {
         let read = file.read(&mut buffer).map_err(fault)?;
         if read == 0 {
-            return Ok(hex(&digest.finalize()));
+            return Ok(to_hex_text(&digest.finalize()));
         }
         digest.update(&buffer[..read]);
         done += read as u64;
         if total > 64 << 20 {
             let task = "checking";
-            let unit = crate::progress::Unit::Bytes;
-            progress.report(crate::progress::Step {
+            let unit = crate::progress::ProgressUnit::Bytes;
+            progress.report_step(crate::progress::ProgressStep {
                 task,
                 done,
                 total: Some(total),
@@ -547,58 +541,54 @@ fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
     }
 }
 
-/// Returns the files in the order in which [`READERS`] reads them, preceded by those that are not read.
-fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
+/// Returns the files in the order in which [`FILE_READERS`] reads them, preceded by those that are not read.
+fn gather_import_candidates(paths: &[PathBuf]) -> Vec<ImportCandidate> {
     let mut files = Vec::new();
     for path in paths {
         match fs::metadata(path) {
-            Ok(found) if found.is_dir() => walk(path, 0, &mut files),
-            Ok(_) => files.push(Candidate::new(path.clone(), true)),
-            Err(error) => files.push(Candidate::broken(path, error)),
+            Ok(found) if found.is_dir() => walk_import_folder(path, 0, &mut files),
+            Ok(_) => files.push(ImportCandidate::new(path.clone(), true)),
+            Err(error) => files.push(ImportCandidate::broken_candidate(path, error)),
         }
     }
     files.sort_by(|a, b| (&a.path, b.named).cmp(&(&b.path, a.named)));
     files.dedup_by(|a, b| a.path == b.path);
     // If a film has a file for each frame, the first file stands for all.
     let mut films = BTreeSet::new();
-    files.retain(|it| match points::series(&it.path) {
-        Some(film) if it.reader.is_ok() => films.insert(film),
+    files.retain(|candidate| match import_points::point_file_series(&candidate.path) {
+        Some(film) if candidate.reader.is_ok() => films.insert(film),
         _ => true,
     });
-    files.sort_by_key(|it| it.reader.as_ref().ok().copied());
+    files.sort_by_key(|candidate| candidate.reader.as_ref().ok().copied());
     files
 }
 
-impl Candidate {
+impl ImportCandidate {
     /// Returns the candidate for a path. Only regular files are opened: a pipe may never end.
     fn new(path: PathBuf, named: bool) -> Self {
-        let reader = match whole::check_kind(&path) {
-            Ok(()) => readers::reader(&path).ok_or_else(|| readers::unread(&path)),
+        let reader = match import_whole::check_kind(&path) {
+            Ok(()) => readers::find_reader_index(&path).ok_or_else(|| readers::unread_format_error(&path)),
             Err(error) => Err(error),
         };
-        Self {
-            path,
-            reader,
-            named,
-        }
+        Self { path, reader, named }
     }
 
     /// Returns a candidate for a path that cannot be read at all, so that the import reports it.
-    fn broken(path: &Path, error: std::io::Error) -> Self {
+    fn broken_candidate(path: &Path, error: std::io::Error) -> Self {
         Self {
             path: path.to_owned(),
-            reader: Err(Error::file(path, error)),
+            reader: Err(CorpusError::from_file_failure(path, error)),
             named: true,
         }
     }
 }
 
-fn walk(folder: &Path, depth: usize, files: &mut Vec<Candidate>) {
+fn walk_import_folder(folder: &Path, depth: usize, files: &mut Vec<ImportCandidate>) {
     if depth > DEEPEST_FOLDER {
-        let deep = Error::wrong(format!("it lies {depth} folders deep"))
-            .at(folder.display().to_string())
-            .advise("import it by its own name");
-        files.push(Candidate {
+        let deep = CorpusError::from_wrong_message(format!("it lies {depth} folders deep"))
+            .with_error_place(folder.display().to_string())
+            .with_advice("import it by its own name");
+        files.push(ImportCandidate {
             path: folder.to_owned(),
             reader: Err(deep),
             named: true,
@@ -607,28 +597,28 @@ fn walk(folder: &Path, depth: usize, files: &mut Vec<Candidate>) {
     }
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
-        Err(error) => return files.push(Candidate::broken(folder, error)),
+        Err(error) => return files.push(ImportCandidate::broken_candidate(folder, error)),
     };
     for entry in entries {
         let path = match entry {
             Ok(entry) => entry.path(),
-            Err(error) => return files.push(Candidate::broken(folder, error)),
+            Err(error) => return files.push(ImportCandidate::broken_candidate(folder, error)),
         };
         let hidden = path
             .file_name()
             .is_some_and(|name| name.to_string_lossy().starts_with('.'));
         if path.is_dir() {
             if !hidden && !path.is_symlink() {
-                walk(&path, depth + 1, files);
+                walk_import_folder(&path, depth + 1, files);
             }
         } else if !hidden {
-            files.push(match readers::copied(&path) {
-                Some(why) => Candidate {
+            files.push(match readers::exported_copy_error(&path) {
+                Some(why) => ImportCandidate {
                     path,
                     reader: Err(why),
                     named: false,
                 },
-                None => Candidate::new(path, false),
+                None => ImportCandidate::new(path, false),
             });
         }
     }

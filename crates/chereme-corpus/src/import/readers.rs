@@ -1,280 +1,284 @@
 //! The kinds of files that an import reads. Those that it can only name are in `unread.rs`.
 //!
-//! To add a format, write a reading function in `chereme-formats` and add an entry to [`READERS`].
+//! To add a format, write a reading function in `chereme-formats` and add an entry to [`FILE_READERS`].
 
 use std::fmt::Display;
 use std::path::Path;
 
-use chereme_formats::eaf::Transcript;
-use chereme_formats::tracks::Tracks;
+use chereme_formats::eaf::AnnotationTranscript;
+use chereme_formats::tracks::CapturedTracks;
 use chereme_formats::{
-    Finding, anvil, c3d, eaf as elan_file, exmaralda, pose, signstream, subtitles, textgrid, trc,
+    ImportFinding, anvil, c3d, eaf as elan_file, exmaralda, pose, signstream, subtitles, textgrid, trc,
 };
-use chereme_sign::Remedy;
+use chereme_sign::ErrorRemedy;
 
-use super::unread::begins;
-pub(super) use super::unread::unread;
-use super::{FileReport, Job, bvh, captured, eaf, elan, film, notated};
-use crate::error::{Error, Result};
-use crate::notation::Form;
-use crate::progress::Progress;
-use crate::words::{Language, Text, fill};
+use super::import_unread::begins_with_text;
+pub(super) use super::import_unread::unread_format_error;
+use super::{FileReport, ImportJob, elan, import_bvh, import_captured, import_eaf, import_film, import_notated};
+use crate::error::{CorpusError, CorpusResult};
+use crate::notation::NotationFormat;
+use crate::progress::ProgressReceiver;
+use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces};
 
 /// Reads bytes of a foreign file as a document with findings, or says what is wrong with them.
-pub(crate) type Parse<T> = fn(&[u8]) -> std::result::Result<(T, Vec<Finding>), String>;
+pub(crate) type ParseFunction<T> = fn(&[u8]) -> std::result::Result<(T, Vec<ImportFinding>), String>;
 
 /// Reads a file into the corpus.
-type Import = fn(&mut Job<'_>, &mut Progress<'_>) -> Result<FileReport>;
+type ImportFunction = fn(&mut ImportJob<'_>, &mut ProgressReceiver<'_>) -> CorpusResult<FileReport>;
 
 /// A kind of file that can be imported.
-pub(super) struct Reader {
+pub(super) struct FileReader {
     /// The file name endings of such files, in lower case, without the dot.
     pub(super) endings: &'static [&'static str],
     /// The kind in `source_file.kind`.
     pub(super) kind: &'static str,
     /// The contents of such files for people, in the plural.
-    pub(super) holds: Text,
+    pub(super) holds: InterfaceText,
     /// Decides whether a file with one of these endings is of this kind, if the ending alone does not determine it.
     looks: fn(&Path) -> bool,
     /// Whether such files never add an inventory, so that the next one need not load them again.
     pub(super) keeps_inventories: bool,
     /// The use of the contents.
-    contents: Contents,
+    contents: FileContentUse,
 }
 
 /// The use of a file's contents.
-enum Contents {
+enum FileContentUse {
     /// Annotations, which become tiers of a recording and update it if the file was edited since.
-    Annotations(Parse<Transcript>),
+    Annotations(ParseFunction<AnnotationTranscript>),
     /// A template: tiers without annotations, which have an import of their own.
-    Template(Parse<Transcript>, Import),
+    Template(ParseFunction<AnnotationTranscript>, ImportFunction),
     /// Tracks, such as markers or curves.
-    Tracks(Parse<Tracks>),
+    Tracks(ParseFunction<CapturedTracks>),
     /// The movement of a body, around which the other files of a folder gather.
-    Movement(Import),
+    Movement(ImportFunction),
     /// Contents with an import of their own.
-    Other(Import),
+    Other(ImportFunction),
 }
 
-impl Reader {
+impl FileReader {
     /// Reads a file into the corpus.
-    pub(super) fn import(
+    pub(super) fn import_with_reader(
         &self,
-        job: &mut Job<'_>,
-        progress: &mut Progress<'_>,
-    ) -> Result<FileReport> {
+        job: &mut ImportJob<'_>,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<FileReport> {
         match self.contents {
-            Contents::Annotations(parse) => eaf::import_as(job, progress, parse),
-            Contents::Tracks(parse) => captured::import_tracks(job, progress, parse),
-            Contents::Template(_, import)
-            | Contents::Movement(import)
-            | Contents::Other(import) => import(job, progress),
+            FileContentUse::Annotations(parse) => import_eaf::import_as(job, progress, parse),
+            FileContentUse::Tracks(parse) => import_captured::import_tracks(job, progress, parse),
+            FileContentUse::Template(_, import) | FileContentUse::Movement(import) | FileContentUse::Other(import) => {
+                import(job, progress)
+            }
         }
     }
 
     /// Returns whether such files are read piece by piece, so that they may be of any size.
     pub(super) fn is_streamed(&self) -> bool {
-        ["bvh", film::KIND].contains(&self.kind)
+        ["bvh", import_film::FILM_KIND].contains(&self.kind)
     }
 
     /// Returns whether such files hold the movement of a body.
     pub(super) fn is_movement(&self) -> bool {
-        matches!(self.contents, Contents::Movement(_))
+        matches!(self.contents, FileContentUse::Movement(_))
     }
 
     /// Returns the function that reads annotations or tiers from the bytes of such a file, if they hold some.
-    fn transcript(&self) -> Option<Parse<Transcript>> {
+    fn reader_transcript_parser(&self) -> Option<ParseFunction<AnnotationTranscript>> {
         match self.contents {
-            Contents::Annotations(parse) | Contents::Template(parse, _) => Some(parse),
+            FileContentUse::Annotations(parse) | FileContentUse::Template(parse, _) => Some(parse),
             _ => None,
         }
     }
 }
 
-const ANNOTATIONS: Text = Text::new("annotations", "annotations");
-const MARKERS: Text = Text::new("markers", "marqueurs");
-const MOVEMENT: Text = Text::new("movement", "mouvement");
+const ANNOTATIONS_NOUN: InterfaceText = InterfaceText::new("annotations", "annotations");
+const MARKERS_NOUN: InterfaceText = InterfaceText::new("markers", "marqueurs");
+const MOVEMENT_NOUN: InterfaceText = InterfaceText::new("movement", "mouvement");
 
 /// The kinds in the order in which an import reads them. Annotations come after movement, so that they find their
 /// recordings and values; films come after annotations, because annotation files name them; templates come last, for
 /// the recordings that still have no tiers.
-pub(super) static READERS: &[Reader] = &[
-    Reader {
+pub(super) static FILE_READERS: &[FileReader] = &[
+    FileReader {
         endings: &["json"],
         kind: "inventory",
-        holds: Text::new(
+        holds: InterfaceText::new(
             "inventories, signs, scores of a face, points from film of OpenPose or MediaPipe",
             "inventaires, signes, scores d’un visage, points d’un film d’OpenPose ou de MediaPipe",
         ),
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Other(captured::import_json),
+        contents: FileContentUse::Other(import_captured::import_json),
     },
-    Reader {
+    FileReader {
         endings: &["bvh"],
         kind: "bvh",
-        holds: MOVEMENT,
+        holds: MOVEMENT_NOUN,
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Movement(bvh::import),
+        contents: FileContentUse::Movement(import_bvh::import_bvh),
     },
-    Reader {
+    FileReader {
         endings: &["glb", "gltf", "vrm", "vrma"],
         kind: "gltf",
-        holds: MOVEMENT,
+        holds: MOVEMENT_NOUN,
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Movement(captured::import_gltf),
+        contents: FileContentUse::Movement(import_captured::import_gltf),
     },
-    Reader {
+    FileReader {
         endings: if cfg!(feature = "fbx") { &["fbx"] } else { &[] },
         kind: "fbx",
-        holds: MOVEMENT,
+        holds: MOVEMENT_NOUN,
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Movement(captured::import_fbx),
+        contents: FileContentUse::Movement(import_captured::import_fbx),
     },
-    Reader {
+    FileReader {
         endings: &["c3d"],
         kind: "c3d",
-        holds: MARKERS,
+        holds: MARKERS_NOUN,
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Tracks(|bytes| c3d::read(bytes).map_err(said)),
+        contents: FileContentUse::Tracks(|bytes| c3d::read_c3d(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["trc"],
         kind: "trc",
-        holds: MARKERS,
+        holds: MARKERS_NOUN,
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Tracks(|bytes| trc::read(bytes).map_err(said)),
+        contents: FileContentUse::Tracks(|bytes| trc::read_trc_file(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["pose"],
         kind: "pose",
-        holds: Text::new("points from film", "points d’un film"),
+        holds: InterfaceText::new("points from film", "points d’un film"),
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Tracks(|bytes| pose::read(bytes).map_err(said)),
+        contents: FileContentUse::Tracks(|bytes| pose::read_pose_file(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["fap", "pbtxt", "gesichter"],
         kind: "curves",
-        holds: Text::new("faces", "visages"),
+        holds: InterfaceText::new("faces", "visages"),
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Other(captured::import_curves),
+        contents: FileContentUse::Other(import_captured::import_curves),
     },
-    Reader {
+    FileReader {
         endings: &["csv", "tsv"],
         kind: "lexicon",
-        holds: Text::new(
+        holds: InterfaceText::new(
             "lexicons, markers, faces, tables of annotations",
             "lexiques, marqueurs, visages, tables d’annotations",
         ),
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Other(captured::import_table),
+        contents: FileContentUse::Other(import_captured::import_table),
     },
-    Reader {
+    FileReader {
         endings: &["sigml", "hsigml", "xml"],
         kind: "sigml",
-        holds: Text::new("signs in SiGML", "signes en SiGML"),
-        looks: |path| Form::of(path) == Some(Form::Sigml),
+        holds: InterfaceText::new("signs in SiGML", "signes en SiGML"),
+        looks: |path| NotationFormat::from_notation_path(path) == Some(NotationFormat::Sigml),
         keeps_inventories: true,
-        contents: Contents::Other(notated::import_sigml),
+        contents: FileContentUse::Other(import_notated::import_sigml),
     },
-    Reader {
+    FileReader {
         endings: &["hns", "txt"],
         kind: "lexicon",
-        holds: Text::new(
+        holds: InterfaceText::new(
             "lines of HamNoSys, markers, tables of annotations",
             "lignes de HamNoSys, marqueurs, tables d’annotations",
         ),
-        looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export(path),
+        looks: |path| {
+            NotationFormat::from_notation_path(path) == Some(NotationFormat::Lines) || import_captured::is_export(path)
+        },
         keeps_inventories: false,
-        contents: Contents::Other(captured::import_text),
+        contents: FileContentUse::Other(import_captured::import_text),
     },
-    Reader {
+    FileReader {
         endings: &["textgrid"],
         kind: "textgrid",
-        holds: ANNOTATIONS,
+        holds: ANNOTATIONS_NOUN,
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Annotations(|bytes| textgrid::read(bytes).map_err(said)),
+        contents: FileContentUse::Annotations(|bytes| textgrid::read_textgrid_file(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["srt", "vtt"],
         kind: "subtitles",
-        holds: ANNOTATIONS,
+        holds: ANNOTATIONS_NOUN,
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Annotations(|bytes| subtitles::read(bytes).map_err(said)),
+        contents: FileContentUse::Annotations(|bytes| subtitles::read_subtitles(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["anvil"],
         kind: "anvil",
-        holds: ANNOTATIONS,
+        holds: ANNOTATIONS_NOUN,
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Annotations(|bytes| anvil::read(bytes).map_err(said)),
+        contents: FileContentUse::Annotations(|bytes| anvil::read_anvil(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["exb"],
         kind: "exmaralda",
-        holds: ANNOTATIONS,
+        holds: ANNOTATIONS_NOUN,
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Annotations(|bytes| exmaralda::read(bytes).map_err(said)),
+        contents: FileContentUse::Annotations(|bytes| exmaralda::read_exmaralda(bytes).map_err(parse_error_message)),
     },
-    Reader {
+    FileReader {
         endings: &["xml"],
         kind: "signstream",
-        holds: Text::new("collections of SignStream", "collections de SignStream"),
-        looks: |path| begins(path, "<SIGNSTREAM-DATABASE"),
+        holds: InterfaceText::new("collections of SignStream", "collections de SignStream"),
+        looks: |path| begins_with_text(path, "<SIGNSTREAM-DATABASE"),
         keeps_inventories: false,
-        contents: Contents::Annotations(|bytes| signstream::read(bytes).map_err(said)),
+        contents: FileContentUse::Annotations(|bytes| {
+            signstream::read_signstream_file(bytes).map_err(parse_error_message)
+        }),
     },
-    Reader {
+    FileReader {
         endings: &["ecv"],
         kind: "ecv",
-        holds: Text::new("vocabularies of ELAN", "vocabulaires d’ELAN"),
+        holds: InterfaceText::new("vocabularies of ELAN", "vocabulaires d’ELAN"),
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Other(elan::import_vocabularies),
+        contents: FileContentUse::Other(elan::import_vocabularies),
     },
-    Reader {
+    FileReader {
         endings: &["eaf"],
         kind: "eaf",
-        holds: ANNOTATIONS,
+        holds: ANNOTATIONS_NOUN,
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Annotations(eaf_transcript),
+        contents: FileContentUse::Annotations(eaf_transcript),
     },
-    Reader {
+    FileReader {
         endings: &["pfsx", "psfx"],
         kind: "pfsx",
-        holds: Text::new("settings of ELAN", "réglages d’ELAN"),
+        holds: InterfaceText::new("settings of ELAN", "réglages d’ELAN"),
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Other(elan::import_settings),
+        contents: FileContentUse::Other(elan::import_settings),
     },
-    Reader {
+    FileReader {
         endings: &["mp4", "m4v", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
-        kind: film::KIND,
-        holds: Text::new("films", "films"),
+        kind: import_film::FILM_KIND,
+        holds: InterfaceText::new("films", "films"),
         looks: always,
         keeps_inventories: true,
-        contents: Contents::Other(film::import),
+        contents: FileContentUse::Other(import_film::import_film),
     },
-    Reader {
+    FileReader {
         endings: &["etf"],
         kind: "etf",
-        holds: Text::new("templates of ELAN", "modèles d’ELAN"),
+        holds: InterfaceText::new("templates of ELAN", "modèles d’ELAN"),
         looks: always,
         keeps_inventories: false,
-        contents: Contents::Template(eaf_transcript, elan::import_template),
+        contents: FileContentUse::Template(eaf_transcript, elan::import_template),
     },
 ];
 
@@ -283,30 +287,30 @@ fn always(_: &Path) -> bool {
 }
 
 /// Returns the message of an error.
-fn said(error: impl Display) -> String {
+fn parse_error_message(error: impl Display) -> String {
     error.to_string()
 }
 
-fn eaf_transcript(bytes: &[u8]) -> std::result::Result<(Transcript, Vec<Finding>), String> {
-    elan_file::read(bytes).map_err(said)
+fn eaf_transcript(bytes: &[u8]) -> std::result::Result<(AnnotationTranscript, Vec<ImportFinding>), String> {
+    elan_file::read_eaf(bytes).map_err(parse_error_message)
 }
 
-/// Returns the index in [`READERS`] of a file's kind, if files of that kind are read.
-pub(super) fn reader(path: &Path) -> Option<usize> {
-    let ending = ending(path)?;
-    READERS
+/// Returns the index in [`FILE_READERS`] of a file's kind, if files of that kind are read.
+pub(super) fn find_reader_index(path: &Path) -> Option<usize> {
+    let ending = lower_file_ending(path)?;
+    FILE_READERS
         .iter()
-        .position(|it| it.endings.contains(&ending.as_str()) && (it.looks)(path))
+        .position(|reader| reader.endings.contains(&ending.as_str()) && (reader.looks)(path))
 }
 
 /// Returns the ending of a file's name in lower case, without the dot.
-pub(super) fn ending(path: &Path) -> Option<String> {
+pub(super) fn lower_file_ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
 
 /// Returns the reason to leave out a file of a folder that `chereme export all` wrote, if the database in that folder
 /// holds the same as the file: its tables, and the list of sources.
-pub(super) fn copied(path: &Path) -> Option<Error> {
+pub(super) fn exported_copy_error(path: &Path) -> Option<CorpusError> {
     let folder = path.parent()?;
     let exported = match folder.file_name() {
         Some(name) if name == "tables" => folder.parent()?,
@@ -319,55 +323,64 @@ pub(super) fn copied(path: &Path) -> Option<Error> {
     }
     let why = "it is a copy of a part of corpus.chereme, in the folder of an export";
     Some(
-        Error::wrong(why)
-            .at(path.display().to_string())
-            .advise(Remedy::command(
+        CorpusError::from_wrong_message(why)
+            .with_error_place(path.display().to_string())
+            .with_advice(ErrorRemedy::command_remedy(
                 "open the corpus.chereme of that folder, or merge it into yours: `chereme merge CORPUS OTHER`",
             )),
     )
 }
 
 /// Returns the function that reads annotations from files of this name, if its ending is that of annotation files.
-pub(crate) fn transcript(path: &Path) -> Option<Parse<Transcript>> {
-    READERS[reader(path)?].transcript()
+pub(crate) fn find_transcript_parser(path: &Path) -> Option<ParseFunction<AnnotationTranscript>> {
+    FILE_READERS[find_reader_index(path)?].reader_transcript_parser()
 }
 
 /// Returns the function that reads annotations from files of a kind in `source_file.kind`, if they hold annotations.
-pub(crate) fn annotations_of(kind: &str) -> Option<Parse<Transcript>> {
-    let reader = READERS.iter().find(|it| it.kind == kind)?;
+pub(crate) fn annotations_of(kind: &str) -> Option<ParseFunction<AnnotationTranscript>> {
+    let reader = FILE_READERS.iter().find(|reader| reader.kind == kind)?;
     match reader.contents {
-        Contents::Annotations(parse) => Some(parse),
+        FileContentUse::Annotations(parse) => Some(parse),
         _ => None,
     }
 }
 
 /// Returns whether files of a kind in `source_file.kind` hold the movement of a body.
 pub(super) fn is_movement(kind: &str) -> bool {
-    READERS.iter().any(|it| it.kind == kind && it.is_movement())
+    FILE_READERS
+        .iter()
+        .any(|reader| reader.kind == kind && reader.is_movement())
 }
 
 /// Lists the endings of annotation files.
 pub(crate) fn annotation_endings() -> String {
-    let readers = READERS.iter().filter(|it| it.transcript().is_some());
-    let dotted = readers.flat_map(|it| it.endings).map(|it| format!(".{it}"));
+    let readers = FILE_READERS
+        .iter()
+        .filter(|reader| reader.reader_transcript_parser().is_some());
+    let dotted = readers
+        .flat_map(|reader| reader.endings)
+        .map(|ending| format!(".{ending}"));
     dotted.collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the kinds of files that an import reads as a sentence, with their endings and contents.
 #[must_use]
-pub fn readable_files(language: Language) -> String {
-    let sentence = Text::new(
+pub fn readable_files(language: InterfaceLanguage) -> String {
+    let sentence = InterfaceText::new(
         "Files that are read: {endings}, or folders of these.",
         "Fichiers lus : {endings}, ou des dossiers qui en contiennent.",
     );
-    fill(sentence.of(language), &[("endings", &endings(language))])
+    fill_text_braces(
+        sentence.text_in_language(language),
+        &[("endings", &list_readable_endings(language))],
+    )
 }
 
 /// Lists the endings that are read, and the contents of such files.
-pub(crate) fn endings(language: Language) -> String {
-    let mut kinds: Vec<(Text, Vec<String>)> = Vec::new();
-    for reader in READERS.iter().filter(|it| !it.endings.is_empty()) {
-        let dotted = reader.endings.iter().map(|it| format!(".{it}"));
+pub(crate) fn list_readable_endings(language: InterfaceLanguage) -> String {
+    let mut kinds: Vec<(InterfaceText, Vec<String>)> = Vec::new();
+    for reader in FILE_READERS.iter().filter(|reader| !reader.endings.is_empty()) {
+        let dotted = reader.endings.iter().map(|ending| format!(".{ending}"));
         match kinds.iter_mut().find(|(holds, _)| *holds == reader.holds) {
             Some((_, all)) => all.extend(dotted),
             None => kinds.push((reader.holds, dotted.collect())),
@@ -375,7 +388,7 @@ pub(crate) fn endings(language: Language) -> String {
     }
     let kinds: Vec<String> = kinds
         .into_iter()
-        .map(|(holds, all)| format!("{} ({})", all.join(", "), holds.of(language)))
+        .map(|(holds, all)| format!("{} ({})", all.join(", "), holds.text_in_language(language)))
         .collect();
     kinds.join(", ")
 }
@@ -383,11 +396,11 @@ pub(crate) fn endings(language: Language) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::words::message;
+    use crate::words::localized_message;
 
     #[test]
     fn every_extension_has_one_kind_and_annotations_are_read_after_movement() {
-        let mut all: Vec<&str> = READERS.iter().flat_map(|it| it.endings).copied().collect();
+        let mut all: Vec<&str> = FILE_READERS.iter().flat_map(|it| it.endings).copied().collect();
         // The root element of an .xml determines its kind.
         let first = all.iter().position(|ending| *ending == "xml");
         all.remove(first.expect("an ending"));
@@ -395,11 +408,11 @@ mod tests {
         all.sort_unstable();
         all.dedup();
         assert_eq!(all.len(), many);
-        let place = |kind: &str| READERS.iter().position(|it| it.kind == kind);
+        let place = |kind: &str| FILE_READERS.iter().position(|it| it.kind == kind);
         let order = ["bvh", "pose", "ecv", "eaf", "pfsx", "film", "etf"].map(place);
         assert!(order.is_sorted() && order[0].is_some(), "{order:?}");
-        assert_eq!(reader(Path::new("A/TAKE.EAF")), place("eaf"));
-        assert_eq!(reader(Path::new("a.docx")), None);
+        assert_eq!(find_reader_index(Path::new("A/TAKE.EAF")), place("eaf"));
+        assert_eq!(find_reader_index(Path::new("a.docx")), None);
     }
 
     #[test]
@@ -414,13 +427,10 @@ mod tests {
             ("a.bvh", false),
             ("a.docx", false),
         ] {
-            assert_eq!(transcript(Path::new(name)).is_some(), holds, "{name}");
+            assert_eq!(find_transcript_parser(Path::new(name)).is_some(), holds, "{name}");
         }
         let all = annotation_endings();
-        assert!(
-            all.contains(".srt, .vtt") && all.ends_with(".eaf, .etf"),
-            "{all}"
-        );
+        assert!(all.contains(".srt, .vtt") && all.ends_with(".eaf, .etf"), "{all}");
         assert!(!all.contains(".bvh"), "{all}");
         assert!(is_movement("fbx") && !is_movement("film"));
     }
@@ -434,17 +444,17 @@ mod tests {
             ("a.docx", "not known"),
             ("noending", "not known"),
         ] {
-            let error = unread(Path::new(name));
+            let error = unread_format_error(Path::new(name));
             assert!(error.to_string().contains(said), "{error}");
-            assert!(error.remedy().is_some(), "{name}");
+            assert!(error.error_remedy().is_some(), "{name}");
         }
-        let all = endings(Language::English);
+        let all = list_readable_endings(InterfaceLanguage::English);
         assert!(all.contains(".csv, .tsv (lexicons"), "{all}");
-        let french = endings(Language::French);
+        let french = list_readable_endings(InterfaceLanguage::French);
         assert!(french.contains(".csv, .tsv (lexiques"), "{french}");
         let remedy = format!("files that are read end in {all}");
         assert_eq!(
-            message(&remedy, Language::French),
+            localized_message(&remedy, InterfaceLanguage::French),
             Some(format!("les fichiers qui sont lus finissent par {french}"))
         );
     }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::export::{ExportOptions, ExportWhat};
-use crate::progress::unheard;
+use crate::progress::ignore_progress_step;
 use crate::{ListFilter, ListKind, SearchOptions};
 
 /// A BVH file of one joint and two frames, 0.2 s long.
@@ -61,25 +61,25 @@ impl Desk {
     }
 
     fn corpus(&self, name: &str) -> Corpus {
-        Corpus::create(&self.folder.path().join(name), "A").expect("made")
+        Corpus::create_corpus(&self.folder.path().join(name), "A").expect("made")
     }
 }
 
 fn import(corpus: &mut Corpus, file: &Path, mapping: &str) -> FileReport {
     let options = ImportOptions {
-        mapping: Mapping::from_json(mapping).expect("a mapping"),
+        mapping: TierMapping::from_json(mapping).expect("a mapping"),
         ..ImportOptions::default()
     };
-    let mut hear = unheard;
-    let report = corpus.import(&[file.to_owned()], &options, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let report = corpus.import_paths(&[file.to_owned()], &options, &mut ProgressReceiver::new(&mut hear));
     report.expect("imported").files.remove(0)
 }
 
 fn assert_whole(corpus: &mut Corpus) {
-    let mut hear = unheard;
-    let report = corpus.check(false, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let report = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut hear));
     let report = report.expect("checked");
-    assert_eq!(report.findings().next(), None);
+    assert_eq!(report.all_findings().next(), None);
 }
 
 /// Returns role and hand of each tier, by recording and position.
@@ -87,46 +87,37 @@ fn roles(corpus: &Corpus) -> Vec<String> {
     let recordings = recordings_of(corpus);
     let tiers = recordings
         .into_iter()
-        .flat_map(|id| crate::db::tiers::tiers(corpus.store.read(), id).expect("tiers"));
+        .flat_map(|id| crate::db::stored_tiers::load_tier_rows(corpus.store.read_connection(), id).expect("tiers"));
     tiers
         .map(|row| {
-            let hand = row.hand.map_or("", crate::Hands::name);
-            format!("{}: {hand} {}", row.name, row.role.name())
+            let hand = row.hand.map_or("", crate::AnnotatedHands::annotated_hands_name);
+            format!("{}: {hand} {}", row.name, row.role.role_name())
         })
         .collect()
 }
 
 fn recordings_of(corpus: &Corpus) -> Vec<i64> {
-    let all = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    let all = crate::db::stored_recordings::load_recording_rows(corpus.store.read_connection()).expect("recordings");
     all.iter().map(|row| row.id).collect()
 }
 
 #[test]
 fn roles_given_to_oddly_named_tiers_are_remembered() {
     let desk = Desk::new();
-    let odd = [
-        ("QX1", 0, 500, "BOL"),
-        ("QX2", 0, 500, "S"),
-        ("Gloss", 0, 500, "x"),
-    ];
+    let odd = [("QX1", 0, 500, "BOL"), ("QX2", 0, 500, "S"), ("Gloss", 0, 500, "x")];
     let take = desk.file("one.eaf", &eaf(&odd));
-    let mapping =
-        r#"{"tiers": {"QX1": "right.gloss", "QX2": "left.configuration", "Gloss": "comment"}}"#;
+    let mapping = r#"{"tiers": {"QX1": "right.gloss", "QX2": "left.configuration", "Gloss": "comment"}}"#;
     let mut corpus = desk.corpus("a.chereme");
     import(&mut corpus, &take, mapping);
-    let known = [
-        "QX1: right gloss",
-        "QX2: left configuration",
-        "Gloss:  comment",
-    ];
+    let known = ["QX1: right gloss", "QX2: left configuration", "Gloss:  comment"];
     assert_eq!(roles(&corpus), known);
 
     let out = desk.folder.path().join("out.eaf");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let options = ExportOptions::default();
     corpus
-        .export(&ExportWhat::All, &out, &options, progress)
+        .export_corpus(&ExportWhat::All, &out, &options, progress)
         .expect("exported");
     let mut elsewhere = desk.corpus("b.chereme");
     import(&mut elsewhere, &out, "{}");
@@ -139,10 +130,7 @@ fn roles_given_to_oddly_named_tiers_are_remembered() {
         "the caller knows better"
     );
 
-    let next = desk.file(
-        "two.eaf",
-        &eaf(&[("QX2", 0, 400, "S"), ("QX3", 0, 400, "S")]),
-    );
+    let next = desk.file("two.eaf", &eaf(&[("QX2", 0, 400, "S"), ("QX3", 0, 400, "S")]));
     let report = import(&mut corpus, &next, "{}");
     assert_eq!(
         roles(&corpus)[3..],
@@ -161,12 +149,7 @@ fn a_malformed_property_is_reported() {
     );
     let mut corpus = desk.corpus("a.chereme");
     let report = import(&mut corpus, &desk.file("one.eaf", &text), "{}");
-    assert!(
-        report
-            .findings
-            .iter()
-            .any(|it| it.message.contains("chereme.tiers"))
-    );
+    assert!(report.findings.iter().any(|it| it.message.contains("chereme.tiers")));
     assert_eq!(roles(&corpus), ["Gloss:  gloss"]);
 }
 
@@ -175,11 +158,7 @@ fn annotations_long_after_the_movement_are_reported() {
     let desk = Desk::new();
     for (name, end, reported) in [("short", 1100, false), ("long", 1300, true)] {
         let mut corpus = desk.corpus(&format!("{name}.chereme"));
-        import(
-            &mut corpus,
-            &desk.file(&format!("{name}.bvh"), MOVEMENT),
-            "{}",
-        );
+        import(&mut corpus, &desk.file(&format!("{name}.bvh"), MOVEMENT), "{}");
         let file = desk.file(&format!("{name}.eaf"), &eaf(&[("Gloss", 0, end, "BOL")]));
         let report = import(&mut corpus, &file, "{}");
         let warned = report
@@ -202,30 +181,30 @@ fn movement_phases_divide_time_and_are_no_values_of_a_token() {
     import(&mut corpus, &desk.file("one.eaf", &text), "{}");
     assert_eq!(roles(&corpus)[2], "Phase RH: right movement.phase");
     let options = SearchOptions::default();
-    let answer = corpus.search("gloss=BOL", &options).expect("answered");
+    let answer = corpus.search_tokens("gloss=BOL", &options).expect("answered");
     let fields: Vec<&String> = answer.hits[0].components.keys().collect();
     assert_eq!(fields, ["right.configuration"]);
-    let beside = corpus.search("equals right.movement.phase=stroke", &options);
+    let beside = corpus.search_tokens("equals right.movement.phase=stroke", &options);
     assert_eq!(beside.expect("answered").total, 1);
-    let alone = corpus.search("movement.phase=stroke", &options);
+    let alone = corpus.search_tokens("movement.phase=stroke", &options);
     assert!(alone.is_err_and(|error| {
         error
-            .remedy()
-            .is_some_and(|it| it.text().contains("overlaps"))
+            .error_remedy()
+            .is_some_and(|it| it.remedy_text().contains("overlaps"))
     }));
-    let all = corpus.list(ListKind::Annotations, &ListFilter::default());
+    let all = corpus.list_rows(ListKind::Annotations, &ListFilter::default());
     assert_eq!(all.expect("listed").total, 3);
 }
 
 /// Returns the annotations: tier, start in ms, value.
 fn said(corpus: &Corpus) -> Vec<String> {
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     let tiers = recordings_of(corpus)
         .into_iter()
-        .flat_map(|id| crate::db::tiers::tiers(connection, id).expect("tiers"));
+        .flat_map(|id| crate::db::stored_tiers::load_tier_rows(connection, id).expect("tiers"));
     tiers
         .flat_map(|tier| {
-            let rows = crate::db::tiers::annotations(connection, tier.id).expect("annotations");
+            let rows = crate::db::stored_tiers::load_tier_annotation_rows(connection, tier.id).expect("annotations");
             rows.into_iter()
                 .map(move |row| format!("{} {} {}", tier.name, row.start_us / 1000, row.value))
         })
@@ -258,12 +237,12 @@ fn an_edited_file_updates_its_annotations_and_one_undo_takes_it_back() {
         dry_run: true,
         ..ImportOptions::default()
     };
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let dry = corpus
-        .import(
+        .import_paths(
             std::slice::from_ref(&file),
             &options,
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("looked at");
     assert_eq!(dry.files[0].status, FileStatus::Updated);
@@ -271,47 +250,30 @@ fn an_edited_file_updates_its_annotations_and_one_undo_takes_it_back() {
 
     let report = import(&mut corpus, &file, "{}");
     assert_eq!(report.findings, dry.files[0].findings);
-    let messages: Vec<&str> = report
-        .findings
-        .iter()
-        .map(|it| it.message.as_str())
-        .collect();
+    let messages: Vec<&str> = report.findings.iter().map(|it| it.message.as_str()).collect();
     assert!(
         messages[0].contains("2 changed, 0 added, 1 removed, 0 as they were"),
         "{messages:?}"
     );
     assert!(
-        messages
-            .iter()
-            .any(|line| line.contains("\"BOL\" became \"BALLE\"")),
+        messages.iter().any(|line| line.contains("\"BOL\" became \"BALLE\"")),
         "{messages:?}"
     );
     assert!(
-        messages
-            .iter()
-            .any(|line| line.contains("\"glad\" removed")),
+        messages.iter().any(|line| line.contains("\"glad\" removed")),
         "{messages:?}"
     );
     assert_eq!(said(&corpus), ["Gloss 0 BALLE", "Notes 100 fine"]);
     let hits = |corpus: &mut Corpus, gloss: &str| {
-        let found = corpus.search(&format!("gloss={gloss}"), &SearchOptions::default());
+        let found = corpus.search_tokens(&format!("gloss={gloss}"), &SearchOptions::default());
         found.expect("searched").total
     };
-    assert_eq!(
-        (hits(&mut corpus, "BALLE"), hits(&mut corpus, "BOL")),
-        (1, 0)
-    );
-    assert_eq!(
-        import(&mut corpus, &file, "{}").status,
-        FileStatus::Unchanged
-    );
+    assert_eq!((hits(&mut corpus, "BALLE"), hits(&mut corpus, "BOL")), (1, 0));
+    assert_eq!(import(&mut corpus, &file, "{}").status, FileStatus::Unchanged);
 
-    corpus.undo().expect("taken back");
+    corpus.undo_operation().expect("taken back");
     assert_eq!(said(&corpus), before);
-    assert_eq!(
-        (hits(&mut corpus, "BALLE"), hits(&mut corpus, "BOL")),
-        (0, 1)
-    );
+    assert_eq!((hits(&mut corpus, "BALLE"), hits(&mut corpus, "BOL")), (0, 1));
 }
 
 #[test]
@@ -320,8 +282,8 @@ fn own_annotations_are_kept_and_a_file_of_another_take_is_refused() {
     let mut corpus = desk.corpus("a.chereme");
     let first = eaf(&[("Gloss", 0, 500, "BOL")]);
     import(&mut corpus, &desk.file("one.eaf", &first), "{}");
-    let tier = crate::db::tiers::tiers(corpus.store.read(), 1).expect("tiers")[0].id;
-    let added = crate::db::tiers::AnnotationRow {
+    let tier = crate::db::stored_tiers::load_tier_rows(corpus.store.read_connection(), 1).expect("tiers")[0].id;
+    let added = crate::db::stored_tiers::AnnotationRow {
         tier_id: tier,
         start_us: 700_000,
         end_us: 900_000,
@@ -333,17 +295,19 @@ fn own_annotations_are_kept_and_a_file_of_another_take_is_refused() {
     corpus
         .store
         .named_operation("annotate", |connection| {
-            crate::db::tiers::insert_annotation(connection, &added)?;
+            crate::db::stored_tiers::insert_annotation(connection, &added)?;
             Ok(((), String::new()))
         })
         .expect("added");
     let file = desk.file("one.eaf", &first.replace("BOL", "BALLE"));
     let report = import(&mut corpus, &file, "{}");
     assert_eq!(said(&corpus), ["Gloss 0 BALLE", "Gloss 700 CHAT"]);
-    assert!(report.findings.iter().any(|it| {
-        it.message
-            .contains("1 annotation that the file does not have is kept")
-    }));
+    assert!(
+        report
+            .findings
+            .iter()
+            .any(|it| { it.message.contains("1 annotation that the file does not have is kept") })
+    );
 
     let other = first.replace("\"a0\"", "\"z9\"");
     let report = import(&mut corpus, &desk.file("one.eaf", &other), "{}");
@@ -363,7 +327,7 @@ fn a_table_imported_again_keeps_the_spellings_of_its_values() {
     import(&mut corpus, &second, "{}");
     assert_whole(&mut corpus);
     let options = SearchOptions::default();
-    let mut found = |query: &str| corpus.search(query, &options).expect(query).total;
+    let mut found = |query: &str| corpus.search_tokens(query, &options).expect(query).total;
     assert_eq!(found("configuration=b-spread"), 1);
     assert_eq!(found("configuration=\"new one\""), 2);
     assert_eq!(found("configuration=*"), 4);
@@ -384,10 +348,7 @@ fn an_inventory_that_contradicts_the_corpus_is_refused() {
     let report = import(&mut corpus, &again, "{}");
     assert_eq!(report.status, FileStatus::Refused);
     let message = &report.findings[0].message;
-    assert!(
-        message.contains("the cap") && message.contains("\"cap\""),
-        "{message}"
-    );
+    assert!(message.contains("the cap") && message.contains("\"cap\""), "{message}");
     assert_whole(&mut corpus);
 }
 
@@ -402,7 +363,7 @@ fn signs_in_json_are_a_lexicon() {
     let report = import(&mut corpus, &json, "{}");
     assert_eq!(report.status, FileStatus::Imported);
     let hits = corpus
-        .search("placement=head", &SearchOptions::default())
+        .search_tokens("placement=head", &SearchOptions::default())
         .expect("a query");
     assert_eq!(hits.total, 1);
 }
@@ -420,11 +381,6 @@ fn a_body_that_faces_away_from_its_toes_is_reported() {
     for (text, reported) in [(whole, false), (&exchanged, true)] {
         let report = import(&mut corpus, &desk.file("take.bvh", text), "{}");
         let doubt = |it: &ReportFinding| it.message.contains("the toes point away");
-        assert_eq!(
-            report.findings.iter().any(doubt),
-            reported,
-            "{:?}",
-            report.findings
-        );
+        assert_eq!(report.findings.iter().any(doubt), reported, "{:?}", report.findings);
     }
 }

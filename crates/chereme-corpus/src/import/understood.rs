@@ -4,22 +4,22 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use chereme_formats::eaf;
-use chereme_formats::lexicon::Column;
+use chereme_formats::lexicon::LexiconColumn;
 use chereme_formats::roles::TierGuess;
-use chereme_motion::Evidence;
+use chereme_motion::PartEvidence;
 use serde::{Serialize, Serializer};
 
 use crate::track::TrackKind;
 
 /// The interpretation of a file. JSON has the fields of all parts side by side.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct Understood {
+pub struct FileInterpretation {
     /// Movement: its rate, unit and axes.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub movement: Option<MovementRead>,
     /// The joints of a body.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub body: Option<Shared<BodyRead>>,
+    pub body: Option<SharedPart<BodyRead>>,
     /// How the root was read, if an option decided that.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub root: Option<RootRead>,
@@ -34,10 +34,10 @@ pub struct Understood {
     pub lapses: Option<Vec<String>>,
     /// Tiers of an annotation file, or how ELAN shows them.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub tiers: Option<Shared<TiersRead>>,
+    pub tiers: Option<SharedPart<TiersRead>>,
     /// Columns of a lexicon table.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub columns: Option<Vec<Column>>,
+    pub columns: Option<Vec<LexiconColumn>>,
     /// Recordings that took the tiers of a template.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recordings: Option<Vec<String>>,
@@ -49,10 +49,10 @@ pub struct Understood {
     pub tracks: Option<Vec<TrackRead>>,
     /// Changes of annotations by a file that was imported before.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub changes: Option<Changes>,
+    pub changes: Option<ReimportChanges>,
 }
 
-impl Understood {
+impl FileInterpretation {
     /// Returns whether nothing is known.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -72,21 +72,21 @@ impl Understood {
 /// A part of an interpretation that is held once for all files in which it is the same, since an import of many takes
 /// reports the same body and the same tiers for each of them.
 #[derive(Debug, PartialEq)]
-pub struct Shared<T>(Arc<T>);
+pub struct SharedPart<T>(Arc<T>);
 
-impl<T> Clone for Shared<T> {
+impl<T> Clone for SharedPart<T> {
     fn clone(&self) -> Self {
         Self(Arc::clone(&self.0))
     }
 }
 
-impl<T> From<T> for Shared<T> {
+impl<T> From<T> for SharedPart<T> {
     fn from(part: T) -> Self {
         Self(Arc::new(part))
     }
 }
 
-impl<T> Deref for Shared<T> {
+impl<T> Deref for SharedPart<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
@@ -94,7 +94,7 @@ impl<T> Deref for Shared<T> {
     }
 }
 
-impl<T: Serialize> Serialize for Shared<T> {
+impl<T: Serialize> Serialize for SharedPart<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.0.serialize(serializer)
     }
@@ -102,26 +102,26 @@ impl<T: Serialize> Serialize for Shared<T> {
 
 /// The parts of the interpretations of earlier files.
 #[derive(Debug, Default)]
-pub(super) struct Earlier {
-    bodies: Vec<Shared<BodyRead>>,
-    tiers: Vec<Shared<TiersRead>>,
+pub(super) struct EarlierInterpretations {
+    bodies: Vec<SharedPart<BodyRead>>,
+    tiers: Vec<SharedPart<TiersRead>>,
 }
 
-impl Earlier {
+impl EarlierInterpretations {
     /// Replaces parts of an interpretation by equal ones of earlier files.
-    pub(super) fn share(&mut self, understood: &mut Understood) {
-        share(&mut self.bodies, understood.body.as_mut());
-        share(&mut self.tiers, understood.tiers.as_mut());
+    pub(super) fn share_equal_parts(&mut self, understood: &mut FileInterpretation) {
+        share_equal_part(&mut self.bodies, understood.body.as_mut());
+        share_equal_part(&mut self.tiers, understood.tiers.as_mut());
     }
 }
 
-fn share<T: PartialEq>(earlier: &mut Vec<Shared<T>>, own: Option<&mut Shared<T>>) {
+fn share_equal_part<T: PartialEq>(earlier: &mut Vec<SharedPart<T>>, own: Option<&mut SharedPart<T>>) {
     /// The largest number of different parts that are compared.
-    const MOST: usize = 16;
+    const MAX_COMPARED_PARTS: usize = 16;
     let Some(own) = own else { return };
-    match earlier.iter().find(|it| **it == *own) {
+    match earlier.iter().find(|shared| **shared == *own) {
         Some(same) => *own = same.clone(),
-        None if earlier.len() < MOST => earlier.push(own.clone()),
+        None if earlier.len() < MAX_COMPARED_PARTS => earlier.push(own.clone()),
         None => {}
     }
 }
@@ -178,7 +178,7 @@ pub struct JointRole {
     /// The joint's name.
     pub joint: String,
     /// The evidence.
-    pub by: Evidence,
+    pub by: PartEvidence,
 }
 
 /// How the root was read.
@@ -197,7 +197,7 @@ pub enum TiersRead {
     /// Tiers with their inferred roles.
     Guessed(Vec<TierGuess>),
     /// Order, colours and visibility.
-    Shown(eaf::settings::Settings),
+    Shown(eaf::eaf_settings::TierDisplaySettings),
 }
 
 /// A track as it was stored.
@@ -228,12 +228,12 @@ pub struct TrackRead {
 impl TrackRead {
     /// Describes the track in a line for people; nothing for media.
     #[must_use]
-    pub fn line(&self) -> Option<String> {
+    pub fn track_description_line(&self) -> Option<String> {
         let (name, channels, frames) = (&self.name, self.channels, self.frames?);
         let seconds = self.duration_us.unwrap_or_default() as f64 / 1e6;
         let rate = match self.rate {
-            Some(rate) => format!("{} fps", rounded(rate)),
-            None => format!("~{} fps", rounded(frames as f64 / seconds.max(1e-6))),
+            Some(rate) => format!("{} fps", round_frame_rate(rate)),
+            None => format!("~{} fps", round_frame_rate(frames as f64 / seconds.max(1e-6))),
         };
         let what = match self.kind {
             TrackKind::Markers => "points",
@@ -257,13 +257,13 @@ impl TrackRead {
 }
 
 /// Rounds a rate to three decimals.
-fn rounded(rate: f64) -> f64 {
+fn round_frame_rate(rate: f64) -> f64 {
     (rate * 1000.0).round() / 1000.0
 }
 
 /// How many annotations a file that was imported before has changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Changes {
+pub struct ReimportChanges {
     /// Annotations that are new.
     pub added: usize,
     /// Annotations with another value or time.
@@ -280,25 +280,22 @@ mod tests {
 
     #[test]
     fn equal_parts_of_many_reports_are_stored_once() {
-        let of = |name: &str| Understood {
-            body: Some(Shared::from(BodyRead {
+        let of = |name: &str| FileInterpretation {
+            body: Some(SharedPart::from(BodyRead {
                 joint_names: vec![name.to_owned()],
                 ..BodyRead::default()
             })),
-            ..Understood::default()
+            ..FileInterpretation::default()
         };
         let mut all = [of("Hips"), of("Hips"), of("pelvis"), of("Hips")];
         let before: Vec<String> = all.iter().map(|it| format!("{it:?}")).collect();
-        let mut earlier = Earlier::default();
-        all.iter_mut().for_each(|it| earlier.share(it));
+        let mut earlier = EarlierInterpretations::default();
+        all.iter_mut().for_each(|it| earlier.share_equal_parts(it));
         let after: Vec<String> = all.iter().map(|it| format!("{it:?}")).collect();
         assert_eq!(after, before, "they say the same");
         let held = |at: usize| all[at].body.as_ref().map(|body| Arc::as_ptr(&body.0));
         assert!(held(0) == held(1) && held(0) == held(3) && held(0) != held(2));
         let json = serde_json::to_value(&all[1]).expect("JSON");
-        assert_eq!(
-            json["joint_names"][0], "Hips",
-            "side by side with the other parts"
-        );
+        assert_eq!(json["joint_names"][0], "Hips", "side by side with the other parts");
     }
 }

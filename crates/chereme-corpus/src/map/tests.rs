@@ -1,7 +1,7 @@
 //! Tests of maps of small lexicons.
 
 use super::*;
-use crate::{ImportOptions, unheard};
+use crate::{ImportOptions, ignore_progress_step};
 
 /// Returns a corpus with two families of four signs each: fists at the chin, flat hands at the chest.
 fn lexicon(folder: &Path) -> Corpus {
@@ -14,19 +14,17 @@ fn lexicon(folder: &Path) -> Corpus {
     }
     table.push_str("BARE,,,\n");
     std::fs::write(&file, table).expect("written");
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
     let options = ImportOptions::default();
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    corpus
-        .import(&[file], &options, progress)
-        .expect("imported");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    corpus.import_paths(&[file], &options, progress).expect("imported");
     corpus
 }
 
-fn map(corpus: &mut Corpus, options: &MapOptions) -> Result<SignMap> {
-    let mut hear = unheard;
-    corpus.map(options, &mut Progress::new(&mut hear))
+fn map(corpus: &mut Corpus, options: &MapOptions) -> CorpusResult<SignMap> {
+    let mut hear = ignore_progress_step;
+    corpus.arrange_sign_map(options, &mut ProgressReceiver::new(&mut hear))
 }
 
 #[test]
@@ -34,7 +32,7 @@ fn signs_that_are_alike_lie_near_each_other() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = lexicon(folder.path());
     let options = MapOptions {
-        components: vec![Component::Configuration, Component::Placement],
+        components: vec![SignComponent::Configuration, SignComponent::Placement],
         query: None,
     };
     let found = map(&mut corpus, &options).expect("a map");
@@ -48,13 +46,10 @@ fn signs_that_are_alike_lie_near_each_other() {
         }
     }
     let drawn = folder.path().join("map.svg");
-    found.draw(&drawn, false).expect("drawn");
+    found.draw_sign_map(&drawn, false).expect("drawn");
     let text = std::fs::read_to_string(&drawn).expect("read");
     assert_eq!(text.matches("<circle").count(), 8);
-    assert!(
-        found.draw(&drawn, false).is_err(),
-        "nothing is written over"
-    );
+    assert!(found.draw_sign_map(&drawn, false).is_err(), "nothing is written over");
 }
 
 #[test]
@@ -69,14 +64,14 @@ fn a_map_of_a_query_holds_its_tokens_and_one_sign_is_no_map() {
     assert_eq!(found.signs.len(), 4);
     let error = map(&mut corpus, &of("gloss=CHIN-1")).expect_err("one sign");
     assert!(error.to_string().starts_with("1 of 1 tokens"), "{error}");
-    assert!(error.remedy().is_some());
+    assert!(error.error_remedy().is_some());
 }
 
 #[test]
 fn a_map_that_is_stopped_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = lexicon(folder.path());
-    let mut hear = |_: Step<'_>| std::ops::ControlFlow::Break(());
-    let stopped = corpus.map(&MapOptions::default(), &mut Progress::new(&mut hear));
-    assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");
+    let mut hear = |_: ProgressStep<'_>| std::ops::ControlFlow::Break(());
+    let stopped = corpus.arrange_sign_map(&MapOptions::default(), &mut ProgressReceiver::new(&mut hear));
+    assert!(matches!(stopped, Err(CorpusError::Stopped)), "{stopped:?}");
 }

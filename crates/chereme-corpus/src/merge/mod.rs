@@ -1,19 +1,19 @@
 //! Merges two corpora that have diverged: a change that only one side made is taken over; conflicting changes of both
 //! sides wait for a decision.
 
-mod conflicts;
 #[cfg(test)]
 #[path = "tests/laws.rs"]
 mod laws;
+mod merge_conflicts;
+mod merge_rows;
+mod merge_studies;
+mod merge_whole;
 #[cfg(test)]
 #[path = "tests/removals.rs"]
 mod removals;
-mod rows;
 mod rules;
-mod studies;
 #[cfg(test)]
 mod tests;
-mod whole;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -22,16 +22,16 @@ use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::Value;
 
-pub use conflicts::{Candidate, CorpusConflict, Decision};
-use conflicts::{Open, keep, remove};
-pub(crate) use conflicts::{disputes, keep_annotation, waiting};
+pub use merge_conflicts::{ConflictCandidate, ConflictDecision, CorpusConflict};
+use merge_conflicts::{StoredConflict, remove_annotation_tree, store_conflict};
+pub(crate) use merge_conflicts::{keep_annotation, undecided_conflicts, undecided_disputes};
 
 use crate::Corpus;
-use crate::db::merge::{self as db, Image, Key, Side};
-use crate::db::{edits, recordings, signs, studies as study_rows, tiers, tracks};
-use crate::error::{Error, Result};
+use crate::db::stored_merge::{self as db, MergeSide, RowImage, TableRowKey};
+use crate::db::{edits, signs, stored_recordings, stored_studies as study_rows, stored_tiers, stored_tracks};
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
-use crate::progress::{Progress, Step, Unit};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
@@ -53,7 +53,7 @@ pub struct MergeReport {
 
 /// The tables that are merged; a table comes after those it refers to. Tokens of annotations are not merged but
 /// derived.
-const ORDER: [&str; 19] = [
+const MERGED_TABLE_ORDER: [&str; 19] = [
     "signer",
     "skeleton",
     "inventory",
@@ -82,75 +82,76 @@ impl Corpus {
     /// Rows correspond if they have the same uid. A change that only one side made is taken over, field by field. Three
     /// kinds of change are conflicts: different changes of both sides, a change of a row that the other side removed,
     /// and an annotation that would break a rule of its tier, such as one without room. In a conflict this corpus stays as
-    /// it is, and the other candidate is stored until [`decide`](Self::decide) is called; a recording or tier that one
+    /// it is, and the other candidate is stored until [`decide_conflicts`](Self::decide_conflicts) is called; a recording or tier that one
     /// side removed and in which the other changed something stays whole, or comes back whole, until then. The common state
     /// of the two is that after the last operation that their histories share, or `base`.
     ///
     /// # Errors
     /// Fails if the corpora have no common beginning and there is no `base`.
-    pub fn merge(
+    pub fn merge_corpus(
         &mut self,
         other: &Path,
         base: Option<&Path>,
-        progress: &mut Progress<'_>,
-    ) -> Result<MergeReport> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<MergeReport> {
         let author = "merge";
-        let open = |path: &Path| Self::open_unchanged(path, self.path(), author);
+        let open = |path: &Path| Self::open_unchanged(path, self.corpus_file_path(), author);
         let theirs = open(other)?;
         let base = base.map(open).transpose()?;
         let from = other
             .file_name()
             .map(|name| name.to_string_lossy().into_owned())
             .unwrap_or_default();
-        self.store
-            .operation_with_progress(progress, |connection, progress| {
-                edits::defer_references(connection)?;
-                let there = theirs.store.read();
-                let (mine, theirs, back) = match &base {
-                    Some(base) => {
-                        let base = base.store.read();
-                        let theirs = Side::against(there, base)?;
-                        (Side::against(connection, base)?, theirs, None)
-                    }
-                    None => {
-                        let (own, fork) =
-                            db::fork(connection, there)?.ok_or_else(|| no_beginning(other))?;
-                        // An earlier merge, in either direction, gives a later common state.
-                        let known = db::merged_before(there, fork, connection)?;
-                        let back = db::merged_before(connection, own, there)?;
-                        let back = back.map(|own| Side::since(connection, own)).transpose()?;
-                        let theirs = Side::since(there, known.unwrap_or(fork))?;
-                        (Side::since(connection, own)?, theirs, back)
-                    }
-                };
-                let mut work = Work {
-                    connection,
-                    mine,
-                    theirs,
-                    back,
-                    from: from.clone(),
-                    report: MergeReport::default(),
-                    recordings: BTreeSet::new(),
-                    looked_at: BTreeSet::new(),
-                    came: BTreeMap::new(),
-                    back_again: BTreeSet::new(),
-                    roots: BTreeSet::new(),
-                    renamed: BTreeSet::new(),
-                    signs: Vec::new(),
-                };
-                work.all(progress)?;
-                db::note_merged(connection, there)?;
-                let report = work.report;
-                let effect = merge_effect(from, &report);
-                Ok((report, effect))
-            })
+        self.store.operation_with_progress(progress, |connection, progress| {
+            edits::defer_references(connection)?;
+            let there = theirs.store.read_connection();
+            let (mine, theirs, back) = match &base {
+                Some(base) => {
+                    let base = base.store.read_connection();
+                    let theirs = MergeSide::merge_side_against(there, base)?;
+                    (MergeSide::merge_side_against(connection, base)?, theirs, None)
+                }
+                None => {
+                    let (own, fork) =
+                        db::find_common_operation(connection, there)?.ok_or_else(|| no_beginning(other))?;
+                    // An earlier merge, in either direction, gives a later common state.
+                    let last_merge = db::merged_before(there, fork, connection)?;
+                    let back_start = db::merged_before(connection, own, there)?;
+                    let back = back_start
+                        .map(|own| MergeSide::merge_side_since(connection, own))
+                        .transpose()?;
+                    let theirs = MergeSide::merge_side_since(there, last_merge.unwrap_or(fork))?;
+                    (MergeSide::merge_side_since(connection, own)?, theirs, back)
+                }
+            };
+            let mut work = MergeWork {
+                connection,
+                mine,
+                theirs,
+                back,
+                from: from.clone(),
+                report: MergeReport::default(),
+                recordings: BTreeSet::new(),
+                looked_at: BTreeSet::new(),
+                came: BTreeMap::new(),
+                back_again: BTreeSet::new(),
+                roots: BTreeSet::new(),
+                renamed: BTreeSet::new(),
+                signs: Vec::new(),
+            };
+            work.merge_all_rows(progress)?;
+            db::note_merged(connection, there)?;
+            let report = work.report;
+            let effect = merge_effect(from, &report);
+            Ok((report, effect))
+        })
     }
 }
 
-fn no_beginning(other: &Path) -> Error {
-    Error::wrong("the two corpora have no common beginning: neither is a copy of the other")
-        .at(other.display().to_string())
-        .advise(
+fn no_beginning(other: &Path) -> CorpusError {
+    CorpusError::from_wrong_message("the two corpora have no common beginning: neither is a copy of the other")
+        .with_error_place(other.display().to_string())
+        .with_advice(
             "name the copy that both come from with --base; else export its recordings as .eaf \
              and import these with --merge",
         )
@@ -169,12 +170,12 @@ fn merge_effect(from: String, report: &MergeReport) -> OperationEffect {
     }
 }
 
-struct Work<'c> {
+struct MergeWork<'c> {
     connection: &'c Connection,
-    mine: Side<'c>,
-    theirs: Side<'c>,
+    mine: MergeSide<'c>,
+    theirs: MergeSide<'c>,
     /// The changes of this side since the other side merged it.
-    back: Option<Side<'c>>,
+    back: Option<MergeSide<'c>>,
     from: String,
     report: MergeReport,
     /// The recordings whose tokens must be derived again.
@@ -182,32 +183,28 @@ struct Work<'c> {
     /// The recordings whose tiers must keep their rules.
     looked_at: BTreeSet<i64>,
     /// The annotations that were added or moved as on the other side, with their row before; nothing if they were added.
-    came: BTreeMap<String, Option<Image>>,
+    came: BTreeMap<String, Option<RowImage>>,
     /// The rows that this side removed and that come back, because the other side changed something in them.
-    back_again: BTreeSet<Key>,
+    back_again: BTreeSet<TableRowKey>,
     /// The topmost of these rows.
-    roots: BTreeSet<Key>,
+    roots: BTreeSet<TableRowKey>,
     /// The names of signers whom both sides renamed: that of this side and that of the other. Their tiers follow.
     renamed: BTreeSet<[String; 2]>,
     /// The signs that were added from the other side.
     signs: Vec<i64>,
 }
 
-impl Work<'_> {
-    fn all(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+impl MergeWork<'_> {
+    fn merge_all_rows(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         self.bring_back()?;
-        let touched: Vec<Key> = self.theirs.touched.keys().cloned().collect();
-        let mut gone: Vec<Key> = Vec::new();
+        let touched: Vec<TableRowKey> = self.theirs.touched.keys().cloned().collect();
+        let mut gone: Vec<TableRowKey> = Vec::new();
         let mut done = 0u64;
-        for table in ORDER {
+        for table in MERGED_TABLE_ORDER {
             if table == "attribute" {
-                self.derive()?;
+                self.rederive_touched_tokens()?;
             }
-            let mut waiting: Vec<Key> = touched
-                .iter()
-                .filter(|key| key.0 == table)
-                .cloned()
-                .collect();
+            let mut waiting: Vec<TableRowKey> = touched.iter().filter(|key| key.0 == table).cloned().collect();
             // Rows of one table may refer to each other: those higher up go first.
             loop {
                 let before = waiting.len();
@@ -215,16 +212,16 @@ impl Work<'_> {
                 for key in waiting {
                     done += 1;
                     if done.is_multiple_of(256) {
-                        progress.report(Step {
+                        progress.report_step(ProgressStep {
                             task: "merging",
                             done,
                             total: Some(touched.len() as u64),
-                            unit: Unit::Items,
+                            unit: ProgressUnit::Items,
                         })?;
                     }
-                    if self.theirs.row(table, &key.1)?.is_none() {
+                    if self.theirs.find_row_image(table, &key.1)?.is_none() {
                         gone.push(key);
-                    } else if !self.row(&key)? {
+                    } else if !self.merge_row(&key)? {
                         later.push(key);
                     }
                 }
@@ -237,31 +234,31 @@ impl Work<'_> {
                 waiting = later;
             }
         }
-        let contested = self.contested(&gone.iter().cloned().collect())?;
+        let contested = self.contested_removed_rows(&gone.iter().cloned().collect())?;
         let mut above = BTreeMap::new();
         let mut removed = Vec::new();
         for key in gone {
-            if !self.stays(&key, &contested, &mut above)? {
+            if !self.is_contested_row(&key, &contested, &mut above)? {
                 removed.push(key);
             }
         }
         for key in &contested {
-            self.disagree(key, None)?;
+            self.store_row_disagreement(key, None)?;
         }
-        for table in ORDER.iter().rev() {
+        for table in MERGED_TABLE_ORDER.iter().rev() {
             let of_table = removed.iter().filter(|key| key.0 == *table);
-            let mut waiting: Vec<Key> = of_table.cloned().collect();
+            let mut waiting: Vec<TableRowKey> = of_table.cloned().collect();
             loop {
                 let before = waiting.len();
                 let mut later = Vec::new();
                 for key in waiting {
-                    if !self.remove(&key)? {
+                    if !self.remove_merged_row(&key)? {
                         later.push(key);
                     }
                 }
                 if later.is_empty() || later.len() == before {
                     for key in later {
-                        self.disagree(&key, None)?;
+                        self.store_row_disagreement(&key, None)?;
                     }
                     break;
                 }
@@ -274,98 +271,91 @@ impl Work<'_> {
         let looked_at = std::mem::take(&mut self.looked_at);
         self.keep_rules(&looked_at)?;
         self.recordings.extend(looked_at);
-        self.derive()?;
+        self.rederive_touched_tokens()?;
         // A sign that only a conflict's candidate names is created again when that candidate is taken.
         for sign in std::mem::take(&mut self.signs) {
             signs::delete_empty_sign(self.connection, sign)?;
         }
-        self.report.conflicts = conflicts::list(self.connection)?
+        self.report.conflicts = merge_conflicts::list_conflicts(self.connection)?
             .into_iter()
-            .filter(|it| it.decided.is_none() && it.from == self.from)
+            .filter(|conflict| conflict.decided.is_none() && conflict.from == self.from)
             .collect();
         Ok(())
     }
 
     /// Derives the tokens of the touched recordings again from their tiers.
-    fn derive(&mut self) -> Result<()> {
+    fn rederive_touched_tokens(&mut self) -> CorpusResult<()> {
         for recording in std::mem::take(&mut self.recordings) {
             self.looked_at.insert(recording);
             let inventories = inventories::load_of(self.connection, recording)?;
-            tokens::derive(self.connection, recording, None, &inventories)?;
+            tokens::update_recording_tokens(self.connection, recording, None, &inventories)?;
         }
         Ok(())
     }
 
     /// Merges a row of the other side. Returns false if the row refers to one that has not been merged yet.
-    fn row(&mut self, key: &Key) -> Result<bool> {
+    fn merge_row(&mut self, key: &TableRowKey) -> CorpusResult<bool> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
-        let Some(theirs) = self.theirs.row(table, uid)? else {
+        let Some(theirs) = self.theirs.find_row_image(table, uid)? else {
             return Ok(true);
         };
-        let bases = self.bases(key)?;
-        let follows = theirs.get("annotation_id").is_some_and(|it| !it.is_null());
+        let bases = self.common_base_images(key)?;
+        let follows = theirs.get("annotation_id").is_some_and(|value| !value.is_null());
         if bases.contains(&theirs) || (table == "token" && follows) {
             return Ok(true);
         }
-        let Some(local) = self.resolved(table, &theirs)? else {
+        let Some(local) = self.resolve_row_image(table, &theirs)? else {
             return Ok(false);
         };
         // A row that both sides created separately has the uid of this side from now on.
-        let theirs = self.mine.named(table, local.clone())?;
-        match self.mine.row(table, uid)? {
+        let theirs = self.mine.image_with_uid_references(table, local.clone())?;
+        match self.mine.find_row_image(table, uid)? {
             Some(mine) if table == "study" && self.is_other_plan(&bases, &mine, &theirs)? => {
-                self.beside(&theirs)?;
+                self.study_with_other_plan(&theirs)?;
             }
-            Some(mine) => self.change(key, &bases, &mine, &theirs)?,
-            None if bases.is_empty() => self.add(key, &theirs, local)?,
+            Some(mine) => self.merge_changed_row(key, &bases, &mine, &theirs)?,
+            None if bases.is_empty() => self.add_merged_row(key, &theirs, local)?,
             // A signer that both sides created separately has another uid here, also at the next merge.
-            None if table == "signer" => match db::namesake(self.connection, table, &local)? {
-                Some(there) => self.join(key, &bases, &theirs, there)?,
-                None => self.disagree(key, Some(&theirs))?,
+            None if table == "signer" => match db::find_namesake_row(self.connection, table, &local)? {
+                Some(there) => self.join_same_named_row(key, &bases, &theirs, there)?,
+                None => self.store_row_disagreement(key, Some(&theirs))?,
             },
-            None => self.disagree(key, Some(&theirs))?,
+            None => self.store_row_disagreement(key, Some(&theirs))?,
         }
         Ok(true)
     }
 
     /// Returns the common states of a row: its state before the other side changed it, and its state on this side when
     /// the other side merged it.
-    fn bases(&self, key: &Key) -> Result<Vec<Image>> {
+    fn common_base_images(&self, key: &TableRowKey) -> CorpusResult<Vec<RowImage>> {
         if self.back_again.contains(key) {
             return Ok(Vec::new());
         }
-        let mut bases: Vec<Image> = self
-            .theirs
-            .touched
-            .get(key)
-            .cloned()
-            .flatten()
-            .into_iter()
-            .collect();
+        let mut bases: Vec<RowImage> = self.theirs.touched.get(key).cloned().flatten().into_iter().collect();
         if let Some(back) = &self.back {
-            let known = match back.touched.get(key) {
+            let known_row = match back.touched.get(key) {
                 Some(before) => before.clone(),
-                None => self.mine.row(&key.0, &key.1)?,
+                None => self.mine.find_row_image(&key.0, &key.1)?,
             };
-            bases.extend(known);
+            bases.extend(known_row);
         }
         Ok(bases)
     }
 
     /// Returns a row with uids replaced by row numbers of this corpus, or nothing if a row that it refers to does not
     /// exist here.
-    fn resolved(&self, table: &str, image: &Image) -> Result<Option<Image>> {
+    fn resolve_row_image(&self, table: &str, image: &RowImage) -> CorpusResult<Option<RowImage>> {
         let mut local = image.clone();
         for (column, value) in &mut local {
-            let Some(other) = crate::db::history::refers_to(table, column) else {
+            let Some(other) = crate::db::stored_history::refers_to(table, column) else {
                 continue;
             };
             let Some(uid) = value.as_str().map(str::to_owned) else {
                 continue;
             };
-            let mut id = self.mine.id(other, &uid)?;
+            let mut id = self.mine.find_row_id(other, &uid)?;
             if id.is_none() && other == "token" {
-                id = self.token(&uid)?;
+                id = self.corresponding_token_row(&uid)?;
             }
             let Some(id) = id else { return Ok(None) };
             *value = Value::from(id);
@@ -375,33 +365,33 @@ impl Work<'_> {
 
     /// Returns the row of this corpus's token that corresponds to the other corpus's token `uid`, if there is one: both
     /// belong to the same annotation.
-    fn token(&self, uid: &str) -> Result<Option<i64>> {
-        let there = self.theirs.row("token", uid)?;
+    fn corresponding_token_row(&self, uid: &str) -> CorpusResult<Option<i64>> {
+        let there = self.theirs.find_row_image("token", uid)?;
         let annotation = there.and_then(|row| Some(row.get("annotation_id")?.as_str()?.to_owned()));
         let Some(annotation) = annotation else {
             return Ok(None);
         };
-        match self.mine.id("annotation", &annotation)? {
+        match self.mine.find_row_id("annotation", &annotation)? {
             Some(annotation) => db::token_of(self.connection, annotation),
             None => Ok(None),
         }
     }
 
-    fn add(&mut self, key: &Key, theirs: &Image, mut local: Image) -> Result<()> {
+    fn add_merged_row(&mut self, key: &TableRowKey, theirs: &RowImage, mut local: RowImage) -> CorpusResult<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
         let placed;
         let theirs = match table {
             "study_participant" if self.answered_another(uid, &mut local)? => {
-                placed = self.mine.named(table, local.clone())?;
+                placed = self.mine.image_with_uid_references(table, local.clone())?;
                 &placed
             }
             _ => theirs,
         };
-        if let Some(there) = db::namesake(self.connection, table, &local)? {
+        if let Some(there) = db::find_namesake_row(self.connection, table, &local)? {
             let text = |column: &str| local[column].as_str().unwrap_or_default().to_owned();
             match table {
                 "recording" => {
-                    let name = recordings::free_name(self.connection, &text("name"))?;
+                    let name = stored_recordings::free_recording_name(self.connection, &text("name"))?;
                     self.report.notes.push(format!(
                         "both have a recording {:?}: that of {} is {name:?} here",
                         text("name"),
@@ -411,12 +401,12 @@ impl Work<'_> {
                 }
                 "track" => {
                     let recording = local["recording_id"].as_i64().unwrap_or_default();
-                    let name = tracks::free_name(self.connection, recording, &text("name"))?;
+                    let name = stored_tracks::free_track_name(self.connection, recording, &text("name"))?;
                     local.insert("name".into(), Value::from(name));
                 }
                 // Answers belong to their plan, and to the person whose order of trials the seed decided.
                 "study" if self.differs(table, there, &local, "plan_sha256")? => {
-                    let name = study_rows::free_name(self.connection, &text("name"))?;
+                    let name = study_rows::free_study_name(self.connection, &text("name"))?;
                     self.report.notes.push(format!(
                         "both have a study {:?} with another plan: that of {} is {name:?} here",
                         text("name"),
@@ -434,55 +424,61 @@ impl Work<'_> {
                     ));
                     local.insert("code".into(), Value::from(code));
                 }
-                _ => return self.join(key, &[], theirs, there),
+                _ => return self.join_same_named_row(key, &[], theirs, there),
             }
         }
         if table == "annotation" {
-            if let Some(twin) = rows::twin(self.connection, &local)? {
-                return self.mine.know(table, uid, Some(twin));
+            if let Some(twin) = merge_rows::find_twin_annotation(self.connection, &local)? {
+                return self.mine.remember_row_uid(table, uid, Some(twin));
             }
             if let Some(other) = self.overlapped(None, &local)? {
-                return self.conflict(key, (None, Some(theirs)), Some(other));
+                return self.store_row_conflict(key, (None, Some(theirs)), Some(other));
             }
             self.came.insert(uid.to_owned(), None);
         }
-        let id = db::insert(self.connection, table, &local)?;
+        let id = db::insert_row_image(self.connection, table, &local)?;
         if table == "sign" {
             self.signs.push(id);
         }
-        self.mine.know(table, uid, Some(id))?;
-        self.parts(table, uid, id)?;
-        self.touch(table, &local, id)?;
+        self.mine.remember_row_uid(table, uid, Some(id))?;
+        self.copy_row_parts(table, uid, id)?;
+        self.mark_touched_recordings(table, &local, id)?;
         *self.report.added.entry(table.to_owned()).or_default() += 1;
         Ok(())
     }
 
     /// Returns whether a row of this side has another value in a column.
-    fn differs(&self, table: &str, row: i64, image: &Image, column: &str) -> Result<bool> {
+    fn differs(&self, table: &str, row: i64, image: &RowImage, column: &str) -> CorpusResult<bool> {
         let uid = db::uid_of(self.connection, table, row)?;
-        let own = uid.map(|uid| self.mine.row(table, &uid)).transpose()?;
-        let own = own.flatten();
-        Ok(own.is_some_and(|own| own.get(column) != image.get(column)))
+        let own_result = uid.map(|uid| self.mine.find_row_image(table, &uid)).transpose()?;
+        let own_row = own_result.flatten();
+        Ok(own_row.is_some_and(|own| own.get(column) != image.get(column)))
     }
 
     /// Merges a row with the row of the same name here: both sides created it separately.
-    fn join(&mut self, key: &Key, bases: &[Image], theirs: &Image, there: i64) -> Result<()> {
+    fn join_same_named_row(
+        &mut self,
+        key: &TableRowKey,
+        bases: &[RowImage],
+        theirs: &RowImage,
+        there: i64,
+    ) -> CorpusResult<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
-        self.mine.know(table, uid, Some(there))?;
-        self.parts(table, uid, there)?;
+        self.mine.remember_row_uid(table, uid, Some(there))?;
+        self.copy_row_parts(table, uid, there)?;
         let Some(own) = db::uid_of(self.connection, table, there)? else {
             return Ok(());
         };
         let mut theirs = theirs.clone();
         theirs.insert("uid".into(), Value::from(own.clone()));
-        match self.mine.row(table, &own)? {
-            Some(mine) => self.change(&(table.to_owned(), own), bases, &mine, &theirs),
+        match self.mine.find_row_image(table, &own)? {
+            Some(mine) => self.merge_changed_row(&(table.to_owned(), own), bases, &mine, &theirs),
             None => Ok(()),
         }
     }
 
-    fn parts(&self, table: &str, uid: &str, id: i64) -> Result<()> {
-        let Some(old) = self.theirs.id(table, uid)? else {
+    fn copy_row_parts(&self, table: &str, uid: &str, id: i64) -> CorpusResult<()> {
+        let Some(old) = self.theirs.find_row_id(table, uid)? else {
             return Ok(());
         };
         let from = (self.theirs.connection, old);
@@ -492,70 +488,65 @@ impl Work<'_> {
         db::copy_parts(from, (self.connection, id), table)
     }
 
-    fn change(&mut self, key: &Key, bases: &[Image], mine: &Image, theirs: &Image) -> Result<()> {
+    fn merge_changed_row(
+        &mut self,
+        key: &TableRowKey,
+        bases: &[RowImage],
+        mine: &RowImage,
+        theirs: &RowImage,
+    ) -> CorpusResult<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
-        let Some(id) = self.mine.id(table, uid)? else {
+        let Some(id) = self.mine.find_row_id(table, uid)? else {
             return Ok(());
         };
-        let nothing = [Image::new()];
-        let bases = if bases.is_empty() {
-            &nothing[..]
-        } else {
-            bases
-        };
-        let mut found = bases
+        let nothing = [RowImage::new()];
+        let bases = if bases.is_empty() { &nothing[..] } else { bases };
+        let mut merges = bases
             .iter()
-            .map(|base| rows::merged(table, base, mine, theirs));
-        let first = found.next().unwrap_or_default();
-        let (taken, disagree) = match found.next() {
+            .map(|base| merge_rows::merge_row_columns(table, base, mine, theirs));
+        let first = merges.next().unwrap_or_default();
+        let (taken, disagree) = match merges.next() {
             Some(second) if first.1 && !second.1 => second,
             _ => first,
         };
         let disagree = disagree && !self.only_renamed(table, bases, mine, theirs);
-        let Some(local) = self.resolved(table, &taken)? else {
-            return self.conflict(key, (Some(mine), Some(theirs)), None);
+        let Some(local) = self.resolve_row_image(table, &taken)? else {
+            return self.store_row_conflict(key, (Some(mine), Some(theirs)), None);
         };
         if table == "sign" {
-            self.parts(table, uid, id)?;
+            self.copy_row_parts(table, uid, id)?;
         }
         if !local.is_empty() {
-            if rows::is_backwards(mine, &local) {
-                return self.conflict(key, (Some(mine), Some(theirs)), None);
+            if merge_rows::is_backwards(mine, &local) {
+                return self.store_row_conflict(key, (Some(mine), Some(theirs)), None);
             }
-            if table == "annotation"
-                && (local.contains_key("start_us") || local.contains_key("end_us"))
-            {
-                let mut whole = self.resolved(table, mine)?.unwrap_or_default();
-                whole.extend(local.clone());
-                if let Some(other) = self.overlapped(Some(id), &whole)? {
-                    return self.conflict(key, (Some(mine), Some(theirs)), Some(other));
+            if table == "annotation" && (local.contains_key("start_us") || local.contains_key("end_us")) {
+                let mut full_row = self.resolve_row_image(table, mine)?.unwrap_or_default();
+                full_row.extend(local.clone());
+                if let Some(other) = self.overlapped(Some(id), &full_row)? {
+                    return self.store_row_conflict(key, (Some(mine), Some(theirs)), Some(other));
                 }
-                let before = self.resolved(table, mine)?;
+                let before = self.resolve_row_image(table, mine)?;
                 self.came.insert(uid.to_owned(), before);
             }
-            db::update(self.connection, table, id, &local)?;
-            let mut whole = mine.clone();
-            whole.extend(taken);
-            if let Some(whole) = self.resolved(table, &whole)? {
-                self.touch(table, &whole, id)?;
+            db::update_row_image(self.connection, table, id, &local)?;
+            let mut full_row = mine.clone();
+            full_row.extend(taken);
+            if let Some(whole) = self.resolve_row_image(table, &full_row)? {
+                self.mark_touched_recordings(table, &whole, id)?;
             }
             *self.report.changed.entry(table.to_owned()).or_default() += 1;
         }
         if disagree {
-            self.conflict(key, (Some(mine), Some(theirs)), None)?;
+            self.store_row_conflict(key, (Some(mine), Some(theirs)), None)?;
         }
         Ok(())
     }
 
     /// Returns whether both sides disagree about nothing but the name of a signer, which is a conflict of its own.
-    fn only_renamed(&mut self, table: &str, bases: &[Image], mine: &Image, theirs: &Image) -> bool {
+    fn only_renamed(&mut self, table: &str, bases: &[RowImage], mine: &RowImage, theirs: &RowImage) -> bool {
         let both = |column: &str| {
-            let text = |it: &Image| {
-                it.get(column)
-                    .and_then(Value::as_str)
-                    .unwrap_or_default()
-                    .to_owned()
-            };
+            let text = |image: &RowImage| image.get(column).and_then(Value::as_str).unwrap_or_default().to_owned();
             [mine, theirs].map(text)
         };
         if table == "signer" && mine.get("name") != theirs.get("name") {
@@ -570,18 +561,18 @@ impl Work<'_> {
         same.insert("participant".to_owned(), Value::from(name));
         bases
             .iter()
-            .any(|base| !rows::merged(table, base, &same, theirs).1)
+            .any(|base| !merge_rows::merge_row_columns(table, base, &same, theirs).1)
     }
 
     /// Returns the annotation created or changed on this side that a row of the other side would overlap.
-    fn overlapped(&self, own: Option<i64>, row: &Image) -> Result<Option<i64>> {
+    fn overlapped(&self, own: Option<i64>, row: &RowImage) -> CorpusResult<Option<i64>> {
         let number = |column: &str| row.get(column).and_then(Value::as_i64).unwrap_or_default();
         let (tier, start, end) = (number("tier_id"), number("start_us"), number("end_us"));
-        let symbolic = tiers::tier(self.connection, tier)?.stereotype;
-        if symbolic.is_some_and(|it| !it.is_alignable()) {
+        let symbolic = stored_tiers::load_tier_row(self.connection, tier)?.stereotype;
+        if symbolic.is_some_and(|stereotype| !stereotype.is_alignable()) {
             return Ok(None);
         }
-        for near in tiers::annotations_near(self.connection, tier, start, end)? {
+        for near in stored_tiers::annotations_near(self.connection, tier, start, end)? {
             let over = near.start_us < end && start < near.end_us && Some(near.id) != own;
             if !over {
                 continue;
@@ -596,37 +587,40 @@ impl Work<'_> {
     }
 
     /// Removes a row that the other side removed. Returns false if other rows here still refer to it.
-    fn remove(&mut self, key: &Key) -> Result<bool> {
+    fn remove_merged_row(&mut self, key: &TableRowKey) -> CorpusResult<bool> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
-        let bases = self.bases(key)?;
+        let bases = self.common_base_images(key)?;
         let Some(base) = bases.first() else {
             return Ok(true);
         };
-        let Some(mine) = self.mine.row(table, uid)? else {
+        let Some(mine) = self.mine.find_row_image(table, uid)? else {
             return Ok(true);
         };
-        let Some(id) = self.mine.id(table, uid)? else {
+        let Some(id) = self.mine.find_row_id(table, uid)? else {
             return Ok(true);
         };
-        if table == "token" && base.get("annotation_id").is_some_and(|it| !it.is_null()) {
+        if table == "token" && base.get("annotation_id").is_some_and(|value| !value.is_null()) {
             return Ok(true);
         }
         if table == "sign" && db::sign_is_used(self.connection, id)? {
             return Ok(true);
         }
-        if bases.iter().all(|base| rows::differ(table, base, &mine)) {
-            self.disagree(key, None)?;
+        if bases
+            .iter()
+            .all(|base| merge_rows::has_row_content_changed(table, base, &mine))
+        {
+            self.store_row_disagreement(key, None)?;
             return Ok(true);
         }
-        if table == "annotation" && !tiers::children(self.connection, id)?.is_empty() {
+        if table == "annotation" && !stored_tiers::load_child_annotations(self.connection, id)?.is_empty() {
             return Ok(false);
         }
-        if let Some(local) = self.resolved(table, &mine)? {
-            self.touch(table, &local, id)?;
+        if let Some(local) = self.resolve_row_image(table, &mine)? {
+            self.mark_touched_recordings(table, &local, id)?;
         }
         if table == "recording" {
             self.recordings.insert(id);
-            self.derive()?;
+            self.rederive_touched_tokens()?;
             self.looked_at.remove(&id);
         }
         if db::is_referred_to(self.connection, table, id)? {
@@ -634,35 +628,35 @@ impl Work<'_> {
             return Ok(table == "skeleton");
         }
         db::delete_parts(self.connection, table, id)?;
-        db::delete(self.connection, table, id)?;
-        self.mine.know(table, uid, None)?;
+        db::delete_table_row(self.connection, table, id)?;
+        self.mine.remember_row_uid(table, uid, None)?;
         *self.report.removed.entry(table.to_owned()).or_default() += 1;
         Ok(true)
     }
 
     /// Stores a conflict about a row that both sides changed, or one changed and the other removed.
-    fn disagree(&mut self, key: &Key, theirs: Option<&Image>) -> Result<()> {
-        let mine = self.mine.row(&key.0, &key.1)?;
-        self.conflict(key, (mine.as_ref(), theirs), None)
+    fn store_row_disagreement(&mut self, key: &TableRowKey, theirs: Option<&RowImage>) -> CorpusResult<()> {
+        let mine = self.mine.find_row_image(&key.0, &key.1)?;
+        self.store_row_conflict(key, (mine.as_ref(), theirs), None)
     }
 
     /// Stores a conflict about a row that refers to a row which this side removed.
-    fn homeless(&mut self, key: &Key) -> Result<()> {
-        let theirs = self.theirs.row(&key.0, &key.1)?;
-        self.conflict(key, (None, theirs.as_ref()), None)
+    fn homeless(&mut self, key: &TableRowKey) -> CorpusResult<()> {
+        let theirs = self.theirs.find_row_image(&key.0, &key.1)?;
+        self.store_row_conflict(key, (None, theirs.as_ref()), None)
     }
 
-    fn conflict(
+    fn store_row_conflict(
         &mut self,
-        key: &Key,
-        (mine, theirs): (Option<&Image>, Option<&Image>),
+        key: &TableRowKey,
+        (mine, theirs): (Option<&RowImage>, Option<&RowImage>),
         other: Option<i64>,
-    ) -> Result<()> {
+    ) -> CorpusResult<()> {
         if key.0 == "token" || (mine.is_none() && theirs.is_none()) {
             return Ok(());
         }
         let base = self.theirs.touched.get(key).cloned().flatten();
-        let open = Open {
+        let open = StoredConflict {
             table: key.0.clone(),
             uid: key.1.clone(),
             base,
@@ -676,11 +670,11 @@ impl Work<'_> {
             decided: None,
             came_back: mine.is_none() && self.back_again.contains(key),
         };
-        keep(self.connection, &open)
+        store_conflict(self.connection, &open)
     }
 
     /// Marks the recordings whose tokens depend on a row.
-    fn touch(&mut self, table: &str, local: &Image, id: i64) -> Result<()> {
+    fn mark_touched_recordings(&mut self, table: &str, local: &RowImage, id: i64) -> CorpusResult<()> {
         let number = |column: &str| local.get(column).and_then(Value::as_i64);
         match table {
             "recording" => {
@@ -690,7 +684,7 @@ impl Work<'_> {
             "annotation" => {
                 if let Some(tier) = number("tier_id") {
                     self.recordings
-                        .insert(tiers::tier(self.connection, tier)?.recording_id);
+                        .insert(stored_tiers::load_tier_row(self.connection, tier)?.recording_id);
                 }
             }
             "signer" => {

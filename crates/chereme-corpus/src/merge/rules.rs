@@ -2,39 +2,39 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::tier::{self, AnnotationId, Violation};
+use chereme_sign::tier::{self, AnnotationId, TierViolation};
 use rusqlite::Connection;
 
-use super::{Work, remove};
-use crate::annotate::messages;
-use crate::db::merge as db;
-use crate::db::tiers;
-use crate::error::{Error, Result};
+use super::{MergeWork, remove_annotation_tree};
+use crate::annotate::annotate_messages;
+use crate::db::stored_merge as db;
+use crate::db::stored_tiers;
+use crate::error::{CorpusError, CorpusResult};
 
 /// The rules that the tiers of a recording break: the kind of each violation with the uids of its annotations.
-type Broken = BTreeSet<(String, Vec<String>)>;
+type BrokenTierRules = BTreeSet<(String, Vec<String>)>;
 
-impl Work<'_> {
+impl MergeWork<'_> {
     /// Takes back the changes of the other side that break tier rules together with those of this side, and stores them
     /// as conflicts. Symbolic annotations follow the annotations above them.
-    pub(super) fn keep_rules(&mut self, recordings: &BTreeSet<i64>) -> Result<()> {
+    pub(super) fn keep_rules(&mut self, recordings: &BTreeSet<i64>) -> CorpusResult<()> {
         for &recording in recordings {
-            let mut known = None;
+            let mut broken_cache = None;
             let mut followed = BTreeSet::new();
             // Each round takes back a change, or moves annotations below others.
             for _ in 0..=2 * self.came.len() {
-                let found = violations(self.connection, recording)?;
-                if found.is_empty() {
+                let open_violations = recording_violations(self.connection, recording)?;
+                if open_violations.is_empty() {
                     break;
                 }
-                let known = match &known {
+                let their_broken = match &broken_cache {
                     Some(known) => known,
-                    None => known.insert(self.broken_there(recording)?),
+                    None => broken_cache.insert(self.broken_there(recording)?),
                 };
                 let mut settled = false;
-                for violation in found {
-                    if !known.contains(&key(self.connection, &violation)?) {
-                        settled |= self.settle(&violation, &mut followed)?;
+                for violation in open_violations {
+                    if !their_broken.contains(&violation_key(self.connection, &violation)?) {
+                        settled |= self.settle_violation(&violation, &mut followed)?;
                     }
                 }
                 if !settled {
@@ -46,44 +46,46 @@ impl Work<'_> {
     }
 
     /// Returns the rules that a recording breaks on the other side.
-    fn broken_there(&self, recording: i64) -> Result<Broken> {
+    fn broken_there(&self, recording: i64) -> CorpusResult<BrokenTierRules> {
         let uid = db::uid_of(self.connection, "recording", recording)?;
-        let there = uid
-            .map(|uid| self.theirs.id("recording", &uid))
-            .transpose()?;
+        let there = uid.map(|uid| self.theirs.find_row_id("recording", &uid)).transpose()?;
         match there.flatten() {
-            Some(there) => broken(self.theirs.connection, there),
-            None => Ok(Broken::new()),
+            Some(there) => broken_tier_rules(self.theirs.connection, there),
+            None => Ok(BrokenTierRules::new()),
         }
     }
 
     /// Removes the cause of a violation if it is a change of the other side; returns whether it did. `followed` holds the
     /// symbolic annotations that followed such a change.
-    fn settle(&mut self, violation: &Violation, followed: &mut BTreeSet<i64>) -> Result<bool> {
-        let own: Vec<i64> = violation.annotations().into_iter().map(number).collect();
-        for &id in &own {
+    fn settle_violation(&mut self, violation: &TierViolation, followed: &mut BTreeSet<i64>) -> CorpusResult<bool> {
+        let annotation_ids: Vec<i64> = violation
+            .violating_annotations()
+            .into_iter()
+            .map(annotation_row_number)
+            .collect();
+        for &id in &annotation_ids {
             // An earlier violation of this round may have removed it.
             if db::uid_of(self.connection, "annotation", id)?.is_none() {
                 return Ok(true);
             }
         }
-        let near = self.near(&own)?;
-        if let Violation::DerivedSpan {
-            annotation,
-            expected,
-            ..
+        let near = self.likely_cause_annotations(&annotation_ids)?;
+        if let TierViolation::DerivedSpan {
+            annotation, expected, ..
         } = violation
         {
             let mut came = false;
             for id in &near {
                 let uid = db::uid_of(self.connection, "annotation", *id)?;
-                came |=
-                    followed.contains(id) || uid.is_some_and(|uid| self.came.contains_key(&uid));
+                came |= followed.contains(id) || uid.is_some_and(|uid| self.came.contains_key(&uid));
             }
             if came {
-                let mut row = tiers::annotation(self.connection, number(*annotation))?;
-                (row.start_us, row.end_us) = (expected.start().micros(), expected.end().micros());
-                tiers::update_annotation(self.connection, &row)?;
+                let mut row = stored_tiers::load_annotation_row(self.connection, annotation_row_number(*annotation))?;
+                (row.start_us, row.end_us) = (
+                    expected.span_start_instant().instant_micros(),
+                    expected.span_end_instant().instant_micros(),
+                );
+                stored_tiers::update_annotation(self.connection, &row)?;
                 followed.insert(row.id);
             }
             return Ok(came);
@@ -97,7 +99,7 @@ impl Work<'_> {
             };
             let key = ("annotation".to_owned(), uid);
             match before {
-                Some(before) => db::update(self.connection, "annotation", id, &before)?,
+                Some(before) => db::update_row_image(self.connection, "annotation", id, &before)?,
                 None => {
                     for part in with_children(self.connection, id)? {
                         let uid = db::uid_of(self.connection, "annotation", part)?;
@@ -105,8 +107,8 @@ impl Work<'_> {
                             self.take_back(&("annotation".to_owned(), uid), None)?;
                         }
                     }
-                    remove(self.connection, id)?;
-                    self.mine.know(&key.0, &key.1, None)?;
+                    remove_annotation_tree(self.connection, id)?;
+                    self.mine.remember_row_uid(&key.0, &key.1, None)?;
                 }
             }
             self.take_back(&key, Some(id))?;
@@ -116,12 +118,12 @@ impl Work<'_> {
     }
 
     /// Stores a conflict about an annotation whose change was taken back.
-    fn take_back(&mut self, key: &db::Key, id: Option<i64>) -> Result<()> {
+    fn take_back(&mut self, key: &db::TableRowKey, id: Option<i64>) -> CorpusResult<()> {
         let mine = match id {
-            Some(_) => self.mine.row(&key.0, &key.1)?,
+            Some(_) => self.mine.find_row_image(&key.0, &key.1)?,
             None => None,
         };
-        let theirs = self.theirs.row(&key.0, &key.1)?;
+        let theirs = self.theirs.find_row_image(&key.0, &key.1)?;
         let count = match mine {
             Some(_) => &mut self.report.changed,
             None => &mut self.report.added,
@@ -130,73 +132,85 @@ impl Work<'_> {
             *count = count.saturating_sub(1);
         }
         count.retain(|_, count| *count > 0);
-        self.conflict(key, (mine.as_ref(), theirs.as_ref()), None)
+        self.store_row_conflict(key, (mine.as_ref(), theirs.as_ref()), None)
     }
 
     /// Returns the annotations that may be the cause of a violation of these, the likeliest first: themselves, those below
     /// them and those above.
-    fn near(&self, own: &[i64]) -> Result<Vec<i64>> {
+    fn likely_cause_annotations(&self, own: &[i64]) -> CorpusResult<Vec<i64>> {
         let mut near = own.to_vec();
         for &id in own {
-            near.extend(tiers::children(self.connection, id)?.iter().map(|it| it.id));
+            near.extend(
+                stored_tiers::load_child_annotations(self.connection, id)?
+                    .iter()
+                    .map(|child| child.id),
+            );
         }
         for &id in own {
-            near.extend(tiers::annotation(self.connection, id)?.parent_id);
+            near.extend(stored_tiers::load_annotation_row(self.connection, id)?.parent_id);
         }
         Ok(near)
     }
 }
 
 /// Returns the rules that the tiers of a recording break.
-pub(super) fn broken(connection: &Connection, recording: i64) -> Result<Broken> {
-    let found = violations(connection, recording)?;
-    found.iter().map(|it| key(connection, it)).collect()
+pub(super) fn broken_tier_rules(connection: &Connection, recording: i64) -> CorpusResult<BrokenTierRules> {
+    let broken_rules = recording_violations(connection, recording)?;
+    broken_rules
+        .iter()
+        .map(|violation| violation_key(connection, violation))
+        .collect()
 }
 
 /// Fails if the tiers of a recording break a rule that is not `known`.
-pub(super) fn check(connection: &Connection, known: &BTreeMap<i64, Broken>) -> Result<()> {
+pub(super) fn check_new_violations(
+    connection: &Connection,
+    known: &BTreeMap<i64, BrokenTierRules>,
+) -> CorpusResult<()> {
     for (&recording, known) in known {
-        for violation in violations(connection, recording)? {
-            if !known.contains(&key(connection, &violation)?) {
-                let rule = messages::named(connection, &violation.to_string());
-                return Err(Error::wrong(format!(
+        for violation in recording_violations(connection, recording)? {
+            if !known.contains(&violation_key(connection, &violation)?) {
+                let rule = annotate_messages::name_message_ids(connection, &violation.to_string());
+                return Err(CorpusError::from_wrong_message(format!(
                     "after this decision the tiers would break a rule: {rule}"
                 ))
-                .advise("decide the conflicts of that place together, change what is in the way first, or decide for mine"));
+                .with_advice(
+                    "decide the conflicts of that place together, change what is in the way first, or decide for mine",
+                ));
             }
         }
     }
     Ok(())
 }
 
-fn violations(connection: &Connection, recording: i64) -> Result<Vec<Violation>> {
+fn recording_violations(connection: &Connection, recording: i64) -> CorpusResult<Vec<TierViolation>> {
     let set = crate::check::tier_set(connection, recording)?;
-    Ok(tier::check(&set))
+    Ok(tier::check_tier_set(&set))
 }
 
 /// Returns the kind of a violation, and the uids of its annotations.
-fn key(connection: &Connection, violation: &Violation) -> Result<(String, Vec<String>)> {
+fn violation_key(connection: &Connection, violation: &TierViolation) -> CorpusResult<(String, Vec<String>)> {
     let text = format!("{violation:?}");
     let kind = text.split([' ', '{', '(']).next().unwrap_or_default();
     let mut uids = Vec::new();
-    for id in violation.annotations() {
-        uids.extend(db::uid_of(connection, "annotation", number(id))?);
+    for id in violation.violating_annotations() {
+        uids.extend(db::uid_of(connection, "annotation", annotation_row_number(id))?);
     }
     Ok((kind.to_owned(), uids))
 }
 
-fn number(id: AnnotationId) -> i64 {
+fn annotation_row_number(id: AnnotationId) -> i64 {
     i64::try_from(id.0).unwrap_or(i64::MAX)
 }
 
 /// Returns all annotations below an annotation.
-fn with_children(connection: &Connection, id: i64) -> Result<Vec<i64>> {
+fn with_children(connection: &Connection, id: i64) -> CorpusResult<Vec<i64>> {
     let mut all = Vec::new();
     let mut waiting = vec![id];
     while let Some(above) = waiting.pop() {
-        let children = tiers::children(connection, above)?;
-        waiting.extend(children.iter().map(|it| it.id));
-        all.extend(children.iter().map(|it| it.id));
+        let children = stored_tiers::load_child_annotations(connection, above)?;
+        waiting.extend(children.iter().map(|child| child.id));
+        all.extend(children.iter().map(|child| child.id));
     }
     Ok(all)
 }

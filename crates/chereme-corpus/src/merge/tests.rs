@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{Decision, MergeReport};
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
+use super::{ConflictDecision, MergeReport};
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
 
 use crate::{
-    Address, AnnotateOptions, AnnotationAction, AnnotationName, Corpus, ExportOptions, ExportWhat,
-    ImportOptions, Name, Progress, SignerChange, TierName, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationName, Corpus, CorpusAddress, ExportOptions, ExportWhat, ImportOptions,
+    ProgressReceiver, RowName, SignerChange, TierRequestName, ignore_progress_step,
 };
 
 const EAF: &str = include_str!("tests.eaf");
@@ -26,15 +26,15 @@ impl Desk {
         };
         let file = desk.path("film.eaf");
         fs::write(&file, EAF).expect("written");
-        let mut corpus = Corpus::create(&desk.path("base.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&desk.path("base.chereme"), "A").expect("made");
         corpus
-            .import(&[file], &ImportOptions::default(), progress())
+            .import_paths(&[file], &ImportOptions::default(), progress())
             .expect("imported");
         drop(corpus);
         for copy in ["mine.chereme", "theirs.chereme"] {
             fs::copy(desk.path("base.chereme"), desk.path(copy)).expect("copied");
         }
-        let open = |name: &str| Corpus::open(&desk.path(name), name).expect("opened");
+        let open = |name: &str| Corpus::open_corpus(&desk.path(name), name).expect("opened");
         let (mine, theirs) = (open("mine.chereme"), open("theirs.chereme"));
         (desk, mine, theirs)
     }
@@ -44,38 +44,42 @@ impl Desk {
     }
 
     fn merge(&self, mine: &mut Corpus) -> MergeReport {
-        let other = if mine.path().ends_with("mine.chereme") {
+        let other = if mine.corpus_file_path().ends_with("mine.chereme") {
             "theirs.chereme"
         } else {
             "mine.chereme"
         };
-        mine.merge(&self.path(other), None, progress())
-            .expect("merged")
+        mine.merge_corpus(&self.path(other), None, progress()).expect("merged")
     }
 }
 
-fn progress() -> &'static mut Progress<'static> {
-    Box::leak(Box::new(Progress::new(Box::leak(Box::new(unheard)))))
+fn progress() -> &'static mut ProgressReceiver<'static> {
+    Box::leak(Box::new(ProgressReceiver::new(Box::leak(Box::new(
+        ignore_progress_step,
+    )))))
 }
 
 fn act(corpus: &mut Corpus, action: AnnotationAction) {
     corpus
-        .annotate(&[action.into()], &AnnotateOptions::default(), progress())
+        .annotate_corpus(&[action.into()], &AnnotateOptions::default(), progress())
         .expect("annotated");
 }
 
 /// Returns the annotations as `tier start-end value` in milliseconds.
 fn said(corpus: &Corpus) -> Vec<String> {
     let mut out = Vec::new();
-    let what = ExportWhat::Address(Address::Recording(Name::Text("film".into())));
+    let what = ExportWhat::Address(CorpusAddress::Recording(RowName::Text("film".into())));
     corpus
         .export_stream(&what, "eaf", &mut out, progress())
         .expect("exported");
-    let (transcript, _) = chereme_formats::eaf::read(&out).expect("an EAF file");
+    let (transcript, _) = chereme_formats::eaf::read_eaf(&out).expect("an EAF file");
     let mut all = Vec::new();
     for tier in &transcript.tiers {
         for it in &tier.annotations {
-            let (start, end) = (it.span.start().millis(), it.span.end().millis());
+            let (start, end) = (
+                it.span.span_start_instant().instant_millis(),
+                it.span.span_end_instant().instant_millis(),
+            );
             all.push(format!("{} {start}-{end} {}", tier.name, it.value));
         }
     }
@@ -85,16 +89,13 @@ fn said(corpus: &Corpus) -> Vec<String> {
 
 fn named(corpus: &Corpus, value: &str) -> AnnotationName {
     let sql = "SELECT id FROM annotation WHERE value = ?1";
-    let id = corpus
-        .store
-        .read()
-        .query_row(sql, [value], |row| row.get(0));
+    let id = corpus.store.read_connection().query_row(sql, [value], |row| row.get(0));
     AnnotationName::Number(id.expect("an annotation"))
 }
 
 fn set(corpus: &mut Corpus, value: &str, new: Option<&str>, times: Option<[i64; 2]>) {
     let annotation = named(corpus, value);
-    let moment = |at: i64| Moment::Time(Instant::from_millis(at));
+    let moment = |at: i64| TableMoment::Time(RecordingInstant::from_millis(at));
     act(
         corpus,
         AnnotationAction::Set {
@@ -107,12 +108,12 @@ fn set(corpus: &mut Corpus, value: &str, new: Option<&str>, times: Option<[i64; 
 }
 
 fn add(corpus: &mut Corpus, start: i64, end: i64, value: &str) {
-    let tiers = crate::db::tiers::tiers(corpus.store.read(), 1).expect("tiers");
-    let moment = |at: i64| Some(Moment::Time(Instant::from_millis(at)));
+    let tiers = crate::db::stored_tiers::load_tier_rows(corpus.store.read_connection(), 1).expect("tiers");
+    let moment = |at: i64| Some(TableMoment::Time(RecordingInstant::from_millis(at)));
     act(
         corpus,
         AnnotationAction::Add {
-            tier: TierName::Number(tiers[0].id),
+            tier: TierRequestName::Number(tiers[0].id),
             start: moment(start),
             end: moment(end),
             parent: None,
@@ -129,8 +130,8 @@ fn remove(corpus: &mut Corpus, value: &str) {
 }
 
 fn is_whole(corpus: &mut Corpus) {
-    let report = corpus.check(false, progress()).expect("checked");
-    assert_eq!(report.findings().next(), None);
+    let report = corpus.check_corpus(false, progress()).expect("checked");
+    assert_eq!(report.all_findings().next(), None);
 }
 
 #[test]
@@ -144,7 +145,7 @@ fn diverged_copies_are_merged() {
     remove(&mut theirs, "LION");
     theirs
         .change_recording(
-            &Name::Text("film".into()),
+            &RowName::Text("film".into()),
             &crate::RecordingChange {
                 notes: Some(Some("seen".into())),
                 ..Default::default()
@@ -163,21 +164,16 @@ fn diverged_copies_are_merged() {
     ];
     assert_eq!(said(&mine), want);
     is_whole(&mut mine);
-    let found = mine
-        .search("gloss:T", &Default::default())
-        .expect("searched");
+    let found = mine.search_tokens("gloss:T", &Default::default()).expect("searched");
     assert_eq!(found.hits.len(), 1);
     // A second merge has nothing to do, and one undo reverts the whole merge.
     let again = desk.merge(&mut mine);
-    assert!(
-        again.added.is_empty() && again.changed.is_empty(),
-        "{again:?}"
-    );
-    mine.undo().expect("undone");
+    assert!(again.added.is_empty() && again.changed.is_empty(), "{again:?}");
+    mine.undo_operation().expect("undone");
     assert!(said(&mine).contains(&"Gloss RH 3000-3500 LION".to_owned()));
     is_whole(&mut mine);
     // The other copy merges this one, and then has the same contents.
-    mine.redo().expect("redone");
+    mine.redo_operation().expect("redone");
     desk.merge(&mut theirs);
     assert_eq!(said(&theirs), want);
     is_whole(&mut theirs);
@@ -199,22 +195,18 @@ fn conflicts_keep_both_candidates_and_are_decided_one_by_one() {
     assert_eq!(said(&mine), before, "mine stands");
     assert_eq!(report.conflicts.len(), 4, "{:?}", report.conflicts);
     let find = |corpus: &Corpus, text: &str| {
-        let all = corpus.conflicts(false).expect("listed").into_iter();
-        let mut all = all.filter(|it| {
-            [&it.mine, &it.theirs]
-                .into_iter()
-                .flatten()
-                .any(|it| it.text == text)
-        });
+        let all = corpus.merge_conflicts(false).expect("listed").into_iter();
+        let mut all = all.filter(|it| [&it.mine, &it.theirs].into_iter().flatten().any(|it| it.text == text));
         all.next().map(|it| it.number)
     };
     let numbers = ["T1", "T2", "M3", "T4"].map(|text| find(&mine, text).expect("there"));
-    mine.decide(&numbers[..2], Decision::Theirs)
+    mine.decide_conflicts(&numbers[..2], ConflictDecision::Theirs)
         .expect("decided");
-    mine.decide(&numbers[2..3], Decision::Mine)
+    mine.decide_conflicts(&numbers[2..3], ConflictDecision::Mine)
         .expect("decided");
-    mine.decide(&numbers[3..], Decision::Both).expect("decided");
-    assert!(mine.decide(&numbers[..1], Decision::Mine).is_err());
+    mine.decide_conflicts(&numbers[3..], ConflictDecision::Both)
+        .expect("decided");
+    assert!(mine.decide_conflicts(&numbers[..1], ConflictDecision::Mine).is_err());
     let want = [
         "Gloss RH (theirs) 650-750 T4",
         "Gloss RH 0-500 T1",
@@ -226,14 +218,14 @@ fn conflicts_keep_both_candidates_and_are_decided_one_by_one() {
     ];
     assert_eq!(said(&mine), want);
     is_whole(&mut mine);
-    assert!(mine.conflicts(false).expect("listed").is_empty());
+    assert!(mine.merge_conflicts(false).expect("listed").is_empty());
     // Decided conflicts are not listed again.
     let again = desk.merge(&mut mine);
     assert_eq!(again.conflicts, []);
     for _ in 0..3 {
-        mine.undo().expect("undone");
+        mine.undo_operation().expect("undone");
     }
-    assert_eq!(mine.conflicts(false).expect("listed").len(), 4);
+    assert_eq!(mine.merge_conflicts(false).expect("listed").len(), 4);
     assert_eq!(said(&mine), before);
 }
 
@@ -243,39 +235,36 @@ fn new_recordings_signs_and_signers_are_merged() {
     let file = desk.path("second.eaf");
     fs::write(&file, EAF.replace("CHAT", "NEUF")).expect("written");
     theirs
-        .import(&[file], &ImportOptions::default(), progress())
+        .import_paths(&[file], &ImportOptions::default(), progress())
         .expect("imported");
     let table = desk.path("signs.csv");
     fs::write(&table, "gloss,handshape\nLUNE,U\n").expect("written");
     theirs
-        .import(&[table], &ImportOptions::default(), progress())
+        .import_paths(&[table], &ImportOptions::default(), progress())
         .expect("imported");
     let report = desk.merge(&mut mine);
     assert_eq!(report.added.get("recording"), Some(&1), "{report:?}");
     is_whole(&mut mine);
     for query in ["gloss:NEUF", "gloss:LUNE"] {
-        let found = mine.search(query, &Default::default()).expect("searched");
+        let found = mine.search_tokens(query, &Default::default()).expect("searched");
         assert_eq!(found.hits.len(), 1, "{query}");
     }
     let to = desk.path("second-out.eaf");
-    let what = ExportWhat::Address(Address::Recording(Name::Text("second".into())));
-    mine.export(&what, &to, &ExportOptions::default(), progress())
+    let what = ExportWhat::Address(CorpusAddress::Recording(RowName::Text("second".into())));
+    mine.export_corpus(&what, &to, &ExportOptions::default(), progress())
         .expect("exported");
-    assert_eq!(
-        fs::read_to_string(to).expect("read"),
-        EAF.replace("CHAT", "NEUF")
-    );
+    assert_eq!(fs::read_to_string(to).expect("read"), EAF.replace("CHAT", "NEUF"));
 }
 
 #[test]
 fn corpora_without_a_common_history_need_a_base() {
     let (desk, mut mine, mut theirs) = Desk::new();
-    drop(Corpus::create(&desk.path("else.chereme"), "A").expect("made"));
-    let refused = mine.merge(&desk.path("else.chereme"), None, progress());
-    assert!(refused.expect_err("refused").remedy().is_some());
+    drop(Corpus::create_corpus(&desk.path("else.chereme"), "A").expect("made"));
+    let refused = mine.merge_corpus(&desk.path("else.chereme"), None, progress());
+    assert!(refused.expect_err("refused").error_remedy().is_some());
     set(&mut theirs, "CHAT", Some("T"), None);
     let base: &Path = &desk.path("base.chereme");
-    let report = mine.merge(&desk.path("theirs.chereme"), Some(base), progress());
+    let report = mine.merge_corpus(&desk.path("theirs.chereme"), Some(base), progress());
     assert_eq!(report.expect("merged").changed.get("annotation"), Some(&1));
     assert!(said(&mine).contains(&"Gloss RH 0-500 T".to_owned()));
 }
@@ -283,7 +272,7 @@ fn corpora_without_a_common_history_need_a_base() {
 #[test]
 fn a_signer_is_merged_field_by_field() {
     let (desk, mut mine, mut theirs) = Desk::new();
-    let film = Name::Text("film".into());
+    let film = RowName::Text("film".into());
     let change = crate::RecordingChange {
         signer: Some(Some("Anna".into())),
         ..Default::default()
@@ -292,16 +281,16 @@ fn a_signer_is_merged_field_by_field() {
         corpus.change_recording(&film, &change).expect("changed");
     }
     let left = SignerChange {
-        handedness: Some(Some(chereme_motion::Side::Left)),
+        handedness: Some(Some(chereme_motion::BodySide::Left)),
         ..Default::default()
     };
     theirs
-        .change_signer(&Name::Text("Anna".into()), &left)
+        .change_signer(&RowName::Text("Anna".into()), &left)
         .expect("changed");
     let report = desk.merge(&mut mine);
     is_whole(&mut mine);
     assert_eq!(
-        crate::db::recordings::signers(mine.store.read())
+        crate::db::stored_recordings::load_signer_rows(mine.store.read_connection())
             .expect("read")
             .len(),
         1
@@ -322,10 +311,7 @@ fn copies_are_merged_again_and_again_in_both_directions() {
     let report = desk.merge(&mut mine);
     assert_eq!(report.conflicts, []);
     for value in ["0-500 M1", "600-700 M2", "3000-3500 T3"] {
-        assert!(
-            said(&mine).contains(&format!("Gloss RH {value}")),
-            "{value}"
-        );
+        assert!(said(&mine).contains(&format!("Gloss RH {value}")), "{value}");
     }
     // The other copy merges too, and continues from there.
     let report = desk.merge(&mut theirs);
@@ -341,21 +327,21 @@ fn copies_are_merged_again_and_again_in_both_directions() {
 
 #[test]
 fn a_deletion_is_merged_unless_the_other_copy_changed_the_recording() {
-    let film = [Address::Recording(Name::Text("film".into()))];
+    let film = [CorpusAddress::Recording(RowName::Text("film".into()))];
     let options = crate::DeleteOptions::default();
     let (desk, mut mine, mut theirs) = Desk::new();
-    theirs.delete(&film, options, progress()).expect("deleted");
+    theirs.delete_objects(&film, options, progress()).expect("deleted");
     let report = desk.merge(&mut mine);
     assert_eq!(report.conflicts, []);
     assert_eq!(report.removed.get("recording"), Some(&1), "{report:?}");
-    assert!(mine.overview(1).expect("read").recordings.is_empty());
+    assert!(mine.load_corpus_overview(1).expect("read").recordings.is_empty());
     is_whole(&mut mine);
-    mine.undo().expect("undone");
+    mine.undo_operation().expect("undone");
     assert!(!said(&mine).is_empty());
 
     let (desk, mut mine, mut theirs) = Desk::new();
     set(&mut mine, "CHAT", Some("NEW"), None);
-    theirs.delete(&film, options, progress()).expect("deleted");
+    theirs.delete_objects(&film, options, progress()).expect("deleted");
     let report = desk.merge(&mut mine);
     assert!(!report.conflicts.is_empty(), "{report:?}");
     assert!(said(&mine).iter().any(|it| it.ends_with("NEW")));

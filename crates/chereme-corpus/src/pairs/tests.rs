@@ -3,25 +3,23 @@
 use std::collections::BTreeSet;
 
 use super::*;
-use crate::progress::Progress;
-use crate::{ImportOptions, unheard};
+use crate::progress::ProgressReceiver;
+use crate::{ImportOptions, ignore_progress_step};
 
 fn corpus_of(folder: &std::path::Path, file: &std::path::Path) -> Corpus {
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
-    let mut hear = unheard;
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
+    let mut hear = ignore_progress_step;
     let files = [file.to_owned()];
-    let progress = &mut Progress::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut hear);
     corpus
-        .import(&files, &ImportOptions::default(), progress)
+        .import_paths(&files, &ImportOptions::default(), progress)
         .expect("imported");
     corpus
 }
 
-fn asked(corpus: &Corpus, fields: &[&str], empty: Empty) -> Pairs {
+fn asked(corpus: &Corpus, fields: &[&str], empty: EmptyCellTreatment) -> MinimalPairs {
     let fields = fields.iter().map(|it| (*it).to_owned()).collect();
-    corpus
-        .pairs(&PairOptions { fields, empty })
-        .expect("counted")
+    corpus.minimal_pairs(&PairOptions { fields, empty }).expect("counted")
 }
 
 #[test]
@@ -33,11 +31,11 @@ fn pairs_differ_in_one_field_and_name_it() {
     std::fs::write(&file, table).expect("written");
     let corpus = corpus_of(folder.path(), &file);
     let titles = ["handshape", "Handshape Weak", "location"];
-    let value = asked(&corpus, &titles, Empty::Value);
+    let value = asked(&corpus, &titles, EmptyCellTreatment::Value);
     let list: Vec<String> = value
         .list
         .iter()
-        .map(|it| line(it).trim().replace('\t', " "))
+        .map(|it| minimal_pair_line(it).trim().replace('\t', " "))
         .collect();
     let wanted = [
         "A B handshape",
@@ -50,24 +48,21 @@ fn pairs_differ_in_one_field_and_name_it() {
     assert_eq!((value.total, value.signs, value.certain), (5, 6, 2));
     let homonyms = (value.homonyms, value.homonym_groups, value.homonym_signs);
     assert_eq!((homonyms, value.forms), ((1, 1, 2), 5));
-    let unknown = asked(&corpus, &titles, Empty::Unknown);
+    let unknown = asked(&corpus, &titles, EmptyCellTreatment::Unknown);
     assert_eq!((unknown.total, unknown.entries), (0, 1));
     // If cells are compared as they were coded, "V + O" differs from "V", too.
     let coded = asked(
         &corpus,
         &["configuration", "weak.configuration", "placement"],
-        Empty::Value,
+        EmptyCellTreatment::Value,
     );
     assert_eq!(coded.total, value.total, "{:?}", coded.list);
-    for fields in [
-        vec!["nosuch".to_owned()],
-        vec!["orientation.palm".to_owned()],
-    ] {
+    for fields in [vec!["nosuch".to_owned()], vec!["orientation.palm".to_owned()]] {
         let options = PairOptions {
             fields,
             ..PairOptions::default()
         };
-        assert!(corpus.pairs(&options).is_err());
+        assert!(corpus.minimal_pairs(&options).is_err());
     }
 }
 
@@ -83,26 +78,18 @@ fn named_sets_of_fields_fit_the_titles_of_signbank() {
                  D,1,5,,,,chin,Back,-,,,,down,False,False\n";
     std::fs::write(&file, table).expect("written");
     let corpus = corpus_of(folder.path(), &file);
-    let found = asked(&corpus, &["S13"], Empty::Value);
+    let found = asked(&corpus, &["S13"], EmptyCellTreatment::Value);
     let list: Vec<String> = found
         .list
         .iter()
-        .map(|it| line(it).trim().replace('\t', " "))
+        .map(|it| minimal_pair_line(it).trim().replace('\t', " "))
         .collect();
-    assert_eq!(
-        list,
-        ["A C Handshape strong", "C D Relative orientation movement"]
-    );
+    assert_eq!(list, ["A C Handshape strong", "C D Relative orientation movement"]);
     let options = PairOptions {
-        fields: ["Handedness", "Strong Hands", "Location"]
-            .map(str::to_owned)
-            .to_vec(),
+        fields: ["Handedness", "Strong Hands", "Location"].map(str::to_owned).to_vec(),
         ..PairOptions::default()
     };
-    let error = corpus
-        .pairs(&options)
-        .expect_err("no such column")
-        .to_string();
+    let error = corpus.minimal_pairs(&options).expect_err("no such column").to_string();
     let said = "no imported table has a column \"Strong Hands\" with the others; did you mean \"Strong Hand\"?";
     assert!(error.contains(said), "{error}");
 }
@@ -112,11 +99,11 @@ fn pairs_count_only_rows_that_the_corpus_still_has() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("t.csv");
     let counted = |corpus: &Corpus| {
-        let found = asked(corpus, &["handshape", "location"], Empty::Value);
+        let found = asked(corpus, &["handshape", "location"], EmptyCellTreatment::Value);
         let list = found
             .list
             .iter()
-            .map(|it| line(it).trim().replace('\t', " "));
+            .map(|it| minimal_pair_line(it).trim().replace('\t', " "));
         (found.entries, list.collect::<Vec<_>>().join(", "))
     };
     let table = "gloss,handshape,location\nA,V,chin\nB,V,chest\nC,5,chin\nD,B,nose\n";
@@ -125,27 +112,23 @@ fn pairs_count_only_rows_that_the_corpus_still_has() {
     let both = "A B location, A C handshape";
     assert_eq!(counted(&corpus), (4, both.to_owned()));
     // The next version has another cell of C, and no D.
-    std::fs::write(
-        &file,
-        "gloss,handshape,location\nA,V,chin\nB,V,chest\nC,5,nose\n",
-    )
-    .expect("written");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    std::fs::write(&file, "gloss,handshape,location\nA,V,chin\nB,V,chest\nC,5,nose\n").expect("written");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     corpus
-        .import(&[file], &ImportOptions::default(), progress)
+        .import_paths(&[file], &ImportOptions::default(), progress)
         .expect("imported");
     assert_eq!(counted(&corpus), (3, "A B location".to_owned()));
     let renamed = crate::SignChange {
         gloss: Some("E".to_owned()),
         ..crate::SignChange::default()
     };
-    let name = crate::address::Name::Text("A".to_owned());
+    let name = crate::address::RowName::Text("A".to_owned());
     corpus.change_sign(&name, &renamed).expect("renamed");
     assert_eq!(counted(&corpus), (3, "B E location".to_owned()));
     let what = ["sign:B".parse().expect("an address")];
     corpus
-        .delete(&what, crate::DeleteOptions::default(), progress)
+        .delete_objects(&what, crate::DeleteOptions::default(), progress)
         .expect("deleted");
     assert_eq!(counted(&corpus), (2, String::new()));
 }
@@ -160,11 +143,11 @@ fn simultaneous_values_differ_from_successive_ones_and_all_unused_values_are_lis
     std::fs::write(&file, table).expect("written");
     let corpus = corpus_of(folder.path(), &file);
     let fields = ["dominant.configuration", "placement", "movement.direction"];
-    let found = asked(&corpus, &fields, Empty::Value);
+    let found = asked(&corpus, &fields, EmptyCellTreatment::Value);
     let list = found
         .list
         .iter()
-        .map(|it| line(it).trim().replace('\t', " "));
+        .map(|it| minimal_pair_line(it).trim().replace('\t', " "));
     let direction = |pair: &str| format!("{pair} movement.direction");
     let mut wanted: Vec<String> = ["END ONE", "END SEQ", "END SIM", "ONE SEQ", "ONE SIM"]
         .map(direction)
@@ -173,12 +156,9 @@ fn simultaneous_values_differ_from_successive_ones_and_all_unused_values_are_lis
     wanted.push(direction("SEQ SIM"));
     assert_eq!((found.homonyms, list.collect::<Vec<_>>()), (0, wanted));
     let suggested = corpus
-        .suggest(&"SIM".parse().expect("an address"))
+        .suggest_new_signs(&"SIM".parse().expect("an address"))
         .expect("coded");
-    assert_eq!(
-        suggested.coding["movement.direction"],
-        "downwards + inwards"
-    );
+    assert_eq!(suggested.coding["movement.direction"], "downwards + inwards");
     let to: Vec<&str> = suggested.partners.iter().map(|it| it.to.as_str()).collect();
     assert_eq!(to, ["5", "> inwards", "inwards", "downwards > inwards"]);
     let inventory = chereme_sign::inventory::builtin_by_id("configurations");
@@ -197,7 +177,7 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = std::path::Path::new(&shared).join("phonology/ngt_lexicon.tsv");
     let corpus = corpus_of(folder.path(), &file);
-    let value = Empty::Value;
+    let value = EmptyCellTreatment::Value;
     for (set, empty, total, signs, homonyms, forms, sha256) in [
         (
             "S13",
@@ -246,7 +226,7 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
         ),
         (
             "F7",
-            Empty::Unknown,
+            EmptyCellTreatment::Unknown,
             29,
             35,
             (10, 5, 12),
@@ -255,7 +235,7 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
         ),
         (
             "F5",
-            Empty::Unknown,
+            EmptyCellTreatment::Unknown,
             10750,
             750,
             (1302, 132, 500),
@@ -272,11 +252,7 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     let found = asked(&corpus, &["S13"], value);
     assert_eq!(found.certain, 3306);
     assert_eq!(found.by_field[0], ("Handshape strong".to_owned(), 2368));
-    let top: Vec<(&str, usize)> = found
-        .densest
-        .iter()
-        .map(|it| (&*it.gloss, it.pairs))
-        .collect();
+    let top: Vec<(&str, usize)> = found.densest.iter().map(|it| (&*it.gloss, it.pairs)).collect();
     let wanted = [
         ("1-A", 59),
         ("EVEN-DENKEN-C", 59),
@@ -297,23 +273,20 @@ fn a_sign_with_two_citation_forms_is_one_entry_and_no_homonym_of_itself() {
     let folder = tempfile::tempdir().expect("a folder");
     // LION, POULE and VACHE have an entry in the lexicon and a recording.
     let files = crate::unpack_starter(&folder.path().join("files")).expect("unpacked");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     corpus
-        .import(&files, &ImportOptions::default(), progress)
+        .import_paths(&files, &ImportOptions::default(), progress)
         .expect("imported");
     let fields = ["dominant.configuration", "placement", "movement"];
-    let found = asked(&corpus, &fields, Empty::Value);
-    let tokens = crate::db::signs::citations(corpus.store.read()).expect("read");
+    let found = asked(&corpus, &fields, EmptyCellTreatment::Value);
+    let tokens = crate::db::signs::load_citation_tokens(corpus.store.read_connection()).expect("read");
     let glosses: BTreeSet<&str> = tokens.iter().map(|it| it.gloss.as_str()).collect();
     assert!(glosses.contains("LION") && tokens.len() == glosses.len());
     assert!(found.entries <= glosses.len(), "{found:?}");
     assert!(found.list.iter().all(|it| it.a != it.b), "{found:?}");
-    assert_eq!(
-        found.entries - found.forms,
-        found.homonym_signs - found.homonym_groups
-    );
+    assert_eq!(found.entries - found.forms, found.homonym_signs - found.homonym_groups);
 }
 
 #[test]

@@ -2,41 +2,41 @@
 
 use std::sync::Arc;
 
-use chereme_compose::{Cause, on_body};
-use chereme_figure::raster::Style;
-use chereme_figure::{Body, Palette, PortableBody, Theme, thumbnail};
-use chereme_motion::{Anatomy, Clip, Skeleton};
-use chereme_sign::Handedness;
+use chereme_compose::{StepError, on_body};
+use chereme_figure::raster::FigureStyle;
+use chereme_figure::{FigurePalette, PaperTheme, PortableBody, SignerBody, clip_thumbnail};
+use chereme_motion::{BodyAnatomy, Clip, Skeleton};
+use chereme_sign::SignerHandedness;
 use serde_json::json;
 
-use super::entries::Entry;
-use super::folder::Folder;
-use super::motion;
-use super::pages::STILL;
+use super::entries::DictionaryEntry;
+use super::folder::PublicationFolder;
+use super::pages::STILL_PICTURE_SIZE_PX;
 use super::png;
+use super::publish_motion;
 use crate::Corpus;
-use crate::address::Address;
+use crate::address::CorpusAddress;
 use crate::built_in_body;
-use crate::error::{Error, Result};
-use crate::tokens::handedness;
+use crate::error::{CorpusError, CorpusResult};
+use crate::tokens::recording_handedness;
 
 /// The bodies of a dictionary.
-pub(super) struct Bodies {
+pub(super) struct DictionaryBodies {
     /// The program's own one, if all signs play on it.
-    own: Option<(Arc<Skeleton>, Arc<Anatomy>)>,
-    written: Vec<Written>,
+    own: Option<(Arc<Skeleton>, Arc<BodyAnatomy>)>,
+    written: Vec<WrittenBody>,
 }
 
 /// A body that was written.
-struct Written {
+struct WrittenBody {
     skeleton: Skeleton,
     name: String,
-    body: Body,
+    body: SignerBody,
     portable: PortableBody,
 }
 
 /// A sign whose movement was written.
-pub(super) struct Shown {
+pub(super) struct ShownSign {
     /// The name of its body.
     pub(super) body: String,
     /// Whether the movement is cut.
@@ -45,57 +45,55 @@ pub(super) struct Shown {
     pub(super) is_apart: bool,
 }
 
-impl Bodies {
+impl DictionaryBodies {
     /// Begins a dictionary whose signs play on the program's own body, or on those of the signers.
-    pub(super) fn new(own: bool) -> Result<Self> {
-        let own = match own {
+    pub(super) fn new(own: bool) -> CorpusResult<Self> {
+        let own_body = match own {
             true => {
                 let (clip, anatomy) = built_in_body()?;
-                Some((Arc::clone(clip.skeleton()), anatomy))
+                Some((Arc::clone(clip.clip_skeleton()), anatomy))
             }
             false => None,
         };
         Ok(Self {
-            own,
+            own: own_body,
             written: Vec::new(),
         })
     }
 
     /// Writes the movement and the still picture of a sign; nothing if its skeleton has no arms or its movement no
     /// frames.
-    pub(super) fn write(
+    pub(super) fn write_sign_body(
         &mut self,
         corpus: &Corpus,
-        folder: &mut Folder,
-        entry: &Entry,
-    ) -> Result<Option<Shown>> {
-        let moving = corpus.usable_movement(&Address::Token(entry.token.id))?;
-        let (clip, is_cut) = motion::shown(&moving.clip)?;
-        if clip.frames() == 0 {
+        folder: &mut PublicationFolder,
+        entry: &DictionaryEntry,
+    ) -> CorpusResult<Option<ShownSign>> {
+        let moving = corpus.usable_movement(&CorpusAddress::Token(entry.token.id))?;
+        let (clip, is_cut) = publish_motion::limit_published_frames(&moving.clip)?;
+        if clip.clip_frame_count() == 0 {
             return Ok(None);
         }
-        let handedness = handedness(corpus.store.read(), &moving.stretch.recording)?;
-        let Some((clip, anatomy, is_apart)) =
-            self.placed(clip, Arc::new(moving.anatomy), handedness)?
-        else {
+        let handedness = recording_handedness(corpus.store.read_connection(), &moving.stretch.recording)?;
+        let Some((clip, anatomy, is_apart)) = self.place_on_body(clip, Arc::new(moving.anatomy), handedness)? else {
             return Ok(None);
         };
-        let Some(at) = self.find(folder, &clip, &anatomy)? else {
+        let Some(at) = self.find_dictionary_body(folder, &clip, &anatomy)? else {
             return Ok(None);
         };
         let of = &self.written[at];
-        let coded = motion::coded(&clip, &anatomy, (&of.body, &of.portable));
+        let coded = publish_motion::coded_motion_json(&clip, &anatomy, (&of.body, &of.portable));
         let key = json!(entry.name);
         let text = format!("CH.motion({key}, {coded});\n");
-        folder.write(&format!("data/motion/{}.js", entry.name), text.as_bytes())?;
-        let style = Style {
-            theme: Theme::Light,
-            ..Style::default()
+        folder.write_published_file(&format!("data/motion/{}.js", entry.name), text.as_bytes())?;
+        let style = FigureStyle {
+            theme: PaperTheme::Light,
+            ..FigureStyle::default()
         };
-        let still = thumbnail(&clip, &anatomy, STILL, &style)
-            .map_err(|error| Error::wrong(error.to_string()))?;
-        folder.write(&format!("sign/{}/still.png", entry.name), &png(&still)?)?;
-        Ok(Some(Shown {
+        let still = clip_thumbnail(&clip, &anatomy, STILL_PICTURE_SIZE_PX, &style)
+            .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+        folder.write_published_file(&format!("sign/{}/still.png", entry.name), &png(&still)?)?;
+        Ok(Some(ShownSign {
             body: of.name.clone(),
             is_cut,
             is_apart,
@@ -104,42 +102,42 @@ impl Bodies {
 
     /// Returns the movement on the body that shows it, and whether a touch was lost there; nothing if the movement has
     /// no arms.
-    fn placed(
+    fn place_on_body(
         &self,
         clip: Clip,
-        anatomy: Arc<Anatomy>,
-        handedness: Handedness,
-    ) -> Result<Option<(Clip, Arc<Anatomy>, bool)>> {
+        anatomy: Arc<BodyAnatomy>,
+        handedness: SignerHandedness,
+    ) -> CorpusResult<Option<(Clip, Arc<BodyAnatomy>, bool)>> {
         let Some((skeleton, own)) = &self.own else {
             return Ok(Some((clip, anatomy, false)));
         };
         match on_body((&clip, &anatomy), handedness, (skeleton, own)) {
             Ok(done) => Ok(Some((done.clip, Arc::clone(own), !done.lost.is_empty()))),
-            Err(Cause::NoArm(_)) => Ok(None),
-            Err(error) => Err(Error::wrong(error.to_string())),
+            Err(StepError::NoArm(_)) => Ok(None),
+            Err(error) => Err(CorpusError::from_wrong_message(error.to_string())),
         }
     }
 
     /// Returns the body of a movement, which is written if it is new; nothing without two arms.
-    fn find(
+    fn find_dictionary_body(
         &mut self,
-        folder: &mut Folder,
+        folder: &mut PublicationFolder,
         clip: &Clip,
-        anatomy: &Anatomy,
-    ) -> Result<Option<usize>> {
-        let skeleton: &Skeleton = clip.skeleton();
-        if let Some(at) = self.written.iter().position(|it| it.skeleton == *skeleton) {
+        anatomy: &BodyAnatomy,
+    ) -> CorpusResult<Option<usize>> {
+        let skeleton: &Skeleton = clip.clip_skeleton();
+        if let Some(at) = self.written.iter().position(|body| body.skeleton == *skeleton) {
             return Ok(Some(at));
         }
-        let body = Body::with_palette(skeleton, anatomy, &Palette::default());
-        let Some(portable) = body.portable(skeleton) else {
+        let body = SignerBody::with_palette(skeleton, anatomy, &FigurePalette::default());
+        let Some(portable) = body.to_portable_body(skeleton) else {
             return Ok(None);
         };
         let name = format!("b{}", self.written.len() + 1);
-        let surface = motion::surface(&portable);
+        let surface = publish_motion::body_surface_json(&portable);
         let text = format!("CH.body(\"{name}\", {surface});\n");
-        folder.write(&format!("data/body/{name}.js"), text.as_bytes())?;
-        self.written.push(Written {
+        folder.write_published_file(&format!("data/body/{name}.js"), text.as_bytes())?;
+        self.written.push(WrittenBody {
             skeleton: skeleton.clone(),
             name,
             body,

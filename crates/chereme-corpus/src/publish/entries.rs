@@ -3,23 +3,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Corpus;
-use crate::consent::{ConsentKind, Permissions, Withheld};
+use crate::consent::{ConsentKind, PublishPermissions, WithheldReason};
 use crate::db::edits;
-use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::error::Result;
+use crate::db::stored_recordings;
+use crate::error::CorpusResult;
 use crate::pairs;
-use crate::progress::Progress;
+use crate::progress::ProgressReceiver;
 use crate::search::SearchOptions;
 
-use super::names::names;
-use super::source::MovementSource;
+use super::publish_names::unique_file_names;
+use super::publish_source::MovementSource;
 
 /// The most minimal pairs that a sign lists.
-const MOST_PAIRS: usize = 40;
+const MAX_ENTRY_PAIRS: usize = 40;
 
 /// A sign of the dictionary.
-pub(super) struct Entry {
+pub(super) struct DictionaryEntry {
     pub(super) gloss: String,
     /// The name of its folder.
     pub(super) name: String,
@@ -36,7 +36,7 @@ pub(super) struct Entry {
     /// The number of the signer in this dictionary.
     pub(super) person: Option<usize>,
     /// Whether it has movement, and whether that may be shown.
-    pub(super) moves: Moves,
+    pub(super) moves: EntryMovement,
     /// What its movement comes from.
     pub(super) source: MovementSource,
     /// Minimal pairs: the other entry, and the field in which they differ.
@@ -45,7 +45,7 @@ pub(super) struct Entry {
 
 /// Whether a sign's movement is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Moves {
+pub(super) enum EntryMovement {
     /// The sign has no movement.
     Never,
     /// The movement may not be shown.
@@ -55,12 +55,12 @@ pub(super) enum Moves {
 }
 
 /// The signs of a dictionary, and those that were left out.
-pub(super) struct Entries {
-    pub(super) all: Vec<Entry>,
+pub(super) struct DictionaryEntries {
+    pub(super) all: Vec<DictionaryEntry>,
     /// The signs that were left out, with the reason.
-    pub(super) withheld: Vec<(String, Withheld)>,
+    pub(super) withheld: Vec<(String, WithheldReason)>,
     /// The signs whose movement was left out, with the reason.
-    pub(super) still: Vec<(String, Withheld)>,
+    pub(super) still: Vec<(String, WithheldReason)>,
     /// The number of signers.
     pub(super) people: usize,
     /// Whether there are too many minimal pairs to list them.
@@ -68,16 +68,16 @@ pub(super) struct Entries {
 }
 
 /// Collects the signs of the tokens that answer a query, of all signs without one.
-pub(super) fn collect(
+pub(super) fn collect_dictionary_entries(
     corpus: &mut Corpus,
     query: Option<&str>,
-    permissions: &Permissions,
+    permissions: &PublishPermissions,
     notes: bool,
-    progress: &mut Progress<'_>,
-) -> Result<Entries> {
-    let asked = asked(corpus, query, progress)?;
-    let connection = corpus.store.read();
-    let mut found = Entries {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<DictionaryEntries> {
+    let asked = tokens_by_gloss(corpus, query, progress)?;
+    let connection = corpus.store.read_connection();
+    let mut entries = DictionaryEntries {
         all: Vec::new(),
         withheld: Vec::new(),
         still: Vec::new(),
@@ -86,41 +86,43 @@ pub(super) fn collect(
     };
     let mut people: BTreeMap<(bool, i64), usize> = BTreeMap::new();
     for (gloss, tokens) in asked {
-        let (token, terms, movement) = match choose(corpus, tokens, permissions)? {
+        let (token, terms, movement) = match choose_shown_token(corpus, tokens, permissions)? {
             Ok(chosen) => chosen,
             Err(reason) => {
-                found.withheld.push((gloss, reason));
+                entries.withheld.push((gloss, reason));
                 continue;
             }
         };
-        let person = token.recording_id.and_then(|it| permissions.person(it));
-        let person = person.map(|it| {
+        let person_id = token
+            .recording_id
+            .and_then(|recording| permissions.recording_person_key(recording));
+        let person = person_id.map(|id| {
             let next = people.len() + 1;
-            *people.entry(it).or_insert(next)
+            *people.entry(id).or_insert(next)
         });
         let mut terms = terms;
         let moves = match movement {
             Some(Ok(more)) => {
                 terms.extend(more);
-                Moves::Public
+                EntryMovement::Public
             }
             Some(Err(reason)) => {
-                found.still.push((gloss.clone(), reason));
+                entries.still.push((gloss.clone(), reason));
                 match token.recording_id {
-                    Some(_) => Moves::Withheld,
-                    None => Moves::Never,
+                    Some(_) => EntryMovement::Withheld,
+                    None => EntryMovement::Never,
                 }
             }
-            None => Moves::Never,
+            None => EntryMovement::Never,
         };
-        let remarks = edits::sign(connection, token.sign_id)?.1;
-        found.all.push(Entry {
+        let remarks = edits::sign_gloss_and_notes(connection, token.sign_id)?.1;
+        entries.all.push(DictionaryEntry {
             name: String::new(),
-            texts: signs::texts(connection, token.sign_id)?,
+            texts: signs::list_sign_translations(connection, token.sign_id)?,
             notes: remarks.filter(|_| notes),
-            values: signs::values(connection, token.id)?,
+            values: signs::load_token_values(connection, token.id)?,
             coding: corpus.coding_of(&token)?,
-            source: MovementSource::of_token(connection, &token)?,
+            source: MovementSource::movement_source_of_token(connection, &token)?,
             token,
             gloss,
             terms,
@@ -129,19 +131,19 @@ pub(super) fn collect(
             pairs: Vec::new(),
         });
     }
-    name_folders(&mut found.all);
-    found.people = people.len();
-    found.without_pairs = !add_pairs(&mut found.all);
-    Ok(found)
+    name_folders(&mut entries.all);
+    entries.people = people.len();
+    entries.without_pairs = !add_pairs(&mut entries.all);
+    Ok(entries)
 }
 
 /// Names the folder of each sign. Only the signs of the dictionary count: the mark of a name would show that another
 /// sign exists, which may not be public.
-fn name_folders(entries: &mut [Entry]) {
-    let named = names(entries.iter().map(|it| it.gloss.as_str()));
+fn name_folders(entries: &mut [DictionaryEntry]) {
+    let folder_names = unique_file_names(entries.iter().map(|entry| entry.gloss.as_str()));
     let named: Vec<String> = entries
         .iter()
-        .map(|it| named.get(it.gloss.as_str()).cloned().unwrap_or_default())
+        .map(|entry| folder_names.get(entry.gloss.as_str()).cloned().unwrap_or_default())
         .collect();
     for (entry, name) in entries.iter_mut().zip(named) {
         entry.name = name;
@@ -149,11 +151,11 @@ fn name_folders(entries: &mut [Entry]) {
 }
 
 /// Returns the tokens to choose from, by gloss.
-fn asked(
+fn tokens_by_gloss(
     corpus: &mut Corpus,
     query: Option<&str>,
-    progress: &mut Progress<'_>,
-) -> Result<BTreeMap<String, Vec<TokenRow>>> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<BTreeMap<String, Vec<TokenRow>>> {
     let tokens = match query {
         Some(query) => {
             let all = SearchOptions {
@@ -161,19 +163,16 @@ fn asked(
                 facets: false,
                 ..SearchOptions::default()
             };
-            let found = corpus.search_until(query, &all, progress)?;
-            let ids: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
-            signs::tokens(corpus.store.read(), &ids)?
+            let answer = corpus.search_until(query, &all, progress)?;
+            let ids: Vec<i64> = answer.hits.iter().map(|hit| hit.token).collect();
+            signs::load_token_rows(corpus.store.read_connection(), &ids)?
                 .into_values()
                 .collect()
         }
         None => {
             let mut all = Vec::new();
-            for citation in signs::citations(corpus.store.read())? {
-                all.extend(signs::tokens_of_sign(
-                    corpus.store.read(),
-                    citation.sign_id,
-                )?);
+            for citation in signs::load_citation_tokens(corpus.store.read_connection())? {
+                all.extend(signs::tokens_of_sign(corpus.store.read_connection(), citation.sign_id)?);
             }
             all
         }
@@ -185,29 +184,29 @@ fn asked(
     Ok(by_gloss)
 }
 
-type Terms = BTreeSet<String>;
+type UsageTerms = BTreeSet<String>;
 /// A token, its terms, and those of its movement: nothing if it has none, the reason if it may not be shown.
-type Chosen = (
+type ChosenToken = (
     TokenRow,
-    Terms,
-    Option<std::result::Result<Terms, Withheld>>,
+    UsageTerms,
+    Option<std::result::Result<UsageTerms, WithheldReason>>,
 );
 
 /// Returns the first token that may be shown: one that moves before one that does not, the citation form before others.
-fn choose(
+fn choose_shown_token(
     corpus: &Corpus,
     mut tokens: Vec<TokenRow>,
-    permissions: &Permissions,
-) -> Result<std::result::Result<Chosen, Withheld>> {
-    tokens.sort_by_key(|it| (!it.citation, it.recording_id.is_none(), it.id));
-    let mut best: Option<Chosen> = None;
+    permissions: &PublishPermissions,
+) -> CorpusResult<std::result::Result<ChosenToken, WithheldReason>> {
+    tokens.sort_by_key(|token| (!token.citation, token.recording_id.is_none(), token.id));
+    let mut best: Option<ChosenToken> = None;
     let mut reason = None;
     for token in tokens {
-        let terms = match token.recording_id {
-            Some(recording) => permissions.of_recording(recording, ConsentKind::Annotation),
+        let recording_terms = match token.recording_id {
+            Some(recording) => permissions.recording_publish_terms(recording, ConsentKind::Annotation),
             None => permissions.of_entry(),
         };
-        let terms = match terms {
+        let terms = match recording_terms {
             Ok(terms) => terms,
             Err(why) => {
                 reason.get_or_insert(why);
@@ -216,7 +215,7 @@ fn choose(
         };
         let movement = match token.recording_id {
             Some(recording) if has_body(corpus, recording)? => {
-                Some(permissions.of_recording(recording, ConsentKind::Movement))
+                Some(permissions.recording_publish_terms(recording, ConsentKind::Movement))
             }
             _ => None,
         };
@@ -229,18 +228,18 @@ fn choose(
         // Another token moves, and may not be shown.
         *movement = Some(Err(reason));
     }
-    Ok(best.ok_or(reason.unwrap_or(Withheld::NoTerms)))
+    Ok(best.ok_or(reason.unwrap_or(WithheldReason::NoTerms)))
 }
 
-fn has_body(corpus: &Corpus, recording: i64) -> Result<bool> {
-    Ok(recordings::body_track(corpus.store.read(), recording)?.is_some())
+fn has_body(corpus: &Corpus, recording: i64) -> CorpusResult<bool> {
+    Ok(stored_recordings::body_track(corpus.store.read_connection(), recording)?.is_some())
 }
 
 /// Adds the minimal pairs; returns whether there are few enough of them.
-fn add_pairs(entries: &mut [Entry]) -> bool {
+fn add_pairs(entries: &mut [DictionaryEntry]) -> bool {
     let codings: Vec<(String, BTreeMap<String, String>)> = entries
         .iter()
-        .map(|it| (it.gloss.clone(), it.coding.clone()))
+        .map(|entry| (entry.gloss.clone(), entry.coding.clone()))
         .collect();
     let Some(found) = pairs::of_codings(&codings) else {
         return false;
@@ -251,12 +250,12 @@ fn add_pairs(entries: &mut [Entry]) -> bool {
         .map(|(at, (gloss, _))| (gloss.as_str(), at))
         .collect();
     for pair in &found.list {
-        let ends = [&pair.a, &pair.b].map(|it| places.get(it.as_str()).copied());
+        let ends = [&pair.a, &pair.b].map(|gloss| places.get(gloss.as_str()).copied());
         if let [Some(a), Some(b)] = ends {
             for (one, other) in [(a, b), (b, a)] {
-                let own = &mut entries[one].pairs;
-                if own.len() < MOST_PAIRS {
-                    own.push((other, pair.field.clone()));
+                let entry_pairs = &mut entries[one].pairs;
+                if entry_pairs.len() < MAX_ENTRY_PAIRS {
+                    entry_pairs.push((other, pair.field.clone()));
                 }
             }
         }

@@ -6,18 +6,18 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
-use chereme_sign::text::composed;
+use chereme_sign::text::compose_accents;
 
 use super::offline::short_hash;
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 
 /// The list of the files that were written; the next publication replaces these and no others.
-pub(super) const LIST: &str = "files.txt";
+pub(super) const PUBLISHED_FILE_LIST: &str = "files.txt";
 /// The deepest folder of a publication that is looked into for files of others.
-const DEEPEST: usize = 32;
+const MAX_PUBLISHED_FOLDER_DEPTH: usize = 32;
 
 /// A file that was written.
-pub(super) struct Stored {
+pub(super) struct PublishedFile {
     /// The beginning of its SHA-256 hash.
     pub(super) hash: String,
     /// Its size in bytes.
@@ -25,26 +25,26 @@ pub(super) struct Stored {
 }
 
 /// A folder under construction.
-pub(super) struct Folder {
+pub(super) struct PublicationFolder {
     to: PathBuf,
     part: PathBuf,
     old: PathBuf,
-    written: BTreeMap<String, Stored>,
+    written: BTreeMap<String, PublishedFile>,
     bytes: u64,
     done: bool,
 }
 
-impl Folder {
+impl PublicationFolder {
     /// Begins a folder that will be at `to`.
     ///
     /// # Errors
     /// Fails if `to` has no name, is a file, or cannot be written beside.
-    pub(super) fn begin(to: &Path) -> Result<Self> {
-        beside(to, "part")?;
+    pub(super) fn begin_publication(to: &Path) -> CorpusResult<Self> {
+        hidden_sibling_path(to, "part")?;
         // A link to a folder stays: the folder that it leads to is replaced.
         let to = &fs::canonicalize(to).unwrap_or_else(|_| to.to_owned());
-        let (part, old) = (beside(to, "part")?, beside(to, "old")?);
-        let fault = |error| Error::file(to, error);
+        let (part, old) = (hidden_sibling_path(to, "part")?, hidden_sibling_path(to, "old")?);
+        let fault = |error| CorpusError::from_file_failure(to, error);
         // A publication that was killed between its two last steps left the old folder beside its place.
         if !to.exists() && old.is_dir() {
             fs::rename(&old, to).map_err(fault)?;
@@ -54,7 +54,7 @@ impl Folder {
         }
         for left in [&part, &old] {
             if left.exists() {
-                fs::remove_dir_all(left).map_err(|error| Error::file(left, error))?;
+                fs::remove_dir_all(left).map_err(|error| CorpusError::from_file_failure(left, error))?;
             }
         }
         fs::create_dir_all(&part).map_err(fault)?;
@@ -69,14 +69,14 @@ impl Folder {
     }
 
     /// Writes a file; `name` has `/` between its folders.
-    pub(super) fn write(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
+    pub(super) fn write_published_file(&mut self, name: &str, bytes: &[u8]) -> CorpusResult<()> {
         let path = self.part.join(name);
-        let fault = |error| Error::file(&path, error);
+        let fault = |error| CorpusError::from_file_failure(&path, error);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(fault)?;
         }
         fs::write(&path, bytes).map_err(fault)?;
-        let stored = Stored {
+        let stored = PublishedFile {
             hash: short_hash(bytes),
             size: bytes.len(),
         };
@@ -86,29 +86,29 @@ impl Folder {
     }
 
     /// Reports whether a file was written.
-    pub(super) fn has(&self, name: &str) -> bool {
+    pub(super) fn has_published_file(&self, name: &str) -> bool {
         self.written.contains_key(name)
     }
 
     /// Returns the files that were written, by name.
-    pub(super) fn stored(&self) -> &BTreeMap<String, Stored> {
+    pub(super) fn published_files(&self) -> &BTreeMap<String, PublishedFile> {
         &self.written
     }
 
     /// Puts the folder in its place, and returns the number of files and their bytes. Files that no publication wrote
     /// stay.
-    pub(super) fn finish(mut self) -> Result<(usize, u64)> {
-        let names = self.written.keys().map(String::as_str).chain([LIST]);
-        let names: BTreeSet<&str> = names.collect();
-        let list: String = names.iter().map(|it| format!("{it}\n")).collect();
-        self.write(LIST, list.as_bytes())?;
-        let fault = |error| Error::file(&self.to, error);
+    pub(super) fn finish_publication(mut self) -> CorpusResult<(usize, u64)> {
+        let listed_names = self.written.keys().map(String::as_str).chain([PUBLISHED_FILE_LIST]);
+        let names: BTreeSet<&str> = listed_names.collect();
+        let list: String = names.iter().map(|name| format!("{name}\n")).collect();
+        self.write_published_file(PUBLISHED_FILE_LIST, list.as_bytes())?;
+        let fault = |error| CorpusError::from_file_failure(&self.to, error);
         if !self.to.exists() {
             fs::rename(&self.part, &self.to).map_err(fault)?;
             self.done = true;
             return Ok((self.written.len(), self.bytes));
         }
-        let others = self.others()?;
+        let others = self.unpublished_files()?;
         let mut moved: Vec<&String> = Vec::new();
         let result = others.iter().try_for_each(|name| {
             let (from, to) = (self.to.join(name), self.part.join(name));
@@ -119,13 +119,11 @@ impl Folder {
             moved.push(name);
             Ok(())
         });
-        let result = result
-            .and_then(|()| fs::rename(&self.to, &self.old))
-            .and_then(|()| {
-                fs::rename(&self.part, &self.to).inspect_err(|_| {
-                    drop(fs::rename(&self.old, &self.to));
-                })
-            });
+        let result = result.and_then(|()| fs::rename(&self.to, &self.old)).and_then(|()| {
+            fs::rename(&self.part, &self.to).inspect_err(|_| {
+                drop(fs::rename(&self.old, &self.to));
+            })
+        });
         if let Err(error) = result {
             for name in moved {
                 drop(fs::rename(self.part.join(name), self.to.join(name)));
@@ -135,65 +133,65 @@ impl Folder {
         self.done = true;
         if fs::remove_dir_all(&self.old).is_err() {
             // It may hold signs that were withdrawn.
-            return Err(Error::wrong(
+            return Err(CorpusError::from_wrong_message(
                 "the new pages are in place, but the old ones could not be removed",
             )
-            .at(self.old.display().to_string())
-            .advise("remove this folder: signs that were withdrawn may be in it"));
+            .with_error_place(self.old.display().to_string())
+            .with_advice("remove this folder: signs that were withdrawn may be in it"));
         }
         Ok((self.written.len(), self.bytes))
     }
 
     /// Returns the files and whole folders in the old folder that no publication wrote.
-    fn others(&self) -> Result<Vec<String>> {
-        let list = fs::read_to_string(self.to.join(LIST)).unwrap_or_default();
-        let known = list.lines().filter(|it| is_inside(it));
-        let known: BTreeSet<String> = known.map(|it| composed(it).into_owned()).collect();
+    fn unpublished_files(&self) -> CorpusResult<Vec<String>> {
+        let list = fs::read_to_string(self.to.join(PUBLISHED_FILE_LIST)).unwrap_or_default();
+        let listed_lines = list.lines().filter(|line| is_path_inside(line));
+        let known_names: BTreeSet<String> = listed_lines.map(|line| compose_accents(line).into_owned()).collect();
         let mut others = Vec::new();
-        self.walk("", 0, &known, &mut others)?;
+        self.walk_old_folder("", 0, &known_names, &mut others)?;
         Ok(others)
     }
 
-    fn walk(
+    fn walk_old_folder(
         &self,
         prefix: &str,
         depth: usize,
         known: &BTreeSet<String>,
         others: &mut Vec<String>,
-    ) -> Result<()> {
+    ) -> CorpusResult<()> {
         let folder = self.to.join(prefix);
-        let fault = |error| Error::file(&folder, error);
-        if depth > DEEPEST {
+        let fault = |error| CorpusError::from_file_failure(&folder, error);
+        if depth > MAX_PUBLISHED_FOLDER_DEPTH {
             let text = "folders lie too deep inside each other";
-            return Err(Error::wrong(text).at(folder.display().to_string()));
+            return Err(CorpusError::from_wrong_message(text).with_error_place(folder.display().to_string()));
         }
         for entry in fs::read_dir(&folder).map_err(fault)? {
             let entry = entry.map_err(fault)?;
             let Ok(name) = entry.file_name().into_string() else {
-                return Err(Error::wrong("a file's name is no text")
-                    .at(entry.path().display().to_string())
-                    .advise("move it out of the folder"));
+                return Err(CorpusError::from_wrong_message("a file's name is no text")
+                    .with_error_place(entry.path().display().to_string())
+                    .with_advice("move it out of the folder"));
             };
-            let own = format!("{prefix}{name}");
+            let full_name = format!("{prefix}{name}");
             // Some disks write accents as letters of their own.
-            let plain = composed(&own).into_owned();
+            let plain = compose_accents(&full_name).into_owned();
             // A link is moved as one, whatever it leads to.
             let is_folder = entry.file_type().map_err(fault)?.is_dir();
             let inside = format!("{plain}/");
             let of_old = first_from(known.range(inside.clone()..), &inside);
-            let of_new = first_from(self.written.range(inside.clone()..).map(|it| it.0), &inside);
+            let of_new = first_from(self.written.range(inside.clone()..).map(|entry| entry.0), &inside);
             if is_folder && (of_old || of_new) {
-                self.walk(&format!("{own}/"), depth + 1, known, others)?;
+                self.walk_old_folder(&format!("{full_name}/"), depth + 1, known, others)?;
             } else if !is_folder && known.contains(&plain) {
                 continue;
             } else if self.written.contains_key(&plain) || of_new {
                 return Err(
-                    Error::wrong(format!("{own:?} was not written by a publication"))
-                        .at(entry.path().display().to_string())
-                        .advise("name an empty folder, or move the file away"),
+                    CorpusError::from_wrong_message(format!("{full_name:?} was not written by a publication"))
+                        .with_error_place(entry.path().display().to_string())
+                        .with_advice("name an empty folder, or move the file away"),
                 );
             } else {
-                others.push(own);
+                others.push(full_name);
             }
         }
         others.sort();
@@ -203,16 +201,16 @@ impl Folder {
 
 /// Reports whether a folder has an older publication, or one that was killed left it beside its place.
 pub(super) fn is_published(to: &Path) -> bool {
-    let old = beside(to, "old");
-    to.join(LIST).is_file() || old.is_ok_and(|it| it.join(LIST).is_file())
+    let old = hidden_sibling_path(to, "old");
+    to.join(PUBLISHED_FILE_LIST).is_file() || old.is_ok_and(|target| target.join(PUBLISHED_FILE_LIST).is_file())
 }
 
 /// Reports whether the first of some names begins with a text.
 fn first_from<'n>(mut names: impl Iterator<Item = &'n String>, start: &str) -> bool {
-    names.next().is_some_and(|it| it.starts_with(start))
+    names.next().is_some_and(|name| name.starts_with(start))
 }
 
-impl Drop for Folder {
+impl Drop for PublicationFolder {
     fn drop(&mut self) {
         if !self.done {
             drop(fs::remove_dir_all(&self.part));
@@ -221,17 +219,17 @@ impl Drop for Folder {
 }
 
 /// Reports whether a name leads to a file inside its folder.
-fn is_inside(name: &str) -> bool {
+fn is_path_inside(name: &str) -> bool {
     let mut parts = Path::new(name).components();
-    !name.is_empty() && parts.all(|it| matches!(it, Component::Normal(_)))
+    !name.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
 /// Returns a hidden path beside another one.
-fn beside(to: &Path, ending: &str) -> Result<PathBuf> {
+fn hidden_sibling_path(to: &Path, ending: &str) -> CorpusResult<PathBuf> {
     let Some(name) = to.file_name() else {
-        return Err(Error::wrong("this folder has no name of its own")
-            .at(to.display().to_string())
-            .advise("name a folder that can be replaced, such as dictionary/"));
+        return Err(CorpusError::from_wrong_message("this folder has no name of its own")
+            .with_error_place(to.display().to_string())
+            .with_advice("name a folder that can be replaced, such as dictionary/"));
     };
     let mut hidden = OsString::from(".");
     hidden.push(name);
@@ -243,12 +241,12 @@ fn beside(to: &Path, ending: &str) -> Result<PathBuf> {
 mod tests {
     use super::*;
 
-    fn published(to: &Path, files: &[(&str, &str)]) -> Result<(usize, u64)> {
-        let mut folder = Folder::begin(to)?;
+    fn published(to: &Path, files: &[(&str, &str)]) -> CorpusResult<(usize, u64)> {
+        let mut folder = PublicationFolder::begin_publication(to)?;
         for (name, text) in files {
-            folder.write(name, text.as_bytes())?;
+            folder.write_published_file(name, text.as_bytes())?;
         }
-        folder.finish()
+        folder.finish_publication()
     }
 
     fn listed(to: &Path) -> Vec<String> {
@@ -272,18 +270,10 @@ mod tests {
     fn folders_of_others_stay_as_they_are_and_accents_may_be_letters_of_their_own() {
         let desk = tempfile::tempdir().expect("a folder");
         let to = desk.path().join("site");
-        published(
-            &to,
-            &[("index.html", "1"), ("sign/\u{c9}T\u{c9}/index.html", "a")],
-        )
-        .expect("written");
+        published(&to, &[("index.html", "1"), ("sign/\u{c9}T\u{c9}/index.html", "a")]).expect("written");
         // The repository that a site is kept in has folders without files.
         fs::create_dir_all(to.join(".git/refs/heads")).expect("made");
-        fs::rename(
-            to.join("sign/\u{c9}T\u{c9}"),
-            to.join("sign/E\u{301}TE\u{301}"),
-        )
-        .expect("renamed");
+        fs::rename(to.join("sign/\u{c9}T\u{c9}"), to.join("sign/E\u{301}TE\u{301}")).expect("renamed");
         published(&to, &[("index.html", "2")]).expect("replaced");
         assert!(to.join(".git/refs/heads").is_dir());
         assert_eq!(listed(&to), ["files.txt", "index.html"]);
@@ -307,15 +297,8 @@ mod tests {
         assert_eq!(done.0, 2);
         let all = ["files.txt", "index.html", "own.txt", "sign/B/note.txt"];
         assert_eq!(listed(&to), all);
-        assert_eq!(
-            fs::read_to_string(to.join("index.html")).expect("read"),
-            "2"
-        );
-        assert_eq!(
-            listed(desk.path()).len(),
-            all.len(),
-            "nothing lies beside it"
-        );
+        assert_eq!(fs::read_to_string(to.join("index.html")).expect("read"), "2");
+        assert_eq!(listed(desk.path()).len(), all.len(), "nothing lies beside it");
     }
 
     #[test]
@@ -326,22 +309,19 @@ mod tests {
         fs::write(to.join("index.html"), "of somebody").expect("written");
         let clash = published(&to, &[("index.html", "2")]).expect_err("a clash");
         assert!(clash.to_string().contains("index.html"), "{clash}");
-        let mut folder = Folder::begin(&to).expect("begun");
-        folder.write("a.txt", b"a").expect("written");
+        let mut folder = PublicationFolder::begin_publication(&to).expect("begun");
+        folder.write_published_file("a.txt", b"a").expect("written");
         drop(folder);
         assert_eq!(listed(desk.path()), ["site/index.html"]);
         // A list that leads out of the folder names nothing.
         fs::write(
-            to.join(LIST),
+            to.join(PUBLISHED_FILE_LIST),
             "../outside\n/etc/passwd\nindex.html\nfiles.txt\n",
         )
         .expect("written");
         fs::write(desk.path().join("outside"), "x").expect("written");
         published(&to, &[("index.html", "2")]).expect("replaced");
-        assert_eq!(
-            listed(desk.path()),
-            ["outside", "site/files.txt", "site/index.html"]
-        );
+        assert_eq!(listed(desk.path()), ["outside", "site/files.txt", "site/index.html"]);
     }
 
     #[test]
@@ -350,7 +330,7 @@ mod tests {
         let to = desk.path().join("site");
         published(&to, &[("index.html", "1")]).expect("written");
         fs::write(to.join("own.txt"), "mine").expect("written");
-        fs::rename(&to, beside(&to, "old").expect("a name")).expect("moved");
+        fs::rename(&to, hidden_sibling_path(&to, "old").expect("a name")).expect("moved");
         published(&to, &[("index.html", "2")]).expect("written");
         assert_eq!(
             listed(desk.path()),

@@ -6,45 +6,45 @@
 mod bodies;
 mod codes;
 mod entries;
-mod facets;
 mod folder;
-mod motion;
-mod names;
 mod offline;
 mod pages;
-mod source;
-mod words;
+mod publish_facets;
+mod publish_motion;
+mod publish_names;
+mod publish_source;
+mod publish_words;
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chereme_figure::{Image, write_png};
-use chereme_sign::Remedy;
-use chereme_sign::text::fold;
+use chereme_figure::{RasterImage, write_png};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::fold_text;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::Corpus;
-use crate::consent::{self, Permissions, Withheld};
+use crate::consent::{self, PublishPermissions, WithheldReason};
 use crate::db::seals;
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
-use crate::progress::{Progress, Step, Unit};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
-use bodies::Bodies;
-use entries::{Entries, Entry, Moves};
-use facets::{CHOSEN, Facet};
-use folder::Folder;
-use pages::{Site, page_script, page_style};
+use bodies::DictionaryBodies;
+use entries::{DictionaryEntries, DictionaryEntry, EntryMovement};
+use folder::PublicationFolder;
+use pages::{DictionarySite, page_script, page_style};
+use publish_facets::{CHOOSABLE_COMPONENTS, ComponentFacet};
 
 /// The words for the body that plays the signs, in `consent.json`.
-const SIGNERS: &str = "that of each signer";
-const OWN: &str = "the program's own; rhythm and movement are still the signer's";
+const SIGNER_BODY_WORDS: &str = "that of each signer";
+const PROGRAM_BODY_WORDS: &str = "the program's own; rhythm and movement are still the signer's";
 /// The most signs of a dictionary.
-const MOST: usize = 50_000;
+const MAX_DICTIONARY_SIGNS: usize = 50_000;
 /// How many signs that were left out are named for each reason.
-const NAMED: usize = 5;
+const MAX_NAMED_LEFT_OUT: usize = 5;
 
 /// Options of a dictionary.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -65,14 +65,14 @@ pub struct PublishOptions {
 }
 
 impl PublishOptions {
-    fn title(&self) -> &str {
+    fn dictionary_title(&self) -> &str {
         self.title.as_deref().unwrap_or("Signs · Signes")
     }
 }
 
 /// A dictionary that was published.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Published {
+pub struct PublishedDictionary {
     /// The page to open.
     pub page: PathBuf,
     /// The number of signs.
@@ -102,14 +102,14 @@ pub struct Published {
     /// Whether minimal pairs are left out, because there are too many of them.
     pub without_pairs: bool,
     /// The signs that were left out, by reason.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutSigns>,
 }
 
 /// Signs that were left out of a dictionary, or whose movement was.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LeftOut {
+pub struct LeftOutSigns {
     /// The reason.
-    pub why: Withheld,
+    pub why: WithheldReason,
     /// Whether only the movement was left out.
     pub movement: bool,
     /// The number of signs.
@@ -118,12 +118,12 @@ pub struct LeftOut {
     pub first: Vec<String>,
     /// The remedy.
     #[serde(serialize_with = "as_text")]
-    pub remedy: Remedy,
+    pub remedy: ErrorRemedy,
 }
 
 /// The result of writing pages, data and pictures.
 #[derive(Default)]
-struct Written {
+struct WrittenSite {
     /// The number of signs that move.
     moving: usize,
     /// The number of handshapes without a picture.
@@ -138,8 +138,8 @@ struct Written {
     apart: Vec<String>,
 }
 
-fn as_text<S: serde::Serializer>(remedy: &Remedy, out: S) -> std::result::Result<S::Ok, S::Error> {
-    out.serialize_str(remedy.text())
+fn as_text<S: serde::Serializer>(remedy: &ErrorRemedy, out: S) -> std::result::Result<S::Ok, S::Error> {
+    out.serialize_str(remedy.remedy_text())
 }
 
 impl Corpus {
@@ -149,64 +149,64 @@ impl Corpus {
     /// signs if none of them may be published any more; files of others stay.
     ///
     /// # Errors
-    /// [`Error::Wrong`] if nothing may be published, the query cannot be read, there are more than 50,000 signs, or the
-    /// corpus itself lies in the folder; [`Error::File`] if the folder cannot be written; [`Error::Stopped`]. The folder
+    /// [`CorpusError::Wrong`] if nothing may be published, the query cannot be read, there are more than 50,000 signs, or the
+    /// corpus itself lies in the folder; [`CorpusError::File`] if the folder cannot be written; [`CorpusError::Stopped`]. The folder
     /// is as before then. If only the old pages could not be removed, the new ones are in place.
-    pub fn publish(
+    pub fn publish_dictionary(
         &mut self,
         to: &Path,
         options: &PublishOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Published> {
-        let [own, there] = [self.path(), to].map(fs::canonicalize);
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<PublishedDictionary> {
+        let [own, there] = [self.corpus_file_path(), to].map(fs::canonicalize);
         if own
             .ok()
             .zip(there.ok())
             .is_some_and(|(own, there)| own.starts_with(there))
         {
-            return Err(Error::wrong("the corpus itself lies in this folder")
-                .at(to.display().to_string())
-                .advise("name a folder that holds only what everybody may see"));
+            return Err(CorpusError::from_wrong_message("the corpus itself lies in this folder")
+                .with_error_place(to.display().to_string())
+                .with_advice("name a folder that holds only what everybody may see"));
         }
-        seals::verify_material(self.store.read())?;
-        let terms = options.terms.as_deref().map(str::trim);
-        let terms = terms.filter(|it| !it.is_empty());
-        let permissions = Permissions::of(self.store.read(), terms)?;
-        let query = options.query.as_deref().filter(|it| !it.trim().is_empty());
-        let found = entries::collect(self, query, &permissions, options.notes, progress)?;
-        let left_out = left_out(&found);
+        seals::verify_material(self.store.read_connection())?;
+        let given_terms = options.terms.as_deref().map(str::trim);
+        let terms = given_terms.filter(|text| !text.is_empty());
+        let permissions = PublishPermissions::read_publish_permissions(self.store.read_connection(), terms)?;
+        let query = options.query.as_deref().filter(|text| !text.trim().is_empty());
+        let collected = entries::collect_dictionary_entries(self, query, &permissions, options.notes, progress)?;
+        let left_out = left_out(&collected);
         // If every sign of an older publication was withdrawn, its pages may not stay. Without terms nothing was.
-        let refused = left_out.iter().any(|it| it.why != Withheld::NoTerms);
+        let refused = left_out.iter().any(|omission| omission.why != WithheldReason::NoTerms);
         let withdrawn = refused && folder::is_published(to);
-        if found.all.is_empty() && !withdrawn {
-            return Err(nothing(&left_out));
+        if collected.all.is_empty() && !withdrawn {
+            return Err(empty_dictionary_error(&left_out));
         }
-        if found.all.len() > MOST {
-            let text = format!("a dictionary has at most {MOST} signs");
-            return Err(Error::wrong(text).advise("choose fewer with a query"));
+        if collected.all.len() > MAX_DICTIONARY_SIGNS {
+            let text = format!("a dictionary has at most {MAX_DICTIONARY_SIGNS} signs");
+            return Err(CorpusError::from_wrong_message(text).with_advice("choose fewer with a query"));
         }
-        let mut folder = Folder::begin(to)?;
-        let written = self.write_dictionary(&mut folder, &found, options, progress)?;
+        let mut folder = PublicationFolder::begin_publication(to)?;
+        let written = self.write_dictionary(&mut folder, &collected, options, progress)?;
         let moving = written.moving;
         let mut terms: BTreeMap<String, usize> = BTreeMap::new();
-        for entry in &found.all {
+        for entry in &collected.all {
             for it in &entry.terms {
                 *terms.entry(it.clone()).or_default() += 1;
             }
         }
-        folder.write("LICENCES.txt", licences(&terms).as_bytes())?;
+        folder.write_published_file("LICENCES.txt", licences(&terms).as_bytes())?;
         let counts = json!({
-            "signs": found.all.len(), "with_movement": moving, "signers": found.people, "terms": terms,
-            "body": if options.own_body { OWN } else { SIGNERS },
+            "signs": collected.all.len(), "with_movement": moving, "signers": collected.people, "terms": terms,
+            "body": if options.own_body { PROGRAM_BODY_WORDS } else { SIGNER_BODY_WORDS },
         });
-        folder.write("consent.json", format!("{counts:#}\n").as_bytes())?;
-        offline::write(&mut folder, options.title())?;
-        let (files, bytes) = folder.finish()?;
-        Ok(Published {
+        folder.write_published_file("consent.json", format!("{counts:#}\n").as_bytes())?;
+        offline::write_offline_files(&mut folder, options.dictionary_title())?;
+        let (files, bytes) = folder.finish_publication()?;
+        Ok(PublishedDictionary {
             page: to.join("index.html"),
-            signs: found.all.len(),
+            signs: collected.all.len(),
             moving,
-            signers: found.people,
+            signers: collected.people,
             files,
             bytes,
             terms,
@@ -216,7 +216,7 @@ impl Corpus {
             cut: written.cut,
             own_body: options.own_body,
             apart: written.apart,
-            without_pairs: found.without_pairs,
+            without_pairs: collected.without_pairs,
             left_out,
         })
     }
@@ -224,34 +224,34 @@ impl Corpus {
     /// Writes pages, data and pictures.
     fn write_dictionary(
         &self,
-        folder: &mut Folder,
-        found: &Entries,
+        folder: &mut PublicationFolder,
+        found: &DictionaryEntries,
         options: &PublishOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Written> {
-        let inventories = inventories::load(self.store.read())?;
-        let site = Site {
-            title: options.title(),
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<WrittenSite> {
+        let inventories = inventories::load_all_inventories(self.store.read_connection())?;
+        let site = DictionarySite {
+            title: options.dictionary_title(),
             contact: options.contact.as_deref(),
             own_body: options.own_body,
             inventories: &inventories,
         };
-        let mut bodies = Bodies::new(options.own_body)?;
+        let mut bodies = DictionaryBodies::new(options.own_body)?;
         let mut moving = vec![false; found.all.len()];
-        let mut written = Written::default();
+        let mut written = WrittenSite::default();
         for (at, entry) in found.all.iter().enumerate() {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "writing signs",
                 done: at as u64,
                 total: Some(found.all.len() as u64),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             let mut body = None;
-            if entry.moves == Moves::Public {
-                match bodies.write(self, folder, entry)? {
+            if entry.moves == EntryMovement::Public {
+                match bodies.write_sign_body(self, folder, entry)? {
                     Some(done) => {
                         body = Some(done.body);
-                        let named = |it: bool| it.then(|| entry.gloss.clone());
+                        let named = |flag: bool| flag.then(|| entry.gloss.clone());
                         written.cut.extend(named(done.is_cut));
                         written.apart.extend(named(done.is_apart));
                     }
@@ -259,57 +259,56 @@ impl Corpus {
                 }
             }
             moving[at] = body.is_some();
-            let page = site.sign(entry, &found.all, body.as_deref());
-            folder.write(&format!("sign/{}/index.html", entry.name), page.as_bytes())?;
+            let page = site.sign_page_html(entry, &found.all, body.as_deref());
+            folder.write_published_file(&format!("sign/{}/index.html", entry.name), page.as_bytes())?;
         }
-        let chosen = CHOSEN.map(|(_, it)| facets::facet(it, &found.all, &inventories));
+        let chosen = CHOOSABLE_COMPONENTS.map(|(_, it)| publish_facets::component_facet(it, &found.all, &inventories));
         let data = write_choices(folder, found, &chosen, &moving, &inventories)?;
-        folder.write("data/signs.js", format!("CH.data({data});\n").as_bytes())?;
-        folder.write("app.js", page_script().as_bytes())?;
-        folder.write("app.css", page_style().as_bytes())?;
-        folder.write("list.html", site.list(&found.all).as_bytes())?;
-        folder.write("index.html", site.index().as_bytes())?;
+        folder.write_published_file("data/signs.js", format!("CH.data({data});\n").as_bytes())?;
+        folder.write_published_file("app.js", page_script().as_bytes())?;
+        folder.write_published_file("app.css", page_style().as_bytes())?;
+        folder.write_published_file("list.html", site.sign_list_page(&found.all).as_bytes())?;
+        folder.write_published_file("index.html", site.index().as_bytes())?;
         let shapes = data["facets"]["h"].as_array();
-        let count = |fits: &dyn Fn(&Value) -> bool| {
-            shapes.map_or(0, |it| it.iter().filter(|it| fits(it)).count())
-        };
-        written.undrawn = count(&|it| it.get("pic").is_none());
-        written.namesakes = count(&|it| it.get("as").is_some());
-        written.moving = moving.iter().filter(|it| **it).count();
+        let count =
+            |fits: &dyn Fn(&Value) -> bool| shapes.map_or(0, |list| list.iter().filter(|shape| fits(shape)).count());
+        written.undrawn = count(&|shape| shape.get("pic").is_none());
+        written.namesakes = count(&|shape| shape.get("as").is_some());
+        written.moving = moving.iter().filter(|is_moving| **is_moving).count();
         Ok(written)
     }
 }
 
 /// Writes the pictures of the choices, and returns the data of the first page.
 fn write_choices(
-    folder: &mut Folder,
-    found: &Entries,
-    chosen: &[Facet<'_>; 3],
+    folder: &mut PublicationFolder,
+    found: &DictionaryEntries,
+    chosen: &[ComponentFacet<'_>; 3],
     moving: &[bool],
     inventories: &[inventories::StoredInventory],
-) -> Result<Value> {
-    let (drawn, spots) = facets::panels(&chosen[1])?;
+) -> CorpusResult<Value> {
+    let (drawn, spots) = publish_facets::draw_place_panels(&chosen[1])?;
     let mut panels = Vec::new();
     for panel in &drawn {
-        folder.write(&format!("places/{}.png", panel.name), &png(&panel.image)?)?;
+        folder.write_published_file(&format!("places/{}.png", panel.name), &png(&panel.image)?)?;
         panels.push(json!({
-            "name": panel.name, "w": panel.image.width(), "h": panel.image.height(),
+            "name": panel.name, "w": panel.image.image_width(), "h": panel.image.image_height(),
         }));
     }
     let mut values = serde_json::Map::new();
-    for ((letter, _), facet) in CHOSEN.iter().zip(chosen) {
+    for ((letter, _), facet) in CHOOSABLE_COMPONENTS.iter().zip(chosen) {
         let mut list = Vec::new();
         for (at, value) in facet.values.iter().enumerate() {
-            let mut it = facets::document(value);
+            let mut it = publish_facets::facet_value_document(value);
             if *letter == "h" {
-                let known = value.known.map(|(_, known)| known);
-                let angles = known.and_then(|it| facets::posture(it, inventories));
+                let known_value = value.known.map(|(_, known)| known);
+                let angles = known_value.and_then(|pair| publish_facets::handshape_posture(pair, inventories));
                 let like = match angles {
                     Some(_) => None,
-                    None => facets::likeness(&value.id, inventories),
+                    None => publish_facets::find_handshape_likeness(&value.id, inventories),
                 };
-                let shape = like.as_ref().map(|it| it.value).or(known);
-                let group = shape.map_or("other", facets::group);
+                let shape = like.as_ref().map(|likeness| likeness.value).or(known_value);
+                let group = shape.map_or("other", publish_facets::handshape_group);
                 let has_none = angles.is_none() && like.is_none() && group == "other";
                 it["group"] = json!(if has_none { "word" } else { group });
                 let drawn = match &like {
@@ -326,8 +325,14 @@ fn write_choices(
                 if let (Some(angles), Some(name)) = (drawn, &value.picture) {
                     it["pic"] = json!(name);
                     let file = format!("hands/{name}.png");
-                    if !folder.has(&file) {
-                        folder.write(&file, &png(&facets::hand(&angles, facets::HAND)?)?)?;
+                    if !folder.has_published_file(&file) {
+                        folder.write_published_file(
+                            &file,
+                            &png(&publish_facets::draw_handshape(
+                                &angles,
+                                publish_facets::HAND_PICTURE_SIZE_PX,
+                            )?)?,
+                        )?;
                     }
                 }
             }
@@ -346,30 +351,30 @@ fn write_choices(
         .all
         .iter()
         .enumerate()
-        .map(|(at, entry)| sign(entry, chosen, at, moving[at]))
+        .map(|(at, entry)| index_sign_json(entry, chosen, at, moving[at]))
         .collect();
     Ok(json!({ "facets": values, "panels": panels, "signs": signs }))
 }
 
 /// Returns a sign as the first page reads it.
-fn sign(entry: &Entry, chosen: &[Facet<'_>; 3], at: usize, moves: bool) -> Value {
+fn index_sign_json(entry: &DictionaryEntry, chosen: &[ComponentFacet<'_>; 3], at: usize, moves: bool) -> Value {
     let mut it = json!({ "g": entry.gloss });
     if entry.name != entry.gloss {
         it["d"] = json!(entry.name);
     }
     let texts = std::iter::once(&entry.gloss).chain(entry.texts.iter().map(|(_, text)| text));
-    let folded: Vec<String> = texts.map(|it| fold(it)).collect();
+    let folded: Vec<String> = texts.map(|text| fold_text(text)).collect();
     it["f"] = json!(folded.join("\n"));
     if !entry.texts.is_empty() {
         it["w"] = json!(entry.texts);
     }
-    for ((letter, _), facet) in CHOSEN.iter().zip(chosen) {
+    for ((letter, _), facet) in CHOOSABLE_COMPONENTS.iter().zip(chosen) {
         if !facet.of[at].is_empty() {
             it[*letter] = json!(facet.of[at]);
         }
     }
     if !entry.coding.is_empty() {
-        let weak = entry.coding.keys().any(|it| it.starts_with("weak."));
+        let weak = entry.coding.keys().any(|field| field.starts_with("weak."));
         it["n"] = json!(1 + usize::from(weak));
     }
     if moves {
@@ -378,9 +383,9 @@ fn sign(entry: &Entry, chosen: &[Facet<'_>; 3], at: usize, moves: bool) -> Value
     it
 }
 
-fn png(image: &Image) -> Result<Vec<u8>> {
+fn png(image: &RasterImage) -> CorpusResult<Vec<u8>> {
     let mut bytes = Vec::new();
-    write_png(image, &mut bytes).map_err(|error| Error::wrong(error.to_string()))?;
+    write_png(image, &mut bytes).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     Ok(bytes)
 }
 
@@ -399,33 +404,37 @@ fn licences(terms: &BTreeMap<String, usize>) -> String {
     text
 }
 
-fn left_out(found: &Entries) -> Vec<LeftOut> {
-    let mut reasons: BTreeMap<(bool, Withheld), Vec<&String>> = BTreeMap::new();
+fn left_out(found: &DictionaryEntries) -> Vec<LeftOutSigns> {
+    let mut reasons: BTreeMap<(bool, WithheldReason), Vec<&String>> = BTreeMap::new();
     for (list, movement) in [(&found.withheld, false), (&found.still, true)] {
         for (gloss, why) in list {
             reasons.entry((movement, *why)).or_default().push(gloss);
         }
     }
-    let row = |((movement, why), glosses): ((bool, Withheld), Vec<&String>)| LeftOut {
+    let row = |((movement, why), glosses): ((bool, WithheldReason), Vec<&String>)| LeftOutSigns {
         why,
         movement,
         signs: glosses.len(),
-        first: glosses.iter().take(NAMED).map(|it| (*it).clone()).collect(),
-        remedy: consent::remedy(why),
+        first: glosses
+            .iter()
+            .take(MAX_NAMED_LEFT_OUT)
+            .map(|gloss| (*gloss).clone())
+            .collect(),
+        remedy: consent::withheld_remedy(why),
     };
     reasons.into_iter().map(row).collect()
 }
 
 /// Returns the error for a dictionary without signs.
-fn nothing(left_out: &[LeftOut]) -> Error {
-    match left_out.iter().max_by_key(|it| it.signs) {
+fn empty_dictionary_error(left_out: &[LeftOutSigns]) -> CorpusError {
+    match left_out.iter().max_by_key(|omission| omission.signs) {
         Some(most) => {
-            let all: usize = left_out.iter().map(|it| it.signs).sum();
+            let all: usize = left_out.iter().map(|omission| omission.signs).sum();
             let text = format!("none of {all} signs may be published");
-            Error::wrong(text).advise(most.remedy.clone())
+            CorpusError::from_wrong_message(text).with_advice(most.remedy.clone())
         }
-        None => Error::wrong("no sign is to be published")
-            .advise("import recordings or a lexicon, or choose other signs"),
+        None => CorpusError::from_wrong_message("no sign is to be published")
+            .with_advice("import recordings or a lexicon, or choose other signs"),
     }
 }
 

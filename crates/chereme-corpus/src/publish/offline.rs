@@ -10,51 +10,47 @@ use std::fmt::Write as _;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::facets;
-use super::folder::{Folder, Stored};
-use super::{png, words};
-use crate::db::motion::hex;
-use crate::error::{Error, Result};
-use crate::page::filled;
+use super::folder::{PublicationFolder, PublishedFile};
+use super::publish_facets;
+use super::{png, publish_words};
+use crate::db::stored_motion::to_hex_text;
+use crate::error::{CorpusError, CorpusResult};
+use crate::page::fill_page_parts;
 use chereme_sign::inventory;
 
-const WORKER: &str = include_str!("page/sw.js");
+const SERVICE_WORKER_SCRIPT: &str = include_str!("page/sw.js");
 
 /// The number of days without a connection for which a copy is shown.
-pub(super) const DAYS: u32 = 30;
+pub(super) const OFFLINE_COPY_DAYS: u32 = 30;
 /// The sizes of the icon, in pixels.
-const ICONS: [usize; 2] = [192, 512];
+const ICON_SIZES_PX: [usize; 2] = [192, 512];
 /// The handshape of the icon.
-const ICON: &str = "5";
+const ICON_HANDSHAPE: &str = "5";
 
 /// Writes the files that let a browser keep a copy; every other file of the publication is written before.
-pub(super) fn write(folder: &mut Folder, title: &str) -> Result<()> {
-    for size in ICONS {
-        folder.write(&format!("icons/{size}.png"), &png(&icon(size)?)?)?;
+pub(super) fn write_offline_files(folder: &mut PublicationFolder, title: &str) -> CorpusResult<()> {
+    for size in ICON_SIZES_PX {
+        folder.write_published_file(&format!("icons/{size}.png"), &png(&icon(size)?)?)?;
     }
-    folder.write("manifest.webmanifest", manifest(title).as_bytes())?;
-    let list = list(folder.stored());
+    folder.write_published_file("manifest.webmanifest", manifest(title).as_bytes())?;
+    let list = offline_file_list(folder.published_files());
     let version = short_hash(list.as_bytes());
-    folder.write("offline.txt", list.as_bytes())?;
-    folder.write("version.txt", format!("{version}\n").as_bytes())?;
-    let days = DAYS.to_string();
-    let texts = words::offline_texts(&days).to_string();
-    let parts = [
-        ("VERSION", version.as_str()),
-        ("DAYS", &days),
-        ("TEXTS", &texts),
-    ];
-    let worker = filled(WORKER, &parts);
-    folder.write("sw.js", worker.as_bytes())
+    folder.write_published_file("offline.txt", list.as_bytes())?;
+    folder.write_published_file("version.txt", format!("{version}\n").as_bytes())?;
+    let days = OFFLINE_COPY_DAYS.to_string();
+    let texts = publish_words::offline_texts(&days).to_string();
+    let parts = [("VERSION", version.as_str()), ("DAYS", &days), ("TEXTS", &texts)];
+    let worker = fill_page_parts(SERVICE_WORKER_SCRIPT, &parts);
+    folder.write_published_file("sw.js", worker.as_bytes())
 }
 
 /// Returns the first 16 digits of the SHA-256 hash of some bytes.
 pub(super) fn short_hash(bytes: &[u8]) -> String {
-    hex(&Sha256::digest(bytes)[..8])
+    to_hex_text(&Sha256::digest(bytes)[..8])
 }
 
 /// Returns the list of files, a line each: hash, size, name.
-fn list(files: &BTreeMap<String, Stored>) -> String {
+fn offline_file_list(files: &BTreeMap<String, PublishedFile>) -> String {
     let mut list = String::new();
     for (name, it) in files {
         let _ = writeln!(list, "{} {} {name}", it.hash, it.size);
@@ -64,7 +60,7 @@ fn list(files: &BTreeMap<String, Stored>) -> String {
 
 /// Returns the manifest, which names the dictionary on the screen of a phone.
 fn manifest(title: &str) -> String {
-    let icons = ICONS.map(|size| {
+    let icons = ICON_SIZES_PX.map(|size| {
         json!({
             "src": format!("icons/{size}.png"), "sizes": format!("{size}x{size}"), "type": "image/png",
         })
@@ -77,12 +73,12 @@ fn manifest(title: &str) -> String {
 }
 
 /// Draws a hand.
-fn icon(size: usize) -> Result<chereme_figure::Image> {
-    let known = inventory::builtin_by_id("configurations");
-    let value = known.and_then(|it| it.get(ICON).map(|value| (it, value)));
-    let angles = value.and_then(|(inventory, value)| value.hand_pose(inventory));
-    let angles = angles.ok_or_else(|| Error::wrong("the icon's handshape has no posture"))?;
-    facets::hand(&angles, size)
+fn icon(size: usize) -> CorpusResult<chereme_figure::RasterImage> {
+    let builtin = inventory::builtin_by_id("configurations");
+    let value = builtin.and_then(|inventory| inventory.value_by_id(ICON_HANDSHAPE).map(|value| (inventory, value)));
+    let posture = value.and_then(|(inventory, value)| value.hand_pose(inventory));
+    let angles = posture.ok_or_else(|| CorpusError::from_wrong_message("the icon's handshape has no posture"))?;
+    publish_facets::draw_handshape(&angles, size)
 }
 
 #[cfg(test)]
@@ -93,7 +89,7 @@ mod tests {
     use super::super::tests::{consented, files, publish};
     use super::*;
     use crate::consent::tests::corpus;
-    use crate::{Audience, Corpus, Name, SignChange};
+    use crate::{ConsentAudience, Corpus, RowName, SignChange};
 
     fn two_publications(folder: &Path) -> Corpus {
         let mut corpus = corpus(folder);
@@ -102,11 +98,11 @@ mod tests {
             gloss: Some("QZBOWLZQ".into()),
             ..SignChange::default()
         };
-        let sign = Name::Text("BOL".into());
+        let sign = RowName::Text("BOL".into());
         corpus.change_sign(&sign, &change).expect("changed");
-        consented(&mut corpus, "signer:Ada", Audience::Public);
+        consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
         publish(&mut corpus, &folder.join("old"), Some("CC0")).expect("published");
-        consented(&mut corpus, "recording:bol", Audience::Nobody);
+        consented(&mut corpus, "recording:bol", ConsentAudience::Nobody);
         publish(&mut corpus, &folder.join("new"), Some("CC0")).expect("published");
         corpus
     }
@@ -132,8 +128,7 @@ mod tests {
             assert!(text("sw.js").contains(&format!("const VERSION = \"{version}\";")));
             assert!(!text("sw.js").contains("@@"));
             versions.push(version);
-            let manifest: serde_json::Value =
-                serde_json::from_str(&text("manifest.webmanifest")).expect("JSON");
+            let manifest: serde_json::Value = serde_json::from_str(&text("manifest.webmanifest")).expect("JSON");
             let icon = manifest["icons"][0]["src"].as_str().expect("an icon");
             assert!(files.contains_key(icon));
         }
@@ -148,10 +143,7 @@ mod tests {
         std::fs::write(&script, include_str!("tests/worker.js")).expect("written");
         let [old, new] = ["old", "new"].map(|it| folder.path().join(it));
         let mut node = Command::new("node");
-        let node = node
-            .arg(script)
-            .args([old, new])
-            .args(["QZBOWLZQ", "ESCARGOT"]);
+        let node = node.arg(script).args([old, new]).args(["QZBOWLZQ", "ESCARGOT"]);
         let Ok(done) = node.output() else {
             println!("skipped: there is no node");
             return;

@@ -2,55 +2,55 @@
 
 use std::fmt::Write as _;
 
-use crate::db::columns::ValueState;
+use crate::db::stored_columns::ValueState;
 use crate::inventories::StoredInventory;
-use crate::map::escaped;
-use crate::page::{filled, quoted};
-use crate::words::{Language, fill};
+use crate::map::escape_markup;
+use crate::page::{fill_page_parts, quote_page_text};
+use crate::words::{InterfaceLanguage, fill_text_braces};
 use chereme_sign::InventoryValue;
 
-use super::entries::{Entry, Moves};
-use super::facets::known;
-use super::names::in_address;
-use super::source::MovementSource;
-use super::words::{self, in_all, spoken};
+use super::entries::{DictionaryEntry, EntryMovement};
+use super::publish_facets::find_known_value;
+use super::publish_names::in_address;
+use super::publish_source::MovementSource;
+use super::publish_words::{self, in_all, page_text_all_languages};
 
-const INDEX: &str = include_str!("page/index.html");
-const SIGN: &str = include_str!("page/sign.html");
-const LIST: &str = include_str!("page/list.html");
+const INDEX_PAGE_HTML: &str = include_str!("page/index.html");
+const SIGN_PAGE_HTML: &str = include_str!("page/sign.html");
+const LIST_PAGE_HTML: &str = include_str!("page/list.html");
 
 /// The code of the script of all pages, in one file.
-const SCRIPT: [&str; 5] = [
+const SITE_SCRIPT_PARTS: [&str; 5] = [
     include_str!("page/common.js"),
     include_str!("page/offline.js"),
     include_str!("page/search.js"),
     include_str!("page/player.js"),
     include_str!("page/sign.js"),
 ];
-const STYLE: &str = include_str!("page/app.css");
+const SITE_STYLE_CSS: &str = include_str!("page/app.css");
 
 /// Returns the script of all pages, with its texts in every language.
 pub(super) fn page_script() -> String {
-    let texts = words::script_texts();
+    let texts = publish_words::script_texts();
     format!(
         "\"use strict\";\nconst TEXTS = {texts};\n{}",
-        SCRIPT.join("\n")
+        SITE_SCRIPT_PARTS.join("\n")
     )
 }
 
 /// Returns the style of all pages.
 pub(super) fn page_style() -> String {
-    format!("{STYLE}{}", words::language_styles())
+    format!("{SITE_STYLE_CSS}{}", publish_words::language_styles())
 }
 
 /// The policy of each page: a browser may only show files of the same folder.
-const POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; worker-src 'self'; manifest-src 'self'; form-action 'none'; base-uri 'none'";
+const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; worker-src 'self'; manifest-src 'self'; form-action 'none'; base-uri 'none'";
 
 /// The size of the still picture of a sign, in pixels.
-pub(super) const STILL: [usize; 2] = [320, 400];
+pub(super) const STILL_PICTURE_SIZE_PX: [usize; 2] = [320, 400];
 
 /// The common content of all pages of a dictionary.
-pub(super) struct Site<'a> {
+pub(super) struct DictionarySite<'a> {
     pub(super) title: &'a str,
     pub(super) contact: Option<&'a str>,
     /// Whether signs play on the program's own body.
@@ -58,160 +58,159 @@ pub(super) struct Site<'a> {
     pub(super) inventories: &'a [StoredInventory],
 }
 
-impl Site<'_> {
-    fn page(&self, page: &str, parts: &[(&str, &str)]) -> String {
-        let title = escaped(self.title);
-        let mut footer = spoken("local");
+impl DictionarySite<'_> {
+    fn fill_site_page(&self, page: &str, parts: &[(&str, &str)]) -> String {
+        let title = escape_markup(self.title);
+        let mut footer = page_text_all_languages("local");
         if let Some(contact) = self.contact {
-            let contact = escaped(contact);
-            footer = format!("<p>{} {contact}</p><p>{footer}</p>", spoken("contact"));
+            let contact = escape_markup(contact);
+            footer = format!("<p>{} {contact}</p><p>{footer}</p>", page_text_all_languages("contact"));
         }
         let mut all = vec![
-            ("POLICY", POLICY),
+            ("POLICY", CONTENT_SECURITY_POLICY),
             ("TITLE", title.as_str()),
             ("FOOTER", footer.as_str()),
         ];
         all.extend_from_slice(parts);
-        filled(page, &all)
+        fill_page_parts(page, &all)
     }
 
     /// Returns the first page.
     pub(super) fn index(&self) -> String {
-        let link = format!("<a href=\"list.html\">{}</a>", spoken("all"));
-        let noscript = format!("{} {link}", spoken("no-script"));
-        self.page(INDEX, &[("NOSCRIPT", &noscript)])
+        let link = format!("<a href=\"list.html\">{}</a>", page_text_all_languages("all"));
+        let noscript = format!("{} {link}", page_text_all_languages("no-script"));
+        self.fill_site_page(INDEX_PAGE_HTML, &[("NOSCRIPT", &noscript)])
     }
 
     /// Returns the list of all signs.
-    pub(super) fn list(&self, entries: &[Entry]) -> String {
+    pub(super) fn sign_list_page(&self, entries: &[DictionaryEntry]) -> String {
         let mut signs = String::new();
         for entry in entries {
-            let texts: Vec<String> = entry.texts.iter().map(|(_, text)| escaped(text)).collect();
+            let texts: Vec<String> = entry.texts.iter().map(|(_, text)| escape_markup(text)).collect();
             let _ = writeln!(
                 signs,
                 "<li><a href=\"sign/{}/index.html\">{}</a> {}</li>",
                 in_address(&entry.name),
-                escaped(&entry.gloss),
+                escape_markup(&entry.gloss),
                 texts.join(", ")
             );
         }
         let count = entries.len();
-        let name = if count == 1 {
-            "script-sign"
-        } else {
-            "script-signs"
-        };
-        let intro = in_all(|language| fill(words::page_text(name, language), &[("n", &count)]));
-        self.page(LIST, &[("INTRO", &intro), ("SIGNS", &signs)])
+        let name = if count == 1 { "script-sign" } else { "script-signs" };
+        let intro = in_all(|language| fill_text_braces(publish_words::page_text(name, language), &[("n", &count)]));
+        self.fill_site_page(LIST_PAGE_HTML, &[("INTRO", &intro), ("SIGNS", &signs)])
     }
 
     /// Returns the page of a sign; `body` is the name of its body's file, if it moves.
-    pub(super) fn sign(&self, entry: &Entry, entries: &[Entry], body: Option<&str>) -> String {
+    pub(super) fn sign_page_html(
+        &self,
+        entry: &DictionaryEntry,
+        entries: &[DictionaryEntry],
+        body: Option<&str>,
+    ) -> String {
         let mut texts = String::new();
         for (language, text) in &entry.texts {
-            let (language, text) = (quoted(language), escaped(text));
+            let (language, text) = (quote_page_text(language), escape_markup(text));
             let _ = write!(texts, "<li lang=\"{language}\">{text}</li>");
         }
-        let gloss = quoted(&entry.gloss);
+        let gloss = quote_page_text(&entry.gloss);
         let (mut stage, mut picture) = (String::new(), String::new());
         if let Some(body) = body {
-            let name = quoted(&entry.name);
+            let name = quote_page_text(&entry.name);
             stage = format!(" data-motion=\"{name}\" data-body=\"{body}\"");
-            let [width, height] = STILL;
-            picture = format!(
-                "<img src=\"still.png\" width=\"{width}\" height=\"{height}\" alt=\"{gloss}\">"
-            );
+            let [width, height] = STILL_PICTURE_SIZE_PX;
+            picture = format!("<img src=\"still.png\" width=\"{width}\" height=\"{height}\" alt=\"{gloss}\">");
         }
         let notes = entry.notes.as_ref().map_or(String::new(), |text| {
-            format!("<h2>{}</h2><p>{}</p>", spoken("notes"), escaped(text))
+            format!(
+                "<h2>{}</h2><p>{}</p>",
+                page_text_all_languages("notes"),
+                escape_markup(text)
+            )
         });
-        let terms: Vec<String> = entry.terms.iter().map(|it| escaped(it)).collect();
-        let terms = format!("{} {}", spoken("terms"), terms.join("; "));
-        self.page(
-            SIGN,
+        let escaped_terms: Vec<String> = entry.terms.iter().map(|term| escape_markup(term)).collect();
+        let terms = format!("{} {}", page_text_all_languages("terms"), escaped_terms.join("; "));
+        self.fill_site_page(
+            SIGN_PAGE_HTML,
             &[
                 ("GLOSS", &gloss),
                 ("WORDS", &texts),
                 ("STAGE", &stage),
                 ("PICTURE", &picture),
-                ("FORM", &self.form(entry)),
-                ("PAIRS", &self.pairs(entry, entries)),
+                ("FORM", &self.sign_form_html(entry)),
+                ("PAIRS", &self.sign_pairs_html(entry, entries)),
                 ("NOTES", &notes),
-                ("SOURCE", &spoken("source")),
-                ("ORIGIN", &self.origin(entry, body.is_some())),
+                ("SOURCE", &page_text_all_languages("source")),
+                ("ORIGIN", &self.movement_origin_html(entry, body.is_some())),
                 ("TERMS", &terms),
             ],
         )
     }
 
     /// Returns the values of a sign in words.
-    fn form(&self, entry: &Entry) -> String {
+    fn sign_form_html(&self, entry: &DictionaryEntry) -> String {
         let mut rows = String::new();
         for row in &entry.values {
-            let Some(id) = row
-                .value
-                .as_deref()
-                .filter(|_| row.state == ValueState::Value)
-            else {
+            let Some(id) = row.value.as_deref().filter(|_| row.state == ValueState::Value) else {
                 continue;
             };
             let feature = row.feature.as_deref();
             let field =
-                |language| words::field(row.component, feature, row.hand, row.phase, language);
-            let value = match known(self.inventories, row) {
+                |language| publish_words::value_field_words(row.component, feature, row.hand, row.phase, language);
+            let value = match find_known_value(self.inventories, row) {
                 Some((_, value)) => named_value(value),
-                None => escaped(id),
+                None => escape_markup(id),
             };
             let _ = write!(rows, "<dt>{}</dt><dd>{value}</dd>", in_all(field));
         }
         match rows.is_empty() {
             true => rows,
-            false => format!("<h2>{}</h2><dl>{rows}</dl>", spoken("form")),
+            false => format!("<h2>{}</h2><dl>{rows}</dl>", page_text_all_languages("form")),
         }
     }
 
-    fn pairs(&self, entry: &Entry, entries: &[Entry]) -> String {
+    fn sign_pairs_html(&self, entry: &DictionaryEntry, entries: &[DictionaryEntry]) -> String {
         let mut rows = String::new();
         for (other, field) in &entry.pairs {
             let other = &entries[*other];
-            let value = |of: &Entry| {
+            let value = |of: &DictionaryEntry| {
                 let value = of.coding.get(field).map(String::as_str);
-                value.filter(|it| !it.is_empty()).unwrap_or("–").to_owned()
+                value.filter(|text| !text.is_empty()).unwrap_or("–").to_owned()
             };
             let _ = write!(
                 rows,
                 "<li><a class=\"pair\" href=\"../{}/index.html\">{}</a> ({}: {} → {})</li>",
                 in_address(&other.name),
-                escaped(&other.gloss),
-                in_all(|language| words::coded_field(field, language)),
-                escaped(&value(entry)),
-                escaped(&value(other)),
+                escape_markup(&other.gloss),
+                in_all(|language| publish_words::coded_field(field, language)),
+                escape_markup(&value(entry)),
+                escape_markup(&value(other)),
             );
         }
         match rows.is_empty() {
             true => rows,
             false => format!(
                 "<h2>{}</h2><ul class=\"pairs\">{rows}</ul>",
-                spoken("pairs")
+                page_text_all_languages("pairs")
             ),
         }
     }
 
     /// Returns the origin of a sign's movement, the number of its signer, and the body on which it is shown.
-    fn origin(&self, entry: &Entry, shown: bool) -> String {
+    fn movement_origin_html(&self, entry: &DictionaryEntry, shown: bool) -> String {
         let mut text = match (entry.moves, entry.source) {
-            (Moves::Withheld, _) => spoken("held"),
-            (Moves::Never, _) => spoken("listed"),
-            (Moves::Public, _) if !shown => spoken("unshown"),
-            (_, MovementSource::Capture) => spoken("captured"),
-            (_, MovementSource::Captures) => spoken("made"),
-            (_, MovementSource::Notation) => spoken("notated"),
-            (_, MovementSource::Program) => spoken("generated"),
+            (EntryMovement::Withheld, _) => page_text_all_languages("held"),
+            (EntryMovement::Never, _) => page_text_all_languages("listed"),
+            (EntryMovement::Public, _) if !shown => page_text_all_languages("unshown"),
+            (_, MovementSource::Capture) => page_text_all_languages("captured"),
+            (_, MovementSource::Captures) => page_text_all_languages("made"),
+            (_, MovementSource::Notation) => page_text_all_languages("notated"),
+            (_, MovementSource::Program) => page_text_all_languages("generated"),
         };
         if let Some(person) = entry.person.filter(|_| shown) {
-            text.push_str(&format!(" ({} {person})", spoken("signer")));
+            text.push_str(&format!(" ({} {person})", page_text_all_languages("signer")));
             if self.own_body {
-                text.push_str(&format!("</p><p>{}", spoken("own-body")));
+                text.push_str(&format!("</p><p>{}", page_text_all_languages("own-body")));
             }
         }
         text
@@ -220,10 +219,10 @@ impl Site<'_> {
 
 /// Returns a value's id with its name, unless they are alike.
 fn named_value(value: &InventoryValue) -> String {
-    let name = |language: Language| value.name(language.code()).to_owned();
+    let name = |language: InterfaceLanguage| value.value_name_in(language.language_code()).to_owned();
     let names = in_all(name);
-    match names.replace(' ', "-") == escaped(&value.id) {
-        true => escaped(&value.id),
-        false => format!("{names} <small>{}</small>", escaped(&value.id)),
+    match names.replace(' ', "-") == escape_markup(&value.id) {
+        true => escape_markup(&value.id),
+        false => format!("{names} <small>{}</small>", escape_markup(&value.id)),
     }
 }

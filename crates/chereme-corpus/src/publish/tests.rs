@@ -2,9 +2,9 @@ mod consent;
 
 use super::*;
 use crate::consent::tests::corpus;
-use crate::{Audience, ConsentChange, SignChange, unheard};
+use crate::{ConsentAudience, ConsentChange, SignChange, ignore_progress_step};
 
-fn granted(audience: Audience) -> ConsentChange {
+fn granted(audience: ConsentAudience) -> ConsentChange {
     let said = Some(Some(audience));
     ConsentChange {
         movement: said,
@@ -15,19 +15,19 @@ fn granted(audience: Audience) -> ConsentChange {
     }
 }
 
-pub(super) fn consented(corpus: &mut Corpus, who: &str, audience: Audience) {
+pub(super) fn consented(corpus: &mut Corpus, who: &str, audience: ConsentAudience) {
     let who = [who.parse().expect("an address")];
     let change = granted(audience);
     corpus.change_consent(&who, &change).expect("changed");
 }
 
-pub(super) fn publish(corpus: &mut Corpus, to: &Path, terms: Option<&str>) -> Result<Published> {
+pub(super) fn publish(corpus: &mut Corpus, to: &Path, terms: Option<&str>) -> CorpusResult<PublishedDictionary> {
     let options = PublishOptions {
         terms: terms.map(str::to_owned),
         title: Some("Signs & </script> \"@@GLOSS@@\"".into()),
         ..PublishOptions::default()
     };
-    corpus.publish(to, &options, &mut Progress::new(&mut unheard))
+    corpus.publish_dictionary(to, &options, &mut ProgressReceiver::new(&mut ignore_progress_step))
 }
 
 /// Returns the files of a folder with their bytes.
@@ -47,9 +47,9 @@ pub(super) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 fn holding(files: &BTreeMap<String, Vec<u8>>, text: &str) -> Vec<String> {
-    let text = fold(text);
+    let text = fold_text(text);
     let found = files.iter().filter(|(name, bytes)| {
-        fold(name).contains(&text) || fold(&String::from_utf8_lossy(bytes)).contains(&text)
+        fold_text(name).contains(&text) || fold_text(&String::from_utf8_lossy(bytes)).contains(&text)
     });
     found.map(|(name, _)| name.clone()).collect()
 }
@@ -71,7 +71,7 @@ fn nothing_is_published_that_nobody_agreed_to() {
     let mut corpus = corpus(folder.path());
     let to = folder.path().join("site");
     let error = publish(&mut corpus, &to, None).expect_err("nothing may be published");
-    let remedy = error.remedy().map(|it| it.text().to_owned());
+    let remedy = error.error_remedy().map(|it| it.remedy_text().to_owned());
     assert!(remedy.is_some_and(|it| it.contains("chereme consent") || it.contains("--terms")));
     assert!(!to.exists());
     let error = publish(&mut corpus, folder.path(), Some("CC0")).expect_err("the corpus is in it");
@@ -79,13 +79,9 @@ fn nothing_is_published_that_nobody_agreed_to() {
     // Entries of the lexicon show nobody; their terms are enough.
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
     assert!(done.signs > 3 && done.moving == 0 && done.signers == 0);
-    let left: Vec<(Withheld, bool)> = done
-        .left_out
-        .iter()
-        .map(|it| (it.why, it.movement))
-        .collect();
+    let left: Vec<(WithheldReason, bool)> = done.left_out.iter().map(|it| (it.why, it.movement)).collect();
     // LIMACE is an entry, too; ESCARGOT and BOL are left out completely.
-    let unknown = Withheld::ConsentUnknown;
+    let unknown = WithheldReason::ConsentUnknown;
     assert_eq!(left, [(unknown, false), (unknown, true)]);
     assert_eq!(done.left_out[1].first, ["LIMACE"]);
     assert!(holding(&files(&to), "escargot").is_empty());
@@ -95,13 +91,13 @@ fn nothing_is_published_that_nobody_agreed_to() {
 fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consented(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
     let change = SignChange {
         notes: Some(Some("Ada was tired that day".into())),
         ..SignChange::default()
     };
     corpus
-        .change_sign(&crate::Name::Text("BOL".into()), &change)
+        .change_sign(&crate::RowName::Text("BOL".into()), &change)
         .expect("changed");
     let to = folder.path().join("site");
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
@@ -122,7 +118,7 @@ fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
         assert!(own.is_empty(), "{name}: {own:?}");
     }
     fs::write(to.join("own.txt"), "mine").expect("written");
-    consented(&mut corpus, "recording:bol", Audience::Nobody);
+    consented(&mut corpus, "recording:bol", ConsentAudience::Nobody);
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
     assert_eq!(done.left_out[0].first, ["BOL"]);
     let mut second = files(&to);
@@ -137,9 +133,9 @@ fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
 fn pages_name_what_the_movement_of_a_sign_comes_from() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consented(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
     let notation = ["hamflathand hamextfingeru hampalml hamchin hammoveo"];
-    let made = corpus.animate(&notation, &crate::Staging::default(), Some("NOTED"));
+    let made = corpus.animate_notation(&notation, &crate::NotationStaging::default(), Some("NOTED"));
     made.expect("animated");
     for (recipe, gloss) in [
         ("NOTED | reverse", "DETON"),
@@ -148,7 +144,7 @@ fn pages_name_what_the_movement_of_a_sign_comes_from() {
         ("spell OR", "OR"),
         ("LIMACE | reverse", "ECAMIL"),
     ] {
-        corpus.recombine(recipe, gloss).expect(recipe);
+        corpus.recombine_recipe(recipe, gloss).expect(recipe);
     }
     let to = folder.path().join("site");
     publish(&mut corpus, &to, Some("CC0")).expect("published");
@@ -173,7 +169,7 @@ fn pages_name_what_the_movement_of_a_sign_comes_from() {
 fn pages_work_without_a_script_and_ask_no_other_computer() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consented(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
     let to = folder.path().join("site");
     publish(&mut corpus, &to, Some("CC0")).expect("published");
     let all = files(&to);
@@ -195,9 +191,7 @@ fn pages_work_without_a_script_and_ask_no_other_computer() {
     for (name, bytes) in &all {
         let text = String::from_utf8_lossy(bytes);
         if name.ends_with(".html") {
-            assert!(
-                text.contains("Content-Security-Policy") && text.contains("connect-src 'none'")
-            );
+            assert!(text.contains("Content-Security-Policy") && text.contains("connect-src 'none'"));
         }
         if !name.ends_with(".png") {
             let own = text.replace("http://www.w3.org/2000/svg", "");
@@ -207,8 +201,7 @@ fn pages_work_without_a_script_and_ask_no_other_computer() {
         if name.ends_with(".html") {
             for piece in text.split("\"").skip(1).step_by(2) {
                 let wanted = piece.split('#').next().unwrap_or_default();
-                if wanted.ends_with(".html") || wanted.ends_with(".png") || wanted.ends_with(".js")
-                {
+                if wanted.ends_with(".html") || wanted.ends_with(".png") || wanted.ends_with(".js") {
                     let path = to.join(name).with_file_name("").join(decoded(wanted));
                     assert!(path.exists(), "{name}: {wanted}");
                 }
@@ -233,13 +226,11 @@ fn words_of_others_are_text_and_nothing_else() {
     let rows = glosses.map(|it| format!("{it}\t</script><img src=x>\t1\tB\n"));
     let head = "NL gloss\tEN gloss\tHandedness\tHandshape strong\n";
     fs::write(&table, format!("{head}{}", rows.concat())).expect("written");
-    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&folder.path().join("a.chereme"), "A").expect("created");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let options = crate::ImportOptions::default();
-    corpus
-        .import(&[table], &options, progress)
-        .expect("imported");
+    corpus.import_paths(&[table], &options, progress).expect("imported");
     let to = folder.path().join("site");
     let done = publish(&mut corpus, &to, Some("<b>\"T\"")).expect("published");
     assert_eq!(done.signs, glosses.len());
@@ -248,15 +239,8 @@ fn words_of_others_are_text_and_nothing_else() {
     for (name, bytes) in pages {
         let text = String::from_utf8_lossy(bytes);
         let scripts = text.matches("<script").count();
-        assert_eq!(
-            scripts,
-            text.matches("<script defer src=").count(),
-            "{name}"
-        );
-        assert!(
-            !text.contains("<img src=x") && !text.contains("<b>"),
-            "{name}"
-        );
+        assert_eq!(scripts, text.matches("<script defer src=").count(), "{name}");
+        assert!(!text.contains("<img src=x") && !text.contains("<b>"), "{name}");
         assert_eq!(text.matches("</script>").count(), scripts, "{name}");
     }
     let signs = all.keys().filter(|it| it.starts_with("sign/"));
@@ -290,7 +274,7 @@ fn in_browser(address: &str) -> Option<String> {
 fn a_browser_searches_and_plays_from_the_disk() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consented(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
     let to = folder.path().join("site");
     publish(&mut corpus, &to, Some("CC0")).expect("published");
     let address = |page: &str| format!("file://{}/{page}", to.display());
@@ -311,7 +295,6 @@ fn a_browser_searches_and_plays_from_the_disk() {
         "a text that does not fit is no near miss"
     );
     let page = in_browser(&address("sign/LIMACE/index.html#lang=en")).expect("a page");
-    let plays =
-        page.contains("aria-label=\"movement of LIMACE\"") && page.contains("Camera: front");
+    let plays = page.contains("aria-label=\"movement of LIMACE\"") && page.contains("Camera: front");
     assert!(plays || page.contains("no WebGL 2"), "{page}");
 }

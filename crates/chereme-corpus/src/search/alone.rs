@@ -1,88 +1,87 @@
 //! Counts of the single terms of a query, reported if they find nothing together.
 
-use chereme_sign::query::{Expr, Query};
+use chereme_sign::query::{QueryExpression, TokenQuery};
 
-use super::compile::{self, Ask, Asked};
-use super::finding::FindingKind;
-use super::joined;
-use super::plan;
+use super::compile::{self, QueryContext, QueryResult};
+use super::conjunction_terms;
+use super::search_finding::FindingKind;
+use super::search_plan;
 use super::text_match;
 
 /// Reports the terms that find nothing: all of them if the query has no results, and otherwise those within an `or`,
 /// whose failure would go unnoticed.
-pub(crate) fn report(ask: &Ask<'_>, query: &Query, total: usize) -> Asked<()> {
-    let terms = joined(&query.root);
+pub(crate) fn report_empty_terms(ask: &QueryContext<'_>, query: &TokenQuery, total: usize) -> QueryResult<()> {
+    let terms = conjunction_terms(&query.root);
     if total > 0 {
         return terms.iter().try_for_each(|term| within_or(ask, term));
     }
-    let ranked = |term: &&Expr| !matches!(term, Expr::Like(_));
+    let ranked = |term: &&QueryExpression| !matches!(term, QueryExpression::Like(_));
     let mut counts = Vec::new();
     for term in terms.iter().filter(ranked) {
-        let count = count(ask, term)?;
+        let count = count_term_tokens(ask, term)?;
         if count == 0 {
-            leaves(ask, term)?;
+            report_empty_leaves(ask, term)?;
         }
         counts.push((term.to_string(), count));
     }
     if counts.len() > 1 && counts.iter().all(|(_, count)| *count > 0) {
         let kind = FindingKind::NoneTogether { terms: counts };
-        ask.find(query.to_string(), query.root.at(), kind);
+        ask.add_query_finding(query.to_string(), query.root.expression_place(), kind);
     }
     Ok(())
 }
 
-fn within_or(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
+fn within_or(ask: &QueryContext<'_>, term: &QueryExpression) -> QueryResult<()> {
     match term {
-        Expr::Or(terms) => terms.iter().try_for_each(|term| {
-            if count(ask, term)? == 0 {
-                leaves(ask, term)?;
+        QueryExpression::Or(terms) => terms.iter().try_for_each(|term| {
+            if count_term_tokens(ask, term)? == 0 {
+                report_empty_leaves(ask, term)?;
             }
             Ok(())
         }),
-        Expr::And(terms) => terms.iter().try_for_each(|term| within_or(ask, term)),
+        QueryExpression::And(terms) => terms.iter().try_for_each(|term| within_or(ask, term)),
         _ => Ok(()),
     }
 }
 
-fn count(ask: &Ask<'_>, term: &Expr) -> Asked<usize> {
-    let plan = compile::plan(ask, term)?;
-    Ok(plan::evaluate(ask, &plan, None)?.len())
+fn count_term_tokens(ask: &QueryContext<'_>, term: &QueryExpression) -> QueryResult<usize> {
+    let plan = compile::plan_expression(ask, term)?;
+    Ok(search_plan::evaluate_query_plan(ask, &plan, None)?.len())
 }
 
 /// Reports the comparisons within a term that find nothing, unless a more specific finding exists already.
-fn leaves(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
+fn report_empty_leaves(ask: &QueryContext<'_>, term: &QueryExpression) -> QueryResult<()> {
     match term {
-        Expr::And(terms) | Expr::Or(terms) => terms.iter().try_for_each(|term| leaves(ask, term)),
-        Expr::Test(_) | Expr::Relation(_) => {
-            let at = term.at();
-            let known = ask.findings.borrow();
-            let said = known.iter().any(|it| {
-                let (start, end) = it.at;
+        QueryExpression::And(terms) | QueryExpression::Or(terms) => {
+            terms.iter().try_for_each(|term| report_empty_leaves(ask, term))
+        }
+        QueryExpression::Test(_) | QueryExpression::Relation(_) => {
+            let term_range = term.expression_place();
+            let findings = ask.findings.borrow();
+            let is_reported = findings.iter().any(|finding| {
+                let (start, end) = finding.at;
                 let dead = matches!(
-                    it.kind,
+                    finding.kind,
                     FindingKind::CannotMatch { .. } | FindingKind::NotCoded { .. }
                 );
-                dead && start >= at.start && end <= at.end
+                dead && start >= term_range.start && end <= term_range.end
             });
-            drop(known);
-            if !said && count(ask, term)? == 0 {
+            drop(findings);
+            if !is_reported && count_term_tokens(ask, term)? == 0 {
                 let (why, names) = match term {
-                    Expr::Relation(_) => (
-                        "no token has this relation to such an annotation",
-                        Vec::new(),
-                    ),
-                    Expr::Test(test) => (
+                    QueryExpression::Relation(_) => ("no token has this relation to such an annotation", Vec::new()),
+                    QueryExpression::Test(test) => (
                         "no token of the corpus has it",
-                        text_match::alternatives(ask, test)?,
+                        text_match::alternative_glosses(ask, test)?,
                     ),
                     _ => ("no token of the corpus has it", Vec::new()),
                 };
                 let why = why.to_owned();
                 let kind = FindingKind::CannotMatch { why, names };
-                ask.find(term.to_string(), at, kind);
+                ask.add_query_finding(term.to_string(), term_range, kind);
             }
             Ok(())
         }
-        Expr::Not(_) | Expr::Like(_) | Expr::Saved(_) => Ok(()),
+        QueryExpression::Not(_) | QueryExpression::Like(_) | QueryExpression::Saved(_) => Ok(()),
     }
 }

@@ -1,53 +1,51 @@
 //! Answers: the tokens found, in order, with their coded values and the counts of each value.
 
-use chereme_sign::Component;
+use chereme_sign::SignComponent;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value;
 
-use super::compile::{Ask, Asked};
-use super::docs::{Docs, Times};
-use super::finding::Finding;
-use super::like::Scores;
-use super::plan::{self, Plan};
-use super::probe::{Column, Doc, RowField};
-use crate::db::columns::{Origin, ValueState};
-use crate::db::search::answers::{self, CodedRow};
+use super::compile::{QueryContext, QueryResult};
+use super::docs::{DocumentList, DocumentTimes};
+use super::like::ExampleScores;
+use super::probe::{IndexDocument, NumberColumn, RowField};
+use super::search_finding::QueryFinding;
+use super::search_plan::{self, QueryPlan};
+use crate::db::stored_columns::{RecordOrigin, ValueState};
+use crate::db::stored_search::search_answers::{self, CodedRow};
 
 /// The result of a query.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Answer {
+pub struct SearchAnswer {
     /// The query in its canonical form.
     pub query: String,
     /// The number of tokens found, including those that are not shown.
     pub total: usize,
     /// The tokens shown, in order.
-    pub hits: Vec<Hit>,
+    pub hits: Vec<SearchHit>,
     /// By field, the number of tokens found that have each value, most frequent first; at most the requested number of
     /// values, and equal counts ordered by name.
-    #[serde(serialize_with = "counts")]
+    #[serde(serialize_with = "serialize_facet_counts")]
     pub facets: BTreeMap<String, Vec<(String, usize)>>,
     /// By field, the number of values that were left out, if there are any.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub facets_left_out: BTreeMap<String, usize>,
     /// The wider values that conditions of the query accepted or matched, and conditions that cannot match.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub findings: Vec<Finding>,
+    pub findings: Vec<QueryFinding>,
     /// Further notes for the user.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
 /// Serialises facets as one object of values and counts per field, most frequent first.
-fn counts<S: serde::Serializer>(
+fn serialize_facet_counts<S: serde::Serializer>(
     facets: &BTreeMap<String, Vec<(String, usize)>>,
     out: S,
 ) -> std::result::Result<S::Ok, S::Error> {
     let object = |values: &Vec<(String, usize)>| {
-        let pairs = values
-            .iter()
-            .map(|(value, count)| (value.clone(), Value::from(*count)));
+        let pairs = values.iter().map(|(value, count)| (value.clone(), Value::from(*count)));
         Value::Object(pairs.collect())
     };
     out.collect_map(facets.iter().map(|(field, values)| (field, object(values))))
@@ -55,7 +53,7 @@ fn counts<S: serde::Serializer>(
 
 /// A token that was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Hit {
+pub struct SearchHit {
     /// The token's row.
     pub token: i64,
     /// Its gloss.
@@ -67,7 +65,7 @@ pub struct Hit {
     /// The first microsecond after it.
     pub end_us: Option<i64>,
     /// Its origin.
-    pub origin: Origin,
+    pub origin: RecordOrigin,
     /// Its similarity to the example, from 0 to 1, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
@@ -81,7 +79,7 @@ pub struct Hit {
 /// Every order is completed by: recordings in the order in which they were stored, time, lexicon entries by gloss, the
 /// order in which tokens were stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Order {
+pub enum HitOrder {
     /// The most similar to an example first; then tokens whose whole gloss is the text, then a word of the gloss,
     /// part of a translation, part of a remark.
     #[default]
@@ -95,21 +93,21 @@ pub enum Order {
 }
 
 /// The sort key of a token.
-type Key = (u64, u64, u64, i64);
+type TokenSortKey = (u64, u64, u64, i64);
 
 /// Returns the requested range of documents, in order.
-pub(crate) fn page(
-    ask: &Ask<'_>,
-    found: &[Doc],
-    order: Order,
-    ranks: &Ranks,
+pub(crate) fn order_document_page(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    order: HitOrder,
+    ranks: &DocumentRanks,
     range: std::ops::Range<usize>,
-) -> Asked<Docs> {
+) -> QueryResult<DocumentList> {
     ask.go_on()?;
-    let places = Places::open(ask, found, order)?;
-    let mut keyed: Vec<((u64, Key), Doc)> = Vec::with_capacity(found.len());
+    let places = DocumentPlaces::open_document_places(ask, found, order)?;
+    let mut keyed: Vec<((u64, TokenSortKey), IndexDocument)> = Vec::with_capacity(found.len());
     for (&doc, rank) in found.iter().zip(ranks.iter()) {
-        let key = (places.leading(doc, order, rank), places.key(doc));
+        let key = (places.leading_sort_key(doc, order, rank), places.token_sort_key(doc));
         keyed.push((key, doc));
     }
     let end = range.end.min(keyed.len());
@@ -123,16 +121,16 @@ pub(crate) fn page(
 }
 
 /// The rank of each document found, least first.
-pub(crate) struct Ranks(Option<Vec<u64>>);
+pub(crate) struct DocumentRanks(Option<Vec<u64>>);
 
-impl Ranks {
+impl DocumentRanks {
     /// Ranks documents by similarity and by the places where texts are found in them.
     pub(crate) fn new(
-        ask: &Ask<'_>,
-        found: &[Doc],
-        scores: Option<&Scores>,
-        texts: &[Vec<Option<Plan>>],
-    ) -> Asked<Self> {
+        ask: &QueryContext<'_>,
+        found: &[IndexDocument],
+        scores: Option<&ExampleScores>,
+        texts: &[Vec<Option<QueryPlan>>],
+    ) -> QueryResult<Self> {
         if scores.is_none() && texts.is_empty() {
             return Ok(Self(None));
         }
@@ -144,26 +142,23 @@ impl Ranks {
                 let Some(plan) = plan else {
                     continue;
                 };
-                let here = plan::evaluate(ask, plan, Some(found))?;
-                let mut here = here.iter().peekable();
+                let matching = search_plan::evaluate_query_plan(ask, plan, Some(found))?;
+                let mut here = matching.iter().peekable();
                 for (doc, rank) in found.iter().zip(&mut own) {
                     if here.next_if_eq(&doc).is_some() {
                         *rank = (*rank).min(place);
                     }
                 }
             }
-            ranks
-                .iter_mut()
-                .zip(own)
-                .for_each(|(rank, own)| *rank += own);
+            ranks.iter_mut().zip(own).for_each(|(rank, own)| *rank += own);
         }
         if let Some(scores) = scores {
-            let ids = ask.now.rows(RowField::Token)?;
+            let ids = ask.now.open_row_column(RowField::Token)?;
             for (doc, rank) in found.iter().zip(&mut ranks) {
                 let example = ids
-                    .get(*doc)
+                    .document_number(*doc)
                     .is_some_and(|id| scores.examples.contains(&id));
-                let distance = ((1.0 - scores.of(*doc)) * 1e9).round() as u64;
+                let distance = ((1.0 - scores.document_similarity(*doc)) * 1e9).round() as u64;
                 let first = if example { 0 } else { distance + 1 };
                 *rank = *rank.min(&mut 0xFFFF) + (first << 16);
             }
@@ -178,47 +173,47 @@ impl Ranks {
 }
 
 /// The keys that determine the order of documents.
-struct Places {
-    id: Box<dyn Column>,
-    sign: Box<dyn Column>,
-    times: Times,
-    signs: Option<std::sync::Arc<super::known::Signs>>,
+struct DocumentPlaces {
+    id: Box<dyn NumberColumn>,
+    sign: Box<dyn NumberColumn>,
+    times: DocumentTimes,
+    signs: Option<std::sync::Arc<super::search_known::KnownSigns>>,
 }
 
-impl Places {
-    fn open(ask: &Ask<'_>, found: &[Doc], order: Order) -> Asked<Self> {
-        let times = Times::open(ask.now)?;
-        let by_gloss = order == Order::Gloss || found.iter().any(|doc| times.get(*doc).is_none());
+impl DocumentPlaces {
+    fn open_document_places(ask: &QueryContext<'_>, found: &[IndexDocument], order: HitOrder) -> QueryResult<Self> {
+        let times = DocumentTimes::open_document_times(ask.now)?;
+        let by_gloss = order == HitOrder::Gloss || found.iter().any(|doc| times.document_times(*doc).is_none());
         Ok(Self {
-            id: ask.now.rows(RowField::Token)?,
-            sign: ask.now.rows(RowField::Sign)?,
+            id: ask.now.open_row_column(RowField::Token)?,
+            sign: ask.now.open_row_column(RowField::Sign)?,
             times,
-            signs: by_gloss.then(|| ask.signs()).transpose()?,
+            signs: by_gloss.then(|| ask.known_signs()).transpose()?,
         })
     }
 
-    fn leading(&self, doc: Doc, order: Order, rank: u64) -> u64 {
+    fn leading_sort_key(&self, doc: IndexDocument, order: HitOrder, rank: u64) -> u64 {
         match order {
-            Order::Rank => rank,
-            Order::Place => 0,
-            Order::Gloss => self.gloss(doc),
-            Order::Duration => match self.times.get(doc) {
+            HitOrder::Rank => rank,
+            HitOrder::Place => 0,
+            HitOrder::Gloss => self.gloss_rank(doc),
+            HitOrder::Duration => match self.times.document_times(doc) {
                 Some((_, start, end)) => u64::MAX - 1 - end.abs_diff(start),
                 None => u64::MAX,
             },
         }
     }
 
-    fn key(&self, doc: Doc) -> Key {
-        let id = self.id.get(doc).unwrap_or(i64::MAX);
-        match self.times.get(doc) {
+    fn token_sort_key(&self, doc: IndexDocument) -> TokenSortKey {
+        let id = self.id.document_number(doc).unwrap_or(i64::MAX);
+        match self.times.document_times(doc) {
             Some((recording, start, _)) => (recording as u64, ordered(start), 0, id),
-            None => (u64::MAX, 0, self.gloss(doc), id),
+            None => (u64::MAX, 0, self.gloss_rank(doc), id),
         }
     }
 
-    fn gloss(&self, doc: Doc) -> u64 {
-        let rank = |signs: &super::known::Signs| signs.rank.get(&self.sign.get(doc)?).copied();
+    fn gloss_rank(&self, doc: IndexDocument) -> u64 {
+        let rank = |signs: &super::search_known::KnownSigns| signs.rank.get(&self.sign.document_number(doc)?).copied();
         self.signs.as_deref().and_then(rank).unwrap_or(u64::MAX)
     }
 }
@@ -229,27 +224,29 @@ fn ordered(micros: i64) -> u64 {
 }
 
 /// Returns the hits of documents, in their order.
-pub(crate) fn hits(ask: &Ask<'_>, docs: &[Doc], scores: Option<&Scores>) -> Asked<Vec<Hit>> {
-    let ids = ask.now.rows(RowField::Token)?;
+pub(crate) fn collect_search_hits(
+    ask: &QueryContext<'_>,
+    docs: &[IndexDocument],
+    scores: Option<&ExampleScores>,
+) -> QueryResult<Vec<SearchHit>> {
+    let ids = ask.now.open_row_column(RowField::Token)?;
     let mut hits = Vec::with_capacity(docs.len());
     for doc in docs {
-        ask.look()?;
-        let token = ids.get(*doc).unwrap_or_default();
-        let Some(row) = answers::hit(ask.connection, token)? else {
+        ask.count_examined_row()?;
+        let token = ids.document_number(*doc).unwrap_or_default();
+        let Some(row) = search_answers::find_hit_row(ask.connection, token)? else {
             continue;
         };
         let mut components = BTreeMap::new();
-        answers::coded_of_token(ask.connection, token, |row| {
-            add_value(&mut components, &row)
-        })?;
-        hits.push(Hit {
+        search_answers::coded_of_token(ask.connection, token, |row| add_value(&mut components, &row))?;
+        hits.push(SearchHit {
             token,
             gloss: row.gloss,
             recording: row.recording,
             start_us: row.start_us,
             end_us: row.end_us,
             origin: row.origin,
-            score: scores.map(|scores| scores.of(*doc)),
+            score: scores.map(|scores| scores.document_similarity(*doc)),
             components,
         });
     }
@@ -268,10 +265,10 @@ fn add_value(components: &mut BTreeMap<String, Value>, row: &CodedRow<'_>) {
         field.push_str(&format!("{phase}."));
     }
     if let Some(hand) = row.hand {
-        field.push_str(hand.name());
+        field.push_str(hand.annotated_hands_name());
         field.push('.');
     }
-    field.push_str(row.component.map_or("", Component::name));
+    field.push_str(row.component.map_or("", SignComponent::component_name));
     if let Some(part) = row.part {
         field.push('.');
         field.push_str(part);

@@ -4,112 +4,112 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use chereme_sign::Component;
-use chereme_sign::Remedy;
+use chereme_sign::ErrorRemedy;
+use chereme_sign::SignComponent;
 use chereme_sign::query::{
-    At, Comparison, Expr, Missing, Operator, Property, QueryError, Test, TimeField, TimeTest,
-    Value, Wanted, What,
+    ComparisonOperator, MissingReason, QueryError, QueryExpression, QueryPlace, QueryTest, QueryValue, TestSubject,
+    TimeField, TimeTest, ValueComparison, WantedValue, WholeTokenProperty,
 };
-use chereme_sign::text::{fold, nearest};
+use chereme_sign::text::{fold_text, nearest_candidate};
 use rusqlite::Connection;
 
-use super::attributes;
-use super::component::ComponentTest;
-use super::curves;
-use super::docs::Docs;
-use super::finding::{Finding, FindingKind};
+use super::docs::DocumentList;
 use super::index::SearchIndex;
-use super::known::{KnownReadings, Signs};
-use super::plan::Plan;
-use super::probe::{Index, Probe, RowField, Text};
+use super::probe::{DocumentIndex, IndexProbe, IndexTextField, RowField};
+use super::search_attributes;
+use super::search_component::ComponentTest;
+use super::search_curves;
+use super::search_finding::{FindingKind, QueryFinding};
+use super::search_known::{KnownReadings, KnownSigns};
+use super::search_plan::QueryPlan;
+use super::search_texts::TextGlob;
+use super::search_vocabulary::QueryVocabulary;
 use super::text_match;
-use super::texts::Glob;
-use super::time_relations::Beside;
-use super::vocabulary::Vocabulary;
-use crate::db::search::answers::{self, Named};
-use crate::db::search::terms::TokenProperty;
-use crate::error::{Error, Result};
+use super::time_relations::NeighbourRelation;
+use crate::db::stored_search::search_answers::{self, NamedRowKind};
+use crate::db::stored_search::search_terms::TokenProperty;
+use crate::error::{CorpusError, CorpusResult};
 
 /// The corpus and index against which a query is evaluated.
-pub(crate) struct Ask<'a> {
+pub(crate) struct QueryContext<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
     /// The index at the time of the query.
-    pub(crate) now: &'a dyn Index,
-    pub(crate) vocabulary: Arc<Vocabulary>,
+    pub(crate) now: &'a dyn DocumentIndex,
+    pub(crate) vocabulary: Arc<QueryVocabulary>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
-    pub(crate) findings: RefCell<Vec<Finding>>,
+    pub(crate) findings: RefCell<Vec<QueryFinding>>,
     /// The number of rows examined so far.
     pub(crate) looked_at: Cell<u64>,
     /// Receives the number of examined rows, and decides whether to go on.
-    pub(crate) hear: &'a RefCell<dyn FnMut(u64) -> Result<()> + 'a>,
+    pub(crate) hear: &'a RefCell<dyn FnMut(u64) -> CorpusResult<()> + 'a>,
 }
 
 /// The reason why a query has no answer.
-pub(crate) enum Failure {
+pub(crate) enum QueryFailure {
     /// The query names something that does not exist.
     Query(QueryError),
     /// Rows or index cannot be read.
-    Other(Error),
+    Other(CorpusError),
 }
 
 /// The result of a step of evaluation.
-pub(crate) type Asked<T> = std::result::Result<T, Failure>;
+pub(crate) type QueryResult<T> = std::result::Result<T, QueryFailure>;
 
-impl From<QueryError> for Failure {
+impl From<QueryError> for QueryFailure {
     fn from(error: QueryError) -> Self {
         Self::Query(error)
     }
 }
 
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
+impl From<CorpusError> for QueryFailure {
+    fn from(error: CorpusError) -> Self {
         Self::Other(error)
     }
 }
 
-impl Ask<'_> {
+impl QueryContext<'_> {
     /// Returns the readings of a component that the index holds.
-    pub(crate) fn readings(&self, component: Component) -> Result<Arc<KnownReadings>> {
-        let mut memory = self.index.memory();
-        memory.readings(self.now, component)
+    pub(crate) fn known_component_readings(&self, component: SignComponent) -> CorpusResult<Arc<KnownReadings>> {
+        let mut memory = self.index.query_memory();
+        memory.cached_readings(self.now, component)
     }
 
     /// Returns the documents that the index has for a probe.
-    pub(crate) fn run(&self, probe: &Probe) -> Result<Docs> {
+    pub(crate) fn run(&self, probe: &IndexProbe) -> CorpusResult<DocumentList> {
         self.go_on()?;
         self.now.docs(probe)
     }
 
     /// Fails if the caller no longer wants an answer.
-    pub(crate) fn go_on(&self) -> Result<()> {
+    pub(crate) fn go_on(&self) -> CorpusResult<()> {
         (self.hear.borrow_mut())(self.looked_at.get())
     }
 
     /// Counts an examined row, and checks from time to time whether to go on.
-    pub(crate) fn look(&self) -> Result<()> {
-        const OFTEN: u64 = 64;
+    pub(crate) fn count_examined_row(&self) -> CorpusResult<()> {
+        const STOP_CHECK_ROWS: u64 = 64;
         let rows = self.looked_at.get() + 1;
         self.looked_at.set(rows);
-        if rows.is_multiple_of(OFTEN) {
+        if rows.is_multiple_of(STOP_CHECK_ROWS) {
             self.go_on()?;
         }
         Ok(())
     }
 
     /// Returns the signs of the corpus.
-    pub(crate) fn signs(&self) -> Result<Arc<Signs>> {
-        self.index.memory().signs(self.connection)
+    pub(crate) fn known_signs(&self) -> CorpusResult<Arc<KnownSigns>> {
+        self.index.query_memory().cached_signs(self.connection)
     }
 
     /// Adds a note for the user.
-    pub(crate) fn note(&self, text: String) {
+    pub(crate) fn add_query_note(&self, text: String) {
         self.notes.borrow_mut().insert(text);
     }
 
     /// Adds a finding about a condition, once.
-    pub(crate) fn find(&self, condition: String, at: At, kind: FindingKind) {
-        let finding = Finding::new(condition, at, kind);
+    pub(crate) fn add_query_finding(&self, condition: String, at: QueryPlace, kind: FindingKind) {
+        let finding = QueryFinding::new(condition, at, kind);
         let mut findings = self.findings.borrow_mut();
         if !findings.contains(&finding) {
             findings.push(finding);
@@ -122,63 +122,61 @@ impl Ask<'_> {
 /// # Errors
 /// Fails if the expression names a value, feature, signer or the like that does not exist, or ranks by what it
 /// excludes.
-pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
+pub(crate) fn plan_expression(ask: &QueryContext<'_>, expr: &QueryExpression) -> QueryResult<QueryPlan> {
     match expr {
-        Expr::And(terms) => {
-            let ranked = |term: &&Expr| !matches!(term, Expr::Like(_));
+        QueryExpression::And(terms) => {
+            let ranked = |term: &&QueryExpression| !matches!(term, QueryExpression::Like(_));
             // The relation is then to a stretch of the curve, so the other may also lie in the token itself.
             let of_curve = terms.iter().any(is_of_curve);
             let plans = terms.iter().filter(ranked).map(|term| match term {
-                Expr::Relation(related) if of_curve => {
-                    let beside = Beside::new(ask, Some(related.relation), &related.other)?;
-                    Ok(Plan::Beside(Box::new(beside.or_itself())))
+                QueryExpression::Relation(related) if of_curve => {
+                    let related_plan = NeighbourRelation::new(ask, Some(related.relation), &related.other)?;
+                    Ok(QueryPlan::Beside(Box::new(related_plan.or_itself())))
                 }
-                term => plan(ask, term),
+                term => plan_expression(ask, term),
             });
-            Ok(Plan::all(plans.collect::<Asked<_>>()?))
+            Ok(QueryPlan::conjoin_plans(plans.collect::<QueryResult<_>>()?))
         }
-        Expr::Or(terms) => {
-            let plans = terms.iter().map(|term| inner(ask, term));
-            Ok(Plan::any(plans.collect::<Asked<_>>()?))
+        QueryExpression::Or(terms) => {
+            let plans = terms.iter().map(|term| plan_inner_operand(ask, term));
+            Ok(QueryPlan::disjoin_plans(plans.collect::<QueryResult<_>>()?))
         }
-        Expr::Not(negated) => Ok(inner(ask, negated)?.not()),
-        Expr::Test(test) => self::test(ask, test),
-        Expr::Relation(related) => {
-            let beside = Beside::new(ask, Some(related.relation), &related.other)?;
-            Ok(Plan::Beside(Box::new(beside)))
+        QueryExpression::Not(negated) => Ok(plan_inner_operand(ask, negated)?.negate_plan()),
+        QueryExpression::Test(test) => self::plan_comparison(ask, test),
+        QueryExpression::Relation(related) => {
+            let related_plan = NeighbourRelation::new(ask, Some(related.relation), &related.other)?;
+            Ok(QueryPlan::Beside(Box::new(related_plan)))
         }
-        Expr::Like(_) => Ok(Plan::everything()),
-        Expr::Saved(saved) => Err(QueryError {
-            at: saved.at.range(),
+        QueryExpression::Like(_) => Ok(QueryPlan::select_all_plan()),
+        QueryExpression::Saved(saved) => Err(QueryError {
+            at: saved.at.char_range(),
             message: format!("no search is saved as {:?}", saved.name),
-            remedy: Remedy::command("`chereme list CORPUS searches` lists those that are"),
+            remedy: ErrorRemedy::command_remedy("`chereme list CORPUS searches` lists those that are"),
             suggestion: None,
         }
         .into()),
     }
 }
 
-fn is_of_curve(term: &Expr) -> bool {
-    matches!(term, Expr::Test(test) if matches!(test.what, What::Curve(..)))
+fn is_of_curve(term: &QueryExpression) -> bool {
+    matches!(term, QueryExpression::Test(test) if matches!(test.what, TestSubject::Curve(..)))
 }
 
 /// Returns the plan for an operand of a connective, in which a search by example is not allowed.
-fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
+fn plan_inner_operand(ask: &QueryContext<'_>, expr: &QueryExpression) -> QueryResult<QueryPlan> {
     let example = match expr {
-        Expr::Like(like) => Some(like),
-        Expr::And(terms) => terms.iter().find_map(|term| match term {
-            Expr::Like(like) => Some(like),
+        QueryExpression::Like(like) => Some(like),
+        QueryExpression::And(terms) => terms.iter().find_map(|term| match term {
+            QueryExpression::Like(like) => Some(like),
             _ => None,
         }),
         _ => None,
     };
     match example {
-        None => plan(ask, expr),
+        None => plan_expression(ask, expr),
         Some(like) => Err(QueryError {
-            at: like.at.range(),
-            message:
-                "`like` orders the whole answer, or removes less similar tokens from all of it"
-                    .to_owned(),
+            at: like.at.char_range(),
+            message: "`like` orders the whole answer, or removes less similar tokens from all of it".to_owned(),
             remedy: "write it beside the other terms, not after `not` or `or`".into(),
             suggestion: None,
         }
@@ -189,50 +187,53 @@ fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
 fn phase_of_no_token(at: std::ops::Range<usize>) -> QueryError {
     QueryError {
         at,
-        message: "phases of movement are not values of a token: they divide the time of signing"
-            .to_owned(),
+        message: "phases of movement are not values of a token: they divide the time of signing".to_owned(),
         remedy: "write a relation to them: overlaps movement.phase=stroke".into(),
         suggestion: None,
     }
 }
 
 /// Returns the plan for one comparison.
-pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
+pub(crate) fn plan_comparison(ask: &QueryContext<'_>, test: &QueryTest) -> QueryResult<QueryPlan> {
     match &test.what {
-        What::Component(field, comparison) => {
-            let range = test.subject_at.range();
-            if field.component == Component::Movement && field.feature.as_deref() == Some("phase") {
+        TestSubject::Component(field, comparison) => {
+            let range = test.subject_at.char_range();
+            if field.component == SignComponent::Movement && field.feature.as_deref() == Some("phase") {
                 return Err(phase_of_no_token(range).into());
             }
-            ComponentTest::new(ask, field, comparison, range)?.plan(ask)
+            ComponentTest::new(ask, field, comparison, range)?.plan_component_test(ask)
         }
-        What::Property(property, comparison) => self::property(ask, *property, comparison),
-        What::Whole(field, comparison) => text_match::plan(ask, *field, comparison),
-        What::Words(..) | What::Fuzzy { .. } => text_match::words_plan(ask, test),
-        What::Tier(..) => Ok(Plan::Beside(Box::new(Beside::new(ask, None, test)?))),
-        What::Time(field, times) => Ok(Plan::Index(self::times(*field, *times))),
-        What::Attribute(name, wanted) => attributes::plan(ask, test, name, wanted),
-        What::Curve(wanted) => curves::plan(ask, test, wanted),
+        TestSubject::Property(property, comparison) => self::plan_property(ask, *property, comparison),
+        TestSubject::Whole(field, comparison) => text_match::plan_text_comparison(ask, *field, comparison),
+        TestSubject::Words(..) | TestSubject::Fuzzy { .. } => text_match::words_plan(ask, test),
+        TestSubject::Tier(..) => Ok(QueryPlan::Beside(Box::new(NeighbourRelation::new(ask, None, test)?))),
+        TestSubject::Time(field, times) => Ok(QueryPlan::Index(self::probe_time_range(*field, *times))),
+        TestSubject::Attribute(name, wanted) => search_attributes::plan_attribute_test(ask, test, name, wanted),
+        TestSubject::Curve(wanted) => search_curves::plan_curve_test(ask, test, wanted),
     }
 }
 
-fn times(field: TimeField, test: TimeTest) -> Probe {
-    let (least, most) = test.bounds();
-    Probe::Between(field, least, most)
+fn probe_time_range(field: TimeField, test: TimeTest) -> IndexProbe {
+    let (least, most) = test.time_bounds();
+    IndexProbe::Between(field, least, most)
 }
 
-fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked<Plan> {
-    let exactly = comparison.operator == Operator::Exactly;
+fn plan_property(
+    ask: &QueryContext<'_>,
+    property: WholeTokenProperty,
+    comparison: &ValueComparison,
+) -> QueryResult<QueryPlan> {
+    let exactly = comparison.operator == ComparisonOperator::Exactly;
     let values = comparison.values.iter();
     let plans = values.map(|value| match &value.wanted {
-        Wanted::Present => has(ask, property),
-        Wanted::Missing(Missing::Unset) => Ok(has(ask, property)?.not()),
-        Wanted::Missing(_) | Wanted::Features(_) | Wanted::Steps(_) => Ok(Plan::nothing()),
-        Wanted::Named(pattern) => {
+        WantedValue::Present => plan_has_property(ask, property),
+        WantedValue::Missing(MissingReason::Unset) => Ok(plan_has_property(ask, property)?.negate_plan()),
+        WantedValue::Missing(_) | WantedValue::Features(_) | WantedValue::Steps(_) => Ok(QueryPlan::select_none_plan()),
+        WantedValue::Named(pattern) => {
             let (glob, text) = if exactly {
-                (Glob::exact(pattern), pattern.to_string())
+                (TextGlob::from_exact_pattern(pattern), pattern.to_string())
             } else {
-                (Glob::whole(pattern), pattern.to_string())
+                (TextGlob::from_whole_pattern(pattern), pattern.to_string())
             };
             let wanted = RequestedName {
                 glob,
@@ -241,59 +242,70 @@ fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked
                 literal: pattern.as_literal().is_some(),
                 value,
             };
-            named(ask, property, &wanted)
+            plan_named_property(ask, property, &wanted)
         }
     });
-    let found = Plan::any(plans.collect::<Asked<_>>()?);
-    if comparison.operator != Operator::IsNot {
-        return Ok(found);
+    let any_plan = QueryPlan::disjoin_plans(plans.collect::<QueryResult<_>>()?);
+    if comparison.operator != ComparisonOperator::IsNot {
+        return Ok(any_plan);
     }
-    let names = |value: &Value| matches!(value.wanted, Wanted::Named(_));
+    let names = |value: &QueryValue| matches!(value.wanted, WantedValue::Named(_));
     if comparison.values.iter().any(names) {
-        Ok(Plan::all(vec![has(ask, property)?, found.not()]))
+        Ok(QueryPlan::conjoin_plans(vec![
+            plan_has_property(ask, property)?,
+            any_plan.negate_plan(),
+        ]))
     } else {
-        Ok(found.not())
+        Ok(any_plan.negate_plan())
     }
 }
 
 /// A requested name.
 struct RequestedName<'a> {
-    glob: Glob,
+    glob: TextGlob,
     exactly: bool,
     text: String,
     literal: bool,
-    value: &'a Value,
+    value: &'a QueryValue,
 }
 
 impl RequestedName<'_> {
-    fn is(&self, name: &str) -> bool {
+    fn is_requested_name(&self, name: &str) -> bool {
         if self.exactly {
-            self.glob.matches(name)
+            self.glob.matches_whole_text(name)
         } else {
-            self.glob.fits(name, &fold(name))
+            self.glob.fits_either_text(name, &fold_text(name))
         }
     }
 
-    fn unknown(&self, kind: &str, known: impl IntoIterator<Item = String>) -> Failure {
-        const NAMED: usize = 8;
-        let known: Vec<String> = known.into_iter().collect();
-        let shown = known.iter().take(NAMED).cloned().collect::<Vec<_>>();
-        let more = match known.len() {
+    fn unknown_name_failure(&self, kind: &str, known: impl IntoIterator<Item = String>) -> QueryFailure {
+        const MAX_SUGGESTED_NAMES: usize = 8;
+        let known_names: Vec<String> = known.into_iter().collect();
+        let shown = known_names
+            .iter()
+            .take(MAX_SUGGESTED_NAMES)
+            .cloned()
+            .collect::<Vec<_>>();
+        let more = match known_names.len() {
             0 => format!("the corpus has no {kind}"),
-            1..=NAMED => format!("there are: {}", shown.join(", ")),
-            count => format!("there are: {} and {} more", shown.join(", "), count - NAMED),
+            1..=MAX_SUGGESTED_NAMES => format!("there are: {}", shown.join(", ")),
+            count => format!(
+                "there are: {} and {} more",
+                shown.join(", "),
+                count - MAX_SUGGESTED_NAMES
+            ),
         };
-        let near = nearest(&self.text, known.iter().map(String::as_str));
-        Failure::Query(QueryError {
-            at: self.value.at.range(),
+        let near = nearest_candidate(&self.text, known_names.iter().map(String::as_str));
+        QueryFailure::Query(QueryError {
+            at: self.value.at.char_range(),
             message: format!("no {kind} is called {:?}", self.text),
             remedy: more.into(),
-            suggestion: near.map(quoted),
+            suggestion: near.map(quote_query_name),
         })
     }
 }
 
-fn quoted(name: &str) -> String {
+fn quote_query_name(name: &str) -> String {
     let bare = |c: char| c.is_alphanumeric() || "-_.:".contains(c);
     if name.chars().all(bare) {
         name.to_owned()
@@ -302,82 +314,91 @@ fn quoted(name: &str) -> String {
     }
 }
 
-fn mark_of(property: Property) -> Option<TokenProperty> {
+fn mark_of(property: WholeTokenProperty) -> Option<TokenProperty> {
     match property {
-        Property::Origin => Some(TokenProperty::Origin),
-        Property::Hand => Some(TokenProperty::Hand),
-        Property::Tier => Some(TokenProperty::Tier),
-        Property::Inventory => Some(TokenProperty::Inventory),
+        WholeTokenProperty::Origin => Some(TokenProperty::Origin),
+        WholeTokenProperty::Hand => Some(TokenProperty::Hand),
+        WholeTokenProperty::Tier => Some(TokenProperty::Tier),
+        WholeTokenProperty::Inventory => Some(TokenProperty::Inventory),
         _ => None,
     }
 }
 
 /// Returns the plan for the tokens that have some value of a property.
-fn has(ask: &Ask<'_>, property: Property) -> Asked<Plan> {
+fn plan_has_property(ask: &QueryContext<'_>, property: WholeTokenProperty) -> QueryResult<QueryPlan> {
     if let Some(mark) = mark_of(property) {
-        let terms = ask.now.terms(Text::Reading, &mark.prefix(), &|_| true)?;
-        return Ok(Plan::Index(Probe::readings(terms)));
+        let terms = ask
+            .now
+            .field_terms(IndexTextField::Reading, &mark.property_term_prefix(), &|_| true)?;
+        return Ok(QueryPlan::Index(IndexProbe::from_reading_terms(terms)));
     }
     let field = match property {
-        Property::Signer => RowField::Signer,
-        Property::Recording => RowField::Recording,
-        _ => return Ok(Plan::everything()),
+        WholeTokenProperty::Signer => RowField::Signer,
+        WholeTokenProperty::Recording => RowField::Recording,
+        _ => return Ok(QueryPlan::select_all_plan()),
     };
-    Ok(Plan::Index(Probe::Has(field)))
+    Ok(QueryPlan::Index(IndexProbe::Has(field)))
 }
 
-fn named(ask: &Ask<'_>, property: Property, wish: &RequestedName<'_>) -> Asked<Plan> {
+fn plan_named_property(
+    ask: &QueryContext<'_>,
+    property: WholeTokenProperty,
+    wish: &RequestedName<'_>,
+) -> QueryResult<QueryPlan> {
     if let Some(mark) = mark_of(property) {
-        return marked(ask, property, mark, wish);
+        return plan_marked_property(ask, property, mark, wish);
     }
     let (field, kind, rows) = match property {
-        Property::Token => return token(wish),
-        Property::Signer => (RowField::Signer, "signer", Named::Signer),
-        Property::Recording => (RowField::Recording, "recording", Named::Recording),
-        _ => (RowField::Sign, "sign", Named::Sign),
+        WholeTokenProperty::Token => return plan_token_number(wish),
+        WholeTokenProperty::Signer => (RowField::Signer, "signer", NamedRowKind::Signer),
+        WholeTokenProperty::Recording => (RowField::Recording, "recording", NamedRowKind::Recording),
+        _ => (RowField::Sign, "sign", NamedRowKind::Sign),
     };
     if wish.literal
         && let Ok(number) = wish.text.parse::<i64>()
-        && answers::name(ask.connection, rows, number)?.is_some()
+        && search_answers::find_row_name(ask.connection, rows, number)?.is_some()
     {
-        return Ok(Plan::Index(Probe::Rows(field, vec![number])));
+        return Ok(QueryPlan::Index(IndexProbe::Rows(field, vec![number])));
     }
-    let names = answers::names(ask.connection, rows)?;
-    let found = names.iter().filter(|(_, name)| wish.is(name));
-    let found: Vec<i64> = found.map(|(id, _)| *id).collect();
-    if found.is_empty() && wish.literal {
-        return Err(wish.unknown(kind, names.into_iter().map(|(_, name)| name)));
+    let names = search_answers::list_row_names(ask.connection, rows)?;
+    let matching_names = names.iter().filter(|(_, name)| wish.is_requested_name(name));
+    let ids: Vec<i64> = matching_names.map(|(id, _)| *id).collect();
+    if ids.is_empty() && wish.literal {
+        return Err(wish.unknown_name_failure(kind, names.into_iter().map(|(_, name)| name)));
     }
-    Ok(Plan::Index(Probe::Rows(field, found)))
+    Ok(QueryPlan::Index(IndexProbe::Rows(field, ids)))
 }
 
-fn marked(
-    ask: &Ask<'_>,
-    property: Property,
+fn plan_marked_property(
+    ask: &QueryContext<'_>,
+    property: WholeTokenProperty,
     mark: TokenProperty,
     wish: &RequestedName<'_>,
-) -> Asked<Plan> {
-    let prefix = mark.prefix();
-    let terms = ask.now.terms(Text::Reading, &prefix, &|_| true)?;
+) -> QueryResult<QueryPlan> {
+    let prefix = mark.property_term_prefix();
+    let terms = ask.now.field_terms(IndexTextField::Reading, &prefix, &|_| true)?;
     let name = |term: &String| term[prefix.len()..].to_owned();
-    let found: Vec<&String> = terms.iter().filter(|term| wish.is(&name(term))).collect();
-    if found.is_empty() && wish.literal && property.fixed_values().is_none() {
-        let mut known: BTreeSet<String> = terms.iter().map(name).collect();
-        if property == Property::Inventory {
-            known.extend(ask.vocabulary.ids().map(str::to_owned));
+    let matching_terms: Vec<&String> = terms
+        .iter()
+        .filter(|term| wish.is_requested_name(&name(term)))
+        .collect();
+    if matching_terms.is_empty() && wish.literal && property.fixed_values().is_none() {
+        let mut known_terms: BTreeSet<String> = terms.iter().map(name).collect();
+        if property == WholeTokenProperty::Inventory {
+            known_terms.extend(ask.vocabulary.inventory_ids().map(str::to_owned));
         }
-        if !known.iter().any(|name| wish.is(name)) {
-            return Err(wish.unknown(property.name(), known));
+        if !known_terms.iter().any(|name| wish.is_requested_name(name)) {
+            return Err(wish.unknown_name_failure(property.property_name(), known_terms));
         }
     }
-    Ok(Plan::Index(Probe::readings(found)))
+    Ok(QueryPlan::Index(IndexProbe::from_reading_terms(matching_terms)))
 }
 
-fn token(wish: &RequestedName<'_>) -> Asked<Plan> {
+fn plan_token_number(wish: &RequestedName<'_>) -> QueryResult<QueryPlan> {
     match wish.text.parse::<i64>() {
-        Ok(number) if number >= 0 => Ok(Plan::Index(Probe::Rows(RowField::Token, vec![number]))),
+        Ok(number) if number >= 0 => Ok(QueryPlan::Index(IndexProbe::Rows(RowField::Token, vec![number]))),
         _ => Err(QueryError {
-            at: wish.value.at.range(),
+            at: wish.value.at.char_range(),
             message: format!("{:?} is no number of a token", wish.text),
             remedy: "write token=41; a sign is found by gloss=CHAT".into(),
             suggestion: None,

@@ -2,14 +2,14 @@
 
 use chereme_sign::query::TimeField;
 
-use super::probe::{Column, Doc, Index, RowField};
-use crate::error::Result;
+use super::probe::{DocumentIndex, IndexDocument, NumberColumn, RowField};
+use crate::error::CorpusResult;
 
 /// Documents in order, without duplicates.
-pub(crate) type Docs = Vec<Doc>;
+pub(crate) type DocumentList = Vec<IndexDocument>;
 
 /// Returns what is in both.
-pub(crate) fn intersection(a: &[Doc], b: &[Doc]) -> Docs {
+pub(crate) fn intersect_documents(a: &[IndexDocument], b: &[IndexDocument]) -> DocumentList {
     let (few, many) = if a.len() < b.len() { (a, b) } else { (b, a) };
     let mut rest = many;
     let mut both = Vec::with_capacity(few.len());
@@ -23,7 +23,7 @@ pub(crate) fn intersection(a: &[Doc], b: &[Doc]) -> Docs {
 }
 
 /// Returns what is in `a` and not in `b`.
-pub(crate) fn difference(a: &[Doc], b: &[Doc]) -> Docs {
+pub(crate) fn subtract_documents(a: &[IndexDocument], b: &[IndexDocument]) -> DocumentList {
     let mut rest = b;
     let mut left = Vec::with_capacity(a.len());
     for doc in a {
@@ -36,7 +36,7 @@ pub(crate) fn difference(a: &[Doc], b: &[Doc]) -> Docs {
 }
 
 /// Returns what is in either.
-pub(crate) fn union(mut a: Docs, b: Docs) -> Docs {
+pub(crate) fn unite_documents(mut a: DocumentList, b: DocumentList) -> DocumentList {
     if a.is_empty() {
         return b;
     }
@@ -49,7 +49,7 @@ pub(crate) fn union(mut a: Docs, b: Docs) -> Docs {
 }
 
 /// Returns the number of documents at the start of `docs` before `doc`; it is usually small.
-fn leap(docs: &[Doc], doc: Doc) -> usize {
+fn leap(docs: &[IndexDocument], doc: IndexDocument) -> usize {
     let mut reach = 1;
     while reach < docs.len() && docs[reach] < doc {
         reach *= 2;
@@ -59,26 +59,30 @@ fn leap(docs: &[Doc], doc: Doc) -> usize {
 }
 
 /// The times of documents.
-pub(crate) struct Times {
-    recording: Box<dyn Column>,
-    start: Box<dyn Column>,
-    end: Box<dyn Column>,
+pub(crate) struct DocumentTimes {
+    recording: Box<dyn NumberColumn>,
+    start: Box<dyn NumberColumn>,
+    end: Box<dyn NumberColumn>,
 }
 
-impl Times {
+impl DocumentTimes {
     /// Opens the fields.
-    pub(crate) fn open(index: &dyn Index) -> Result<Self> {
+    pub(crate) fn open_document_times(index: &dyn DocumentIndex) -> CorpusResult<Self> {
         Ok(Self {
-            recording: index.rows(RowField::Recording)?,
-            start: index.times(TimeField::Start)?,
-            end: index.times(TimeField::End)?,
+            recording: index.open_row_column(RowField::Recording)?,
+            start: index.open_time_column(TimeField::Start)?,
+            end: index.open_time_column(TimeField::End)?,
         })
     }
 
     /// Returns recording, start and end of a token; a lexicon entry has none.
-    pub(crate) fn get(&self, doc: Doc) -> Option<(i64, i64, i64)> {
-        let recording = self.recording.get(doc)?;
-        Some((recording, self.start.get(doc)?, self.end.get(doc)?))
+    pub(crate) fn document_times(&self, doc: IndexDocument) -> Option<(i64, i64, i64)> {
+        let recording = self.recording.document_number(doc)?;
+        Some((
+            recording,
+            self.start.document_number(doc)?,
+            self.end.document_number(doc)?,
+        ))
     }
 }
 
@@ -89,8 +93,8 @@ mod tests {
 
     #[test]
     fn unions_intersections_and_differences_equal_those_of_plain_sets() {
-        let set = |numbers: &[u32]| -> Docs {
-            let docs = numbers.iter().map(|n| Doc {
+        let set = |numbers: &[u32]| -> DocumentList {
+            let docs = numbers.iter().map(|n| IndexDocument {
                 part: n / 8,
                 number: n % 8,
             });
@@ -106,12 +110,11 @@ mod tests {
         ];
         for a in cases {
             for b in cases {
-                let (x, y): (BTreeSet<u32>, BTreeSet<u32>) =
-                    (a.iter().copied().collect(), b.iter().copied().collect());
+                let (x, y): (BTreeSet<u32>, BTreeSet<u32>) = (a.iter().copied().collect(), b.iter().copied().collect());
                 let of = |found: BTreeSet<u32>| set(&found.into_iter().collect::<Vec<_>>());
-                assert_eq!(intersection(&set(a), &set(b)), of(&x & &y));
-                assert_eq!(difference(&set(a), &set(b)), of(&x - &y));
-                assert_eq!(union(set(a), set(b)), of(&x | &y));
+                assert_eq!(intersect_documents(&set(a), &set(b)), of(&x & &y));
+                assert_eq!(subtract_documents(&set(a), &set(b)), of(&x - &y));
+                assert_eq!(unite_documents(set(a), set(b)), of(&x | &y));
             }
         }
     }

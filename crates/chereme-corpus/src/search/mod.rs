@@ -1,55 +1,55 @@
 //! Retrieval: finds the tokens that answer a query.
 //!
-//! A query is compiled to a [plan](plan::Plan): one request to the [index](index) for the conditions that it can
+//! A query is compiled to a [plan](plan::QueryPlan): one request to the [index](index) for the conditions that it can
 //! evaluate, and reads of rows for the others (temporal relations, whole texts), for only those tokens that the rest of
 //! the query leaves.
 
 mod alone;
 mod answer;
-mod attributes;
 mod compile;
-mod component;
-mod curves;
 mod docs;
-mod everyday;
-mod facets;
-mod finding;
-mod findings;
 pub(crate) mod index;
-mod known;
 mod like;
-mod plan;
 mod probe;
-mod steps;
-mod tally;
+mod search_attributes;
+mod search_component;
+mod search_curves;
+mod search_everyday;
+mod search_facets;
+mod search_finding;
+mod search_findings;
+mod search_known;
+mod search_plan;
+mod search_steps;
+mod search_tally;
+mod search_texts;
+mod search_vocabulary;
 #[cfg(test)]
 mod tests;
 mod text_match;
-mod texts;
 mod time_relations;
-mod vocabulary;
 
 use std::cell::RefCell;
 
-use chereme_sign::query::{Expr, Like, Pattern, Query, QueryError, Test, What};
+use chereme_sign::query::{LikeSearch, QueryError, QueryExpression, QueryTest, TestSubject, TextPattern, TokenQuery};
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::db::search as rows;
 use crate::db::signs::{self, TokenRow};
-use crate::error::{Error, Result, WrongQuery};
-use crate::progress::{Progress, Step, Unit, unheard};
+use crate::db::stored_search as rows;
+use crate::error::{CorpusError, CorpusResult, WrongQuery};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 use crate::saved_search;
 
-use answer::Ranks;
-pub use answer::{Answer, Hit, Order};
-use compile::{Ask, Asked, Failure};
-pub use everyday::{guessed, meant};
-pub use facets::FACET_VALUES;
-pub use finding::{Finding, FindingKind};
-use index::{SearchIndex, unbroken};
-use like::Scores;
-pub use tally::{NO_VALUE, Tally, TallyRow};
+use answer::DocumentRanks;
+pub use answer::{HitOrder, SearchAnswer, SearchHit};
+use compile::{QueryContext, QueryFailure, QueryResult};
+use index::{SearchIndex, catch_index_panic};
+use like::ExampleScores;
+pub use search_everyday::{guessed_query_text, meant_query_text};
+pub use search_facets::FACET_VALUES;
+pub use search_finding::{FindingKind, QueryFinding};
+pub use search_tally::{NO_VALUE, TallyRow, ValueTally};
 
 /// The wanted part of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +63,7 @@ pub struct SearchOptions {
     /// The largest number of values to count for a field.
     pub facet_values: usize,
     /// The order of the tokens.
-    pub order: Order,
+    pub order: HitOrder,
 }
 
 impl Default for SearchOptions {
@@ -73,7 +73,7 @@ impl Default for SearchOptions {
             offset: 0,
             facets: true,
             facet_values: FACET_VALUES,
-            order: Order::Rank,
+            order: HitOrder::Rank,
         }
     }
 }
@@ -85,26 +85,24 @@ impl Corpus {
     /// stored meanwhile. `@NAME` in a query stands for the query that is [saved](Self::keep_searches) under that name.
     ///
     /// # Errors
-    /// [`Error::Query`] with the place in the query that cannot be understood, or that names a value, signer or the
+    /// [`CorpusError::Query`] with the place in the query that cannot be understood, or that names a value, signer or the
     /// like that does not exist.
-    pub fn search(&mut self, query: &str, options: &SearchOptions) -> Result<Answer> {
-        let mut hear = unheard;
-        self.search_until(query, options, &mut Progress::new(&mut hear))
+    pub fn search_tokens(&mut self, query: &str, options: &SearchOptions) -> CorpusResult<SearchAnswer> {
+        let mut hear = ignore_progress_step;
+        self.search_until(query, options, &mut ProgressReceiver::new(&mut hear))
     }
 
-    /// Searches as [`search`](Self::search) does, and stops if `progress` asks to; it is called many times a second.
+    /// Searches as [`search_tokens`](Self::search_tokens) does, and stops if `progress` asks to; it is called many times a second.
     ///
     /// # Errors
-    /// Those of [`search`](Self::search), and [`Error::Stopped`].
+    /// Those of [`search_tokens`](Self::search_tokens), and [`CorpusError::Stopped`].
     pub fn search_until(
         &mut self,
         query: &str,
         options: &SearchOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Answer> {
-        self.asked(query, progress, &mut |ask, query| {
-            answer(ask, query, options)
-        })
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<SearchAnswer> {
+        self.evaluate_with_context(query, progress, &mut |ask, query| answer_query(ask, query, options))
     }
 
     /// Returns the tokens that a query finds, in the order of their rows.
@@ -114,100 +112,97 @@ impl Corpus {
     pub(crate) fn tokens_found(
         &mut self,
         query: &str,
-        progress: &mut Progress<'_>,
-    ) -> Result<Vec<TokenRow>> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<Vec<TokenRow>> {
         let all = SearchOptions {
             facets: false,
             ..SearchOptions::default()
         };
-        let found = self.search_until(query, &all, progress)?;
-        let ids: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
-        let tokens = signs::tokens(self.store.read(), &ids)?;
+        let answer = self.search_until(query, &all, progress)?;
+        let ids: Vec<i64> = answer.hits.iter().map(|hit| hit.token).collect();
+        let tokens = signs::load_token_rows(self.store.read_connection(), &ids)?;
         Ok(tokens.into_values().collect())
     }
 
     /// Evaluates a query with `ask` on one state of the corpus.
-    fn asked<T>(
+    fn evaluate_with_context<T>(
         &mut self,
         query: &str,
-        progress: &mut Progress<'_>,
-        ask: &mut dyn FnMut(&Ask<'_>, &Query) -> Asked<T>,
-    ) -> Result<T> {
-        const ATTEMPTS: usize = 8;
-        let parsed = saved_search::parsed(self.store.read(), query)?;
+        progress: &mut ProgressReceiver<'_>,
+        ask: &mut dyn FnMut(&QueryContext<'_>, &TokenQuery) -> QueryResult<T>,
+    ) -> CorpusResult<T> {
+        const MAX_SEARCH_ATTEMPTS: usize = 8;
+        let parsed = saved_search::parse_saved_query(self.store.read_connection(), query)?;
         let hear = RefCell::new(|done| {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "",
                 done,
                 total: None,
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })
         });
         let mut mended = false;
-        for _ in 0..ATTEMPTS {
-            let (connection, index) = self.store.searchable()?;
+        for _ in 0..MAX_SEARCH_ATTEMPTS {
+            let (connection, index) = self.store.searchable_connection()?;
             let reading = rows::begin_reading(connection)?;
             if !index.is_current(connection)? {
                 continue;
             }
-            let answer = unbroken(|| {
-                Ok(with_index((connection, index), &hear, |it| {
-                    ask(it, &parsed)
+            let answer = catch_index_panic(|| {
+                Ok(with_index((connection, index), &hear, |question| {
+                    ask(question, &parsed)
                 }))
             });
             drop(reading);
             let answer = match answer {
-                Err(Error::Index(_)) | Ok(Err(Failure::Other(Error::Index(_)))) if !mended => {
+                Err(CorpusError::Index(_)) | Ok(Err(QueryFailure::Other(CorpusError::Index(_)))) if !mended => {
                     mended = true;
-                    self.store.reindex(&mut Progress::new(&mut unheard))?;
+                    self.store
+                        .rebuild_search_index(&mut ProgressReceiver::new(&mut ignore_progress_step))?;
                     self.store.index().note_rebuilt();
                     continue;
                 }
                 answered => answered?,
             };
             return answer.map_err(|failure| match failure {
-                Failure::Query(error) => wrong(query, &error),
-                Failure::Other(error) => error,
+                QueryFailure::Query(error) => wrong_query_error(query, &error),
+                QueryFailure::Other(error) => error,
             });
         }
-        Err(Error::wrong("another program keeps writing to the corpus")
-            .advise("try again when it is done"))
+        Err(
+            CorpusError::from_wrong_message("another program keeps writing to the corpus")
+                .with_advice("try again when it is done"),
+        )
     }
 }
 
-/// Returns the tokens that answer a query, in the order of [`Corpus::search`].
-pub(crate) fn tokens(
-    connection: &Connection,
-    index: &SearchIndex,
-    query: &str,
-) -> Result<Vec<i64>> {
-    let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+/// Returns the tokens that answer a query, in the order of [`Corpus::search_tokens`].
+pub(crate) fn find_query_tokens(connection: &Connection, index: &SearchIndex, query: &str) -> CorpusResult<Vec<i64>> {
+    let parsed = TokenQuery::parse_query(query).map_err(|error| wrong_query_error(query, &error))?;
     let options = SearchOptions {
         facets: false,
         ..SearchOptions::default()
     };
     let hear = RefCell::new(|_| Ok(()));
-    let answer = with_index((connection, index), &hear, |ask| {
-        answer(ask, &parsed, &options)
-    });
+    let answer = with_index((connection, index), &hear, |ask| answer_query(ask, &parsed, &options));
     match answer {
         Ok(answer) => Ok(answer.hits.into_iter().map(|hit| hit.token).collect()),
-        Err(Failure::Query(error)) => Err(wrong(query, &error)),
-        Err(Failure::Other(error)) => Err(error),
+        Err(QueryFailure::Query(error)) => Err(wrong_query_error(query, &error)),
+        Err(QueryFailure::Other(error)) => Err(error),
     }
 }
 
 /// Returns the error for a query that cannot be understood.
-pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
-    let corrected = error.corrected(query);
+pub(crate) fn wrong_query_error(query: &str, error: &QueryError) -> CorpusError {
+    let corrected = error.corrected_query(query);
     let remedy = match &corrected {
         _ if !error.remedy.is_empty() => Some(error.remedy.clone()),
         Some(corrected) => Some(format!("write {corrected}").into()),
         None => None,
     };
-    Error::Query(Box::new(WrongQuery {
-        message: error.fault(),
-        drawn: error.drawn(query),
+    CorpusError::Query(Box::new(WrongQuery {
+        message: error.fault_message(),
+        drawn: error.draw_query_error(query),
         at: error.at.start,
         remedy,
         mended: error.suggestion.clone().zip(corrected),
@@ -216,12 +211,12 @@ pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
 
 fn with_index<T>(
     (connection, index): (&Connection, &SearchIndex),
-    hear: &RefCell<dyn FnMut(u64) -> Result<()> + '_>,
-    ask: impl FnOnce(&Ask<'_>) -> Asked<T>,
-) -> Asked<T> {
-    let now = index.now();
-    let vocabulary = index.memory().vocabulary(connection)?;
-    ask(&Ask {
+    hear: &RefCell<dyn FnMut(u64) -> CorpusResult<()> + '_>,
+    ask: impl FnOnce(&QueryContext<'_>) -> QueryResult<T>,
+) -> QueryResult<T> {
+    let now = index.current_index_reading();
+    let vocabulary = index.query_memory().cached_vocabulary(connection)?;
+    ask(&QueryContext {
         connection,
         index,
         now: &now,
@@ -233,52 +228,52 @@ fn with_index<T>(
     })
 }
 
-fn answer(ask: &Ask<'_>, query: &Query, options: &SearchOptions) -> Asked<Answer> {
-    let plan = compile::plan(ask, &query.root)?;
-    let mut found = plan::evaluate(ask, &plan, None)?;
+fn answer_query(ask: &QueryContext<'_>, query: &TokenQuery, options: &SearchOptions) -> QueryResult<SearchAnswer> {
+    let plan = compile::plan_expression(ask, &query.root)?;
+    let mut docs = search_plan::evaluate_query_plan(ask, &plan, None)?;
     let likes = likes(&query.root);
     let scores = match &likes[..] {
         [] => None,
-        some => Some(Scores::new(ask, some)?),
+        some => Some(ExampleScores::new(ask, some)?),
     };
-    alone::report(ask, query, found.len())?;
+    alone::report_empty_terms(ask, query, docs.len())?;
     if let Some(scores) = &scores {
-        found.retain(|doc| scores.pass(*doc));
+        docs.retain(|doc| scores.passes_every_example(*doc));
     }
     let texts = match options.order {
-        Order::Rank => ranked_texts(ask, &query.root)?,
+        HitOrder::Rank => ranked_texts(ask, &query.root)?,
         _ => Vec::new(),
     };
-    let ranks = Ranks::new(ask, &found, scores.as_ref(), &texts)?;
+    let ranks = DocumentRanks::new(ask, &docs, scores.as_ref(), &texts)?;
     let end = options
         .limit
         .map_or(usize::MAX, |limit| options.offset.saturating_add(limit));
-    let page = answer::page(ask, &found, options.order, &ranks, options.offset..end)?;
-    let hits = answer::hits(ask, &page, scores.as_ref())?;
+    let page = answer::order_document_page(ask, &docs, options.order, &ranks, options.offset..end)?;
+    let hits = answer::collect_search_hits(ask, &page, scores.as_ref())?;
     let (facets, facets_left_out) = if options.facets {
-        facets::facets(ask, &found, options.facet_values)?
+        search_facets::count_document_facets(ask, &docs, options.facet_values)?
     } else {
         Default::default()
     };
     if ask.index.take_rebuilt() {
-        ask.note("the search index did not follow the rows and was built again".to_owned());
+        ask.add_query_note("the search index did not follow the rows and was built again".to_owned());
     }
-    Ok(Answer {
+    Ok(SearchAnswer {
         query: query.to_string(),
-        total: found.len(),
+        total: docs.len(),
         hits,
         facets,
         facets_left_out,
-        findings: once(ask.findings.take()),
+        findings: deduplicate_findings(ask.findings.take()),
         notes: ask.notes.take().into_iter().collect(),
     })
 }
 
 /// Keeps the first of findings that say the same about conditions at different places.
-fn once(findings: Vec<Finding>) -> Vec<Finding> {
-    let mut kept: Vec<Finding> = Vec::new();
+fn deduplicate_findings(findings: Vec<QueryFinding>) -> Vec<QueryFinding> {
+    let mut kept: Vec<QueryFinding> = Vec::new();
     for finding in findings {
-        let same = |it: &Finding| (&it.condition, &it.kind) == (&finding.condition, &finding.kind);
+        let same = |other: &QueryFinding| (&other.condition, &other.kind) == (&finding.condition, &finding.kind);
         if !kept.iter().any(same) {
             kept.push(finding);
         }
@@ -287,35 +282,38 @@ fn once(findings: Vec<Finding>) -> Vec<Finding> {
 }
 
 /// Returns the terms of a conjunction.
-fn joined(root: &Expr) -> &[Expr] {
+fn conjunction_terms(root: &QueryExpression) -> &[QueryExpression] {
     match root {
-        Expr::And(terms) => terms,
+        QueryExpression::And(terms) => terms,
         one => std::slice::from_ref(one),
     }
 }
 
-fn likes(root: &Expr) -> Vec<&Like> {
-    let likes = joined(root).iter().filter_map(|term| match term {
-        Expr::Like(like) => Some(like),
+fn likes(root: &QueryExpression) -> Vec<&LikeSearch> {
+    let likes = conjunction_terms(root).iter().filter_map(|term| match term {
+        QueryExpression::Like(like) => Some(like),
         _ => None,
     });
     likes.collect()
 }
 
 /// Returns the places of the texts that determine the order: plain words, and texts compared up to slips.
-fn ranked_texts(ask: &Ask<'_>, root: &Expr) -> Asked<Vec<Vec<Option<plan::Plan>>>> {
-    let plain = |pattern: &Pattern| pattern.as_literal().is_some();
-    let ranked = |test: &&Test| match &test.what {
-        What::Words(_, patterns) => patterns.iter().all(plain),
-        What::Fuzzy { .. } => true,
+fn ranked_texts(
+    ask: &QueryContext<'_>,
+    root: &QueryExpression,
+) -> QueryResult<Vec<Vec<Option<search_plan::QueryPlan>>>> {
+    let plain = |pattern: &TextPattern| pattern.as_literal().is_some();
+    let ranked = |test: &&QueryTest| match &test.what {
+        TestSubject::Words(_, patterns) => patterns.iter().all(plain),
+        TestSubject::Fuzzy { .. } => true,
         _ => false,
     };
-    let tests = joined(root).iter().filter_map(|term| match term {
-        Expr::Test(test) => Some(test),
+    let tests = conjunction_terms(root).iter().filter_map(|term| match term {
+        QueryExpression::Test(test) => Some(test),
         _ => None,
     });
     tests
         .filter(ranked)
-        .map(|test| text_match::places(ask, test))
+        .map(|test| text_match::plan_text_places(ask, test))
         .collect()
 }

@@ -1,26 +1,26 @@
 //! Requests to an index, and the interface that every index implements.
 //!
-//! Nothing here depends on how an index works: another engine is another implementation of [`Index`] in a folder of its
-//! own, beside `index`. A [`Probe`] is passed as a whole, so that the engine can evaluate a conjunction at once.
+//! Nothing here depends on how an index works: another engine is another implementation of [`DocumentIndex`] in a folder of its
+//! own, beside `index`. A [`IndexProbe`] is passed as a whole, so that the engine can evaluate a conjunction at once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
 
 use chereme_sign::query::TimeField;
 
-use super::docs::Docs;
-use crate::error::Result;
+use super::docs::DocumentList;
+use crate::error::CorpusResult;
 
 /// A document of an index: the segment that contains it, and its number there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Doc {
+pub(crate) struct IndexDocument {
     pub(crate) part: u32,
     pub(crate) number: u32,
 }
 
 /// A field of texts or terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Text {
+pub(crate) enum IndexTextField {
     /// The whole gloss, folded.
     Gloss,
     /// Words of the gloss.
@@ -48,11 +48,11 @@ pub(crate) enum RowField {
 
 /// A condition on documents.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Probe {
+pub(crate) enum IndexProbe {
     /// Every document.
     All,
     /// The field has any of these terms.
-    Terms(Text, Vec<String>),
+    Terms(IndexTextField, Vec<String>),
     /// The field holds any of these rows.
     Rows(RowField, Vec<i64>),
     /// The field holds a row.
@@ -60,57 +60,61 @@ pub(crate) enum Probe {
     /// The time in microseconds lies between these.
     Between(TimeField, Bound<i64>, Bound<i64>),
     /// The words are adjacent in this order.
-    Phrase(Text, Vec<String>),
+    Phrase(IndexTextField, Vec<String>),
     /// Words that match these regular expressions are adjacent in this order.
-    Patterns(Text, Vec<String>),
+    Patterns(IndexTextField, Vec<String>),
     /// A term differs from this one by at most this number of slips.
-    Near(Text, String, u8),
+    Near(IndexTextField, String, u8),
     /// All of the first hold, and none of the second.
-    And(Vec<Probe>, Vec<Probe>),
+    And(Vec<IndexProbe>, Vec<IndexProbe>),
     /// Any of these holds.
-    Or(Vec<Probe>),
+    Or(Vec<IndexProbe>),
 }
 
-impl Probe {
+impl IndexProbe {
     /// Returns the probe for a reading or mark with any of these terms.
-    pub(crate) fn readings<T: Into<String>>(terms: impl IntoIterator<Item = T>) -> Self {
-        Self::Terms(Text::Reading, terms.into_iter().map(Into::into).collect())
+    pub(crate) fn from_reading_terms<T: Into<String>>(terms: impl IntoIterator<Item = T>) -> Self {
+        Self::Terms(IndexTextField::Reading, terms.into_iter().map(Into::into).collect())
     }
 
     /// Returns the probe for all documents that this one does not match.
-    pub(crate) fn inverted(self) -> Self {
+    pub(crate) fn invert_probe(self) -> Self {
         Self::And(Vec::new(), vec![self])
     }
 }
 
 /// A column with one number for each document.
-pub(crate) trait Column {
+pub(crate) trait NumberColumn {
     /// Returns the number of a document, if it has one.
-    fn get(&self, doc: Doc) -> Option<i64>;
+    fn document_number(&self, doc: IndexDocument) -> Option<i64>;
 }
 
 /// How many documents have each value of each field.
 pub(crate) type FacetCounts = BTreeMap<String, BTreeMap<String, usize>>;
 
 /// An index over the documents of a corpus, at one moment.
-pub(crate) trait Index {
+pub(crate) trait DocumentIndex {
     /// Returns the documents that match a probe.
-    fn docs(&self, probe: &Probe) -> Result<Docs>;
+    fn docs(&self, probe: &IndexProbe) -> CorpusResult<DocumentList>;
 
     /// Returns the terms of a field that begin with `prefix` and for which `wanted` returns true, in order.
-    fn terms(
+    fn field_terms(
         &self,
-        field: Text,
+        field: IndexTextField,
         prefix: &str,
         wanted: &dyn Fn(&str) -> bool,
-    ) -> Result<BTreeSet<String>>;
+    ) -> CorpusResult<BTreeSet<String>>;
 
     /// Opens a column of row numbers.
-    fn rows(&self, field: RowField) -> Result<Box<dyn Column>>;
+    fn open_row_column(&self, field: RowField) -> CorpusResult<Box<dyn NumberColumn>>;
 
     /// Opens a column of times.
-    fn times(&self, field: TimeField) -> Result<Box<dyn Column>>;
+    fn open_time_column(&self, field: TimeField) -> CorpusResult<Box<dyn NumberColumn>>;
 
     /// Counts the values of documents, which must be in order; `go_on` fails if the caller no longer wants an answer.
-    fn facets(&self, docs: &[Doc], go_on: &dyn Fn() -> Result<()>) -> Result<FacetCounts>;
+    fn count_index_facets(
+        &self,
+        docs: &[IndexDocument],
+        go_on: &dyn Fn() -> CorpusResult<()>,
+    ) -> CorpusResult<FacetCounts>;
 }

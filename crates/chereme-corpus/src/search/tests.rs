@@ -4,16 +4,16 @@ mod lexicon;
 mod store;
 mod table;
 
-use chereme_sign::tier::Hands;
-use chereme_sign::{Field, Reading, TierRole};
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{ComponentField, ComponentReading, TierRole};
 
-use super::{Answer, SearchOptions};
+use super::{SearchAnswer, SearchOptions};
 use crate::Corpus;
-use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
-use crate::db::recordings::signer_named;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::db::tiers::{AnnotationRow, TierRow, insert_annotation, insert_tier};
-use crate::error::Result;
+use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
+use crate::db::stored_recordings::signer_named;
+use crate::db::stored_tiers::{AnnotationRow, TierRow, insert_annotation, insert_tier};
+use crate::error::CorpusResult;
 
 /// A corpus in a temporary folder that is deleted with it.
 struct Sample {
@@ -24,7 +24,7 @@ struct Sample {
 impl Sample {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("a corpus");
+        let corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("a corpus");
         Self { corpus, folder }
     }
 
@@ -32,21 +32,15 @@ impl Sample {
         self.folder.path().join("c.chereme")
     }
 
-    fn work<T>(&mut self, work: impl FnOnce(&rusqlite::Connection) -> Result<T>) -> T {
+    fn work<T>(&mut self, work: impl FnOnce(&rusqlite::Connection) -> CorpusResult<T>) -> T {
         let work = |connection: &rusqlite::Connection| Ok((work(connection)?, "work".to_owned()));
-        self.corpus
-            .store
-            .named_operation("test", work)
-            .expect("works")
+        self.corpus.store.named_operation("test", work).expect("works")
     }
 
     fn recording(&mut self, name: &str, signer: &str, handedness: &str) -> i64 {
         self.work(|connection| {
             let signer = signer_named(connection, signer, None)?;
-            connection.execute(
-                "UPDATE signer SET handedness = ?2 WHERE id = ?1",
-                (signer, handedness),
-            )?;
+            connection.execute("UPDATE signer SET handedness = ?2 WHERE id = ?1", (signer, handedness))?;
             connection.execute(
                 "INSERT INTO recording (name, signer_id, origin, duration_us)
                  VALUES (?1, ?2, 'captured', 60000000)",
@@ -63,9 +57,9 @@ impl Sample {
             start_us: place.map(|place| place.1 * 1000),
             end_us: place.map(|place| place.2 * 1000),
             origin: if place.is_some() {
-                Origin::Captured
+                RecordOrigin::Captured
             } else {
-                Origin::Lexicon
+                RecordOrigin::Lexicon
             },
             ..TokenRow::default()
         };
@@ -75,10 +69,7 @@ impl Sample {
     fn token_of(&mut self, gloss: &str, row: &TokenRow, values: &[&str]) -> i64 {
         self.work(|connection| {
             let sign_id = signs::sign_glossed(connection, gloss)?;
-            let row = TokenRow {
-                sign_id,
-                ..row.clone()
-            };
+            let row = TokenRow { sign_id, ..row.clone() };
             let token = signs::insert_token(connection, &row)?;
             let values: Vec<TokenValueRow> = values.iter().map(|value| value_row(value)).collect();
             signs::set_values(connection, token, &values)?;
@@ -95,7 +86,7 @@ impl Sample {
                     tier_id,
                     start_us: start * 1000,
                     end_us: end * 1000,
-                    state: ValueState::of(&Reading::from(*value)),
+                    state: ValueState::state_of_reading(&ComponentReading::from(*value)),
                     value: (*value).to_owned(),
                     origin: AnnotationOrigin::Human,
                     ..AnnotationRow::default()
@@ -106,8 +97,8 @@ impl Sample {
         });
     }
 
-    fn search(&mut self, query: &str) -> Answer {
-        let found = self.corpus.search(query, &SearchOptions::default());
+    fn search(&mut self, query: &str) -> SearchAnswer {
+        let found = self.corpus.search_tokens(query, &SearchOptions::default());
         found.unwrap_or_else(|error| panic!("{query}: {error}"))
     }
 
@@ -129,13 +120,13 @@ fn tier(recording: i64, name: &str, role: &str) -> TierRow {
 
 /// A tier of a component, named as a field.
 fn component_tier(recording: i64, field: &str) -> TierRow {
-    let parsed: Field = field.parse().expect("a field");
+    let parsed: ComponentField = field.parse().expect("a field");
     TierRow {
         role: TierRole::Component {
             component: parsed.component,
             feature: parsed.feature.clone(),
         },
-        hand: parsed.hand.map(Hands::One),
+        hand: parsed.hand.map(AnnotatedHands::One),
         ..tier(recording, field, "free")
     }
 }
@@ -144,16 +135,16 @@ fn component_tier(recording: i64, field: &str) -> TierRow {
 fn value_row(text: &str) -> TokenValueRow {
     let (field, value) = text.split_once('=').expect("field=value");
     let both = field.contains("both.");
-    let field: Field = field.replace("both.", "").parse().expect("a field");
+    let field: ComponentField = field.replace("both.", "").parse().expect("a field");
     let reading = match value {
-        "n/a" => Reading::NotApplicable,
-        "unclear" => Reading::Unclear,
-        "unset" => Reading::Unset,
-        value => Reading::Value(value.to_owned()),
+        "n/a" => ComponentReading::NotApplicable,
+        "unclear" => ComponentReading::Unclear,
+        "unset" => ComponentReading::Unset,
+        value => ComponentReading::Value(value.to_owned()),
     };
-    let row = TokenValueRow::of(&field, &reading);
+    let row = TokenValueRow::from_field_reading(&field, &reading);
     TokenValueRow {
-        hand: if both { Some(Hands::Both) } else { row.hand },
+        hand: if both { Some(AnnotatedHands::Both) } else { row.hand },
         ..row
     }
 }
@@ -161,7 +152,7 @@ fn value_row(text: &str) -> TokenValueRow {
 #[test]
 fn counts_without_a_value_are_those_of_the_conditions_and_a_value_so_spelled_is_quoted() {
     use crate::search::TallyRow;
-    use crate::{Progress, unheard};
+    use crate::{ProgressReceiver, ignore_progress_step};
 
     let mut sample = Sample::new();
     for (gloss, coding) in [
@@ -172,16 +163,16 @@ fn counts_without_a_value_are_those_of_the_conditions_and_a_value_so_spelled_is_
     ] {
         sample.token(gloss, None, coding);
     }
-    let word = TokenValueRow::of(
+    let word = TokenValueRow::from_field_reading(
         &"placement".parse().expect("a field"),
-        &Reading::Value("unset".to_owned()),
+        &ComponentReading::Value("unset".to_owned()),
     );
     let five = sample.token("FIVE", None, &[]);
     sample.work(|connection| signs::set_values(connection, five, &[word]));
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let fields = ["placement".to_owned()];
-    let tally = sample.corpus.tally("", &fields, progress).expect("counted");
+    let tally = sample.corpus.tally_values("", &fields, progress).expect("counted");
     let row = |row: &TallyRow| format!("{} {}", row.value, row.total);
     let rows: Vec<String> = tally.rows.iter().map(row).collect();
     assert_eq!(rows, ["\"unset\" 1", "n/a 1", "unclear 2", "unset 2"]);
@@ -193,7 +184,7 @@ fn counts_without_a_value_are_those_of_the_conditions_and_a_value_so_spelled_is_
 
 #[test]
 fn a_search_stops_on_request() {
-    use crate::{Error, Progress, Step, unheard};
+    use crate::{CorpusError, ProgressReceiver, ProgressStep, ignore_progress_step};
     use std::ops::ControlFlow;
 
     let mut sample = Sample::new();
@@ -201,7 +192,7 @@ fn a_search_stops_on_request() {
         for n in 0..200 {
             let row = TokenRow {
                 sign_id: signs::sign_glossed(connection, &format!("S{n}"))?,
-                origin: Origin::Lexicon,
+                origin: RecordOrigin::Lexicon,
                 ..TokenRow::default()
             };
             let token = signs::insert_token(connection, &row)?;
@@ -210,24 +201,19 @@ fn a_search_stops_on_request() {
         Ok(())
     });
     let options = SearchOptions::default();
-    for query in [
-        "",
-        "configuration=U",
-        "like S1",
-        "translation=x or gloss=S*",
-    ] {
+    for query in ["", "configuration=U", "like S1", "translation=x or gloss=S*"] {
         let mut steps = 0;
-        let mut count = |_: Step<'_>| {
+        let mut count = |_: ProgressStep<'_>| {
             steps += 1;
             ControlFlow::Continue(())
         };
         let whole = sample
             .corpus
-            .search_until(query, &options, &mut Progress::new(&mut count));
+            .search_until(query, &options, &mut ProgressReceiver::new(&mut count));
         assert!(whole.is_ok() && steps > 2, "{query}: {steps}");
         for last in 0..steps {
             let mut left = last;
-            let mut stop = |_: Step<'_>| {
+            let mut stop = |_: ProgressStep<'_>| {
                 left -= 1;
                 if left < 0 {
                     ControlFlow::Break(())
@@ -237,13 +223,13 @@ fn a_search_stops_on_request() {
             };
             let done = sample
                 .corpus
-                .search_until(query, &options, &mut Progress::new(&mut stop));
-            assert!(matches!(done, Err(Error::Stopped)), "{query} at {last}");
+                .search_until(query, &options, &mut ProgressReceiver::new(&mut stop));
+            assert!(matches!(done, Err(CorpusError::Stopped)), "{query} at {last}");
         }
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         let again = sample
             .corpus
-            .search_until(query, &options, &mut Progress::new(&mut hear));
+            .search_until(query, &options, &mut ProgressReceiver::new(&mut hear));
         assert_eq!(again.ok(), whole.ok(), "{query}");
     }
 }

@@ -1,90 +1,95 @@
 //! Comparisons of texts: glosses, translations and remarks.
 
-use chereme_sign::Reading;
+use chereme_sign::ComponentReading;
 use chereme_sign::query::{
-    Comparison, Missing, Operator, Pattern, QueryError, Test, TextField, Value, Wanted, What,
+    ComparisonOperator, MissingReason, QueryError, QueryTest, QueryValue, TestSubject, TextField, TextPattern,
+    ValueComparison, WantedValue,
 };
-use chereme_sign::text::fold;
+use chereme_sign::text::fold_text;
 
-use super::compile::{Ask, Asked};
-use super::docs::Docs;
-use super::finding::FindingKind;
-use super::findings;
-use super::known::fitting;
-use super::plan::{Plan, WholeText};
-use super::probe::{Probe, RowField, Text};
-use super::texts::{Glob, words};
-use crate::db::search::answers;
-use crate::db::search::terms::TokenProperty;
+use super::compile::{QueryContext, QueryResult};
+use super::docs::DocumentList;
+use super::probe::{IndexProbe, IndexTextField, RowField};
+use super::search_finding::FindingKind;
+use super::search_findings;
+use super::search_known::terms_matching_glob;
+use super::search_plan::{QueryPlan, WholeText};
+use super::search_texts::{TextGlob, split_folded_words};
+use crate::db::stored_search::search_answers;
+use crate::db::stored_search::search_terms::TokenProperty;
 
 /// The longest word that is compared up to slips: the automaton grows with its length.
 const LONGEST_FUZZY: usize = 64;
 
 /// Returns the plan for a comparison of whole texts; if a token has several, one match suffices.
-pub(crate) fn plan(ask: &Ask<'_>, field: TextField, comparison: &Comparison) -> Asked<Plan> {
+pub(crate) fn plan_text_comparison(
+    ask: &QueryContext<'_>,
+    field: TextField,
+    comparison: &ValueComparison,
+) -> QueryResult<QueryPlan> {
     match field {
-        TextField::Gloss => gloss(ask, comparison, true),
+        TextField::Gloss => plan_gloss_comparison(ask, comparison, true),
         TextField::Translation | TextField::Comment => {
-            other(ask, field == TextField::Translation, comparison)
+            plan_translation_or_comment(ask, field == TextField::Translation, comparison)
         }
-        TextField::Any => Ok(Plan::any(vec![
-            gloss(ask, comparison, false)?,
-            other(ask, true, comparison)?,
-            other(ask, false, comparison)?,
+        TextField::Any => Ok(QueryPlan::disjoin_plans(vec![
+            plan_gloss_comparison(ask, comparison, false)?,
+            plan_translation_or_comment(ask, true, comparison)?,
+            plan_translation_or_comment(ask, false, comparison)?,
         ])),
     }
 }
 
 /// Returns the plan for a comparison of glosses; with `alone` it reports a gloss that no sign has.
-fn gloss(ask: &Ask<'_>, comparison: &Comparison, alone: bool) -> Asked<Plan> {
+fn plan_gloss_comparison(ask: &QueryContext<'_>, comparison: &ValueComparison, alone: bool) -> QueryResult<QueryPlan> {
     let values = comparison.values.iter();
     let plans = values.map(|value| match &value.wanted {
-        Wanted::Present => Ok(Plan::everything()),
-        Wanted::Missing(_) | Wanted::Features(_) | Wanted::Steps(_) => Ok(Plan::nothing()),
-        Wanted::Named(pattern)
-            if comparison.operator == Operator::Exactly || pattern.expression().is_some() =>
+        WantedValue::Present => Ok(QueryPlan::select_all_plan()),
+        WantedValue::Missing(_) | WantedValue::Features(_) | WantedValue::Steps(_) => Ok(QueryPlan::select_none_plan()),
+        WantedValue::Named(pattern)
+            if comparison.operator == ComparisonOperator::Exactly || pattern.regular_expression().is_some() =>
         {
-            let exactly = comparison.operator == Operator::Exactly;
+            let exactly = comparison.operator == ComparisonOperator::Exactly;
             let glob = if exactly {
-                Glob::exact(pattern)
+                TextGlob::from_exact_pattern(pattern)
             } else {
-                Glob::whole(pattern)
+                TextGlob::from_whole_pattern(pattern)
             };
-            let signs = ask.signs()?;
+            let signs = ask.known_signs()?;
             let is = |gloss: &str, folded: &str| match exactly {
-                true => glob.matches(gloss),
-                false => glob.fits(gloss, folded),
+                true => glob.matches_whole_text(gloss),
+                false => glob.fits_either_text(gloss, folded),
             };
-            let found = signs.rows.iter();
-            let found = found.filter(|(_, gloss, folded)| is(gloss, folded));
-            let found: Vec<i64> = found.map(|(id, _, _)| *id).collect();
-            if alone && found.is_empty() {
+            let sign_rows = signs.rows.iter();
+            let matching_rows = sign_rows.filter(|(_, gloss, folded)| is(gloss, folded));
+            let ids: Vec<i64> = matching_rows.map(|(id, _, _)| *id).collect();
+            if alone && ids.is_empty() {
                 nobody_has(ask, comparison, value)?;
             }
-            Ok(Plan::Index(Probe::Rows(RowField::Sign, found)))
+            Ok(QueryPlan::Index(IndexProbe::Rows(RowField::Sign, ids)))
         }
-        Wanted::Named(pattern) => {
-            let glob = Glob::whole(pattern);
-            let signs = ask.signs()?;
-            if alone && !signs.rows.iter().any(|(.., folded)| glob.matches(folded)) {
+        WantedValue::Named(pattern) => {
+            let glob = TextGlob::from_whole_pattern(pattern);
+            let signs = ask.known_signs()?;
+            if alone && !signs.rows.iter().any(|(.., folded)| glob.matches_whole_text(folded)) {
                 nobody_has(ask, comparison, value)?;
             }
-            Ok(Plan::Index(whole_gloss(ask, pattern)?))
+            Ok(QueryPlan::Index(whole_gloss(ask, pattern)?))
         }
     });
-    let found = Plan::any(plans.collect::<Asked<_>>()?);
+    let any_plan = QueryPlan::disjoin_plans(plans.collect::<QueryResult<_>>()?);
     Ok(match comparison.operator {
-        Operator::IsNot => found.not(),
-        _ => found,
+        ComparisonOperator::IsNot => any_plan.negate_plan(),
+        _ => any_plan,
     })
 }
 
 /// Reports that no sign has such a gloss, with similar ones.
-fn nobody_has(ask: &Ask<'_>, comparison: &Comparison, value: &Value) -> Asked<()> {
-    let Wanted::Named(pattern) = &value.wanted else {
+fn nobody_has(ask: &QueryContext<'_>, comparison: &ValueComparison, value: &QueryValue) -> QueryResult<()> {
+    let WantedValue::Named(pattern) = &value.wanted else {
         return Ok(());
     };
-    let written = Comparison {
+    let written = ValueComparison {
         operator: comparison.operator,
         values: vec![value.clone()],
     };
@@ -92,32 +97,32 @@ fn nobody_has(ask: &Ask<'_>, comparison: &Comparison, value: &Value) -> Asked<()
         why: "no sign has such a gloss".to_owned(),
         names: glosses_like(ask, pattern)?,
     };
-    ask.find(format!("gloss{written}"), value.at, kind);
+    ask.add_query_finding(format!("gloss{written}"), value.at, kind);
     Ok(())
 }
 
 /// Returns the glosses that resemble the text of a pattern.
-fn glosses_like(ask: &Ask<'_>, pattern: &Pattern) -> Asked<Vec<String>> {
-    let text = match pattern.expression() {
-        Some(expression) => expression.source().to_owned(),
-        None => pattern.segments().concat(),
+fn glosses_like(ask: &QueryContext<'_>, pattern: &TextPattern) -> QueryResult<Vec<String>> {
+    let pattern_text = match pattern.regular_expression() {
+        Some(expression) => expression.expression_source().to_owned(),
+        None => pattern.pattern_segments().concat(),
     };
-    let text: String = text.chars().filter(|c| !"^$.*\\".contains(*c)).collect();
-    let signs = ask.signs()?;
+    let text: String = pattern_text.chars().filter(|c| !"^$.*\\".contains(*c)).collect();
+    let signs = ask.known_signs()?;
     let glosses = signs.rows.iter().map(|(_, gloss, _)| gloss.clone());
-    Ok(findings::like(&text, &glosses.collect::<Vec<_>>()))
+    Ok(search_findings::similar_names(&text, &glosses.collect::<Vec<_>>()))
 }
 
 /// Returns glosses that resemble the only text of a test that finds nothing in glosses, or in any text.
-pub(crate) fn alternatives(ask: &Ask<'_>, test: &Test) -> Asked<Vec<String>> {
+pub(crate) fn alternative_glosses(ask: &QueryContext<'_>, test: &QueryTest) -> QueryResult<Vec<String>> {
     let pattern = match &test.what {
-        What::Words(TextField::Any | TextField::Gloss, patterns) => match &patterns[..] {
+        TestSubject::Words(TextField::Any | TextField::Gloss, patterns) => match &patterns[..] {
             [pattern] => pattern,
             _ => return Ok(Vec::new()),
         },
-        What::Whole(TextField::Any, comparison) => match &comparison.values[..] {
+        TestSubject::Whole(TextField::Any, comparison) => match &comparison.values[..] {
             [value] => match &value.wanted {
-                Wanted::Named(pattern) => pattern,
+                WantedValue::Named(pattern) => pattern,
                 _ => return Ok(Vec::new()),
             },
             _ => return Ok(Vec::new()),
@@ -127,30 +132,38 @@ pub(crate) fn alternatives(ask: &Ask<'_>, test: &Test) -> Asked<Vec<String>> {
     glosses_like(ask, pattern)
 }
 
-fn whole_gloss(ask: &Ask<'_>, pattern: &Pattern) -> Asked<Probe> {
-    let terms = fitting(ask.now, Text::Gloss, &Glob::whole(pattern))?;
-    Ok(Probe::Terms(Text::Gloss, terms))
+fn whole_gloss(ask: &QueryContext<'_>, pattern: &TextPattern) -> QueryResult<IndexProbe> {
+    let terms = terms_matching_glob(ask.now, IndexTextField::Gloss, &TextGlob::from_whole_pattern(pattern))?;
+    Ok(IndexProbe::Terms(IndexTextField::Gloss, terms))
 }
 
-fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Plan> {
+fn plan_translation_or_comment(
+    ask: &QueryContext<'_>,
+    translation: bool,
+    comparison: &ValueComparison,
+) -> QueryResult<QueryPlan> {
     let (name, field) = if translation {
-        ("translation", Text::Translation)
+        ("translation", IndexTextField::Translation)
     } else {
-        ("comment", Text::Comment)
+        ("comment", IndexTextField::Comment)
     };
-    let has = || Plan::Index(Probe::readings([TokenProperty::Has.term(name)]));
+    let has = || {
+        QueryPlan::Index(IndexProbe::from_reading_terms([
+            TokenProperty::Has.property_value_term(name)
+        ]))
+    };
     match (comparison.operator, &comparison.values[..]) {
-        (Operator::Is | Operator::Exactly, [value]) if value.wanted == Wanted::Present => {
+        (ComparisonOperator::Is | ComparisonOperator::Exactly, [value]) if value.wanted == WantedValue::Present => {
             return Ok(has());
         }
-        (Operator::Is | Operator::Exactly, [value])
-            if value.wanted == Wanted::Missing(Missing::Unset) =>
+        (ComparisonOperator::Is | ComparisonOperator::Exactly, [value])
+            if value.wanted == WantedValue::Missing(MissingReason::Unset) =>
         {
-            return Ok(has().not());
+            return Ok(has().negate_plan());
         }
         _ => {}
     }
-    Ok(Plan::Whole(Box::new(WholeText {
+    Ok(QueryPlan::Whole(Box::new(WholeText {
         translation,
         comparison: comparison.clone(),
         narrowed: narrowed(ask, field, comparison)?,
@@ -158,93 +171,97 @@ fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Pla
 }
 
 /// Returns a probe that matches at least every token with one of the wanted texts; nothing if they contain no words.
-fn narrowed(ask: &Ask<'_>, field: Text, comparison: &Comparison) -> Asked<Option<Probe>> {
-    if comparison.operator == Operator::IsNot {
+fn narrowed(
+    ask: &QueryContext<'_>,
+    field: IndexTextField,
+    comparison: &ValueComparison,
+) -> QueryResult<Option<IndexProbe>> {
+    if comparison.operator == ComparisonOperator::IsNot {
         return Ok(None);
     }
     let mut plans = Vec::new();
     for value in &comparison.values {
         let literal = match &value.wanted {
-            Wanted::Named(pattern) => pattern.as_literal().map(|_| pattern),
+            WantedValue::Named(pattern) => pattern.as_literal().map(|_| pattern),
             _ => None,
         };
         let Some(pattern) = literal else {
             return Ok(None);
         };
-        match phrase(ask, field, &Glob::words(pattern))? {
-            Some(probe) => plans.push(Plan::Index(probe)),
+        match phrase(ask, field, &TextGlob::word_globs(pattern))? {
+            Some(probe) => plans.push(QueryPlan::Index(probe)),
             None => return Ok(None),
         }
     }
-    Ok(Plan::any(plans).indexed().ok())
+    Ok(QueryPlan::disjoin_plans(plans).indexed_probe().ok())
 }
 
 /// Returns the candidates whose texts match.
-pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked<Docs> {
-    let ids = ask.now.rows(RowField::Token)?;
-    let mut found = Docs::new();
+pub(crate) fn filter_whole_texts(
+    ask: &QueryContext<'_>,
+    text: &WholeText,
+    candidates: DocumentList,
+) -> QueryResult<DocumentList> {
+    let ids = ask.now.open_row_column(RowField::Token)?;
+    let mut passing = DocumentList::new();
     for doc in candidates {
-        ask.look()?;
-        let token = ids.get(doc).unwrap_or_default();
-        let (translations, comments) = answers::texts_of_token(ask.connection, token)?;
-        let texts = if text.translation {
-            translations
-        } else {
-            comments
-        };
+        ask.count_examined_row()?;
+        let token = ids.document_number(doc).unwrap_or_default();
+        let (translations, comments) = search_answers::texts_of_token(ask.connection, token)?;
+        let texts = if text.translation { translations } else { comments };
         if texts_pass(&text.comparison, texts) {
-            found.push(doc);
+            passing.push(doc);
         }
     }
-    Ok(found)
+    Ok(passing)
 }
 
 /// Returns whether one of the texts matches, or there is no text and the comparison accepts that.
-fn texts_pass(comparison: &Comparison, texts: Vec<String>) -> bool {
+fn texts_pass(comparison: &ValueComparison, texts: Vec<String>) -> bool {
     if texts.is_empty() {
-        return comparison.accepts(&Reading::Unset, |_, _| false);
+        return comparison.comparison_accepts_reading(&ComponentReading::Unset, |_, _| false);
     }
     texts
         .into_iter()
-        .any(|text| text_passes(comparison, &Reading::Value(text)))
+        .any(|text| text_passes(comparison, &ComponentReading::Value(text)))
 }
 
 /// Returns whether a single text matches.
-pub(crate) fn text_passes(comparison: &Comparison, reading: &Reading) -> bool {
-    comparison.accepts(reading, |text, wanted| match wanted {
-        Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
-            Glob::exact(pattern).matches(text)
+pub(crate) fn text_passes(comparison: &ValueComparison, reading: &ComponentReading) -> bool {
+    comparison.comparison_accepts_reading(reading, |text, wanted| match wanted {
+        WantedValue::Named(pattern) if comparison.operator == ComparisonOperator::Exactly => {
+            TextGlob::from_exact_pattern(pattern).matches_whole_text(text)
         }
-        Wanted::Named(pattern) => Glob::whole(pattern).fits(text, &fold(text)),
+        WantedValue::Named(pattern) => TextGlob::from_whole_pattern(pattern).fits_either_text(text, &fold_text(text)),
         _ => false,
     })
 }
 
 /// Returns the plan for words anywhere in a text, or a text up to slips.
-pub(crate) fn words_plan(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
-    let places = places(ask, test)?;
-    Ok(Plan::any(places.into_iter().flatten().collect()))
+pub(crate) fn words_plan(ask: &QueryContext<'_>, test: &QueryTest) -> QueryResult<QueryPlan> {
+    let places = plan_text_places(ask, test)?;
+    Ok(QueryPlan::disjoin_plans(places.into_iter().flatten().collect()))
 }
 
 /// Returns the plans for the places where a text may occur, most specific first: the whole gloss, words of the gloss,
 /// translations, remarks.
-pub(crate) fn places(ask: &Ask<'_>, test: &Test) -> Asked<Vec<Option<Plan>>> {
+pub(crate) fn plan_text_places(ask: &QueryContext<'_>, test: &QueryTest) -> QueryResult<Vec<Option<QueryPlan>>> {
     match &test.what {
-        What::Words(field, patterns) => {
-            let mut places: [Vec<Plan>; 4] = Default::default();
+        TestSubject::Words(field, patterns) => {
+            let mut places: [Vec<QueryPlan>; 4] = Default::default();
             for pattern in patterns {
-                let globs = Glob::words(pattern);
+                let globs = TextGlob::word_globs(pattern);
                 if in_gloss(*field) {
-                    places[0].push(Plan::Index(whole_gloss(ask, pattern)?));
+                    places[0].push(QueryPlan::Index(whole_gloss(ask, pattern)?));
                 }
                 for (place, field) in fields_of(*field) {
-                    places[place].extend(phrase(ask, field, &globs)?.map(Plan::Index));
+                    places[place].extend(phrase(ask, field, &globs)?.map(QueryPlan::Index));
                 }
             }
-            let some = |plans: Vec<Plan>| (!plans.is_empty()).then(|| Plan::any(plans));
+            let some = |plans: Vec<QueryPlan>| (!plans.is_empty()).then(|| QueryPlan::disjoin_plans(plans));
             Ok(places.into_iter().map(some).collect())
         }
-        What::Fuzzy { field, text, slips } => fuzzy(test, *field, text, *slips),
+        TestSubject::Fuzzy { field, text, slips } => plan_fuzzy_text(test, *field, text, *slips),
         _ => Ok(Vec::new()),
     }
 }
@@ -254,11 +271,11 @@ fn in_gloss(field: TextField) -> bool {
 }
 
 /// Returns the word fields in which a text is searched, with their places.
-fn fields_of(field: TextField) -> Vec<(usize, Text)> {
+fn fields_of(field: TextField) -> Vec<(usize, IndexTextField)> {
     let all = [
-        (1, TextField::Gloss, Text::Words),
-        (2, TextField::Translation, Text::Translation),
-        (3, TextField::Comment, Text::Comment),
+        (1, TextField::Gloss, IndexTextField::Words),
+        (2, TextField::Translation, IndexTextField::Translation),
+        (3, TextField::Comment, IndexTextField::Comment),
     ];
     let wanted = all
         .into_iter()
@@ -267,42 +284,42 @@ fn fields_of(field: TextField) -> Vec<(usize, Text)> {
 }
 
 /// Returns the probe for adjacent words; `None` if there is no word.
-fn phrase(ask: &Ask<'_>, field: Text, globs: &[Glob]) -> Asked<Option<Probe>> {
-    let literals: Option<Vec<&str>> = globs.iter().map(Glob::literal).collect();
+fn phrase(ask: &QueryContext<'_>, field: IndexTextField, globs: &[TextGlob]) -> QueryResult<Option<IndexProbe>> {
+    let literals: Option<Vec<&str>> = globs.iter().map(TextGlob::literal_text).collect();
     Ok(match (globs, literals) {
         ([], _) => None,
-        ([one], _) => Some(Probe::Terms(field, fitting(ask.now, field, one)?)),
+        ([one], _) => Some(IndexProbe::Terms(field, terms_matching_glob(ask.now, field, one)?)),
         (_, Some(words)) => {
             let words = words.into_iter().map(str::to_owned).collect();
-            Some(Probe::Phrase(field, words))
+            Some(IndexProbe::Phrase(field, words))
         }
         (several, None) => {
-            let words = several.iter().map(Glob::regex).collect();
-            Some(Probe::Patterns(field, words))
+            let words = several.iter().map(TextGlob::glob_regex).collect();
+            Some(IndexProbe::Patterns(field, words))
         }
     })
 }
 
-fn fuzzy(test: &Test, field: TextField, text: &str, slips: u8) -> Asked<Vec<Option<Plan>>> {
-    let words = words(text);
-    let whole = fold(text);
-    if whole.chars().count() > LONGEST_FUZZY {
+fn plan_fuzzy_text(test: &QueryTest, field: TextField, text: &str, slips: u8) -> QueryResult<Vec<Option<QueryPlan>>> {
+    let words = split_folded_words(text);
+    let folded = fold_text(text);
+    if folded.chars().count() > LONGEST_FUZZY {
         return Err(QueryError {
-            at: test.at.range(),
+            at: test.at.char_range(),
             message: "this is too long for a comparison that tolerates slips".to_owned(),
             remedy: format!("write at most {LONGEST_FUZZY} characters").into(),
             suggestion: None,
         }
         .into());
     }
-    let near = |field: Text, word: &str| Plan::Index(Probe::Near(field, word.to_owned(), slips));
-    let mut places: Vec<Option<Plan>> = vec![None, None, None, None];
+    let near = |field: IndexTextField, word: &str| QueryPlan::Index(IndexProbe::Near(field, word.to_owned(), slips));
+    let mut places: Vec<Option<QueryPlan>> = vec![None, None, None, None];
     if in_gloss(field) {
-        places[0] = Some(near(Text::Gloss, &whole));
+        places[0] = Some(near(IndexTextField::Gloss, &folded));
     }
     for (place, field) in fields_of(field) {
         let all = words.iter().map(|word| near(field, word)).collect();
-        places[place] = (!words.is_empty()).then(|| Plan::all(all));
+        places[place] = (!words.is_empty()).then(|| QueryPlan::conjoin_plans(all));
     }
     Ok(places)
 }

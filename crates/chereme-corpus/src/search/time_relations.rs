@@ -2,63 +2,63 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_motion::{Instant, Span};
-use chereme_sign::query::{Comparison, Pattern, Test, TextField, What};
-use chereme_sign::text::fold;
-use chereme_sign::{Reading, Relation, TierRole};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::query::{QueryTest, TestSubject, TextField, TextPattern, ValueComparison};
+use chereme_sign::text::fold_text;
+use chereme_sign::{ComponentReading, TierRole, TimeRelation};
 
-use super::compile::{self, Ask, Asked};
-use super::component::ComponentTest;
-use super::docs::{Docs, Times};
-use super::finding::FindingKind;
-use super::findings;
-use super::plan::{self, Plan};
-use super::probe::{Column, Doc, RowField};
-use super::{text_match, texts};
-use crate::db::search::answers::{self, CodedRow};
-use crate::db::search::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
-use crate::error::Result;
+use super::compile::{self, QueryContext, QueryResult};
+use super::docs::{DocumentList, DocumentTimes};
+use super::probe::{IndexDocument, NumberColumn, RowField};
+use super::search_component::ComponentTest;
+use super::search_finding::FindingKind;
+use super::search_findings;
+use super::search_plan::{self, QueryPlan};
+use super::{search_texts, text_match};
+use crate::db::stored_search::search_answers::{self, CodedRow};
+use crate::db::stored_search::search_terms::{self, hand_codes, hands_of, phase_code, phase_counts};
+use crate::error::CorpusResult;
 
 /// A relation to another annotation.
 ///
 /// The other annotation may be on any tier that has the component, text or name, even if it belongs to the token
 /// itself; a relation to a gloss is one to another token.
-pub(crate) struct Beside {
+pub(crate) struct NeighbourRelation {
     /// The relation; nothing for a condition on annotations of a tier that overlap the token, where a missing
     /// annotation counts as unset.
-    relation: Option<Relation>,
-    other: Vec<Other>,
+    relation: Option<TimeRelation>,
+    other: Vec<RelatedAnnotationTest>,
     /// Whether the token itself may be the overlapping other.
     itself: bool,
 }
 
-enum Other {
+enum RelatedAnnotationTest {
     /// Another token whose gloss passes.
-    Gloss(Plan),
+    Gloss(QueryPlan),
     Component(Box<ComponentTest>),
     /// An annotation of tiers with this role.
-    Role(TierRole, Test),
+    Role(TierRole, QueryTest),
     /// An annotation on tiers whose name matches.
-    Tier(Pattern, Comparison),
+    Tier(TextPattern, ValueComparison),
 }
 
-impl Beside {
+impl NeighbourRelation {
     /// Prepares a relation to annotations that pass a test; without a relation it must be a test on a tier.
-    pub(crate) fn new(ask: &Ask<'_>, relation: Option<Relation>, test: &Test) -> Asked<Self> {
+    pub(crate) fn new(ask: &QueryContext<'_>, relation: Option<TimeRelation>, test: &QueryTest) -> QueryResult<Self> {
         let other = match &test.what {
-            What::Component(field, comparison) => {
-                let range = test.subject_at.range();
+            TestSubject::Component(field, comparison) => {
+                let range = test.subject_at.char_range();
                 let test = ComponentTest::new(ask, field, comparison, range)?;
-                vec![Other::Component(Box::new(test))]
+                vec![RelatedAnnotationTest::Component(Box::new(test))]
             }
-            What::Tier(name, comparison) => {
+            TestSubject::Tier(name, comparison) => {
                 check_tier(ask, name, test)?;
-                vec![Other::Tier(name.clone(), comparison.clone())]
+                vec![RelatedAnnotationTest::Tier(name.clone(), comparison.clone())]
             }
-            What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
+            TestSubject::Whole(field, _) | TestSubject::Words(field, _) | TestSubject::Fuzzy { field, .. } => {
                 texts_beside(ask, test, *field)?
             }
-            What::Property(..) | What::Time(..) | What::Attribute(..) | What::Curve(..) => {
+            TestSubject::Property(..) | TestSubject::Time(..) | TestSubject::Attribute(..) | TestSubject::Curve(..) => {
                 Vec::new()
             }
         };
@@ -72,51 +72,58 @@ impl Beside {
     /// Returns the relation with the token itself accepted as an overlapping other.
     pub(crate) fn or_itself(self) -> Self {
         Self {
-            itself: self.relation == Some(Relation::Overlaps),
+            itself: self.relation == Some(TimeRelation::Overlaps),
             ..self
         }
     }
 
     /// Returns the candidates for which the relation holds.
-    pub(crate) fn filter(&self, ask: &Ask<'_>, candidates: Docs) -> Asked<Docs> {
-        let times = Times::open(ask.now)?;
-        let ids = ask.now.rows(RowField::Token)?;
-        let mut by_recording: BTreeMap<i64, Vec<Candidate>> = BTreeMap::new();
-        let mut found = Docs::new();
+    pub(crate) fn filter_related_candidates(
+        &self,
+        ask: &QueryContext<'_>,
+        candidates: DocumentList,
+    ) -> QueryResult<DocumentList> {
+        let times = DocumentTimes::open_document_times(ask.now)?;
+        let ids = ask.now.open_row_column(RowField::Token)?;
+        let mut by_recording: BTreeMap<i64, Vec<RelationCandidate>> = BTreeMap::new();
+        let mut passing = DocumentList::new();
         for doc in candidates {
-            match times.get(doc) {
+            match times.document_times(doc) {
                 Some((recording, start, end)) => {
-                    let (token, span) = (ids.get(doc).unwrap_or_default(), span(start, end));
+                    let (token, span) = (
+                        ids.document_number(doc).unwrap_or_default(),
+                        span_from_micros(start, end),
+                    );
                     let candidates = by_recording.entry(recording).or_default();
-                    candidates.push(Candidate { doc, token, span });
+                    candidates.push(RelationCandidate { doc, token, span });
                 }
-                None if self.passes_alone() => found.push(doc),
+                None if self.passes_alone() => passing.push(doc),
                 None => {}
             }
         }
         let recordings = by_recording.keys().copied().collect();
-        let mut glosses = self.glosses(ask, &recordings, &times, &*ids)?;
+        let mut glosses = self.related_gloss_spans(ask, &recordings, &times, &*ids)?;
         for (recording, candidates) in by_recording {
             let mut marks = glosses.remove(&recording).unwrap_or_default();
-            self.collect(ask, recording, &mut marks)?;
-            let marks = Marks::new(marks);
+            self.collect_related_spans(ask, recording, &mut marks)?;
+            let marks = RelatedSpans::new(marks);
             for one in candidates {
-                ask.look()?;
-                if self.holds(&one, &marks) {
-                    found.push(one.doc);
+                ask.count_examined_row()?;
+                if self.holds_for_candidate(&one, &marks) {
+                    passing.push(one.doc);
                 }
             }
         }
-        found.sort_unstable();
-        Ok(found)
+        passing.sort_unstable();
+        Ok(passing)
     }
 
-    fn holds(&self, candidate: &Candidate, marks: &Marks) -> bool {
+    fn holds_for_candidate(&self, candidate: &RelationCandidate, marks: &RelatedSpans) -> bool {
         match self.relation {
-            Some(relation) => marks.any(relation, candidate, |mark| mark.passes),
+            Some(relation) => marks.any_span_related(relation, candidate, |mark| mark.passes),
             None => {
-                marks.any(Relation::Overlaps, candidate, |mark| mark.passes)
-                    || self.passes_alone() && !marks.any(Relation::Overlaps, candidate, |_| true)
+                marks.any_span_related(TimeRelation::Overlaps, candidate, |mark| mark.passes)
+                    || self.passes_alone() && !marks.any_span_related(TimeRelation::Overlaps, candidate, |_| true)
             }
         }
     }
@@ -125,32 +132,34 @@ impl Beside {
     fn passes_alone(&self) -> bool {
         self.relation.is_none()
             && self.other.iter().any(|other| match other {
-                Other::Tier(_, comparison) => comparison.accepts(&Reading::Unset, |_, _| false),
+                RelatedAnnotationTest::Tier(_, comparison) => {
+                    comparison.comparison_accepts_reading(&ComponentReading::Unset, |_, _| false)
+                }
                 _ => false,
             })
     }
 
     /// Returns the tokens whose gloss passes, by recording.
-    fn glosses(
+    fn related_gloss_spans(
         &self,
-        ask: &Ask<'_>,
+        ask: &QueryContext<'_>,
         recordings: &BTreeSet<i64>,
-        times: &Times,
-        ids: &dyn Column,
-    ) -> Asked<BTreeMap<i64, Vec<RelatedSpan>>> {
+        times: &DocumentTimes,
+        ids: &dyn NumberColumn,
+    ) -> QueryResult<BTreeMap<i64, Vec<RelatedSpan>>> {
         let mut marks: BTreeMap<i64, Vec<RelatedSpan>> = BTreeMap::new();
         for other in &self.other {
-            let Other::Gloss(plan) = other else {
+            let RelatedAnnotationTest::Gloss(plan) = other else {
                 continue;
             };
-            for doc in plan::evaluate(ask, plan, None)? {
-                let Some((recording, start, end)) = times.get(doc) else {
+            for doc in search_plan::evaluate_query_plan(ask, plan, None)? {
+                let Some((recording, start, end)) = times.document_times(doc) else {
                     continue;
                 };
                 if recordings.contains(&recording) {
                     marks.entry(recording).or_default().push(RelatedSpan {
-                        span: span(start, end),
-                        token: ids.get(doc).filter(|_| !self.itself),
+                        span: span_from_micros(start, end),
+                        token: ids.document_number(doc).filter(|_| !self.itself),
                         passes: true,
                     });
                 }
@@ -160,13 +169,18 @@ impl Beside {
     }
 
     /// Adds the annotations of a recording to which the relation may hold.
-    fn collect(&self, ask: &Ask<'_>, recording: i64, marks: &mut Vec<RelatedSpan>) -> Result<()> {
+    fn collect_related_spans(
+        &self,
+        ask: &QueryContext<'_>,
+        recording: i64,
+        marks: &mut Vec<RelatedSpan>,
+    ) -> CorpusResult<()> {
         ask.go_on()?;
         let mut add = |row: &CodedRow<'_>, passes: bool| {
             let wanted = passes || self.relation.is_none();
             if let Some((start, end)) = row.span.filter(|_| wanted) {
                 marks.push(RelatedSpan {
-                    span: span(start, end),
+                    span: span_from_micros(start, end),
                     token: None,
                     passes,
                 });
@@ -174,27 +188,27 @@ impl Beside {
         };
         for other in &self.other {
             match other {
-                Other::Gloss(_) => {}
-                Other::Component(test) => {
-                    let left_handed = answers::left_handed(ask.connection, recording)?;
-                    let (name, phases) = (test.field.component.name(), test.field.phase.is_some());
-                    answers::coded_in_recording(ask.connection, recording, name, phases, |row| {
+                RelatedAnnotationTest::Gloss(_) => {}
+                RelatedAnnotationTest::Component(test) => {
+                    let left_handed = search_answers::left_handed(ask.connection, recording)?;
+                    let (name, phases) = (test.field.component.component_name(), test.field.phase.is_some());
+                    search_answers::coded_in_recording(ask.connection, recording, name, phases, |row| {
                         add(&row, component_passes(test, &row, left_handed));
                     })?;
                 }
-                Other::Role(wanted, test) => {
-                    for (tier, _, role) in answers::tiers(ask.connection, recording)? {
+                RelatedAnnotationTest::Role(wanted, test) => {
+                    for (tier, _, role) in search_answers::list_recording_tier_roles(ask.connection, recording)? {
                         if role == *wanted {
-                            answers::on_tier(ask.connection, tier, |row| {
+                            search_answers::on_tier(ask.connection, tier, |row| {
                                 add(&row, text_passes(test, &row));
                             })?;
                         }
                     }
                 }
-                Other::Tier(pattern, comparison) => {
-                    for (tier, name, _) in answers::tiers(ask.connection, recording)? {
-                        if pattern.matches(&name) {
-                            answers::on_tier(ask.connection, tier, |row| {
+                RelatedAnnotationTest::Tier(pattern, comparison) => {
+                    for (tier, name, _) in search_answers::list_recording_tier_roles(ask.connection, recording)? {
+                        if pattern.matches_text(&name) {
+                            search_answers::on_tier(ask.connection, tier, |row| {
                                 add(&row, text_match::text_passes(comparison, &reading_of(&row)));
                             })?;
                         }
@@ -207,31 +221,34 @@ impl Beside {
 }
 
 /// Reports that no tier of the corpus has such a name.
-fn check_tier(ask: &Ask<'_>, name: &Pattern, test: &Test) -> Asked<()> {
-    let names = answers::tier_names(ask.connection)?;
-    if names.iter().any(|it| name.matches(it)) {
+fn check_tier(ask: &QueryContext<'_>, name: &TextPattern, test: &QueryTest) -> QueryResult<()> {
+    let names = search_answers::tier_names(ask.connection)?;
+    if names.iter().any(|tier_name| name.matches_text(tier_name)) {
         return Ok(());
     }
-    let near = findings::like(&name.segments().concat(), &names);
+    let near = search_findings::similar_names(&name.pattern_segments().concat(), &names);
     let kind = FindingKind::CannotMatch {
         why: "no tier has this name".to_owned(),
         names: if near.is_empty() { names } else { near },
     };
-    ask.find(test.to_string(), test.at, kind);
+    ask.add_query_finding(test.to_string(), test.at, kind);
     Ok(())
 }
 
-fn texts_beside(ask: &Ask<'_>, test: &Test, field: TextField) -> Asked<Vec<Other>> {
+fn texts_beside(ask: &QueryContext<'_>, test: &QueryTest, field: TextField) -> QueryResult<Vec<RelatedAnnotationTest>> {
     let mut other = Vec::new();
     if matches!(field, TextField::Any | TextField::Gloss) {
-        let mut own = test.clone();
-        match &mut own.what {
-            What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
+        let mut field_test = test.clone();
+        match &mut field_test.what {
+            TestSubject::Whole(field, _) | TestSubject::Words(field, _) | TestSubject::Fuzzy { field, .. } => {
                 *field = TextField::Gloss;
             }
             _ => {}
         }
-        other.push(Other::Gloss(compile::test(ask, &own)?));
+        other.push(RelatedAnnotationTest::Gloss(compile::plan_comparison(
+            ask,
+            &field_test,
+        )?));
     }
     let roles = [
         (TextField::Translation, TierRole::Translation),
@@ -239,103 +256,99 @@ fn texts_beside(ask: &Ask<'_>, test: &Test, field: TextField) -> Asked<Vec<Other
     ];
     for (own, role) in roles {
         if field == TextField::Any || field == own {
-            other.push(Other::Role(role, test.clone()));
+            other.push(RelatedAnnotationTest::Role(role, test.clone()));
         }
     }
     Ok(other)
 }
 
-fn reading_of(row: &CodedRow<'_>) -> Reading {
-    match terms::reading(row.state, row.value.map(str::trim)) {
-        Reading::Value(value) if value.is_empty() => Reading::Unset,
+fn reading_of(row: &CodedRow<'_>) -> ComponentReading {
+    match search_terms::reading_from_state(row.state, row.value.map(str::trim)) {
+        ComponentReading::Value(value) if value.is_empty() => ComponentReading::Unset,
         reading => reading,
     }
 }
 
 fn component_passes(test: &ComponentTest, row: &CodedRow<'_>, left_handed: bool) -> bool {
     let hands = hands_of(test.field.hand);
-    let own = hand_codes(row.hand, left_handed);
+    let row_hands = hand_codes(row.hand, left_handed);
     let phase = phase_code(row.phase);
-    if !own.iter().any(|hand| hands.contains(hand)) || !phase_counts(test.field.phase, &phase) {
+    if !row_hands.iter().any(|hand| hands.contains(hand)) || !phase_counts(test.field.phase, &phase) {
         return false;
     }
     let reading = reading_of(row);
-    let folded = reading.value().map_or(String::new(), fold);
-    test.accepts(row.part, &reading, &folded)
+    let folded = reading.reading_value().map_or(String::new(), fold_text);
+    test.accepts_reading(row.part, &reading, &folded)
 }
 
-fn text_passes(test: &Test, row: &CodedRow<'_>) -> bool {
+fn text_passes(test: &QueryTest, row: &CodedRow<'_>) -> bool {
     let reading = reading_of(row);
     match &test.what {
-        What::Whole(_, comparison) => text_match::text_passes(comparison, &reading),
+        TestSubject::Whole(_, comparison) => text_match::text_passes(comparison, &reading),
         what => reading
-            .value()
-            .is_some_and(|text| texts::passes(what, text)),
+            .reading_value()
+            .is_some_and(|text| search_texts::passes_word_test(what, text)),
     }
 }
 
-struct Candidate {
-    doc: Doc,
+struct RelationCandidate {
+    doc: IndexDocument,
     token: i64,
-    span: Span,
+    span: TimeSpan,
 }
 
 struct RelatedSpan {
-    span: Span,
+    span: TimeSpan,
     /// The token, if the annotation is that of one.
     token: Option<i64>,
     passes: bool,
 }
 
 /// Annotations ordered by start, each with the latest end up to it, for a fast search around a span.
-struct Marks {
+struct RelatedSpans {
     marks: Vec<RelatedSpan>,
-    latest: Vec<Instant>,
+    latest: Vec<RecordingInstant>,
 }
 
-impl Marks {
+impl RelatedSpans {
     fn new(mut marks: Vec<RelatedSpan>) -> Self {
-        marks.sort_by_key(|mark| mark.span.start());
+        marks.sort_by_key(|mark| mark.span.span_start_instant());
         let mut latest = Vec::with_capacity(marks.len());
         for mark in &marks {
-            let before = latest.last().copied().unwrap_or(mark.span.end());
-            latest.push(before.max(mark.span.end()));
+            let before = latest.last().copied().unwrap_or(mark.span.span_end_instant());
+            latest.push(before.max(mark.span.span_end_instant()));
         }
         Self { marks, latest }
     }
 
     /// Returns whether the relation holds between the candidate and one of the wanted annotations.
-    fn any(
+    fn any_span_related(
         &self,
-        relation: Relation,
-        candidate: &Candidate,
+        relation: TimeRelation,
+        candidate: &RelationCandidate,
         wanted: impl Fn(&RelatedSpan) -> bool,
     ) -> bool {
         let holds = |mark: &RelatedSpan| {
-            wanted(mark)
-                && mark.token != Some(candidate.token)
-                && relation.holds(candidate.span, mark.span)
+            wanted(mark) && mark.token != Some(candidate.token) && relation.relation_holds(candidate.span, mark.span)
         };
         let reach = match relation {
-            Relation::Before | Relation::After | Relation::NotInside | Relation::NotOverlaps => {
+            TimeRelation::Before | TimeRelation::After | TimeRelation::NotInside | TimeRelation::NotOverlaps => {
                 return self.marks.iter().any(holds);
             }
-            Relation::Around(reach) | Relation::OfBegin(reach) | Relation::OfEnd(reach) => {
-                reach.max(0)
-            }
+            TimeRelation::Around(reach) | TimeRelation::OfBegin(reach) | TimeRelation::OfEnd(reach) => reach.max(0),
             _ => 0,
         };
         let (from, to) = (
-            candidate.span.start().shifted(-reach),
-            candidate.span.end().shifted(reach),
+            candidate.span.span_start_instant().shifted_instant(-reach),
+            candidate.span.span_end_instant().shifted_instant(reach),
         );
-        let until = self.marks.partition_point(|mark| mark.span.start() <= to);
-        let near = self.marks[..until].iter().zip(&self.latest).rev();
-        let mut near = near.take_while(|(_, latest)| **latest >= from);
+        let until = self.marks.partition_point(|mark| mark.span.span_start_instant() <= to);
+        let earlier_marks = self.marks[..until].iter().zip(&self.latest).rev();
+        let mut near = earlier_marks.take_while(|(_, latest)| **latest >= from);
         near.any(|(mark, _)| holds(mark))
     }
 }
 
-fn span(start: i64, end: i64) -> Span {
-    Span::between(Instant::from_micros(start), Instant::from_micros(end))
+fn span_from_micros(start: i64, end: i64) -> TimeSpan {
+    TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
 }

@@ -2,65 +2,65 @@
 
 use std::sync::Arc;
 
-use chereme_compose::Material;
-use chereme_motion::{Clip, Part, Side};
+use chereme_compose::MovementMaterial;
+use chereme_motion::{BodyPart, BodySide, Clip};
 use sha2::{Digest, Sha256};
 
-use crate::db::motion;
-use crate::error::{Error, Result};
+use crate::db::stored_motion;
+use crate::error::{CorpusError, CorpusResult};
 
 /// The largest distance in metres between feet and floor that a body keeps. Signs that follow one another keep their
 /// heights up to the same difference.
-const STANDS: f64 = 0.6;
+const MAX_FLOOR_DISTANCE_METRES: f64 = 0.6;
 
 /// Returns the height in metres of a body's lowest foot above the floor in its first frame; `None` if the body has no
 /// feet or stands on the floor.
-pub(super) fn hanging(body: &Material) -> Option<f64> {
-    let lowest = lowest(body)?;
-    (lowest.abs() > STANDS).then_some(lowest)
+pub(super) fn hanging_height(body: &MovementMaterial) -> Option<f64> {
+    let lowest = lowest_foot_height(body)?;
+    (lowest.abs() > MAX_FLOOR_DISTANCE_METRES).then_some(lowest)
 }
 
 /// Returns the height of the lowest point of the feet in the first frame.
-fn lowest(body: &Material) -> Option<f64> {
-    let feet = Side::BOTH.map(|side| body.anatomy.joint(Part::Foot(side)));
-    if body.clip.frames() == 0 || feet.contains(&None) {
+fn lowest_foot_height(body: &MovementMaterial) -> Option<f64> {
+    let feet = BodySide::BOTH_SIDES.map(|side| body.anatomy.part_joint(BodyPart::Foot(side)));
+    if body.clip.clip_frame_count() == 0 || feet.contains(&None) {
         return None;
     }
-    let skeleton = body.clip.skeleton();
+    let skeleton = body.clip.clip_skeleton();
     let model = body.clip.model_pose(0);
-    let toes = Side::BOTH.map(|side| body.anatomy.joint(Part::Toes(side)));
+    let toes = BodySide::BOTH_SIDES.map(|side| body.anatomy.part_joint(BodyPart::Toes(side)));
     let joints = feet.into_iter().chain(toes).flatten();
     let heights = joints.flat_map(|joint| {
-        let tip = body.anatomy.tip(skeleton, joint);
-        let tip = tip.map(|tip| model.point(joint, tip).y);
-        [Some(model.position(joint).y), tip]
+        let tip_offset = body.anatomy.joint_tip(skeleton, joint);
+        let tip = tip_offset.map(|tip| model.joint_point_to_model(joint, tip).y);
+        [Some(model.model_joint_position(joint).y), tip]
     });
     Some(heights.flatten().fold(f64::INFINITY, f64::min))
 }
 
 /// Returns a body that stands on the floor: the same one if it stands there already.
-pub(crate) fn grounded(mut body: Material) -> Result<Material> {
-    let Some(height) = hanging(&body) else {
+pub(crate) fn ground_body(mut body: MovementMaterial) -> CorpusResult<MovementMaterial> {
+    let Some(height) = hanging_height(&body) else {
         return Ok(body);
     };
-    let skeleton = Arc::clone(body.clip.skeleton());
-    let frames = body.clip.frames();
-    let mut channels = body.clip.channels().to_vec();
-    for (joint, channel) in skeleton.joints().iter().zip(&mut channels) {
+    let skeleton = Arc::clone(body.clip.clip_skeleton());
+    let frames = body.clip.clip_frame_count();
+    let mut channels = body.clip.joint_channels().to_vec();
+    for (joint, channel) in skeleton.skeleton_joints().iter().zip(&mut channels) {
         if joint.parent.is_some() {
             continue;
         }
-        let places = channel.translations.take();
-        let mut places = places.unwrap_or_else(|| vec![joint.offset; frames]);
+        let translations = channel.translations.take();
+        let mut places = translations.unwrap_or_else(|| vec![joint.offset; frames]);
         for place in &mut places {
             place.y -= height;
         }
         channel.translations = Some(places);
     }
-    let clip = Clip::new(skeleton, body.clip.rate(), channels);
-    body.clip = clip.map_err(|error| Error::wrong(error.to_string()))?;
+    let clip = Clip::new(skeleton, body.clip.clip_frame_rate(), channels);
+    body.clip = clip.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     let name = format!("{} on the floor", body.hash);
-    body.hash = motion::hex(&Sha256::digest(name.as_bytes()));
+    body.hash = stored_motion::to_hex_text(&Sha256::digest(name.as_bytes()));
     Ok(body)
 }
 
@@ -68,10 +68,12 @@ pub(crate) fn grounded(mut body: Material) -> Result<Material> {
 mod tests {
     use std::fs;
 
-    use chereme_motion::{Channel, Instant, Span};
+    use chereme_motion::{JointChannel, RecordingInstant, TimeSpan};
 
-    use crate::address::{Address, Name};
-    use crate::{Corpus, CueOptions, ImportOptions, Progress, Staging, starter_files, unheard};
+    use crate::address::{CorpusAddress, RowName};
+    use crate::{
+        Corpus, CueOptions, ImportOptions, NotationStaging, ProgressReceiver, ignore_progress_step, starter_files,
+    };
 
     /// Returns a starter capture that is raised by this many centimetres.
     fn raised(centimetres: f64) -> String {
@@ -98,47 +100,46 @@ mod tests {
 
     /// Returns a corpus of captures that are raised by these many centimetres.
     fn corpus_of(folder: &std::path::Path, heights: &[f64]) -> Corpus {
-        let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
         let files = heights.iter().enumerate().map(|(nth, height)| {
             let path = folder.join(format!("take{nth}.bvh"));
             fs::write(&path, raised(*height)).expect("written");
             path
         });
         let files: Vec<_> = files.collect();
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         corpus
-            .import(
-                &files,
-                &ImportOptions::default(),
-                &mut Progress::new(&mut hear),
-            )
+            .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
             .expect("taken in");
         corpus
     }
 
     /// Returns the height of the lowest joint, and all channels, of signs made in a corpus of captures that are raised
     /// by these many centimetres.
-    fn made(heights: &[f64], signer: Option<&str>) -> Vec<(f64, Vec<Channel>)> {
+    fn made(heights: &[f64], signer: Option<&str>) -> Vec<(f64, Vec<JointChannel>)> {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = corpus_of(folder.path(), heights);
-        let staging = Staging {
-            signer,
-            language: None,
-        };
+        let staging = NotationStaging { signer, language: None };
         let notation = "hamfist hamextfingeru hampalml hamchest";
         corpus
-            .animate(&[notation], &staging, Some("NOTATED"))
+            .animate_notation(&[notation], &staging, Some("NOTATED"))
             .expect("animated");
         let options = CueOptions {
             signer: signer.map(str::to_owned),
             ..CueOptions::default()
         };
-        corpus.cue("bon", &options, Some("CUED")).expect("cued");
+        corpus
+            .generate_cued_speech("bon", &options, Some("CUED"))
+            .expect("cued");
         let signs = ["NOTATED", "CUED"].map(|name| {
-            let address = Address::Recording(Name::Text(name.to_owned()));
-            let clip = corpus.movement(&address).expect("movement").clip;
-            assert!(clip.span() > Span::new(Instant::ZERO, Instant::ZERO).expect("a span"));
-            let heights = clip.model_pose(0).positions().to_vec();
+            let address = CorpusAddress::Recording(RowName::Text(name.to_owned()));
+            let clip = corpus.movement_at_address(&address).expect("movement").clip;
+            assert!(
+                clip.clip_span()
+                    > TimeSpan::new(RecordingInstant::RECORDING_START, RecordingInstant::RECORDING_START)
+                        .expect("a span")
+            );
+            let heights = clip.model_pose(0).model_joint_positions().to_vec();
             let lowest = heights.iter().map(|at| at.y).fold(f64::INFINITY, f64::min);
             (lowest, clip.into_channels())
         });
@@ -156,9 +157,7 @@ mod tests {
             (&[-97.0, 0.0], Some("take0"), false),
             (&[0.0, 200.0], None, true),
         ] {
-            for ((lowest, channels), (usual, of_standing)) in
-                made(heights, signer).iter().zip(&stands)
-            {
+            for ((lowest, channels), (usual, of_standing)) in made(heights, signer).iter().zip(&stands) {
                 let apart = (lowest - usual).abs();
                 assert!(apart < 0.15, "{heights:?} {signer:?}: {lowest} {usual}");
                 if same {
@@ -183,15 +182,12 @@ mod tests {
 </sign_manual></hamgestural_sign></sigml>"#;
         fs::write(&file, sigml).expect("written");
         let path = file.to_str().expect("a path");
-        let made = corpus.animate(&[path], &Staging::default(), Some("S"));
+        let made = corpus.animate_notation(&[path], &NotationStaging::default(), Some("S"));
         made.expect("animated");
-        let mut hear = unheard;
-        let read = corpus.transcribe(
-            &"S".parse().expect("an address"),
-            &mut Progress::new(&mut hear),
-        );
+        let mut hear = ignore_progress_step;
+        let read = corpus.transcribe_movement(&"S".parse().expect("an address"), &mut ProgressReceiver::new(&mut hear));
         let read = read.expect("transcribed").nonmanual;
-        let acts: Vec<String> = read.acts().map(|(_, act)| act.name()).collect();
+        let acts: Vec<String> = read.acts_by_tier().map(|(_, act)| act.act_curve_name()).collect();
         assert_eq!(acts, ["body.TF"], "only a sign animated again shows them");
     }
 }

@@ -7,22 +7,22 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use chereme_analysis::statistics::wilson;
+use chereme_analysis::statistics::wilson_interval;
 use chereme_formats::lexicon::is_value;
-use chereme_sign::text::fold;
+use chereme_sign::text::fold_text;
 use serde::{Deserialize, Serialize};
 
-use super::{Estimate, LEVEL, StatsOptions};
-use crate::error::{Error, Result};
-use crate::forms::{Form, Forms};
-use crate::remedy::Remedy;
+use super::{STATS_INTERVAL_LEVEL, StatsEstimate, StatsOptions};
+use crate::error::{CorpusError, CorpusResult};
+use crate::forms::{SignForm, SignForms};
+use crate::remedy::ErrorRemedy;
 
 /// The unmarked handshapes of Battison 1978.
-const UNMARKED: [&str; 7] = ["B", "A", "S", "C", "O", "1", "5"];
+const UNMARKED_HANDSHAPES: [&str; 7] = ["B", "A", "S", "C", "O", "1", "5"];
 
 /// The conditions on the two hands.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Battison {
+pub struct BattisonConditions {
     /// The number of one-handed entries.
     pub one_handed: usize,
     /// The number of entries of no known type.
@@ -49,9 +49,9 @@ pub struct HandCondition {
     /// The number of those that differ whose weak hand is unmarked.
     pub different_unmarked: usize,
     /// The share of entries with both handshapes whose weak hand is unmarked, with Wilson's interval.
-    pub unmarked_share: Estimate,
+    pub unmarked_share: StatsEstimate,
     /// The share of entries with both handshapes that keep the condition, with Wilson's interval.
-    pub kept: Estimate,
+    pub kept: StatsEstimate,
     /// The entries that do not keep it, by gloss.
     pub exceptions: Vec<TwoHands>,
     /// The glosses of the entries without one of the handshapes.
@@ -81,31 +81,31 @@ pub(super) enum SignType {
 }
 
 /// Words for types, letters and digits alone, with the type.
-static TYPES: LazyLock<BTreeMap<String, SignType>> = LazyLock::new(|| {
+static SIGN_TYPE_WORDS: LazyLock<BTreeMap<String, SignType>> = LazyLock::new(|| {
     let file = chereme_data::schema_text("sign_types.json");
     let file: BTreeMap<SignType, Vec<String>> =
         serde_json::from_str(file).expect("the shipped table of types is whole; a test reads it");
     let words = |(of, words): (SignType, Vec<String>)| -> Vec<(String, SignType)> {
-        words.iter().map(|word| (letters(word), of)).collect()
+        words.iter().map(|word| (fold_to_letters(word), of)).collect()
     };
     file.into_iter().flat_map(words).collect()
 });
 
 /// Returns the letters and digits of a word, without case and accents.
-fn letters(word: &str) -> String {
-    fold(word)
+fn fold_to_letters(word: &str) -> String {
+    fold_text(word)
         .chars()
-        .filter(|it| it.is_alphanumeric())
+        .filter(|letter| letter.is_alphanumeric())
         .collect()
 }
 
 /// Returns the type that a value names.
 pub(super) fn sign_type(value: &str) -> Option<SignType> {
-    TYPES.get(&letters(value)).copied()
+    SIGN_TYPE_WORDS.get(&fold_to_letters(value)).copied()
 }
 
 /// The places of the fields that say what the hands do.
-pub(super) struct Roles {
+pub(super) struct HandFieldRoles {
     pub(super) sign_type: Option<usize>,
     pub(super) strong: Option<usize>,
     pub(super) weak: Option<usize>,
@@ -115,17 +115,17 @@ pub(super) struct Roles {
     slips: Vec<String>,
 }
 
-impl Roles {
-    pub(super) fn of(forms: &Forms) -> Self {
+impl HandFieldRoles {
+    pub(super) fn find_hand_fields(forms: &SignForms) -> Self {
         let place = |coding: &str| {
             let mut fields = forms.fields.iter();
-            fields.position(|it| it.coding.as_deref() == Some(coding))
+            fields.position(|field| field.coding.as_deref() == Some(coding))
         };
         let sign_type = place("dominant.configuration.handedness");
-        let slips = sign_type.map(|at| super::findings::slips(forms, at));
+        let slips = sign_type.map(|at| super::stats_findings::field_slips(forms, at));
         let slips = slips.into_iter().flatten();
         Self {
-            slips: slips.map(|it| it.value.to_owned()).collect(),
+            slips: slips.map(|slip| slip.value.to_owned()).collect(),
             sign_type,
             strong: place("dominant.configuration"),
             weak: place("weak.configuration"),
@@ -135,7 +135,7 @@ impl Roles {
     }
 
     /// Returns the type of an entry.
-    pub(super) fn type_of(&self, row: &Form) -> Option<SignType> {
+    pub(super) fn type_of(&self, row: &SignForm) -> Option<SignType> {
         let value = &row.cells[self.sign_type?];
         let is_slip = self.slips.contains(value);
         sign_type(value).filter(|_| !is_slip)
@@ -143,28 +143,28 @@ impl Roles {
 }
 
 /// Returns the conditions and the entries that do not keep them.
-pub(super) fn conditions(forms: &Forms, options: &StatsOptions) -> Result<Battison> {
-    let roles = Roles::of(forms);
+pub(super) fn battison_conditions(forms: &SignForms, options: &StatsOptions) -> CorpusResult<BattisonConditions> {
+    let roles = HandFieldRoles::find_hand_fields(forms);
     let (Some(_), Some(strong), Some(weak)) = (roles.sign_type, roles.strong, roles.weak) else {
-        let names: Vec<&str> = forms.fields.iter().map(|it| it.name.as_str()).collect();
+        let names: Vec<&str> = forms.fields.iter().map(|field| field.name.as_str()).collect();
         let text = "the fields do not say the type of a sign and the handshapes of both hands";
-        return Err(Error::wrong(text).at(names.join(", ")).advise(Remedy::command(
+        return Err(CorpusError::from_wrong_message(text).with_error_place(names.join(", ")).with_advice(ErrorRemedy::command_remedy(
             "name them in --fields: columns such as Handedness, Handshape strong and Handshape weak, or configuration.handedness, configuration and weak.configuration",
         )));
     };
     let unmarked: Vec<String> = match &options.unmarked[..] {
-        [] => UNMARKED.map(str::to_owned).to_vec(),
+        [] => UNMARKED_HANDSHAPES.map(str::to_owned).to_vec(),
         some => some.to_vec(),
     };
     let types: Vec<Option<SignType>> = forms.rows.iter().map(|row| roles.type_of(row)).collect();
-    let of = |wanted: Option<SignType>| types.iter().filter(|it| **it == wanted).count();
+    let of = |wanted: Option<SignType>| types.iter().filter(|kind| **kind == wanted).count();
     let condition = |wanted: SignType| {
-        let rows = forms.rows.iter().zip(&types);
-        let rows = rows.filter(|(_, it)| **it == Some(wanted));
-        let rows: Vec<&Form> = rows.map(|(row, _)| row).collect();
-        condition(&rows, [strong, weak], wanted, &unmarked)
+        let typed_rows = forms.rows.iter().zip(&types);
+        let rows = typed_rows.filter(|(_, it)| **it == Some(wanted));
+        let rows: Vec<&SignForm> = rows.map(|(row, _)| row).collect();
+        hand_condition(&rows, [strong, weak], wanted, &unmarked)
     };
-    Ok(Battison {
+    Ok(BattisonConditions {
         one_handed: of(Some(SignType::OneHanded)),
         other: of(None),
         symmetry: condition(SignType::Symmetrical),
@@ -173,20 +173,15 @@ pub(super) fn conditions(forms: &Forms, options: &StatsOptions) -> Result<Battis
     })
 }
 
-fn condition(
-    rows: &[&Form],
-    [strong, weak]: [usize; 2],
-    of: SignType,
-    unmarked: &[String],
-) -> HandCondition {
-    let has_both = |row: &&Form| is_value(&row.cells[strong]) && is_value(&row.cells[weak]);
-    let given: Vec<&Form> = rows.iter().copied().filter(has_both).collect();
-    let is_unmarked = |row: &&Form| unmarked.contains(&row.cells[weak]);
-    let is_same = |row: &&Form| row.cells[strong] == row.cells[weak];
-    let (same, different): (Vec<&Form>, Vec<&Form>) = given.iter().partition(|row| is_same(row));
-    let keeps = |row: &&Form| of == SignType::Asymmetrical && is_unmarked(row);
-    let exceptions = different.iter().filter(|row| !keeps(row));
-    let exceptions: Vec<TwoHands> = exceptions
+fn hand_condition(rows: &[&SignForm], [strong, weak]: [usize; 2], of: SignType, unmarked: &[String]) -> HandCondition {
+    let has_both = |row: &&SignForm| is_value(&row.cells[strong]) && is_value(&row.cells[weak]);
+    let given: Vec<&SignForm> = rows.iter().copied().filter(has_both).collect();
+    let is_unmarked = |row: &&SignForm| unmarked.contains(&row.cells[weak]);
+    let is_same = |row: &&SignForm| row.cells[strong] == row.cells[weak];
+    let (same, different): (Vec<&SignForm>, Vec<&SignForm>) = given.iter().partition(|row| is_same(row));
+    let keeps = |row: &&SignForm| of == SignType::Asymmetrical && is_unmarked(row);
+    let exception_rows = different.iter().filter(|row| !keeps(row));
+    let exceptions: Vec<TwoHands> = exception_rows
         .map(|row| TwoHands {
             gloss: row.gloss.clone(),
             line: row.line,
@@ -194,7 +189,7 @@ fn condition(
             weak: row.cells[weak].clone(),
         })
         .collect();
-    let count = |among: &[&Form]| among.iter().filter(|row| is_unmarked(row)).count();
+    let count = |among: &[&SignForm]| among.iter().filter(|row| is_unmarked(row)).count();
     let incomplete = rows.iter().filter(|row| !has_both(row));
     HandCondition {
         entries: rows.len(),
@@ -202,17 +197,17 @@ fn condition(
         same: same.len(),
         different: different.len(),
         different_unmarked: count(&different),
-        unmarked_share: share(count(&given), given.len()),
-        kept: share(given.len() - exceptions.len(), given.len()),
+        unmarked_share: wilson_share_estimate(count(&given), given.len()),
+        kept: wilson_share_estimate(given.len() - exceptions.len(), given.len()),
         exceptions,
         incomplete: incomplete.map(|row| row.gloss.clone()).collect(),
     }
 }
 
 /// Returns a share with Wilson's interval.
-fn share(count: usize, of: usize) -> Estimate {
-    let interval = wilson(count as u64, of as u64, LEVEL);
-    Estimate::new(interval.map(|_| count as f64 / of as f64)).within(interval)
+fn wilson_share_estimate(count: usize, of: usize) -> StatsEstimate {
+    let interval = wilson_interval(count as u64, of as u64, STATS_INTERVAL_LEVEL);
+    StatsEstimate::new(interval.map(|_| count as f64 / of as f64)).with_interval(interval)
 }
 
 #[cfg(test)]
@@ -226,10 +221,7 @@ mod tests {
             ("OneHanded", Some(SignType::OneHanded)),
             ("2s", Some(SignType::Symmetrical)),
             ("SymmetricalOrAlternating", Some(SignType::Symmetrical)),
-            (
-                "AsymmetricalDifferentHandshape",
-                Some(SignType::Asymmetrical),
-            ),
+            ("AsymmetricalDifferentHandshape", Some(SignType::Asymmetrical)),
             ("DominanceViolation", Some(SignType::Asymmetrical)),
             ("asymétrique", Some(SignType::Asymmetrical)),
             ("2", None),

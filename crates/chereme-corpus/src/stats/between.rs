@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use chereme_analysis::statistics::{Association, Shuffled, Undefined};
+use chereme_analysis::statistics::{ShuffledAssociation, UndefinedStatistic, ValueAssociation};
 use serde::Serialize;
 
-use super::fields::FieldValue;
-use super::{Estimate, StatsOptions};
-use crate::error::{Error, Result};
-use crate::forms::{Form, FormSource, Forms, numbered};
-use crate::progress::{Progress, Step, Unit};
+use super::stats_fields::FieldValue;
+use super::{StatsEstimate, StatsOptions};
+use crate::error::{CorpusError, CorpusResult};
+use crate::forms::{FormSource, SignForm, SignForms, number_form_cells};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 /// The number of shuffles between two reports of progress.
-const STEP: usize = 16;
+const SHUFFLES_PER_REPORT: usize = 16;
 
 /// How far two fields go together, among the entries that have both.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,19 +24,19 @@ pub struct FieldAssociation {
     /// The number of entries without one of them, or both.
     pub left_out: usize,
     /// The mutual information in bits.
-    pub bits: Estimate,
+    pub bits: StatsEstimate,
     /// Pearson's chi-square.
-    pub chi_square: Estimate,
+    pub chi_square: StatsEstimate,
     /// Its degrees of freedom.
     pub df: usize,
     /// Cramér's V.
-    pub cramers_v: Estimate,
+    pub cramers_v: StatsEstimate,
     /// The probability of such a chi-square if the fields have nothing to do with each other, from shuffled values.
-    pub p: Estimate,
+    pub p: StatsEstimate,
     /// The probability of such mutual information, from the same shuffles.
-    pub p_bits: Estimate,
+    pub p_bits: StatsEstimate,
     /// The shuffles.
-    pub chance: Option<Chance>,
+    pub chance: Option<ChanceAssociation>,
     /// The values of the first field, the most frequent first.
     pub rows: Vec<FieldValue>,
     /// The values of the second field, the most frequent first.
@@ -47,7 +47,7 @@ pub struct FieldAssociation {
 
 /// The association of shuffled values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Chance {
+pub struct ChanceAssociation {
     /// The number of shuffles.
     pub samples: usize,
     /// Their seed.
@@ -72,82 +72,78 @@ pub struct CrossCell {
 }
 
 /// The end of shuffling before its time.
-enum Halt {
-    Undefined(Undefined),
-    Failed(Error),
+enum ShuffleHalt {
+    Undefined(UndefinedStatistic),
+    Failed(CorpusError),
 }
 
-impl From<Undefined> for Halt {
-    fn from(reason: Undefined) -> Self {
+impl From<UndefinedStatistic> for ShuffleHalt {
+    fn from(reason: UndefinedStatistic) -> Self {
         Self::Undefined(reason)
     }
 }
 
 /// Returns the association of two fields.
-pub(super) fn association(
-    forms: &Forms,
+pub(super) fn associate_fields(
+    forms: &SignForms,
     [one, other]: [usize; 2],
     options: &StatsOptions,
-    progress: &mut Progress<'_>,
-) -> Result<FieldAssociation> {
-    let pair = |row: &Form| Form {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<FieldAssociation> {
+    let pair = |row: &SignForm| SignForm {
         gloss: String::new(),
         cells: vec![row.cells[one].clone(), row.cells[other].clone()],
         line: None,
     };
-    let both = Forms {
+    let both = SignForms {
         fields: vec![forms.fields[one].clone(), forms.fields[other].clone()],
-        rows: forms
-            .rows
-            .iter()
-            .map(pair)
-            .filter(Form::is_complete)
-            .collect(),
+        rows: forms.rows.iter().map(pair).filter(SignForm::is_complete).collect(),
         source: FormSource::Columns,
     };
-    let (cells, _) = numbered(&both.rows);
+    let (cells, _) = number_form_cells(&both.rows);
     let side = |at: usize| -> Vec<u32> { cells.iter().map(|row| row[at]).collect() };
     let (first, second) = (side(0), side(1));
-    let found = Association::of(&first, &second);
-    let estimate = |of: fn(&Association) -> std::result::Result<f64, Undefined>| {
-        Estimate::new(found.as_ref().map_err(|it| *it).and_then(of))
+    let association_result = ValueAssociation::from_field_values(&first, &second);
+    let estimate = |of: fn(&ValueAssociation) -> std::result::Result<f64, UndefinedStatistic>| {
+        StatsEstimate::new(association_result.as_ref().map_err(|error| *error).and_then(of))
     };
-    let hear = |done: usize| match done % STEP {
+    let hear = |done: usize| match done % SHUFFLES_PER_REPORT {
         0 => progress
-            .report(Step {
+            .report_step(ProgressStep {
                 task: "shuffles",
                 done: done as u64,
                 total: Some(options.samples as u64),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })
-            .map_err(Halt::Failed),
+            .map_err(ShuffleHalt::Failed),
         _ => Ok(()),
     };
-    let shuffled = match Shuffled::of(&first, &second, options.samples, options.seed, hear) {
+    let shuffled = match ShuffledAssociation::from_shuffled_values(&first, &second, options.samples, options.seed, hear)
+    {
         Ok(it) => Ok(it),
-        Err(Halt::Undefined(reason)) => Err(reason),
-        Err(Halt::Failed(error)) => return Err(error),
+        Err(ShuffleHalt::Undefined(reason)) => Err(reason),
+        Err(ShuffleHalt::Failed(error)) => return Err(error),
     };
     let (rows, columns) = (
-        super::fields::values(&both, 0),
-        super::fields::values(&both, 1),
+        super::stats_fields::field_value_shares(&both, 0),
+        super::stats_fields::field_value_shares(&both, 1),
     );
     Ok(FieldAssociation {
         n: both.rows.len(),
         left_out: forms.rows.len() - both.rows.len(),
-        bits: estimate(|it| Ok(it.bits)),
-        chi_square: estimate(|it| Ok(it.chi_square)),
-        df: found.map_or(0, |it| it.df),
-        cramers_v: estimate(Association::cramers_v),
-        p: Estimate::new(shuffled.map(|it| it.p_chi_square)),
-        p_bits: Estimate::new(shuffled.map(|it| it.p_bits)),
-        chance: shuffled.ok().map(|it| Chance {
-            samples: it.samples,
+        bits: estimate(|association| Ok(association.bits)),
+        chi_square: estimate(|association| Ok(association.chi_square)),
+        df: association_result.map_or(0, |association| association.df),
+        cramers_v: estimate(ValueAssociation::cramers_v),
+        p: StatsEstimate::new(shuffled.map(|outcome| outcome.p_chi_square)),
+        p_bits: StatsEstimate::new(shuffled.map(|outcome| outcome.p_bits)),
+        chance: shuffled.ok().map(|outcome| ChanceAssociation {
+            samples: outcome.samples,
             seed: options.seed,
-            bits: it.bits,
-            chi_square: it.chi_square,
+            bits: outcome.bits,
+            chi_square: outcome.chi_square,
         }),
-        cells: cross(&both, &rows, &columns),
+        cells: cross_table_cells(&both, &rows, &columns),
         fields: [0, 1].map(|at| both.fields[at].name.clone()),
         rows,
         columns,
@@ -155,7 +151,7 @@ pub(super) fn association(
 }
 
 /// Returns the cells of the cross table that are not 0.
-fn cross(both: &Forms, rows: &[FieldValue], columns: &[FieldValue]) -> Vec<CrossCell> {
+fn cross_table_cells(both: &SignForms, rows: &[FieldValue], columns: &[FieldValue]) -> Vec<CrossCell> {
     let place = |values: &[FieldValue]| -> BTreeMap<String, usize> {
         let values = values.iter().enumerate();
         values.map(|(at, it)| (it.value.clone(), at)).collect()

@@ -2,29 +2,29 @@
 
 mod battison;
 mod between;
-mod fields;
-mod findings;
-mod table;
+mod stats_fields;
+mod stats_findings;
+mod stats_table;
 #[cfg(test)]
 mod tests;
 
-use chereme_analysis::statistics::Undefined;
+use chereme_analysis::statistics::UndefinedStatistic;
 use serde::Serialize;
 
-pub use battison::{Battison, HandCondition, TwoHands};
-pub use between::{Chance, CrossCell, FieldAssociation};
-pub use fields::{FieldContrast, FieldInDepth, FieldStatistics, FieldValue};
-pub use findings::StatsFinding;
+pub use battison::{BattisonConditions, HandCondition, TwoHands};
+pub use between::{ChanceAssociation, CrossCell, FieldAssociation};
+pub use stats_fields::{FieldContrast, FieldInDepth, FieldStatistics, FieldValue};
+pub use stats_findings::StatsFinding;
 
 use crate::Corpus;
-use crate::error::{Error, Result};
-use crate::forms::{Empty, Form, FormSource, Forms, named_fields, numbered};
-use crate::progress::Progress;
+use crate::error::{CorpusError, CorpusResult};
+use crate::forms::{EmptyCellTreatment, FormSource, SignForm, SignForms, named_fields, number_form_cells};
+use crate::progress::ProgressReceiver;
 
 /// The most shuffles for p.
-const MOST_SAMPLES: usize = 100_000;
+const MAX_SHUFFLES: usize = 100_000;
 /// The level of all intervals.
-const LEVEL: f64 = 0.95;
+const STATS_INTERVAL_LEVEL: f64 = 0.95;
 
 /// The fields to describe, and the statistics that are wanted besides an overview of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub struct StatsOptions {
     /// that code components if [`of`](Self::of) or [`between`](Self::between) names columns, else the fields of queries.
     pub fields: Vec<String>,
     /// The treatment of an empty cell where forms are compared.
-    pub empty: Empty,
+    pub empty: EmptyCellTreatment,
     /// The tokens to count, as a query; without it every sign counts once.
     pub query: Option<String>,
     /// A field whose values and contrasts are wanted.
@@ -54,7 +54,7 @@ impl Default for StatsOptions {
     fn default() -> Self {
         Self {
             fields: Vec::new(),
-            empty: Empty::Value,
+            empty: EmptyCellTreatment::Value,
             query: None,
             of: None,
             between: None,
@@ -78,7 +78,7 @@ pub struct LexiconStatistics {
     /// The number of different forms among them.
     pub forms: usize,
     /// The entropy of forms in bits, weighted by entries: H(L).
-    pub entropy: Estimate,
+    pub entropy: StatsEstimate,
     /// The fields that make a form, in the order asked for.
     pub fields: Vec<FieldStatistics>,
     /// One field in depth.
@@ -89,45 +89,45 @@ pub struct LexiconStatistics {
     pub between: Option<FieldAssociation>,
     /// The conditions on the two hands.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub battison: Option<Battison>,
+    pub battison: Option<BattisonConditions>,
     /// The oddities.
     pub findings: Vec<StatsFinding>,
 }
 
 /// A number, or the reason for its absence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Estimate {
+pub struct StatsEstimate {
     /// The number.
     pub value: Option<f64>,
     /// The reason why there is no number.
     pub why: Option<&'static str>,
     /// The interval of 95 %.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub interval: Option<Ends>,
+    pub interval: Option<IntervalEnds>,
 }
 
 /// The ends of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Ends {
+pub struct IntervalEnds {
     /// The lower end.
     pub low: f64,
     /// The upper end.
     pub high: f64,
 }
 
-impl Estimate {
-    fn new(value: std::result::Result<f64, Undefined>) -> Self {
-        Self::because(value, why)
+impl StatsEstimate {
+    fn new(value: std::result::Result<f64, UndefinedStatistic>) -> Self {
+        Self::estimate_or_reason(value, undefined_reason)
     }
 
     /// Returns an estimate about forms.
-    fn of_forms(value: std::result::Result<f64, Undefined>) -> Self {
-        Self::because(value, why_forms)
+    fn of_forms(value: std::result::Result<f64, UndefinedStatistic>) -> Self {
+        Self::estimate_or_reason(value, why_forms)
     }
 
-    fn because(
-        value: std::result::Result<f64, Undefined>,
-        why: fn(Undefined) -> &'static str,
+    fn estimate_or_reason(
+        value: std::result::Result<f64, UndefinedStatistic>,
+        why: fn(UndefinedStatistic) -> &'static str,
     ) -> Self {
         Self {
             value: value.ok(),
@@ -137,42 +137,42 @@ impl Estimate {
     }
 
     /// Returns the estimate with its interval, if it has one.
-    fn within(self, interval: std::result::Result<[f64; 2], Undefined>) -> Self {
+    fn with_interval(self, interval: std::result::Result<[f64; 2], UndefinedStatistic>) -> Self {
         Self {
-            interval: interval.ok().map(Ends::from),
+            interval: interval.ok().map(IntervalEnds::from),
             ..self
         }
     }
 }
 
-impl From<[f64; 2]> for Ends {
+impl From<[f64; 2]> for IntervalEnds {
     fn from([low, high]: [f64; 2]) -> Self {
         Self { low, high }
     }
 }
 
 /// Returns the reason why forms have no number, in the words of a lexicon.
-fn why_forms(reason: Undefined) -> &'static str {
+fn why_forms(reason: UndefinedStatistic) -> &'static str {
     match reason {
-        Undefined::Empty => "no entry has a value in all of the fields",
-        Undefined::NoSpread => "all entries have the same form",
-        other => why(other),
+        UndefinedStatistic::Empty => "no entry has a value in all of the fields",
+        UndefinedStatistic::NoSpread => "all entries have the same form",
+        other => undefined_reason(other),
     }
 }
 
 /// Returns the reason in the words of a lexicon.
-fn why(reason: Undefined) -> &'static str {
+fn undefined_reason(reason: UndefinedStatistic) -> &'static str {
     match reason {
-        Undefined::Empty => "no entry has a value",
-        Undefined::NoSpread => "all entries have the same value",
-        Undefined::TooFew => "nothing was drawn",
-        Undefined::TooMany => "there are too many pairs of values",
+        UndefinedStatistic::Empty => "no entry has a value",
+        UndefinedStatistic::NoSpread => "all entries have the same value",
+        UndefinedStatistic::TooFew => "nothing was drawn",
+        UndefinedStatistic::TooMany => "there are too many pairs of values",
         _ => "the numbers do not allow it",
     }
 }
 
 /// The forms that are compared, as numbers.
-struct Compared<'a> {
+struct ComparedForms<'a> {
     /// The cells of each entry, equal numbers for equal texts; 0 is the empty cell.
     cells: Vec<Vec<u32>>,
     /// The text of each number.
@@ -185,20 +185,19 @@ impl Corpus {
     /// Returns statistics of the lexicon: entropy and functional load of its fields, and what the options ask for.
     ///
     /// # Errors
-    /// [`Error::Wrong`] if a field does not exist, if Battison's conditions are asked of fields that do not say what the
-    /// hands do, or for too many samples; the errors of [`search`](Self::search) for a query; [`Error::Stopped`].
-    pub fn statistics(
+    /// [`CorpusError::Wrong`] if a field does not exist, if Battison's conditions are asked of fields that do not say what the
+    /// hands do, or for too many samples; the errors of [`search`](Self::search_tokens) for a query; [`CorpusError::Stopped`].
+    pub fn lexicon_statistics(
         &mut self,
         options: &StatsOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<LexiconStatistics> {
-        if options.samples > MOST_SAMPLES {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<LexiconStatistics> {
+        if options.samples > MAX_SHUFFLES {
             let count = options.samples;
-            let text =
-                format!("{count} draws are more than the {MOST_SAMPLES} that are made at most");
-            return Err(Error::wrong(text)
-                .at(count.to_string())
-                .advise("1000 are usual"));
+            let text = format!("{count} draws are more than the {MAX_SHUFFLES} that are made at most");
+            return Err(CorpusError::from_wrong_message(text)
+                .with_error_place(count.to_string())
+                .with_advice("1000 are usual"));
         }
         let tokens = match &options.query {
             Some(query) => Some(self.tokens_found(query, progress)?),
@@ -217,78 +216,83 @@ impl Corpus {
         let set = wanted.len();
         if set > 0 {
             // The fields of an association need not be among those that make a form.
-            let more = options.between.iter().flatten();
-            let more = more.filter(|field| !wanted.iter().any(|it| same_name(it, field)));
+            let more_fields = options.between.iter().flatten();
+            let more = more_fields.filter(|field| !wanted.iter().any(|other| same_name(other, field)));
             let more: Vec<String> = more.cloned().collect();
             wanted.extend(more);
         }
-        let mut forms = self.forms(&wanted, tokens.as_deref(), progress)?;
+        let mut forms = self.load_sign_forms(&wanted, tokens.as_deref(), progress)?;
         forms.rows.sort();
         let set = if set == 0 { forms.fields.len() } else { set };
-        statistics(&forms, set, options, progress)
+        compute_form_statistics(&forms, set, options, progress)
     }
 }
 
 /// Returns whether two names of fields are equal but for case and accents.
 fn same_name(a: &str, b: &str) -> bool {
-    chereme_sign::text::fold(a.trim()) == chereme_sign::text::fold(b.trim())
+    chereme_sign::text::fold_text(a.trim()) == chereme_sign::text::fold_text(b.trim())
 }
 
 /// Returns the place of a field by its name.
-fn place(forms: &Forms, name: &str) -> Result<usize> {
-    let coding = name.parse::<chereme_sign::Field>();
-    let coding = coding.ok().map(|it| crate::suggest::coding_name(&it));
-    let exact = forms.fields.iter().position(|it| same_name(&it.name, name));
-    let found = exact.or_else(|| {
+fn field_place(forms: &SignForms, name: &str) -> CorpusResult<usize> {
+    let parsed_field = name.parse::<chereme_sign::ComponentField>();
+    let coding = parsed_field.ok().map(|field| crate::suggest::coding_name(&field));
+    let exact = forms.fields.iter().position(|field| same_name(&field.name, name));
+    let index = exact.or_else(|| {
         let wanted = coding?;
         let mut fields = forms.fields.iter();
-        fields.position(|it| it.coding.as_ref() == Some(&wanted))
+        fields.position(|field| field.coding.as_ref() == Some(&wanted))
     });
-    found.ok_or_else(|| {
-        let names: Vec<&str> = forms.fields.iter().map(|it| it.name.as_str()).collect();
-        Error::wrong(format!("the field {name:?} is not among the fields"))
-            .at(name)
-            .advise(format!("the fields are: {}", names.join(", ")))
+    index.ok_or_else(|| {
+        let names: Vec<&str> = forms.fields.iter().map(|field| field.name.as_str()).collect();
+        CorpusError::from_wrong_message(format!("the field {name:?} is not among the fields"))
+            .with_error_place(name)
+            .with_advice(format!("the fields are: {}", names.join(", ")))
     })
 }
 
 /// Returns the statistics of forms; the first `set` fields are compared.
-fn statistics(
-    forms: &Forms,
+fn compute_form_statistics(
+    forms: &SignForms,
     set: usize,
     options: &StatsOptions,
-    progress: &mut Progress<'_>,
-) -> Result<LexiconStatistics> {
-    let is_compared = |row: &&Form| {
-        options.empty == Empty::Value || row.cells.iter().take(set).all(|cell| !cell.is_empty())
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<LexiconStatistics> {
+    let is_compared = |row: &&SignForm| {
+        options.empty == EmptyCellTreatment::Value || row.cells.iter().take(set).all(|cell| !cell.is_empty())
     };
-    let rows: Vec<Form> = forms.rows.iter().filter(is_compared).cloned().collect();
-    let (cells, texts) = numbered(&rows);
-    let compared = Compared {
+    let rows: Vec<SignForm> = forms.rows.iter().filter(is_compared).cloned().collect();
+    let (cells, texts) = number_form_cells(&rows);
+    let compared = ComparedForms {
         cells,
         texts,
         fields: set,
     };
-    let overview = fields::overview(forms, &compared);
+    let overview = stats_fields::fields_overview(forms, &compared);
     let of = match &options.of {
         Some(name) => {
-            let at = place(forms, name)?;
-            if at >= set {
-                return Err(outside(name));
+            let field_index = field_place(forms, name)?;
+            if field_index >= set {
+                return Err(outside_form_error(name));
             }
-            Some(fields::in_depth(forms, &compared, at, &overview.fields[at]))
+            Some(stats_fields::in_depth(
+                forms,
+                &compared,
+                field_index,
+                &overview.fields[field_index],
+            ))
         }
         None => None,
     };
     let between = match &options.between {
         Some([one, other]) => {
-            let places = [place(forms, one)?, place(forms, other)?];
-            Some(between::association(forms, places, options, progress)?)
+            let places = [field_place(forms, one)?, field_place(forms, other)?];
+            Some(between::associate_fields(forms, places, options, progress)?)
         }
         None => None,
     };
     let battison = match options.battison {
-        true => Some(battison::conditions(forms, options)?),
+        true => Some(battison::battison_conditions(forms, options)?),
         false => None,
     };
     let is_overview = of.is_none() && between.is_none() && battison.is_none();
@@ -296,12 +300,12 @@ fn statistics(
         true => (0..set).collect(),
         false => (options.of.iter())
             .chain(options.between.iter().flatten())
-            .map(|name| place(forms, name))
-            .collect::<Result<_>>()?,
+            .map(|name| field_place(forms, name))
+            .collect::<CorpusResult<_>>()?,
     };
-    let mut findings = findings::of_fields(forms, &shown);
+    let mut findings = stats_findings::of_fields(forms, &shown);
     if is_overview || battison.is_some() {
-        findings.extend(findings::of_hands(forms));
+        findings.extend(stats_findings::of_hands(forms));
     }
     Ok(LexiconStatistics {
         source: forms.source,
@@ -318,8 +322,8 @@ fn statistics(
 }
 
 /// Returns the error for a field in depth that is not among those that make a form.
-fn outside(name: &str) -> Error {
-    Error::wrong(format!("the field {name:?} is not among the fields"))
-        .at(name)
-        .advise(crate::remedy::Remedy::command("name it in --fields, too"))
+fn outside_form_error(name: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("the field {name:?} is not among the fields"))
+        .with_error_place(name)
+        .with_advice(crate::remedy::ErrorRemedy::command_remedy("name it in --fields, too"))
 }

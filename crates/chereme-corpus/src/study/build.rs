@@ -4,30 +4,32 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chereme_figure::{Animation, AnimationOptions, FigureError, Image, Pictures, Reach, View};
+use chereme_figure::{
+    AnimationOptions, ClipAnimation, FigureError, FigureView, PictureSequence, RasterImage, SigningReach,
+};
 use serde::Serialize;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::plan::{Plan, QuestionKind, text_in};
-use super::{Study, order};
+use super::study_plan::{QuestionKind, StudyPlan, text_in};
+use super::{StudyWithAnswers, study_order};
 use crate::Corpus;
-use crate::db::motion::hex;
 use crate::db::seals;
-use crate::error::{Error, Result};
-use crate::film::{Shape, write_film};
-use crate::page::{base64, filled};
-use crate::picture::write;
-use crate::progress::{Progress, Step, Unit};
+use crate::db::stored_motion::to_hex_text;
+use crate::error::{CorpusError, CorpusResult};
+use crate::film::{WrittenFilmShape, write_film};
+use crate::page::{encode_base64, fill_page_parts};
+use crate::picture::write_atomically;
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 /// The page with places for its parts, its script and its style.
-const PAGE: &str = include_str!("page/index.html");
-const SCRIPT: &str = include_str!("page/page.js");
-const TEXTS: &str = include_str!("page/texts.js");
-const STYLE: &str = include_str!("page/page.css");
+const QUESTIONNAIRE_PAGE_HTML: &str = include_str!("page/index.html");
+const QUESTIONNAIRE_SCRIPT: &str = include_str!("page/page.js");
+const QUESTIONNAIRE_TEXTS: &str = include_str!("page/texts.js");
+const QUESTIONNAIRE_STYLE_CSS: &str = include_str!("page/page.css");
 
 /// The folder of films and pictures beside the page.
-const MEDIA: &str = "media";
+const QUESTIONNAIRE_MEDIA_FOLDER: &str = "media";
 /// For how long the first and the last picture of a film stand still, in milliseconds.
 const STILL_MS: u32 = 500;
 
@@ -54,7 +56,7 @@ impl Default for QuestionnaireOptions {
 
 /// A questionnaire that was built.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Questionnaire {
+pub struct BuiltQuestionnaire {
     /// The page to open.
     pub page: PathBuf,
     /// The SHA-256 of the plan, which the answers will name.
@@ -83,17 +85,20 @@ impl Corpus {
         name: &str,
         to: &Path,
         options: QuestionnaireOptions,
-        progress: &mut Progress<'_>,
-    ) -> Result<Questionnaire> {
-        let study = self.study(name)?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<BuiltQuestionnaire> {
+        let study = self.study_with_answers(name)?;
         let page = to.join("index.html");
         if page.exists() && !options.force {
-            return Err(Error::file(page, std::io::ErrorKind::AlreadyExists.into()));
+            return Err(CorpusError::from_file_failure(
+                page,
+                std::io::ErrorKind::AlreadyExists.into(),
+            ));
         }
-        seals::verify_material(self.store.read())?;
-        let media = to.join(MEDIA);
+        seals::verify_material(self.store.read_connection())?;
+        let media = to.join(QUESTIONNAIRE_MEDIA_FOLDER);
         let new = !to.exists();
-        fs::create_dir_all(&media).map_err(|error| Error::file(&media, error))?;
+        fs::create_dir_all(&media).map_err(|error| CorpusError::from_file_failure(&media, error))?;
         let mut made = Vec::new();
         let done = self.questionnaire(&study, &page, options, &mut made, progress);
         if done.is_err() {
@@ -109,125 +114,131 @@ impl Corpus {
 
     fn questionnaire(
         &mut self,
-        study: &Study,
+        study: &StudyWithAnswers,
         page: &Path,
         options: QuestionnaireOptions,
         made: &mut Vec<PathBuf>,
-        progress: &mut Progress<'_>,
-    ) -> Result<Questionnaire> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<BuiltQuestionnaire> {
         let plan = &study.plan;
-        let media = page.with_file_name(MEDIA);
-        let mut reach: Option<Reach> = None;
+        let media = page.with_file_name(QUESTIONNAIRE_MEDIA_FOLDER);
+        let mut reach: Option<SigningReach> = None;
         self.study_clips(plan, progress, |_, it| {
-            let own = Reach::of(&it.clip, &it.anatomy);
-            reach = match (reach, own) {
-                (Some(all), Some(own)) => Some(all.joined(own)),
+            let clip_reach = SigningReach::reach_from_clip(&it.clip, &it.anatomy);
+            reach = match (reach, clip_reach) {
+                (Some(all), Some(own)) => Some(all.join_signing_reach(own)),
                 (all, own) => all.or(own),
             };
             Ok(())
         })?;
         let mut films: BTreeMap<usize, String> = BTreeMap::new();
         let mut bytes = 0;
-        let clips: BTreeSet<&str> = plan.trials.iter().map(|it| it.clip.as_str()).collect();
+        let clips: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.clip.as_str()).collect();
         let total = clips.len() as u64;
         let mut drawn = 0;
-        let mut unheard = crate::progress::unheard;
-        let quiet = &mut Progress::new(&mut unheard);
+        let mut unheard = crate::progress::ignore_progress_step;
+        let quiet = &mut ProgressReceiver::new(&mut unheard);
         self.study_clips(plan, quiet, |trials, it| {
             let settings = AnimationOptions {
-                views: vec![View::Addressee],
+                views: vec![FigureView::Addressee],
                 height: options.height,
                 rate: Some(options.rate.clamp(1, 120)),
                 faces: it.faces,
-                framing: reach.and_then(|reach| reach.framing(&it.clip, &it.anatomy)),
+                framing: reach.and_then(|reach| reach.framing_for_clip(&it.clip, &it.anatomy)),
                 bar: false,
                 ..AnimationOptions::default()
             };
-            let animation = Animation::new(&it.clip, &it.anatomy, settings).map_err(figure)?;
+            let animation = ClipAnimation::new(&it.clip, &it.anatomy, settings).map_err(study_figure_error)?;
             let mut hear = |_, _| {
-                progress.report(Step {
+                progress.report_step(ProgressStep {
                     task: "drawing films",
                     done: drawn,
                     total: Some(total),
-                    unit: Unit::Items,
+                    unit: ProgressUnit::Items,
                 })
             };
-            let film = film(animation, options.rate.clamp(1, 120), &mut hear)?;
+            let film = encode_study_film(animation, options.rate.clamp(1, 120), &mut hear)?;
             drawn += 1;
-            let name = format!("{}.mp4", &hex(&Sha256::digest(&film))[..16]);
+            let name = format!("{}.mp4", &to_hex_text(&Sha256::digest(&film))[..16]);
             let path = media.join(&name);
             if !path.exists() {
                 made.push(path.clone());
             }
-            bytes += write(&path, true, |out| put(out, &film, &path))?;
+            bytes += write_atomically(&path, true, |out| write_page_bytes(out, &film, &path))?;
             for &trial in trials {
                 films.insert(trial, name.clone());
             }
             Ok(())
         })?;
-        let rows = order::rows(plan);
+        let rows = study_order::trial_order_rows(plan);
         let text = html(study, &films, &rows);
-        bytes += write(page, options.force, |out| put(out, text.as_bytes(), page))?;
+        bytes += write_atomically(page, options.force, |out| write_page_bytes(out, text.as_bytes(), page))?;
         let names: BTreeSet<&String> = films.values().collect();
         if options.force {
             remove_old(&media, &names);
         }
-        Ok(Questionnaire {
+        Ok(BuiltQuestionnaire {
             page: page.to_owned(),
             plan_sha256: study.plan_sha256.clone(),
             films: names.len(),
             bytes,
             orders: rows.len(),
-            missing: missing(plan, &media),
-            alike: alike(plan, &films),
+            missing: missing_plan_pictures(plan, &media),
+            alike: identical_film_pairs(plan, &films),
         })
     }
 }
 
-fn put(out: &mut impl std::io::Write, bytes: &[u8], path: &Path) -> Result<()> {
+fn write_page_bytes(out: &mut impl std::io::Write, bytes: &[u8], path: &Path) -> CorpusResult<()> {
     out.write_all(bytes)
-        .map_err(|error| Error::file(path, error))
+        .map_err(|error| CorpusError::from_file_failure(path, error))
 }
 
 /// Pictures whose first and last one stand still for a while.
-struct Held<'a> {
-    moving: Animation<'a>,
+struct HeldPictures<'a> {
+    moving: ClipAnimation<'a>,
     still: usize,
 }
 
-impl Pictures for Held<'_> {
-    fn frames(&self) -> usize {
-        self.moving.frames() + 2 * self.still
+impl PictureSequence for HeldPictures<'_> {
+    fn picture_count(&self) -> usize {
+        self.moving.animation_frame_count() + 2 * self.still
     }
 
-    fn size(&self) -> [usize; 2] {
-        self.moving.size()
+    fn picture_size(&self) -> [usize; 2] {
+        self.moving.animation_size()
     }
 
     fn centiseconds(&self) -> u16 {
-        Pictures::centiseconds(&self.moving)
+        PictureSequence::centiseconds(&self.moving)
     }
 
-    fn draw(&mut self, frame: usize) -> Image {
-        let last = self.moving.frames() - 1;
-        self.moving.draw(frame.saturating_sub(self.still).min(last))
+    fn draw_sequence_picture(&mut self, frame: usize) -> RasterImage {
+        let last = self.moving.animation_frame_count() - 1;
+        self.moving
+            .draw_animation_frame(frame.saturating_sub(self.still).min(last))
     }
 }
 
 /// Returns a film of an animation.
-fn film(
-    moving: Animation<'_>,
+fn encode_study_film(
+    moving: ClipAnimation<'_>,
     rate: u32,
-    hear: &mut dyn FnMut(usize, usize) -> Result<()>,
-) -> Result<Vec<u8>> {
+    hear: &mut dyn FnMut(usize, usize) -> CorpusResult<()>,
+) -> CorpusResult<Vec<u8>> {
     let still = (STILL_MS * rate / 1000) as usize;
     let mut film = Vec::new();
-    write_film(&mut Held { moving, still }, Shape { rate }, &mut film, hear)?;
+    write_film(
+        &mut HeldPictures { moving, still },
+        WrittenFilmShape { rate },
+        &mut film,
+        hear,
+    )?;
     Ok(film)
 }
 
-fn figure(error: FigureError) -> Error {
-    Error::wrong(error.to_string())
+fn study_figure_error(error: FigureError) -> CorpusError {
+    CorpusError::from_wrong_message(error.to_string())
 }
 
 /// Removes films of an earlier build: files with names that only a build gives.
@@ -237,8 +248,8 @@ fn remove_old(media: &Path, films: &BTreeSet<&String>) {
     };
     for entry in entries.flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        let hash = name.strip_suffix(".mp4").filter(|it| it.len() == 16);
-        let built = hash.is_some_and(|it| it.bytes().all(|it| b"0123456789abcdef".contains(&it)));
+        let hash = name.strip_suffix(".mp4").filter(|stem| stem.len() == 16);
+        let built = hash.is_some_and(|stem| stem.bytes().all(|byte| b"0123456789abcdef".contains(&byte)));
         if built && !films.contains(&name) {
             // A film that stays is never shown.
             drop(fs::remove_file(entry.path()));
@@ -247,23 +258,23 @@ fn remove_old(media: &Path, films: &BTreeSet<&String>) {
 }
 
 /// Returns the pictures that a plan names and that are not in the folder.
-fn missing(plan: &Plan, media: &Path) -> Vec<PathBuf> {
-    let asked = plan.questions.iter().filter_map(|it| match &it.kind {
+fn missing_plan_pictures(plan: &StudyPlan, media: &Path) -> Vec<PathBuf> {
+    let asked = plan.questions.iter().filter_map(|question| match &question.kind {
         QuestionKind::Choice { options } => Some(options),
         QuestionKind::Scale { .. } => None,
     });
-    let about = plan.profile.iter().map(|it| &it.options);
+    let about = plan.profile.iter().map(|question| &question.options);
     let pictures: BTreeSet<PathBuf> = asked
         .chain(about)
         .flatten()
-        .filter_map(|it| it.picture.as_ref())
-        .map(|it| media.join(it))
+        .filter_map(|option| option.picture.as_ref())
+        .map(|picture| media.join(picture))
         .collect();
-    pictures.into_iter().filter(|it| !it.exists()).collect()
+    pictures.into_iter().filter(|path| !path.exists()).collect()
 }
 
 /// Returns the pairs of clips that gave the same film.
-fn alike(plan: &Plan, films: &BTreeMap<usize, String>) -> Vec<[String; 2]> {
+fn identical_film_pairs(plan: &StudyPlan, films: &BTreeMap<usize, String>) -> Vec<[String; 2]> {
     let mut first: BTreeMap<&str, &str> = BTreeMap::new();
     let mut pairs = BTreeSet::new();
     for (at, trial) in plan.trials.iter().enumerate() {
@@ -278,7 +289,7 @@ fn alike(plan: &Plan, films: &BTreeMap<usize, String>) -> Vec<[String; 2]> {
 }
 
 /// Returns the page. It holds no right answers, hypotheses or recipes, because they would lead participants.
-fn html(study: &Study, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown>]) -> String {
+fn html(study: &StudyWithAnswers, films: &BTreeMap<usize, String>, rows: &[Vec<study_order::ShownTrial>]) -> String {
     let plan = &study.plan;
     let trials: Vec<serde_json::Value> = plan
         .trials
@@ -291,27 +302,27 @@ fn html(study: &Study, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown
         .collect();
     let rows: Vec<Vec<(usize, u32)>> = rows
         .iter()
-        .map(|row| row.iter().map(|it| (it.trial, it.block)).collect())
+        .map(|row| row.iter().map(|shown| (shown.trial, shown.block)).collect())
         .collect();
-    let data = json!({
+    let page_data = json!({
         "study": plan.name, "plan_sha256": study.plan_sha256, "title": plan.title,
         "consent": plan.consent, "questions": plan.questions, "profile": plan.profile,
-        "parts": plan.parts(), "trials": trials, "rows": rows,
+        "parts": plan.plan_parts(), "trials": trials, "rows": rows,
     });
     // Within a script element only `<` could end it.
-    let data = data.to_string().replace('<', "\\u003c");
-    let script = format!("{TEXTS}\n{SCRIPT}");
-    let hash = base64(&Sha256::digest(&script));
-    let title = text_in(&plan.title, "en").unwrap_or(&plan.name);
-    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let data = page_data.to_string().replace('<', "\\u003c");
+    let script = format!("{QUESTIONNAIRE_TEXTS}\n{QUESTIONNAIRE_SCRIPT}");
+    let hash = encode_base64(&Sha256::digest(&script));
+    let plain_title = text_in(&plan.title, "en").unwrap_or(&plan.name);
+    let title = plain_title.replace('&', "&amp;").replace('<', "&lt;");
     let parts = [
         ("TITLE", title.as_str()),
         ("HASH", &hash),
-        ("STYLE", STYLE),
+        ("STYLE", QUESTIONNAIRE_STYLE_CSS),
         ("DATA", &data),
         ("SCRIPT", &script),
     ];
-    filled(PAGE, &parts)
+    fill_page_parts(QUESTIONNAIRE_PAGE_HTML, &parts)
 }
 
 #[cfg(test)]

@@ -1,19 +1,19 @@
 //! How far each clip of a study is from the clip of the same item in another condition.
 
-use chereme_analysis::score::{Performed, ScoreOptions, score_as};
+use chereme_analysis::score::{PerformedClip, ScoreOptions, score_as};
 
 use super::StudyClip;
-use super::plan::Plan;
+use super::study_plan::StudyPlan;
 use crate::Corpus;
-use crate::error::{Error, Result};
-use crate::progress::Progress;
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::ProgressReceiver;
 
 /// The name of the measure.
-pub const DISTANCE: &str = "distance";
+pub const DISTANCE_MEASURE_NAME: &str = "distance";
 
 impl Corpus {
-    /// Gives each trial the measure [`DISTANCE`]: the normalised distance of its clip from the clip of the same item in a
-    /// condition, as [`score`](Self::score) has it with its usual options; trials of the same part come first. An item
+    /// Gives each trial the measure [`DISTANCE_MEASURE_NAME`]: the normalised distance of its clip from the clip of the same item in a
+    /// condition, as [`score`](Self::score_movements) has it with its usual options; trials of the same part come first. An item
     /// that the condition lacks gets none. A report correlates answers with it.
     ///
     /// # Errors
@@ -21,59 +21,59 @@ impl Corpus {
     /// clips have nothing in common that can be compared.
     pub fn measure_distances(
         &mut self,
-        plan: &mut Plan,
+        plan: &mut StudyPlan,
         condition: &str,
-        progress: &mut Progress<'_>,
-    ) -> Result<()> {
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<()> {
         let mut references = plan.clone();
-        references.trials.retain(|it| it.condition == condition);
+        references.trials.retain(|trial| trial.condition == condition);
         if references.trials.is_empty() {
-            let error = Error::wrong(format!("no trial has the condition {condition:?}"));
-            let names = plan.conditions().join(", ");
+            let error = CorpusError::from_wrong_message(format!("no trial has the condition {condition:?}"));
+            let names = plan.main_conditions().join(", ");
             return Err(error
-                .at(condition)
-                .advise(format!("conditions of the plan: {names}")));
+                .with_error_place(condition)
+                .with_advice(format!("conditions of the plan: {names}")));
         }
         if plan
             .trials
             .iter()
-            .any(|it| it.measures.contains_key(DISTANCE))
+            .any(|trial| trial.measures.contains_key(DISTANCE_MEASURE_NAME))
         {
-            let error = Error::wrong(format!("the trials have a measure {DISTANCE:?} already"));
+            let error =
+                CorpusError::from_wrong_message(format!("the trials have a measure {DISTANCE_MEASURE_NAME:?} already"));
             return Err(error
-                .at(DISTANCE)
-                .advise("give the column of the table another name"));
+                .with_error_place(DISTANCE_MEASURE_NAME)
+                .with_advice("give the column of the table another name"));
         }
-        let mut found: Vec<(Vec<usize>, StudyClip)> = Vec::new();
+        let mut reference_clips: Vec<(Vec<usize>, StudyClip)> = Vec::new();
         self.study_clips(&references, progress, |trials, clip| {
-            found.push((trials.to_vec(), clip));
+            reference_clips.push((trials.to_vec(), clip));
             Ok(())
         })?;
         let reference = |part: &str, item: &str| {
             let holds = |same_part: bool| {
-                found.iter().find(|(trials, _)| {
+                reference_clips.iter().find(|(trials, _)| {
                     let mut trials = trials.iter().map(|at| &references.trials[*at]);
-                    trials.any(|it| it.item == item && (!same_part || it.part == part))
+                    trials.any(|trial| trial.item == item && (!same_part || trial.part == part))
                 })
             };
-            holds(true).or_else(|| holds(false)).map(|it| &it.1)
+            holds(true).or_else(|| holds(false)).map(|entry| &entry.1)
         };
         let trials = plan.trials.clone();
         let measured = &mut plan.trials;
-        let whole = Plan {
+        let full_plan = StudyPlan {
             trials,
             ..references.clone()
         };
-        self.study_clips(&whole, progress, |trials, clip| {
+        self.study_clips(&full_plan, progress, |trials, clip| {
             for at in trials {
                 let trial = &mut measured[*at];
                 if let Some(reference) = reference(&trial.part, &trial.item) {
-                    let distance = distance(reference, &clip).map_err(|error| {
-                        let place =
-                            format!("trial {} ({}, {})", at + 1, trial.item, trial.condition);
-                        error.at(place)
+                    let distance = study_clip_distance(reference, &clip).map_err(|error| {
+                        let place = format!("trial {} ({}, {})", at + 1, trial.item, trial.condition);
+                        error.with_error_place(place)
                     })?;
-                    trial.measures.insert(DISTANCE.to_owned(), distance);
+                    trial.measures.insert(DISTANCE_MEASURE_NAME.to_owned(), distance);
                 }
             }
             Ok(())
@@ -82,21 +82,21 @@ impl Corpus {
 }
 
 /// Returns the normalised distance of two clips; handshapes count as they are stored.
-fn distance(reference: &StudyClip, clip: &StudyClip) -> Result<f64> {
-    let [first, second] = [reference, clip].map(|it| Performed {
-        clip: &it.clip,
-        anatomy: &it.anatomy,
+fn study_clip_distance(reference: &StudyClip, clip: &StudyClip) -> CorpusResult<f64> {
+    let [first, second] = [reference, clip].map(|study_clip| PerformedClip {
+        clip: &study_clip.clip,
+        anatomy: &study_clip.anatomy,
         uncaptured: &[],
     });
     let score = score_as(first, second, &ScoreOptions::default())
-        .map_err(|error| Error::wrong(format!("the two cannot be compared: {error}")))?;
+        .map_err(|error| CorpusError::from_wrong_message(format!("the two cannot be compared: {error}")))?;
     Ok(score.normalized.unwrap_or(score.distance))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::unheard;
+    use crate::progress::ignore_progress_step;
     use crate::study::StudyRequest;
     use crate::study::build::tests::corpus;
 
@@ -104,8 +104,8 @@ mod tests {
     fn distances_are_those_of_the_same_item_in_another_condition() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = corpus(folder.path());
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         let up = |by: &str| format!("{{}} | place both by up {by}");
         let request = StudyRequest {
             name: "far".into(),
@@ -119,22 +119,19 @@ mod tests {
             scale: 5,
             ..StudyRequest::default()
         };
-        let mut plan = request.plan().expect("a plan");
+        let mut plan = request.make_study_plan().expect("a plan");
         let unknown = corpus.measure_distances(&mut plan, "capture", progress);
-        assert!(unknown.is_err_and(|it| it.remedy().is_some()));
+        assert!(unknown.is_err_and(|it| it.error_remedy().is_some()));
         corpus
             .measure_distances(&mut plan, "captured", progress)
             .expect("measured");
         for item in ["BOL", "CHAT"] {
             let own = plan.trials.iter().filter(|it| it.item == item);
-            let distances: Vec<f64> = own.map(|it| it.measures[DISTANCE]).collect();
+            let distances: Vec<f64> = own.map(|it| it.measures[DISTANCE_MEASURE_NAME]).collect();
             let [captured, near, far] = distances[..] else {
                 panic!("three conditions")
             };
-            assert!(
-                captured < 1e-9 && 0.0 < near && near < far,
-                "{item}: {distances:?}"
-            );
+            assert!(captured < 1e-9 && 0.0 < near && near < far, "{item}: {distances:?}");
         }
         let twice = corpus.measure_distances(&mut plan, "captured", progress);
         assert!(twice.is_err_and(|it| it.to_string().contains("already")));

@@ -2,17 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::text::fold;
+use chereme_sign::text::fold_text;
 use serde::Serialize;
 
-use super::answers::{Answer, Participant};
-use super::order::{self, Shown};
-use super::plan::{Plan, Role, Trial};
 use super::stored;
-use super::{Study, found, no_participant};
+use super::study_answers::{StudyAnswer, StudyParticipant};
+use super::study_order::{self, ShownTrial};
+use super::study_plan::{StudyPlan, StudyTrial, TrialRole};
+use super::{StudyWithAnswers, find_stored_study, no_participant};
 use crate::Corpus;
-use crate::db::search::begin_reading;
-use crate::error::Result;
+use crate::db::stored_search::begin_reading;
+use crate::error::CorpusResult;
 
 /// The answers to a study.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -22,7 +22,7 @@ pub struct AnswerList {
     /// The participants by code.
     pub participants: Vec<ParticipantSummary>,
     /// The answers and the missing ones, by participant and place in the order.
-    pub rows: Vec<AnswerRow>,
+    pub rows: Vec<AnswerListRow>,
 }
 
 /// A participant, and how much was answered.
@@ -48,7 +48,7 @@ pub struct ParticipantSummary {
 
 /// An answer to one question about one film, or its absence.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct AnswerRow {
+pub struct AnswerListRow {
     /// The code of the participant.
     pub participant: String,
     /// The place of the trial in the participant's order, from 1; none if the order is not known.
@@ -62,7 +62,7 @@ pub struct AnswerRow {
     /// The condition.
     pub condition: String,
     /// The use of the answer.
-    pub role: Role,
+    pub role: TrialRole,
     /// The question.
     pub question: String,
     /// Whether there is an answer.
@@ -105,15 +105,15 @@ pub struct AnswerFilter {
 impl AnswerFilter {
     /// Returns whether a row is wanted.
     #[must_use]
-    pub fn holds(&self, row: &AnswerRow) -> bool {
+    pub fn holds_answer_row(&self, row: &AnswerListRow) -> bool {
         let by = |code: &String| row.participant == code.trim();
-        let fields = [&row.item, &row.condition, &row.part, &row.question];
-        let fields = fields.map(|it| fold(it));
-        let within = |word: &str| fields.iter().any(|it| it.contains(word));
+        let raw_fields = [&row.item, &row.condition, &row.part, &row.question];
+        let fields = raw_fields.map(|field| fold_text(field));
+        let within = |word: &str| fields.iter().any(|field| field.contains(word));
         let gone = [AnswerState::Skipped, AnswerState::NotReached];
         self.participant.as_ref().is_none_or(by)
             && (!self.missing || gone.contains(&row.state))
-            && fold(&self.text).split_whitespace().all(within)
+            && fold_text(&self.text).split_whitespace().all(within)
     }
 }
 
@@ -122,12 +122,16 @@ impl AnswerList {
     ///
     /// # Errors
     /// Fails if the filter names a participant who is not in the list.
-    pub fn keep(&mut self, filter: &AnswerFilter) -> Result<()> {
-        let known = |code: &str| self.participants.iter().any(|it| it.code == code.trim());
+    pub fn keep_filtered_rows(&mut self, filter: &AnswerFilter) -> CorpusResult<()> {
+        let is_known = |code: &str| {
+            self.participants
+                .iter()
+                .any(|participant| participant.code == code.trim())
+        };
         match &filter.participant {
-            Some(code) if !known(code) => Err(no_participant(code)),
+            Some(code) if !is_known(code) => Err(no_participant(code)),
             _ => {
-                self.rows.retain(|it| filter.holds(it));
+                self.rows.retain(|row| filter.holds_answer_row(row));
                 Ok(())
             }
         }
@@ -140,40 +144,40 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no study of that name.
-    pub fn study_answers(&self, name: &str) -> Result<AnswerList> {
-        let reading = begin_reading(self.store.read())?;
-        let found = found(&reading, name)?;
-        let participants = stored::participants(&reading, &found, None)?;
-        Ok(list(&Study {
-            plan: found.plan,
-            plan_sha256: found.sha256,
+    pub fn study_answers(&self, name: &str) -> CorpusResult<AnswerList> {
+        let reading = begin_reading(self.store.read_connection())?;
+        let stored_study = find_stored_study(&reading, name)?;
+        let participants = stored::stored_participants(&reading, &stored_study, None)?;
+        Ok(list_study_answers(&StudyWithAnswers {
+            plan: stored_study.plan,
+            plan_sha256: stored_study.sha256,
             participants,
         }))
     }
 }
 
-fn list(study: &Study) -> AnswerList {
+fn list_study_answers(study: &StudyWithAnswers) -> AnswerList {
     let plan = &study.plan;
-    let orders = order::rows(plan);
+    let orders = study_order::trial_order_rows(plan);
     let mut list = AnswerList {
         study: plan.name.clone(),
         ..AnswerList::default()
     };
     for person in &study.participants {
-        let order = orders.get(person.seed as usize % orders.len().max(1));
-        let order = order.filter(|it| is_order_of(plan, it, person));
-        let mut rows: Vec<AnswerRow> = person
+        let drawn_order = orders.get(person.seed as usize % orders.len().max(1));
+        let order = drawn_order.filter(|candidate| is_order_of(plan, candidate, person));
+        let mut rows: Vec<AnswerListRow> = person
             .answers
             .iter()
-            .map(|it| given(person, it, order.is_some()))
+            .map(|answer| given_answer_row(person, answer, order.is_some()))
             .collect();
         rows.extend(match order {
             Some(order) => missing_in(plan, order, person),
             None => missing_of(plan, person),
         });
         // Without a known order the missing ones come last.
-        rows.sort_by_key(|it| it.n.unwrap_or(u32::MAX));
-        let count = |state| rows.iter().filter(|it| it.state == state).count() as u64;
+        rows.sort_by_key(|row| row.n.unwrap_or(u32::MAX));
+        let count = |state| rows.iter().filter(|row| row.state == state).count() as u64;
         list.participants.push(ParticipantSummary {
             code: person.code.clone(),
             started_day: person.started_day.clone(),
@@ -191,23 +195,23 @@ fn list(study: &Study) -> AnswerList {
 
 /// Returns whether the answers of a participant lie where this order shows their trials. Tables of other survey programs
 /// have no order.
-fn is_order_of(plan: &Plan, order: &[Shown], person: &Participant) -> bool {
+fn is_order_of(plan: &StudyPlan, order: &[ShownTrial], person: &StudyParticipant) -> bool {
     person.answers.iter().all(|answer| {
-        let at = (answer.n as usize).checked_sub(1);
-        let shown = at.and_then(|at| order.get(at));
-        shown.is_some_and(|it| is_of(&plan.trials[it.trial], answer))
+        let index = (answer.n as usize).checked_sub(1);
+        let shown = index.and_then(|at| order.get(at));
+        shown.is_some_and(|entry| is_of(&plan.trials[entry.trial], answer))
     })
 }
 
-fn is_of(trial: &Trial, answer: &Answer) -> bool {
+fn is_of(trial: &StudyTrial, answer: &StudyAnswer) -> bool {
     (&trial.part, &trial.item, &trial.condition, trial.role)
         == (&answer.part, &answer.item, &answer.condition, answer.role)
 }
 
-fn given(person: &Participant, it: &Answer, ordered: bool) -> AnswerRow {
-    let value = it.value.map(|it| it.to_string());
+fn given_answer_row(person: &StudyParticipant, it: &StudyAnswer, ordered: bool) -> AnswerListRow {
+    let value = it.value.map(|number| number.to_string());
     let answer = value.or_else(|| it.choice.clone());
-    AnswerRow {
+    AnswerListRow {
         participant: person.code.clone(),
         n: ordered.then_some(it.n),
         block: it.block,
@@ -228,13 +232,13 @@ fn given(person: &Participant, it: &Answer, ordered: bool) -> AnswerRow {
 }
 
 /// Returns the questions of an order without an answer.
-fn missing_in(plan: &Plan, order: &[Shown], person: &Participant) -> Vec<AnswerRow> {
+fn missing_in(plan: &StudyPlan, order: &[ShownTrial], person: &StudyParticipant) -> Vec<AnswerListRow> {
     let answered: BTreeSet<(u32, &str)> = person
         .answers
         .iter()
-        .map(|it| (it.n, it.question.as_str()))
+        .map(|answer| (answer.n, answer.question.as_str()))
         .collect();
-    let last = person.answers.iter().map(|it| it.n).max().unwrap_or(0);
+    let last = person.answers.iter().map(|answer| answer.n).max().unwrap_or(0);
     let mut rows = Vec::new();
     for (n, shown) in (1..).zip(order) {
         let trial = &plan.trials[shown.trial];
@@ -242,9 +246,9 @@ fn missing_in(plan: &Plan, order: &[Shown], person: &Participant) -> Vec<AnswerR
             true => AnswerState::Skipped,
             false => AnswerState::NotReached,
         };
-        let asked = plan.asked(trial).map(|it| it.name.as_str());
-        let asked = asked.filter(|it| !answered.contains(&(n, *it)));
-        rows.extend(asked.map(|question| AnswerRow {
+        let question_names = plan.questions_of_trial(trial).map(|question| question.name.as_str());
+        let asked = question_names.filter(|name| !answered.contains(&(n, *name)));
+        rows.extend(asked.map(|question| AnswerListRow {
             n: Some(n),
             ..absent(person, trial, question, (shown.block, state))
         }));
@@ -254,7 +258,7 @@ fn missing_in(plan: &Plan, order: &[Shown], person: &Participant) -> Vec<AnswerR
 
 /// Returns the questions of the plan that a participant without a known order never answered. Somebody who sees each item
 /// in one condition only misses no other one.
-fn missing_of(plan: &Plan, person: &Participant) -> Vec<AnswerRow> {
+fn missing_of(plan: &StudyPlan, person: &StudyParticipant) -> Vec<AnswerListRow> {
     let state = match person.finished {
         true => AnswerState::Skipped,
         false => AnswerState::NotReached,
@@ -267,14 +271,14 @@ fn missing_of(plan: &Plan, person: &Participant) -> Vec<AnswerRow> {
     let none = BTreeSet::new();
     let mut rows = Vec::new();
     for trial in &plan.trials {
-        let of_item = answered.get(&(&trial.item, &trial.part, trial.role));
-        let of_item = of_item.unwrap_or(&none);
-        if plan.design.between && of_item.iter().any(|it| it.0 != trial.condition) {
+        let item_answers = answered.get(&(&trial.item, &trial.part, trial.role));
+        let of_item = item_answers.unwrap_or(&none);
+        if plan.design.between && of_item.iter().any(|answer| answer.0 != trial.condition) {
             continue;
         }
-        for question in plan.asked(trial) {
+        for question in plan.questions_of_trial(trial) {
             if !of_item.contains(&(trial.condition.as_str(), question.name.as_str())) {
-                let block = u32::from(trial.role != Role::Training);
+                let block = u32::from(trial.role != TrialRole::Training);
                 rows.push(absent(person, trial, &question.name, (block, state)));
             }
         }
@@ -283,12 +287,12 @@ fn missing_of(plan: &Plan, person: &Participant) -> Vec<AnswerRow> {
 }
 
 fn absent(
-    person: &Participant,
-    trial: &Trial,
+    person: &StudyParticipant,
+    trial: &StudyTrial,
     question: &str,
     (block, state): (u32, AnswerState),
-) -> AnswerRow {
-    AnswerRow {
+) -> AnswerListRow {
+    AnswerListRow {
         participant: person.code.clone(),
         n: None,
         block,
@@ -311,7 +315,7 @@ mod tests {
 
     use super::*;
 
-    fn plan() -> Plan {
+    fn plan() -> StudyPlan {
         serde_json::from_value(json!({
             "format": "chereme-study", "version": 1, "name": "bowls",
             "trials": [{"item": "BOL", "condition": "captured", "clip": "BOL", "role": "training"},
@@ -324,8 +328,8 @@ mod tests {
     }
 
     /// Returns a participant who answered the trials at these places of an order.
-    fn person(plan: &Plan, row: u32, places: &[u32], finished: bool) -> Participant {
-        let orders = order::rows(plan);
+    fn person(plan: &StudyPlan, row: u32, places: &[u32], finished: bool) -> StudyParticipant {
+        let orders = study_order::trial_order_rows(plan);
         let answers: Vec<serde_json::Value> = places
             .iter()
             .map(|&n| {
@@ -341,13 +345,13 @@ mod tests {
         .expect("a participant")
     }
 
-    fn states(person: Participant) -> Vec<(Option<u32>, AnswerState)> {
-        let study = Study {
+    fn states(person: StudyParticipant) -> Vec<(Option<u32>, AnswerState)> {
+        let study = StudyWithAnswers {
             plan: plan(),
             plan_sha256: String::new(),
             participants: vec![person],
         };
-        list(&study)
+        list_study_answers(&study)
             .rows
             .iter()
             .map(|it| (it.n, it.state))
@@ -389,13 +393,13 @@ mod tests {
 
     #[test]
     fn a_filter_keeps_what_has_each_word_whatever_its_case() {
-        let study = Study {
+        let study = StudyWithAnswers {
             plan: plan(),
             plan_sha256: String::new(),
             participants: vec![person(&plan(), 3, &[2, 3], false)],
         };
-        let mut list = list(&study);
-        let count = |filter: AnswerFilter| list.rows.iter().filter(|it| filter.holds(it)).count();
+        let mut list = list_study_answers(&study);
+        let count = |filter: AnswerFilter| list.rows.iter().filter(|it| filter.holds_answer_row(it)).count();
         let of = |text: &str| AnswerFilter {
             text: text.to_owned(),
             ..AnswerFilter::default()
@@ -414,9 +418,9 @@ mod tests {
             ..of("")
         };
         assert_eq!(count(nobody.clone()), 0);
-        let error = list.keep(&nobody).expect_err("nobody has that code");
-        assert!(error.remedy().is_some() && list.rows.len() == 4, "{error}");
-        list.keep(&of("chat")).expect("kept");
+        let error = list.keep_filtered_rows(&nobody).expect_err("nobody has that code");
+        assert!(error.error_remedy().is_some() && list.rows.len() == 4, "{error}");
+        list.keep_filtered_rows(&of("chat")).expect("kept");
         assert_eq!(list.rows.len(), 1);
     }
 }

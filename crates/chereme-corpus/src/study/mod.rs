@@ -1,16 +1,16 @@
 //! Perceptual studies: questionnaires that show signs to people, their answers, and reports.
 //!
-//! A study begins with a [plan](plan::Plan): trials, questions, an order. It is built into a questionnaire, a folder that
+//! A study begins with a [plan](study_plan::StudyPlan): trials, questions, an order. It is built into a questionnaire, a folder that
 //! works without a network; the answers that participants send back are imported, and stay with the plan in the corpus.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`plan`], [`answers`] | the plan, and the answers of a participant, as values |
+//! | [`study_plan`], [`study_answers`] | the plan, and the answers of a participant, as values |
 //! | `request`, `trials`, `texts` | a plan from a few words or a table of trials, and its usual texts |
 //! | `change` | a stored plan as the request that makes it again |
 //! | `check` | the faults of a plan |
 //! | `distances` | how far clips are from those of another condition |
-//! | [`order`] | the order in which each participant sees the trials |
+//! | [`study_order`] | the study_order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `files`, `fits` | answers from files, checked against the plan |
 //! | `long`, `wide`, `rows` | answers as a table: one answer a row, or one participant a row |
@@ -19,25 +19,25 @@
 //! | `stored` | plans and participants as rows of the database |
 //! | [`report`] | people, answers, comparisons and conclusions |
 
-pub mod answers;
 mod build;
-mod change;
-mod check;
 mod distances;
-mod files;
 mod fits;
-mod import;
 mod listing;
-mod long;
-pub mod order;
-mod overview;
-pub mod plan;
 pub mod report;
 mod request;
-mod rows;
 mod stored;
-mod texts;
-mod trials;
+pub mod study_answers;
+mod study_change;
+mod study_check;
+mod study_files;
+mod study_import;
+mod study_long;
+pub mod study_order;
+mod study_overview;
+pub mod study_plan;
+mod study_rows;
+mod study_texts;
+mod study_trials;
 mod wide;
 
 use std::collections::BTreeMap;
@@ -45,54 +45,54 @@ use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
-use chereme_motion::anatomy::Anatomy;
-use chereme_motion::{Clip, Face};
-use chereme_sign::Remedy;
-use chereme_sign::text::{did_you_mean, nearest};
+use chereme_motion::anatomy::BodyAnatomy;
+use chereme_motion::{Clip, FacePosture};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::{did_you_mean, nearest_candidate};
 use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::db::studies as db;
-use crate::error::{Error, Result};
-use crate::progress::{Progress, Step, Unit};
+use crate::db::stored_studies as db;
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::words::effect::OperationEffect;
-use answers::Participant;
-use plan::Plan;
-use stored::Stored;
+use stored::StoredStudy;
+use study_answers::StudyParticipant;
+use study_plan::StudyPlan;
 
-pub use build::{Questionnaire, QuestionnaireOptions};
-pub use distances::DISTANCE;
-pub use import::{AnswersFile, AnswersOptions, AnswersReport, NamedText};
-pub use listing::{AnswerFilter, AnswerList, AnswerRow, AnswerState, ParticipantSummary};
-pub use overview::StudyOverview;
-pub use request::{StudyRequest, words};
+pub use build::{BuiltQuestionnaire, QuestionnaireOptions};
+pub use distances::DISTANCE_MEASURE_NAME;
+pub use listing::{AnswerFilter, AnswerList, AnswerListRow, AnswerState, ParticipantSummary};
+pub use request::{StudyRequest, split_quoted_words};
+pub use study_import::{AnswersFile, AnswersOptions, AnswersReport, NamedText};
+pub use study_overview::StudyOverview;
 pub use wide::ColumnUse;
 
 /// Returns the error for a code that no participant has.
-fn no_participant(code: &str) -> Error {
-    let error = Error::wrong(format!("no participant has the code {code:?}")).at(code);
-    error.advise(Remedy::command(
+fn no_participant(code: &str) -> CorpusError {
+    let error = CorpusError::from_wrong_message(format!("no participant has the code {code:?}")).with_error_place(code);
+    error.with_advice(ErrorRemedy::command_remedy(
         "`chereme study answers CORPUS NAME` lists the codes",
     ))
 }
 
 /// A study with everything that was answered.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Study {
+pub struct StudyWithAnswers {
     /// The plan.
-    pub plan: Plan,
+    pub plan: StudyPlan,
     /// The SHA-256 of the plan, by which answers name it.
     pub plan_sha256: String,
     /// The participants with their answers, by code.
-    pub participants: Vec<Participant>,
+    pub participants: Vec<StudyParticipant>,
 }
 
 /// A study that was planned.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlannedStudy {
     /// The plan.
-    pub plan: Plan,
+    pub plan: StudyPlan,
     /// The SHA-256 of the plan, by which answers name it.
     pub plan_sha256: String,
     /// Whether it replaced an earlier plan of that name, which nobody had answered.
@@ -105,9 +105,9 @@ pub struct StudyClip {
     /// The movement.
     pub clip: Clip,
     /// What the joints are.
-    pub anatomy: Arc<Anatomy>,
+    pub anatomy: Arc<BodyAnatomy>,
     /// The face in each frame; empty if it is at rest.
-    pub faces: Vec<Face>,
+    pub faces: Vec<FacePosture>,
 }
 
 impl Corpus {
@@ -115,36 +115,36 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails with all faults of the plan, each with its place.
-    pub fn read_plan(text: &str, place: &str) -> Result<Plan> {
-        check::read(text, place)
+    pub fn read_plan(text: &str, place: &str) -> CorpusResult<StudyPlan> {
+        study_check::read_study_plan(text, place)
     }
 
     /// Stores a plan as a study. A plan of that name is replaced if nobody has answered it.
     ///
     /// # Errors
     /// Fails with all faults of the plan; if a clip cannot be found or made; if somebody has answered the study.
-    pub fn plan_study(&mut self, plan: &Plan, progress: &mut Progress<'_>) -> Result<PlannedStudy> {
-        check::check(plan)?;
+    pub fn plan_study(&mut self, plan: &StudyPlan, progress: &mut ProgressReceiver<'_>) -> CorpusResult<PlannedStudy> {
+        study_check::check_study_plan(plan)?;
         let plan = &plan.clone().with_short_numbers();
         self.study_clips(plan, progress, |_, _| Ok(()))?;
-        let replaced = self.store.operation(|connection| {
-            let replaced = match stored::study(connection, &plan.name)? {
+        let replaced = self.store.run_store_operation(|connection| {
+            let replaced = match stored::load_stored_study(connection, &plan.name)? {
                 Some(old) if db::participant_count(connection, old.id)? > 0 => {
-                    let error = Error::wrong(format!(
+                    let error = CorpusError::from_wrong_message(format!(
                         "people have answered the study {:?}, so that its plan cannot change",
                         plan.name
                     ));
                     return Err(error
-                        .at(&plan.name)
-                        .advise("give the new plan another name"));
+                        .with_error_place(&plan.name)
+                        .with_advice("give the new plan another name"));
                 }
                 Some(old) if old.plan == *plan => true,
                 Some(old) => {
-                    db::replace(connection, old.id, &stored::row(plan))?;
+                    db::replace_study_plan(connection, old.id, &stored::study_plan_row(plan))?;
                     true
                 }
                 None => {
-                    db::insert(connection, &stored::row(plan))?;
+                    db::insert_study_row(connection, &stored::study_plan_row(plan))?;
                     false
                 }
             };
@@ -153,7 +153,7 @@ impl Corpus {
         })?;
         Ok(PlannedStudy {
             plan: plan.clone(),
-            plan_sha256: plan.sha256(),
+            plan_sha256: plan.plan_sha256(),
             replaced,
         })
     }
@@ -162,13 +162,13 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no study of that name.
-    pub fn study(&self, name: &str) -> Result<Study> {
-        let connection = self.store.read();
-        let found = found(connection, name)?;
-        let participants = stored::participants(connection, &found, None)?;
-        Ok(Study {
-            plan: found.plan,
-            plan_sha256: found.sha256,
+    pub fn study_with_answers(&self, name: &str) -> CorpusResult<StudyWithAnswers> {
+        let connection = self.store.read_connection();
+        let stored_study = find_stored_study(connection, name)?;
+        let participants = stored::stored_participants(connection, &stored_study, None)?;
+        Ok(StudyWithAnswers {
+            plan: stored_study.plan,
+            plan_sha256: stored_study.sha256,
             participants,
         })
     }
@@ -177,12 +177,13 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no study of that name, or the file exists and `force` is not set.
-    pub fn export_plan(&self, name: &str, to: &Path, force: bool) -> Result<()> {
-        let plan = found(self.store.read(), name)?.plan;
+    pub fn export_plan(&self, name: &str, to: &Path, force: bool) -> CorpusResult<()> {
+        let plan = find_stored_study(self.store.read_connection(), name)?.plan;
         // Plans have text keys and finite numbers only.
         let json = serde_json::to_vec_pretty(&plan).unwrap_or_default();
-        crate::picture::write(to, force, |out| {
-            out.write_all(&json).map_err(|error| Error::file(to, error))
+        crate::picture::write_atomically(to, force, |out| {
+            out.write_all(&json)
+                .map_err(|error| CorpusError::from_file_failure(to, error))
         })?;
         Ok(())
     }
@@ -191,10 +192,10 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no study of that name.
-    pub fn delete_study(&mut self, name: &str) -> Result<()> {
-        self.store.operation(|connection| {
-            let Stored { id, plan, .. } = found(connection, name)?;
-            db::delete(connection, id)?;
+    pub fn delete_study(&mut self, name: &str) -> CorpusResult<()> {
+        self.store.run_store_operation(|connection| {
+            let StoredStudy { id, plan, .. } = find_stored_study(connection, name)?;
+            db::delete_study_row(connection, id)?;
             let study = plan.name;
             Ok(((), OperationEffect::DeleteStudy { study }))
         })
@@ -204,10 +205,10 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such study, or no participant with that code.
-    pub fn forget_participant(&mut self, study: &str, code: &str) -> Result<()> {
-        self.store.operation(|connection| {
-            let Stored { id, plan, .. } = found(connection, study)?;
-            let people = db::participants(connection, id, Some(code.trim()))?;
+    pub fn forget_participant(&mut self, study: &str, code: &str) -> CorpusResult<()> {
+        self.store.run_store_operation(|connection| {
+            let StoredStudy { id, plan, .. } = find_stored_study(connection, study)?;
+            let people = db::load_study_participants(connection, id, Some(code.trim()))?;
             let Some((row, _)) = people.first() else {
                 return Err(no_participant(code));
             };
@@ -220,10 +221,10 @@ impl Corpus {
     /// Makes the movement of every trial, each clip once, and calls `take` with the positions of its trials.
     pub(crate) fn study_clips(
         &mut self,
-        plan: &Plan,
-        progress: &mut Progress<'_>,
-        mut take: impl FnMut(&[usize], StudyClip) -> Result<()>,
-    ) -> Result<()> {
+        plan: &StudyPlan,
+        progress: &mut ProgressReceiver<'_>,
+        mut take: impl FnMut(&[usize], StudyClip) -> CorpusResult<()>,
+    ) -> CorpusResult<()> {
         let mut clips: Vec<(&str, Vec<usize>)> = Vec::new();
         let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         for (at, trial) in plan.trials.iter().enumerate() {
@@ -236,47 +237,43 @@ impl Corpus {
         let mut errors = Vec::new();
         let total = Some(clips.len() as u64);
         for (done, (text, trials)) in clips.into_iter().enumerate() {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "making clips",
                 done: done as u64,
                 total,
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             match self.trial_clip(text) {
                 Ok(clip) => take(&trials, clip)?,
-                Err(Error::Stopped) => return Err(Error::Stopped),
+                Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
                 Err(error) => {
                     let trial = &plan.trials[trials[0]];
-                    let place = format!(
-                        "trial {} ({}, {})",
-                        trials[0] + 1,
-                        trial.item,
-                        trial.condition
-                    );
-                    let remedy = error.remedy();
-                    let mut own = Error::wrong(error.to_string()).at(place);
+                    let place = format!("trial {} ({}, {})", trials[0] + 1, trial.item, trial.condition);
+                    let remedy = error.error_remedy();
+                    let mut place_error = CorpusError::from_wrong_message(error.to_string()).with_error_place(place);
                     if let Some(remedy) = remedy {
-                        own = own.advise(remedy);
+                        place_error = place_error.with_advice(remedy);
                     }
-                    errors.push(own);
+                    errors.push(place_error);
                 }
             }
         }
         match errors.len() {
             0 => Ok(()),
             1 => Err(errors.remove(0)),
-            _ => Err(Error::Several { errors }),
+            _ => Err(CorpusError::Several { errors }),
         }
     }
 }
 
 /// Returns the study of that name.
-fn found(connection: &Connection, name: &str) -> Result<Stored> {
-    if let Some(found) = stored::study(connection, name.trim())? {
+fn find_stored_study(connection: &Connection, name: &str) -> CorpusResult<StoredStudy> {
+    if let Some(found) = stored::load_stored_study(connection, name.trim())? {
         return Ok(found);
     }
-    let names = db::names(connection)?;
-    let meant = did_you_mean(nearest(name, names.iter().map(String::as_str)));
-    let error = Error::wrong(format!("there is no study {name:?}{meant}")).at(name);
-    Err(error.advise(Remedy::command("`chereme list CORPUS studies` lists them")))
+    let names = db::list_study_names(connection)?;
+    let suggestion = did_you_mean(nearest_candidate(name, names.iter().map(String::as_str)));
+    let error =
+        CorpusError::from_wrong_message(format!("there is no study {name:?}{suggestion}")).with_error_place(name);
+    Err(error.with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS studies` lists them")))
 }

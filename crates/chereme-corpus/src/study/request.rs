@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::Remedy;
-use chereme_sign::text::fold;
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::fold_text;
 
-use super::plan::{
-    ChoiceOption, Consent, Design, Exclusion, Hypothesis, PLAN_FORMAT, PLAN_VERSION, Plan,
-    Question, QuestionKind, Trial, Viewing, text_in,
+use super::study_plan::{
+    ChoiceOption, ConsentText, ExclusionRule, PLAN_FORMAT, PLAN_VERSION, QuestionKind, QuestionViewing,
+    StudyHypothesis, StudyPlan, StudyQuestion, StudyTrial, TrialDesign, text_in,
 };
-use super::texts;
-use super::trials::{Listed, answer, listed, together, trial};
-use crate::error::{Error, Result};
+use super::study_texts;
+use super::study_trials::{ListedTrial, fail_with_errors, fill_right_answers, new_study_trial, read_trial_table};
+use crate::error::{CorpusError, CorpusResult};
 
 /// A study in a few words.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -32,16 +32,16 @@ pub struct StudyRequest {
     /// The highest answer of scales without ends of their own.
     pub scale: i64,
     /// The order of trials.
-    pub design: Design,
+    pub design: TrialDesign,
     /// The hypotheses.
-    pub hypotheses: Vec<Hypothesis>,
+    pub hypotheses: Vec<StudyHypothesis>,
     /// The rules by which participants are left out.
-    pub exclusions: Vec<Exclusion>,
+    pub exclusions: Vec<ExclusionRule>,
     /// The plan that is changed, if it is not a new one. The request takes from it all that it does not state itself, such
     /// as the texts of questions and the questions about participants.
-    pub before: Option<Plan>,
+    pub before: Option<StudyPlan>,
     /// Trials of that plan which neither items and conditions nor a table can state.
-    pub others: Vec<Trial>,
+    pub others: Vec<StudyTrial>,
 }
 
 impl StudyRequest {
@@ -49,70 +49,72 @@ impl StudyRequest {
     ///
     /// # Errors
     /// Fails if a table or a question cannot be understood; the plan itself is checked when it is stored.
-    pub fn plan(&self) -> Result<Plan> {
-        let mut trials = self.crossed();
+    pub fn make_study_plan(&self) -> CorpusResult<StudyPlan> {
+        let mut trials = self.crossed_request_trials();
         if let Some((text, file)) = &self.trials {
-            trials.extend(listed(text, file)?);
+            trials.extend(read_trial_table(text, file)?);
         }
         let stated = trials.len();
-        trials.extend(self.others.iter().cloned().map(Listed::of));
+        trials.extend(self.others.iter().cloned().map(ListedTrial::from_plain_trial));
         if trials.is_empty() {
-            return Err(Error::wrong("a study needs trials").advise(Remedy::command(
-                "name --items and at least one --condition, or a table of trials with --trials FILE",
-            )));
+            return Err(CorpusError::from_wrong_message("a study needs trials").with_advice(
+                ErrorRemedy::command_remedy(
+                    "name --items and at least one --condition, or a table of trials with --trials FILE",
+                ),
+            ));
         }
         let mut questions = Vec::new();
         for text in &self.questions {
-            questions.push(match self.unstated(text, &trials) {
+            questions.push(match self.unstated_question(text, &trials) {
                 Some(kept) => kept.clone(),
-                None => self.kept(self.question(text, &trials)?),
+                None => self.keep_unstated_parts(self.parse_question_request(text, &trials)?),
             });
         }
         if questions.is_empty() {
-            return Err(Error::wrong("a study needs a question")
-                .advise(Remedy::command("ask one with --ask realism")));
+            return Err(CorpusError::from_wrong_message("a study needs a question")
+                .with_advice(ErrorRemedy::command_remedy("ask one with --ask realism")));
         }
         let answers = trials[..stated].iter_mut();
-        let wrong = answers.filter_map(|it| answer(it, &questions).err());
-        together(wrong.collect())?;
+        let wrong = answers.filter_map(|listed| fill_right_answers(listed, &questions).err());
+        fail_with_errors(wrong.collect())?;
         let title = self.title.as_ref().unwrap_or(&self.name);
         let before = self.before.as_ref();
         let kept = before
-            .map(|it| &it.title)
-            .filter(|it| match text_in(it, "en") {
+            .map(|plan| &plan.title)
+            .filter(|texts| match text_in(texts, "en") {
                 Some(text) => text == title,
                 None => self.title.is_none(),
             });
-        Ok(Plan {
+        Ok(StudyPlan {
             format: PLAN_FORMAT.to_owned(),
             version: PLAN_VERSION,
             name: self.name.clone(),
-            title: kept.map_or_else(|| texts::both(title, title), Clone::clone),
-            consent: before.map_or_else(Consent::default, |it| it.consent.clone()),
-            trials: trials.into_iter().map(|it| it.trial).collect(),
+            title: kept.map_or_else(|| study_texts::text_in_both_languages(title, title), Clone::clone),
+            consent: before.map_or_else(ConsentText::default, |plan| plan.consent.clone()),
+            trials: trials.into_iter().map(|listed| listed.trial).collect(),
             questions,
-            profile: before.map_or_else(texts::profile, |it| it.profile.clone()),
+            profile: before.map_or_else(study_texts::default_profile_questions, |plan| plan.profile.clone()),
             design: self.design,
-            analysed: before.and_then(|it| it.analysed.clone()),
+            analysed: before.and_then(|plan| plan.analysed.clone()),
             hypotheses: self.hypotheses.clone(),
             exclusions: self.exclusions.clone(),
         })
     }
 
     /// Returns the trials of all items in all conditions.
-    fn crossed(&self) -> Vec<Listed> {
+    fn crossed_request_trials(&self) -> Vec<ListedTrial> {
         let mut trials = Vec::new();
         for item in &self.items {
             for (condition, recipe) in &self.conditions {
-                let clip = recipe.replace("{}", &quoted(item));
-                trials.push(Listed::of(trial(item, condition, clip)));
+                let clip = recipe.replace("{}", &quote_item_name(item));
+                trials.push(ListedTrial::from_plain_trial(new_study_trial(item, condition, clip)));
             }
         }
         trials
     }
 
     /// Reads a question such as `gloss@signs=items LIMACE`.
-    pub(super) fn question(&self, text: &str, trials: &[Listed]) -> Result<Question> {
+    pub(super) fn parse_question_request(&self, text: &str, trials: &[ListedTrial]) -> CorpusResult<StudyQuestion> {
         let (head, answers) = match text.split_once('=') {
             Some((head, answers)) => (head, Some(answers)),
             None => (text, None),
@@ -121,9 +123,9 @@ impl StudyRequest {
             Some((name, parts)) => (name.trim(), parts.split(',').collect()),
             None => (head.trim(), Vec::new()),
         };
-        let parts: Vec<String> = parts.into_iter().map(|it| it.trim().to_owned()).collect();
+        let parts: Vec<String> = parts.into_iter().map(|part| part.trim().to_owned()).collect();
         let wrong = |message: String| {
-            Error::wrong(message).at(text).advise(
+            CorpusError::from_wrong_message(message).with_error_place(text).with_advice(
                 "write a name, and for other answers than the usual scale = and the ends of a scale or the options: realism=1-7, gloss=items, place=left right",
             )
         };
@@ -133,24 +135,24 @@ impl StudyRequest {
         let scale = |low: i64, high: i64| QuestionKind::Scale {
             low,
             high,
-            labels: texts::labels(name, low, high),
+            labels: study_texts::default_scale_labels(name, low, high),
         };
         let kind = match answers.map(str::trim) {
             None => scale(1, self.scale),
-            Some(answers) => match ends(answers) {
+            Some(answers) => match parse_scale_ends(answers) {
                 Some((low, high)) => scale(low, high),
                 None => {
-                    let asked = |it: &&Listed| parts.is_empty() || parts.contains(&it.trial.part);
-                    let items = trials.iter().filter(asked).map(|it| it.trial.item.as_str());
-                    choice(answers, items)
+                    let asked = |listed: &&ListedTrial| parts.is_empty() || parts.contains(&listed.trial.part);
+                    let items = trials.iter().filter(asked).map(|listed| listed.trial.item.as_str());
+                    parse_choice_question(answers, items)
                 }
             },
         };
-        Ok(Question {
+        Ok(StudyQuestion {
             name: name.to_owned(),
-            text: texts::question(name),
+            text: study_texts::default_question_text(name),
             kind,
-            after: Viewing::First,
+            after: QuestionViewing::First,
             parts,
             cannot_say: false,
         })
@@ -158,14 +160,14 @@ impl StudyRequest {
 }
 
 /// Returns the ends of a scale written as `1-7`.
-fn ends(text: &str) -> Option<(i64, i64)> {
+fn parse_scale_ends(text: &str) -> Option<(i64, i64)> {
     let (low, high) = text.split_once('-')?;
     Some((low.trim().parse().ok()?, high.trim().parse().ok()?))
 }
 
 /// Returns a choice of words; the word `items` stands for all items that the question is asked about, which then
 /// stand among the others in the order of the alphabet.
-fn choice<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind {
+fn parse_choice_question<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind {
     let mut names: Vec<String> = Vec::new();
     let mut add = |name: String| {
         if !names.contains(&name) {
@@ -174,7 +176,7 @@ fn choice<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind 
     };
     let items: Vec<&str> = items.collect();
     let mut mixed = false;
-    for word in words(text) {
+    for word in split_quoted_words(text) {
         match word.as_str() {
             "items" => {
                 mixed = true;
@@ -184,7 +186,7 @@ fn choice<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind 
         }
     }
     if mixed {
-        names.sort_by_cached_key(|name| fold(name));
+        names.sort_by_cached_key(|name| fold_text(name));
     }
     let options = names.into_iter().map(|name| ChoiceOption {
         name,
@@ -198,7 +200,7 @@ fn choice<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind 
 
 /// Splits a text at blanks; words in double quotes may hold some.
 #[must_use]
-pub fn words(text: &str) -> Vec<String> {
+pub fn split_quoted_words(text: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (at, piece) in text.split('"').enumerate() {
         match at % 2 {
@@ -211,7 +213,7 @@ pub fn words(text: &str) -> Vec<String> {
 }
 
 /// Returns an item as a recipe names it: in quotes if it holds blanks.
-pub(super) fn quoted(item: &str) -> String {
+pub(super) fn quote_item_name(item: &str) -> String {
     if item.contains(char::is_whitespace) && !item.contains('"') {
         format!("\"{item}\"")
     } else {

@@ -13,20 +13,20 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::Remedy;
-use chereme_sign::text::{did_you_mean, fold, nearest};
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 use serde::Serialize;
 
-use super::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant};
-use super::files::{Findings, FromFile};
-use super::fits::short;
-use super::plan::{ChoiceOption, Plan, Question, QuestionKind, Role, Texts};
-use super::rows::{Table, table};
-use super::trials::together;
-use crate::error::{Error, Result};
+use super::fits::shorten_message_text;
+use super::study_answers::{ANSWERS_FORMAT, ANSWERS_VERSION, ParticipantDevice, StudyAnswer, StudyParticipant};
+use super::study_files::{FileFindings, FromFile};
+use super::study_plan::{ChoiceOption, LocalizedTexts, QuestionKind, StudyPlan, StudyQuestion, TrialRole};
+use super::study_rows::{TextTable, read_text_table};
+use super::study_trials::fail_with_errors;
+use crate::error::{CorpusError, CorpusResult};
 
 /// The columns of a map.
-const TITLES: [&str; 8] = [
+const COLUMN_MAP_TITLES: [&str; 8] = [
     "column",
     "item",
     "condition",
@@ -38,11 +38,11 @@ const TITLES: [&str; 8] = [
 ];
 
 /// The largest number of wrong rows of a map that are reported.
-const MOST_WRONG: usize = 100;
+const MAX_WRONG_MAP_ROWS: usize = 100;
 
 /// The beginnings of meanings with a name.
-const PROFILE: &str = "profile.";
-const CONSENT: &str = "consent.";
+const PROFILE_MEANING_PREFIX: &str = "profile.";
+const CONSENT_MEANING_PREFIX: &str = "consent.";
 
 /// The answer of a participant who cannot say, in the languages of the questionnaire.
 const CANNOT_SAY: [&str; 2] = ["I cannot say", "Je ne sais pas"];
@@ -57,7 +57,7 @@ pub(super) struct ColumnMap {
 #[derive(Debug, Clone, PartialEq)]
 struct MappedColumn {
     title: String,
-    means: Means,
+    means: ColumnMeaning,
     /// The answer for which each code stands, by the code in folded letters.
     values: BTreeMap<String, String>,
 }
@@ -80,25 +80,25 @@ pub struct ColumnUse {
 
 /// The meaning of a column.
 #[derive(Debug, Clone, PartialEq)]
-enum Means {
+enum ColumnMeaning {
     Code,
     Language,
     StartedDay,
     Finished,
     Profile(String),
     Consent(String),
-    Answer(Place),
+    Answer(AnswerColumnPlace),
 }
 
 /// The trial and the question of an answer.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Place {
+struct AnswerColumnPlace {
     /// The place of the trial in the map, from 1.
     n: u32,
     part: String,
     item: String,
     condition: String,
-    role: Role,
+    role: TrialRole,
     question: String,
 }
 
@@ -107,13 +107,13 @@ impl ColumnMap {
     ///
     /// # Errors
     /// Fails if it has no column of participants, or names a trial, a question or a meaning that does not exist.
-    pub(super) fn read(text: &str, file: &str, plan: &Plan) -> Result<Self> {
-        let Table { titles, rows } = table(text, file)?;
-        if let Some(odd) = titles.iter().find(|it| !TITLES.contains(&it.as_str())) {
-            let message = format!("a map of columns has no column {:?}", short(odd));
-            return Err(Error::wrong(message).at(file).advise(
-                "its columns are column, item, condition, part, role, question, means and values",
-            ));
+    pub(super) fn read_column_map(text: &str, file: &str, plan: &StudyPlan) -> CorpusResult<Self> {
+        let TextTable { titles, rows } = read_text_table(text, file)?;
+        if let Some(odd) = titles.iter().find(|title| !COLUMN_MAP_TITLES.contains(&title.as_str())) {
+            let message = format!("a map of columns has no column {:?}", shorten_message_text(odd));
+            return Err(CorpusError::from_wrong_message(message)
+                .with_error_place(file)
+                .with_advice("its columns are column, item, condition, part, role, question, means and values"));
         }
         let mut columns: Vec<MappedColumn> = Vec::with_capacity(rows.len());
         let mut trials: Vec<[String; 4]> = Vec::new();
@@ -122,95 +122,99 @@ impl ColumnMap {
         for (line, cells) in rows {
             let place = format!("{file}, line {line}");
             let cell = |name: &str| {
-                let at = titles.iter().position(|it| it == name);
-                at.and_then(|at| cells.get(at)).map_or("", |it| it.trim())
+                let title_index = titles.iter().position(|title| title == name);
+                title_index
+                    .and_then(|at| cells.get(at))
+                    .map_or("", |cell_text| cell_text.trim())
             };
-            match MappedColumn::read(plan, &cell, (&mut trials, &mut taken)) {
+            match MappedColumn::read_mapped_column(plan, &cell, (&mut trials, &mut taken)) {
                 Ok(column) => columns.push(column),
-                Err(error) if wrong.len() < MOST_WRONG => wrong.push(error.at(place)),
+                Err(error) if wrong.len() < MAX_WRONG_MAP_ROWS => wrong.push(error.with_error_place(place)),
                 Err(_) => break,
             }
         }
-        together(wrong)?;
-        if !columns.iter().any(|it| it.means == Means::Code) {
-            return Err(Error::wrong("the map has no column of participants")
-                .at(file)
-                .advise("add a row with `participant` under `means`"));
+        fail_with_errors(wrong)?;
+        if !columns.iter().any(|column| column.means == ColumnMeaning::Code) {
+            return Err(CorpusError::from_wrong_message("the map has no column of participants")
+                .with_error_place(file)
+                .with_advice("add a row with `participant` under `means`"));
         }
         Ok(Self { columns })
     }
 
     /// Returns whether the map has a column with that meaning.
-    fn has(&self, means: &Means) -> bool {
-        self.columns.iter().any(|it| it.means == *means)
+    fn has_meaning(&self, means: &ColumnMeaning) -> bool {
+        self.columns.iter().any(|column| column.means == *means)
     }
 }
 
 impl MappedColumn {
     /// Reads a row of a map; `taken` holds the answers of the rows before.
-    fn read<'a>(
-        plan: &Plan,
+    fn read_mapped_column<'a>(
+        plan: &StudyPlan,
         cell: &impl Fn(&str) -> &'a str,
-        (trials, taken): (&mut Vec<[String; 4]>, &mut BTreeMap<Place, String>),
-    ) -> Result<Self> {
+        (trials, taken): (&mut Vec<[String; 4]>, &mut BTreeMap<AnswerColumnPlace, String>),
+    ) -> CorpusResult<Self> {
         if cell("column").is_empty() {
-            return Err(Error::wrong("the row names no column of the answers"));
+            return Err(CorpusError::from_wrong_message(
+                "the row names no column of the answers",
+            ));
         }
         let means = match cell("means") {
-            "" => Means::Answer(answered(plan, cell, trials)?),
-            word => Means::named(plan, word)?,
+            "" => ColumnMeaning::Answer(answered_trial_place(plan, cell, trials)?),
+            word => ColumnMeaning::meaning_named(plan, word)?,
         };
-        if let Means::Answer(answer) = &means
+        if let ColumnMeaning::Answer(answer) = &means
             && let Some(before) = taken.insert(answer.clone(), cell("column").to_owned())
         {
             let message = format!("{before:?} and this column answer the same question");
-            return Err(Error::wrong(message));
+            return Err(CorpusError::from_wrong_message(message));
         }
         Ok(Self {
             title: cell("column").to_owned(),
             means,
-            values: codes(cell("values"))?,
+            values: parse_answer_codes(cell("values"))?,
         })
     }
 }
 
-impl Means {
+impl ColumnMeaning {
     /// Returns the meaning in the words of a map.
-    fn text(&self) -> String {
+    fn meaning_text(&self) -> String {
         match self {
             Self::Code => "participant".to_owned(),
             Self::Language => "language".to_owned(),
             Self::StartedDay => "started_day".to_owned(),
             Self::Finished => "finished".to_owned(),
-            Self::Profile(name) => format!("{PROFILE}{name}"),
-            Self::Consent(name) => format!("{CONSENT}{name}"),
+            Self::Profile(name) => format!("{PROFILE_MEANING_PREFIX}{name}"),
+            Self::Consent(name) => format!("{CONSENT_MEANING_PREFIX}{name}"),
             Self::Answer(it) => {
-                let words = [&it.part, &it.item, &it.condition, &it.question];
-                let words: Vec<&str> = words
+                let all_words = [&it.part, &it.item, &it.condition, &it.question];
+                let words: Vec<&str> = all_words
                     .into_iter()
                     .map(String::as_str)
-                    .filter(|it| !it.is_empty())
+                    .filter(|word| !word.is_empty())
                     .collect();
                 words.join(" · ")
             }
         }
     }
 
-    fn named(plan: &Plan, word: &str) -> Result<Self> {
-        if let Some(name) = word.strip_prefix(PROFILE) {
-            let known = plan.profile.iter().map(|it| it.name.as_str());
-            let known: Vec<&str> = known.collect();
-            if known.contains(&name) {
+    fn meaning_named(plan: &StudyPlan, word: &str) -> CorpusResult<Self> {
+        if let Some(name) = word.strip_prefix(PROFILE_MEANING_PREFIX) {
+            let name_iterator = plan.profile.iter().map(|question| question.name.as_str());
+            let profile_names: Vec<&str> = name_iterator.collect();
+            if profile_names.contains(&name) {
                 return Ok(Self::Profile(name.to_owned()));
             }
-            let near = did_you_mean(nearest(name, known));
+            let near = did_you_mean(nearest_candidate(name, profile_names));
             let message = format!(
                 "no question about participants is called {:?}{near}",
-                short(name)
+                shorten_message_text(name)
             );
-            return Err(Error::wrong(message));
+            return Err(CorpusError::from_wrong_message(message));
         }
-        if let Some(name) = word.strip_prefix(CONSENT) {
+        if let Some(name) = word.strip_prefix(CONSENT_MEANING_PREFIX) {
             return Ok(Self::Consent(name.to_owned()));
         }
         match word {
@@ -218,7 +222,11 @@ impl Means {
             "language" => Ok(Self::Language),
             "started_day" => Ok(Self::StartedDay),
             "finished" => Ok(Self::Finished),
-            _ => Err(Error::wrong(format!("{:?} is no meaning of a column", short(word))).advise(
+            _ => Err(CorpusError::from_wrong_message(format!(
+                "{:?} is no meaning of a column",
+                shorten_message_text(word)
+            ))
+            .with_advice(
                 "the meanings are participant, language, started_day, finished, profile.NAME and consent.NAME",
             )),
         }
@@ -226,43 +234,45 @@ impl Means {
 }
 
 /// Returns the trial and the question that a row of a map names.
-fn answered<'a>(
-    plan: &Plan,
+fn answered_trial_place<'a>(
+    plan: &StudyPlan,
     cell: &impl Fn(&str) -> &'a str,
     trials: &mut Vec<[String; 4]>,
-) -> Result<Place> {
+) -> CorpusResult<AnswerColumnPlace> {
     let role = match cell("role") {
-        "" => Role::Main,
-        word => Role::named(word).ok_or_else(|| {
-            Error::wrong(format!("{:?} is no role of a trial", short(word)))
-                .advise("the roles are training, main and check")
+        "" => TrialRole::Main,
+        word => TrialRole::trial_role_named(word).ok_or_else(|| {
+            CorpusError::from_wrong_message(format!("{:?} is no role of a trial", shorten_message_text(word)))
+                .with_advice("the roles are training, main and check")
         })?,
     };
     let [part, item, condition, question] = ["part", "item", "condition", "question"].map(cell);
-    let Some(trial) = plan.trial(part, item, condition, role) else {
+    let Some(trial) = plan.find_plan_trial(part, item, condition, role) else {
         let message = format!(
             "the plan has no trial with {:?} and {:?} ({})",
-            short(item),
-            short(condition),
-            role.name()
+            shorten_message_text(item),
+            shorten_message_text(condition),
+            role.trial_role_name()
         );
-        return Err(Error::wrong(message).advise(Remedy::command(
-            "`chereme study show CORPUS NAME` lists the trials",
-        )));
+        return Err(
+            CorpusError::from_wrong_message(message).with_advice(ErrorRemedy::command_remedy(
+                "`chereme study show CORPUS NAME` lists the trials",
+            )),
+        );
     };
-    if !plan.asked(trial).any(|it| it.name == question) {
-        let known = plan.asked(trial).map(|it| it.name.as_str());
-        let near = did_you_mean(nearest(question, known));
-        let message = format!("the plan does not ask {:?} there{near}", short(question));
-        return Err(Error::wrong(message));
+    if !plan.questions_of_trial(trial).any(|asked| asked.name == question) {
+        let asked_names = plan.questions_of_trial(trial).map(|asked| asked.name.as_str());
+        let near = did_you_mean(nearest_candidate(question, asked_names));
+        let message = format!("the plan does not ask {:?} there{near}", shorten_message_text(question));
+        return Err(CorpusError::from_wrong_message(message));
     }
-    let own = [part, item, condition, role.name()].map(str::to_owned);
-    let at = trials.iter().position(|it| *it == own).unwrap_or_else(|| {
-        trials.push(own);
+    let trial_key = [part, item, condition, role.trial_role_name()].map(str::to_owned);
+    let trial_index = trials.iter().position(|trial| *trial == trial_key).unwrap_or_else(|| {
+        trials.push(trial_key);
         trials.len() - 1
     });
-    Ok(Place {
-        n: at as u32 + 1,
+    Ok(AnswerColumnPlace {
+        n: trial_index as u32 + 1,
         part: part.to_owned(),
         item: item.to_owned(),
         condition: condition.to_owned(),
@@ -272,68 +282,69 @@ fn answered<'a>(
 }
 
 /// Reads what codes stand for.
-fn codes(text: &str) -> Result<BTreeMap<String, String>> {
-    let pairs = text.split(';').map(str::trim).filter(|it| !it.is_empty());
+fn parse_answer_codes(text: &str) -> CorpusResult<BTreeMap<String, String>> {
+    let pairs = text.split(';').map(str::trim).filter(|part| !part.is_empty());
     let each = pairs.map(|pair| match pair.split_once('=') {
-        Some((code, value)) => Ok((fold(code.trim()), value.trim().to_owned())),
-        None => Err(
-            Error::wrong(format!("{:?} does not say what it stands for", short(pair)))
-                .advise("write codes and their values as `A1=left; A2=right`"),
-        ),
+        Some((code, value)) => Ok((fold_text(code.trim()), value.trim().to_owned())),
+        None => Err(CorpusError::from_wrong_message(format!(
+            "{:?} does not say what it stands for",
+            shorten_message_text(pair)
+        ))
+        .with_advice("write codes and their values as `A1=left; A2=right`")),
     });
     each.collect()
 }
 
 /// Reads the participants of a table by a map.
-pub(super) fn read(
+pub(super) fn read_wide_answers(
     text: &str,
     file: &str,
-    (map, plan, sha256): (&ColumnMap, &Plan, &str),
-    findings: &mut Findings,
-) -> Result<(Vec<FromFile>, Vec<ColumnUse>)> {
-    let Table { titles, mut rows } = table(text, file)?;
+    (map, plan, sha256): (&ColumnMap, &StudyPlan, &str),
+    findings: &mut FileFindings,
+) -> CorpusResult<(Vec<FromFile>, Vec<ColumnUse>)> {
+    let TextTable { titles, mut rows } = read_text_table(text, file)?;
     let mut columns = Vec::with_capacity(map.columns.len());
     for column in &map.columns {
-        let at = titles.iter().position(|it| *it == column.title);
-        let folded = fold(&column.title);
-        let at = at.or_else(|| titles.iter().position(|it| fold(it) == folded));
-        let Some(at) = at else {
-            let near = nearest(&column.title, titles.iter().map(String::as_str));
+        let exact_index = titles.iter().position(|title| *title == column.title);
+        let folded = fold_text(&column.title);
+        let column_index = exact_index.or_else(|| titles.iter().position(|title| fold_text(title) == folded));
+        let Some(at) = column_index else {
+            let near = nearest_candidate(&column.title, titles.iter().map(String::as_str));
             let message = format!(
                 "the map names a column that the table does not have: {:?}{}",
-                short(&column.title),
+                shorten_message_text(&column.title),
                 did_you_mean(near)
             );
-            return Err(Error::wrong(message).at(file));
+            return Err(CorpusError::from_wrong_message(message).with_error_place(file));
         };
         columns.push((at, column));
     }
     // Qualtrics repeats the texts of the questions below the titles, and its own names of the columns below these.
-    let own = |(_, cells): &(u64, Vec<String>)| {
+    let is_import_row = |(_, cells): &(u64, Vec<String>)| {
         let mut cells = cells.iter();
-        cells.any(|it| it.trim_start().starts_with("{\"ImportId\""))
+        cells.any(|cell| cell.trim_start().starts_with("{\"ImportId\""))
     };
-    if let Some(last) = rows.iter().take(2).rposition(own) {
+    if let Some(last) = rows.iter().take(2).rposition(is_import_row) {
         rows.drain(..=last);
     }
-    let uses = uses(&titles, &rows, &columns);
+    let uses = report_column_uses(&titles, &rows, &columns);
     let mut people = Vec::with_capacity(rows.len());
     for (line, cells) in &rows {
-        let cell = |at: usize| cells.get(at).map_or("", |it| it.trim());
-        let person = person(plan, &columns, *line, &cell, findings);
+        let cell = |at: usize| cells.get(at).map_or("", |text| text.trim());
+        let person = participant_from_wide_row(plan, &columns, *line, &cell, findings);
         let answers = columns
             .iter()
-            .filter(|(_, it)| matches!(it.means, Means::Answer(_)));
-        let whole = person.answers.len() == answers.count();
+            .filter(|(_, it)| matches!(it.means, ColumnMeaning::Answer(_)));
+        let is_complete = person.answers.len() == answers.count();
         people.push(FromFile {
             lines: vec![*line; person.answers.len()],
-            participant: Participant {
+            participant: StudyParticipant {
                 study: plan.name.clone(),
                 plan_sha256: sha256.to_owned(),
-                finished: if map.has(&Means::Finished) {
+                finished: if map.has_meaning(&ColumnMeaning::Finished) {
                     person.finished
                 } else {
-                    whole
+                    is_complete
                 },
                 ..person
             },
@@ -343,23 +354,23 @@ pub(super) fn read(
 }
 
 /// Returns how each column of a table is used.
-fn uses(
+fn report_column_uses(
     titles: &[String],
     rows: &[(u64, Vec<String>)],
     columns: &[(usize, &MappedColumn)],
 ) -> Vec<ColumnUse> {
     let one = |(at, title): (usize, &String)| {
-        let filled = rows.iter().filter_map(|(_, cells)| cells.get(at));
-        let mut filled = filled.map(|it| it.trim()).filter(|it| !it.is_empty());
+        let column_cells = rows.iter().filter_map(|(_, cells)| cells.get(at));
+        let mut filled = column_cells.map(|cell| cell.trim()).filter(|cell| !cell.is_empty());
         let example = filled.next();
-        let mapped = columns.iter().find(|it| it.0 == at).map(|it| it.1);
+        let mapped = columns.iter().find(|column| column.0 == at).map(|column| column.1);
         let code = mapped.zip(example);
-        let stands_for = code.and_then(|(it, text)| it.values.get(&fold(text)));
+        let stands_for = code.and_then(|(column, text)| column.values.get(&fold_text(text)));
         ColumnUse {
             column: title.clone(),
-            means: mapped.map(|it| it.means.text()).unwrap_or_default(),
+            means: mapped.map(|column| column.means.meaning_text()).unwrap_or_default(),
             cells: example.map_or(0, |_| filled.count() as u64 + 1),
-            example: example.map(short).unwrap_or_default(),
+            example: example.map(shorten_message_text).unwrap_or_default(),
             stands_for: stands_for.cloned().unwrap_or_default(),
         }
     };
@@ -367,14 +378,14 @@ fn uses(
 }
 
 /// Returns the participant of a row, whose answers are read as far as they can be.
-fn person<'a>(
-    plan: &Plan,
+fn participant_from_wide_row<'a>(
+    plan: &StudyPlan,
     columns: &[(usize, &MappedColumn)],
     line: u64,
     cell: &impl Fn(usize) -> &'a str,
-    findings: &mut Findings,
-) -> Participant {
-    let mut person = Participant {
+    findings: &mut FileFindings,
+) -> StudyParticipant {
+    let mut person = StudyParticipant {
         format: ANSWERS_FORMAT.to_owned(),
         version: ANSWERS_VERSION,
         study: String::new(),
@@ -383,7 +394,7 @@ fn person<'a>(
         seed: 0,
         started_day: String::new(),
         language: String::new(),
-        device: Device::default(),
+        device: ParticipantDevice::default(),
         consent: BTreeMap::new(),
         profile: BTreeMap::new(),
         finished: false,
@@ -392,41 +403,35 @@ fn person<'a>(
     };
     for &(at, column) in columns {
         let written = cell(at);
-        let text = column
-            .values
-            .get(&fold(written))
-            .map_or(written, String::as_str);
+        let text = column.values.get(&fold_text(written)).map_or(written, String::as_str);
         if text.is_empty() {
             continue;
         }
         match &column.means {
-            Means::Code => text.clone_into(&mut person.code),
-            Means::Language => {
-                person.language = text.chars().take(2).collect::<String>().to_lowercase()
+            ColumnMeaning::Code => text.clone_into(&mut person.code),
+            ColumnMeaning::Language => person.language = text.chars().take(2).collect::<String>().to_lowercase(),
+            ColumnMeaning::StartedDay => person.started_day = text.chars().take(10).collect(),
+            ColumnMeaning::Finished => person.finished = parse_survey_truth(text),
+            ColumnMeaning::Consent(name) => {
+                person.consent.insert(name.clone(), parse_survey_truth(text));
             }
-            Means::StartedDay => person.started_day = text.chars().take(10).collect(),
-            Means::Finished => person.finished = truth(text),
-            Means::Consent(name) => {
-                person.consent.insert(name.clone(), truth(text));
-            }
-            Means::Profile(name) => {
-                let asked = plan.profile.iter().find(|it| it.name == *name);
-                let option = asked.and_then(|it| option(&it.options, text));
-                let option = option.map_or(text, |it| it.name.as_str());
+            ColumnMeaning::Profile(name) => {
+                let asked = plan.profile.iter().find(|question| question.name == *name);
+                let chosen_option = asked.and_then(|question| find_choice_option(&question.options, text));
+                let option = chosen_option.map_or(text, |choice| choice.name.as_str());
                 person.profile.insert(name.clone(), option.to_owned());
             }
-            Means::Answer(place) => match given(plan, place, text) {
-                Some((value, choice)) => person.answers.push(answer(place, value, choice)),
+            ColumnMeaning::Answer(place) => match parse_given_answer(plan, place, text) {
+                Some((value, choice)) => person.answers.push(answer_at_place(place, value, choice)),
                 None => {
                     let message = format!(
                         "{:?} in the column {:?} is no answer to {:?}; it was left out",
-                        short(text),
-                        short(&column.title),
+                        shorten_message_text(text),
+                        shorten_message_text(&column.title),
                         place.question
                     );
-                    let remedy =
-                        "say in the map what it stands for, under `values`, as `A1=left; A2=right`";
-                    findings.add("warning", Some(line), message, Some(remedy.into()));
+                    let remedy = "say in the map what it stands for, under `values`, as `A1=left; A2=right`";
+                    findings.add_file_finding("warning", Some(line), message, Some(remedy.into()));
                 }
             },
         }
@@ -436,19 +441,21 @@ fn person<'a>(
 
 /// Reads an answer: a number of a scale or its label, or an option by its name or its text; nothing for people who
 /// cannot say. `None` if no such answer is known.
-fn given(plan: &Plan, place: &Place, text: &str) -> Option<(Option<i64>, Option<String>)> {
-    let question = plan.questions.iter().find(|it| it.name == place.question)?;
-    let Question {
-        kind, cannot_say, ..
-    } = question;
-    if *cannot_say && CANNOT_SAY.iter().any(|it| fold(it) == fold(text)) {
+fn parse_given_answer(
+    plan: &StudyPlan,
+    place: &AnswerColumnPlace,
+    text: &str,
+) -> Option<(Option<i64>, Option<String>)> {
+    let question = plan.questions.iter().find(|question| question.name == place.question)?;
+    let StudyQuestion { kind, cannot_say, .. } = question;
+    if *cannot_say && CANNOT_SAY.iter().any(|phrase| fold_text(phrase) == fold_text(text)) {
         return Some((None, None));
     }
     match kind {
-        QuestionKind::Choice { options } => Some((None, Some(option(options, text)?.name.clone()))),
+        QuestionKind::Choice { options } => Some((None, Some(find_choice_option(options, text)?.name.clone()))),
         QuestionKind::Scale { low, high, labels } => {
             let labelled = labels.iter().find(|(_, texts)| is_one(texts, text));
-            let number = text.parse().ok().filter(|it| (low..=high).contains(&it));
+            let number = text.parse().ok().filter(|value| (low..=high).contains(&value));
             let value = number.or(labelled.map(|(value, _)| *value))?;
             Some((Some(value), None))
         }
@@ -456,25 +463,25 @@ fn given(plan: &Plan, place: &Place, text: &str) -> Option<(Option<i64>, Option<
 }
 
 /// Returns the option with that name or text.
-fn option<'a>(options: &'a [ChoiceOption], text: &str) -> Option<&'a ChoiceOption> {
-    let named = options.iter().find(|it| it.name == text);
-    let named = named.or_else(|| options.iter().find(|it| fold(&it.name) == fold(text)));
-    named.or_else(|| options.iter().find(|it| is_one(&it.text, text)))
+fn find_choice_option<'a>(options: &'a [ChoiceOption], text: &str) -> Option<&'a ChoiceOption> {
+    let exact_match = options.iter().find(|choice| choice.name == text);
+    let named = exact_match.or_else(|| options.iter().find(|choice| fold_text(&choice.name) == fold_text(text)));
+    named.or_else(|| options.iter().find(|choice| is_one(&choice.text, text)))
 }
 
 /// Returns whether a text is one of these, in any language.
-fn is_one(texts: &Texts, text: &str) -> bool {
-    texts.values().any(|it| fold(it) == fold(text))
+fn is_one(texts: &LocalizedTexts, text: &str) -> bool {
+    texts.values().any(|value| fold_text(value) == fold_text(text))
 }
 
 /// Reads a truth value as survey programs write it. LimeSurvey has the day in its column of finished questionnaires.
-fn truth(text: &str) -> bool {
+fn parse_survey_truth(text: &str) -> bool {
     let no = ["false", "0", "no", "n", "faux", "non", "n/a"];
     !no.contains(&text.to_lowercase().as_str())
 }
 
-fn answer(place: &Place, value: Option<i64>, choice: Option<String>) -> Answer {
-    Answer {
+fn answer_at_place(place: &AnswerColumnPlace, value: Option<i64>, choice: Option<String>) -> StudyAnswer {
+    StudyAnswer {
         n: place.n,
         block: 1,
         part: place.part.clone(),

@@ -10,42 +10,42 @@
 //! | [`piece`] | points within a span, for display |
 //! | [`table`] | writes a track as a table of its exact numbers |
 
-pub(crate) mod align;
-mod change;
-mod fit;
 pub(crate) mod piece;
-pub(crate) mod read;
-pub(crate) mod store;
-pub(crate) mod table;
 #[cfg(test)]
 mod tests;
+pub(crate) mod track_align;
+mod track_change;
+mod track_fit;
+pub(crate) mod track_read;
+pub(crate) mod track_store;
+pub(crate) mod track_table;
 
-use chereme_motion::anatomy::Roles;
-use chereme_motion::{Clip, Convention, Curves, Markers};
+use chereme_motion::anatomy::AssignedJointRoles;
+use chereme_motion::{Clip, CurveTrack, MarkerTrack, SpaceConvention};
 
-pub use crate::db::tracks::{TrackKind, TrackRow};
-pub use align::{Alignment, Signal};
-pub use change::TrackChange;
-pub use fit::{FitOptions, FitReport, FitResidual};
+pub use crate::db::stored_tracks::{TrackKind, TrackRow};
 pub use piece::PointsPiece;
+pub use track_align::{AlignmentSignal, TrackAlignment};
+pub use track_change::TrackChange;
+pub use track_fit::{FitOptions, FitReport, FitResidual};
 
 /// The content of a track.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Track {
+pub enum TrackContent {
     /// Movement of a skeleton.
     Skeleton(SkeletonTrack),
     /// Named points.
-    Markers(Markers),
+    Markers(MarkerTrack),
     /// Named scalar channels.
-    Curves(Curves),
+    Curves(CurveTrack),
     /// A file next to the corpus.
     Media(MediaFile),
 }
 
-impl Track {
+impl TrackContent {
     /// Returns the kind of the track.
     #[must_use]
-    pub fn kind(&self) -> TrackKind {
+    pub fn track_kind(&self) -> TrackKind {
         match self {
             Self::Skeleton(_) => TrackKind::Skeleton,
             Self::Markers(_) => TrackKind::Markers,
@@ -61,9 +61,9 @@ pub struct SkeletonTrack {
     /// The movement in the file's own unit and axes; each number is stored exactly as read.
     pub clip: Clip,
     /// The conversion of the file's numbers to metres in model space.
-    pub convention: Convention,
+    pub convention: SpaceConvention,
     /// The body part of each joint, if a person has set them.
-    pub roles: Option<Roles>,
+    pub roles: Option<AssignedJointRoles>,
 }
 
 /// A film, sound or picture.
@@ -86,13 +86,13 @@ pub struct NewTrack {
     /// The time of day of the track's own time 0, in microseconds after midnight, if it is known.
     pub clock_us: Option<i64>,
     /// The content.
-    pub track: Track,
+    pub track: TrackContent,
 }
 
 impl NewTrack {
     /// Returns a track that starts together with its recording.
     #[must_use]
-    pub fn new(name: impl Into<String>, track: Track) -> Self {
+    pub fn new(name: impl Into<String>, track: TrackContent) -> Self {
         Self {
             name: name.into(),
             offset_us: 0,

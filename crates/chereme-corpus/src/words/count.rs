@@ -1,26 +1,26 @@
 //! Counts of things as text, in singular and plural.
 
-use super::Language;
-use super::sentences::{filled_sentence, sentences};
+use super::InterfaceLanguage;
+use super::sentences::{filled_sentence, load_message_patterns};
 
 /// Returns `1 token`, `2 tokens`, with the noun given in its plural.
 #[must_use]
-pub fn counted(count: u64, noun: &str) -> String {
-    counted_in(count, noun, Language::English)
+pub fn format_noun_count(count: u64, noun: &str) -> String {
+    counted_in(count, noun, InterfaceLanguage::English)
 }
 
 /// Returns a count of things in a language; a noun that the table lacks stays English.
 #[must_use]
-pub fn counted_in(count: u64, noun: &str, language: Language) -> String {
-    format!("{count} {}", numbered(count, noun, language))
+pub fn counted_in(count: u64, noun: &str, language: InterfaceLanguage) -> String {
+    format!("{count} {}", noun_form_for_count(count, noun, language))
 }
 
 /// Returns the form of a noun, given in its plural, that goes with a number.
 #[must_use]
-pub fn numbered(count: u64, noun: &str, language: Language) -> String {
+pub fn noun_form_for_count(count: u64, noun: &str, language: InterfaceLanguage) -> String {
     let id = format!("noun-{}", noun.replace(' ', "-"));
-    let known = filled_sentence(&id, language, &|_| count.to_string());
-    known.unwrap_or_else(|| match noun.strip_suffix("ies") {
+    let counted_sentence = filled_sentence(&id, language, &|_| count.to_string());
+    counted_sentence.unwrap_or_else(|| match noun.strip_suffix("ies") {
         _ if count != 1 => noun.to_owned(),
         Some(stem) => format!("{stem}y"),
         None => noun.strip_suffix('s').unwrap_or(noun).to_owned(),
@@ -28,10 +28,10 @@ pub fn numbered(count: u64, noun: &str, language: Language) -> String {
 }
 
 /// Returns whether a number of things takes the singular: French uses the plural from two on.
-pub(super) fn is_singular(count: u64, language: Language) -> bool {
+pub(super) fn is_singular(count: u64, language: InterfaceLanguage) -> bool {
     match language {
-        Language::French => count < 2,
-        Language::English | Language::Other(_) => count == 1,
+        InterfaceLanguage::French => count < 2,
+        InterfaceLanguage::English | InterfaceLanguage::Other(_) => count == 1,
     }
 }
 
@@ -39,13 +39,13 @@ pub(super) fn is_singular(count: u64, language: Language) -> bool {
 pub(super) fn counted_in_french(text: &str) -> Option<String> {
     let (count, noun) = text.split_once(' ')?;
     let count: u64 = count.parse().ok()?;
-    let mut ids = sentences(Language::English).keys();
+    let mut ids = load_message_patterns(InterfaceLanguage::English).keys();
     let plural = ids.find_map(|id| {
         let plural = id.strip_prefix("noun-")?.replace('-', " ");
-        let fits = noun == plural || noun == numbered(1, &plural, Language::English);
+        let fits = noun == plural || noun == noun_form_for_count(1, &plural, InterfaceLanguage::English);
         fits.then_some(plural)
     });
-    Some(counted_in(count, &plural?, Language::French))
+    Some(counted_in(count, &plural?, InterfaceLanguage::French))
 }
 
 #[cfg(test)]
@@ -80,8 +80,8 @@ mod tests {
                 "1 novelties of a kind",
             ),
         ] {
-            assert_eq!(counted(count, noun), english);
-            assert_eq!(counted_in(count, noun, Language::French), french);
+            assert_eq!(format_noun_count(count, noun), english);
+            assert_eq!(counted_in(count, noun, InterfaceLanguage::French), french);
         }
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use chereme_sign::words::folders::{self, LanguageFiles, WordFile, WordFileError};
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{CorpusError, CorpusResult};
 
 /// The largest file of words that is read, in bytes; the largest of the program is 30 times smaller.
 const LARGEST_WORD_FILE: u64 = 1 << 20;
@@ -51,12 +51,12 @@ pub struct PhraseFault {
 ///
 /// # Errors
 /// Fails if the folder or a file cannot be read, or a file is damaged.
-pub fn use_word_folder(folder: &Path) -> Result<()> {
+pub fn use_word_folder(folder: &Path) -> CorpusResult<()> {
     folders::add_word_files(read_word_folder(folder)?).map_err(|error| {
         let WordFileError { place, fault } = error;
-        Error::wrong(format!("{place}: {fault}"))
-            .at(folder.display().to_string())
-            .advise("a phrase is written as id = text, with variable parts such as { $name }")
+        CorpusError::from_wrong_message(format!("{place}: {fault}"))
+            .with_error_place(folder.display().to_string())
+            .with_advice("a phrase is written as id = text, with variable parts such as { $name }")
     })
 }
 
@@ -64,7 +64,7 @@ pub fn use_word_folder(folder: &Path) -> Result<()> {
 ///
 /// # Errors
 /// Fails if there are no words for the language, or the folder cannot be read.
-pub fn language_coverage(code: &str, folder: Option<&Path>) -> Result<LanguageCoverage> {
+pub fn language_coverage(code: &str, folder: Option<&Path>) -> CorpusResult<LanguageCoverage> {
     let with_folder;
     let languages = match folder {
         Some(folder) => {
@@ -75,8 +75,8 @@ pub fn language_coverage(code: &str, folder: Option<&Path>) -> Result<LanguageCo
     };
     let files = languages.get(code).ok_or_else(|| {
         let codes: Vec<&str> = languages.keys().map(String::as_str).collect();
-        Error::wrong(format!("there are no words for the language {code}"))
-            .advise(format!("languages with words: {}", codes.join(", ")))
+        CorpusError::from_wrong_message(format!("there are no words for the language {code}"))
+            .with_advice(format!("languages with words: {}", codes.join(", ")))
     })?;
     Ok(compared_with_english(code, files))
 }
@@ -99,12 +99,12 @@ fn compared_with_english(code: &str, files: &LanguageFiles) -> LanguageCoverage 
         faults.push(PhraseFault { place, fault });
     }
     let lacking = english.iter().filter(|(id, _)| !usable.contains_key(*id));
-    let missing = lacking.map(|(id, phrase)| MissingPhrase {
+    let missing_phrases = lacking.map(|(id, phrase)| MissingPhrase {
         id: id.clone(),
         english: phrase.text.clone(),
         place: phrase.place.clone(),
     });
-    let missing: Vec<MissingPhrase> = missing.collect();
+    let missing: Vec<MissingPhrase> = missing_phrases.collect();
     LanguageCoverage {
         language: code.to_owned(),
         phrases: english.len(),
@@ -115,10 +115,10 @@ fn compared_with_english(code: &str, files: &LanguageFiles) -> LanguageCoverage 
 }
 
 /// Reads the files `LANGUAGE/ROOM.ftl` of a folder.
-fn read_word_folder(folder: &Path) -> Result<Vec<WordFile>> {
-    let listed = |folder: &Path| -> Result<Vec<_>> {
-        let entries = fs::read_dir(folder).and_then(Iterator::collect::<std::io::Result<Vec<_>>>);
-        let mut entries = entries.map_err(|error| Error::file(folder, error))?;
+fn read_word_folder(folder: &Path) -> CorpusResult<Vec<WordFile>> {
+    let listed = |folder: &Path| -> CorpusResult<Vec<_>> {
+        let read_entries = fs::read_dir(folder).and_then(Iterator::collect::<std::io::Result<Vec<_>>>);
+        let mut entries = read_entries.map_err(|error| CorpusError::from_file_failure(folder, error))?;
         entries.sort_by_key(fs::DirEntry::file_name);
         Ok(entries)
     };
@@ -132,13 +132,13 @@ fn read_word_folder(folder: &Path) -> Result<Vec<WordFile>> {
             if path.extension().is_none_or(|ending| ending != "ftl") {
                 continue;
             }
-            let fault = |error| Error::file(&path, error);
+            let fault = |error| CorpusError::from_file_failure(&path, error);
             if fs::metadata(&path).map_err(fault)?.len() > LARGEST_WORD_FILE {
                 return Err(fault(std::io::ErrorKind::FileTooLarge.into()));
             }
             let text = fs::read_to_string(&path).map_err(fault)?;
-            let names = [language.file_name(), entry.file_name()];
-            let names = names.map(|name| name.to_string_lossy().into_owned());
+            let file_names = [language.file_name(), entry.file_name()];
+            let names = file_names.map(|name| name.to_string_lossy().into_owned());
             files.push(WordFile {
                 path: names.join("/"),
                 text: text.into(),
@@ -146,9 +146,9 @@ fn read_word_folder(folder: &Path) -> Result<Vec<WordFile>> {
         }
     }
     if files.is_empty() {
-        return Err(Error::wrong("this folder holds no words")
-            .at(folder.display().to_string())
-            .advise("a folder of words has a folder for each language, such as de, with files that end in .ftl"));
+        return Err(CorpusError::from_wrong_message("this folder holds no words")
+            .with_error_place(folder.display().to_string())
+            .with_advice("a folder of words has a folder for each language, such as de, with files that end in .ftl"));
     }
     Ok(files)
 }
@@ -164,7 +164,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let refused = |folder: &Path, code: &str| {
             let error = language_coverage(code, Some(folder)).expect_err("refused");
-            let remedy = error.remedy().map(|remedy| remedy.text().to_owned());
+            let remedy = error.error_remedy().map(|remedy| remedy.remedy_text().to_owned());
             format!("{error}; {}", remedy.unwrap_or_default())
         };
         assert!(refused(folder.path(), "tlh").starts_with("this folder holds no words; "));
@@ -175,19 +175,13 @@ mod tests {
         let coverage = language_coverage("tlh", Some(folder.path())).expect("read");
         assert_eq!(coverage.translated, 1);
         assert_eq!(coverage.missing.len(), coverage.phrases - 1);
-        let redo = coverage
-            .missing
-            .iter()
-            .find(|row| row.id == "menu-edit-redo");
+        let redo = coverage.missing.iter().find(|row| row.id == "menu-edit-redo");
         let redo = redo.expect("an unusable phrase is missing");
         assert_eq!(redo.english, "Redo");
         assert!(redo.place.starts_with("en/menus.ftl:"), "{}", redo.place);
         let places = coverage.faults.iter().map(|row| row.place.as_str());
         let places: Vec<&str> = places.collect();
-        assert_eq!(
-            places,
-            ["tlh/mine.ftl:4", "tlh/mine.ftl:2", "tlh/mine.ftl:3"]
-        );
+        assert_eq!(places, ["tlh/mine.ftl:4", "tlh/mine.ftl:2", "tlh/mine.ftl:3"]);
         let unknown = refused(folder.path(), "xx");
         assert!(unknown.contains("language xx; languages with words: ") && unknown.contains("fr"));
         let error = use_word_folder(folder.path()).expect_err("damaged");

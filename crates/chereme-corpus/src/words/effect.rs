@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::history::operation_summary;
-use crate::merge::Decision;
+use super::history_words::operation_summary;
+use crate::merge::ConflictDecision;
 
 /// What an operation did. It is stored as JSON, whose `does` is the name of the operation with hyphens for its spaces.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -15,11 +15,7 @@ use crate::merge::Decision;
 )]
 pub enum OperationEffect {
     /// Files were imported or updated: how many, and the first and last of them by name.
-    Import {
-        count: u64,
-        first: String,
-        last: String,
-    },
+    Import { count: u64, first: String, last: String },
     /// A sign was made by a recipe.
     Recombine { gloss: String, recipe: String },
     /// A sign was made again by another recipe.
@@ -81,10 +77,7 @@ pub enum OperationEffect {
     /// A token was transcribed.
     Transcribe { token: i64, gloss: String },
     /// Tracks were added to a recording.
-    AddTracks {
-        recording: String,
-        tracks: Vec<String>,
-    },
+    AddTracks { recording: String, tracks: Vec<String> },
     /// A track was moved, renamed or removed.
     ChangeTrack {
         recording: String,
@@ -143,7 +136,7 @@ pub enum OperationEffect {
     /// Conflicts were decided.
     Decide {
         conflicts: Vec<usize>,
-        decision: Decision,
+        decision: ConflictDecision,
     },
     /// Derived rows were made again.
     Mend {},
@@ -197,11 +190,7 @@ pub enum AnnotationDeed {
     /// They became two each.
     AnnotationsSplit { count: u64 },
     /// They all got this value.
-    AnnotationsValued {
-        count: u64,
-        of: ValuedThing,
-        value: String,
-    },
+    AnnotationsValued { count: u64, of: ValuedThing, value: String },
     /// They got different values.
     AnnotationsRevalued { count: u64 },
 }
@@ -277,23 +266,19 @@ impl OperationEffect {
             Self::Import { count: 1, .. } => "{first}",
             Self::Import { .. } => "{count} files from {first} to {last}",
             Self::Recombine { .. } | Self::RecombineAgain { .. } => "{gloss} = {recipe}",
-            Self::Annotate(annotations)
-            | Self::Propose(annotations)
-            | Self::Accept { annotations, .. } => match annotations.recordings {
-                1 => "{changes} in {recording}",
-                _ => "{changes} in {recordings} recordings",
-            },
+            Self::Annotate(annotations) | Self::Propose(annotations) | Self::Accept { annotations, .. } => {
+                match annotations.recordings {
+                    1 => "{changes} in {recording}",
+                    _ => "{changes} in {recordings} recordings",
+                }
+            }
             Self::Adjudicate { .. } => "{tier}",
             Self::AddTier { .. } => "{quoted tier} to {recording}",
             Self::ChangeTier { .. } => "{quoted tier} of {recording}",
             Self::RemoveTier { .. } => "{tiers} with {annotations} from {recording}",
             Self::AddTiers { .. } => "{count} to {recording}",
-            Self::CopyTier { .. } => {
-                "{quoted tier} of {recording} as {quoted copy} with {annotations}"
-            }
-            Self::OrderTiers { .. } | Self::ChangeRecording { .. } | Self::ChangeMedia { .. } => {
-                "{recording}"
-            }
+            Self::CopyTier { .. } => "{quoted tier} of {recording} as {quoted copy} with {annotations}",
+            Self::OrderTiers { .. } | Self::ChangeRecording { .. } | Self::ChangeMedia { .. } => "{recording}",
             Self::AddValue { .. } => "{value} to {inventory}",
             Self::MergeValues { .. } => "{value} into {into} in {inventory}",
             Self::ChangeSigner { .. } => "{signer}",
@@ -307,12 +292,8 @@ impl OperationEffect {
                 TrackEffect::Renamed { .. } => "{recording}: {track} is now {to}",
                 TrackEffect::Removed => "{recording}: {track} removed",
             },
-            Self::FitMarkers { subject: None, .. } => {
-                "{recording}: a skeleton fitted to {markers}, {millimetres} mm"
-            }
-            Self::FitMarkers { .. } => {
-                "{recording}: a skeleton fitted to {markers} of {subject}, {millimetres} mm"
-            }
+            Self::FitMarkers { subject: None, .. } => "{recording}: a skeleton fitted to {markers}, {millimetres} mm",
+            Self::FitMarkers { .. } => "{recording}: a skeleton fitted to {markers} of {subject}, {millimetres} mm",
             Self::RestoreMarkers { .. } => "{places} places of {recordings} recordings",
             Self::FitFace { .. } => "weights of {track} fitted to {signer} on {recording}",
             Self::CueFromDictionary { .. } => "{gloss} from {movements} movements",
@@ -320,13 +301,9 @@ impl OperationEffect {
             Self::KeepSearch { .. } | Self::Delete { .. } | Self::ChangeConsent { .. } => "{names}",
             Self::RenameSearch { .. } => "{from} to {to}",
             Self::ForgetSearch { .. } => "{name}",
-            Self::PlanStudy { .. } | Self::ForgetParticipant { .. } | Self::DeleteStudy { .. } => {
-                "{study}"
-            }
+            Self::PlanStudy { .. } | Self::ForgetParticipant { .. } | Self::DeleteStudy { .. } => "{study}",
             Self::ImportAnswers { .. } => "{study}, {participants}",
-            Self::Merge { .. } => {
-                "{from}: {added} added, {changed} changed, {removed} removed, {conflicts}"
-            }
+            Self::Merge { .. } => "{from}: {added} added, {changed} changed, {removed} removed, {conflicts}",
             Self::Decide { .. } => "conflict {conflicts}: {decision}",
             Self::Mend {} => "tokens derived again",
             Self::SummaryOnly { .. } => "{summary}",

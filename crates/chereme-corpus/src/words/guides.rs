@@ -1,29 +1,27 @@
 //! Guides with examples in French, line by line, such as the help of queries.
 
-use chereme_analysis::detect::DETECTORS;
+use chereme_analysis::detect::ALL_DETECTORS;
 use chereme_compose::recipe::Step;
 
-use super::Language;
+use super::InterfaceLanguage;
 use super::phrases::{PhraseBook, phrase_book};
 
 /// Returns a guide in `language`: its headings, and the notes two blanks or more behind an example; examples stay.
 #[must_use]
-pub fn guide(text: &str, language: Language) -> String {
+pub fn translate_guide(text: &str, language: InterfaceLanguage) -> String {
     let Some(book) = phrase_book(language) else {
         return text.to_owned();
     };
-    let lines = text
-        .split('\n')
-        .map(|line| translated_line(line, book, language));
+    let lines = text.split('\n').map(|line| translated_line(line, book, language));
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn translated_line(line: &str, book: &PhraseBook, language: Language) -> String {
+fn translated_line(line: &str, book: &PhraseBook, language: InterfaceLanguage) -> String {
     let words = line.trim_start();
     let note = words.rsplit("  ").next().unwrap_or(words);
     let in_book = |text: &str| {
-        let written = ["guide", "help"].into_iter();
-        let mut written = written.filter_map(|kind| book.fixed_text(kind, text));
+        let translations = ["guide", "help"].into_iter();
+        let mut written = translations.filter_map(|kind| book.fixed_text(kind, text));
         written.next().or_else(|| described_effect(text, language))
     };
     for english in [words, note] {
@@ -35,13 +33,15 @@ fn translated_line(line: &str, book: &PhraseBook, language: Language) -> String 
 }
 
 /// Returns in `language` what an example of an operator does, or what a detector finds.
-fn described_effect(english: &str, language: Language) -> Option<&'static str> {
-    let examples = Step::DESCRIPTIONS.iter().flat_map(|it| it.examples);
-    let effects = examples.map(|(_, effect)| (effect.en, effect.of(language)));
-    let detectors = DETECTORS.iter().map(|it| it.description().finds);
-    let mut described = effects.chain(detectors.map(|finds| (finds.en, finds.of(language))));
-    let known = described.find(|(known, _)| *known == english);
-    known.map(|(_, spoken)| spoken)
+fn described_effect(english: &str, language: InterfaceLanguage) -> Option<&'static str> {
+    let examples = Step::DESCRIPTIONS.iter().flat_map(|step| step.examples);
+    let effects = examples.map(|(_, effect)| (effect.en, effect.text_in_language(language)));
+    let detectors = ALL_DETECTORS
+        .iter()
+        .map(|detector| detector.detector_description().finds);
+    let mut described = effects.chain(detectors.map(|finds| (finds.en, finds.text_in_language(language))));
+    let matched_effect = described.find(|(known, _)| *known == english);
+    matched_effect.map(|(_, spoken)| spoken)
 }
 
 #[cfg(test)]
@@ -51,8 +51,8 @@ mod tests {
     #[test]
     fn the_help_of_queries_is_french_and_keeps_its_examples() {
         let english = crate::QUERY_HELP;
-        assert_eq!(guide(english, Language::English), english);
-        let french = guide(english, Language::French);
+        assert_eq!(translate_guide(english, InterfaceLanguage::English), english);
+        let french = translate_guide(english, InterfaceLanguage::French);
         assert_eq!(french.lines().count(), english.lines().count());
         assert!(
             french.starts_with("Une requête est") && !french.contains(" the "),

@@ -6,7 +6,7 @@
 use serde_json::{Map, Value};
 
 use super::effect::{AnnotationDeed, AnnotationEffect, OperationEffect, ValuedThing};
-use super::phrases::Phrase;
+use super::phrases::BlankedPhrase;
 
 /// The forms of summaries by the names of their operations; where there are two, the first that fits is meant.
 const OLD_SUMMARIES: [(&str, &str); 31] = [
@@ -82,19 +82,14 @@ pub(crate) fn effect_of_summary(name: &str, summary: &str) -> Option<OperationEf
 
 /// Returns what stands in the blanks of a form; nothing if the text has another form, or its own words more than once.
 fn fields_of_form(form: &str, text: &str) -> Option<Map<String, Value>> {
-    let mut words = form
-        .split(['{', '}'])
-        .step_by(2)
-        .filter(|words| !words.is_empty());
+    let mut words = form.split(['{', '}']).step_by(2).filter(|words| !words.is_empty());
     if words.any(|words| text.matches(words).count() != 1) {
         return None;
     }
-    let phrase = Phrase::from_form(form);
+    let phrase = BlankedPhrase::from_form(form);
     let field = |(name, text): (&str, &str)| {
         let value: Value = match name {
-            "count" | "token" | "added" | "changed" | "removed" | "conflicts" => {
-                text.parse::<u64>().ok()?.into()
-            }
+            "count" | "token" | "added" | "changed" | "removed" | "conflicts" => text.parse::<u64>().ok()?.into(),
             "names" | "tracks" => vec![text].into(),
             _ => text.into(),
         };
@@ -116,8 +111,8 @@ fn annotation_effect(mut rest: &str, place: &str) -> Option<AnnotationEffect> {
         changes.push(valued.or_else(|| counted_deed(part))?);
         rest = after;
     }
-    let several = place.strip_suffix(" recordings");
-    let several = several.and_then(|count| count.parse::<u64>().ok());
+    let count_text = place.strip_suffix(" recordings");
+    let several = count_text.and_then(|count| count.parse::<u64>().ok());
     let recording = several.map_or(place, |_| "").to_owned();
     let recordings = several.unwrap_or(1);
     Some(AnnotationEffect {
@@ -131,11 +126,7 @@ fn counted_deed(part: &str) -> Option<AnnotationDeed> {
     use AnnotationDeed as Deed;
     let (count, what) = part.split_once(' ')?;
     let count: u64 = count.parse().ok()?;
-    let noun = if count == 1 {
-        "annotation "
-    } else {
-        "annotations "
-    };
+    let noun = if count == 1 { "annotation " } else { "annotations " };
     Some(match what.strip_prefix(noun).unwrap_or(what) {
         "added" => Deed::AnnotationsAdded { count },
         "changed" => Deed::AnnotationsChanged { count },

@@ -5,14 +5,14 @@ use std::sync::{LazyLock, OnceLock};
 
 use chereme_sign::words::folders::{PhrasePart, language_files};
 
-use super::Language;
-use super::parts::{find_unquoted, is_quoted};
+use super::InterfaceLanguage;
+use super::parts_words::{find_unquoted, is_quoted};
 
 /// A phrase with blanks for its variable parts.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Phrase(Vec<PhrasePart>);
+pub(super) struct BlankedPhrase(Vec<PhrasePart>);
 
-impl Phrase {
+impl BlankedPhrase {
     /// Reads a phrase in which `{name}` is a variable part.
     pub(super) fn from_form(form: &str) -> Self {
         let mut phrase = Self::default();
@@ -36,7 +36,7 @@ impl Phrase {
     }
 
     /// Returns the phrase with its blanks filled by `value`, which gets the name of a blank.
-    pub(super) fn filled(&self, value: impl Fn(&str) -> String) -> String {
+    pub(super) fn fill_phrase_blanks(&self, value: impl Fn(&str) -> String) -> String {
         let part = |part: &PhrasePart| match part {
             PhrasePart::Words(words) => words.clone(),
             PhrasePart::Blank(name) => value(name),
@@ -53,8 +53,8 @@ impl Phrase {
     }
 
     /// Returns the phrase as a form, in which `{name}` is a variable part.
-    pub(super) fn form(&self) -> String {
-        self.filled(|name| format!("{{{name}}}"))
+    pub(super) fn phrase_form(&self) -> String {
+        self.fill_phrase_blanks(|name| format!("{{{name}}}"))
     }
 
     /// Returns the number of bytes of its own words.
@@ -68,8 +68,7 @@ impl Phrase {
 
     /// Returns the names of its blanks with what stands for them in `text`; nothing if `text` is not this phrase.
     pub(super) fn blanks_in<'t>(&self, text: &'t str) -> Option<Vec<(&str, &'t str)>> {
-        let has_lines =
-            |part: &PhrasePart| matches!(part, PhrasePart::Words(words) if words.contains('\n'));
+        let has_lines = |part: &PhrasePart| matches!(part, PhrasePart::Words(words) if words.contains('\n'));
         // A phrase of one line fits no text of several, whose parts it would mix.
         if text.contains('\n') && !self.0.iter().any(has_lines) {
             return None;
@@ -96,24 +95,20 @@ impl Phrase {
 /// A phrase in English and in another language.
 #[derive(Debug, Clone)]
 pub(super) struct PhrasePair {
-    pub(super) english: Phrase,
-    pub(super) other: Phrase,
+    pub(super) english: BlankedPhrase,
+    pub(super) other: BlankedPhrase,
 }
 
 impl PhrasePair {
     /// Returns `text`, which is the English phrase, in the other language, each variable part converted by `convert`, which
     /// also gets the name of the blank; nothing if `text` is not this phrase.
-    pub(super) fn translate(
-        &self,
-        text: &str,
-        convert: &dyn Fn(&str, &str) -> String,
-    ) -> Option<String> {
+    pub(super) fn translate_phrase(&self, text: &str, convert: &dyn Fn(&str, &str) -> String) -> Option<String> {
         let values = self.english.blanks_in(text)?;
         let value = |name: &str| {
-            let known = values.iter().find(|(known, _)| *known == name);
-            known.map_or_else(String::new, |(name, value)| convert(name, value))
+            let value_entry = values.iter().find(|(known, _)| *known == name);
+            value_entry.map_or_else(String::new, |(name, value)| convert(name, value))
         };
-        Some(self.other.filled(value))
+        Some(self.other.fill_phrase_blanks(value))
     }
 }
 
@@ -122,23 +117,23 @@ impl PhrasePair {
 pub(super) struct PhraseBook {
     /// Messages, those with most words of their own first: a text that two of them fit is the one that says more of it.
     pub(super) messages: Vec<PhrasePair>,
-    /// The forms of texts by kind (`help`, `title`, `guide`, `line` or `message`) and English form.
+    /// The forms of texts by kind (`help`, `title`, `translate_guide`, `line` or `message`) and English form.
     fixed_texts: BTreeMap<(String, String), String>,
 }
 
 impl PhraseBook {
-    fn from_files(language: Language) -> Self {
+    fn from_files(language: InterfaceLanguage) -> Self {
         let mut book = Self::default();
         let others = read_phrases(language);
-        for (id, english) in read_phrases(Language::English) {
+        for (id, english) in read_phrases(InterfaceLanguage::English) {
             let Some(other) = others.get(&id).cloned() else {
                 continue;
             };
             match id.split('-').next() {
                 Some("history" | "noun") => {}
                 Some(kind) => {
-                    let key = (kind.to_owned(), english.form());
-                    book.fixed_texts.insert(key, other.form());
+                    let key = (kind.to_owned(), english.phrase_form());
+                    book.fixed_texts.insert(key, other.phrase_form());
                     if kind == "message" {
                         book.messages.push(PhrasePair { english, other });
                     }
@@ -164,17 +159,17 @@ impl PhraseBook {
 }
 
 /// Returns the phrases of a language; nothing for English, which is the language of the messages themselves.
-pub(super) fn phrase_book(language: Language) -> Option<&'static PhraseBook> {
+pub(super) fn phrase_book(language: InterfaceLanguage) -> Option<&'static PhraseBook> {
     static BOOKS_BY_CODE: LazyLock<BTreeMap<&str, OnceLock<PhraseBook>>> = LazyLock::new(|| {
         let codes = language_files().keys().map(String::as_str);
         codes.map(|code| (code, OnceLock::new())).collect()
     });
-    if language == Language::English {
+    if language == InterfaceLanguage::English {
         return None;
     }
-    let book = BOOKS_BY_CODE.get(language.code())?.get_or_init(|| {
+    let book = BOOKS_BY_CODE.get(language.language_code())?.get_or_init(|| {
         let mut book = PhraseBook::from_files(language);
-        let beside_code = super::described_messages().filter(|_| language == Language::French);
+        let beside_code = super::described_messages().filter(|_| language == InterfaceLanguage::French);
         book.add_messages(beside_code);
         book
     });
@@ -182,22 +177,22 @@ pub(super) fn phrase_book(language: Language) -> Option<&'static PhraseBook> {
 }
 
 /// Returns a message in a third language, whose folder may hold the message and those within it.
-pub(super) fn message_from_folder(text: &str, language: Language) -> Option<String> {
+pub(super) fn message_from_folder(text: &str, language: InterfaceLanguage) -> Option<String> {
     let convert = |_: &str, part: &str| {
         let is_smaller = part.len() < text.len() && !is_quoted(part);
         let inner = is_smaller.then(|| message_from_folder(part, language));
         inner.flatten().unwrap_or_else(|| part.to_owned())
     };
     let mut pairs = phrase_book(language)?.messages.iter();
-    pairs.find_map(|pair| pair.translate(text, &convert))
+    pairs.find_map(|pair| pair.translate_phrase(text, &convert))
 }
 
 /// Returns the phrases of a language by their ids.
-fn read_phrases(language: Language) -> BTreeMap<String, Phrase> {
-    let files = language_files().get(language.code());
+fn read_phrases(language: InterfaceLanguage) -> BTreeMap<String, BlankedPhrase> {
+    let files = language_files().get(language.language_code());
     let phrases = files.into_iter().flat_map(|files| files.word_book());
     phrases
-        .map(|(id, phrase)| (id.clone(), Phrase(phrase.parts.clone())))
+        .map(|(id, phrase)| (id.clone(), BlankedPhrase(phrase.parts.clone())))
         .collect()
 }
 
@@ -218,22 +213,20 @@ mod tests {
             })
         };
         let mut books = BTreeMap::new();
-        for (language, _) in Language::all_listed() {
-            let code = language.code();
+        for (language, _) in InterfaceLanguage::all_listed() {
+            let code = language.language_code();
             let mut book = WordBook::new();
             for file in own(code) {
                 let (phrases, faults) = read_word_book(std::slice::from_ref(&file));
                 assert!(faults.is_empty(), "{faults:?}");
-                let is_entry = |line: &&str| {
-                    line.starts_with(|first: char| first.is_ascii_lowercase()) && line.contains('=')
-                };
+                let is_entry =
+                    |line: &&str| line.starts_with(|first: char| first.is_ascii_lowercase()) && line.contains('=');
                 let entries = file.text.lines().filter(is_entry);
                 assert_eq!(phrases.len(), entries.count(), "{}: twice", file.path);
                 for (id, phrase) in phrases {
                     let kind = id.split('-').next().unwrap_or_default();
                     let kinds = [
-                        "message", "line", "help", "title", "guide", "menu", "page", "language",
-                        "history", "noun",
+                        "message", "line", "help", "title", "guide", "menu", "page", "language", "history", "noun",
                     ];
                     assert!(kinds.contains(&kind), "{}", phrase.place);
                     let place = phrase.place.clone();
@@ -261,7 +254,7 @@ mod tests {
 
     #[test]
     fn no_english_text_has_two_forms_in_another_language() {
-        let (english, french) = (Language::English, Language::French);
+        let (english, french) = (InterfaceLanguage::English, InterfaceLanguage::French);
         let others = read_phrases(french);
         let mut known = BTreeMap::new();
         for (id, phrase) in read_phrases(english) {
@@ -271,14 +264,14 @@ mod tests {
             if ["menu", "page", "language", "history", "noun"].contains(&kind.as_str()) {
                 continue;
             }
-            let first = known.insert((kind, phrase.form()), other.clone());
+            let first = known.insert((kind, phrase.phrase_form()), other.clone());
             assert!(first.is_none_or(|first| first == *other), "{id}");
         }
     }
 
     #[test]
     fn every_message_has_the_same_blanks_in_both_languages() {
-        let blanks = |phrase: &Phrase| {
+        let blanks = |phrase: &BlankedPhrase| {
             let blank = |part: &PhrasePart| match part {
                 PhrasePart::Blank(name) => Some(name.clone()),
                 PhrasePart::Words(_) => None,
@@ -287,27 +280,22 @@ mod tests {
             names.sort();
             names
         };
-        let book = phrase_book(Language::French).expect("French");
+        let book = phrase_book(InterfaceLanguage::French).expect("French");
         for pair in &book.messages {
             assert_eq!(blanks(&pair.english), blanks(&pair.other), "{pair:?}");
         }
-        let mut lines = book
-            .fixed_texts
-            .iter()
-            .filter(|((kind, _), _)| kind == "line");
-        let of = |form: &str| blanks(&Phrase::from_form(form));
+        let mut lines = book.fixed_texts.iter().filter(|((kind, _), _)| kind == "line");
+        let of = |form: &str| blanks(&BlankedPhrase::from_form(form));
         assert!(lines.all(|((_, english), other)| of(english) == of(other)));
     }
 
     #[test]
     fn no_message_hides_another() {
-        let messages = &phrase_book(Language::French).expect("French").messages;
+        let messages = &phrase_book(InterfaceLanguage::French).expect("French").messages;
         for pair in messages {
-            let form = pair.english.form();
-            let mut fitting = messages
-                .iter()
-                .filter(|known| known.english.blanks_in(&form).is_some());
-            let first = fitting.next().map(|known| known.english.form());
+            let form = pair.english.phrase_form();
+            let mut fitting = messages.iter().filter(|known| known.english.blanks_in(&form).is_some());
+            let first = fitting.next().map(|known| known.english.phrase_form());
             assert_eq!(first, Some(form));
         }
     }
@@ -315,18 +303,18 @@ mod tests {
     #[test]
     fn phrases_are_filled_and_recognised() {
         let pair = PhrasePair {
-            english: Phrase::from_form("{n} of {name}: {what}"),
-            other: Phrase::from_form("{what} ({name}, {n})"),
+            english: BlankedPhrase::from_form("{n} of {name}: {what}"),
+            other: BlankedPhrase::from_form("{what} ({name}, {n})"),
         };
         let same = |_: &str, value: &str| value.to_owned();
         assert_eq!(
-            pair.translate("3 of a {n}: x of y", &same).as_deref(),
+            pair.translate_phrase("3 of a {n}: x of y", &same).as_deref(),
             Some("x of y (a {n}, 3)")
         );
-        assert_eq!(pair.translate("3 of a", &same), None);
-        assert_eq!(pair.translate("3 of a: b\nc", &same), None);
-        assert_eq!(pair.english.form(), "{n} of {name}: {what}");
-        let braces = Phrase(vec![PhrasePart::Words("write }".to_owned())]);
+        assert_eq!(pair.translate_phrase("3 of a", &same), None);
+        assert_eq!(pair.translate_phrase("3 of a: b\nc", &same), None);
+        assert_eq!(pair.english.phrase_form(), "{n} of {name}: {what}");
+        let braces = BlankedPhrase(vec![PhrasePart::Words("write }".to_owned())]);
         assert_eq!(braces.blanks_in("write }"), Some(Vec::new()));
     }
 }

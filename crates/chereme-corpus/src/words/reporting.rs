@@ -1,10 +1,10 @@
 //! Words of the report of a study.
 
-use chereme_analysis::statistics::{Equivalence, Method, Size, Undefined};
+use chereme_analysis::statistics::{EffectSize, EquivalenceConclusion, PValueMethod, UndefinedStatistic};
 
-use super::{Language, Text};
-use crate::study::report::{Because, Reason, TestName, Verdict};
-use crate::study::{AnswerRow, AnswerState};
+use super::{InterfaceLanguage, InterfaceText};
+use crate::study::report::{ExclusionReason, HypothesisVerdict, TestName, VerdictReason};
+use crate::study::{AnswerListRow, AnswerState};
 
 texts! {
     SUBTITLE: "Report of a perceptual study", "Rapport d’une étude perceptive";
@@ -133,84 +133,84 @@ texts! {
 
 /// Returns the words for the reason why a statistic has no value.
 #[must_use]
-pub fn undefined(why: Undefined) -> Text {
+pub fn undefined_reason_words(why: UndefinedStatistic) -> InterfaceText {
     match why {
-        Undefined::NotANumber => NOT_A_NUMBER,
-        Undefined::Empty => EMPTY,
-        Undefined::TooFew => TOO_FEW,
-        Undefined::TooMany => TOO_MANY,
-        Undefined::NoSpread => NO_SPREAD,
-        Undefined::NoDifference => NO_DIFFERENCE,
-        Undefined::Separated => SEPARATED,
-        Undefined::Dependent => DEPENDENT,
-        Undefined::Infinite => INFINITE,
-        Undefined::Unequal => UNEQUAL,
-        Undefined::OutOfRange => OUT_OF_RANGE,
+        UndefinedStatistic::NotANumber => NOT_A_NUMBER,
+        UndefinedStatistic::Empty => EMPTY,
+        UndefinedStatistic::TooFew => TOO_FEW,
+        UndefinedStatistic::TooMany => TOO_MANY,
+        UndefinedStatistic::NoSpread => NO_SPREAD,
+        UndefinedStatistic::NoDifference => NO_DIFFERENCE,
+        UndefinedStatistic::Separated => SEPARATED,
+        UndefinedStatistic::Dependent => DEPENDENT,
+        UndefinedStatistic::Infinite => INFINITE,
+        UndefinedStatistic::Unequal => UNEQUAL,
+        UndefinedStatistic::OutOfRange => OUT_OF_RANGE,
     }
 }
 
 /// Returns the words for a verdict.
 #[must_use]
-pub fn verdict(verdict: Verdict) -> Text {
+pub fn verdict_words(verdict: HypothesisVerdict) -> InterfaceText {
     match verdict {
-        Verdict::Supported => SUPPORTED,
-        Verdict::NotSupported => NOT_SUPPORTED,
-        Verdict::Undecided => UNDECIDED,
+        HypothesisVerdict::Supported => SUPPORTED,
+        HypothesisVerdict::NotSupported => NOT_SUPPORTED,
+        HypothesisVerdict::Undecided => UNDECIDED,
     }
 }
 
 /// Returns the words for the reason of a verdict, with a blank `{why}` if there is no test.
 #[must_use]
-pub fn because(because: Because) -> Text {
+pub fn verdict_reason_words(because: VerdictReason) -> InterfaceText {
     match because {
-        Because::Significant => SIGNIFICANT,
-        Because::WithinBounds => WITHIN_BOUNDS,
-        Because::BeyondBounds => BEYOND_BOUNDS,
-        Because::OppositeDirection => OPPOSITE_DIRECTION,
-        Because::WideInterval => WIDE_INTERVAL,
-        Because::NotSignificant => NOT_SIGNIFICANT,
-        Because::NoTest(_) => NO_TEST,
+        VerdictReason::Significant => SIGNIFICANT,
+        VerdictReason::WithinBounds => WITHIN_BOUNDS,
+        VerdictReason::BeyondBounds => BEYOND_BOUNDS,
+        VerdictReason::OppositeDirection => OPPOSITE_DIRECTION,
+        VerdictReason::WideInterval => WIDE_INTERVAL,
+        VerdictReason::NotSignificant => NOT_SIGNIFICANT,
+        VerdictReason::NoTest(_) => NO_TEST,
     }
 }
 
 /// Returns the words for a reason to leave a participant out, with the blanks `{n}` and `{question}`.
 #[must_use]
-pub fn reason(reason: &Reason) -> Text {
-    use crate::study::plan::Exclusion;
+pub fn exclusion_reason_text(reason: &ExclusionReason) -> InterfaceText {
+    use crate::study::study_plan::ExclusionRule;
     match reason {
-        Reason::NoConsent => NOT_CONSENTED,
-        Reason::Rule(Exclusion::Unfinished) => UNFINISHED,
-        Reason::Rule(Exclusion::ChecksWrong(_)) => CHECKS_WRONG,
-        Reason::Rule(Exclusion::OneValue) => ONE_VALUE,
-        Reason::Filter { .. } => FILTERED,
+        ExclusionReason::NoConsent => NOT_CONSENTED,
+        ExclusionReason::Rule(ExclusionRule::Unfinished) => UNFINISHED,
+        ExclusionReason::Rule(ExclusionRule::ChecksWrong(_)) => CHECKS_WRONG,
+        ExclusionReason::Rule(ExclusionRule::OneValue) => ONE_VALUE,
+        ExclusionReason::Filter { .. } => FILTERED,
     }
 }
 
 /// Returns an answer, or the reason why it is missing.
 #[must_use]
-pub fn answer_text(row: &AnswerRow, language: Language) -> String {
+pub fn answer_text(row: &AnswerListRow, language: InterfaceLanguage) -> String {
     match row.state {
         AnswerState::Answered => row.answer.clone(),
-        AnswerState::CannotSay => CANNOT_SAY.of(language).to_owned(),
-        AnswerState::Skipped => SKIPPED.of(language).to_owned(),
-        AnswerState::NotReached => NOT_REACHED.of(language).to_owned(),
+        AnswerState::CannotSay => CANNOT_SAY.text_in_language(language).to_owned(),
+        AnswerState::Skipped => SKIPPED.text_in_language(language).to_owned(),
+        AnswerState::NotReached => NOT_REACHED.text_in_language(language).to_owned(),
     }
 }
 
 /// Returns the words for the size of an effect.
 #[must_use]
-pub fn size(size: Size) -> Text {
+pub fn effect_size_words(size: EffectSize) -> InterfaceText {
     match size {
-        Size::Negligible => NEGLIGIBLE,
-        Size::Small => SMALL,
-        Size::Medium => MEDIUM,
-        Size::Large => LARGE,
+        EffectSize::Negligible => NEGLIGIBLE,
+        EffectSize::Small => SMALL,
+        EffectSize::Medium => MEDIUM,
+        EffectSize::Large => LARGE,
     }
 }
 
 /// Returns the name of a test.
 #[must_use]
-pub fn test(test: TestName) -> Text {
+pub fn test_name_text(test: TestName) -> InterfaceText {
     match test {
         TestName::MannWhitney => MANN_WHITNEY,
         TestName::Wilcoxon => WILCOXON,
@@ -221,7 +221,7 @@ pub fn test(test: TestName) -> Text {
 
 /// Returns the name of the statistic of a test.
 #[must_use]
-pub fn statistic(test: TestName) -> Text {
+pub fn test_statistic_name(test: TestName) -> InterfaceText {
     match test {
         TestName::MannWhitney => U,
         TestName::Wilcoxon => W_PLUS,
@@ -232,19 +232,19 @@ pub fn statistic(test: TestName) -> Text {
 
 /// Returns the words for the computation of a p.
 #[must_use]
-pub fn method(method: Method) -> Text {
+pub fn p_method_words(method: PValueMethod) -> InterfaceText {
     match method {
-        Method::Exact => EXACT,
-        Method::Continuity | Method::Normal => APPROXIMATE,
+        PValueMethod::Exact => EXACT,
+        PValueMethod::Continuity | PValueMethod::Normal => APPROXIMATE,
     }
 }
 
 /// Returns the words for whether a difference is smaller than the smallest of interest.
 #[must_use]
-pub fn sameness(result: Equivalence) -> Text {
+pub fn sameness_words(result: EquivalenceConclusion) -> InterfaceText {
     match result {
-        Equivalence::Equivalent => YES,
-        Equivalence::Relevant => NO,
-        Equivalence::Undecided => OPEN,
+        EquivalenceConclusion::Equivalent => YES,
+        EquivalenceConclusion::Relevant => NO,
+        EquivalenceConclusion::Undecided => OPEN,
     }
 }

@@ -7,41 +7,35 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use chereme_sign::words::folders::{is_sentence, language_files};
-use fluent_syntax::ast::{
-    Entry, Expression, InlineExpression, Pattern, PatternElement, Variant, VariantKey,
-};
+use fluent_syntax::ast::{Entry, Expression, InlineExpression, Pattern, PatternElement, Variant, VariantKey};
 use fluent_syntax::parser;
 
-use super::Language;
+use super::InterfaceLanguage;
 use super::count::is_singular;
 
 /// The messages of a language by their ids.
-type Sentences = BTreeMap<&'static str, Pattern<&'static str>>;
+type MessagePatterns = BTreeMap<&'static str, Pattern<&'static str>>;
 
 /// Returns the message with this id in `language`, its variable parts filled by `value`, which gets their names; in
 /// English if the files of the language lack it, and nothing if there is no such message.
-pub(super) fn filled_sentence(
-    id: &str,
-    language: Language,
-    value: &dyn Fn(&str) -> String,
-) -> Option<String> {
-    let known = |language: Language| Some((language, sentences(language).get(id)?));
-    let (language, pattern) = known(language).or_else(|| known(Language::English))?;
+pub(super) fn filled_sentence(id: &str, language: InterfaceLanguage, value: &dyn Fn(&str) -> String) -> Option<String> {
+    let language_pattern = |language: InterfaceLanguage| Some((language, load_message_patterns(language).get(id)?));
+    let (language, pattern) = language_pattern(language).or_else(|| language_pattern(InterfaceLanguage::English))?;
     Some(filled_pattern(pattern, language, value))
 }
 
 /// Returns the messages of the files; a damaged entry is left out, and a test finds it.
-pub(super) fn sentences(language: Language) -> &'static Sentences {
-    static SENTENCES_BY_CODE: OnceLock<BTreeMap<&str, Sentences>> = OnceLock::new();
-    static NO_SENTENCES: Sentences = Sentences::new();
+pub(super) fn load_message_patterns(language: InterfaceLanguage) -> &'static MessagePatterns {
+    static SENTENCES_BY_CODE: OnceLock<BTreeMap<&str, MessagePatterns>> = OnceLock::new();
+    static NO_SENTENCES: MessagePatterns = MessagePatterns::new();
     let all = SENTENCES_BY_CODE.get_or_init(|| {
         let codes = language_files().keys().map(String::as_str);
         codes.map(|code| (code, read_sentences(code))).collect()
     });
-    all.get(language.code()).unwrap_or(&NO_SENTENCES)
+    all.get(language.language_code()).unwrap_or(&NO_SENTENCES)
 }
 
-fn read_sentences(code: &str) -> Sentences {
+fn read_sentences(code: &str) -> MessagePatterns {
     let files = language_files().get(code);
     let texts = files.into_iter().flat_map(|files| files.sentence_texts());
     let entries = texts.flat_map(|text| {
@@ -55,11 +49,7 @@ fn read_sentences(code: &str) -> Sentences {
     messages.filter(|(id, _)| is_sentence(id)).collect()
 }
 
-fn filled_pattern(
-    pattern: &Pattern<&str>,
-    language: Language,
-    value: &dyn Fn(&str) -> String,
-) -> String {
+fn filled_pattern(pattern: &Pattern<&str>, language: InterfaceLanguage, value: &dyn Fn(&str) -> String) -> String {
     let part = |element: &PatternElement<&str>| match element {
         PatternElement::TextElement { value } => (*value).to_owned(),
         PatternElement::Placeable { expression } => match expression {
@@ -69,9 +59,7 @@ fn filled_pattern(
                 selector: InlineExpression::VariableReference { id },
                 variants,
             } => chosen_variant(variants, &value(id.name), language)
-                .map_or_else(String::new, |variant| {
-                    filled_pattern(&variant.value, language, value)
-                }),
+                .map_or_else(String::new, |variant| filled_pattern(&variant.value, language, value)),
             // Nothing else stands in the files; a test fills them all.
             _ => "{}".to_owned(),
         },
@@ -82,16 +70,12 @@ fn filled_pattern(
 fn chosen_variant<'v>(
     variants: &'v [Variant<&'v str>],
     value: &str,
-    language: Language,
+    language: InterfaceLanguage,
 ) -> Option<&'v Variant<&'v str>> {
-    let singular = value
-        .parse()
-        .is_ok_and(|count| is_singular(count, language));
+    let singular = value.parse().is_ok_and(|count| is_singular(count, language));
     let with_key = |wanted: &str| {
         variants.iter().find(|variant| match variant.key {
-            VariantKey::Identifier { name: key } | VariantKey::NumberLiteral { value: key } => {
-                key == wanted
-            }
+            VariantKey::Identifier { name: key } | VariantKey::NumberLiteral { value: key } => key == wanted,
         })
     };
     with_key(value)

@@ -1,6 +1,6 @@
 //! How alike small pictures look: the distance of their lightness, and what a set of them has in common.
 
-use chereme_figure::Image;
+use chereme_figure::RasterImage;
 
 /// Lightness of a picture, and which pixels differ from the paper.
 pub(crate) struct Tones {
@@ -12,17 +12,13 @@ pub(crate) struct Tones {
     shift: usize,
 }
 
-pub(crate) fn tones(image: &Image) -> Tones {
-    let paper = image.pixel(0, 0);
+pub(crate) fn tones(image: &RasterImage) -> Tones {
+    let paper = image.image_pixel_at(0, 0);
     Tones {
-        size: [image.width(), image.height()],
-        light: image
-            .pixels()
-            .iter()
-            .map(|pixel| lightness(pixel.0))
-            .collect(),
-        inked: image.pixels().iter().map(|&pixel| pixel != paper).collect(),
-        shift: (image.height() / 32).max(1),
+        size: [image.image_width(), image.image_height()],
+        light: image.image_pixels().iter().map(|pixel| lightness(pixel.0)).collect(),
+        inked: image.image_pixels().iter().map(|&pixel| pixel != paper).collect(),
+        shift: (image.image_height() / 32).max(1),
     }
 }
 
@@ -81,11 +77,7 @@ pub(crate) fn distance(a: &Tones, b: &Tones) -> f32 {
 }
 
 /// Returns the nearest of some pictures, and its distance.
-pub(crate) fn nearest(
-    all: &[Tones],
-    one: &Tones,
-    among: impl Iterator<Item = usize>,
-) -> Option<(f32, usize)> {
+pub(crate) fn nearest(all: &[Tones], one: &Tones, among: impl Iterator<Item = usize>) -> Option<(f32, usize)> {
     among
         .map(|index| (distance(&all[index], one), index))
         .min_by(|a, b| a.0.total_cmp(&b.0))

@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use chereme_motion::glam::{DMat3, DQuat, DVec3};
-use chereme_motion::{Clip, Joint, Pose, Rate, Side, Skeleton};
+use chereme_motion::{BodySide, Clip, FrameRate, LocalPose, Skeleton, SkeletonJoint};
 
 /// Flexions of the index, middle, ring and little finger; spread; the thumb's angles: out and across.
 const SHAPES: [([f64; 4], f64, [f64; 2]); 8] = [
@@ -20,25 +20,21 @@ const SHAPES: [([f64; 4], f64, [f64; 2]); 8] = [
 /// Returns 64 frames at 25 a second: 5, B, U, V, Y, S, O and an index finger, eight frames each.
 pub(crate) fn handshapes() -> Result<Clip, Box<dyn Error>> {
     let skeleton = skeleton()?;
-    let poses: Vec<Pose> = (0..64)
+    let poses: Vec<LocalPose> = (0..64)
         .map(|frame| {
             let shape = SHAPES[frame / 8];
             let sway = (frame as f64 * 0.2).sin() * 0.04;
             pose(&skeleton, shape, sway)
         })
         .collect();
-    Ok(Clip::from_poses(
-        skeleton.into(),
-        Rate::new(25, 1)?,
-        &poses,
-    )?)
+    Ok(Clip::from_poses(skeleton.into(), FrameRate::new(25, 1)?, &poses)?)
 }
 
 fn skeleton() -> Result<Skeleton, Box<dyn Error>> {
-    let mut joints: Vec<Joint> = Vec::new();
+    let mut joints: Vec<SkeletonJoint> = Vec::new();
     let mut add = |name: &str, parent: &str, offset: [f64; 3]| {
         let parent = joints.iter().position(|joint| joint.name == parent);
-        joints.push(Joint::new(name, parent, DVec3::from_array(offset)));
+        joints.push(SkeletonJoint::new(name, parent, DVec3::from_array(offset)));
     };
     add("Hips", "", [0.0, 0.98, 0.0]);
     add("Spine", "Hips", [0.0, 0.10, 0.0]);
@@ -47,18 +43,11 @@ fn skeleton() -> Result<Skeleton, Box<dyn Error>> {
     add("Neck", "Spine2", [0.0, 0.15, -0.01]);
     add("Head", "Neck", [0.0, 0.09, 0.01]);
     add("HeadTop_End", "Head", [0.0, 0.17, 0.02]);
-    for side in Side::BOTH {
-        let (name, s) = (
-            if side == Side::Right { "Right" } else { "Left" },
-            side.sign(),
-        );
+    for side in BodySide::BOTH_SIDES {
+        let (name, s) = (if side == BodySide::Right { "Right" } else { "Left" }, side.side_sign());
         let mut limb = |part: &str, parent: &str, offset: [f64; 3]| {
             let parent = parent.replace('*', name);
-            add(
-                &format!("{name}{part}"),
-                &parent,
-                [offset[0] * s, offset[1], offset[2]],
-            );
+            add(&format!("{name}{part}"), &parent, [offset[0] * s, offset[1], offset[2]]);
         };
         limb("UpLeg", "Hips", [0.09, -0.06, 0.0]);
         limb("Leg", "*UpLeg", [0.0, -0.42, 0.0]);
@@ -88,25 +77,20 @@ fn skeleton() -> Result<Skeleton, Box<dyn Error>> {
     Ok(Skeleton::new(joints)?)
 }
 
-fn pose(
-    skeleton: &Skeleton,
-    (flexions, spread, thumb): ([f64; 4], f64, [f64; 2]),
-    sway: f64,
-) -> Pose {
+fn pose(skeleton: &Skeleton, (flexions, spread, thumb): ([f64; 4], f64, [f64; 2]), sway: f64) -> LocalPose {
     let mut pose = skeleton.rest_pose();
-    for side in Side::BOTH {
-        let s = side.sign();
-        let name = if side == Side::Right { "Right" } else { "Left" };
-        let find = |part: &str| skeleton.find(&format!("{name}{part}"));
+    for side in BodySide::BOTH_SIDES {
+        let s = side.side_sign();
+        let name = if side == BodySide::Right { "Right" } else { "Left" };
+        let find = |part: &str| skeleton.find_joint(&format!("{name}{part}"));
         let mut set = |part: &str, turn: DQuat| {
             if let Some(joint) = find(part) {
                 pose.rotations[joint] = turn;
             }
         };
         let x = DVec3::X * s;
-        let upper =
-            DQuat::from_rotation_arc(x, DVec3::new(0.32 * s, -0.9, 0.25 + sway).normalize());
-        let front = side == Side::Right;
+        let upper = DQuat::from_rotation_arc(x, DVec3::new(0.32 * s, -0.9, 0.25 + sway).normalize());
+        let front = side == BodySide::Right;
         let forearm = if front {
             DVec3::new(0.12 * s, 0.75, 0.65)
         } else {
@@ -118,10 +102,7 @@ fn pose(
         } else {
             basis(
                 [x, DVec3::Z],
-                [
-                    DVec3::new(-0.75 * s, 0.6, 0.25),
-                    DVec3::new(0.3 * s, 0.8, 0.3),
-                ],
+                [DVec3::new(-0.75 * s, 0.6, 0.25), DVec3::new(0.3 * s, 0.8, 0.3)],
             )
         };
         set("Arm", upper);
@@ -131,8 +112,7 @@ fn pose(
         let open = DVec3::new(0.0, s, 0.0);
         for (i, finger) in ["Index", "Middle", "Ring", "Pinky"].into_iter().enumerate() {
             let fan = (1.5 - i as f64) * spread * 0.66;
-            let turn =
-                DQuat::from_axis_angle(open, -fan) * DQuat::from_axis_angle(bend, flexions[i]);
+            let turn = DQuat::from_axis_angle(open, -fan) * DQuat::from_axis_angle(bend, flexions[i]);
             set(&format!("Hand{finger}1"), turn);
             set(
                 &format!("Hand{finger}2"),
@@ -143,8 +123,7 @@ fn pose(
                 DQuat::from_axis_angle(bend, flexions[i] * 0.7),
             );
         }
-        let root = DQuat::from_axis_angle(open, 0.5 - thumb[0])
-            * DQuat::from_axis_angle(bend, thumb[1] * 0.4);
+        let root = DQuat::from_axis_angle(open, 0.5 - thumb[0]) * DQuat::from_axis_angle(bend, thumb[1] * 0.4);
         set("HandThumb1", root);
         set("HandThumb2", DQuat::from_axis_angle(open, thumb[1] * 0.6));
         set("HandThumb3", DQuat::from_axis_angle(open, thumb[1] * 0.7));

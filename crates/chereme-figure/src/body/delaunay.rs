@@ -3,25 +3,21 @@
 use glam::DVec2;
 
 /// Returns the triangles of the Delaunay net of `points`, anticlockwise.
-pub(super) fn net(points: &[DVec2]) -> Vec<[usize; 3]> {
+pub(super) fn delaunay_triangles(points: &[DVec2]) -> Vec<[usize; 3]> {
     let count = points.len();
     let far = 100.0;
     let mut all = points.to_vec();
-    all.extend([
-        DVec2::new(-far, -far),
-        DVec2::new(far, -far),
-        DVec2::new(0.0, far),
-    ]);
+    all.extend([DVec2::new(-far, -far), DVec2::new(far, -far), DVec2::new(0.0, far)]);
     let mut triangles = vec![[count, count + 1, count + 2]];
     for index in 0..count {
-        let at = all[index];
+        let inserted_point = all[index];
         let mut rim: Vec<[usize; 2]> = Vec::new();
         triangles.retain(|&triangle| {
-            let hit = is_within(triangle.map(|i| all[i]), at);
+            let hit = is_within_circle(triangle.map(|i| all[i]), inserted_point);
             if hit {
                 for k in 0..3 {
                     let edge = [triangle[k], triangle[(k + 1) % 3]];
-                    match rim.iter().position(|it| *it == [edge[1], edge[0]]) {
+                    match rim.iter().position(|rim_edge| *rim_edge == [edge[1], edge[0]]) {
                         Some(other) => {
                             rim.swap_remove(other);
                         }
@@ -38,7 +34,7 @@ pub(super) fn net(points: &[DVec2]) -> Vec<[usize; 3]> {
 }
 
 /// Returns whether a point lies in the circle through the corners of an anticlockwise triangle.
-fn is_within([a, b, c]: [DVec2; 3], at: DVec2) -> bool {
+fn is_within_circle([a, b, c]: [DVec2; 3], at: DVec2) -> bool {
     let [a, b, c] = [a - at, b - at, c - at];
     let lift = |v: DVec2| v.length_squared();
     lift(a) * b.perp_dot(c) - lift(b) * a.perp_dot(c) + lift(c) * a.perp_dot(b) > 1e-14
@@ -57,9 +53,8 @@ mod tests {
             })
             .chain([[-1.1, -1.1], [1.1, -1.1], [1.1, 1.1], [-1.1, 1.1]].map(DVec2::from))
             .collect();
-        let net = net(&points);
-        let area =
-            |[a, b, c]: [usize; 3]| (points[b] - points[a]).perp_dot(points[c] - points[a]) / 2.0;
+        let net = delaunay_triangles(&points);
+        let area = |[a, b, c]: [usize; 3]| (points[b] - points[a]).perp_dot(points[c] - points[a]) / 2.0;
         assert!(net.iter().all(|&triangle| area(triangle) > 0.0));
         let sum: f64 = net.iter().map(|&triangle| area(triangle)).sum();
         assert!((sum - 4.84).abs() < 1e-9, "{sum}");

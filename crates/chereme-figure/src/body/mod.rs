@@ -1,19 +1,19 @@
 //! The signer's body as a surface: the surfaces of its parts with their joints, assembled once per
 //! skeleton.
 
-mod builder;
+mod body_builder;
+mod body_contact;
+mod body_face;
+mod body_hand;
+mod body_head;
+pub(crate) mod body_shape;
 mod clothed;
-mod contact;
 mod delaunay;
 mod extras;
-mod face;
 mod features;
 mod glove;
-mod hand;
-mod head;
 pub mod portable;
 mod rods;
-pub(crate) mod shape;
 mod skin;
 mod solids;
 mod trunk;
@@ -21,16 +21,16 @@ mod weights;
 
 use std::ops::Range;
 
-use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton};
+use chereme_motion::{BodyAnatomy, BodySide, FacePosture, ModelPose, Skeleton};
 use glam::Vec3;
 
-use crate::mesh::{Mesh, smooth};
-use crate::palette::Palette;
-use builder::Builder;
-use contact::Contact;
-use head::Head;
-use shape::{Element, place, rotation};
-use skin::{Bound, Rig};
+use crate::mesh::{TriangleMesh, smooth_vertex_normals};
+use crate::palette::FigurePalette;
+use body_builder::BodyBuilder;
+use body_contact::HandContactShade;
+use body_head::HeadPlacement;
+use body_shape::{BodyElement, posed_joint_position, posed_joint_rotation};
+use skin::{BoundSkinVertex, SkinRig};
 
 /// A signer's body, built once for a skeleton and moved to any posture of it.
 ///
@@ -38,132 +38,140 @@ use skin::{Bound, Rig};
 /// the head has a face. A hand without finger joints has a relaxed posture. Parts that the anatomy lacks are left out
 /// or plain; a skeleton without arms is drawn bone by bone.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Body {
-    template: Mesh,
-    elements: Vec<Element>,
-    skin: Option<Skin>,
-    face: Option<Expressive>,
-    contact: Contact,
+pub struct SignerBody {
+    template: TriangleMesh,
+    elements: Vec<BodyElement>,
+    skin: Option<BodySkin>,
+    face: Option<ExpressiveHead>,
+    contact: HandContactShade,
 }
 
 /// A skin and its vertices in the body's mesh.
 #[derive(Debug, Clone, PartialEq)]
-struct Skin {
-    rig: Rig,
-    bound: Vec<Bound>,
+struct BodySkin {
+    rig: SkinRig,
+    bound: Vec<BoundSkinVertex>,
     vertices: Range<usize>,
     triangles: Range<usize>,
 }
 
-impl Skin {
-    fn pose(&self, pose: &ModelPose, mesh: &mut Mesh) {
-        let motions = self.rig.motions(pose);
+impl BodySkin {
+    fn pose_body_skin(&self, pose: &ModelPose, mesh: &mut TriangleMesh) {
+        let motions = self.rig.follower_matrices(pose);
         let out = &mut mesh.vertices[self.vertices.clone()];
         for (vertex, bound) in out.iter_mut().zip(&self.bound) {
-            let mut at = Vec3::ZERO;
+            let mut blended_place = Vec3::ZERO;
             for (&follower, &weight) in bound.followers.iter().zip(&bound.weights) {
                 if weight > 0.0 {
                     let (turn, offset) = &motions[usize::from(follower)];
-                    at += (*turn * bound.at + *offset) * weight;
+                    blended_place += (*turn * bound.at + *offset) * weight;
                 }
             }
-            vertex.position = at;
+            vertex.position = blended_place;
         }
         let base = self.vertices.start as u32;
-        smooth(out, &mesh.triangles[self.triangles.clone()], base);
+        smooth_vertex_normals(out, &mesh.triangles[self.triangles.clone()], base);
     }
 }
 
 /// A head with a movable face.
 #[derive(Debug, Clone, PartialEq)]
-struct Expressive {
+struct ExpressiveHead {
     joint: usize,
-    head: Head,
-    palette: Palette,
+    head: HeadPlacement,
+    palette: FigurePalette,
     vertices: Range<usize>,
 }
 
 /// Indices of the parts between which lines are drawn; 0 is the paper.
 pub mod group {
-    use chereme_motion::Side;
+    use chereme_motion::BodySide;
 
     /// Torso, shoulders and neck.
-    pub const TORSO: u8 = 1;
+    pub const TORSO_GROUP: u8 = 1;
     /// The head.
-    pub const HEAD: u8 = 2;
+    pub const HEAD_GROUP: u8 = 2;
     /// Legs, and the bones of a skeleton that is not a body.
-    pub const REST: u8 = 3;
+    pub const REMAINING_BODY_GROUP: u8 = 3;
     /// Hair.
-    pub const HAIR: u8 = 4;
+    pub const HAIR_GROUP: u8 = 4;
 
     /// The first index of marks in space, such as a grid or a trail, which have no light and no lines.
-    pub const FLAT: u8 = 128;
+    pub const FIRST_FLAT_GROUP: u8 = 128;
 
     /// Returns the number of an arm.
     #[must_use]
-    pub const fn arm(side: Side) -> u8 {
+    pub const fn arm_group(side: BodySide) -> u8 {
         side_base(side)
     }
 
     /// Returns the number of a palm.
     #[must_use]
-    pub const fn palm(side: Side) -> u8 {
+    pub const fn palm_group(side: BodySide) -> u8 {
         side_base(side) + 1
     }
 
     /// Returns the number of a finger: 0 the thumb, 1 the index, to 4 the little finger.
     #[must_use]
-    pub const fn digit(side: Side, number: usize) -> u8 {
+    pub const fn digit_group(side: BodySide, number: usize) -> u8 {
         side_base(side) + 2 + number as u8
     }
 
-    const fn side_base(side: Side) -> u8 {
+    const fn side_base(side: BodySide) -> u8 {
         match side {
-            Side::Right => 10,
-            Side::Left => 20,
+            BodySide::Right => 10,
+            BodySide::Left => 20,
         }
     }
 }
 
-impl Body {
+impl SignerBody {
     /// Returns the body of `skeleton` in the default colours.
     #[must_use]
-    pub fn new(skeleton: &Skeleton, anatomy: &Anatomy) -> Self {
-        Self::with_palette(skeleton, anatomy, &Palette::default())
+    pub fn new(skeleton: &Skeleton, anatomy: &BodyAnatomy) -> Self {
+        Self::with_palette(skeleton, anatomy, &FigurePalette::default())
     }
 
     /// Returns the body of `skeleton` in the given colours.
     #[must_use]
-    pub fn with_palette(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
+    pub fn with_palette(skeleton: &Skeleton, anatomy: &BodyAnatomy, palette: &FigurePalette) -> Self {
         let rest = anatomy.bind_pose(skeleton);
-        let mut builder = Builder::new(skeleton, anatomy, palette, &rest);
-        if Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
-            builder.signer();
+        let mut builder = BodyBuilder::new(skeleton, anatomy, palette, &rest);
+        if BodySide::BOTH_SIDES
+            .iter()
+            .any(|&side| anatomy.arm_chain(side).is_some())
+        {
+            builder.add_whole_signer();
         } else {
-            builder.bones();
+            builder.add_bone_rods();
         }
-        builder.finish()
+        builder.finish_body()
     }
 
     /// Returns only both hands, without arms; empty if there are no wrists.
     #[must_use]
-    pub fn hands(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
-        Self::of_hands(skeleton, anatomy, &Side::BOTH, palette)
+    pub fn with_both_hands(skeleton: &Skeleton, anatomy: &BodyAnatomy, palette: &FigurePalette) -> Self {
+        Self::of_hands(skeleton, anatomy, &BodySide::BOTH_SIDES, palette)
     }
 
     /// Returns only the hand of `side`, without the forearm; empty if there is no wrist.
     #[must_use]
-    pub fn hand(skeleton: &Skeleton, anatomy: &Anatomy, side: Side, palette: &Palette) -> Self {
+    pub fn with_single_hand(
+        skeleton: &Skeleton,
+        anatomy: &BodyAnatomy,
+        side: BodySide,
+        palette: &FigurePalette,
+    ) -> Self {
         Self::of_hands(skeleton, anatomy, &[side], palette)
     }
 
-    fn of_hands(skeleton: &Skeleton, anatomy: &Anatomy, sides: &[Side], palette: &Palette) -> Self {
+    fn of_hands(skeleton: &Skeleton, anatomy: &BodyAnatomy, sides: &[BodySide], palette: &FigurePalette) -> Self {
         let rest = anatomy.bind_pose(skeleton);
-        let mut builder = Builder::new(skeleton, anatomy, palette, &rest);
+        let mut builder = BodyBuilder::new(skeleton, anatomy, palette, &rest);
         for &side in sides {
-            builder.hand(side);
+            builder.add_lone_hand(side);
         }
-        builder.finish()
+        builder.finish_body()
     }
 
     /// Returns the surface in `pose`, a posture of the body's skeleton.
@@ -171,43 +179,46 @@ impl Body {
     /// # Panics
     /// If `pose` has fewer joints than that skeleton.
     #[must_use]
-    pub fn mesh(&self, pose: &ModelPose) -> Mesh {
+    pub fn posed_mesh(&self, pose: &ModelPose) -> TriangleMesh {
         let mut mesh = self.template.clone();
-        self.shape(pose, &mut mesh);
+        self.shape_body_mesh(pose, &mut mesh);
         mesh
     }
 
-    /// Moves a `mesh` from [`mesh`](Self::mesh) of this body to `pose` without allocating a new one;
+    /// Moves a `mesh` from [`mesh`](Self::posed_mesh) of this body to `pose` without allocating a new one;
     /// triangles, colours and groups stay.
     ///
     /// # Panics
     /// If `mesh` is smaller than this body's or `pose` has fewer joints.
-    pub fn shape(&self, pose: &ModelPose, mesh: &mut Mesh) {
+    pub fn shape_body_mesh(&self, pose: &ModelPose, mesh: &mut TriangleMesh) {
         if mesh.vertices.len() != self.template.vertices.len() {
             mesh.clone_from(&self.template);
         }
-        self.pose(pose, mesh);
-        self.contact.shade(pose, &self.template, mesh);
+        self.pose_body_elements(pose, mesh);
+        self.contact.shade_contact_vertices(pose, &self.template, mesh);
     }
 
-    fn pose(&self, pose: &ModelPose, mesh: &mut Mesh) {
+    fn pose_body_elements(&self, pose: &ModelPose, mesh: &mut TriangleMesh) {
         for element in &self.elements {
-            element.pose(pose, mesh);
+            element.pose_body_element(pose, mesh);
         }
         if let Some(skin) = &self.skin {
-            skin.pose(pose, mesh);
+            skin.pose_body_skin(pose, mesh);
         }
     }
 
-    /// Applies a facial expression to `mesh`, which [`shape`](Self::shape) moved to `pose`; a body without a head is
-    /// unchanged. The next `shape` resets the face to rest.
+    /// Applies a facial expression to `mesh`, which [`shape_body_mesh`](Self::shape_body_mesh) moved to `pose`; a body without a head is
+    /// unchanged. The next `shape_body_mesh` resets the face to rest.
     ///
     /// # Panics
-    /// The same as [`shape`](Self::shape)'s.
-    pub fn express(&self, pose: &ModelPose, face: &Face, mesh: &mut Mesh) {
+    /// The same as [`shape_body_mesh`](Self::shape_body_mesh)'s.
+    pub fn apply_face_expression(&self, pose: &ModelPose, face: &FacePosture, mesh: &mut TriangleMesh) {
         let Some(known) = &self.face else { return };
-        let local = known.head.mesh(&known.palette, face);
-        let (at, turn) = (place(pose, known.joint), rotation(pose, known.joint));
+        let local = known.head.head_mesh(&known.palette, face);
+        let (at, turn) = (
+            posed_joint_position(pose, known.joint),
+            posed_joint_rotation(pose, known.joint),
+        );
         let out = &mut mesh.vertices[known.vertices.clone()];
         for (vertex, own) in out.iter_mut().zip(local.vertices) {
             vertex.position = at + turn * own.position;

@@ -1,16 +1,16 @@
 //! A body for players elsewhere: a surface in bind space, and the few rotations that move it.
 //!
-//! A player computes the bones in order, from the motions of the [`Bone::Keyed`] ones, and moves each vertex by the
-//! weighted mean of its bones. The surface is that of [`Body`] without legs, and with its face at rest.
+//! A player computes the bones in order, from the motions of the [`PortableBone::Keyed`] ones, and moves each vertex by the
+//! weighted mean of its bones. The surface is that of [`SignerBody`] without legs, and with its face at rest.
 
 use chereme_motion::{ModelPose, Skeleton};
 use glam::{Quat, Vec3};
 
-use super::shape::{place, rotation};
-use super::skin::{Follower, Motion, Rig, half};
+use super::body_shape::{posed_joint_position, posed_joint_rotation};
+use super::skin::{FollowerMotion, SkinFollower, SkinRig, halfway_motion};
 use super::trunk::TrunkRig;
-use super::{Body, Skin};
-use crate::palette::Colour;
+use super::{BodySkin, SignerBody};
+use crate::palette::RgbColour;
 
 /// A surface whose vertices follow bones.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,9 +21,9 @@ pub struct PortableBody {
     pub triangles: Vec<[u32; 3]>,
     /// The bones. A keyed one comes after its parent, which is keyed too; the others depend on keyed ones and on those
     /// before them.
-    pub bones: Vec<Bone>,
+    pub bones: Vec<PortableBone>,
     /// For each keyed bone, the source of its motion.
-    sources: Vec<Source>,
+    sources: Vec<BoneMotionSource>,
 }
 
 /// A vertex of a portable body.
@@ -32,7 +32,7 @@ pub struct PortableVertex {
     /// Its position in bind space, in metres.
     pub place: Vec3,
     /// Its colour before light falls on it.
-    pub colour: Colour,
+    pub colour: RgbColour,
     /// Up to four bones that move it.
     pub bones: [u16; 4],
     /// The weights of these bones; their sum is 1.
@@ -41,7 +41,7 @@ pub struct PortableVertex {
 
 /// Something that moves vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bone {
+pub enum PortableBone {
     /// A bone whose motion each posture gives.
     Keyed {
         /// The bone to which the motion is relative.
@@ -86,15 +86,15 @@ pub struct BoneMotion {
 
 /// The source of a keyed bone's motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Source {
+enum BoneMotionSource {
     Follower(usize),
     Joint(usize),
 }
 
-impl Body {
+impl SignerBody {
     /// Returns the body for players elsewhere; `None` unless the skeleton has two arms.
     #[must_use]
-    pub fn portable(&self, skeleton: &Skeleton) -> Option<PortableBody> {
+    pub fn to_portable_body(&self, skeleton: &Skeleton) -> Option<PortableBody> {
         let skin = self.skin.as_ref()?;
         skin.rig.trunk.as_ref()?;
         let mut out = PortableBody {
@@ -104,52 +104,53 @@ impl Body {
             sources: Vec::new(),
         };
         for index in 0..skin.rig.followers.len() {
-            let bone = bone(&skin.rig, index, skeleton);
-            if matches!(bone, Bone::Keyed { .. }) {
-                out.sources.push(Source::Follower(index));
+            let bone = follower_to_bone(&skin.rig, index, skeleton);
+            if matches!(bone, PortableBone::Keyed { .. }) {
+                out.sources.push(BoneMotionSource::Follower(index));
             }
             out.bones.push(bone);
         }
         let mut places: Vec<Option<u32>> = vec![None; self.template.vertices.len()];
         self.skin_vertices(skin, &mut places, &mut out);
         for element in &self.elements {
-            let Some((joint, points)) = element.rigid() else {
+            let Some((joint, points)) = element.rigid_points() else {
                 continue;
             };
-            let beside =
-                skin.rig.followers.iter().position(
-                    |it| matches!(it, Follower::Joint { joint: own, .. } if *own == joint),
-                );
-            let at = match beside.map(|it| &skin.rig.followers[it]) {
-                Some(Follower::Joint { at, .. }) => *at,
+            let parent_follower = skin
+                .rig
+                .followers
+                .iter()
+                .position(|follower| matches!(follower, SkinFollower::Joint { joint: own, .. } if *own == joint));
+            let joint_place = match parent_follower.map(|index| &skin.rig.followers[index]) {
+                Some(SkinFollower::Joint { at, .. }) => *at,
                 _ => Vec3::ZERO,
             };
-            let own = out.bones.len();
-            out.bones.push(Bone::Keyed {
-                parent: beside,
+            let bone_index = out.bones.len();
+            out.bones.push(PortableBone::Keyed {
+                parent: parent_follower,
                 from: Vec3::ZERO,
-                at,
+                at: joint_place,
             });
-            out.sources.push(Source::Joint(joint));
-            for (vertex, point) in element.vertices().zip(points) {
+            out.sources.push(BoneMotionSource::Joint(joint));
+            for (vertex, point) in element.element_vertex_range().zip(points) {
                 places[vertex] = Some(out.vertices.len() as u32);
                 out.vertices.push(PortableVertex {
                     place: *point,
                     colour: self.template.vertices[vertex].colour,
-                    bones: [own as u16, 0, 0, 0],
+                    bones: [bone_index as u16, 0, 0, 0],
                     weights: [1.0, 0.0, 0.0, 0.0],
                 });
             }
         }
         for triangle in &self.template.triangles {
-            if let [Some(a), Some(b), Some(c)] = triangle.map(|it| places[it as usize]) {
+            if let [Some(a), Some(b), Some(c)] = triangle.map(|corner| places[corner as usize]) {
                 out.triangles.push([a, b, c]);
             }
         }
         Some(out)
     }
 
-    fn skin_vertices(&self, skin: &Skin, places: &mut [Option<u32>], out: &mut PortableBody) {
+    fn skin_vertices(&self, skin: &BodySkin, places: &mut [Option<u32>], out: &mut PortableBody) {
         for (vertex, bound) in skin.vertices.clone().zip(&skin.bound) {
             places[vertex] = Some(out.vertices.len() as u32);
             out.vertices.push(PortableVertex {
@@ -161,7 +162,7 @@ impl Body {
         }
     }
 
-    /// Returns the motions of the keyed bones of `portable`, made by [`portable`](Self::portable), in `pose`.
+    /// Returns the motions of the keyed bones of `portable`, made by [`portable`](Self::to_portable_body), in `pose`.
     ///
     /// # Panics
     /// If `pose` has fewer joints than the body's skeleton.
@@ -170,23 +171,25 @@ impl Body {
         let Some(skin) = &self.skin else {
             return Vec::new();
         };
-        let moved = skin.rig.moved(pose);
-        let own = |source: &Source| match *source {
-            Source::Follower(index) => moved[index],
-            Source::Joint(joint) => {
-                Motion::new(rotation(pose, joint), Vec3::ZERO, place(pose, joint))
-            }
+        let moved = skin.rig.follower_motions(pose);
+        let source_motion = |source: &BoneMotionSource| match *source {
+            BoneMotionSource::Follower(index) => moved[index],
+            BoneMotionSource::Joint(joint) => FollowerMotion::new(
+                posed_joint_rotation(pose, joint),
+                Vec3::ZERO,
+                posed_joint_position(pose, joint),
+            ),
         };
         let keyed = portable.bones.iter().filter_map(|bone| match bone {
-            Bone::Keyed { parent, from, at } => Some((*parent, *from, *at)),
+            PortableBone::Keyed { parent, from, at } => Some((*parent, *from, *at)),
             _ => None,
         });
         keyed
             .zip(&portable.sources)
             .map(|((parent, from, at), source)| {
-                let motion = own(source);
+                let motion = source_motion(source);
                 let to = moved_point(&motion, from);
-                let Some(parent) = parent.map(|it| moved[it]) else {
+                let Some(parent) = parent.map(|parent_index| moved[parent_index]) else {
                     return BoneMotion {
                         turn: motion.turn.normalize(),
                         off: to,
@@ -205,47 +208,47 @@ impl Body {
 impl PortableBody {
     /// Returns the positions of the vertices for the motions of the keyed bones, as a player computes them.
     #[must_use]
-    pub fn posed(&self, keyed: &[BoneMotion]) -> Vec<Vec3> {
-        let rest = Motion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
+    pub fn posed_vertices(&self, keyed: &[BoneMotion]) -> Vec<Vec3> {
+        let rest = FollowerMotion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
         let mut motions = vec![rest; self.bones.len()];
         let mut given = keyed.iter();
         for (index, bone) in self.bones.iter().enumerate() {
-            let Bone::Keyed { parent, from, at } = *bone else {
+            let PortableBone::Keyed { parent, from, at } = *bone else {
                 continue;
             };
             let Some(own) = given.next() else { break };
-            motions[index] = match parent.map(|it| motions[it]) {
-                Some(parent) => Motion::new(
+            motions[index] = match parent.map(|parent_index| motions[parent_index]) {
+                Some(parent) => FollowerMotion::new(
                     parent.turn * own.turn,
                     from,
                     moved_point(&parent, at) + parent.turn * own.off,
                 ),
-                None => Motion::new(own.turn, from, own.off),
+                None => FollowerMotion::new(own.turn, from, own.off),
             };
         }
         for (index, bone) in self.bones.iter().enumerate() {
             motions[index] = match *bone {
-                Bone::Keyed { .. } => continue,
-                Bone::Same(other) => motions[other],
-                Bone::Between { ends, share } => {
-                    let [a, b] = ends.map(|it| motions[it]);
-                    Motion::new(a.turn.slerp(b.turn, share), a.from, a.to)
+                PortableBone::Keyed { .. } => continue,
+                PortableBone::Same(other) => motions[other],
+                PortableBone::Between { ends, share } => {
+                    let [a, b] = ends.map(|end| motions[end]);
+                    FollowerMotion::new(a.turn.slerp(b.turn, share), a.from, a.to)
                 }
-                Bone::Half {
+                PortableBone::Half {
                     parent,
                     child,
                     at,
                     along,
                     swell,
-                } => half([motions[parent], motions[child]], at, along, swell),
+                } => halfway_motion([motions[parent], motions[child]], at, along, swell),
             };
         }
-        let matrices: Vec<_> = motions.iter().map(Motion::matrix).collect();
-        let place = |it: &PortableVertex| {
-            let shares = it.bones.iter().zip(it.weights);
+        let matrices: Vec<_> = motions.iter().map(FollowerMotion::motion_matrix).collect();
+        let place = |vertex: &PortableVertex| {
+            let shares = vertex.bones.iter().zip(vertex.weights);
             let moved = shares.map(|(bone, weight)| {
                 let (turn, offset) = &matrices[usize::from(*bone)];
-                (*turn * it.place + *offset) * weight
+                (*turn * vertex.place + *offset) * weight
             });
             moved.sum()
         };
@@ -254,61 +257,48 @@ impl PortableBody {
 }
 
 /// Returns where a motion takes a point, without its stretch.
-fn moved_point(motion: &Motion, at: Vec3) -> Vec3 {
+fn moved_point(motion: &FollowerMotion, at: Vec3) -> Vec3 {
     motion.turn * (at - motion.from) + motion.to
 }
 
 /// Returns a follower as a bone.
-fn bone(rig: &Rig, index: usize, skeleton: &Skeleton) -> Bone {
-    let find = |wanted: &dyn Fn(&Follower) -> bool| rig.followers[..index].iter().position(wanted);
-    let chest = || find(&|it| matches!(it, Follower::Chest));
-    let arm = |side: usize, joint: usize| {
-        rig.arms[side]
-            .as_ref()
-            .map_or(Vec3::ZERO, |it| it.places[joint])
-    };
-    let keyed = |parent: Option<usize>, at: Vec3| Bone::Keyed {
-        parent,
-        from: at,
-        at,
-    };
+fn follower_to_bone(rig: &SkinRig, index: usize, skeleton: &Skeleton) -> PortableBone {
+    let find = |wanted: &dyn Fn(&SkinFollower) -> bool| rig.followers[..index].iter().position(wanted);
+    let chest = || find(&|follower| matches!(follower, SkinFollower::Chest));
+    let arm = |side: usize, joint: usize| rig.arms[side].as_ref().map_or(Vec3::ZERO, |limb| limb.places[joint]);
+    let keyed = |parent: Option<usize>, at: Vec3| PortableBone::Keyed { parent, from: at, at };
     match rig.followers[index] {
-        Follower::Same(other) => Bone::Same(other),
-        Follower::Half {
+        SkinFollower::Same(other) => PortableBone::Same(other),
+        SkinFollower::Half {
             parent,
             child,
             at,
             along,
             swell,
-        } => Bone::Half {
+        } => PortableBone::Half {
             parent,
             child,
             at,
             along,
             swell,
         },
-        Follower::Pelvis => keyed(
-            None,
-            rig.trunk.as_ref().map_or(Vec3::ZERO, TrunkRig::seat_place),
-        ),
-        Follower::Chest => keyed(
-            find(&|it| matches!(it, Follower::Pelvis)),
+        SkinFollower::Pelvis => keyed(None, rig.trunk.as_ref().map_or(Vec3::ZERO, TrunkRig::seat_place)),
+        SkinFollower::Chest => keyed(
+            find(&|follower| matches!(follower, SkinFollower::Pelvis)),
             rig.trunk.as_ref().map_or(Vec3::ZERO, TrunkRig::chest_place),
         ),
-        Follower::Shoulder(side) => keyed(chest(), arm(side, 0)),
-        Follower::Upper(side, share) => shared(rig, index, (side, share), false, arm(side, 0)),
-        Follower::Fore(side, share) => shared(rig, index, (side, share), true, arm(side, 1)),
-        Follower::Hand(side) => keyed(
-            find(&|it| matches!(it, Follower::Fore(own, share) if *own == side && *share == 1.0)),
+        SkinFollower::Shoulder(side) => keyed(chest(), arm(side, 0)),
+        SkinFollower::Upper(side, share) => arm_share_bone(rig, index, (side, share), false, arm(side, 0)),
+        SkinFollower::Fore(side, share) => arm_share_bone(rig, index, (side, share), true, arm(side, 1)),
+        SkinFollower::Hand(side) => keyed(
+            find(&|follower| matches!(follower, SkinFollower::Fore(own, share) if *own == side && *share == 1.0)),
             arm(side, 2),
         ),
-        Follower::Joint { joint, at, .. } => {
-            let above = skeleton.ancestors(joint).skip(1).find_map(|above| {
-                find(&|it| match it {
-                    Follower::Joint { joint, .. } => *joint == above,
-                    Follower::Hand(side) => rig.arms[*side]
-                        .as_ref()
-                        .is_some_and(|arm| arm.hand_joint() == above),
+        SkinFollower::Joint { joint, at, .. } => {
+            let above = skeleton.joint_ancestors(joint).skip(1).find_map(|above| {
+                find(&|follower| match follower {
+                    SkinFollower::Joint { joint, .. } => *joint == above,
+                    SkinFollower::Hand(side) => rig.arms[*side].as_ref().is_some_and(|arm| arm.hand_joint() == above),
                     _ => false,
                 })
             });
@@ -318,11 +308,11 @@ fn bone(rig: &Rig, index: usize, skeleton: &Skeleton) -> Bone {
 }
 
 /// Returns a part of an arm with a share of its rotation: the ends of the row are keyed, the others lie between them.
-fn shared(rig: &Rig, index: usize, (side, share): (usize, f32), fore: bool, at: Vec3) -> Bone {
+fn arm_share_bone(rig: &SkinRig, index: usize, (side, share): (usize, f32), fore: bool, at: Vec3) -> PortableBone {
     let row = |wanted: f32| {
-        rig.followers.iter().position(|it| match it {
-            Follower::Upper(own, share) => !fore && *own == side && *share == wanted,
-            Follower::Fore(own, share) => fore && *own == side && *share == wanted,
+        rig.followers.iter().position(|follower| match follower {
+            SkinFollower::Upper(own, share) => !fore && *own == side && *share == wanted,
+            SkinFollower::Fore(own, share) => fore && *own == side && *share == wanted,
             _ => false,
         })
     };
@@ -330,22 +320,15 @@ fn shared(rig: &Rig, index: usize, (side, share): (usize, f32), fore: bool, at: 
         && share < 1.0
         && let (Some(a), Some(b)) = (row(0.0), row(1.0))
     {
-        return Bone::Between {
-            ends: [a, b],
-            share,
-        };
+        return PortableBone::Between { ends: [a, b], share };
     }
-    let first = row(0.0).filter(|it| *it < index);
+    let first = row(0.0).filter(|follower_index| *follower_index < index);
     let parent = first.or_else(|| {
-        rig.followers[..index].iter().position(|it| match it {
-            Follower::Upper(own, share) => fore && *own == side && *share == 1.0,
-            Follower::Chest => !fore,
+        rig.followers[..index].iter().position(|follower| match follower {
+            SkinFollower::Upper(own, share) => fore && *own == side && *share == 1.0,
+            SkinFollower::Chest => !fore,
             _ => false,
         })
     });
-    Bone::Keyed {
-        parent,
-        from: at,
-        at,
-    }
+    PortableBone::Keyed { parent, from: at, at }
 }

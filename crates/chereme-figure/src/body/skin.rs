@@ -3,13 +3,13 @@
 use chereme_motion::ModelPose;
 use glam::{Mat3, Quat, Vec3};
 
-use super::shape::{place, rotation};
+use super::body_shape::{posed_joint_position, posed_joint_rotation};
 use super::trunk::{ArmRig, TrunkRig};
 
 /// Something that moves vertices of a skin. Rotations are relative to the bind posture, in which the skin was fitted,
 /// in its own space: the signer's left, up and forwards from the middle of the shoulders.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Follower {
+pub(super) enum SkinFollower {
     /// A joint; `turn` rotates bind space to the joint's space, `at` is its position in bind space.
     Joint {
         joint: usize,
@@ -41,14 +41,14 @@ pub(super) enum Follower {
 
 /// The motion of a follower: it rotates by `turn` about `from`, and moves that point to `to`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Motion {
+pub(super) struct FollowerMotion {
     pub(super) turn: Quat,
     pub(super) from: Vec3,
     pub(super) to: Vec3,
     pub(super) stretch: Option<(Vec3, f32)>,
 }
 
-impl Motion {
+impl FollowerMotion {
     pub(super) fn new(turn: Quat, from: Vec3, to: Vec3) -> Self {
         Self {
             turn,
@@ -59,7 +59,7 @@ impl Motion {
     }
 
     /// Returns the rotated axes and the offset of this motion.
-    pub(super) fn matrix(&self) -> (Mat3, Vec3) {
+    pub(super) fn motion_matrix(&self) -> (Mat3, Vec3) {
         let mut turn = Mat3::from_quat(self.turn);
         if let Some((direction, factor)) = self.stretch {
             let outer = Mat3::from_cols(
@@ -75,13 +75,13 @@ impl Motion {
 
 /// A vertex of a skin: its position in bind space, and the followers that move it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bound {
+pub(super) struct BoundSkinVertex {
     pub(super) at: Vec3,
     pub(super) followers: [u16; 4],
     pub(super) weights: [f32; 4],
 }
 
-impl Bound {
+impl BoundSkinVertex {
     /// Returns a vertex that is moved by the four strongest of its weighted followers.
     pub(super) fn new(at: Vec3, shares: &[(usize, f32)]) -> Self {
         let mut sorted: Vec<(usize, f32)> = Vec::with_capacity(shares.len());
@@ -93,7 +93,7 @@ impl Bound {
         }
         sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
         sorted.truncate(4);
-        let sum: f32 = sorted.iter().map(|it| it.1).sum();
+        let sum: f32 = sorted.iter().map(|share| share.1).sum();
         let mut bound = Self {
             at,
             followers: [0; 4],
@@ -109,50 +109,55 @@ impl Bound {
 
 /// The followers of a body, with the joints that move them.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Rig {
-    pub(super) followers: Vec<Follower>,
+pub(super) struct SkinRig {
+    pub(super) followers: Vec<SkinFollower>,
     pub(super) trunk: Option<TrunkRig>,
     pub(super) arms: [Option<ArmRig>; 2],
 }
 
-impl Rig {
+impl SkinRig {
     /// Adds a follower and returns its index.
-    pub(super) fn add(&mut self, follower: Follower) -> usize {
+    pub(super) fn add_follower(&mut self, follower: SkinFollower) -> usize {
         self.followers.push(follower);
         self.followers.len() - 1
     }
 
     /// Returns the axes and the offset of each follower in `pose`.
-    pub(super) fn motions(&self, pose: &ModelPose) -> Vec<(Mat3, Vec3)> {
-        self.moved(pose).iter().map(Motion::matrix).collect()
+    pub(super) fn follower_matrices(&self, pose: &ModelPose) -> Vec<(Mat3, Vec3)> {
+        self.follower_motions(pose)
+            .iter()
+            .map(FollowerMotion::motion_matrix)
+            .collect()
     }
 
     /// Returns the motion of each follower in `pose`.
-    pub(super) fn moved(&self, pose: &ModelPose) -> Vec<Motion> {
-        let trunk = self.trunk.as_ref().map(|trunk| trunk.posed(pose));
-        let chest = trunk.map_or(Quat::IDENTITY, |it| it.chest.turn);
-        let arms = [0, 1].map(|side| self.arms[side].as_ref().map(|arm| arm.posed(pose, chest)));
-        let rest = Motion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
-        let mut motions: Vec<Motion> = Vec::with_capacity(self.followers.len());
+    pub(super) fn follower_motions(&self, pose: &ModelPose) -> Vec<FollowerMotion> {
+        let trunk = self.trunk.as_ref().map(|trunk| trunk.pose_trunk(pose));
+        let chest = trunk.map_or(Quat::IDENTITY, |trunk| trunk.chest.turn);
+        let arms = [0, 1].map(|side| self.arms[side].as_ref().map(|arm| arm.pose_arm_rig(pose, chest)));
+        let rest = FollowerMotion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
+        let mut motions: Vec<FollowerMotion> = Vec::with_capacity(self.followers.len());
         for follower in &self.followers {
             let motion = match *follower {
-                Follower::Joint { joint, turn, at } => {
-                    Motion::new(rotation(pose, joint) * turn, at, place(pose, joint))
-                }
-                Follower::Same(other) => motions[other],
-                Follower::Half {
+                SkinFollower::Joint { joint, turn, at } => FollowerMotion::new(
+                    posed_joint_rotation(pose, joint) * turn,
+                    at,
+                    posed_joint_position(pose, joint),
+                ),
+                SkinFollower::Same(other) => motions[other],
+                SkinFollower::Half {
                     parent,
                     child,
                     at,
                     along,
                     swell,
-                } => half([motions[parent], motions[child]], at, along, swell),
-                Follower::Pelvis => trunk.map_or(rest, |it| it.pelvis),
-                Follower::Chest => trunk.map_or(rest, |it| it.chest),
-                Follower::Shoulder(side) => arms[side].map_or(rest, |arm| arm.shoulder),
-                Follower::Upper(side, share) => arms[side].map_or(rest, |arm| arm.upper(share)),
-                Follower::Fore(side, share) => arms[side].map_or(rest, |arm| arm.fore(share)),
-                Follower::Hand(side) => arms[side].map_or(rest, |arm| arm.hand),
+                } => halfway_motion([motions[parent], motions[child]], at, along, swell),
+                SkinFollower::Pelvis => trunk.map_or(rest, |trunk| trunk.pelvis),
+                SkinFollower::Chest => trunk.map_or(rest, |trunk| trunk.chest),
+                SkinFollower::Shoulder(side) => arms[side].map_or(rest, |arm| arm.shoulder),
+                SkinFollower::Upper(side, share) => arms[side].map_or(rest, |arm| arm.upper_arm_motion(share)),
+                SkinFollower::Fore(side, share) => arms[side].map_or(rest, |arm| arm.forearm_motion(share)),
+                SkinFollower::Hand(side) => arms[side].map_or(rest, |arm| arm.hand),
             };
             motions.push(motion);
         }
@@ -161,7 +166,12 @@ impl Rig {
 }
 
 /// Returns the motion halfway between two, about a point of the child.
-pub(super) fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f32) -> Motion {
+pub(super) fn halfway_motion(
+    [parent, child]: [FollowerMotion; 2],
+    at: Vec3,
+    along: Vec3,
+    swell: f32,
+) -> FollowerMotion {
     let other = if parent.turn.dot(child.turn) < 0.0 {
         -child.turn
     } else {
@@ -179,8 +189,8 @@ pub(super) fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f
         let much = (1.0 - (angle.min(2.4) / 2.0).cos()) / (1.0 - std::f32::consts::FRAC_PI_4.cos());
         (across.normalize(), 1.0 + swell * much)
     });
-    let (turned, offset) = child.matrix();
-    Motion {
+    let (turned, offset) = child.motion_matrix();
+    FollowerMotion {
         turn,
         from: at,
         to: turned * at + offset,
@@ -189,7 +199,7 @@ pub(super) fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f
 }
 
 /// Returns the angle by which `turn` rotates about `axis`, in radians.
-pub(super) fn twist(turn: Quat, axis: Vec3) -> f32 {
+pub(super) fn twist_angle(turn: Quat, axis: Vec3) -> f32 {
     let sine = Vec3::new(turn.x, turn.y, turn.z).dot(axis);
     let angle = 2.0 * sine.atan2(turn.w);
     let full = std::f32::consts::TAU;

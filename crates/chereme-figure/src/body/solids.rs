@@ -4,7 +4,7 @@ use glam::Vec3;
 
 /// A simple solid; lengths in any one unit.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Solid {
+pub(super) enum BodySolid {
     /// Everything near a segment: its ends, the radii there, and the factor by which it is thinner along a direction.
     Rod {
         ends: [Vec3; 2],
@@ -15,8 +15,8 @@ pub(super) enum Solid {
     Ball { centre: Vec3, radii: Vec3 },
 }
 
-impl Solid {
-    pub(super) fn rod(a: [f32; 3], b: [f32; 3], radii: [f32; 2]) -> Self {
+impl BodySolid {
+    pub(super) fn new_rod_solid(a: [f32; 3], b: [f32; 3], radii: [f32; 2]) -> Self {
         Self::Rod {
             ends: [Vec3::from_array(a), Vec3::from_array(b)],
             radii,
@@ -24,7 +24,7 @@ impl Solid {
         }
     }
 
-    pub(super) fn ball(centre: [f32; 3], radii: [f32; 3]) -> Self {
+    pub(super) fn new_ball_solid(centre: [f32; 3], radii: [f32; 3]) -> Self {
         Self::Ball {
             centre: Vec3::from_array(centre),
             radii: Vec3::from_array(radii),
@@ -32,7 +32,7 @@ impl Solid {
     }
 
     /// Returns a rod that is thinner by `factor` along `direction`; a ball stays unchanged.
-    pub(super) fn flat(self, direction: Vec3, factor: f32) -> Self {
+    pub(super) fn flatten_rod_solid(self, direction: Vec3, factor: f32) -> Self {
         match self {
             Self::Rod { ends, radii, .. } => Self::Rod {
                 ends,
@@ -44,7 +44,7 @@ impl Solid {
     }
 
     /// Returns the approximate distance of a point outside; negative inside.
-    pub(super) fn distance(&self, point: Vec3) -> f32 {
+    pub(super) fn distance_to_solid(&self, point: Vec3) -> f32 {
         match *self {
             Self::Rod {
                 ends,
@@ -54,17 +54,14 @@ impl Solid {
                 let stretched = |p: Vec3| p + direction * ((factor - 1.0) * p.dot(direction));
                 let [a, b] = ends.map(stretched);
                 let (from, bone) = (stretched(point) - a, b - a);
-                let share = from.dot(bone) / bone.length_squared().max(1e-9);
-                let share = share.clamp(0.0, 1.0);
+                let raw_share = from.dot(bone) / bone.length_squared().max(1e-9);
+                let share = raw_share.clamp(0.0, 1.0);
                 let radius = radii[0] + (radii[1] - radii[0]) * share;
                 ((from - bone * share).length() - radius) / (1.0 + (factor - 1.0) / 2.0)
             }
             Self::Ball { centre, radii } => {
                 let from = point - centre;
-                let (near, steep) = (
-                    (from / radii).length(),
-                    (from / (radii * radii)).length().max(1e-9),
-                );
+                let (near, steep) = ((from / radii).length(), (from / (radii * radii)).length().max(1e-9));
                 near * (near - 1.0) / steep
             }
         }
@@ -72,19 +69,19 @@ impl Solid {
 }
 
 /// Returns the smaller of two distances, with a transition rounded over a width.
-pub(super) fn joined(a: f32, b: f32, width: f32) -> f32 {
+pub(super) fn join_solid_distances(a: f32, b: f32, width: f32) -> f32 {
     let near = (width - (a - b).abs()).max(0.0) / width.max(1e-9);
     a.min(b) - near * near * width * 0.25
 }
 
 /// Returns the distance to several solids that blend together over a width.
-pub(super) fn grown(solids: &[Solid], width: f32, point: Vec3) -> f32 {
-    let distances = solids.iter().map(|solid| solid.distance(point));
-    distances.fold(f32::INFINITY, |all, one| joined(all, one, width))
+pub(super) fn blended_solid_distance(solids: &[BodySolid], width: f32, point: Vec3) -> f32 {
+    let distances = solids.iter().map(|solid| solid.distance_to_solid(point));
+    distances.fold(f32::INFINITY, |all, one| join_solid_distances(all, one, width))
 }
 
 /// Returns the outward direction of a field at a point.
-pub(super) fn slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
+pub(super) fn field_slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
     let directions = [
         Vec3::new(1.0, -1.0, -1.0),
         Vec3::new(-1.0, -1.0, 1.0),
@@ -100,19 +97,19 @@ pub(super) fn slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3
 
 /// Returns the point of the skin near `point`.
 pub(super) fn on_skin(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
-    let mut at = point;
+    let mut skin_point = point;
     for _ in 0..6 {
-        let away = field(at);
+        let away = field(skin_point);
         if away.abs() < step * 0.05 {
             break;
         }
-        at -= slope(field, at, step) * away.clamp(-step * 30.0, step * 30.0);
+        skin_point -= field_slope(field, skin_point, step) * away.clamp(-step * 30.0, step * 30.0);
     }
-    at
+    skin_point
 }
 
 /// Returns the first point of the skin on a ray from inside.
-pub(super) fn thrown(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Vec3, step: f32) -> Vec3 {
+pub(super) fn cast_skin_ray(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Vec3, step: f32) -> Vec3 {
     let mut far = 0.0;
     for _ in 0..200 {
         let away = field(from + towards * far);
@@ -121,12 +118,12 @@ pub(super) fn thrown(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Vec3, ste
         }
         far += (-away * 0.7).max(step * 0.2);
     }
-    crossing(field, from, towards, ((far - step * 2.0).max(0.0), far), 12)
+    find_surface_crossing(field, from, towards, ((far - step * 2.0).max(0.0), far), 12)
 }
 
 /// Returns the point on the surface between two distances along a line, by bisection: the field is below 0 at the first
 /// and above at the second. Each of `rounds` halves the uncertainty.
-pub(super) fn crossing(
+pub(super) fn find_surface_crossing(
     field: &dyn Fn(Vec3) -> f32,
     from: Vec3,
     towards: Vec3,

@@ -1,22 +1,22 @@
 //! The rotations of trunk and arms of a skeleton, whatever its joints' own axes are.
 
-use chereme_motion::{Anatomy, ModelPose, Side, Skeleton, anatomy::Part};
+use chereme_motion::{BodyAnatomy, BodySide, ModelPose, Skeleton, anatomy::BodyPart};
 use glam::{Mat3, Quat, Vec3};
 
-use super::hand::HandAxes;
-use super::shape::{place, rotation};
-use super::skin::{Motion, twist};
+use super::body_hand::HandAxes;
+use super::body_shape::{posed_joint_position, posed_joint_rotation};
+use super::skin::{FollowerMotion, twist_angle};
 
 /// The angle of an arm below the horizontal in the bind posture, in radians.
-const LOWERED: f32 = 0.70;
+const LOWERED_ARM_RADIANS: f32 = 0.70;
 /// Distance of the hips' joint before or behind the thighs, as a share of a body's size in metres, above which the
 /// pelvis is at the thighs: some skeletons have their root in front of the belly.
 const OFF_THIGHS: f32 = 0.05;
 
 /// Returns the direction of an arm in the bind posture.
-pub(super) fn arm_direction(side: Side) -> Vec3 {
-    let (sine, cosine) = LOWERED.sin_cos();
-    Vec3::new(cosine * side.sign() as f32, -sine, 0.0)
+pub(super) fn arm_direction(side: BodySide) -> Vec3 {
+    let (sine, cosine) = LOWERED_ARM_RADIANS.sin_cos();
+    Vec3::new(cosine * side.side_sign() as f32, -sine, 0.0)
 }
 
 /// The joints of the trunk, and their positions in bind space.
@@ -49,12 +49,12 @@ pub(super) struct TrunkRig {
 /// The motions of pelvis and chest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TrunkPosed {
-    pub(super) pelvis: Motion,
-    pub(super) chest: Motion,
+    pub(super) pelvis: FollowerMotion,
+    pub(super) chest: FollowerMotion,
 }
 
 /// Returns the rotation whose first axis is `left` and whose second is as near to `up` as possible.
-fn turned(left: Vec3, up: Vec3) -> Quat {
+fn rotation_from_left_up(left: Vec3, up: Vec3) -> Quat {
     let left = left.normalize_or(Vec3::X);
     let up = (up - left * left.dot(up)).normalize_or(left.any_orthonormal_vector());
     Quat::from_mat3(&Mat3::from_cols(left, up, left.cross(up))).normalize()
@@ -62,42 +62,41 @@ fn turned(left: Vec3, up: Vec3) -> Quat {
 
 impl TrunkRig {
     /// Returns the trunk of a skeleton with both shoulders.
-    pub(super) fn of(
+    pub(super) fn from_trunk_joints(
         skeleton: &Skeleton,
-        anatomy: &Anatomy,
+        anatomy: &BodyAnatomy,
         rest: &ModelPose,
         (size, trunk): (f32, f32),
     ) -> Option<Self> {
-        let joint = |part| anatomy.joint(part);
-        let pair = |part: fn(Side) -> Part| match Side::BOTH.map(|side| joint(part(side))) {
+        let joint = |part| anatomy.part_joint(part);
+        let pair = |part: fn(BodySide) -> BodyPart| match BodySide::BOTH_SIDES.map(|side| joint(part(side))) {
             [Some(right), Some(left)] => Some([right, left]),
             _ => None,
         };
-        let shoulders = pair(Part::UpperArm)?;
-        let apart = |[right, left]: [usize; 2]| place(rest, right).distance(place(rest, left));
-        let collars = pair(Part::Clavicle).filter(|&it| apart(it) > 0.12 * apart(shoulders));
-        let thighs = pair(Part::Thigh);
-        let lines = [collars, thighs.filter(|&it| apart(it) > 0.03 * size)];
-        let mid = (place(rest, shoulders[0]) + place(rest, shoulders[1])) * 0.5;
-        let hips = joint(Part::Hips).filter(|&hips| place(rest, hips).distance(mid) > 0.25 * size);
-        let top = joint(Part::Neck).or(joint(Part::Head));
+        let shoulders = pair(BodyPart::UpperArm)?;
+        let apart =
+            |[right, left]: [usize; 2]| posed_joint_position(rest, right).distance(posed_joint_position(rest, left));
+        let collars = pair(BodyPart::Clavicle).filter(|&joints| apart(joints) > 0.12 * apart(shoulders));
+        let thighs = pair(BodyPart::Thigh);
+        let lines = [collars, thighs.filter(|&joints| apart(joints) > 0.03 * size)];
+        let mid = (posed_joint_position(rest, shoulders[0]) + posed_joint_position(rest, shoulders[1])) * 0.5;
+        let hips = joint(BodyPart::Hips).filter(|&hips| posed_joint_position(rest, hips).distance(mid) > 0.25 * size);
+        let top = joint(BodyPart::Neck).or(joint(BodyPart::Head));
         let middle = hips.zip(top).and_then(|(hips, top)| {
-            let target = place(rest, hips).lerp(mid, 0.45);
-            let far = |joint: usize| place(rest, joint).distance(target);
-            let chain = skeleton.ancestors(top).skip(1);
+            let target = posed_joint_position(rest, hips).lerp(mid, 0.45);
+            let far = |joint: usize| posed_joint_position(rest, joint).distance(target);
+            let chain = skeleton.joint_ancestors(top).skip(1);
             let nearest = chain
                 .take_while(|&joint| joint != hips)
                 .min_by(|&a, &b| far(a).total_cmp(&far(b)))?;
             (far(nearest) < 0.15 * size).then_some(nearest)
         });
-        let above: Vec<usize> = skeleton.ancestors(shoulders[0]).collect();
+        let above: Vec<usize> = skeleton.joint_ancestors(shoulders[0]).collect();
         let shared = skeleton
-            .ancestors(shoulders[1])
-            .find(|it| above.contains(it));
-        let carrier = joint(Part::Chest).or(shared).unwrap_or(0);
-        let up = anatomy
-            .body_frame(rest)
-            .map_or(Vec3::Y, |it| it.up.as_vec3());
+            .joint_ancestors(shoulders[1])
+            .find(|ancestor| above.contains(ancestor));
+        let carrier = joint(BodyPart::Chest).or(shared).unwrap_or(0);
+        let up = anatomy.body_frame(rest).map_or(Vec3::Y, |frame| frame.up.as_vec3());
         let mut rig = Self {
             shoulders,
             lines,
@@ -106,28 +105,28 @@ impl TrunkRig {
             hips,
             seat: None,
             size,
-            upright: (carrier, rotation(rest, carrier).inverse() * up),
+            upright: (carrier, posed_joint_rotation(rest, carrier).inverse() * up),
             anchor: None,
             hips_at: Vec3::new(0.0, -trunk, 0.0),
             turning: None,
         };
         let standing = anatomy.clone().with_reference(skeleton, rest);
         if standing.is_posed() {
-            let back = hips.map(|hips| rotation(rest, hips).inverse() * rig.off_hips(rest));
+            let back = hips.map(|hips| posed_joint_rotation(rest, hips).inverse() * rig.off_hips(rest));
             rig.seat = Some(back.unwrap_or_default());
-            let own = turned(rig.left(rest, None), rig.up(rest));
+            let rest_turn = rotation_from_left_up(rig.trunk_left_axis(rest, None), rig.trunk_up_axis(rest));
             rig.turning = Some([carrier, hips.unwrap_or(carrier)].map(|joint| {
-                let back = rotation(rest, joint).inverse();
-                (joint, (back * own).normalize())
+                let back = posed_joint_rotation(rest, joint).inverse();
+                (joint, (back * rest_turn).normalize())
             }));
-            let within = |joint: usize| own.inverse() * (place(rest, joint) - mid);
-            rig.anchor = joint(Part::Neck)
+            let within = |joint: usize| rest_turn.inverse() * (posed_joint_position(rest, joint) - mid);
+            rig.anchor = joint(BodyPart::Neck)
                 .map(|neck| (neck, within(neck)))
                 .filter(|(_, at)| {
-                    let at = *at / size;
-                    at.x.abs() < 0.05 && (0.0..0.2).contains(&at.y) && at.z.abs() < 0.12
+                    let scaled_place = *at / size;
+                    scaled_place.x.abs() < 0.05 && (0.0..0.2).contains(&scaled_place.y) && scaled_place.z.abs() < 0.12
                 });
-            let seat = rig.pelvis(rest).map(|at| own.inverse() * (at - mid));
+            let seat = rig.pelvis(rest).map(|at| rest_turn.inverse() * (at - mid));
             if let Some(at) = seat.filter(|at| at.z.abs() < 0.1 * size) {
                 rig.hips_at.z = at.z;
             }
@@ -146,12 +145,12 @@ impl TrunkRig {
     }
 
     /// Returns whether the skeleton stands at rest, so that positions at rest are meaningful.
-    pub(super) fn stands(&self) -> bool {
+    pub(super) fn is_standing_at_rest(&self) -> bool {
         self.turning.is_some()
     }
 
     fn mid(&self, pose: &ModelPose) -> Vec3 {
-        let [right, left] = self.shoulders.map(|joint| place(pose, joint));
+        let [right, left] = self.shoulders.map(|joint| posed_joint_position(pose, joint));
         (right + left) * 0.5
     }
 
@@ -159,10 +158,10 @@ impl TrunkRig {
     fn pelvis(&self, pose: &ModelPose) -> Option<Vec3> {
         let hips = self.hips?;
         let off = match self.seat {
-            Some(seat) => rotation(pose, hips) * seat,
+            Some(seat) => posed_joint_rotation(pose, hips) * seat,
             None => self.off_hips(pose),
         };
-        Some(place(pose, hips) + off)
+        Some(posed_joint_position(pose, hips) + off)
     }
 
     /// Returns how far the thighs are before or behind the hips' joint; zero below [`OFF_THIGHS`].
@@ -170,55 +169,55 @@ impl TrunkRig {
         let (Some(hips), Some(thighs)) = (self.hips, self.thighs) else {
             return Vec3::ZERO;
         };
-        let between = (place(pose, thighs[0]) + place(pose, thighs[1])) * 0.5;
+        let between = (posed_joint_position(pose, thighs[0]) + posed_joint_position(pose, thighs[1])) * 0.5;
         let trunk = (self.mid(pose) - between).normalize_or(Vec3::Y);
-        let off = (between - place(pose, hips)).reject_from_normalized(trunk);
+        let off = (between - posed_joint_position(pose, hips)).reject_from_normalized(trunk);
         let beyond = off.length() / (OFF_THIGHS * self.size).max(1e-6) - 1.0;
         // Rises from nothing to the whole over a fifth of the threshold: nothing jumps from frame to frame.
         off * (5.0 * beyond).clamp(0.0, 1.0)
     }
 
-    fn left(&self, pose: &ModelPose, line: Option<[usize; 2]>) -> Vec3 {
+    fn trunk_left_axis(&self, pose: &ModelPose, line: Option<[usize; 2]>) -> Vec3 {
         let [right, left] = line.or(self.lines[0]).unwrap_or(self.shoulders);
-        place(pose, left) - place(pose, right)
+        posed_joint_position(pose, left) - posed_joint_position(pose, right)
     }
 
-    fn up(&self, pose: &ModelPose) -> Vec3 {
+    fn trunk_up_axis(&self, pose: &ModelPose) -> Vec3 {
         let (joint, up) = self.upright;
         match self.pelvis(pose) {
             Some(pelvis) => self.mid(pose) - pelvis,
-            None => rotation(pose, joint) * up,
+            None => posed_joint_rotation(pose, joint) * up,
         }
     }
 
     /// Returns the axes of chest and pelvis.
-    fn axes(&self, pose: &ModelPose) -> [Quat; 2] {
-        let whole = self.up(pose);
+    fn trunk_part_axes(&self, pose: &ModelPose) -> [Quat; 2] {
+        let trunk_line = self.trunk_up_axis(pose);
         let chest = self
             .middle
-            .map_or(whole, |it| self.mid(pose) - place(pose, it));
+            .map_or(trunk_line, |joint| self.mid(pose) - posed_joint_position(pose, joint));
         let pelvis = match (self.middle, self.pelvis(pose)) {
-            (Some(middle), Some(pelvis)) => place(pose, middle) - pelvis,
-            _ => whole,
+            (Some(middle), Some(pelvis)) => posed_joint_position(pose, middle) - pelvis,
+            _ => trunk_line,
         };
         [
-            turned(self.left(pose, None), chest),
-            turned(self.left(pose, self.lines[1]), pelvis),
+            rotation_from_left_up(self.trunk_left_axis(pose, None), chest),
+            rotation_from_left_up(self.trunk_left_axis(pose, self.lines[1]), pelvis),
         ]
     }
 
-    pub(super) fn posed(&self, pose: &ModelPose) -> TrunkPosed {
+    pub(super) fn pose_trunk(&self, pose: &ModelPose) -> TrunkPosed {
         let turns = match self.turning {
-            Some(joints) => joints.map(|(joint, own)| (rotation(pose, joint) * own).normalize()),
-            None => self.axes(pose),
+            Some(joints) => joints.map(|(joint, own)| (posed_joint_rotation(pose, joint) * own).normalize()),
+            None => self.trunk_part_axes(pose),
         };
         let (from, to) = match self.anchor {
-            Some((joint, at)) => (at, place(pose, joint)),
+            Some((joint, at)) => (at, posed_joint_position(pose, joint)),
             None => (Vec3::ZERO, self.mid(pose)),
         };
-        let chest = Motion::new(turns[0], from, to);
+        let chest = FollowerMotion::new(turns[0], from, to);
         let pelvis = match self.pelvis(pose) {
-            Some(at) => Motion::new(turns[1], self.hips_at, at),
+            Some(at) => FollowerMotion::new(turns[1], self.hips_at, at),
             None => chest,
         };
         TrunkPosed { pelvis, chest }
@@ -242,10 +241,10 @@ pub(super) struct ArmRig {
 /// The motion of an arm in a posture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ArmPosed {
-    pub(super) shoulder: Motion,
-    pub(super) hand: Motion,
-    full: Motion,
-    straight: Motion,
+    pub(super) shoulder: FollowerMotion,
+    pub(super) hand: FollowerMotion,
+    full: FollowerMotion,
+    straight: FollowerMotion,
     along: Vec3,
     forearm: Vec3,
     /// The rotations of upper arm and hand about their lengths, in radians.
@@ -254,28 +253,32 @@ pub(super) struct ArmPosed {
 
 impl ArmRig {
     /// Returns the arm of `side` with its shoulder at a point of bind space.
-    pub(super) fn of(
-        anatomy: &Anatomy,
-        side: Side,
+    pub(super) fn from_arm_joints(
+        anatomy: &BodyAnatomy,
+        side: BodySide,
         rest: &ModelPose,
         shoulder: Vec3,
     ) -> Option<Self> {
-        let arm = anatomy.arm(side)?;
+        let arm = anatomy.arm_chain(side)?;
         let joints = [arm.upper, arm.forearm, arm.hand];
-        let [upper, fore, wrist] = joints.map(|joint| place(rest, joint));
-        let back = rotation(rest, arm.upper).inverse();
+        let [upper, fore, wrist] = joints.map(|joint| posed_joint_position(rest, joint));
+        let back = posed_joint_rotation(rest, arm.upper).inverse();
         let bone = (fore - upper).normalize_or(Vec3::X);
-        let elbow = anatomy.elbow(side).map(|it| it.as_vec3()).or_else(|| {
-            let frame = anatomy.body_frame(rest)?;
-            Some(back * -frame.forward.as_vec3())
-        });
-        let own = back * bone;
-        let elbow = elbow.unwrap_or(own.any_orthonormal_vector());
-        let elbow = (elbow - own * own.dot(elbow)).normalize_or(own.any_orthonormal_vector());
-        let neutral = -(rotation(rest, arm.upper) * elbow);
-        let hand = HandAxes::of(anatomy, side, rest, neutral)?;
+        let elbow = anatomy
+            .elbow_direction(side)
+            .map(|direction| direction.as_vec3())
+            .or_else(|| {
+                let frame = anatomy.body_frame(rest)?;
+                Some(back * -frame.forward.as_vec3())
+            });
+        let bone_axis = back * bone;
+        let elbow_direction = elbow.unwrap_or(bone_axis.any_orthonormal_vector());
+        let elbow = (elbow_direction - bone_axis * bone_axis.dot(elbow_direction))
+            .normalize_or(bone_axis.any_orthonormal_vector());
+        let neutral = -(posed_joint_rotation(rest, arm.upper) * elbow);
+        let hand = HandAxes::hand_axes_at_rest(anatomy, side, rest, neutral)?;
         let along = arm_direction(side);
-        let lengths = [fore.distance(upper), wrist.distance(fore)].map(|it| it.max(1e-6));
+        let lengths = [fore.distance(upper), wrist.distance(fore)].map(|length| length.max(1e-6));
         let places = [
             shoulder,
             shoulder + along * lengths[0],
@@ -303,28 +306,27 @@ impl ArmRig {
         self.hand
     }
 
-    pub(super) fn posed(&self, pose: &ModelPose, chest: Quat) -> ArmPosed {
-        let [upper, fore, wrist] = self.joints.map(|joint| place(pose, joint));
-        let turn = rotation(pose, self.joints[0]);
+    pub(super) fn pose_arm_rig(&self, pose: &ModelPose, chest: Quat) -> ArmPosed {
+        let [upper, fore, wrist] = self.joints.map(|joint| posed_joint_position(pose, joint));
+        let turn = posed_joint_rotation(pose, self.joints[0]);
         let bone = (fore - upper).normalize_or(turn * self.along);
         let full = (turned_arm(bone, turn * self.elbow) * self.bind[0]).normalize();
         let forearm = (wrist - fore).normalize_or(bone);
         let straight = (Quat::from_rotation_arc(bone, forearm) * full).normalize();
-        let hand = rotation(pose, self.joints[2]);
-        let hand = turned_arm(hand * self.hand.along, hand * self.hand.palm) * self.bind[1];
+        let hand_turn = posed_joint_rotation(pose, self.joints[2]);
+        let hand = turned_arm(hand_turn * self.hand.along, hand_turn * self.hand.palm) * self.bind[1];
         let hand = hand.normalize();
-        let cuff =
-            Quat::from_rotation_arc((hand * self.along).normalize_or(forearm), forearm) * hand;
+        let cuff = Quat::from_rotation_arc((hand * self.along).normalize_or(forearm), forearm) * hand;
         ArmPosed {
-            shoulder: Motion::new(chest, self.places[0], upper),
-            hand: Motion::new(hand, self.places[2], wrist),
-            full: Motion::new(full, self.places[0], upper),
-            straight: Motion::new(straight, self.places[1], fore),
+            shoulder: FollowerMotion::new(chest, self.places[0], upper),
+            hand: FollowerMotion::new(hand, self.places[2], wrist),
+            full: FollowerMotion::new(full, self.places[0], upper),
+            straight: FollowerMotion::new(straight, self.places[1], fore),
             along: self.along,
             forearm,
             twists: [
-                twist((chest.inverse() * full).normalize(), self.along),
-                twist((cuff * straight.inverse()).normalize(), forearm),
+                twist_angle((chest.inverse() * full).normalize(), self.along),
+                twist_angle((cuff * straight.inverse()).normalize(), forearm),
             ],
         }
     }
@@ -332,18 +334,18 @@ impl ArmRig {
 
 impl ArmPosed {
     /// Returns the upper arm's motion with a share of its rotation about its length.
-    pub(super) fn upper(&self, share: f32) -> Motion {
+    pub(super) fn upper_arm_motion(&self, share: f32) -> FollowerMotion {
         let back = Quat::from_axis_angle(self.along, self.twists[0] * (share - 1.0));
-        Motion {
+        FollowerMotion {
             turn: (self.full.turn * back).normalize(),
             ..self.full
         }
     }
 
     /// Returns the forearm's motion with a share of the hand's rotation about its length.
-    pub(super) fn fore(&self, share: f32) -> Motion {
+    pub(super) fn forearm_motion(&self, share: f32) -> FollowerMotion {
         let on = Quat::from_axis_angle(self.forearm, self.twists[1] * share);
-        Motion {
+        FollowerMotion {
             turn: (on * self.straight.turn).normalize(),
             ..self.straight
         }
@@ -351,13 +353,13 @@ impl ArmPosed {
 }
 
 /// Returns the axes of a hand in bind space: towards the thumb, along it, out of the palm.
-pub(super) fn hand_seat(side: Side) -> Mat3 {
+pub(super) fn hand_seat(side: BodySide) -> Mat3 {
     let along = arm_direction(side);
-    let palm = Vec3::Z.cross(along) * -side.sign() as f32;
+    let palm = Vec3::Z.cross(along) * -side.side_sign() as f32;
     Mat3::from_cols(Vec3::Z, along, palm)
 }
 
 /// Returns the rotation whose first axis is `along` and whose second is near `other`.
 fn turned_arm(along: Vec3, other: Vec3) -> Quat {
-    turned(along, other)
+    rotation_from_left_up(along, other)
 }

@@ -5,20 +5,20 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{GlyphId, MetadataProvider};
 
-use super::fonts::FontFile;
+use super::letters_fonts::FontFile;
 
 /// The outline of a letter: its index, and its position from the beginning of its text, in parts of the
 /// font's size.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct PlacedOutline {
     glyph: u32,
     at: [f32; 2],
 }
 
 /// Returns a text of one direction as outlines from left to right, and its width in parts of the font's
 /// size.
-pub(super) fn shape(font: &FontFile, text: &str, from_right: bool) -> (Vec<Placed>, f32) {
-    let Some(tables) = font.tables() else {
+pub(super) fn shape_text_outlines(font: &FontFile, text: &str, from_right: bool) -> (Vec<PlacedOutline>, f32) {
+    let Some(tables) = font.font_tables() else {
         return (Vec::new(), 0.0);
     };
     let data = ShaperData::new(&tables);
@@ -36,13 +36,10 @@ pub(super) fn shape(font: &FontFile, text: &str, from_right: bool) -> (Vec<Place
     let mut x = 0.0;
     let mut placed = Vec::new();
     for (info, place) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
-        let at = [
-            x + place.x_offset as f32 * unit,
-            place.y_offset as f32 * unit,
-        ];
-        placed.push(Placed {
+        let glyph_place = [x + place.x_offset as f32 * unit, place.y_offset as f32 * unit];
+        placed.push(PlacedOutline {
             glyph: info.glyph_id,
-            at,
+            at: glyph_place,
         });
         x += place.x_advance as f32 * unit;
     }
@@ -51,55 +48,54 @@ pub(super) fn shape(font: &FontFile, text: &str, from_right: bool) -> (Vec<Place
 
 /// Fills outlines at a size in pixels, their beginning on the base line at `at`; `paint` gets each touched
 /// pixel and its covered share.
-pub(super) fn fill(
+pub(super) fn fill_text_outlines(
     font: &FontFile,
-    placed: &[Placed],
+    placed: &[PlacedOutline],
     (size, at): (f32, [f32; 2]),
     mut paint: impl FnMut(i64, i64, f32),
 ) {
-    let Some(tables) = font.tables() else { return };
+    let Some(tables) = font.font_tables() else {
+        return;
+    };
     let outlines = tables.outline_glyphs();
     for one in placed {
         let Some(outline) = outlines.get(GlyphId::new(one.glyph)) else {
             continue;
         };
-        let mut path = Path::default();
+        let mut path = OutlinePath::default();
         let settings = DrawSettings::unhinted(Size::new(size), LocationRef::default());
         if outline.draw(settings, &mut path).is_err() {
             continue;
         }
         let corner = [at[0] + one.at[0] * size, at[1] - one.at[1] * size];
-        path.fill(corner, size, &mut paint);
+        path.fill_outline_path(corner, size, &mut paint);
     }
 }
 
 /// The sides of an outline, with curves as straight pieces; y goes up.
 #[derive(Debug, Default)]
-struct Path {
+struct OutlinePath {
     sides: Vec<[[f32; 2]; 2]>,
     start: [f32; 2],
     last: [f32; 2],
 }
 
 /// The number of straight pieces per curve.
-const PIECES: u32 = 6;
+const PIECES_PER_CURVE: u32 = 6;
 
-impl Path {
-    fn to(&mut self, next: [f32; 2]) {
+impl OutlinePath {
+    fn add_outline_side(&mut self, next: [f32; 2]) {
         self.sides.push([self.last, next]);
         self.last = next;
     }
 
     /// Paints the covered share of each pixel; overlapping parts of the outline count once.
-    fn fill(&self, corner: [f32; 2], size: f32, paint: &mut impl FnMut(i64, i64, f32)) {
+    fn fill_outline_path(&self, corner: [f32; 2], size: f32, paint: &mut impl FnMut(i64, i64, f32)) {
         let place = |p: [f32; 2]| [corner[0] + p[0], corner[1] - p[1]];
         let points = || self.sides.iter().flatten().map(|p| place(*p));
         let bound = |axis: usize| {
             let all = || points().map(|p| p[axis]);
-            let (low, high) = (
-                all().fold(f32::MAX, f32::min),
-                all().fold(f32::MIN, f32::max),
-            );
+            let (low, high) = (all().fold(f32::MAX, f32::min), all().fold(f32::MIN, f32::max));
             (low.floor(), high.ceil())
         };
         let ((left, right), (top, bottom)) = (bound(0), bound(1));
@@ -112,7 +108,7 @@ impl Path {
         let mut area = vec![0.0f32; width * height];
         for [from, to] in &self.sides {
             let near = |p: [f32; 2]| [place(p)[0] - left, place(p)[1] - top];
-            side(&mut area, width, near(*from), near(*to));
+            add_side_coverage(&mut area, width, near(*from), near(*to));
         }
         for (y, row) in area.chunks(width).enumerate() {
             let mut sum = 0.0;
@@ -129,7 +125,7 @@ impl Path {
 
 /// Adds, for one side of an outline, the change of coverage from each pixel to the next. The sum along a row is the
 /// share of a pixel that lies to the right of the side.
-fn side(area: &mut [f32], width: usize, from: [f32; 2], to: [f32; 2]) {
+fn add_side_coverage(area: &mut [f32], width: usize, from: [f32; 2], to: [f32; 2]) {
     let (sign, from, to) = if from[1] < to[1] {
         (1.0, from, to)
     } else {
@@ -174,43 +170,43 @@ fn right_of(low: f32, high: f32, edge: f32) -> f32 {
     slanted + (edge - high).max(0.0)
 }
 
-impl OutlinePen for Path {
+impl OutlinePen for OutlinePath {
     fn move_to(&mut self, x: f32, y: f32) {
         self.close();
         (self.start, self.last) = ([x, y], [x, y]);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        self.to([x, y]);
+        self.add_outline_side([x, y]);
     }
 
     fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
         let from = self.last;
-        for piece in 1..=PIECES {
-            let t = piece as f32 / PIECES as f32;
+        for piece in 1..=PIECES_PER_CURVE {
+            let t = piece as f32 / PIECES_PER_CURVE as f32;
             let part = |a: f32, b: f32, c: f32| {
                 let (left, right) = (a + (b - a) * t, b + (c - b) * t);
                 left + (right - left) * t
             };
-            self.to([part(from[0], cx, x), part(from[1], cy, y)]);
+            self.add_outline_side([part(from[0], cx, x), part(from[1], cy, y)]);
         }
     }
 
     fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
         let from = self.last;
-        for piece in 1..=PIECES {
-            let t = piece as f32 / PIECES as f32;
+        for piece in 1..=PIECES_PER_CURVE {
+            let t = piece as f32 / PIECES_PER_CURVE as f32;
             let s = 1.0 - t;
             let part = |a: f32, b: f32, c: f32, d: f32| {
                 a * s * s * s + 3.0 * b * s * s * t + 3.0 * c * s * t * t + d * t * t * t
             };
-            self.to([part(from[0], cx0, cx1, x), part(from[1], cy0, cy1, y)]);
+            self.add_outline_side([part(from[0], cx0, cx1, x), part(from[1], cy0, cy1, y)]);
         }
     }
 
     fn close(&mut self) {
         if self.last != self.start {
-            self.to(self.start);
+            self.add_outline_side(self.start);
         }
     }
 }
@@ -220,14 +216,14 @@ mod tests {
     use super::*;
 
     fn covered(points: &[[f32; 2]]) -> (f32, f32) {
-        let mut path = Path::default();
+        let mut path = OutlinePath::default();
         path.move_to(points[0][0], points[0][1]);
         for p in &points[1..] {
             path.line_to(p[0], p[1]);
         }
         path.close();
         let (mut sum, mut most) = (0.0, 0.0f32);
-        path.fill([20.0, 20.0], 10.0, &mut |_, _, part| {
+        path.fill_outline_path([20.0, 20.0], 10.0, &mut |_, _, part| {
             sum += part;
             most = most.max(part);
         });
@@ -238,10 +234,7 @@ mod tests {
     fn a_filled_outline_has_the_area_of_its_shape() {
         for (points, area) in [
             (&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]][..], 12.0),
-            (
-                &[[0.25, 0.5], [4.75, 0.5], [4.75, 3.25], [0.25, 3.25]],
-                4.5 * 2.75,
-            ),
+            (&[[0.25, 0.5], [4.75, 0.5], [4.75, 3.25], [0.25, 3.25]], 4.5 * 2.75),
             (&[[0.0, 0.0], [7.3, 1.1], [2.2, 5.9]], 20.325),
             (&[[2.2, 5.9], [7.3, 1.1], [0.0, 0.0]], 20.325),
             (&[[0.1, 0.0], [0.4, 0.0], [0.4, 9.0], [0.1, 9.0]], 2.7),

@@ -1,8 +1,8 @@
-use super::read;
-use crate::markup::Error;
-use crate::roles::{Mapping, guess_tiers};
+use super::read_anvil;
+use crate::markup::MarkupError;
+use crate::roles::{TierMapping, guess_tiers};
 use crate::tests::tiers_as_lines as lines;
-use crate::textgrid::{self, Form};
+use crate::textgrid::{self, TextGridForm};
 
 const WHOLE: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <annotation>
@@ -42,7 +42,7 @@ const WHOLE: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 
 #[test]
 fn tracks_of_all_types_become_tiers() {
-    let (transcript, findings) = read(WHOLE.as_bytes()).expect("a file");
+    let (transcript, findings) = read_anvil(WHOLE.as_bytes()).expect("a file");
     assert_eq!(
         lines(&transcript),
         [
@@ -59,32 +59,22 @@ fn tracks_of_all_types_become_tiers() {
     );
     assert_eq!(transcript.media[0].url, "film/take.mov");
     assert_eq!(transcript.media[0].mime_type, "video/quicktime");
-    assert_eq!(
-        transcript.properties,
-        [("coder".to_owned(), "Zoé".to_owned())]
-    );
+    assert_eq!(transcript.properties, [("coder".to_owned(), "Zoé".to_owned())]);
     assert_eq!(transcript.tiers[0].annotator.as_deref(), Some("Zoé"));
     assert_eq!(findings.len(), 2, "{findings:?}");
 }
 
 #[test]
 fn an_attribute_states_the_role_of_its_tier_else_the_track_does() {
-    let (transcript, _) = read(WHOLE.as_bytes()).expect("a file");
-    let topics = |transcript: &crate::eaf::Transcript| -> Vec<String> {
-        let guesses = guess_tiers(transcript, &Mapping::default());
-        let topic =
-            |it: &crate::roles::TierGuess| it.topic().map_or("-".to_owned(), |it| it.to_string());
+    let (transcript, _) = read_anvil(WHOLE.as_bytes()).expect("a file");
+    let topics = |transcript: &crate::eaf::AnnotationTranscript| -> Vec<String> {
+        let guesses = guess_tiers(transcript, &TierMapping::default());
+        let topic = |it: &crate::roles::TierGuess| it.guessed_tier_topic().map_or("-".to_owned(), |it| it.to_string());
         guesses.iter().map(topic).collect()
     };
     assert_eq!(
         topics(&transcript)[..5],
-        [
-            "-",
-            "right.gloss",
-            "right.configuration",
-            "comment",
-            "right.placement"
-        ]
+        ["-", "right.gloss", "right.configuration", "comment", "right.placement"]
     );
     let body = |tracks: &str| format!("<annotation><body>{tracks}</body></annotation>");
     let element = |first: &str, second: &str| {
@@ -94,12 +84,7 @@ fn an_attribute_states_the_role_of_its_tier_else_the_track_does() {
     };
     for (track, first, second, expected) in [
         ("Gloss RH", "what", "certainty", ["-", "right.gloss", "-"]),
-        (
-            "RH",
-            "handshape",
-            "gloss",
-            ["-", "right.configuration", "right.gloss"],
-        ),
+        ("RH", "handshape", "gloss", ["-", "right.configuration", "right.gloss"]),
         (
             "Handshape",
             "right",
@@ -114,7 +99,7 @@ fn an_attribute_states_the_role_of_its_tier_else_the_track_does() {
             "<track name=\"{track}\" type=\"primary\">{}</track>",
             element(first, second)
         );
-        let (transcript, _) = read(body(&track).as_bytes()).expect("a file");
+        let (transcript, _) = read_anvil(body(&track).as_bytes()).expect("a file");
         assert_eq!(topics(&transcript), expected, "{track}");
     }
 }
@@ -128,13 +113,9 @@ fn encodings_are_those_of_the_declaration() {
     let text = WHOLE.replace("UTF-8", "UTF-16");
     let latin = WHOLE.replace("UTF-8", "ISO-8859-1");
     let latin: Vec<u8> = latin.chars().map(|c| c as u8).collect();
-    let (expected, _) = read(WHOLE.as_bytes()).expect("a file");
-    for bytes in [
-        utf_16(&text),
-        latin,
-        [b"\xef\xbb\xbf", WHOLE.as_bytes()].concat(),
-    ] {
-        assert_eq!(read(&bytes).expect("a file").0, expected);
+    let (expected, _) = read_anvil(WHOLE.as_bytes()).expect("a file");
+    for bytes in [utf_16(&text), latin, [b"\xef\xbb\xbf", WHOLE.as_bytes()].concat()] {
+        assert_eq!(read_anvil(&bytes).expect("a file").0, expected);
     }
 }
 
@@ -208,7 +189,7 @@ fn oddities_are_reported_and_nothing_is_lost_in_silence() {
             "has the attribute \"v\" twice; both values are kept",
         ),
     ] {
-        let (transcript, findings) = read(body(tracks).as_bytes()).expect("a file");
+        let (transcript, findings) = read_anvil(body(tracks).as_bytes()).expect("a file");
         assert_eq!(lines(&transcript), expected, "{tracks}");
         let all: Vec<&String> = findings.iter().map(|it| &it.message).collect();
         assert!(all.iter().any(|it| it.contains(said)), "{tracks}: {all:?}");
@@ -230,34 +211,23 @@ fn other_documents_are_refused() {
             "entities can hide anything",
         ),
     ] {
-        let error = read(text.as_bytes()).expect_err("no file");
+        let error = read_anvil(text.as_bytes()).expect_err("no file");
         assert!(error.to_string().contains(said), "{text}: {error}");
     }
     let named = "<!DOCTYPE annotation SYSTEM \"a.dtd\"><annotation><body/></annotation>";
-    assert_eq!(read(named.as_bytes()).expect("a file").1.len(), 1);
-    assert!(matches!(read(b"\xff\xfe\0"), Err(Error::Encoding { .. })));
+    assert_eq!(read_anvil(named.as_bytes()).expect("a file").1.len(), 1);
+    assert!(matches!(read_anvil(b"\xff\xfe\0"), Err(MarkupError::Encoding { .. })));
 }
 
 #[test]
 fn points_and_intervals_come_back_from_a_text_grid() {
-    let (transcript, _) = read(WHOLE.as_bytes()).expect("a file");
-    let (text, _) = textgrid::write(&transcript, Form::Long, transcript.end());
-    let (again, _) = textgrid::read(text.as_bytes()).expect("a grid");
-    for tier in transcript
-        .tiers
-        .iter()
-        .filter(|it| it.kind != super::ELEMENTS)
-    {
-        let other = again
-            .tiers
-            .iter()
-            .find(|it| it.name == tier.name)
-            .expect(&tier.name);
-        let parts = |tier: &crate::eaf::convert::Tier| -> Vec<_> {
-            tier.annotations
-                .iter()
-                .map(|it| (it.span, it.value.clone()))
-                .collect()
+    let (transcript, _) = read_anvil(WHOLE.as_bytes()).expect("a file");
+    let (text, _) = textgrid::write_textgrid(&transcript, TextGridForm::Long, transcript.transcript_end());
+    let (again, _) = textgrid::read_textgrid_file(text.as_bytes()).expect("a grid");
+    for tier in transcript.tiers.iter().filter(|it| it.kind != super::ELEMENT_TIER_TYPE) {
+        let other = again.tiers.iter().find(|it| it.name == tier.name).expect(&tier.name);
+        let parts = |tier: &crate::eaf::eaf_convert::TranscriptTier| -> Vec<_> {
+            tier.annotations.iter().map(|it| (it.span, it.value.clone())).collect()
         };
         assert_eq!(parts(tier), parts(other), "{}", tier.name);
     }
@@ -265,19 +235,15 @@ fn points_and_intervals_come_back_from_a_text_grid() {
 
 #[test]
 fn ids_stay_when_other_elements_come() {
-    let (before, _) = read(WHOLE.as_bytes()).expect("a file");
-    let more = "type=\"primary\">\n      <el index=\"0\" start=\"0\" end=\"0.1\"><attribute name=\"token\">X</attribute></el>";
-    let text = WHOLE.replacen("type=\"primary\">", more, 1).replace(
-        "<el index=\"0\" start=\"0.2\"",
-        "<el index=\"9\" start=\"0.2\"",
-    );
-    let (after, _) = read(text.as_bytes()).expect("a file");
-    let ids = |tier: usize, all: &crate::eaf::Transcript| -> Vec<String> {
-        all.tiers[tier]
-            .annotations
-            .iter()
-            .map(|it| it.id.clone())
-            .collect()
+    let (before, _) = read_anvil(WHOLE.as_bytes()).expect("a file");
+    let more =
+        "type=\"primary\">\n      <el index=\"0\" start=\"0\" end=\"0.1\"><attribute name=\"token\">X</attribute></el>";
+    let text = WHOLE
+        .replacen("type=\"primary\">", more, 1)
+        .replace("<el index=\"0\" start=\"0.2\"", "<el index=\"9\" start=\"0.2\"");
+    let (after, _) = read_anvil(text.as_bytes()).expect("a file");
+    let ids = |tier: usize, all: &crate::eaf::AnnotationTranscript| -> Vec<String> {
+        all.tiers[tier].annotations.iter().map(|it| it.id.clone()).collect()
     };
     assert_eq!(ids(1, &before), ids(1, &after)[1..]);
     assert_eq!(ids(7, &before), ids(7, &after));

@@ -7,37 +7,37 @@
 
 use chereme_motion::glam::DVec3;
 
-use super::convert::number;
-use super::raw::{Block, Hierarchy};
+use super::bvh_convert::number_with_decimals;
+use super::raw::{BvhHierarchy, MotionBlock};
 use crate::scene;
 
 /// The most frames from which a median is taken.
-const MOST: usize = 2048;
+const MAX_BONE_SAMPLE_FRAMES: usize = 2048;
 /// Decimals of numbers in the file's unit.
-const DECIMALS: u8 = 6;
+const BONE_POSITION_DECIMALS: u8 = 6;
 
 /// Collects the positions of joints with position channels while a file is read.
 #[derive(Debug, Clone)]
-pub struct Bones {
-    joints: Vec<Placed>,
+pub struct BonePositions {
+    joints: Vec<PositionedJoint>,
     /// One frame out of this many is sampled.
     step: u64,
 }
 
 /// A joint that is not the root and has position channels.
 #[derive(Debug, Clone)]
-struct Placed {
+struct PositionedJoint {
     joint: usize,
     offset: DVec3,
     columns: Vec<(usize, usize)>,
     found: Vec<DVec3>,
 }
 
-impl Bones {
+impl BonePositions {
     /// Returns an estimator for a hierarchy, without frames yet. It leaves out joints that carry most of the body: their
     /// positions are in the room, not relative to a parent's bone.
     #[must_use]
-    pub fn new(hierarchy: &Hierarchy) -> Self {
+    pub fn new(hierarchy: &BvhHierarchy) -> Self {
         let count = hierarchy.joints.len();
         let mut below = vec![1_usize; count];
         for joint in (0..count).rev() {
@@ -45,15 +45,19 @@ impl Bones {
                 below[parent] += below[joint];
             }
         }
-        let joints = hierarchy.joints.iter().zip(hierarchy.columns()).enumerate();
-        let joints = joints.filter(|(joint, _)| *joint > 0 && below[*joint] * 2 <= count);
+        let indexed_joints = hierarchy
+            .joints
+            .iter()
+            .zip(hierarchy.joint_channel_columns())
+            .enumerate();
+        let joints = indexed_joints.filter(|(joint, _)| *joint > 0 && below[*joint] * 2 <= count);
         let joints = joints.filter_map(|(joint, (raw, columns))| {
-            let columns = raw.channels.iter().zip(columns);
-            let columns: Vec<(usize, usize)> = columns
+            let channel_columns = raw.channels.iter().zip(columns);
+            let columns: Vec<(usize, usize)> = channel_columns
                 .filter(|(channel, _)| channel.is_position())
-                .map(|(channel, column)| (channel.axis(), column))
+                .map(|(channel, column)| (channel.channel_axis(), column))
                 .collect();
-            (!columns.is_empty()).then(|| Placed {
+            (!columns.is_empty()).then(|| PositionedJoint {
                 joint,
                 offset: DVec3::from_array([0, 1, 2].map(|axis| raw.offset[axis].to_f64())),
                 columns,
@@ -67,22 +71,26 @@ impl Bones {
     }
 
     /// Samples a block of frames; blocks come in order.
-    pub fn push(&mut self, block: &Block) {
+    pub fn sample_motion_block(&mut self, block: &MotionBlock) {
         for row in 0..block.frames {
             let frame = block.first_frame + row as u64;
             if !frame.is_multiple_of(self.step) {
                 continue;
             }
             for placed in &mut self.joints {
-                let mut at = placed.offset;
+                let mut placed_offset = placed.offset;
                 for &(axis, column) in &placed.columns {
                     if let Some(column) = block.columns.get(column) {
-                        at[axis] = column.value(row);
+                        placed_offset[axis] = column.decimal_value_at(row);
                     }
                 }
-                placed.found.push(at);
+                placed.found.push(placed_offset);
             }
-            if self.joints.first().is_some_and(|it| it.found.len() >= MOST) {
+            if self
+                .joints
+                .first()
+                .is_some_and(|joint| joint.found.len() >= MAX_BONE_SAMPLE_FRAMES)
+            {
                 self.step *= 2;
                 for placed in &mut self.joints {
                     let mut nth = 0;
@@ -97,13 +105,15 @@ impl Bones {
 
     /// Records in the hierarchy the positions of joints whose movement contradicts their offsets; returns
     /// these joints.
-    pub fn place(&self, hierarchy: &mut Hierarchy) -> Vec<usize> {
+    pub fn record_joint_positions(&self, hierarchy: &mut BvhHierarchy) -> Vec<usize> {
         let mut moved = Vec::new();
         for placed in &self.joints {
-            let at = scene::placed(placed.offset, &placed.found);
-            hierarchy.joints[placed.joint].placed =
-                at.map(|at| at.to_array().map(|value| number(value, DECIMALS)));
-            moved.extend(at.map(|_| placed.joint));
+            let settled_place = scene::median_joint_place(placed.offset, &placed.found);
+            hierarchy.joints[placed.joint].placed = settled_place.map(|at| {
+                at.to_array()
+                    .map(|value| number_with_decimals(value, BONE_POSITION_DECIMALS))
+            });
+            moved.extend(settled_place.map(|_| placed.joint));
         }
         moved
     }
@@ -112,8 +122,8 @@ impl Bones {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bvh::convert::skeleton;
-    use crate::bvh::raw::{Block, Reader};
+    use crate::bvh::bvh_convert::skeleton_from_hierarchy;
+    use crate::bvh::raw::{BvhReader, MotionBlock};
 
     /// Hips, a chest with position channels, and a fingertip whose offset is 60 cm off; a marker that moves in the room.
     fn file(frames: usize) -> String {
@@ -137,25 +147,18 @@ mod tests {
     fn joint_positions_equal_those_of_the_movement() {
         for frames in [1, 700, 5000] {
             let text = file(frames);
-            let mut reader = Reader::open(text.as_bytes()).expect("a file");
-            let mut hierarchy = reader.hierarchy().clone();
-            let mut bones = Bones::new(&hierarchy);
-            let mut block = Block::default();
+            let mut reader = BvhReader::open_bvh(text.as_bytes()).expect("a file");
+            let mut hierarchy = reader.bvh_hierarchy().clone();
+            let mut bones = BonePositions::new(&hierarchy);
+            let mut block = MotionBlock::default();
             while reader.next_block(&mut block).expect("rows") {
-                bones.push(&block);
+                bones.sample_motion_block(&block);
             }
-            let moved = bones.place(&mut hierarchy);
-            assert!(
-                moved.contains(&3) && !moved.contains(&2),
-                "{frames}: {moved:?}"
-            );
-            assert_eq!(
-                moved.contains(&4),
-                frames == 1,
-                "a marker that moves is no bone"
-            );
-            let skeleton = skeleton(&hierarchy).expect("a tree");
-            let tip = skeleton.joint(3).offset;
+            let moved = bones.record_joint_positions(&mut hierarchy);
+            assert!(moved.contains(&3) && !moved.contains(&2), "{frames}: {moved:?}");
+            assert_eq!(moved.contains(&4), frames == 1, "a marker that moves is no bone");
+            let skeleton = skeleton_from_hierarchy(&hierarchy).expect("a tree");
+            let tip = skeleton.joint_at(3).offset;
             assert!(tip.distance(DVec3::new(2.1, 0.0, 0.0)) < 0.2, "{tip}");
             assert_eq!(hierarchy.joints[3].offset[0].to_string(), "60");
         }

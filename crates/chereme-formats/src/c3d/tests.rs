@@ -31,16 +31,7 @@ fn file_with(kind: u8, is_real: bool, labels: [&str; 3], more: &[(i8, &str, Vec<
     };
     header[0] = 2;
     header[1] = 0x50;
-    for (word, value) in [
-        (2, 2),
-        (3, 2),
-        (4, 1),
-        (5, 3),
-        (9, 3),
-        (10, 2),
-        (150, 12345),
-        (151, 1),
-    ] {
+    for (word, value) in [(2, 2), (3, 2), (4, 1), (5, 3), (9, 3), (10, 2), (150, 12345), (151, 1)] {
         put(&mut header, word, &u16s(value));
     }
     put(&mut header, 7, &f32s(scale));
@@ -59,11 +50,7 @@ fn file_with(kind: u8, is_real: bool, labels: [&str; 3], more: &[(i8, &str, Vec<
     add(-2, "ANALOG", &[0]);
     let texts = |texts: &[&str]| {
         let mut body = vec![0xff, 2, 4, texts.len() as u8];
-        body.extend(
-            texts
-                .iter()
-                .flat_map(|text| format!("{text:<4}").into_bytes()),
-        );
+        body.extend(texts.iter().flat_map(|text| format!("{text:<4}").into_bytes()));
         body.push(0);
         body
     };
@@ -101,16 +88,16 @@ fn file_with(kind: u8, is_real: bool, labels: [&str; 3], more: &[(i8, &str, Vec<
     bytes
 }
 
-fn both(bytes: &[u8]) -> (Markers, Curves) {
-    let (tracks, _) = read(bytes).unwrap_or_else(|error| panic!("{error}"));
+fn both(bytes: &[u8]) -> (MarkerTrack, CurveTrack) {
+    let (tracks, _) = read_c3d(bytes).unwrap_or_else(|error| panic!("{error}"));
     match &tracks.tracks[..] {
         [
             FileTrack {
-                content: Content::Markers(markers),
+                content: CapturedTrackContent::Markers(markers),
                 ..
             },
             FileTrack {
-                content: Content::Curves(curves),
+                content: CapturedTrackContent::Curves(curves),
                 ..
             },
         ] => (markers.clone(), curves.clone()),
@@ -123,28 +110,28 @@ fn six_byte_layouts_read_to_equal_data() {
     for kind in [84, 85, 86] {
         for is_real in [false, true] {
             let (markers, analog) = both(&file(kind, is_real));
-            let [left, right] = markers.points() else {
+            let [left, right] = markers.marker_points() else {
                 panic!("two points");
             };
             assert_eq!((left.name.as_str(), right.name.as_str()), ("LSHO", "RSHO"));
             let scale = if is_real { 1.0 } else { 0.5 };
-            assert_eq!(left.at(2).map(|at| at.x), Some(1002.0 * scale));
-            let residual = left.quality.as_ref().and_then(|column| column.value(0));
+            assert_eq!(left.marker_position(2).map(|at| at.x), Some(1002.0 * scale));
+            let residual = left.quality.as_ref().and_then(|column| column.column_value_at(0));
             assert_eq!(residual, Some(1.5), "the low byte times the scale");
-            assert_eq!(right.at(1), None, "no camera saw it");
+            assert_eq!(right.marker_position(1), None, "no camera saw it");
             assert_eq!(
-                right.quality.as_ref().and_then(|column| column.value(1)),
+                right.quality.as_ref().and_then(|column| column.column_value_at(1)),
                 None
             );
-            assert_eq!(analog.curves()[0].name, "Fz");
-            let values: Vec<f64> = analog.curves()[0].values.values().flatten().collect();
+            assert_eq!(analog.track_curves()[0].name, "Fz");
+            let values: Vec<f64> = analog.track_curves()[0].values.column_values().flatten().collect();
             assert_eq!(values, [0.0, 0.5, 1.0, 1.5, 2.0, 2.5]);
-            assert_eq!(analog.times().rate().map(|rate| rate.frames()), Some(100));
-            let up = markers.shown(0)[0].expect("a place");
-            assert!(
-                up.y > 1.0 && up.x > 0.0,
-                "up is Z, and the left shoulder is left: {up}"
+            assert_eq!(
+                analog.curve_times().even_times_rate().map(|rate| rate.rate_numerator()),
+                Some(100)
             );
+            let up = markers.displayed_markers(0)[0].expect("a place");
+            assert!(up.y > 1.0 && up.x > 0.0, "up is Z, and the left shoulder is left: {up}");
         }
     }
 }
@@ -172,23 +159,18 @@ fn all_frames_of_the_data_are_read_or_counted() {
         (u16::MAX, Some(70_000.0), 70_000, 70_000, 0),
     ];
     for (last, named, held, frames, unread) in cases {
-        let named: Vec<_> = named
-            .iter()
-            .map(|it| (1, "FRAMES", reals(&[*it])))
-            .collect();
+        let named: Vec<_> = named.iter().map(|it| (1, "FRAMES", reals(&[*it]))).collect();
         let mut bytes = file_with(84, false, ["LSHO", "RSHO", "MORE"], &named);
         bytes[8..10].copy_from_slice(&last.to_le_bytes());
         let frame = bytes[1024..1044].to_vec();
         bytes.truncate(1024);
         bytes.extend(frame.repeat(held));
         bytes.resize(bytes.len().next_multiple_of(512), 0);
-        let document = raw::read(&bytes).expect("C3D");
+        let document = c3d_raw::read_c3d_document(&bytes).expect("C3D");
         let found = (document.frames, document.unread_frames);
         assert_eq!(found, (frames, unread), "{last} {held}");
-        let (_, findings) = read(&bytes).expect("C3D");
-        let said = findings
-            .iter()
-            .any(|it| it.message.contains("room for 100 more"));
+        let (_, findings) = read_c3d(&bytes).expect("C3D");
+        let said = findings.iter().any(|it| it.message.contains("room for 100 more"));
         assert_eq!(said, unread > 0, "{findings:?}");
     }
 }
@@ -201,7 +183,7 @@ fn a_header_without_samples_a_frame_does_not_move_the_points() {
     without[18..20].fill(0);
     let (markers, analog) = both(&without);
     assert_eq!(markers, expected);
-    assert_eq!(analog.curves().len(), 2);
+    assert_eq!(analog.track_curves().len(), 2);
 }
 
 #[test]
@@ -221,24 +203,16 @@ fn the_axis_that_is_up_is_that_of_head_and_feet_then_that_of_the_screen() {
     for (labels, screen, up, finding) in cases {
         let more: Vec<_> = screen.iter().map(|it| (1, "Y_SCREEN", text(it))).collect();
         let bytes = file_with(84, true, labels, &more);
-        let (tracks, findings) = read(&bytes).expect("C3D");
-        let Content::Markers(markers) = &tracks.tracks[0].content else {
+        let (tracks, findings) = read_c3d(&bytes).expect("C3D");
+        let CapturedTrackContent::Markers(markers) = &tracks.tracks[0].content else {
             panic!("markers");
         };
-        let Space::World(convention) = markers.space() else {
+        let MarkerSpace::World(convention) = markers.marker_space() else {
             panic!("a room");
         };
-        assert_eq!(
-            convention.axes.up().to_string(),
-            up,
-            "{labels:?} {screen:?}"
-        );
-        let axis = |it: &&Finding| it.message.contains(" up");
-        let said: Vec<&str> = findings
-            .iter()
-            .filter(axis)
-            .map(|it| it.message.as_str())
-            .collect();
+        assert_eq!(convention.axes.up_direction().to_string(), up, "{labels:?} {screen:?}");
+        let axis = |it: &&ImportFinding| it.message.contains(" up");
+        let said: Vec<&str> = findings.iter().filter(axis).map(|it| it.message.as_str()).collect();
         assert_eq!(said.is_empty(), finding.is_empty(), "{said:?}");
         assert!(said.iter().all(|it| it.contains(finding)), "{said:?}");
     }
@@ -246,17 +220,17 @@ fn the_axis_that_is_up_is_that_of_head_and_feet_then_that_of_the_screen() {
 
 #[test]
 fn continued_numbers_other_rates_and_outputs_with_a_subject_are_read() {
-    let document = raw::read(&file_with(
+    let document = c3d_raw::read_c3d_document(&file_with(
         84,
         true,
         ["LSHO", "RSHO", "MORE"],
         &[(2, "SCALE2", reals(&[7.0, 8.0]))],
     ));
     let parameters = document.expect("C3D").parameters;
-    assert_eq!(parameters.numbers("ANALOG:SCALE"), [0.25, 7.0, 8.0]);
+    assert_eq!(parameters.unsigned_parameter_numbers("ANALOG:SCALE"), [0.25, 7.0, 8.0]);
     let labels = ["LSHO", "A:LA", "MORE"];
     let more = [(1, "ANGLES", text("LA")), (1, "RATE", reals(&[100.0]))];
-    let (tracks, findings) = read(&file_with(84, true, labels, &more)).expect("C3D");
+    let (tracks, findings) = read_c3d(&file_with(84, true, labels, &more)).expect("C3D");
     let names: Vec<&str> = tracks.tracks.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["markers", "model outputs", "analog"]);
     let text = "the header states 50 frames a second and POINT:RATE 100, which are taken";
@@ -265,19 +239,19 @@ fn continued_numbers_other_rates_and_outputs_with_a_subject_are_read() {
 
 #[test]
 fn events_are_moments_of_a_tier() {
-    let (tracks, _) = read(&file(84, false)).expect("C3D");
+    let (tracks, _) = read_c3d(&file(84, false)).expect("C3D");
     let tier = &tracks.events.expect("events").tiers[0];
     assert_eq!(tier.name, "events");
     assert_eq!(tier.annotations[0].value, "CLAP");
-    assert_eq!(tier.annotations[0].span.start().micros(), 20_000);
+    assert_eq!(tier.annotations[0].span.span_start_instant().instant_micros(), 20_000);
 }
 
 #[test]
 fn damaged_files_are_refused_or_read_up_to_the_damage() {
     let whole = file(84, false);
-    assert_eq!(read(b""), Err(Error::NoC3d));
-    assert_eq!(read(&whole[..600]), Err(Error::Short("data")));
-    let (tracks, findings) = read(&whole[..whole.len() - 1]).expect("two frames");
+    assert_eq!(read_c3d(b""), Err(C3dError::NoC3d));
+    assert_eq!(read_c3d(&whole[..600]), Err(C3dError::Short("data")));
+    let (tracks, findings) = read_c3d(&whole[..whole.len() - 1]).expect("two frames");
     assert!(
         findings
             .iter()
@@ -285,11 +259,11 @@ fn damaged_files_are_refused_or_read_up_to_the_damage() {
     );
     assert_eq!(tracks.tracks.len(), 2);
     for at in 0..whole.len() {
-        let _ = read(&whole[..at]);
+        let _ = read_c3d(&whole[..at]);
         for flip in [0xff, 0x80, 0x01] {
             let mut changed = whole.clone();
             changed[at] ^= flip;
-            let _ = read(&changed);
+            let _ = read_c3d(&changed);
         }
     }
 }
@@ -300,10 +274,7 @@ fn files_of_others_hold_the_known_values() {
         eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
         return;
     };
-    let (mut folders, mut files) = (
-        vec![std::path::Path::new(&folder).join("motion/c3d")],
-        Vec::new(),
-    );
+    let (mut folders, mut files) = (vec![std::path::Path::new(&folder).join("motion/c3d")], Vec::new());
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
@@ -335,13 +306,9 @@ fn files_of_others_hold_the_known_values() {
     let mut same = Vec::new();
     for path in files {
         let bytes = std::fs::read(&path).expect("a file");
-        let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-        let stem = path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let Content::Markers(markers) = &tracks.tracks[0].content else {
+        let (tracks, _) = read_c3d(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let CapturedTrackContent::Markers(markers) = &tracks.tracks[0].content else {
             panic!("markers");
         };
         for (name, frames, points) in sizes {
@@ -349,13 +316,13 @@ fn files_of_others_hold_the_known_values() {
                 let outputs = match tracks.tracks.get(1) {
                     Some(FileTrack {
                         name,
-                        content: Content::Curves(curves),
+                        content: CapturedTrackContent::Curves(curves),
                         ..
-                    }) if name == "model outputs" => curves.curves().len() / 3,
+                    }) if name == "model outputs" => curves.track_curves().len() / 3,
                     _ => 0,
                 };
                 assert_eq!(
-                    (markers.frames(), markers.points().len() + outputs),
+                    (markers.marker_frame_count(), markers.marker_points().len() + outputs),
                     (frames, points),
                     "{stem}"
                 );
@@ -364,11 +331,11 @@ fn files_of_others_hold_the_known_values() {
         for (name, label, frame, expected) in values {
             if stem == name {
                 let point = markers
-                    .points()
+                    .marker_points()
                     .iter()
                     .find(|point| point.name == label)
                     .expect(label);
-                let at = point.at(frame).expect("a place").to_array();
+                let at = point.marker_position(frame).expect("a place").to_array();
                 for (found, expected) in at.iter().zip(expected) {
                     assert!((found - expected).abs() < 1e-3, "{stem} {label}: {at:?}");
                 }
@@ -376,46 +343,43 @@ fn files_of_others_hold_the_known_values() {
         }
         if stem == "02_01" {
             let first = markers
-                .points()
+                .marker_points()
                 .iter()
                 .find(|point| point.name == "LBWT")
                 .expect("LBWT");
             let residual = first
                 .quality
                 .as_ref()
-                .and_then(|column| column.value(0))
+                .and_then(|column| column.column_value_at(0))
                 .expect("a residual");
             assert!((residual - 8.5).abs() < 1e-3, "{residual}");
         }
         if ["EB015PI", "Eb015vi", "Eb015pr"].contains(&stem.as_str()) {
-            let point = &markers.points()[3];
-            let at = (0..450).find_map(|frame| point.at(frame)).expect("a place");
+            let point = &markers.marker_points()[3];
+            let at = (0..450)
+                .find_map(|frame| point.marker_position(frame))
+                .expect("a place");
             same.push(at);
         }
     }
     for at in &same {
-        assert!(
-            (*at - same[0]).length() < 0.1,
-            "one capture in three layouts: {same:?}"
-        );
+        assert!((*at - same[0]).length() < 0.1, "one capture in three layouts: {same:?}");
     }
 }
 
 #[test]
 fn markers_read_back_unchanged_from_c3d() {
-    let places = |shift: f32| -> Vec<Column> {
+    let places = |shift: f32| -> Vec<FrameNumberColumn> {
         (0..3)
             .map(|axis| {
-                Column::singles(
-                    (0..5)
-                        .map(|frame| frame as f32 + shift + axis as f32 * 10.0)
-                        .collect(),
+                FrameNumberColumn::from_single_floats(
+                    (0..5).map(|frame| frame as f32 + shift + axis as f32 * 10.0).collect(),
                 )
             })
             .collect()
     };
-    let gaps = Gaps::at([2u32]);
-    let marker = |name: &str, group: &str, shift: f32| Marker {
+    let gaps = ColumnGaps::from_gap_frames([2u32]);
+    let marker = |name: &str, group: &str, shift: f32| MotionMarker {
         group: group.into(),
         name: name.into(),
         place: places(shift)
@@ -423,39 +387,37 @@ fn markers_read_back_unchanged_from_c3d() {
             .map(|column| column.with_gaps(&gaps).expect("as long"))
             .collect(),
         quality: Some(
-            Column::doubles(vec![0.5, 1.0, 0.0, 2.0, 4.0])
+            FrameNumberColumn::from_double_floats(vec![0.5, 1.0, 0.0, 2.0, 4.0])
                 .with_gaps(&gaps)
                 .expect("as long"),
         ),
     };
-    let many: Vec<Marker> = (0..300)
-        .map(|n| marker(&format!("M{n}"), "", n as f32))
-        .collect();
+    let many: Vec<MotionMarker> = (0..300).map(|n| marker(&format!("M{n}"), "", n as f32)).collect();
     let some = vec![marker("LFIN", "Anna", 7.5), marker("RFIN", "Anna", 0.25)];
     for (points, metres_per_unit) in [(some, 0.001), (many, 1.0)] {
-        let space = Space::World(Convention {
+        let space = MarkerSpace::World(SpaceConvention {
             metres_per_unit,
             axes: "+Z,+X".parse().expect("axes"),
         });
-        let times = Times::Even(crate::tracks::rate_of(120.0).expect("a rate"));
-        let markers = Markers::new(times, space, points)
+        let times = FrameTimes::Even(crate::tracks::rate_of(120.0).expect("a rate"));
+        let markers = MarkerTrack::new(times, space, points)
             .expect("markers")
-            .rated(Quality::Residual);
-        let bytes = super::write(&markers, Instant::from_millis(500)).expect("written");
-        let (tracks, _) = read(&bytes).expect("read");
-        let Content::Markers(again) = &tracks.tracks[0].content else {
+            .with_quality_meaning(QualityMeaning::Residual);
+        let bytes = super::write_c3d(&markers, RecordingInstant::from_millis(500)).expect("written");
+        let (tracks, _) = read_c3d(&bytes).expect("read");
+        let CapturedTrackContent::Markers(again) = &tracks.tracks[0].content else {
             panic!("markers");
         };
         assert_eq!(
-            (again.frames(), again.points().len()),
-            (5, markers.points().len())
+            (again.marker_frame_count(), again.marker_points().len()),
+            (5, markers.marker_points().len())
         );
-        assert_eq!(again.space(), markers.space());
-        for (x, y) in markers.points().iter().zip(again.points()) {
+        assert_eq!(again.marker_space(), markers.marker_space());
+        for (x, y) in markers.marker_points().iter().zip(again.marker_points()) {
             assert!(y.name.ends_with(&x.name), "{} {}", x.name, y.name);
             for frame in 0..5 {
-                assert_eq!(x.at(frame), y.at(frame));
-                let both = [x, y].map(|it| it.quality.as_ref().and_then(|it| it.value(frame)));
+                assert_eq!(x.marker_position(frame), y.marker_position(frame));
+                let both = [x, y].map(|it| it.quality.as_ref().and_then(|it| it.column_value_at(frame)));
                 if let [Some(a), Some(b)] = both {
                     assert!((a - b).abs() < 0.01, "{a} {b}");
                 }
@@ -475,33 +437,25 @@ fn places_beyond_32_bits_are_refused_by_marker_and_frame() {
         // The numbers are written in millimetres.
         (1e6, 0.5, 7.0, false),
     ] {
-        let column = |numbers: [f64; 3]| Column::doubles(numbers.to_vec());
-        let marker = |name: &str, place: f64, residual: f64| Marker {
+        let column = |numbers: [f64; 3]| FrameNumberColumn::from_double_floats(numbers.to_vec());
+        let marker = |name: &str, place: f64, residual: f64| MotionMarker {
             group: String::new(),
             name: name.into(),
-            place: vec![
-                column([0.0; 3]),
-                column([0.0, place, 0.0]),
-                column([0.0; 3]),
-            ],
+            place: vec![column([0.0; 3]), column([0.0, place, 0.0]), column([0.0; 3])],
             quality: Some(column([0.0, residual, 0.0])),
         };
         let points = vec![marker("LFIN", 1.0, 0.5), marker("RFIN", place, residual)];
-        let space = Space::World(Convention {
+        let space = MarkerSpace::World(SpaceConvention {
             metres_per_unit,
             axes: "+Z,+X".parse().expect("axes"),
         });
-        let times = Times::Even(crate::tracks::rate_of(120.0).expect("a rate"));
-        let markers = Markers::new(times, space, points)
+        let times = FrameTimes::Even(crate::tracks::rate_of(120.0).expect("a rate"));
+        let markers = MarkerTrack::new(times, space, points)
             .expect("markers")
-            .rated(Quality::Residual);
-        let written = super::write(&markers, Instant::ZERO);
+            .with_quality_meaning(QualityMeaning::Residual);
+        let written = super::write_c3d(&markers, RecordingInstant::RECORDING_START);
         let want = "marker \"RFIN\" is too far away to be written in frame 1";
-        assert_eq!(
-            written.err().as_deref(),
-            (!fits).then_some(want),
-            "{place} {residual}"
-        );
+        assert_eq!(written.err().as_deref(), (!fits).then_some(want), "{place} {residual}");
     }
 }
 
@@ -526,20 +480,14 @@ fn golden_points_and_numbers_of_c3d() {
             let mut modelled = plain.clone();
             modelled.drain(1024 - list.len()..1024);
             modelled.splice(label..label, list);
-            for (name, file) in [
-                ("plain", plain),
-                ("no unit", angles),
-                ("a model's", modelled),
-            ] {
+            for (name, file) in [("plain", plain), ("no unit", angles), ("a model's", modelled)] {
                 put(&mut out, format!("## {name} {kind} {is_real}"));
-                match read(&file) {
+                match read_c3d(&file) {
                     Ok((read, found)) => {
                         tracks(&mut out, &read);
                         findings(&mut out, &found);
-                        if let (Content::Markers(markers), true) =
-                            (&read.tracks[0].content, kind == 84)
-                        {
-                            let written = write(markers, Instant::from_millis(40));
+                        if let (CapturedTrackContent::Markers(markers), true) = (&read.tracks[0].content, kind == 84) {
+                            let written = write_c3d(markers, RecordingInstant::from_millis(40));
                             match written {
                                 Ok(written) => bytes(&mut out, &written),
                                 Err(error) => put(&mut out, error),

@@ -1,13 +1,13 @@
 //! Matches the annotations and tiers of one document with those of another.
 
-use super::{TOLERANCE, get, is_symbolic, places};
-use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, AnnotationAddress};
+use super::{TIME_TOLERANCE_MICROS, compared_annotation_at, is_symbolic, list_annotation_addresses};
+use crate::eaf::AnnotationTranscript;
+use crate::eaf::eaf_convert::{AnnotationAddress, TranscriptAnnotation};
 use std::collections::{BTreeMap, HashMap};
 
 /// The annotations and tiers that two documents share.
 #[derive(Debug, Default)]
-pub(super) struct Matching {
+pub(super) struct TranscriptMatching {
     /// For each tier of the first document the tier of the second that it was matched with.
     pub(super) tiers: Vec<Option<usize>>,
     /// Annotations of the first document, each with its counterpart in the second.
@@ -16,8 +16,8 @@ pub(super) struct Matching {
     pub(super) back: BTreeMap<AnnotationAddress, AnnotationAddress>,
 }
 
-impl Matching {
-    fn pair(&mut self, a: AnnotationAddress, b: AnnotationAddress) {
+impl TranscriptMatching {
+    fn pair_annotations(&mut self, a: AnnotationAddress, b: AnnotationAddress) {
         if !self.pairs.contains_key(&a) && !self.back.contains_key(&b) {
             self.pairs.insert(a, b);
             self.back.insert(b, a);
@@ -27,20 +27,20 @@ impl Matching {
 
 /// Matches tiers by name, else by their contents; annotations by id if both documents descend from one, else by time
 /// and value.
-pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
-    let ids: HashMap<&str, AnnotationAddress> = places(b)
+pub(super) fn match_transcripts(a: &AnnotationTranscript, b: &AnnotationTranscript) -> TranscriptMatching {
+    let ids: HashMap<&str, AnnotationAddress> = list_annotation_addresses(b)
         .into_iter()
-        .map(|place| (get(b, place).id.as_str(), place))
+        .map(|place| (compared_annotation_at(b, place).id.as_str(), place))
         .collect();
-    let trusted = descend(a, b, &ids);
-    let mut matching = Matching {
-        tiers: tiers(a, b, if trusted { Some(&ids) } else { None }),
-        ..Matching::default()
+    let trusted = has_common_descent(a, b, &ids);
+    let mut matching = TranscriptMatching {
+        tiers: match_transcript_tiers(a, b, if trusted { Some(&ids) } else { None }),
+        ..TranscriptMatching::default()
     };
     if trusted {
         by_id(a, b, &ids, &mut matching);
     }
-    for at in parents_first(a) {
+    for at in compared_tiers_parents_first(a) {
         if let Some(other) = matching.tiers[at] {
             if is_symbolic(a, at) {
                 by_place(a, b, (at, other), &mut matching);
@@ -55,23 +55,24 @@ pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
 /// Matches annotations by id. If an annotation moved but an equal one is now at its old time on the same tier, it is
 /// matched with that one: two annotations that exchanged their ids have not moved.
 fn by_id(
-    a: &Transcript,
-    b: &Transcript,
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
     ids: &HashMap<&str, AnnotationAddress>,
-    matching: &mut Matching,
+    matching: &mut TranscriptMatching,
 ) {
     let mut moved = Vec::new();
-    for place in places(a) {
-        let own = get(a, place);
-        let Some(other) = ids.get(own.id.as_str()) else {
+    for place in list_annotation_addresses(a) {
+        let own_annotation = compared_annotation_at(a, place);
+        let Some(other) = ids.get(own_annotation.id.as_str()) else {
             continue;
         };
         let same_tier = matching.tiers[place.tier] == Some(other.tier);
-        let same_value = own.value == get(b, *other).value;
-        let near = overlap(own, get(b, *other)) > 0.0 || alike(own, get(b, *other));
+        let same_value = own_annotation.value == compared_annotation_at(b, *other).value;
+        let near = annotation_overlap_share(own_annotation, compared_annotation_at(b, *other)) > 0.0
+            || has_same_times(own_annotation, compared_annotation_at(b, *other));
         let symbolic = is_symbolic(a, place.tier) && is_symbolic(b, other.tier);
         if (same_tier && (near || symbolic)) || (near && same_value) {
-            matching.pair(place, *other);
+            matching.pair_annotations(place, *other);
         } else if same_tier && same_value {
             moved.push((place, *other));
         }
@@ -80,41 +81,62 @@ fn by_id(
         return;
     }
     let mut equals: BTreeMap<(usize, &str), Vec<AnnotationAddress>> = BTreeMap::new();
-    for place in places(b) {
-        let key = (place.tier, get(b, place).value.as_str());
+    for place in list_annotation_addresses(b) {
+        let key = (place.tier, compared_annotation_at(b, place).value.as_str());
         equals.entry(key).or_default().push(place);
     }
     for all in equals.values_mut() {
-        all.sort_by_key(|place| get(b, *place).span);
+        all.sort_by_key(|place| compared_annotation_at(b, *place).span);
     }
     for (place, other) in &moved {
-        let own = get(a, *place);
-        let Some(all) = equals.get(&(other.tier, own.value.as_str())) else {
+        let own_annotation = compared_annotation_at(a, *place);
+        let Some(all) = equals.get(&(other.tier, own_annotation.value.as_str())) else {
             continue;
         };
-        let earliest = own.span.start().micros().saturating_sub(TOLERANCE);
-        let first = all.partition_point(|it| get(b, *it).span.start().micros() < earliest);
+        let earliest = own_annotation
+            .span
+            .span_start_instant()
+            .instant_micros()
+            .saturating_sub(TIME_TOLERANCE_MICROS);
+        let first = all.partition_point(|address| {
+            compared_annotation_at(b, *address)
+                .span
+                .span_start_instant()
+                .instant_micros()
+                < earliest
+        });
         let twin = all[first..]
             .iter()
-            .take_while(|it| {
-                get(b, **it).span.start().micros() <= earliest.saturating_add(2 * TOLERANCE)
+            .take_while(|address| {
+                compared_annotation_at(b, **address)
+                    .span
+                    .span_start_instant()
+                    .instant_micros()
+                    <= earliest.saturating_add(2 * TIME_TOLERANCE_MICROS)
             })
-            .find(|it| alike(own, get(b, **it)) && !matching.back.contains_key(*it));
+            .find(|address| {
+                has_same_times(own_annotation, compared_annotation_at(b, **address))
+                    && !matching.back.contains_key(*address)
+            });
         if let Some(twin) = twin {
-            matching.pair(*place, *twin);
+            matching.pair_annotations(*place, *twin);
         }
     }
     for (place, other) in moved {
-        matching.pair(place, other);
+        matching.pair_annotations(place, other);
     }
 }
 
 /// Returns whether both documents descend from one, so that an id means the same annotation in both: they have the same
 /// URN, or nine in ten of the shared ids agree.
-fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, AnnotationAddress>) -> bool {
-    let urn = |it: &Transcript| {
-        let found = it.properties.iter().find(|(name, _)| name == "URN");
-        found
+fn has_common_descent(
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
+    ids: &HashMap<&str, AnnotationAddress>,
+) -> bool {
+    let urn = |transcript: &AnnotationTranscript| {
+        let urn_property = transcript.properties.iter().find(|(name, _)| name == "URN");
+        urn_property
             .map(|(_, value)| value.clone())
             .filter(|value| !value.is_empty())
     };
@@ -122,31 +144,34 @@ fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, AnnotationAddress
         return true;
     }
     let (mut shared, mut agree) = (0usize, 0usize);
-    for place in places(a) {
-        let own = get(a, place);
-        if let Some(other) = ids.get(own.id.as_str()) {
+    for place in list_annotation_addresses(a) {
+        let own_annotation = compared_annotation_at(a, place);
+        if let Some(other) = ids.get(own_annotation.id.as_str()) {
             shared += 1;
             let same = a.tiers[place.tier].name == b.tiers[other.tier].name;
-            let there = get(b, *other);
-            agree += usize::from(same && (overlap(own, there) > 0.0 || alike(own, there)));
+            let there = compared_annotation_at(b, *other);
+            agree += usize::from(
+                same && (annotation_overlap_share(own_annotation, there) > 0.0
+                    || has_same_times(own_annotation, there)),
+            );
         }
     }
     shared > 0 && 10 * agree >= 9 * shared
 }
 
 /// Returns for each tier of `a` the tier of `b` that it was matched with.
-pub(super) fn matched_tiers(a: &Transcript, b: &Transcript) -> Vec<Option<usize>> {
-    let ids: HashMap<&str, AnnotationAddress> = places(b)
+pub(super) fn matched_tiers(a: &AnnotationTranscript, b: &AnnotationTranscript) -> Vec<Option<usize>> {
+    let ids: HashMap<&str, AnnotationAddress> = list_annotation_addresses(b)
         .into_iter()
-        .map(|place| (get(b, place).id.as_str(), place))
+        .map(|place| (compared_annotation_at(b, place).id.as_str(), place))
         .collect();
-    let trusted = descend(a, b, &ids);
-    tiers(a, b, if trusted { Some(&ids) } else { None })
+    let trusted = has_common_descent(a, b, &ids);
+    match_transcript_tiers(a, b, if trusted { Some(&ids) } else { None })
 }
 
-fn tiers(
-    a: &Transcript,
-    b: &Transcript,
+fn match_transcript_tiers(
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
     ids: Option<&HashMap<&str, AnnotationAddress>>,
 ) -> Vec<Option<usize>> {
     let by_name: HashMap<&str, usize> = b
@@ -155,99 +180,113 @@ fn tiers(
         .enumerate()
         .map(|(at, tier)| (tier.name.as_str(), at))
         .collect();
-    let mut found: Vec<Option<usize>> = a
+    let mut matched_tiers: Vec<Option<usize>> = a
         .tiers
         .iter()
         .map(|tier| by_name.get(tier.name.as_str()).copied())
         .collect();
     for at in 0..a.tiers.len() {
-        if found[at].is_some() {
+        if matched_tiers[at].is_some() {
             continue;
         }
-        let own = &a.tiers[at];
-        let free = (0..b.tiers.len()).filter(|it| !found.contains(&Some(*it)));
-        let same_kind = |it: &usize| {
-            let other = &b.tiers[*it];
-            (&own.kind, own.stereotype, &own.participant)
+        let own_tier = &a.tiers[at];
+        let free = (0..b.tiers.len()).filter(|index| !matched_tiers.contains(&Some(*index)));
+        let same_kind = |index: &usize| {
+            let other = &b.tiers[*index];
+            (&own_tier.kind, own_tier.stereotype, &own_tier.participant)
                 == (&other.kind, other.stereotype, &other.participant)
         };
         let mut best: Option<(usize, usize)> = None;
         for other in free.filter(same_kind) {
-            let shared = own.annotations.iter().filter(|it| match ids {
-                Some(ids) => ids
-                    .get(it.id.as_str())
-                    .is_some_and(|place| place.tier == other),
+            let shared = own_tier.annotations.iter().filter(|annotation| match ids {
+                Some(ids) => ids.get(annotation.id.as_str()).is_some_and(|place| place.tier == other),
                 None => {
                     let there = &b.tiers[other].annotations;
-                    there.iter().take(2000).any(|that| alike(it, that))
+                    there.iter().take(2000).any(|that| has_same_times(annotation, that))
                 }
             });
             let shared = shared.count();
-            if 2 * shared > own.annotations.len() && best.is_none_or(|(most, _)| shared > most) {
+            if 2 * shared > own_tier.annotations.len() && best.is_none_or(|(most, _)| shared > most) {
                 best = Some((shared, other));
             }
         }
-        found[at] = best.map(|(_, other)| other);
+        matched_tiers[at] = best.map(|(_, other)| other);
     }
-    found
+    matched_tiers
 }
 
 /// Matches the rest of two tiers by the share of time in common, at least half; equal values first.
-fn by_time(a: &Transcript, b: &Transcript, (tier, other): (usize, usize), matching: &mut Matching) {
-    let left = |it: &Transcript,
+fn by_time(
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
+    (tier, other): (usize, usize),
+    matching: &mut TranscriptMatching,
+) {
+    let left = |transcript: &AnnotationTranscript,
                 tier: usize,
                 known: &BTreeMap<AnnotationAddress, AnnotationAddress>|
      -> Vec<AnnotationAddress> {
-        (0..it.tiers[tier].annotations.len())
+        (0..transcript.tiers[tier].annotations.len())
             .map(|index| AnnotationAddress { tier, index })
             .filter(|place| !known.contains_key(place))
             .collect()
     };
     let mine = left(a, tier, &matching.pairs);
     let mut theirs = left(b, other, &matching.back);
-    theirs.sort_by_key(|place| get(b, *place).span);
-    let longest = theirs
+    theirs.sort_by_key(|place| compared_annotation_at(b, *place).span);
+    let longest_span = theirs
         .iter()
-        .map(|place| get(b, *place).span.micros())
+        .map(|place| compared_annotation_at(b, *place).span.span_micros())
         .max();
-    let longest = longest.unwrap_or(0);
+    let longest = longest_span.unwrap_or(0);
     let mut candidates: Vec<(f64, bool, AnnotationAddress, AnnotationAddress)> = Vec::new();
     for place in mine {
-        let own = get(a, place);
-        let from = own.span.start().micros().saturating_sub(longest);
-        let first = theirs.partition_point(|it| get(b, *it).span.start().micros() < from);
+        let own_annotation = compared_annotation_at(a, place);
+        let from = own_annotation
+            .span
+            .span_start_instant()
+            .instant_micros()
+            .saturating_sub(longest);
+        let first = theirs.partition_point(|address| {
+            compared_annotation_at(b, *address)
+                .span
+                .span_start_instant()
+                .instant_micros()
+                < from
+        });
         for that in &theirs[first..] {
-            let there = get(b, *that);
-            if there.span.start() > own.span.end() {
+            let there = compared_annotation_at(b, *that);
+            if there.span.span_start_instant() > own_annotation.span.span_end_instant() {
                 break;
             }
-            let share = if alike(own, there) {
+            let share = if has_same_times(own_annotation, there) {
                 1.0
             } else {
-                overlap(own, there)
+                annotation_overlap_share(own_annotation, there)
             };
             if share >= 0.5 {
-                candidates.push((share, own.value == there.value, place, *that));
+                candidates.push((share, own_annotation.value == there.value, place, *that));
             }
         }
     }
     candidates.sort_by(|x, y| {
-        let key = |it: &(f64, bool, AnnotationAddress, AnnotationAddress)| (it.1, it.2, it.3);
+        let key =
+            |candidate: &(f64, bool, AnnotationAddress, AnnotationAddress)| (candidate.1, candidate.2, candidate.3);
         y.0.total_cmp(&x.0)
             .then_with(|| y.1.cmp(&x.1))
             .then_with(|| key(x).cmp(&key(y)))
     });
     for (_, _, mine, theirs) in candidates {
-        matching.pair(mine, theirs);
+        matching.pair_annotations(mine, theirs);
     }
 }
 
 /// Matches the rest of two symbolic tiers below the same parents: first equal values, then equal positions.
 fn by_place(
-    a: &Transcript,
-    b: &Transcript,
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
     (tier, other): (usize, usize),
-    matching: &mut Matching,
+    matching: &mut TranscriptMatching,
 ) {
     let mut below: HashMap<AnnotationAddress, Vec<AnnotationAddress>> = HashMap::new();
     for (index, it) in b.tiers[other].annotations.iter().enumerate() {
@@ -267,7 +306,7 @@ fn by_place(
                 continue;
             };
             let fits = |that: &&AnnotationAddress| {
-                let there = get(b, **that);
+                let there = compared_annotation_at(b, **that);
                 !matching.back.contains_key(*that)
                     && if exact {
                         there.value == it.value
@@ -276,33 +315,54 @@ fn by_place(
                     }
             };
             if let Some(that) = siblings.iter().find(fits).copied() {
-                matching.pair(place, that);
+                matching.pair_annotations(place, that);
             }
         }
     }
 }
 
 /// Returns whether two annotations have the same times.
-pub(super) fn alike(a: &Annotation, b: &Annotation) -> bool {
-    let near = |x: i64, y: i64| x.abs_diff(y) <= TOLERANCE.unsigned_abs();
-    near(a.span.start().micros(), b.span.start().micros())
-        && near(a.span.end().micros(), b.span.end().micros())
+pub(super) fn has_same_times(a: &TranscriptAnnotation, b: &TranscriptAnnotation) -> bool {
+    let near = |x: i64, y: i64| x.abs_diff(y) <= TIME_TOLERANCE_MICROS.unsigned_abs();
+    near(
+        a.span.span_start_instant().instant_micros(),
+        b.span.span_start_instant().instant_micros(),
+    ) && near(
+        a.span.span_end_instant().instant_micros(),
+        b.span.span_end_instant().instant_micros(),
+    )
 }
 
 /// Returns the share of time that two annotations have in common, of all the time that they cover.
-fn overlap(a: &Annotation, b: &Annotation) -> f64 {
-    let start = a.span.start().max(b.span.start()).micros();
-    let end = a.span.end().min(b.span.end()).micros();
-    let first = a.span.start().min(b.span.start()).micros();
-    let whole = a.span.end().max(b.span.end()).micros();
-    let whole = whole.saturating_sub(first);
-    if end <= start || whole <= 0 {
+fn annotation_overlap_share(a: &TranscriptAnnotation, b: &TranscriptAnnotation) -> f64 {
+    let start = a
+        .span
+        .span_start_instant()
+        .max(b.span.span_start_instant())
+        .instant_micros();
+    let end = a
+        .span
+        .span_end_instant()
+        .min(b.span.span_end_instant())
+        .instant_micros();
+    let first = a
+        .span
+        .span_start_instant()
+        .min(b.span.span_start_instant())
+        .instant_micros();
+    let last_end = a
+        .span
+        .span_end_instant()
+        .max(b.span.span_end_instant())
+        .instant_micros();
+    let whole_length = last_end.saturating_sub(first);
+    if end <= start || whole_length <= 0 {
         return 0.0;
     }
-    end.saturating_sub(start) as f64 / whole as f64
+    end.saturating_sub(start) as f64 / whole_length as f64
 }
 
-fn parents_first(it: &Transcript) -> Vec<usize> {
+fn compared_tiers_parents_first(it: &AnnotationTranscript) -> Vec<usize> {
     let depth = |tier: usize| {
         std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
             .take(it.tiers.len() + 1)

@@ -1,16 +1,16 @@
 //! A document whose annotations refer to each other by id, so that they can be added and removed one by one.
 
-use super::bare;
-use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, AnnotationAddress, Tier, Timing};
-use chereme_motion::Span;
-use chereme_sign::Stereotype;
+use super::tier_without_annotations;
+use crate::eaf::AnnotationTranscript;
+use crate::eaf::eaf_convert::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
+use chereme_motion::TimeSpan;
+use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// An annotation by id.
 #[derive(Debug, Clone)]
-pub(super) struct Loose {
-    pub(super) it: Annotation,
+pub(super) struct LooseAnnotation {
+    pub(super) it: TranscriptAnnotation,
     pub(super) tier: String,
     /// The id of the annotation above.
     pub(super) above: Option<String>,
@@ -19,21 +19,21 @@ pub(super) struct Loose {
 }
 
 /// A document taken apart: tiers and annotations in separate lists.
-pub(super) struct Pieces {
-    pub(super) rest: Transcript,
+pub(super) struct TranscriptPieces {
+    pub(super) rest: AnnotationTranscript,
     /// The tiers, without annotations, each with the name of its parent tier.
-    pub(super) tiers: Vec<(Tier, Option<String>)>,
+    pub(super) tiers: Vec<(TranscriptTier, Option<String>)>,
     /// The annotations by id.
-    pub(super) all: BTreeMap<String, Loose>,
+    pub(super) all: BTreeMap<String, LooseAnnotation>,
     /// The ids in the order of the document.
     pub(super) order: Vec<String>,
     last: u64,
 }
 
-impl Pieces {
-    pub(super) fn of(it: &Transcript) -> Self {
+impl TranscriptPieces {
+    pub(super) fn pieces_from_transcript(it: &AnnotationTranscript) -> Self {
         let mut pieces = Self {
-            rest: Transcript {
+            rest: AnnotationTranscript {
                 tiers: Vec::new(),
                 ..it.clone()
             },
@@ -44,13 +44,13 @@ impl Pieces {
         };
         for tier in &it.tiers {
             let above = tier.parent.map(|at| it.tiers[at].name.clone());
-            pieces.tiers.push((bare(tier), above));
+            pieces.tiers.push((tier_without_annotations(tier), above));
             for annotation in &tier.annotations {
-                let above = annotation.parent.and_then(|place| it.annotation(place));
-                let loose = Loose {
+                let above = annotation.parent.and_then(|place| it.annotation_at(place));
+                let loose = LooseAnnotation {
                     it: annotation.clone(),
                     tier: tier.name.clone(),
-                    above: above.map(|it| it.id.clone()),
+                    above: above.map(|parent| parent.id.clone()),
                     rank: f64::from(annotation.order),
                 };
                 pieces.note_id(&annotation.id);
@@ -63,17 +63,17 @@ impl Pieces {
 
     /// Makes the ids of later additions higher than this one.
     pub(super) fn note_id(&mut self, id: &str) {
-        let number = id.strip_prefix('a').and_then(|it| it.parse::<u64>().ok());
-        let number = number.filter(|it| *it < u64::MAX / 2);
+        let parsed_number = id.strip_prefix('a').and_then(|digits| digits.parse::<u64>().ok());
+        let number = parsed_number.filter(|value| *value < u64::MAX / 2);
         self.last = self.last.max(number.unwrap_or(0));
     }
 
-    pub(super) fn tier(&mut self, name: &str) -> Option<&mut (Tier, Option<String>)> {
+    pub(super) fn find_loose_tier(&mut self, name: &str) -> Option<&mut (TranscriptTier, Option<String>)> {
         self.tiers.iter_mut().find(|(tier, _)| tier.name == name)
     }
 
     /// Adds an annotation, under its own id if that is free, and returns its id.
-    pub(super) fn add(&mut self, mut loose: Loose) -> String {
+    pub(super) fn add_loose_annotation(&mut self, mut loose: LooseAnnotation) -> String {
         if self.all.contains_key(&loose.it.id) || loose.it.id.is_empty() {
             self.last += 1;
             loose.it.id = format!("a{}", self.last);
@@ -86,7 +86,7 @@ impl Pieces {
     }
 
     /// Renames a tier, also where annotations and other tiers refer to it.
-    pub(super) fn rename(&mut self, from: &str, to: &str) {
+    pub(super) fn rename_loose_tier(&mut self, from: &str, to: &str) {
         for (tier, above) in &mut self.tiers {
             if tier.name == from {
                 to.clone_into(&mut tier.name);
@@ -95,13 +95,13 @@ impl Pieces {
                 *above = Some(to.to_owned());
             }
         }
-        for loose in self.all.values_mut().filter(|it| it.tier == from) {
+        for loose in self.all.values_mut().filter(|entry| entry.tier == from) {
             to.clone_into(&mut loose.tier);
         }
     }
 
     /// Returns the document; annotations below symbolic parents get their spans from the parents.
-    pub(super) fn whole(mut self) -> Transcript {
+    pub(super) fn reassemble_transcript(mut self) -> AnnotationTranscript {
         let names: HashMap<String, usize> = self
             .tiers
             .iter()
@@ -118,41 +118,41 @@ impl Pieces {
         }
         let mut places: HashMap<String, AnnotationAddress> = HashMap::new();
         let mut seen = HashSet::new();
-        for at in parents_first(&transcript) {
+        for at in loose_tiers_parents_first(&transcript) {
             let name = transcript.tiers[at].name.clone();
-            let mut own: Vec<Loose> = Vec::new();
+            let mut tier_annotations: Vec<LooseAnnotation> = Vec::new();
             for id in &self.order {
-                if self.all.get(id).is_some_and(|it| it.tier == name) && seen.insert(id.clone()) {
-                    own.extend(self.all.remove(id));
+                if self.all.get(id).is_some_and(|entry| entry.tier == name) && seen.insert(id.clone()) {
+                    tier_annotations.extend(self.all.remove(id));
                 }
             }
-            fill(&mut transcript, at, own, &mut places);
+            fill_transcript_tier(&mut transcript, at, tier_annotations, &mut places);
         }
         let counter = transcript
             .properties
             .iter_mut()
             .find(|(name, _)| name == "lastUsedAnnotationId");
         if let Some((_, value)) = counter {
-            let known = value.parse().unwrap_or(0);
-            *value = self.last.max(known).to_string();
+            let stated_number = value.parse().unwrap_or(0);
+            *value = self.last.max(stated_number).to_string();
         }
         transcript
     }
 }
 
-fn fill(
-    transcript: &mut Transcript,
+fn fill_transcript_tier(
+    transcript: &mut AnnotationTranscript,
     at: usize,
-    mut own: Vec<Loose>,
+    mut own: Vec<LooseAnnotation>,
     places: &mut HashMap<String, AnnotationAddress>,
 ) {
     let stereotype = transcript.tiers[at].stereotype;
-    let symbolic = stereotype.is_some_and(|it| !it.is_alignable());
+    let symbolic = stereotype.is_some_and(|stereotype| !stereotype.is_alignable());
     if !symbolic {
-        own.sort_by_key(|it| it.it.span);
+        own.sort_by_key(|loose| loose.it.span);
     }
     let mut families: BTreeMap<AnnotationAddress, Vec<usize>> = BTreeMap::new();
-    let mut kept: Vec<(Annotation, f64)> = Vec::new();
+    let mut kept: Vec<(TranscriptAnnotation, f64)> = Vec::new();
     for loose in own {
         let mut it = loose.it;
         it.parent = loose.above.and_then(|id| places.get(&id).copied());
@@ -165,25 +165,25 @@ fn fill(
     }
     for (parent, mut family) in families {
         family.sort_by(|x, y| kept[*x].1.total_cmp(&kept[*y].1));
-        let Some(span) = transcript.annotation(parent).map(|it| it.span) else {
+        let Some(span) = transcript.annotation_at(parent).map(|annotation| annotation.span) else {
             continue;
         };
-        let many = stereotype == Some(Stereotype::SymbolicSubdivision);
+        let many = stereotype == Some(TierStereotype::SymbolicSubdivision);
         let count = family.len();
         for (order, index) in family.into_iter().enumerate() {
             let it = &mut kept[index].0;
             it.millis = None;
             if many {
                 it.order = u32::try_from(order).unwrap_or(u32::MAX);
-                it.span = share(span, order, count);
+                it.span = loose_span_share(span, order, count);
                 it.timing = if count == 1 {
-                    Timing::Parent
+                    AnnotationTiming::Parent
                 } else {
-                    Timing::Share
+                    AnnotationTiming::Share
                 };
             } else {
                 it.span = span;
-                it.timing = Timing::Parent;
+                it.timing = AnnotationTiming::Parent;
             }
         }
     }
@@ -194,16 +194,16 @@ fn fill(
 }
 
 /// Returns the `k`-th of `count` even shares of a span.
-fn share(span: Span, k: usize, count: usize) -> Span {
+fn loose_span_share(span: TimeSpan, k: usize, count: usize) -> TimeSpan {
     let cut = |k: usize| {
-        let offset = i128::from(span.micros()) * k as i128 / count.max(1) as i128;
-        span.start()
-            .shifted(i64::try_from(offset).unwrap_or(i64::MAX))
+        let offset = i128::from(span.span_micros()) * k as i128 / count.max(1) as i128;
+        span.span_start_instant()
+            .shifted_instant(i64::try_from(offset).unwrap_or(i64::MAX))
     };
-    Span::between(cut(k), cut(k + 1))
+    TimeSpan::span_between(cut(k), cut(k + 1))
 }
 
-fn parents_first(it: &Transcript) -> Vec<usize> {
+fn loose_tiers_parents_first(it: &AnnotationTranscript) -> Vec<usize> {
     let depth = |tier: usize| {
         std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
             .take(it.tiers.len() + 1)

@@ -1,46 +1,46 @@
-//! Annotation documents side by side: their [differences](diff) by meaning, and a [merge] of two that diverged.
+//! Annotation documents side by side: their [differences](diff_transcripts) by meaning, and a [merge_transcripts] of two that diverged.
 //!
 //! Annotations are the same by their ids if both documents descend from one, else by tier and time. Time slots,
 //! the order of elements and the spelling of a file make no difference.
 
 mod apply;
+mod compare_merge;
 mod identity;
 mod loose;
-mod merge;
 #[cfg(test)]
 mod tests;
 
-pub use apply::apply;
-pub use merge::{Conflict, Merged, merge, merge_two, with_candidates};
+pub use apply::apply_difference;
+pub use compare_merge::{MergeConflict, MergedTranscript, merge_transcripts, merge_two, with_candidates};
 
-use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, AnnotationAddress, Tier};
-use chereme_sign::Stereotype;
-use identity::{Matching, matched, matched_tiers};
+use crate::eaf::AnnotationTranscript;
+use crate::eaf::eaf_convert::{AnnotationAddress, TranscriptAnnotation, TranscriptTier};
+use chereme_sign::TierStereotype;
+use identity::{TranscriptMatching, match_transcripts, matched_tiers};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// The greatest difference, in microseconds, of times that count as equal: less than the millisecond to which files round.
-pub const TOLERANCE: i64 = 999;
+pub const TIME_TOLERANCE_MICROS: i64 = 999;
 
 /// The differences of two documents, from the first to the second.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Difference {
+pub struct TranscriptDifference {
     /// Annotations of the second alone.
     pub added: Vec<ComparedAnnotation>,
     /// Annotations of the first alone.
     pub removed: Vec<ComparedAnnotation>,
     /// Annotations at another time, on another tier, or at another place among their siblings.
-    pub moved: Vec<Moved>,
+    pub moved: Vec<MovedAnnotation>,
     /// Annotations whose text or vocabulary entry changed.
-    pub revalued: Vec<Revalued>,
+    pub revalued: Vec<RevaluedAnnotation>,
     /// Tiers that were added, removed, renamed or changed.
-    pub tiers: Vec<TierChange>,
+    pub tiers: Vec<TranscriptTierChange>,
     /// Changes of media, properties and vocabularies, as sentences.
     pub document: Vec<String>,
     /// Everything of the second document except its tiers, if it differs.
     #[serde(skip)]
-    pub(crate) rest: Option<Box<Transcript>>,
+    pub(crate) rest: Option<Box<AnnotationTranscript>>,
 }
 
 /// An annotation in one of the documents.
@@ -57,18 +57,18 @@ pub struct ComparedAnnotation {
     /// Its text.
     pub value: String,
     #[serde(skip)]
-    pub(crate) whole: Annotation,
+    pub(crate) whole: TranscriptAnnotation,
     /// The annotation above.
     #[serde(skip)]
-    pub(crate) above: Option<Above>,
+    pub(crate) above: Option<ReferredAnnotation>,
     /// The sibling before it.
     #[serde(skip)]
-    pub(crate) before: Option<Above>,
+    pub(crate) before: Option<ReferredAnnotation>,
 }
 
 /// An annotation that another refers to.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Above {
+pub(crate) enum ReferredAnnotation {
     /// An annotation of the first document, by its id there.
     Known(String),
     /// An annotation of the second document alone, by its id there.
@@ -77,7 +77,7 @@ pub(crate) enum Above {
 
 /// An annotation whose time or place changed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Moved {
+pub struct MovedAnnotation {
     /// Its tier in the first document.
     pub tier: String,
     /// Its id in the first document.
@@ -97,7 +97,7 @@ pub struct Moved {
 
 /// An annotation whose text changed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Revalued {
+pub struct RevaluedAnnotation {
     /// Its tier in the first document.
     pub tier: String,
     /// Its id in the first document.
@@ -119,7 +119,7 @@ pub struct Revalued {
 
 /// A change of a tier.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct TierChange {
+pub struct TranscriptTierChange {
     /// `added`, `removed`, `renamed` or `changed`.
     pub change: &'static str,
     /// Its name in the first document, or in the second if it was added.
@@ -131,12 +131,12 @@ pub struct TierChange {
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub fields: BTreeMap<&'static str, [String; 2]>,
     #[serde(skip)]
-    pub(crate) whole: Tier,
+    pub(crate) whole: TranscriptTier,
     #[serde(skip)]
     pub(crate) parent: Option<String>,
 }
 
-impl Difference {
+impl TranscriptDifference {
     /// Returns whether both documents mean the same.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -151,30 +151,30 @@ impl Difference {
 
 /// Returns the differences from `a` to `b`.
 #[must_use]
-pub fn diff(a: &Transcript, b: &Transcript) -> Difference {
-    let matching = matched(a, b);
-    let mut difference = Difference {
-        document: document(a, b),
-        ..Difference::default()
+pub fn diff_transcripts(a: &AnnotationTranscript, b: &AnnotationTranscript) -> TranscriptDifference {
+    let matching = match_transcripts(a, b);
+    let mut difference = TranscriptDifference {
+        document: compare_document_parts(a, b),
+        ..TranscriptDifference::default()
     };
     difference.rest = (!difference.document.is_empty()).then(|| {
-        Box::new(Transcript {
+        Box::new(AnnotationTranscript {
             tiers: Vec::new(),
             ..b.clone()
         })
     });
-    tiers(a, b, &matching, &mut difference);
-    for place in places(a) {
+    compare_transcript_tiers(a, b, &matching, &mut difference);
+    for place in list_annotation_addresses(a) {
         let Some(other) = matching.pairs.get(&place) else {
-            difference.removed.push(compared((a, None), place));
+            difference.removed.push(to_compared_annotation((a, None), place));
             continue;
         };
-        compare((a, place), (b, *other), &matching, &mut difference);
+        compare_annotation_pair((a, place), (b, *other), &matching, &mut difference);
     }
-    for place in places(b) {
+    for place in list_annotation_addresses(b) {
         if !matching.back.contains_key(&place) {
-            let whole = compared((b, Some((a, &matching))), place);
-            difference.added.push(whole);
+            let added_annotation = to_compared_annotation((b, Some((a, &matching))), place);
+            difference.added.push(added_annotation);
         }
     }
     difference
@@ -182,7 +182,7 @@ pub fn diff(a: &Transcript, b: &Transcript) -> Difference {
 
 /// Returns the tiers of `a` that have another name in `b`, each with its new name.
 #[must_use]
-pub fn renamed_tiers(a: &Transcript, b: &Transcript) -> Vec<(String, String)> {
+pub fn renamed_tiers(a: &AnnotationTranscript, b: &AnnotationTranscript) -> Vec<(String, String)> {
     let pairs = a.tiers.iter().zip(matched_tiers(a, b));
     pairs
         .filter_map(|(tier, other)| Some((tier, &b.tiers[other?])))
@@ -191,27 +191,27 @@ pub fn renamed_tiers(a: &Transcript, b: &Transcript) -> Vec<(String, String)> {
         .collect()
 }
 
-fn compare(
-    (a, old): (&Transcript, AnnotationAddress),
-    (b, new): (&Transcript, AnnotationAddress),
-    matching: &Matching,
-    difference: &mut Difference,
+fn compare_annotation_pair(
+    (a, old): (&AnnotationTranscript, AnnotationAddress),
+    (b, new): (&AnnotationTranscript, AnnotationAddress),
+    matching: &TranscriptMatching,
+    difference: &mut TranscriptDifference,
 ) {
-    let (x, y) = (get(a, old), get(b, new));
-    let now = compared((b, Some((a, matching))), new);
-    let before = compared((a, None), old);
+    let (x, y) = (compared_annotation_at(a, old), compared_annotation_at(b, new));
+    let now = to_compared_annotation((b, Some((a, matching))), new);
+    let before = to_compared_annotation((a, None), old);
     let symbolic = is_symbolic(b, new.tier);
-    let parent = |it: &Annotation| it.parent;
+    let parent = |annotation: &TranscriptAnnotation| annotation.parent;
     let elsewhere = matching.tiers[old.tier] != Some(new.tier);
     let moved = if symbolic {
         let above = parent(x).and_then(|place| matching.pairs.get(&place));
         above.copied() != parent(y) || !same_neighbour((a, old), (b, new), matching)
     } else {
-        let far = |p: i64, q: i64| p.abs_diff(q) > TOLERANCE.unsigned_abs();
+        let far = |p: i64, q: i64| p.abs_diff(q) > TIME_TOLERANCE_MICROS.unsigned_abs();
         far(before.start_us, now.start_us) || far(before.end_us, now.end_us)
     };
     if moved || elsewhere {
-        difference.moved.push(Moved {
+        difference.moved.push(MovedAnnotation {
             tier: before.tier.clone(),
             id: before.id.clone(),
             value: before.value.clone(),
@@ -222,7 +222,7 @@ fn compare(
         });
     }
     if x.value != y.value || x.entry != y.entry {
-        difference.revalued.push(Revalued {
+        difference.revalued.push(RevaluedAnnotation {
             tier: before.tier,
             id: before.id,
             start_us: before.start_us,
@@ -237,44 +237,45 @@ fn compare(
 
 /// Returns whether an annotation still follows the same sibling as before; siblings of one document alone do not count.
 fn same_neighbour(
-    (a, old): (&Transcript, AnnotationAddress),
-    (b, new): (&Transcript, AnnotationAddress),
-    matching: &Matching,
+    (a, old): (&AnnotationTranscript, AnnotationAddress),
+    (b, new): (&AnnotationTranscript, AnnotationAddress),
+    matching: &TranscriptMatching,
 ) -> bool {
     let chain =
-        |it: &Transcript, own: AnnotationAddress, known: &dyn Fn(AnnotationAddress) -> bool| {
-            let annotation = get(it, own);
-            let siblings = it.tiers[own.tier].annotations.iter().enumerate();
+        |transcript: &AnnotationTranscript, own: AnnotationAddress, known: &dyn Fn(AnnotationAddress) -> bool| {
+            let annotation = compared_annotation_at(transcript, own);
+            let siblings = transcript.tiers[own.tier].annotations.iter().enumerate();
             siblings
                 .filter(|(index, sibling)| {
                     let place = AnnotationAddress {
                         tier: own.tier,
                         index: *index,
                     };
-                    sibling.parent == annotation.parent
-                        && sibling.order < annotation.order
-                        && known(place)
+                    sibling.parent == annotation.parent && sibling.order < annotation.order && known(place)
                 })
                 .max_by_key(|(_, sibling)| sibling.order)
-                .map(|(index, _)| AnnotationAddress {
-                    tier: own.tier,
-                    index,
-                })
+                .map(|(index, _)| AnnotationAddress { tier: own.tier, index })
         };
     let before = chain(a, old, &|place| matching.pairs.contains_key(&place));
     let after = chain(b, new, &|place| matching.back.contains_key(&place));
     before.and_then(|place| matching.pairs.get(&place)).copied() == after
 }
 
-fn tiers(a: &Transcript, b: &Transcript, matching: &Matching, difference: &mut Difference) {
-    let name = |it: &Transcript, tier: Option<usize>| tier.map(|at| it.tiers[at].name.clone());
+fn compare_transcript_tiers(
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
+    matching: &TranscriptMatching,
+    difference: &mut TranscriptDifference,
+) {
+    let name =
+        |transcript: &AnnotationTranscript, tier: Option<usize>| tier.map(|at| transcript.tiers[at].name.clone());
     for (at, tier) in a.tiers.iter().enumerate() {
-        let change = |change, other: &Tier| TierChange {
+        let change = |change, other: &TranscriptTier| TranscriptTierChange {
             change,
             tier: tier.name.clone(),
             to: None,
             fields: BTreeMap::new(),
-            whole: bare(other),
+            whole: tier_without_annotations(other),
             parent: None,
         };
         let Some(new) = matching.tiers[at] else {
@@ -284,20 +285,20 @@ fn tiers(a: &Transcript, b: &Transcript, matching: &Matching, difference: &mut D
         let other = &b.tiers[new];
         let parent = name(b, other.parent);
         if tier.name != other.name {
-            difference.tiers.push(TierChange {
+            difference.tiers.push(TranscriptTierChange {
                 to: Some(other.name.clone()),
                 parent: parent.clone(),
                 ..change("renamed", other)
             });
         }
-        let same_parent = tier.parent.and_then(|it| matching.tiers[it]) == other.parent;
-        let mut fields = fields(tier, other);
+        let same_parent = tier.parent.and_then(|parent| matching.tiers[parent]) == other.parent;
+        let mut fields = changed_tier_fields(tier, other);
         if !same_parent {
             let both = [name(a, tier.parent), name(b, other.parent)];
             fields.insert("parent", both.map(Option::unwrap_or_default));
         }
         if !fields.is_empty() {
-            difference.tiers.push(TierChange {
+            difference.tiers.push(TranscriptTierChange {
                 fields,
                 parent,
                 ..change("changed", other)
@@ -306,12 +307,12 @@ fn tiers(a: &Transcript, b: &Transcript, matching: &Matching, difference: &mut D
     }
     for (at, tier) in b.tiers.iter().enumerate() {
         if !matching.tiers.contains(&Some(at)) {
-            difference.tiers.push(TierChange {
+            difference.tiers.push(TranscriptTierChange {
                 change: "added",
                 tier: tier.name.clone(),
                 to: None,
                 fields: BTreeMap::new(),
-                whole: bare(tier),
+                whole: tier_without_annotations(tier),
                 parent: name(b, tier.parent),
             });
         }
@@ -319,8 +320,8 @@ fn tiers(a: &Transcript, b: &Transcript, matching: &Matching, difference: &mut D
 }
 
 /// Returns the properties that differ between two tiers, except for names and parents.
-fn fields(a: &Tier, b: &Tier) -> BTreeMap<&'static str, [String; 2]> {
-    let stereotype = |it: &Tier| it.stereotype.map(Stereotype::elan_name).map(str::to_owned);
+fn changed_tier_fields(a: &TranscriptTier, b: &TranscriptTier) -> BTreeMap<&'static str, [String; 2]> {
+    let stereotype = |tier: &TranscriptTier| tier.stereotype.map(TierStereotype::elan_name).map(str::to_owned);
     let all = [
         ("type", Some(a.kind.clone()), Some(b.kind.clone())),
         ("stereotype", stereotype(a), stereotype(b)),
@@ -336,28 +337,33 @@ fn fields(a: &Tier, b: &Tier) -> BTreeMap<&'static str, [String; 2]> {
         .collect()
 }
 
-fn document(a: &Transcript, b: &Transcript) -> Vec<String> {
+fn compare_document_parts(a: &AnnotationTranscript, b: &AnnotationTranscript) -> Vec<String> {
     let mut all = Vec::new();
-    let properties = |it: &Transcript| -> BTreeMap<String, String> {
-        let own = it.properties.iter().cloned();
-        own.filter(|(name, _)| name != "lastUsedAnnotationId")
+    let properties = |transcript: &AnnotationTranscript| -> BTreeMap<String, String> {
+        let own_properties = transcript.properties.iter().cloned();
+        own_properties
+            .filter(|(name, _)| name != "lastUsedAnnotationId")
             .collect()
     };
-    sentences("property", &properties(a), &properties(b), &mut all);
-    let media = |it: &Transcript| -> BTreeMap<String, String> {
-        let own = it.media.iter().chain(&it.linked_files);
-        own.map(|it| (it.url.clone(), format!("{it:?}"))).collect()
+    describe_part_changes("property", &properties(a), &properties(b), &mut all);
+    let media = |transcript: &AnnotationTranscript| -> BTreeMap<String, String> {
+        let media_files = transcript.media.iter().chain(&transcript.linked_files);
+        media_files
+            .map(|file| (file.url.clone(), format!("{file:?}")))
+            .collect()
     };
-    sentences("media file", &media(a), &media(b), &mut all);
-    let vocabularies = |it: &Transcript| -> BTreeMap<String, String> {
-        let own = it.vocabularies.iter();
-        own.map(|it| (it.id.clone(), format!("{it:?}"))).collect()
+    describe_part_changes("media file", &media(a), &media(b), &mut all);
+    let vocabularies = |transcript: &AnnotationTranscript| -> BTreeMap<String, String> {
+        let own_vocabularies = transcript.vocabularies.iter();
+        own_vocabularies
+            .map(|vocabulary| (vocabulary.id.clone(), format!("{vocabulary:?}")))
+            .collect()
     };
-    sentences("vocabulary", &vocabularies(a), &vocabularies(b), &mut all);
+    describe_part_changes("vocabulary", &vocabularies(a), &vocabularies(b), &mut all);
     all
 }
 
-fn sentences(
+fn describe_part_changes(
     what: &str,
     a: &BTreeMap<String, String>,
     b: &BTreeMap<String, String>,
@@ -375,23 +381,26 @@ fn sentences(
 }
 
 /// Returns an annotation as a [`ComparedAnnotation`]; its references name annotations of the first document if that is given.
-fn compared(
-    (it, of): (&Transcript, Option<(&Transcript, &Matching)>),
+fn to_compared_annotation(
+    (it, of): (
+        &AnnotationTranscript,
+        Option<(&AnnotationTranscript, &TranscriptMatching)>,
+    ),
     place: AnnotationAddress,
 ) -> ComparedAnnotation {
-    let whole = get(it, place);
+    let compared_annotation = compared_annotation_at(it, place);
     let refer = |other: AnnotationAddress| match of {
-        None => Above::Known(get(it, other).id.clone()),
+        None => ReferredAnnotation::Known(compared_annotation_at(it, other).id.clone()),
         Some((a, matching)) => match matching.back.get(&other) {
-            Some(known) => Above::Known(get(a, *known).id.clone()),
-            None => Above::New(get(it, other).id.clone()),
+            Some(known) => ReferredAnnotation::Known(compared_annotation_at(a, *known).id.clone()),
+            None => ReferredAnnotation::New(compared_annotation_at(it, other).id.clone()),
         },
     };
     // Only links of a chain have an order; a search for the neighbours of all others would take long.
     let siblings = it.tiers[place.tier].annotations.iter().enumerate();
-    let before = (whole.order > 0).then(|| {
+    let before = (compared_annotation.order > 0).then(|| {
         let mut siblings = siblings.filter(|(_, sibling)| {
-            sibling.parent == whole.parent && sibling.order + 1 == whole.order
+            sibling.parent == compared_annotation.parent && sibling.order + 1 == compared_annotation.order
         });
         siblings.next().map(|(index, _)| AnnotationAddress {
             tier: place.tier,
@@ -401,37 +410,35 @@ fn compared(
     let before = before.flatten();
     ComparedAnnotation {
         tier: it.tiers[place.tier].name.clone(),
-        id: whole.id.clone(),
-        start_us: whole.span.start().micros(),
-        end_us: whole.span.end().micros(),
-        value: whole.value.clone(),
-        above: whole.parent.map(refer),
+        id: compared_annotation.id.clone(),
+        start_us: compared_annotation.span.span_start_instant().instant_micros(),
+        end_us: compared_annotation.span.span_end_instant().instant_micros(),
+        value: compared_annotation.value.clone(),
+        above: compared_annotation.parent.map(refer),
         before: before.map(refer),
-        whole: whole.clone(),
+        whole: compared_annotation.clone(),
     }
 }
 
-fn bare(tier: &Tier) -> Tier {
-    Tier {
+fn tier_without_annotations(tier: &TranscriptTier) -> TranscriptTier {
+    TranscriptTier {
         annotations: Vec::new(),
         parent: None,
         ..tier.clone()
     }
 }
 
-fn places(it: &Transcript) -> Vec<AnnotationAddress> {
+fn list_annotation_addresses(it: &AnnotationTranscript) -> Vec<AnnotationAddress> {
     let all = it.tiers.iter().enumerate();
-    all.flat_map(|(tier, own)| {
-        (0..own.annotations.len()).map(move |index| AnnotationAddress { tier, index })
-    })
-    .collect()
+    all.flat_map(|(tier, own)| (0..own.annotations.len()).map(move |index| AnnotationAddress { tier, index }))
+        .collect()
 }
 
-fn get(it: &Transcript, place: AnnotationAddress) -> &Annotation {
+fn compared_annotation_at(it: &AnnotationTranscript, place: AnnotationAddress) -> &TranscriptAnnotation {
     &it.tiers[place.tier].annotations[place.index]
 }
 
-fn is_symbolic(it: &Transcript, tier: usize) -> bool {
+fn is_symbolic(it: &AnnotationTranscript, tier: usize) -> bool {
     let stereotype = it.tiers[tier].stereotype;
-    stereotype.is_some_and(|it| !it.is_alignable())
+    stereotype.is_some_and(|stereotype| !stereotype.is_alignable())
 }

@@ -2,16 +2,17 @@
 
 mod unchanged_side;
 
-use super::{Difference, Merged, apply, diff, merge, merge_two, with_candidates};
-use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, AnnotationAddress, Tier, Timing};
-use chereme_motion::{Instant, Span};
-use chereme_sign::Stereotype;
+use super::{MergedTranscript, TranscriptDifference, apply_difference, diff_transcripts, merge_two, with_candidates};
+use crate::compare::merge_transcripts;
+use crate::eaf::AnnotationTranscript;
+use crate::eaf::eaf_convert::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::TierStereotype;
 use proptest::prelude::*;
 
 /// A document of lines `tier [<parent]: id start-end value, …`; symbolic children are `id ^parent value`.
-fn document(text: &str) -> Transcript {
-    let mut it = Transcript::default();
+fn document(text: &str) -> AnnotationTranscript {
+    let mut it = AnnotationTranscript::default();
     it.properties.push(("URN".into(), "urn:one".into()));
     for line in text.lines().filter(|line| !line.trim().is_empty()) {
         let (head, rest) = line.split_once(':').expect("a tier");
@@ -20,12 +21,12 @@ fn document(text: &str) -> Transcript {
             None => (head.trim(), None),
         };
         let parent = parent.and_then(|name| it.tiers.iter().position(|tier| tier.name == name));
-        it.tiers.push(Tier {
+        it.tiers.push(TranscriptTier {
             name: name.to_owned(),
             parent,
-            stereotype: parent.map(|_| Stereotype::SymbolicSubdivision),
+            stereotype: parent.map(|_| TierStereotype::SymbolicSubdivision),
             kind: "k".into(),
-            ..Tier::default()
+            ..TranscriptTier::default()
         });
         let tier = it.tiers.len() - 1;
         for part in rest.split(',').filter(|part| !part.trim().is_empty()) {
@@ -42,14 +43,14 @@ fn document(text: &str) -> Transcript {
             it.tiers[tier].annotations.push(annotation);
         }
     }
-    super::loose::Pieces::of(&it).whole()
+    super::loose::TranscriptPieces::pieces_from_transcript(&it).reassemble_transcript()
 }
 
-fn own(id: &str, start: i64, end: i64, value: &str) -> Annotation {
-    Annotation {
+fn own(id: &str, start: i64, end: i64, value: &str) -> TranscriptAnnotation {
+    TranscriptAnnotation {
         id: id.to_owned(),
-        span: Span::between(Instant::from_micros(start), Instant::from_micros(end)),
-        timing: Timing::Own,
+        span: TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end)),
+        timing: AnnotationTiming::Own,
         parent: None,
         order: 0,
         value: value.to_owned(),
@@ -60,34 +61,38 @@ fn own(id: &str, start: i64, end: i64, value: &str) -> Annotation {
     }
 }
 
-fn child(it: &Transcript, tier: usize, (id, above, value): (&str, &str, &str)) -> Annotation {
-    let mut all = super::places(it).into_iter();
+fn child(it: &AnnotationTranscript, tier: usize, (id, above, value): (&str, &str, &str)) -> TranscriptAnnotation {
+    let mut all = super::list_annotation_addresses(it).into_iter();
     let parent: AnnotationAddress = all
-        .find(|place| super::get(it, *place).id == above)
+        .find(|place| super::compared_annotation_at(it, *place).id == above)
         .expect("parent");
     let siblings = it.tiers[tier].annotations.iter();
     let order = siblings.filter(|it| it.parent == Some(parent)).count();
-    Annotation {
+    TranscriptAnnotation {
         parent: Some(parent),
         order: u32::try_from(order).expect("few"),
-        timing: Timing::Share,
+        timing: AnnotationTiming::Share,
         ..own(id, 0, 0, value)
     }
 }
 
 /// The tiers as lines, each annotation as `start-end value`, with its parent's text in a symbolic tier.
-fn shown(it: &Transcript) -> Vec<String> {
+fn shown(it: &AnnotationTranscript) -> Vec<String> {
     let mut lines = Vec::new();
     for tier in &it.tiers {
         let mut all: Vec<String> = tier
             .annotations
             .iter()
             .map(|own| {
-                let millis = |at: Instant| at.millis();
+                let millis = |at: RecordingInstant| at.instant_millis();
                 let above = own.parent.filter(|_| tier.stereotype.is_some());
-                let above = above.and_then(|place| it.annotation(place));
+                let above = above.and_then(|place| it.annotation_at(place));
                 let above = above.map(|it| format!("^{} {} ", it.value, own.order));
-                let times = format!("{}-{}", millis(own.span.start()), millis(own.span.end()));
+                let times = format!(
+                    "{}-{}",
+                    millis(own.span.span_start_instant()),
+                    millis(own.span.span_end_instant())
+                );
                 format!("{}{times} {}", above.unwrap_or_default(), own.value)
             })
             .collect();
@@ -99,12 +104,12 @@ fn shown(it: &Transcript) -> Vec<String> {
 }
 
 #[track_caller]
-fn merges(base: &str, mine: &str, theirs: &str, want: &str, conflicts: usize) -> Merged {
+fn merges(base: &str, mine: &str, theirs: &str, want: &str, conflicts: usize) -> MergedTranscript {
     let [base, mine, theirs] = [base, mine, theirs].map(document);
-    let merged = merge(&base, &mine, &theirs);
+    let merged = merge_transcripts(&base, &mine, &theirs);
     assert_eq!(shown(&merged.document), shown(&document(want)));
     assert_eq!(merged.conflicts.len(), conflicts, "{:?}", merged.conflicts);
-    let other = merge(&base, &theirs, &mine);
+    let other = merge_transcripts(&base, &theirs, &mine);
     if conflicts == 0 {
         assert_eq!(shown(&other.document), shown(&merged.document));
     }
@@ -114,13 +119,10 @@ fn merges(base: &str, mine: &str, theirs: &str, want: &str, conflicts: usize) ->
 
 #[test]
 fn differences_are_by_meaning() {
-    let a =
-        document("G: a1 0-100 CHAT, a2 200-300 CHIEN, a3 400-500 VACHE\nP <G: a4 ^a1 x, a5 ^a1 y");
-    let b = document(
-        "G: a1 0-100 CHAT, a2 200-350 CHIEN, a9 600-700 LION\nP <G: a4 ^a1 z, a5 ^a1 y\nN:",
-    );
-    let found = diff(&a, &b);
-    let counts = |it: &Difference| {
+    let a = document("G: a1 0-100 CHAT, a2 200-300 CHIEN, a3 400-500 VACHE\nP <G: a4 ^a1 x, a5 ^a1 y");
+    let b = document("G: a1 0-100 CHAT, a2 200-350 CHIEN, a9 600-700 LION\nP <G: a4 ^a1 z, a5 ^a1 y\nN:");
+    let found = diff_transcripts(&a, &b);
+    let counts = |it: &TranscriptDifference| {
         [
             it.added.len(),
             it.removed.len(),
@@ -134,10 +136,7 @@ fn differences_are_by_meaning() {
         (found.moved[0].from, found.moved[0].to),
         ([200_000, 300_000], [200_000, 350_000])
     );
-    assert_eq!(
-        (&*found.revalued[0].from, &*found.revalued[0].to),
-        ("x", "z")
-    );
+    assert_eq!((&*found.revalued[0].from, &*found.revalued[0].to), ("x", "z"));
     let json = serde_json::to_value(&found).expect("JSON");
     assert_eq!(json["tiers"][0]["change"], "added");
     assert!(json["added"][0].get("whole").is_none());
@@ -147,7 +146,7 @@ fn differences_are_by_meaning() {
 fn the_same_id_of_two_different_annotations_is_no_change() {
     let a = document("G: a1 0-100 CHAT, a2 200-300 CHIEN");
     let b = document("G: a1 0-100 CHAT, a2 900-999 LION");
-    let found = diff(&a, &b);
+    let found = diff_transcripts(&a, &b);
     assert_eq!((found.added.len(), found.removed.len()), (1, 1));
 }
 
@@ -156,11 +155,8 @@ fn documents_without_common_ids_are_matched_by_time() {
     let a = document("G: x1 0-100 CHAT, x2 200-300 CHIEN");
     let mut b = document("G: b7 0-104 CHAT, b8 200-300 LION");
     b.properties.clear();
-    let found = diff(&a, &b);
-    assert_eq!(
-        (found.moved.len(), found.revalued.len(), found.added.len()),
-        (1, 1, 0)
-    );
+    let found = diff_transcripts(&a, &b);
+    assert_eq!((found.moved.len(), found.revalued.len(), found.added.len()), (1, 1, 0));
 }
 
 #[test]
@@ -183,25 +179,13 @@ fn changes_of_different_annotations_are_all_merged() {
 
 #[test]
 fn an_annotation_that_both_changed_is_a_conflict_with_both_candidates() {
-    let merged = merges(
-        "G: a1 0-100 A",
-        "G: a1 0-100 M",
-        "G: a1 0-100 T",
-        "G: a1 0-100 M",
-        1,
-    );
+    let merged = merges("G: a1 0-100 A", "G: a1 0-100 M", "G: a1 0-100 T", "G: a1 0-100 M", 1);
     let conflict = &merged.conflicts[0];
     let value = |it: &Option<super::ComparedAnnotation>| it.as_ref().map(|it| it.value.clone());
     assert_eq!(value(&conflict.base).as_deref(), Some("A"));
     assert_eq!(value(&conflict.mine).as_deref(), Some("M"));
     assert_eq!(value(&conflict.theirs).as_deref(), Some("T"));
-    merges(
-        "G: a1 0-100 A",
-        "G: a1 0-110 A",
-        "G: a1 0-120 A",
-        "G: a1 0-110 A",
-        1,
-    );
+    merges("G: a1 0-100 A", "G: a1 0-110 A", "G: a1 0-120 A", "G: a1 0-110 A", 1);
     merges("G: a1 0-100 A", "G:", "G: a1 0-100 T", "G:", 1);
     merges("G: a1 0-100 A", "G: a1 0-100 T", "G:", "G: a1 0-100 T", 1);
     merges("G:", "G: a1 0-100 M", "G: a1 50-150 T", "G: a1 0-100 M", 1);
@@ -269,7 +253,7 @@ fn properties_that_one_side_changed_are_taken_and_mine_win() {
             &[("a", "1"), ("b", "m"), ("c", "t")],
         ),
     ] {
-        let merged = merge(&with(base), &with(mine), &with(theirs));
+        let merged = merge_transcripts(&with(base), &with(mine), &with(theirs));
         let got = &merged.document.properties;
         assert_eq!(*got, with(want).properties, "{base:?} {mine:?} {theirs:?}");
     }
@@ -279,16 +263,16 @@ fn properties_that_one_side_changed_are_taken_and_mine_win() {
 fn annotations_that_exchanged_their_ids_have_not_moved() {
     let a = document("G: a1 0-100 x, a2 500-600 x, a3 700-800 y");
     let b = document("G: a2 0-100 x, a1 500-600 x, a3 700-800 y");
-    assert!(diff(&a, &b).is_empty(), "{:?}", diff(&a, &b));
+    assert!(diff_transcripts(&a, &b).is_empty(), "{:?}", diff_transcripts(&a, &b));
 }
 
 /// A random change of a document: numbers that select the annotation, the kind of change, and its size.
 type Deed = (usize, u8, i64);
 
-fn changed(it: &Transcript, deeds: &[Deed], name: &str) -> Transcript {
+fn changed(it: &AnnotationTranscript, deeds: &[Deed], name: &str) -> AnnotationTranscript {
     let mut it = it.clone();
     for (at, what, far) in deeds {
-        let all = super::places(&it);
+        let all = super::list_annotation_addresses(&it);
         let Some(place) = all.get(at % all.len().max(1)).copied() else {
             break;
         };
@@ -298,9 +282,9 @@ fn changed(it: &Transcript, deeds: &[Deed], name: &str) -> Transcript {
             0 => tier.annotations[place.index].value = format!("{name}{far}"),
             1 if !symbolic => {
                 let own = &mut tier.annotations[place.index];
-                let end = own.span.end().shifted(far * 2000);
-                if end > own.span.start() {
-                    own.span = Span::between(own.span.start(), end);
+                let end = own.span.span_end_instant().shifted_instant(far * 2000);
+                if end > own.span.span_start_instant() {
+                    own.span = TimeSpan::span_between(own.span.span_start_instant(), end);
                 }
             }
             2 if !symbolic => {
@@ -308,11 +292,10 @@ fn changed(it: &Transcript, deeds: &[Deed], name: &str) -> Transcript {
                 let free = tier
                     .annotations
                     .iter()
-                    .all(|own| own.span.start().micros() != start);
+                    .all(|own| own.span.span_start_instant().instant_micros() != start);
                 if free {
                     let id = format!("a{}", 100 + tier.annotations.len());
-                    tier.annotations
-                        .push(own(&id, start, start + 200_000, name));
+                    tier.annotations.push(own(&id, start, start + 200_000, name));
                 }
             }
             3 => {
@@ -323,12 +306,12 @@ fn changed(it: &Transcript, deeds: &[Deed], name: &str) -> Transcript {
             }
             _ => it.tiers[place.tier].participant = Some(format!("{name}{far}")),
         }
-        it = super::loose::Pieces::of(&it).whole();
+        it = super::loose::TranscriptPieces::pieces_from_transcript(&it).reassemble_transcript();
     }
     it
 }
 
-fn start() -> Transcript {
+fn start() -> AnnotationTranscript {
     document(
         "G: a1 0-100 A, a2 200-300 B, a3 400-500 C, a4 600-700 D\nP <G: a5 ^a1 x, a6 ^a1 y, a7 ^a2 z\nN: a8 0-900 n",
     )
@@ -343,10 +326,10 @@ proptest! {
         b in proptest::collection::vec((0usize..20, 0u8..5, -50i64..50), 0..8),
     ) {
         let (a, b) = (changed(&start(), &a, "m"), changed(&start(), &b, "t"));
-        let applied = apply(&diff(&a, &b), &a);
+        let applied = apply_difference(&diff_transcripts(&a, &b), &a);
         prop_assert_eq!(shown(&applied), shown(&b));
-        prop_assert!(diff(&a, &a).is_empty());
-        prop_assert!(diff(&applied, &b).is_empty(), "{:?}", diff(&applied, &b));
+        prop_assert!(diff_transcripts(&a, &a).is_empty());
+        prop_assert!(diff_transcripts(&applied, &b).is_empty(), "{:?}", diff_transcripts(&applied, &b));
     }
 
     #[test]
@@ -354,7 +337,7 @@ proptest! {
         deeds in proptest::collection::vec((0usize..20, 0u8..5, -50i64..50), 0..8),
     ) {
         let (base, other) = (start(), changed(&start(), &deeds, "m"));
-        for merged in [merge(&base, &other, &base), merge(&base, &base, &other)] {
+        for merged in [merge_transcripts(&base, &other, &base), merge_transcripts(&base, &base, &other)] {
             prop_assert_eq!(shown(&merged.document), shown(&other));
             prop_assert!(merged.conflicts.is_empty(), "{:?}", merged.conflicts);
         }
@@ -367,13 +350,13 @@ proptest! {
     ) {
         let base = start();
         let (mine, theirs) = (changed(&base, &a, "m"), changed(&base, &b, "t"));
-        let (one, two) = (merge(&base, &mine, &theirs), merge(&base, &theirs, &mine));
+        let (one, two) = (merge_transcripts(&base, &mine, &theirs), merge_transcripts(&base, &theirs, &mine));
         if one.conflicts.is_empty() && two.conflicts.is_empty() {
             prop_assert_eq!(shown(&one.document), shown(&two.document));
         }
         // Nothing is lost: each side's own annotations are in the document or in a conflict.
         for (side, merged) in [(&mine, &one), (&theirs, &one), (&theirs, &two)] {
-            for said in diff(&base, side).added {
+            for said in diff_transcripts(&base, side).added {
                 let there = shown(&merged.document).join(" ").contains(&said.value);
                 let listed = merged.conflicts.iter().any(|it| {
                     [&it.mine, &it.theirs].into_iter().flatten().any(|that| that.value == said.value)
@@ -389,10 +372,7 @@ struct Seeded(u64);
 
 impl Seeded {
     fn below(&mut self, most: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (self.0 >> 33) % most
     }
 }
@@ -420,13 +400,13 @@ fn an_hour_of_work_by_two_annotators_is_merged_without_loss() {
                 match seeded.below(40) {
                     0 => own_one.value = format!("{name}{}", seeded.below(500)),
                     1 => {
-                        let end = own_one.span.end().shifted(40_000 + gap);
-                        own_one.span = Span::between(own_one.span.start(), end);
+                        let end = own_one.span.span_end_instant().shifted_instant(40_000 + gap);
+                        own_one.span = TimeSpan::span_between(own_one.span.span_start_instant(), end);
                     }
                     2 => continue,
                     3 => {
                         fresh += 1;
-                        let start = own_one.span.start().micros() + 700_000 + gap;
+                        let start = own_one.span.span_start_instant().instant_micros() + 700_000 + gap;
                         let value = format!("{name}+{fresh}");
                         kept.push(own(&format!("a{fresh}"), start, start + 100_000, &value));
                     }
@@ -436,23 +416,15 @@ fn an_hour_of_work_by_two_annotators_is_merged_without_loss() {
             }
             tier.annotations = kept;
         }
-        super::loose::Pieces::of(&it).whole()
+        super::loose::TranscriptPieces::pieces_from_transcript(&it).reassemble_transcript()
     };
     let (mine, theirs) = (edit("M", 0), edit("T", 120_000));
-    let merged = merge(&base, &mine, &theirs);
-    assert!(diff(&base, &mine).added.len() > 200 && diff(&base, &theirs).added.len() > 200);
-    assert!(
-        (1..200).contains(&merged.conflicts.len()),
-        "{}",
-        merged.conflicts.len()
-    );
+    let merged = merge_transcripts(&base, &mine, &theirs);
+    assert!(diff_transcripts(&base, &mine).added.len() > 200 && diff_transcripts(&base, &theirs).added.len() > 200);
+    assert!((1..200).contains(&merged.conflicts.len()), "{}", merged.conflicts.len());
     let mut known: std::collections::BTreeSet<(String, String)> = Default::default();
     for tier in &merged.document.tiers {
-        known.extend(
-            tier.annotations
-                .iter()
-                .map(|it| (tier.name.clone(), it.value.clone())),
-        );
+        known.extend(tier.annotations.iter().map(|it| (tier.name.clone(), it.value.clone())));
     }
     for it in &merged.conflicts {
         for said in [&it.mine, &it.theirs].into_iter().flatten() {
@@ -460,17 +432,14 @@ fn an_hour_of_work_by_two_annotators_is_merged_without_loss() {
         }
     }
     for side in [&mine, &theirs] {
-        let changes = diff(&base, side);
+        let changes = diff_transcripts(&base, side);
         let said = changes.added.iter().map(|it| (&it.tier, &it.value));
         let revalued = changes.revalued.iter().map(|it| (&it.tier, &it.to));
         for (tier, value) in said.chain(revalued) {
-            assert!(
-                known.contains(&(tier.clone(), value.clone())),
-                "{tier} {value}"
-            );
+            assert!(known.contains(&(tier.clone(), value.clone())), "{tier} {value}");
         }
     }
-    let other = merge(&base, &theirs, &mine);
+    let other = merge_transcripts(&base, &theirs, &mine);
     assert_eq!(other.conflicts.len(), merged.conflicts.len());
 }
 
@@ -485,7 +454,7 @@ fn golden_differences_and_merges() {
         "G: b1 0-100 CHAT, b2 205-300 CHIEN, b3 400-500 VACHES, b4 800-900 OURS\nP <G: b5 ^b1 y, b6 ^b1 x, b7 ^b4 w",
         "",
     ];
-    let mut documents: Vec<Transcript> = documents.iter().map(|text| document(text)).collect();
+    let mut documents: Vec<AnnotationTranscript> = documents.iter().map(|text| document(text)).collect();
     // Documents of unknown origin, whose ids agree or do not.
     for n in 0..4 {
         let mut unknown = documents[n].clone();
@@ -496,18 +465,15 @@ fn golden_differences_and_merges() {
         let others = documents.iter().enumerate();
         for (m, b) in others.filter(|(m, _)| *m != n && (n > 4) == (*m > 4)) {
             put(&mut out, format!("## from {n} to {m}"));
-            let found = diff(a, b);
+            let found = diff_transcripts(a, b);
             put(&mut out, format!("{} {found:?}", found.is_empty()));
-            put(&mut out, format!("applied {:?}", shown(&apply(&found, a))));
-            for merged in [merge_two(a, b), merge(&documents[0], a, b)] {
+            put(&mut out, format!("applied {:?}", shown(&apply_difference(&found, a))));
+            for merged in [merge_two(a, b), merge_transcripts(&documents[0], a, b)] {
                 put(&mut out, format!("merged {:?}", shown(&merged.document)));
                 for conflict in &merged.conflicts {
                     put(&mut out, format!("  {conflict:?}"));
                 }
-                put(
-                    &mut out,
-                    format!("both {:?}", shown(&with_candidates(&merged))),
-                );
+                put(&mut out, format!("both {:?}", shown(&with_candidates(&merged))));
             }
         }
     }
@@ -517,10 +483,13 @@ fn golden_differences_and_merges() {
 #[test]
 fn a_change_of_one_millisecond_is_a_change_and_less_is_rounding() {
     let (before, after) = ("A: a1 368-500 x", "A: a1 369-500 x");
-    let found = diff(&document(before), &document(after));
+    let found = diff_transcripts(&document(before), &document(after));
     assert_eq!(found.moved.len(), 1, "{found:?}");
     merges(before, before, after, after, 0);
     let mut rounded = document(before);
     rounded.tiers[0].annotations[0].span = own("", 368_600, 500_400, "").span;
-    assert_eq!(diff(&document(before), &rounded), Difference::default());
+    assert_eq!(
+        diff_transcripts(&document(before), &rounded),
+        TranscriptDifference::default()
+    );
 }

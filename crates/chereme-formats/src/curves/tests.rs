@@ -2,21 +2,20 @@
 
 use super::*;
 
-fn curves(text: &str) -> (Curves, Instant, Vec<Finding>) {
-    let (tracks, findings) =
-        read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let Content::Curves(curves) = tracks.tracks[0].content.clone() else {
+fn curves(text: &str) -> (CurveTrack, RecordingInstant, Vec<ImportFinding>) {
+    let (tracks, findings) = read_curves(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let CapturedTrackContent::Curves(curves) = tracks.tracks[0].content.clone() else {
         panic!("curves");
     };
     (curves, tracks.tracks[0].offset, findings)
 }
 
-fn values(curves: &Curves, name: &str) -> Vec<Option<f64>> {
+fn values(curves: &CurveTrack, name: &str) -> Vec<Option<f64>> {
     curves
-        .curve(name)
+        .find_curve(name)
         .unwrap_or_else(|| panic!("{name}"))
         .values
-        .values()
+        .column_values()
         .collect()
 }
 
@@ -26,19 +25,26 @@ fn live_link_has_the_times_of_its_timecodes() {
                 23:59:59:58.500,61,0.25,-0.1473\n23:59:59:59.500,61,0.5,0.1\n00:00:00:00.500,61,,0.2\n";
     let (curves, offset, _) = curves(text);
     assert_eq!(values(&curves, "jawopen"), [Some(0.25), Some(0.5), None]);
-    assert_eq!(curves.times().rate().map(|rate| rate.frames()), Some(60));
-    assert_eq!(offset, Instant::ZERO);
-    let yaw = curves.curve("HeadYaw").expect("a curve");
     assert_eq!(
-        (yaw.unit.as_str(), yaw.values.text(0).as_deref()),
+        curves.curve_times().even_times_rate().map(|rate| rate.rate_numerator()),
+        Some(60)
+    );
+    assert_eq!(offset, RecordingInstant::RECORDING_START);
+    let yaw = curves.find_curve("HeadYaw").expect("a curve");
+    assert_eq!(
+        (yaw.unit.as_str(), yaw.values.column_text_at(0).as_deref()),
         ("rad", Some("-0.1473"))
     );
     let uneven = text.replace("00:00:00:00.500", "00:00:00:30.0");
-    let (tracks, _) = read(uneven.as_bytes()).expect("curves");
-    let Content::Curves(curves) = &tracks.tracks[0].content else {
+    let (tracks, _) = read_curves(uneven.as_bytes()).expect("curves");
+    let CapturedTrackContent::Curves(curves) = &tracks.tracks[0].content else {
         panic!("curves");
     };
-    assert_eq!(curves.times().rate(), None, "rows have their own times");
+    assert_eq!(
+        curves.curve_times().even_times_rate(),
+        None,
+        "rows have their own times"
+    );
 }
 
 #[test]
@@ -46,7 +52,7 @@ fn rows_without_a_face_and_the_decimals_of_other_countries_are_read() {
     let plain = "Timecode,BlendShapeCount,JawOpen,HeadYaw\n00:00:00:59.0,2,0.25,0.1\n00:00:01:00.0,2,0.5,0.1\n00:00:01:01.0,2,,\n";
     let (expected, _, _) = curves(plain);
     let empty = plain.replace("01.0,2,,", "01.0,2");
-    assert!(read(empty.as_bytes()).is_err(), "a row that is cut");
+    assert!(read_curves(empty.as_bytes()).is_err(), "a row that is cut");
     let dialects = [
         plain.replace(',', ";").replace('.', ","),
         plain.replace(',', ";"),
@@ -59,8 +65,8 @@ fn rows_without_a_face_and_the_decimals_of_other_countries_are_read() {
     }
     for row in ["0", "0,,", "0,0.0,0.0"] {
         let (found, _, findings) = curves(&plain.replace("2,,", row));
-        assert_eq!(found.frames(), 3, "{row}");
-        let said = |it: &Finding| it.message.ends_with("mean nothing: 1");
+        assert_eq!(found.curve_frame_count(), 3, "{row}");
+        let said = |it: &ImportFinding| it.message.ends_with("mean nothing: 1");
         assert!(findings.iter().any(said), "{row}: {findings:?}");
     }
 }
@@ -73,19 +79,20 @@ fn a_column_of_frame_numbers_before_the_times_is_no_curve() {
         })
     };
     for title in ["frame", "Frame [30 fps]"] {
-        let text = format!(
-            "{title},time_s,JawOpen,MouthClose\n{}",
-            rows(1000.0 / 29988.0)
-        );
+        let text = format!("{title},time_s,JawOpen,MouthClose\n{}", rows(1000.0 / 29988.0));
         let (curves, offset, findings) = curves(&text);
-        let names: Vec<&str> = curves.curves().iter().map(|it| it.name.as_str()).collect();
+        let names: Vec<&str> = curves.track_curves().iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["JawOpen", "MouthClose"], "{title}");
-        let expected = Rate::new(29988, 1000).expect("a rate");
-        assert_eq!(curves.times().rate(), Some(expected), "{title}");
-        assert_eq!((offset, findings.len()), (Instant::ZERO, 0), "{title}");
+        let expected = FrameRate::new(29988, 1000).expect("a rate");
+        assert_eq!(curves.curve_times().even_times_rate(), Some(expected), "{title}");
+        assert_eq!(
+            (offset, findings.len()),
+            (RecordingInstant::RECORDING_START, 0),
+            "{title}"
+        );
     }
     let alone = b"frame,time_s\n0,0\n";
-    assert_eq!(CurveFile::of(alone), None, "there is no curve");
+    assert_eq!(CurveFile::detect_curve_file(alone), None, "there is no curve");
 }
 
 #[test]
@@ -106,12 +113,15 @@ fn times_of_open_face_and_of_tables_show_the_rate_of_the_film() {
         (23.976, 99),
     ] {
         let (found, _, _) = curves(&open_face(rate, rows));
-        let found = found.times().rate().expect("a rate").per_second();
+        let found = found.curve_times().even_times_rate().expect("a rate").per_second();
         assert!((found / rate - 1.0).abs() < 3e-6, "{rate}: {found}");
     }
     let timeless = "frame, confidence, success, AU01_r\n1, 0.98, 1, 0.5\n2, 0.98, 1, 0.5\n";
     let (found, _, findings) = curves(timeless);
-    assert_eq!(found.times().rate().map(|rate| rate.frames()), Some(30));
+    assert_eq!(
+        found.curve_times().even_times_rate().map(|rate| rate.rate_numerator()),
+        Some(30)
+    );
     assert!(
         findings[0]
             .message
@@ -124,9 +134,9 @@ fn times_of_open_face_and_of_tables_show_the_rate_of_the_film() {
     ] {
         let text = format!("{title},jawOpen\n0,0.1\n40,0.2\n80,0.3\n");
         let (found, _, findings) = curves(&text);
-        let found = found.times().rate().expect("a rate").per_second();
+        let found = found.curve_times().even_times_rate().expect("a rate").per_second();
         assert!((found - rate).abs() < 1e-6, "{title} {found}");
-        let said = |it: &Finding| it.message.contains("read as milliseconds");
+        let said = |it: &ImportFinding| it.message.contains("read as milliseconds");
         assert_eq!(findings.iter().any(said), is_said, "{title}");
     }
 }
@@ -136,12 +146,12 @@ fn every_face_of_open_face_is_a_track() {
     let head = "frame, face_id, timestamp, confidence, success, AU01_r\n";
     let rows = "1, 0, 0.000, 0.9, 1, 0.1\n1, 1, 0.000, 0.9, 1, 0.5\n2, 0, 0.040, 0.9, 1, 0.2\n\
                 3, 1, 0.080, 0.9, 1, 0.6\n3, 0, 0.080, 0.9, 1, 0.3\n4, 1, 0.120, 0.9, 1, 0.7\n";
-    let (tracks, findings) = read(format!("{head}{rows}").as_bytes()).expect("two faces");
+    let (tracks, findings) = read_curves(format!("{head}{rows}").as_bytes()).expect("two faces");
     let found = tracks.tracks.iter().map(|track| {
-        let Content::Curves(curves) = &track.content else {
+        let CapturedTrackContent::Curves(curves) = &track.content else {
             panic!("curves");
         };
-        let last = curves.times().instant(2).millis();
+        let last = curves.curve_times().frame_time_instant(2).instant_millis();
         (track.name.as_str(), values(curves, "AU01_r"), last)
     });
     let expected = [
@@ -153,10 +163,8 @@ fn every_face_of_open_face_is_a_track() {
         findings[0].message.ends_with("is a track of its own: 0, 1"),
         "{findings:?}"
     );
-    let crowd: String = (0..17)
-        .map(|face| format!("1, {face}, 0, 0.9, 1, 0.1\n"))
-        .collect();
-    let error = read(format!("{head}{crowd}").as_bytes()).expect_err("a crowd");
+    let crowd: String = (0..17).map(|face| format!("1, {face}, 0, 0.9, 1, 0.1\n")).collect();
+    let error = read_curves(format!("{head}{crowd}").as_bytes()).expect_err("a crowd");
     assert!(error.to_string().contains("more than 16 faces"), "{error}");
 }
 
@@ -170,14 +178,14 @@ fn landmarks_beside_scores_are_counted_and_hands_are_no_scores() {
         "landmarks beside the scores are left out: 1 frames have them"
     );
     let hands = br#"{"landmarks": [], "handedness": [[{"categoryName": "Left", "score": 0.9}]]}"#;
-    assert_eq!(CurveFile::of(hands), None);
+    assert_eq!(CurveFile::detect_curve_file(hands), None);
     assert!(keypoints::is_keypoints(hands));
 }
 
 #[test]
 fn degrees_and_radians_are_distinguished_by_their_size() {
     let text = "Timecode,BlendshapeCount,HeadRoll\n00:00:00:00.0,52,12.5\n00:00:00:01.0,52,1\n";
-    assert_eq!(curves(text).0.curves()[1].unit, "deg");
+    assert_eq!(curves(text).0.track_curves()[1].unit, "deg");
 }
 
 #[test]
@@ -204,19 +212,17 @@ fn units_of_faces_that_are_converted_or_guessed_are_reported_at_import() {
                 "{head},JawOpen,BrowInnerUp,EyeBlinkLeft,{title},{pitch},{roll}\n{first},0,0,0,0,0,0\n{next},{shape},0,0,{turn},0,0\n"
             );
             let (found, _, findings) = curves(&text);
-            let view = System::of(&found).expect("a face").view(&found);
+            let view = FaceSystem::system_of_curves(&found)
+                .expect("a face")
+                .derive_face_view(&found);
             let turned = view.head.expect("turns")[1][1];
             assert!((turned - yaw).abs() < 1e-3, "{title} {turn}: {turned}");
-            let unit = |it: &&Finding| {
+            let unit = |it: &&ImportFinding| {
                 let says = |part| it.message.contains(part);
                 says("turns of the head") || says("percent")
             };
-            let units: Vec<&Finding> = findings.iter().filter(unit).collect();
-            assert_eq!(
-                units.len(),
-                usize::from(!said.is_empty()),
-                "{title}: {units:?}"
-            );
+            let units: Vec<&ImportFinding> = findings.iter().filter(unit).collect();
+            assert_eq!(units.len(), usize::from(!said.is_empty()), "{title}: {units:?}");
             assert!(
                 units.iter().all(|unit| unit.message.contains(said)),
                 "{title}: {units:?}"
@@ -227,12 +233,16 @@ fn units_of_faces_that_are_converted_or_guessed_are_reported_at_import() {
 
 #[test]
 fn open_face_keeps_every_column_and_reports_lost_faces() {
-    let text = "frame, timestamp, confidence, success, pose_Tx, AU01_r\n1, 0, 0.9, 1, 3.5, 0.1\n2, 0.04, 0.1, 0, 0, 0\n";
+    let text =
+        "frame, timestamp, confidence, success, pose_Tx, AU01_r\n1, 0, 0.9, 1, 3.5, 0.1\n2, 0.04, 0.1, 0, 0, 0\n";
     let (curves, _, findings) = curves(text);
-    assert_eq!(curves.curves().len(), 6);
-    assert_eq!(curves.times().rate().map(|rate| rate.frames()), Some(25));
+    assert_eq!(curves.track_curves().len(), 6);
     assert_eq!(
-        curves.curve("pose_Tx").map(|curve| curve.unit.as_str()),
+        curves.curve_times().even_times_rate().map(|rate| rate.rate_numerator()),
+        Some(25)
+    );
+    assert_eq!(
+        curves.find_curve("pose_Tx").map(|curve| curve.unit.as_str()),
         Some("mm")
     );
     assert!(
@@ -252,16 +262,15 @@ fn media_pipe_scores_become_curves_with_gaps() {
     assert_eq!(findings, []);
     assert_eq!(values(&curves, "jawOpen"), [Some(0.5), None, Some(0.25)]);
     assert_eq!(values(&curves, "_neutral"), [Some(1e-6), None, None]);
-    assert_eq!(curves.times().rate().map(|rate| rate.frames()), Some(25));
+    assert_eq!(
+        curves.curve_times().even_times_rate().map(|rate| rate.rate_numerator()),
+        Some(25)
+    );
 }
 
 #[test]
 fn numbers_of_json_are_kept_to_the_last_digit() {
-    let scores = [
-        "0.9452706955539223",
-        "0.38120423768821243",
-        "0.21659939713061338",
-    ];
+    let scores = ["0.9452706955539223", "0.38120423768821243", "0.21659939713061338"];
     for score in scores {
         let frame = format!(
             "{{\"timestampMs\": 0, \"faceBlendshapes\": [{{\"categories\": [{{\"categoryName\": \"jawOpen\", \"score\": {score}}}]}}]}}"
@@ -278,18 +287,14 @@ fn fap_text_holds_what_its_masks_name() {
         let bits = (1..=68).map(|at| if on.contains(&at) { "1" } else { "0" });
         bits.collect::<Vec<_>>().join(" ")
     };
-    let text = format!(
-        "2.1 face 25 2\n{}\n0 120\n{}\n1 100 -7\n",
-        masks(&[3]),
-        masks(&[3, 31])
-    );
+    let text = format!("2.1 face 25 2\n{}\n0 120\n{}\n1 100 -7\n", masks(&[3]), masks(&[3, 31]));
     let (curves, _, _) = curves(&text);
     assert_eq!(values(&curves, "FAP3"), [Some(120.0), Some(100.0)]);
     assert_eq!(values(&curves, "FAP31"), [None, Some(-7.0)]);
-    assert_eq!(curves.curves().len(), 2);
+    assert_eq!(curves.track_curves().len(), 2);
     let viseme = format!("2.1 face 25 1\n{}\n0 1 2 3\n", masks(&[1]));
     assert!(
-        read(viseme.as_bytes())
+        read_curves(viseme.as_bytes())
             .expect_err("a viseme")
             .to_string()
             .contains("visemes")
@@ -300,23 +305,29 @@ fn fap_text_holds_what_its_masks_name() {
 fn plain_tables_read_back_unchanged() {
     let text = "time [s],force [N],\"a,b\"\n0.500000,1.50,\n0.510000,,2e-3\n";
     let (curves, offset, _) = curves(text);
-    assert_eq!(offset.millis(), 500);
-    assert_eq!(curves.times().rate().map(|rate| rate.frames()), Some(100));
-    assert_eq!(write(&curves, offset), text.replace("2e-3", "0.002"));
+    assert_eq!(offset.instant_millis(), 500);
+    assert_eq!(
+        curves.curve_times().even_times_rate().map(|rate| rate.rate_numerator()),
+        Some(100)
+    );
+    assert_eq!(write_curves_csv(&curves, offset), text.replace("2e-3", "0.002"));
 }
 
 #[test]
 fn scores_of_one_frame_are_read_from_their_text_form() {
     let text = "# proto-message: ClassificationList\nclassification {\n  index: 0\n  score: 2.9e-05\n  label: \"_neutral\"\n}\n\
                 classification {\n  index: 1\n  score: 0.79\n  label: \"browDownLeft\"\n}\n";
-    assert_eq!(CurveFile::of(text.as_bytes()), Some(CurveFile::MediaPipe));
+    assert_eq!(
+        CurveFile::detect_curve_file(text.as_bytes()),
+        Some(CurveFile::MediaPipe)
+    );
     let (curves, _, findings) = curves(text);
-    assert_eq!((curves.frames(), curves.curves().len()), (1, 2));
-    let down = curves.curve("browDownLeft").expect("a score");
-    assert_eq!(down.values.text(0).as_deref(), Some("0.79"));
+    assert_eq!((curves.curve_frame_count(), curves.track_curves().len()), (1, 2));
+    let down = curves.find_curve("browDownLeft").expect("a score");
+    assert_eq!(down.values.column_text_at(0).as_deref(), Some("0.79"));
     assert!(findings.iter().any(|it| it.message.contains("one frame")));
-    assert!(read(b"classification {\n score: high\n}\n").is_err());
-    assert!(read(b"classification {\n}\n").is_err());
+    assert!(read_curves(b"classification {\n score: high\n}\n").is_err());
+    assert!(read_curves(b"classification {\n}\n").is_err());
 }
 
 #[test]
@@ -332,7 +343,7 @@ fn tables_that_mean_nothing_are_refused_with_the_line() {
         ("{\"faceBlendshapes\": 3}", "no frame holds"),
     ];
     for (text, expected) in cases {
-        let error = read(text.as_bytes()).expect_err(expected).to_string();
+        let error = read_curves(text.as_bytes()).expect_err(expected).to_string();
         assert!(error.contains(expected), "{text}: {error}");
     }
 }
@@ -346,24 +357,30 @@ fn faces_of_others_are_read_whole() {
     let folder = std::path::Path::new(&folder).join("face");
     let open = |path: &str| {
         let bytes = std::fs::read(folder.join(path)).expect("a file");
-        let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let (tracks, _) = read_curves(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
         match tracks.tracks[0].content.clone() {
-            Content::Curves(curves) => curves,
-            Content::Markers(_) => panic!("curves"),
+            CapturedTrackContent::Curves(curves) => curves,
+            CapturedTrackContent::Markers(_) => panic!("curves"),
         }
     };
     let link = open("alexdjulin-LiveLinkFace/alex_rom_4.csv");
     assert!(
-        (link.span().seconds() - 127.0).abs() < 1.0,
+        (link.curve_track_span().span_seconds() - 127.0).abs() < 1.0,
         "{}",
-        link.span().seconds()
+        link.curve_track_span().span_seconds()
     );
-    assert_eq!(link.curves().len(), 62);
+    assert_eq!(link.track_curves().len(), 62);
     let decoded = open("think-biq-LLV/dao_decoded.csv");
-    assert!((decoded.span().seconds() - 3.0).abs() < 1.0);
+    assert!((decoded.curve_track_span().span_seconds() - 3.0).abs() < 1.0);
     let open_face = open("cosanlab-py-feat/OpenFace_Test.csv");
-    assert_eq!((open_face.curves().len(), open_face.frames()), (431, 100));
-    let rate = open_face.times().rate().map(|rate| rate.frames());
+    assert_eq!(
+        (open_face.track_curves().len(), open_face.curve_frame_count()),
+        (431, 100)
+    );
+    let rate = open_face
+        .curve_times()
+        .even_times_rate()
+        .map(|rate| rate.rate_numerator());
     assert_eq!(rate, Some(30), "it is a series of pictures, 1 ms apart");
 }
 
@@ -382,13 +399,11 @@ fn timestamps_that_count_pictures_are_no_times() {
             text.push_str(&format!("{number}, {time}, 0.9, 1, 0.1\n"));
         }
         let (curves, _, findings) = curves(&text);
-        let found = curves.times().rate().map(|rate| rate.frames());
+        let found = curves.curve_times().even_times_rate().map(|rate| rate.rate_numerator());
         assert_eq!(found, rate, "{times:?} {numbers:?}");
-        let end = curves.times().instant(2).seconds();
+        let end = curves.curve_times().frame_time_instant(2).instant_seconds();
         assert!((end - last).abs() < 2e-6, "{times:?} {numbers:?}: {end}");
-        let warned = findings
-            .iter()
-            .any(|it| it.message.contains("a series of pictures"));
+        let warned = findings.iter().any(|it| it.message.contains("a series of pictures"));
         assert_eq!(warned, rate != Some(500), "{findings:?}");
     }
 }
@@ -415,38 +430,27 @@ fn packets(frames: &[(u32, [f32; 3])]) -> Vec<u8> {
     bytes
 }
 
-fn frames(tracks: &Tracks) -> usize {
+fn frames(tracks: &CapturedTracks) -> usize {
     match &tracks.tracks[0].content {
-        Content::Curves(curves) => curves.frames(),
-        Content::Markers(markers) => markers.frames(),
+        CapturedTrackContent::Curves(curves) => curves.curve_frame_count(),
+        CapturedTrackContent::Markers(markers) => markers.marker_frame_count(),
     }
 }
 
 #[test]
 fn packets_are_read_with_the_names_and_the_times_that_they_stand_for() {
-    let bytes = packets(&[
-        (100, [0.25, 0.1, 0.0]),
-        (101, [0.5, 0.2, 1.0]),
-        (103, [0.75, 0.3, 0.5]),
-    ]);
-    assert_eq!(CurveFile::of(&bytes), Some(CurveFile::Packets));
-    let (tracks, _) = read(&bytes).expect("packets");
-    let Content::Curves(curves) = &tracks.tracks[0].content else {
+    let bytes = packets(&[(100, [0.25, 0.1, 0.0]), (101, [0.5, 0.2, 1.0]), (103, [0.75, 0.3, 0.5])]);
+    assert_eq!(CurveFile::detect_curve_file(&bytes), Some(CurveFile::Packets));
+    let (tracks, _) = read_curves(&bytes).expect("packets");
+    let CapturedTrackContent::Curves(curves) = &tracks.tracks[0].content else {
         panic!("curves");
     };
-    assert_eq!(
-        values(curves, "EyeBlinkLeft"),
-        [Some(0.25), Some(0.5), Some(0.75)]
-    );
-    assert_eq!(curves.times().rate(), None, "a packet is missing");
-    assert!((curves.times().instant(2).seconds() - 0.05).abs() < 1e-6);
-    let text = curves.curves()[1].values.text(0);
-    assert_eq!(
-        text.as_deref(),
-        Some("0.1"),
-        "the shortest decimal of a single"
-    );
-    let (cut, _) = read(&bytes[..bytes.len() - 5]).expect("what is whole");
+    assert_eq!(values(curves, "EyeBlinkLeft"), [Some(0.25), Some(0.5), Some(0.75)]);
+    assert_eq!(curves.curve_times().even_times_rate(), None, "a packet is missing");
+    assert!((curves.curve_times().frame_time_instant(2).instant_seconds() - 0.05).abs() < 1e-6);
+    let text = curves.track_curves()[1].values.column_text_at(0);
+    assert_eq!(text.as_deref(), Some("0.1"), "the shortest decimal of a single");
+    let (cut, _) = read_curves(&bytes[..bytes.len() - 5]).expect("what is whole");
     assert_eq!(frames(&cut), 2);
 }
 
@@ -469,25 +473,25 @@ fn hostile_faces_are_refused_or_read_and_fill_no_memory() {
         format!("classification {{\n score: {}\n label: x\n}}\n", "7".repeat(9_000)),
     ];
     for text in &texts {
-        let _ = read(text.as_bytes());
+        let _ = read_curves(text.as_bytes());
     }
     let whole = packets(&[(1, [0.0, f32::NAN, f32::INFINITY]), (0, [1.0; 3])]);
     for cut in 0..whole.len() {
-        let _ = read(&whole[..cut]);
+        let _ = read_curves(&whole[..cut]);
     }
     for at in 0..whole.len() {
         for flip in [0xff, 0x80, 0x01] {
             let mut damaged = whole.clone();
             damaged[at] ^= flip;
-            let _ = read(&damaged);
+            let _ = read_curves(&damaged);
         }
     }
     let mut announced = whole.clone();
     announced[1..5].fill(0xff);
-    let (tracks, _) = read(&announced).expect("as many packets as there are");
+    let (tracks, _) = read_curves(&announced).expect("as many packets as there are");
     assert_eq!(frames(&tracks), 1, "the second is not later");
     let gzip = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3, 0xff, 0xff];
-    assert!(read(&gzip).is_err());
+    assert!(read_curves(&gzip).is_err());
 }
 
 #[test]
@@ -499,7 +503,7 @@ fn names_with_blanks_are_read_and_an_unknown_parameter_is_refused() {
     let text = format!("2.1 my own face 25 1\n{} \n0 120 \n", masks(31));
     assert_eq!(values(&curves(&text).0, "FAP31"), [Some(120.0)]);
     let odd = format!("2.1 face 25 1\n{}\n0 120\n", masks(69));
-    assert!(read(odd.as_bytes()).is_err(), "parameter 69 does not exist");
+    assert!(read_curves(odd.as_bytes()).is_err(), "parameter 69 does not exist");
 }
 
 /// Tests every face file by other people: each number of the file is the same in the program's own table.
@@ -519,19 +523,20 @@ fn faces_of_others_keep_every_number() {
     ];
     let open = |path: &str| {
         let bytes = std::fs::read(folder.join(path)).expect("a file");
-        let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let (tracks, _) = read_curves(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
         match tracks.tracks[0].content.clone() {
-            Content::Curves(curves) => curves,
-            Content::Markers(_) => panic!("curves"),
+            CapturedTrackContent::Curves(curves) => curves,
+            CapturedTrackContent::Markers(_) => panic!("curves"),
         }
     };
     for path in files {
         let before = open(path);
-        let text = write(&before, Instant::ZERO);
+        let text = write_curves_csv(&before, RecordingInstant::RECORDING_START);
         let (back, _, _) = curves(&text);
-        assert_eq!(back.curves().len(), before.curves().len(), "{path}");
-        for (a, b) in before.curves().iter().zip(back.curves()) {
-            let same = (0..before.frames()).all(|at| a.values.text(at) == b.values.text(at));
+        assert_eq!(back.track_curves().len(), before.track_curves().len(), "{path}");
+        for (a, b) in before.track_curves().iter().zip(back.track_curves()) {
+            let same =
+                (0..before.curve_frame_count()).all(|at| a.values.column_text_at(at) == b.values.column_text_at(at));
             assert!(same, "{path}: {}", a.name);
         }
     }
@@ -540,17 +545,17 @@ fn faces_of_others_keep_every_number() {
         open("think-biq-LLV/dao.gesichter"),
         open("think-biq-LLV/dao_decoded.csv"),
     );
-    assert_eq!((own.frames(), own.curves().len()), (180, 61));
-    for curve in own.curves() {
-        let other = theirs.curve(&curve.name).expect("the same channel");
-        for at in 0..own.frames() {
-            let (a, b) = (curve.values.value(at), other.values.value(at));
+    assert_eq!((own.curve_frame_count(), own.track_curves().len()), (180, 61));
+    for curve in own.track_curves() {
+        let other = theirs.find_curve(&curve.name).expect("the same channel");
+        for at in 0..own.curve_frame_count() {
+            let (a, b) = (curve.values.column_value_at(at), other.values.column_value_at(at));
             let off = (a.expect("a number") - b.expect("a number")).abs();
             assert!(off < 1e-6, "{} at {at}: {a:?} {b:?}", curve.name);
         }
     }
-    let yaw = own.curve("HeadYaw").expect("a head");
-    let of = |choose: fn(f64, f64) -> f64| yaw.values.values().flatten().reduce(choose);
+    let yaw = own.find_curve("HeadYaw").expect("a head");
+    let of = |choose: fn(f64, f64) -> f64| yaw.values.column_values().flatten().reduce(choose);
     let (least, most) = (of(f64::min).expect("yaw"), of(f64::max).expect("yaw"));
     assert!(
         (least + 0.189).abs() < 1e-3 && (most - 0.310).abs() < 1e-3,
@@ -560,12 +565,11 @@ fn faces_of_others_keep_every_number() {
 
 #[test]
 fn frames_of_a_face_need_their_rate() {
-    let table =
-        |first: &str| format!("{first},jawOpen,browInnerUp,eyeBlinkLeft\n0,0,0,0\n1,0.5,0,0\n");
-    let error = read(table("frame").as_bytes()).expect_err("no rate");
+    let table = |first: &str| format!("{first},jawOpen,browInnerUp,eyeBlinkLeft\n0,0,0,0\n1,0.5,0,0\n");
+    let error = read_curves(table("frame").as_bytes()).expect_err("no rate");
     assert!(error.to_string().contains("frame [30 fps]"), "{error}");
-    assert!(read(table("frame [30 fps]").as_bytes()).is_ok());
-    assert_eq!(CurveFile::of(b"frame,gloss,handshape\n1,BOL,B\n"), None);
+    assert!(read_curves(table("frame [30 fps]").as_bytes()).is_ok());
+    assert_eq!(CurveFile::detect_curve_file(b"frame,gloss,handshape\n1,BOL,B\n"), None);
 }
 
 #[test]
@@ -578,16 +582,18 @@ fn shapes_by_name_and_rows_of_weights_are_read_from_json() {
     for text in [list, frames, rows] {
         let (curves, _, findings) = curves(text);
         assert_eq!(values(&curves, "jawOpen"), [Some(0.0), Some(0.6)], "{text}");
-        assert_eq!(curves.curves().len(), 2, "{text}");
-        assert_eq!(curves.times().instant(1).micros(), 40_000, "{text}");
+        assert_eq!(curves.track_curves().len(), 2, "{text}");
+        assert_eq!(
+            curves.curve_times().frame_time_instant(1).instant_micros(),
+            40_000,
+            "{text}"
+        );
         assert!(findings.is_empty(), "{findings:?}");
     }
     let short = r#"{"names":["jawOpen","browInnerUp"],"weights":[[0,0.5],[1]]}"#;
-    let error = read(short.as_bytes()).expect_err("a short row");
+    let error = read_curves(short.as_bytes()).expect_err("a short row");
     assert!(
-        error
-            .to_string()
-            .contains("frame 1 has 1 weights for 2 names"),
+        error.to_string().contains("frame 1 has 1 weights for 2 names"),
         "{error}"
     );
 }

@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-use super::error::Error;
-use super::xml::{BYTES, declared, line_of};
-use crate::finding::Finding;
-use crate::table::{WINDOWS, western};
+use super::error::EafError;
+use super::xml::{MAX_XML_BYTES, declared_encoding, line_at_byte};
+use crate::finding::ImportFinding;
+use crate::table::{WINDOWS_1252_CHARS, decode_windows_byte};
 
 /// How the characters of a file are written as bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(super) enum EafEncoding {
     /// UTF-8, with or without a byte-order mark.
     Utf8 { mark: bool },
     /// UTF-16, its high bytes first or last.
@@ -19,7 +19,7 @@ pub(super) enum Encoding {
 }
 
 /// The names under which a declaration announces [`Encoding::Western`].
-const WESTERN: [&str; 6] = [
+const WESTERN_XML_NAMES: [&str; 6] = [
     "iso-8859-1",
     "iso8859-1",
     "iso_8859-1",
@@ -28,98 +28,96 @@ const WESTERN: [&str; 6] = [
     "cp1252",
 ];
 /// The names of UTF-16.
-const WIDE: [&str; 4] = ["utf-16", "utf16", "utf-16le", "utf-16be"];
+const UTF16_XML_NAMES: [&str; 4] = ["utf-16", "utf16", "utf-16le", "utf-16be"];
 
 /// Returns whether the reader knows a declared encoding.
 pub(super) fn is_known(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["utf-8", "us-ascii", "utf8"].contains(&&*name)
-        || WESTERN.contains(&&*name)
-        || WIDE.contains(&&*name)
+        || WESTERN_XML_NAMES.contains(&&*name)
+        || UTF16_XML_NAMES.contains(&&*name)
 }
 
 /// The text of a file, and how to write it again.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Decoded<'b> {
+pub struct DecodedEafText<'b> {
     /// The text, without a byte-order mark.
     pub text: Cow<'b, str>,
     /// Oddities of the encoding.
-    pub findings: Vec<Finding>,
-    pub(super) encoding: Encoding,
+    pub findings: Vec<ImportFinding>,
+    pub(super) encoding: EafEncoding,
 }
 
 /// Returns the text of an EAF file in UTF-8, UTF-16 (with or without its mark), or, if it declares so, Latin-1 or
 /// Windows-1252.
 ///
 /// # Errors
-/// [`Error`] if the bytes are in another encoding, or too many.
-pub fn decode(bytes: &[u8]) -> Result<Decoded<'_>, Error> {
-    if bytes.len() > BYTES {
-        return Err(Error::Limit {
+/// [`EafError`] if the bytes are in another encoding, or too many.
+pub fn decode_eaf(bytes: &[u8]) -> Result<DecodedEafText<'_>, EafError> {
+    if bytes.len() > MAX_XML_BYTES {
+        return Err(EafError::Limit {
             line: 1,
             what: "the file has too many bytes",
-            limit: BYTES,
+            limit: MAX_XML_BYTES,
         });
     }
-    if let Some((big, mark)) = wide(bytes) {
+    if let Some((big, mark)) = detect_utf16_order(bytes) {
         return in_utf16(bytes, big, mark);
     }
-    let said = declared(bytes).map(|name| name.to_ascii_lowercase());
-    let said = said.as_deref();
+    let declared_name = declared_encoding(bytes).map(|name| name.to_ascii_lowercase());
+    let stated_encoding = declared_name.as_deref();
     let (mark, rest) = match bytes.strip_prefix(b"\xef\xbb\xbf") {
         Some(rest) => (true, rest),
         None => (false, bytes),
     };
-    let is_western = said.is_some_and(|it| WESTERN.contains(&it)) && !mark;
+    let is_western = stated_encoding.is_some_and(|name| WESTERN_XML_NAMES.contains(&name)) && !mark;
     let Ok(text) = str::from_utf8(rest) else {
         if !is_western {
             // The XML reader names the fault and its line.
-            return Err(super::xml::decode(bytes)
+            return Err(super::xml::decode_utf8_xml(bytes)
                 .err()
-                .unwrap_or(Error::NotXml { line: 1 }));
+                .unwrap_or(EafError::NotXml { line: 1 }));
         }
-        let text: String = bytes.iter().map(|byte| western(*byte)).collect();
+        let text: String = bytes.iter().map(|byte| decode_windows_byte(*byte)).collect();
         let name = if bytes.iter().any(|byte| (0x80..0xa0).contains(byte)) {
             "Windows-1252"
         } else {
             "Latin-1"
         };
-        return Ok(Decoded {
+        return Ok(DecodedEafText {
             text: text.into(),
             findings: vec![noted(name)],
-            encoding: Encoding::Western,
+            encoding: EafEncoding::Western,
         });
     };
     let mut findings = Vec::new();
-    if let Some(other) = said.filter(|it| WESTERN.contains(it) || WIDE.contains(it))
+    if let Some(other) =
+        stated_encoding.filter(|name| WESTERN_XML_NAMES.contains(name) || UTF16_XML_NAMES.contains(name))
         && (!is_western || !text.is_ascii())
     {
-        findings.push(Finding::note(
+        findings.push(ImportFinding::new_note_finding(
             1,
             format!("the file says that it is in {other}, and is in UTF-8; it was read as UTF-8"),
         ));
     }
     let encoding = if is_western && text.is_ascii() {
-        Encoding::Western
+        EafEncoding::Western
     } else {
-        Encoding::Utf8 { mark }
+        EafEncoding::Utf8 { mark }
     };
-    Ok(Decoded {
+    Ok(DecodedEafText {
         text: text.into(),
         findings,
         encoding,
     })
 }
 
-fn noted(name: &str) -> Finding {
-    Finding::note(
-        None,
-        format!("the text is in {name}; it is written so again"),
-    )
+fn noted(name: &str) -> ImportFinding {
+    ImportFinding::new_note_finding(None, format!("the text is in {name}; it is written so again"))
 }
 
 /// Returns the byte order of text in UTF-16, and whether a byte-order mark states it.
-fn wide(bytes: &[u8]) -> Option<(bool, bool)> {
+fn detect_utf16_order(bytes: &[u8]) -> Option<(bool, bool)> {
     match bytes {
         [0xff, 0xfe, 0, 0, ..] => None,
         [0xff, 0xfe, ..] => Some((false, true)),
@@ -130,7 +128,7 @@ fn wide(bytes: &[u8]) -> Option<(bool, bool)> {
     }
 }
 
-fn in_utf16(bytes: &[u8], big: bool, mark: bool) -> Result<Decoded<'_>, Error> {
+fn in_utf16(bytes: &[u8], big: bool, mark: bool) -> Result<DecodedEafText<'_>, EafError> {
     let units = &bytes[if mark { 2 } else { 0 }..];
     let unit = |pair: &[u8]| {
         let pair = [pair[0], pair[1]];
@@ -141,33 +139,33 @@ fn in_utf16(bytes: &[u8], big: bool, mark: bool) -> Result<Decoded<'_>, Error> {
         }
     };
     let mut text = String::with_capacity(units.len() / 2);
-    let whole = char::decode_utf16(units.chunks_exact(2).map(unit));
-    for character in whole {
+    let characters = char::decode_utf16(units.chunks_exact(2).map(unit));
+    for character in characters {
         let Ok(character) = character else {
-            return Err(broken(&text));
+            return Err(broken_utf16_error(&text));
         };
         text.push(character);
     }
     if units.len() % 2 == 1 {
-        return Err(broken(&text));
+        return Err(broken_utf16_error(&text));
     }
-    Ok(Decoded {
+    Ok(DecodedEafText {
         text: text.into(),
         findings: vec![noted("UTF-16")],
-        encoding: Encoding::Utf16 { big, mark },
+        encoding: EafEncoding::Utf16 { big, mark },
     })
 }
 
-fn broken(before: &str) -> Error {
-    Error::Encoding {
+fn broken_utf16_error(before: &str) -> EafError {
+    EafError::Encoding {
         encoding: "UTF-16 with half a character".to_owned(),
-        line: line_of(before.as_bytes(), before.len()),
+        line: line_at_byte(before.as_bytes(), before.len()),
     }
 }
 
-impl Encoding {
+impl EafEncoding {
     /// Returns the bytes of a text of XML; a character that the encoding lacks becomes its number, as `&#x2019;`.
-    pub(super) fn bytes(self, text: &str) -> Vec<u8> {
+    pub(super) fn encode_xml_text(self, text: &str) -> Vec<u8> {
         match self {
             Self::Utf8 { mark } => {
                 let mark: &[u8] = if mark { b"\xef\xbb\xbf" } else { b"" };
@@ -177,18 +175,14 @@ impl Encoding {
                 let mark = mark.then_some(0xfeff);
                 let units = mark.into_iter().chain(text.encode_utf16());
                 let bytes = |unit: u16| {
-                    if big {
-                        unit.to_be_bytes()
-                    } else {
-                        unit.to_le_bytes()
-                    }
+                    if big { unit.to_be_bytes() } else { unit.to_le_bytes() }
                 };
                 units.flat_map(bytes).collect()
             }
             Self::Western => {
                 let mut bytes = Vec::with_capacity(text.len());
                 for character in text.chars() {
-                    match byte(character) {
+                    match windows_1252_byte(character) {
                         Some(byte) => bytes.push(byte),
                         None => {
                             let number = format!("&#x{:X};", u32::from(character));
@@ -203,8 +197,8 @@ impl Encoding {
 }
 
 /// Returns the byte of a character in Windows-1252.
-fn byte(character: char) -> Option<u8> {
-    if let Some(at) = WINDOWS.iter().position(|it| *it == character) {
+fn windows_1252_byte(character: char) -> Option<u8> {
+    if let Some(at) = WINDOWS_1252_CHARS.iter().position(|candidate| *candidate == character) {
         return u8::try_from(0x80 + at).ok();
     }
     let byte = u8::try_from(u32::from(character)).ok()?;

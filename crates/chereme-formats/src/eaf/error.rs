@@ -2,9 +2,9 @@
 
 /// The reason why a file could not be read as EAF or ECV; every case names the line and a correction.
 ///
-/// Oddities that the reader tolerates are a [`Finding`](crate::finding::Finding) instead.
+/// Oddities that the reader tolerates are a [`ImportFinding`](crate::finding::ImportFinding) instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum EafError {
     /// The file is in an encoding that is not read.
     #[error(
         "line {line}: the text is in {encoding}; EAF is read in UTF-8 and UTF-16, and in Latin-1 and Windows-1252 \
@@ -17,9 +17,7 @@ pub enum Error {
         line: u64,
     },
     /// The file holds nothing, or something that isn't XML.
-    #[error(
-        "line {line}: this is not XML; an EAF file starts with <?xml …?> and <ANNOTATION_DOCUMENT …>"
-    )]
+    #[error("line {line}: this is not XML; an EAF file starts with <?xml …?> and <ANNOTATION_DOCUMENT …>")]
     NotXml {
         /// The line, counted from 1.
         line: u64,

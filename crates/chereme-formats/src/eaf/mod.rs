@@ -1,6 +1,6 @@
 //! ELAN's annotation files: `.eaf`, templates `.etf`, external vocabularies `.ecv`, preferences `.pfsx`.
 //!
-//! [`raw`] mirrors the file, [`convert`] interprets it: tiers, annotations with spans, and vocabularies. [`settings`]
+//! [`eaf_raw`] mirrors the file, [`eaf_convert`] interprets it: tiers, annotations with spans, and vocabularies. [`eaf_settings`]
 //! reads how tiers are shown.
 //!
 //! ```
@@ -18,49 +18,51 @@
 //! ```
 
 mod back;
-mod check;
+mod eaf_check;
+mod eaf_fields;
+mod eaf_layout;
+mod eaf_model;
+mod eaf_output;
+mod eaf_read;
+mod eaf_write;
 mod encoding;
 mod error;
-mod fields;
-mod layout;
-mod model;
-mod output;
 mod patch;
-mod read;
 mod style;
-mod write;
 pub(crate) mod xml;
 
-pub mod convert;
-pub mod raw;
-pub mod settings;
+pub mod eaf_convert;
+pub mod eaf_raw;
+pub mod eaf_settings;
 
-pub use convert::{Transcript, from_raw, to_raw};
-pub use encoding::{Decoded, decode};
-pub use error::Error;
-pub use patch::{patched, same_meaning};
+pub use eaf_convert::{AnnotationTranscript, to_raw, transcript_from_eaf};
+pub use encoding::{DecodedEafText, decode_eaf};
+pub use error::EafError;
+pub use patch::{patch_eaf, same_meaning};
 
-use crate::finding::Finding;
+use crate::finding::ImportFinding;
 
 /// Reads the vocabularies of an `.ecv` file.
 ///
 /// # Errors
-/// The same as [`raw::read_ecv`]'s.
-pub fn read_vocabularies(bytes: &[u8]) -> Result<(Vec<convert::Vocabulary>, Vec<Finding>), Error> {
-    let (document, findings) = raw::read_ecv(bytes)?;
-    Ok((convert::vocabularies(&document), findings))
+/// The same as [`eaf_raw::read_ecv`]'s.
+pub fn read_vocabularies(
+    bytes: &[u8],
+) -> Result<(Vec<eaf_convert::ControlledVocabulary>, Vec<ImportFinding>), EafError> {
+    let (document, findings) = eaf_raw::read_ecv(bytes)?;
+    Ok((eaf_convert::document_vocabularies(&document), findings))
 }
 
-/// Reads an EAF document as a transcript: [`decode`], [`raw::read`], then [`from_raw`].
+/// Reads an EAF document as a transcript: [`decode_eaf`], [`eaf_raw::read_eaf_document`], then [`transcript_from_eaf`].
 ///
 /// # Errors
-/// The same as those of [`decode`] and [`raw::read`].
-pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
-    let decoded = decode(bytes)?;
-    let (document, more) = raw::read(decoded.text.as_bytes())?;
+/// The same as those of [`decode_eaf`] and [`eaf_raw::read_eaf_document`].
+pub fn read_eaf(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), EafError> {
+    let decoded = decode_eaf(bytes)?;
+    let (document, more) = eaf_raw::read_eaf_document(decoded.text.as_bytes())?;
     let mut findings = decoded.findings;
     findings.extend(more);
-    let (transcript, more) = from_raw(&document);
+    let (transcript, more) = transcript_from_eaf(&document);
     findings.extend(more);
     Ok((transcript, findings))
 }

@@ -1,15 +1,15 @@
 //! How a file spells its XML: line ends, indentation, quotes, entities, and where start tags break.
 
-use super::layout::Layout;
+use super::eaf_layout::EafLayout;
 use super::xml::is_xml;
 use std::collections::BTreeMap;
 
 /// Start tags of ELAN 5 and 6 break before an attribute that would go beyond this column.
-const COLUMN: usize = 72;
+const TAG_BREAK_COLUMN: usize = 72;
 
 /// The spelling of a file.
 #[derive(Debug, Clone)]
-pub(super) struct Style {
+pub(super) struct EafSpelling {
     /// The line end; empty if elements share lines.
     pub(super) newline: &'static str,
     /// The indentation of a level.
@@ -29,9 +29,9 @@ pub(super) struct Style {
     order: BTreeMap<String, Vec<String>>,
 }
 
-impl Style {
+impl EafSpelling {
     /// Returns the spelling of ELAN 5 and 6: attributes in alphabetical order, breaks at column 72.
-    pub(super) fn elan() -> Self {
+    pub(super) fn elan_spelling() -> Self {
         Self {
             newline: "\n",
             unit: "    ".to_owned(),
@@ -46,7 +46,7 @@ impl Style {
     }
 
     /// Returns the spelling of a text.
-    pub(super) fn of(layout: &Layout<'_>) -> Self {
+    pub(super) fn spelling_from_layout(layout: &EafLayout<'_>) -> Self {
         let text = layout.text;
         let lines = text.matches('\n').count();
         let newline = match (2 * text.matches("\r\n").count() > lines, lines) {
@@ -56,7 +56,7 @@ impl Style {
             (false, _) => "\n",
         };
         let mut all = 0..layout.elements.len();
-        let child = all.find_map(|it| layout.indent(it).filter(|indent| !indent.is_empty()));
+        let child = all.find_map(|element| layout.element_indent(element).filter(|indent| !indent.is_empty()));
         let mut style = Self {
             newline: if child.is_some() || lines > layout.elements.len() / 2 {
                 newline
@@ -72,27 +72,27 @@ impl Style {
             blank: 2 * text.matches(" />").count() > text.matches("/>").count(),
             apostrophe: text.contains("&apos;"),
             quotation: text.contains("&quot;"),
-            ..Self::elan()
+            ..Self::elan_spelling()
         };
-        style.wraps = style.breaks(layout);
+        style.wraps = style.has_broken_tags(layout);
         let values = "ANNOTATION_VALUE";
         style.pair = if text.contains("<ANNOTATION_VALUE></ANNOTATION_VALUE>") {
             true
         } else {
             let short = (0..layout.elements.len())
-                .any(|it| layout.elements[it].empty && layout.name(it) == values);
+                .any(|element| layout.elements[element].empty && layout.layout_element_name(element) == values);
             !short && !style.wraps
         };
         for element in 0..layout.elements.len() {
-            let names = layout.attributes(element);
-            let known = style
+            let names = layout.element_attributes(element);
+            let attribute_order = style
                 .order
-                .entry(layout.name(element).to_owned())
+                .entry(layout.layout_element_name(element).to_owned())
                 .or_default();
             for name in names {
                 let name = &layout.text[name.name.clone()];
-                if !known.iter().any(|it| it == name) {
-                    known.push(name.to_owned());
+                if !attribute_order.iter().any(|listed| listed == name) {
+                    attribute_order.push(name.to_owned());
                 }
             }
         }
@@ -100,19 +100,19 @@ impl Style {
     }
 
     /// Returns whether the file breaks long start tags, as far as its text shows.
-    fn breaks(&self, layout: &Layout<'_>) -> bool {
+    fn has_broken_tags(&self, layout: &EafLayout<'_>) -> bool {
         let mut long = false;
         for element in 0..layout.elements.len() {
             let it = &layout.elements[element];
             let tag = &layout.text[it.span.start..it.inner.start];
-            if tag.contains('\n') && layout.name(element) != "ANNOTATION_DOCUMENT" {
+            if tag.contains('\n') && layout.layout_element_name(element) != "ANNOTATION_DOCUMENT" {
                 return true;
             }
-            let attributes = layout.attributes(element);
+            let attributes = layout.element_attributes(element);
             let last = attributes.len().saturating_sub(2);
-            let end = attributes.get(last).map_or(0, |it| it.value.end);
-            let indent = layout.indent(element).map_or(0, str::len);
-            long |= attributes.len() > 1 && indent + end.saturating_sub(it.span.start) > COLUMN + 8;
+            let end = attributes.get(last).map_or(0, |attribute| attribute.value.end);
+            let indent = layout.element_indent(element).map_or(0, str::len);
+            long |= attributes.len() > 1 && indent + end.saturating_sub(it.span.start) > TAG_BREAK_COLUMN + 8;
         }
         !long
     }
@@ -120,19 +120,19 @@ impl Style {
     /// Returns the start of a tag: its name and attributes, without its end.
     ///
     /// An attribute that would go beyond column 72 stands on a line of its own, unless it is the last.
-    pub(super) fn tag(&self, indent: &str, name: &str, attributes: &[(&str, &str)]) -> String {
+    pub(super) fn format_start_tag(&self, indent: &str, name: &str, attributes: &[(&str, &str)]) -> String {
         let mut sorted: Vec<&(&str, &str)> = attributes.iter().collect();
         let order = self.order.get(name);
         sorted.sort_by_key(|(name, _)| {
-            let known = order.and_then(|order| order.iter().position(|it| it == name));
-            (known.unwrap_or(usize::MAX), *name)
+            let order_index = order.and_then(|order| order.iter().position(|listed| listed == name));
+            (order_index.unwrap_or(usize::MAX), *name)
         });
         let mut tag = format!("<{name}");
         let mut column = indent.chars().count() + tag.chars().count();
         for (at, (name, value)) in sorted.iter().enumerate() {
-            let written = self.attribute(name, value);
+            let written = self.format_xml_attribute(name, value);
             let length = written.chars().count();
-            if self.wraps && at + 1 < sorted.len() && column + 1 + length > COLUMN {
+            if self.wraps && at + 1 < sorted.len() && column + 1 + length > TAG_BREAK_COLUMN {
                 tag.push_str(self.newline);
                 tag.push_str(indent);
                 tag.push_str("    ");
@@ -148,25 +148,25 @@ impl Style {
     }
 
     /// Returns an attribute with its value.
-    pub(super) fn attribute(&self, name: &str, value: &str) -> String {
+    pub(super) fn format_xml_attribute(&self, name: &str, value: &str) -> String {
         let quote = self.quote;
-        format!("{name}={quote}{}{quote}", self.escape(value, Some(quote)))
+        format!("{name}={quote}{}{quote}", self.escape_xml_text(value, Some(quote)))
     }
 
     /// Returns the end of a tag without content.
-    pub(super) fn close(&self) -> &'static str {
+    pub(super) fn empty_tag_end(&self) -> &'static str {
         if self.blank { " />" } else { "/>" }
     }
 
     /// Returns whether an element of that name is written with two tags if it has no text.
-    pub(super) fn pairs(&self, name: &str) -> bool {
+    pub(super) fn needs_tag_pair(&self, name: &str) -> bool {
         self.pair && name == "ANNOTATION_VALUE"
     }
 
     /// Returns a text as it is written between tags, or between the quotes of an attribute.
     ///
     /// Characters that XML cannot hold become U+FFFD.
-    pub(super) fn escape(&self, text: &str, quote: Option<char>) -> String {
+    pub(super) fn escape_xml_text(&self, text: &str, quote: Option<char>) -> String {
         let mut out = String::with_capacity(text.len());
         for c in text.chars() {
             let reference = match (c, quote) {

@@ -1,28 +1,28 @@
 //! A cursor over the elements of a hostile XML text, built on quick-xml's pull parser. Other annotation files in XML are
 //! read with it, too.
 
+use super::eaf_raw::{EafSourceText, ElementStart};
 use super::encoding::is_known;
-use super::error::Error;
-use super::raw::{At, Source};
-use crate::finding::Finding;
-use crate::tally::Findings;
+use super::error::EafError;
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
 use quick_xml::Reader;
 use quick_xml::errors::{Error as XmlError, IllFormedError, SyntaxError};
 use quick_xml::events::Event;
 use std::borrow::Cow;
 
 /// The most elements open at once; EAF needs 6.
-const DEPTH: usize = 64;
+const MAX_OPEN_ELEMENTS: usize = 64;
 /// The most attributes of one element; EAF needs 10.
-const ATTRIBUTES: usize = 64;
+const MAX_TAG_ATTRIBUTES: usize = 64;
 /// The most elements within one text that are reported.
-const INNER: usize = 1 << 16;
+const MAX_REPORTED_ELEMENTS: usize = 1 << 16;
 /// The longest text that is read, in bytes.
-pub(super) const BYTES: usize = 1 << 30;
+pub(super) const MAX_XML_BYTES: usize = 1 << 30;
 
 /// The start tag of an element.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Tag<'a> {
+pub(crate) struct XmlStartTag<'a> {
     pub(crate) name: &'a str,
     attributes: &'a str,
     empty: bool,
@@ -30,40 +30,40 @@ pub(crate) struct Tag<'a> {
     text: &'a str,
 }
 
-impl<'a> Tag<'a> {
+impl<'a> XmlStartTag<'a> {
     /// Returns the line of the tag, counted from 1; counting takes time.
-    pub(crate) fn line(&self) -> u64 {
-        line_of(self.text.as_bytes(), self.start)
+    pub(crate) fn start_tag_line(&self) -> u64 {
+        line_at_byte(self.text.as_bytes(), self.start)
     }
 
     /// Returns the position of the tag.
-    pub(crate) fn at(&self) -> At {
-        At(u32::try_from(self.start).unwrap_or(u32::MAX))
+    pub(crate) fn start_tag_position(&self) -> ElementStart {
+        ElementStart(u32::try_from(self.start).unwrap_or(u32::MAX))
     }
 
     /// Returns the whole text around the tag.
-    pub(super) fn source(&self) -> Source<'a> {
-        Source(self.text)
+    pub(super) fn tag_source_text(&self) -> EafSourceText<'a> {
+        EafSourceText(self.text)
     }
 }
 
 /// Walks through the elements of a text.
-pub(crate) struct Cursor<'a> {
+pub(crate) struct XmlCursor<'a> {
     text: &'a str,
     reader: Reader<&'a [u8]>,
     open: Vec<&'a str>,
-    pub(crate) findings: Findings,
+    pub(crate) findings: FindingTally,
     /// Whether a document type is passed over with a finding if it only names another file.
     names_type: bool,
 }
 
-impl<'a> Cursor<'a> {
+impl<'a> XmlCursor<'a> {
     /// Returns a cursor before the root element of `bytes`.
-    pub(crate) fn new(bytes: &'a [u8]) -> Result<Self, Error> {
-        let text = decode(bytes)?;
+    pub(crate) fn new(bytes: &'a [u8]) -> Result<Self, EafError> {
+        let text = decode_utf8_xml(bytes)?;
         if let Some(at) = control_character(text.as_bytes()) {
-            return Err(Error::NotXml {
-                line: line_of(text.as_bytes(), at),
+            return Err(EafError::NotXml {
+                line: line_at_byte(text.as_bytes(), at),
             });
         }
         let mut reader = Reader::from_str(text);
@@ -75,13 +75,13 @@ impl<'a> Cursor<'a> {
             text,
             reader,
             open: Vec::new(),
-            findings: Findings::default(),
+            findings: FindingTally::default(),
             names_type: false,
         })
     }
 
     /// Returns a cursor that passes over a document type without declarations of its own.
-    pub(crate) fn new_with_type(bytes: &'a [u8]) -> Result<Self, Error> {
+    pub(crate) fn new_with_type(bytes: &'a [u8]) -> Result<Self, EafError> {
         Ok(Self {
             names_type: true,
             ..Self::new(bytes)?
@@ -89,62 +89,63 @@ impl<'a> Cursor<'a> {
     }
 
     /// Returns the root element, which has to be `expected`.
-    pub(crate) fn root(&mut self, expected: &'static str) -> Result<Tag<'a>, Error> {
+    pub(crate) fn read_root_tag(&mut self, expected: &'static str) -> Result<XmlStartTag<'a>, EafError> {
         loop {
-            match self.event()? {
+            match self.next_xml_event()? {
                 Event::Decl(decl) => {
-                    let encoding = decl
-                        .encoding()
-                        .and_then(Result::ok)
-                        .unwrap_or("UTF-8".into());
+                    let encoding = decl.encoding().and_then(Result::ok).unwrap_or("UTF-8".into());
                     // The bytes are UTF-8 by now, whatever the file's encoding was.
                     if !is_known(&encoding) {
-                        return Err(Error::Encoding {
+                        return Err(EafError::Encoding {
                             encoding: encoding.into(),
-                            line: self.here(),
+                            line: self.cursor_line(),
                         });
                     }
                 }
                 Event::Comment(_) | Event::PI(_) => self.lost_comment(),
                 Event::Start(tag) => {
-                    let tag = self.tag(tag.name().0.len(), tag.len(), false)?;
+                    let tag = self.open_xml_tag(tag.name().0.len(), tag.len(), false)?;
                     return self.checked_root(tag, expected);
                 }
                 Event::Empty(tag) => {
-                    let tag = self.tag(tag.name().0.len(), tag.len(), true)?;
+                    let tag = self.open_xml_tag(tag.name().0.len(), tag.len(), true)?;
                     return self.checked_root(tag, expected);
                 }
-                _ => return Err(Error::NotXml { line: self.here() }),
+                _ => {
+                    return Err(EafError::NotXml {
+                        line: self.cursor_line(),
+                    });
+                }
             }
         }
     }
 
-    fn checked_root(&self, tag: Tag<'a>, expected: &'static str) -> Result<Tag<'a>, Error> {
+    fn checked_root(&self, tag: XmlStartTag<'a>, expected: &'static str) -> Result<XmlStartTag<'a>, EafError> {
         if tag.name == expected {
             return Ok(tag);
         }
-        Err(Error::Root {
-            line: tag.line(),
-            found: shown(tag.name),
+        Err(EafError::Root {
+            line: tag.start_tag_line(),
+            found: shorten_shown_text(tag.name),
             expected,
         })
     }
 
     /// Returns the next child of `parent`; `None` at its end. Each child must be read to its own end
     /// first.
-    pub(crate) fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
+    pub(crate) fn next_child_tag(&mut self, parent: &XmlStartTag<'a>) -> Result<Option<XmlStartTag<'a>>, EafError> {
         if parent.empty {
             return Ok(None);
         }
         loop {
-            match self.event()? {
+            match self.next_xml_event()? {
                 Event::Start(tag) => {
-                    return self.tag(tag.name().0.len(), tag.len(), false).map(Some);
+                    return self.open_xml_tag(tag.name().0.len(), tag.len(), false).map(Some);
                 }
                 Event::Empty(tag) => {
-                    return self.tag(tag.name().0.len(), tag.len(), true).map(Some);
+                    return self.open_xml_tag(tag.name().0.len(), tag.len(), true).map(Some);
                 }
-                Event::End(tag) => return self.close(tag.name().0).map(|()| None),
+                Event::End(tag) => return self.close_xml_tag(tag.name().0).map(|()| None),
                 Event::Comment(_) | Event::PI(_) => self.lost_comment(),
                 Event::Eof => return Err(self.truncated()),
                 Event::Text(text) if text.trim().is_empty() => {}
@@ -153,8 +154,8 @@ impl<'a> Cursor<'a> {
                         "the text in <{}> stands outside any value; it was left out",
                         parent.name
                     );
-                    self.find("text between elements", |line| {
-                        Finding::warning(line, message)
+                    self.add_counted_finding("text between elements", |line| {
+                        ImportFinding::new_warning_finding(line, message)
                     });
                 }
             }
@@ -162,62 +163,62 @@ impl<'a> Cursor<'a> {
     }
 
     /// Returns the text of `tag` and moves to its end.
-    pub(crate) fn text(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
+    pub(crate) fn read_tag_text(&mut self, tag: &XmlStartTag<'a>) -> Result<Cow<'a, str>, EafError> {
         let mut inner = Vec::new();
         let text = self.text_and_elements(tag, &mut inner)?;
         for inner in inner {
-            self.unexpected(&inner, tag);
+            self.report_unexpected_element(&inner, tag);
         }
         Ok(text)
     }
 
-    /// Returns the text of `tag` without the elements in it, adds the first [`INNER`] of those to `inner`, and moves to
+    /// Returns the text of `tag` without the elements in it, adds the first [`MAX_REPORTED_ELEMENTS`] of those to `inner`, and moves to
     /// its end.
     pub(crate) fn text_and_elements(
         &mut self,
-        tag: &Tag<'a>,
-        inner: &mut Vec<Tag<'a>>,
-    ) -> Result<Cow<'a, str>, Error> {
+        tag: &XmlStartTag<'a>,
+        inner: &mut Vec<XmlStartTag<'a>>,
+    ) -> Result<Cow<'a, str>, EafError> {
         if tag.empty {
             return Ok(Cow::Borrowed(""));
         }
         self.reader.config_mut().trim_text_start = false;
-        let text = self.pieces(inner);
+        let text = self.read_text_pieces(inner);
         self.reader.config_mut().trim_text_start = true;
         text
     }
 
-    fn pieces(&mut self, into: &mut Vec<Tag<'a>>) -> Result<Cow<'a, str>, Error> {
-        let mut whole: Cow<'a, str> = Cow::Borrowed("");
+    fn read_text_pieces(&mut self, into: &mut Vec<XmlStartTag<'a>>) -> Result<Cow<'a, str>, EafError> {
+        let mut full_text: Cow<'a, str> = Cow::Borrowed("");
         loop {
-            match self.event()? {
-                Event::End(end) => return self.close(end.name().0).map(|()| whole),
+            match self.next_xml_event()? {
+                Event::End(end) => return self.close_xml_tag(end.name().0).map(|()| full_text),
                 Event::Text(piece) => {
                     let piece = piece.into_inner();
                     if memchr::memchr(b'&', piece.as_bytes()).is_some() {
                         self.entity("");
                     }
-                    append(&mut whole, line_ends(piece));
+                    append_text_piece(&mut full_text, line_ends(piece));
                 }
-                Event::CData(piece) => append(&mut whole, line_ends(piece.into_inner())),
+                Event::CData(piece) => append_text_piece(&mut full_text, line_ends(piece.into_inner())),
                 Event::GeneralRef(name) => {
                     let name = name.into_inner();
                     let value = self.entity(&name);
-                    append(&mut whole, value);
+                    append_text_piece(&mut full_text, value);
                 }
                 Event::Comment(_) | Event::PI(_) => self.lost_comment(),
                 Event::Eof => return Err(self.truncated()),
                 Event::Start(inner) => {
-                    let inner = self.tag(inner.name().0.len(), inner.len(), false)?;
-                    if into.len() < INNER {
+                    let inner = self.open_xml_tag(inner.name().0.len(), inner.len(), false)?;
+                    if into.len() < MAX_REPORTED_ELEMENTS {
                         into.push(inner);
                     }
-                    self.skip(&inner)?;
+                    self.skip_xml_element(&inner)?;
                     self.reader.config_mut().trim_text_start = false;
                 }
                 Event::Empty(inner) => {
-                    let inner = self.tag(inner.name().0.len(), inner.len(), true)?;
-                    if into.len() < INNER {
+                    let inner = self.open_xml_tag(inner.name().0.len(), inner.len(), true)?;
+                    if into.len() < MAX_REPORTED_ELEMENTS {
                         into.push(inner);
                     }
                 }
@@ -226,42 +227,43 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    fn unexpected(&mut self, inner: &Tag<'a>, outer: &Tag<'a>) {
-        self.findings.add("elements inside a text", || {
-            let (inner_name, outer) = (shown(inner.name), outer.name);
-            let message =
-                format!("<{inner_name}> stands inside the text of <{outer}>; it was left out");
-            Finding::warning(inner.line(), message)
+    fn report_unexpected_element(&mut self, inner: &XmlStartTag<'a>, outer: &XmlStartTag<'a>) {
+        self.findings.add_limited_finding("elements inside a text", || {
+            let (inner_name, outer) = (shorten_shown_text(inner.name), outer.name);
+            let message = format!("<{inner_name}> stands inside the text of <{outer}>; it was left out");
+            ImportFinding::new_warning_finding(inner.start_tag_line(), message)
         });
     }
 
     /// Moves to the end of `tag` and returns its source text, including its tags.
-    pub(crate) fn skip(&mut self, tag: &Tag<'a>) -> Result<&'a str, Error> {
+    pub(crate) fn skip_xml_element(&mut self, tag: &XmlStartTag<'a>) -> Result<&'a str, EafError> {
         self.reader.config_mut().trim_text_start = true;
         let depth = self.open.len();
         while !tag.empty && self.open.len() >= depth {
-            match self.event()? {
+            match self.next_xml_event()? {
                 Event::Start(inner) => {
-                    self.tag(inner.name().0.len(), inner.len(), false)?;
+                    self.open_xml_tag(inner.name().0.len(), inner.len(), false)?;
                 }
-                Event::End(end) => self.close(end.name().0)?,
+                Event::End(end) => self.close_xml_tag(end.name().0)?,
                 Event::Eof => return Err(self.truncated()),
                 _ => {}
             }
         }
-        Ok(&self.text[tag.start..self.position()])
+        Ok(&self.text[tag.start..self.cursor_byte_position()])
     }
 
     /// Checks that nothing but comments and blanks follows the root element.
-    pub(crate) fn finish(&mut self) -> Result<(), Error> {
+    pub(crate) fn check_document_end(&mut self) -> Result<(), EafError> {
         loop {
-            match self.event()? {
+            match self.next_xml_event()? {
                 Event::Eof => return Ok(()),
                 Event::Text(text) if text.trim().is_empty() => {}
                 Event::Comment(_) | Event::PI(_) => self.lost_comment(),
                 _ => {
                     let message = "there is more after the end of the document; it was left out";
-                    self.find("text after the end", |line| Finding::warning(line, message));
+                    self.add_counted_finding("text after the end", |line| {
+                        ImportFinding::new_warning_finding(line, message)
+                    });
                     return Ok(());
                 }
             }
@@ -269,11 +271,11 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes every attribute of `tag` to `take`, with references resolved.
-    pub(crate) fn attributes(
+    pub(crate) fn visit_tag_attributes(
         &mut self,
-        tag: &Tag<'a>,
+        tag: &XmlStartTag<'a>,
         mut take: impl FnMut(&'a str, Cow<'a, str>),
-    ) -> Result<(), Error> {
+    ) -> Result<(), EafError> {
         let mut rest = tag.attributes;
         let mut count = 0;
         loop {
@@ -282,22 +284,22 @@ impl<'a> Cursor<'a> {
                 return Ok(());
             }
             count += 1;
-            if count > ATTRIBUTES {
-                return Err(Error::Limit {
-                    line: tag.line(),
+            if count > MAX_TAG_ATTRIBUTES {
+                return Err(EafError::Limit {
+                    line: tag.start_tag_line(),
                     what: "the element has too many attributes",
-                    limit: ATTRIBUTES,
+                    limit: MAX_TAG_ATTRIBUTES,
                 });
             }
-            let written = attribute(rest).ok_or_else(|| Error::Syntax {
-                line: tag.line(),
+            let written = split_written_attribute(rest).ok_or_else(|| EafError::Syntax {
+                line: tag.start_tag_line(),
                 message: format!(
                     "<{}> has a broken attribute; write NAME=\"value\"",
-                    shown(tag.name)
+                    shorten_shown_text(tag.name)
                 ),
             })?;
             let value = if written.special {
-                self.value(written.value)
+                self.resolve_attribute_value(written.value)
             } else {
                 Cow::Borrowed(written.value)
             };
@@ -306,25 +308,25 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    fn value(&mut self, raw: &'a str) -> Cow<'a, str> {
+    fn resolve_attribute_value(&mut self, raw: &'a str) -> Cow<'a, str> {
         let blank = raw.replace("\r\n", " ").replace(['\n', '\t', '\r'], " ");
-        let mut whole = String::with_capacity(blank.len());
+        let mut full_text = String::with_capacity(blank.len());
         let mut rest = &*blank;
         while let Some((before, after)) = rest.split_once('&') {
-            whole.push_str(before);
+            full_text.push_str(before);
             rest = match after.bytes().take(32).position(|b| b == b';') {
                 Some(end) => {
-                    whole.push_str(&self.entity(&after[..end]));
+                    full_text.push_str(&self.entity(&after[..end]));
                     &after[end + 1..]
                 }
                 None => {
-                    whole.push_str(&self.entity(""));
+                    full_text.push_str(&self.entity(""));
                     after
                 }
             };
         }
-        whole.push_str(rest);
-        Cow::Owned(whole)
+        full_text.push_str(rest);
+        Cow::Owned(full_text)
     }
 
     /// Returns the text of `&name;`; an unknown entity stays as written.
@@ -345,42 +347,41 @@ impl<'a> Cursor<'a> {
             } else {
                 format!("&{name};")
             };
-            let text = shown(&written);
-            self.find("unknown references", |line| {
-                Finding::warning(
-                    line,
-                    format!("{text} is unknown; it was kept as it is written"),
-                )
-                .with_remedy("write &amp; for an ampersand")
+            let text = shorten_shown_text(&written);
+            self.add_counted_finding("unknown references", |line| {
+                ImportFinding::new_warning_finding(line, format!("{text} is unknown; it was kept as it is written"))
+                    .with_remedy("write &amp; for an ampersand")
             });
             Cow::Owned(written)
         })
     }
 
     #[inline]
-    fn event(&mut self) -> Result<Event<'a>, Error> {
+    fn next_xml_event(&mut self) -> Result<Event<'a>, EafError> {
         loop {
             return match self.reader.read_event() {
                 Ok(Event::DocType(text)) if self.names_type && !text.contains('[') => {
-                    self.find("document types", |line| {
+                    self.add_counted_finding("document types", |line| {
                         let message = "a document type is named; it is not fetched, and not kept";
-                        Finding::note(line, message)
+                        ImportFinding::new_note_finding(line, message)
                     });
                     continue;
                 }
-                Ok(Event::DocType(_)) => Err(Error::Doctype { line: self.here() }),
+                Ok(Event::DocType(_)) => Err(EafError::Doctype {
+                    line: self.cursor_line(),
+                }),
                 Ok(event) => Ok(event),
-                Err(error) => Err(self.broken(&error)),
+                Err(error) => Err(self.broken_xml_error(&error)),
             };
         }
     }
 
     #[inline]
-    fn tag(&mut self, name: usize, len: usize, empty: bool) -> Result<Tag<'a>, Error> {
-        let end = self.position() - if empty { 2 } else { 1 };
+    fn open_xml_tag(&mut self, name: usize, len: usize, empty: bool) -> Result<XmlStartTag<'a>, EafError> {
+        let end = self.cursor_byte_position() - if empty { 2 } else { 1 };
         let start = end - len - 1;
         let (name, attributes) = self.text[start + 1..end].split_at(name);
-        let tag = Tag {
+        let tag = XmlStartTag {
             name,
             attributes,
             empty,
@@ -388,12 +389,12 @@ impl<'a> Cursor<'a> {
             text: self.text,
         };
         if !empty {
-            if self.open.len() >= DEPTH {
+            if self.open.len() >= MAX_OPEN_ELEMENTS {
                 let what = "elements are nested too deep";
-                return Err(Error::Limit {
-                    line: tag.line(),
+                return Err(EafError::Limit {
+                    line: tag.start_tag_line(),
                     what,
-                    limit: DEPTH,
+                    limit: MAX_OPEN_ELEMENTS,
                 });
             }
             self.open.push(name);
@@ -401,73 +402,73 @@ impl<'a> Cursor<'a> {
         Ok(tag)
     }
 
-    fn close(&mut self, name: &str) -> Result<(), Error> {
+    fn close_xml_tag(&mut self, name: &str) -> Result<(), EafError> {
         let open = self.open.pop().unwrap_or_default();
         if open == name {
             return Ok(());
         }
         let message = format!(
             "</{}> closes <{}>; write </{}>",
-            shown(name),
-            shown(open),
-            shown(open)
+            shorten_shown_text(name),
+            shorten_shown_text(open),
+            shorten_shown_text(open)
         );
-        Err(Error::Syntax {
-            line: self.here(),
+        Err(EafError::Syntax {
+            line: self.cursor_line(),
             message,
         })
     }
 
     fn lost_comment(&mut self) {
-        self.find("comments", |line| {
-            Finding::note(line, "an XML comment or instruction is not kept")
+        self.add_counted_finding("comments", |line| {
+            ImportFinding::new_note_finding(line, "an XML comment or instruction is not kept")
         });
     }
 
-    fn find(&mut self, kind: &'static str, make: impl FnOnce(u64) -> Finding) {
-        if self.findings.counts(kind) {
-            let finding = make(self.here());
-            self.findings.push(finding);
+    fn add_counted_finding(&mut self, kind: &'static str, make: impl FnOnce(u64) -> ImportFinding) {
+        if self.findings.count_finding_kind(kind) {
+            let finding = make(self.cursor_line());
+            self.findings.push_counted_finding(finding);
         }
     }
 
-    fn broken(&self, error: &XmlError) -> Error {
-        let at = usize::try_from(self.reader.error_position()).unwrap_or(usize::MAX);
-        let line = line_of(self.text.as_bytes(), at.min(self.text.len()));
+    fn broken_xml_error(&self, error: &XmlError) -> EafError {
+        let error_offset = usize::try_from(self.reader.error_position()).unwrap_or(usize::MAX);
+        let line = line_at_byte(self.text.as_bytes(), error_offset.min(self.text.len()));
         match error {
             XmlError::Syntax(SyntaxError::InvalidBangMarkup)
-            | XmlError::IllFormed(IllFormedError::UnmatchedEndTag(_)) => Error::Syntax {
+            | XmlError::IllFormed(IllFormedError::UnmatchedEndTag(_)) => EafError::Syntax {
                 line,
                 message: format!("{error}; the element is not well-formed XML"),
             },
-            XmlError::Syntax(_) if self.open.is_empty() => Error::NotXml { line },
+            XmlError::Syntax(_) if self.open.is_empty() => EafError::NotXml { line },
             XmlError::Syntax(_) => self.truncated(),
-            _ => Error::Syntax {
+            _ => EafError::Syntax {
                 line,
                 message: format!("{error}; the element is not well-formed XML"),
             },
         }
     }
 
-    fn truncated(&self) -> Error {
+    fn truncated(&self) -> EafError {
         let text = self.text.as_bytes();
         match self.open.last() {
-            Some(open) => Error::Truncated {
-                line: line_of(text, text.len()),
-                open: shown(open),
+            Some(open) => EafError::Truncated {
+                line: line_at_byte(text, text.len()),
+                open: shorten_shown_text(open),
             },
-            None => Error::NotXml {
-                line: line_of(text, text.len()),
+            None => EafError::NotXml {
+                line: line_at_byte(text, text.len()),
             },
         }
     }
 
-    fn position(&self) -> usize {
+    fn cursor_byte_position(&self) -> usize {
         usize::try_from(self.reader.buffer_position()).unwrap_or(usize::MAX)
     }
 
-    fn here(&self) -> u64 {
-        line_of(self.text.as_bytes(), self.position())
+    fn cursor_line(&self) -> u64 {
+        line_at_byte(self.text.as_bytes(), self.cursor_byte_position())
     }
 }
 
@@ -478,7 +479,7 @@ pub(super) fn is_xml(c: char) -> bool {
 
 /// One attribute of a start tag: its name, its value as written, whether the value needs
 /// resolving, and what follows.
-struct Written<'a> {
+struct WrittenAttribute<'a> {
     name: &'a str,
     value: &'a str,
     special: bool,
@@ -488,19 +489,19 @@ struct Written<'a> {
 /// Characters that end the name of an attribute.
 const ENDS_NAME: [bool; 256] = bytes_of(b"= \n\t\r\"'<");
 /// Characters in the value of an attribute that need decoding.
-const SPECIAL: [bool; 256] = bytes_of(b"&\n\t\r");
+const SPECIAL_VALUE_BYTES: [bool; 256] = bytes_of(b"&\n\t\r");
 
 const fn bytes_of(set: &[u8]) -> [bool; 256] {
     let mut table = [false; 256];
-    let mut at = 0;
-    while at < set.len() {
-        table[set[at] as usize] = true;
-        at += 1;
+    let mut index = 0;
+    while index < set.len() {
+        table[set[index] as usize] = true;
+        index += 1;
     }
     table
 }
 
-fn attribute(text: &str) -> Option<Written<'_>> {
+fn split_written_attribute(text: &str) -> Option<WrittenAttribute<'_>> {
     let bytes = text.as_bytes();
     let name = bytes.iter().position(|b| ENDS_NAME[usize::from(*b)])?;
     let blanks = |from: usize| {
@@ -515,11 +516,11 @@ fn attribute(text: &str) -> Option<Written<'_>> {
     let quote = *bytes.get(open).filter(|b| matches!(b, b'"' | b'\''))?;
     let (start, mut special) = (open + 1, false);
     let length = bytes[start..].iter().position(|b| {
-        special |= SPECIAL[usize::from(*b)];
+        special |= SPECIAL_VALUE_BYTES[usize::from(*b)];
         *b == quote
     })?;
     let (value, rest) = (&text[start..start + length], &text[start + length + 1..]);
-    Some(Written {
+    Some(WrittenAttribute {
         name: &text[..name],
         value,
         special,
@@ -527,7 +528,7 @@ fn attribute(text: &str) -> Option<Written<'_>> {
     })
 }
 
-fn append<'a>(whole: &mut Cow<'a, str>, piece: Cow<'a, str>) {
+fn append_text_piece<'a>(whole: &mut Cow<'a, str>, piece: Cow<'a, str>) {
     if whole.is_empty() {
         *whole = piece;
     } else {
@@ -542,7 +543,7 @@ fn line_ends(text: Cow<'_, str>) -> Cow<'_, str> {
     Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n"))
 }
 
-fn shown(text: &str) -> String {
+fn shorten_shown_text(text: &str) -> String {
     if text.chars().count() <= 40 {
         text.to_owned()
     } else {
@@ -551,12 +552,12 @@ fn shown(text: &str) -> String {
 }
 
 /// Returns a text in UTF-8.
-pub(super) fn decode(bytes: &[u8]) -> Result<&str, Error> {
-    if bytes.len() > BYTES {
-        return Err(Error::Limit {
+pub(super) fn decode_utf8_xml(bytes: &[u8]) -> Result<&str, EafError> {
+    if bytes.len() > MAX_XML_BYTES {
+        return Err(EafError::Limit {
             line: 1,
             what: "the file has too many bytes",
-            limit: BYTES,
+            limit: MAX_XML_BYTES,
         });
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -568,35 +569,38 @@ pub(super) fn decode(bytes: &[u8]) -> Result<&str, Error> {
         (b"\0\0\xfe\xff", "UTF-32"),
     ] {
         if bytes.starts_with(mark) {
-            return Err(Error::Encoding {
+            return Err(EafError::Encoding {
                 encoding: encoding.into(),
                 line: 1,
             });
         }
     }
     str::from_utf8(bytes).map_err(|error| {
-        let line = line_of(bytes, error.valid_up_to());
+        let line = line_at_byte(bytes, error.valid_up_to());
         if memchr::memchr(0, bytes).is_some() {
-            return Error::NotXml { line };
+            return EafError::NotXml { line };
         }
         let utf8 = |name: &String| name.eq_ignore_ascii_case("utf-8");
-        let encoding = declared(bytes)
+        let encoding = declared_encoding(bytes)
             .filter(|name| !utf8(name))
             .unwrap_or_else(|| "an unknown encoding".into());
-        Error::Encoding {
-            encoding: shown(&encoding),
+        EafError::Encoding {
+            encoding: shorten_shown_text(&encoding),
             line,
         }
     })
 }
 
 /// Returns the encoding that the declaration of a text names.
-pub(super) fn declared(bytes: &[u8]) -> Option<String> {
+pub(super) fn declared_encoding(bytes: &[u8]) -> Option<String> {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]);
     let declaration = head.split("?>").next()?;
     let (_, rest) = declaration.split_once("encoding")?;
     let rest = rest.trim_start().strip_prefix('=')?.trim_start();
-    let quote = rest.chars().next().filter(|it| ['"', '\''].contains(it))?;
+    let quote = rest
+        .chars()
+        .next()
+        .filter(|character| ['"', '\''].contains(character))?;
     rest[1..].split(quote).next().map(str::to_owned)
 }
 
@@ -611,6 +615,6 @@ fn control_character(bytes: &[u8]) -> Option<usize> {
         .map(|at| chunk * 4096 + at)
 }
 
-pub(crate) fn line_of(bytes: &[u8], at: usize) -> u64 {
+pub(crate) fn line_at_byte(bytes: &[u8], at: usize) -> u64 {
     memchr::memchr_iter(b'\n', &bytes[..at.min(bytes.len())]).count() as u64 + 1
 }

@@ -1,19 +1,19 @@
 //! Basic transcriptions of EXMARaLDA's Partitur Editor, `.exb`.
 //!
-//! [`raw`] mirrors the file: a timeline, and tiers of events between its points. [`read`] turns it into a
-//! [`Transcript`]: each tier keeps its name, its category is the tier type, its speaker the participant. Points
+//! [`exmaralda_raw`] mirrors the file: a timeline, and tiers of events between its points. [`read_exmaralda`] turns it into a
+//! [`AnnotationTranscript`]: each tier keeps its name, its category is the tier type, its speaker the participant. Points
 //! without a time lie evenly between their neighbours.
 
-mod convert;
-pub mod raw;
+mod exmaralda_convert;
+pub mod exmaralda_raw;
 #[cfg(test)]
 mod tests;
 
-use crate::eaf::Transcript;
-use crate::finding::Finding;
-use crate::markup::{Error, Tool};
+use crate::eaf::AnnotationTranscript;
+use crate::finding::ImportFinding;
+use crate::markup::{MarkupError, MarkupTool};
 
-pub(crate) const TOOL: Tool = Tool {
+pub(crate) const EXMARALDA_TOOL: MarkupTool = MarkupTool {
     name: "EXMARaLDA",
     root: "basic-transcription",
 };
@@ -21,12 +21,12 @@ pub(crate) const TOOL: Tool = Tool {
 /// Reads a basic transcription.
 ///
 /// # Errors
-/// [`Error`] if the bytes are not text, no XML, cut short, declare entities, or are no basic transcription.
-pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
-    let (text, mut findings) = TOOL.decode(bytes)?;
-    let (document, more) = raw::read(&text)?;
+/// [`MarkupError`] if the bytes are not text, no XML, cut short, declare entities, or are no basic transcription.
+pub fn read_exmaralda(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), MarkupError> {
+    let (text, mut findings) = EXMARALDA_TOOL.decode_markup_file(bytes)?;
+    let (document, more) = exmaralda_raw::read_exmaralda_document(&text)?;
     findings.extend(more);
-    let (transcript, more) = convert::from_raw(&document);
+    let (transcript, more) = exmaralda_convert::transcript_from_exmaralda(&document);
     findings.extend(more);
     Ok((transcript, findings))
 }

@@ -1,4 +1,4 @@
-use super::read;
+use super::read_exmaralda;
 use crate::tests::tiers_as_lines as lines;
 
 const WHOLE: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -35,7 +35,7 @@ const WHOLE: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 
 #[test]
 fn tiers_lie_on_the_timeline() {
-    let (transcript, findings) = read(WHOLE.as_bytes()).expect("a transcription");
+    let (transcript, findings) = read_exmaralda(WHOLE.as_bytes()).expect("a transcription");
     assert_eq!(
         lines(&transcript),
         [
@@ -93,12 +93,9 @@ fn points_without_times_lie_between_those_with_times() {
             "is earlier than the one before it",
         ),
     ] {
-        let (transcript, findings) = read(timeline(points).as_bytes()).expect("a transcription");
+        let (transcript, findings) = read_exmaralda(timeline(points).as_bytes()).expect("a transcription");
         let found = lines(&transcript).remove(0);
-        assert!(
-            found.starts_with(&format!("v [v]: {expected}")),
-            "{points}: {found}"
-        );
+        assert!(found.starts_with(&format!("v [v]: {expected}")), "{points}: {found}");
         assert!(
             findings.iter().any(|it| it.message.contains(said)),
             "{points}: {findings:?}"

@@ -5,17 +5,17 @@
 
 /// A formula.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Formula {
+pub(super) enum FaceFormula {
     Number(f64),
     Channel(String),
     Negative(Box<Self>),
     Both(char, Box<[Self; 2]>),
-    Call(Function, Vec<Self>),
+    Call(FormulaFunction, Vec<Self>),
 }
 
 /// A function of a formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Function {
+pub(super) enum FormulaFunction {
     Mean,
     Max,
     Min,
@@ -24,8 +24,8 @@ pub(super) enum Function {
     First,
 }
 
-impl Function {
-    fn of(name: &str) -> Option<Self> {
+impl FormulaFunction {
+    fn find_formula_function(name: &str) -> Option<Self> {
         Some(match name {
             "mean" => Self::Mean,
             "max" => Self::Max,
@@ -37,7 +37,7 @@ impl Function {
         })
     }
 
-    fn takes(self, count: usize) -> bool {
+    fn may_take_arguments(self, count: usize) -> bool {
         match self {
             Self::Clamp => count == 3,
             Self::Atan2 => count == 2,
@@ -47,13 +47,13 @@ impl Function {
 }
 
 /// The deepest nesting of brackets.
-const DEEPEST: usize = 32;
+const MAX_FORMULA_DEPTH: usize = 32;
 
-impl Formula {
+impl FaceFormula {
     /// Reads a formula. The error names the fault.
-    pub(super) fn read(text: &str) -> Result<Self, String> {
-        let mut reader = Reader { rest: text.trim() };
-        let formula = reader.sum(0)?;
+    pub(super) fn parse_face_formula(text: &str) -> Result<Self, String> {
+        let mut reader = FormulaReader { rest: text.trim() };
+        let formula = reader.parse_formula_sum(0)?;
         match reader.rest {
             "" => Ok(formula),
             rest => Err(format!("{rest:?} does not belong there")),
@@ -61,12 +61,12 @@ impl Formula {
     }
 
     /// Returns the formula's values for all frames; `None` if a channel that it needs is missing.
-    pub(super) fn values<'a>(
+    pub(super) fn evaluate_formula<'a>(
         &self,
         frames: usize,
         channel: &dyn Fn(&str) -> Option<&'a [f64]>,
     ) -> Option<Vec<f64>> {
-        let of = |formula: &Self| formula.values(frames, channel);
+        let of = |formula: &Self| formula.evaluate_formula(frames, channel);
         Some(match self {
             Self::Number(number) => vec![*number; frames],
             Self::Channel(name) => channel(name)?.to_vec(),
@@ -82,16 +82,16 @@ impl Formula {
                 };
                 pairs.map(value).collect()
             }
-            Self::Call(Function::First, inner) => inner.iter().find_map(of)?,
+            Self::Call(FormulaFunction::First, inner) => inner.iter().find_map(of)?,
             Self::Call(function, inner) => {
                 let all: Vec<Vec<f64>> = inner.iter().map(of).collect::<Option<_>>()?;
                 let row = |frame: usize| all.iter().map(move |column| column[frame]);
                 let value = |frame: usize| match function {
-                    Function::Mean | Function::First => row(frame).sum::<f64>() / all.len() as f64,
-                    Function::Max => row(frame).fold(f64::NEG_INFINITY, f64::max),
-                    Function::Min => row(frame).fold(f64::INFINITY, f64::min),
-                    Function::Clamp => all[0][frame].max(all[1][frame]).min(all[2][frame]),
-                    Function::Atan2 => all[0][frame].atan2(all[1][frame]),
+                    FormulaFunction::Mean | FormulaFunction::First => row(frame).sum::<f64>() / all.len() as f64,
+                    FormulaFunction::Max => row(frame).fold(f64::NEG_INFINITY, f64::max),
+                    FormulaFunction::Min => row(frame).fold(f64::INFINITY, f64::min),
+                    FormulaFunction::Clamp => all[0][frame].max(all[1][frame]).min(all[2][frame]),
+                    FormulaFunction::Atan2 => all[0][frame].atan2(all[1][frame]),
                 };
                 let gap = |frame: usize| row(frame).any(f64::is_nan);
                 let values = (0..frames).map(|at| if gap(at) { f64::NAN } else { value(at) });
@@ -101,62 +101,62 @@ impl Formula {
     }
 
     /// Returns the names of the channels in the formula.
-    pub(super) fn channels(&self) -> Vec<&str> {
+    pub(super) fn formula_channel_names(&self) -> Vec<&str> {
         match self {
             Self::Number(_) => Vec::new(),
             Self::Channel(name) => vec![name],
-            Self::Negative(inner) => inner.channels(),
-            Self::Both(_, sides) => sides.iter().flat_map(Self::channels).collect(),
-            Self::Call(_, inner) => inner.iter().flat_map(Self::channels).collect(),
+            Self::Negative(inner) => inner.formula_channel_names(),
+            Self::Both(_, sides) => sides.iter().flat_map(Self::formula_channel_names).collect(),
+            Self::Call(_, inner) => inner.iter().flat_map(Self::formula_channel_names).collect(),
         }
     }
 }
 
-struct Reader<'a> {
+struct FormulaReader<'a> {
     rest: &'a str,
 }
 
-impl Reader<'_> {
-    fn accept(&mut self, sign: char) -> bool {
+impl FormulaReader<'_> {
+    fn accept_formula_sign(&mut self, sign: char) -> bool {
         let rest = self.rest.strip_prefix(sign).map(str::trim_start);
         self.rest = rest.unwrap_or(self.rest);
         rest.is_some()
     }
 
-    fn sum(&mut self, depth: usize) -> Result<Formula, String> {
+    fn parse_formula_sum(&mut self, depth: usize) -> Result<FaceFormula, String> {
         let mut sum = self.product(depth)?;
         loop {
-            let sign = match (self.accept('+'), self.accept('-')) {
+            let sign = match (self.accept_formula_sign('+'), self.accept_formula_sign('-')) {
                 (true, _) => '+',
                 (_, true) => '-',
                 _ => return Ok(sum),
             };
-            sum = Formula::Both(sign, Box::new([sum, self.product(depth)?]));
+            sum = FaceFormula::Both(sign, Box::new([sum, self.product(depth)?]));
         }
     }
 
-    fn product(&mut self, depth: usize) -> Result<Formula, String> {
-        let mut product = self.factor(depth)?;
+    fn product(&mut self, depth: usize) -> Result<FaceFormula, String> {
+        let mut product = self.parse_formula_factor(depth)?;
         loop {
-            let sign = match (self.accept('*'), self.accept('/')) {
+            let sign = match (self.accept_formula_sign('*'), self.accept_formula_sign('/')) {
                 (true, _) => '*',
                 (_, true) => '/',
                 _ => return Ok(product),
             };
-            product = Formula::Both(sign, Box::new([product, self.factor(depth)?]));
+            product = FaceFormula::Both(sign, Box::new([product, self.parse_formula_factor(depth)?]));
         }
     }
 
-    fn factor(&mut self, depth: usize) -> Result<Formula, String> {
-        if depth > DEEPEST {
-            return Err(format!("brackets are nested deeper than {DEEPEST}"));
+    fn parse_formula_factor(&mut self, depth: usize) -> Result<FaceFormula, String> {
+        if depth > MAX_FORMULA_DEPTH {
+            return Err(format!("brackets are nested deeper than {MAX_FORMULA_DEPTH}"));
         }
-        if self.accept('-') {
-            return Ok(Formula::Negative(Box::new(self.factor(depth + 1)?)));
+        if self.accept_formula_sign('-') {
+            return Ok(FaceFormula::Negative(Box::new(self.parse_formula_factor(depth + 1)?)));
         }
-        if self.accept('(') {
-            let inner = self.sum(depth + 1)?;
-            return match self.accept(')') {
+        if self.accept_formula_sign('(') {
+            let inner = self.parse_formula_sum(depth + 1)?;
+            return match self.accept_formula_sign(')') {
                 true => Ok(inner),
                 false => Err("a bracket is not closed".to_owned()),
             };
@@ -170,28 +170,26 @@ impl Reader<'_> {
         if word.starts_with(|first: char| first.is_ascii_digit()) {
             let number: Result<f64, _> = word.parse();
             return number
-                .map(Formula::Number)
+                .map(FaceFormula::Number)
                 .map_err(|_| format!("{word:?} is no number"));
         }
         if word.is_empty() {
-            return Err(format!(
-                "a number or a channel is missing before {:?}",
-                self.rest
-            ));
+            return Err(format!("a number or a channel is missing before {:?}", self.rest));
         }
-        if !self.accept('(') {
-            return Ok(Formula::Channel(word.to_owned()));
+        if !self.accept_formula_sign('(') {
+            return Ok(FaceFormula::Channel(word.to_owned()));
         }
-        let function = Function::of(word).ok_or_else(|| format!("{word:?} is no function"))?;
-        let mut inner = vec![self.sum(depth + 1)?];
-        while self.accept(',') {
-            inner.push(self.sum(depth + 1)?);
+        let function =
+            FormulaFunction::find_formula_function(word).ok_or_else(|| format!("{word:?} is no function"))?;
+        let mut inner = vec![self.parse_formula_sum(depth + 1)?];
+        while self.accept_formula_sign(',') {
+            inner.push(self.parse_formula_sum(depth + 1)?);
         }
-        if !self.accept(')') {
+        if !self.accept_formula_sign(')') {
             return Err(format!("the bracket of {word} is not closed"));
         }
-        match function.takes(inner.len()) {
-            true => Ok(Formula::Call(function, inner)),
+        match function.may_take_arguments(inner.len()) {
+            true => Ok(FaceFormula::Call(function, inner)),
             false => Err(format!("{word} does not take {} parts", inner.len())),
         }
     }
@@ -199,7 +197,7 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::Formula;
+    use super::FaceFormula;
 
     #[test]
     fn formulas_compute_their_documented_values() {
@@ -224,13 +222,13 @@ mod tests {
             ("A + C", None),
         ];
         for (text, want) in cases {
-            let formula = Formula::read(text).unwrap_or_else(|error| panic!("{text}: {error}"));
-            let values = formula.values(3, &channel);
+            let formula = FaceFormula::parse_face_formula(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let values = formula.evaluate_formula(3, &channel);
             assert_eq!(values.as_ref().map(|it| [it[0], it[1]]), want, "{text}");
         }
-        let gap = Formula::read("max(A, B)")
+        let gap = FaceFormula::parse_face_formula("max(A, B)")
             .expect("read")
-            .values(3, &channel);
+            .evaluate_formula(3, &channel);
         assert!(gap.expect("values")[2].is_nan(), "a gap stays one");
     }
 
@@ -249,7 +247,11 @@ mod tests {
             &deep,
             "1..2",
         ] {
-            assert!(Formula::read(bad).is_err(), "{}", &bad[..bad.len().min(20)]);
+            assert!(
+                FaceFormula::parse_face_formula(bad).is_err(),
+                "{}",
+                &bad[..bad.len().min(20)]
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Face systems: the names of the channels of a face capture, and their mapping to this project's [`Face`].
+//! Face systems: the names of the channels of a face capture, and their mapping to this project's [`FacePosture`].
 //!
 //! Each system is a file of `schema/faces`: its channels, a formula over them for each number of a face and for the
-//! turns of the head, and the losses of the mapping. Captured channels stay as they are; a [`View`] is derived from
+//! turns of the head, and the losses of the mapping. Captured channels stay as they are; a [`DerivedFaceView`] is derived from
 //! them.
 //!
 //! ```
@@ -19,9 +19,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod fit;
+mod faces_fit;
+mod faces_mesh;
 mod formula;
-mod mesh;
 #[cfg(test)]
 #[path = "tests/mesh.rs"]
 mod mesh_tests;
@@ -31,17 +31,17 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use chereme_motion::{Curves, Face};
+use chereme_motion::{CurveTrack, FacePosture};
 use serde::{Deserialize, Serialize};
 
-use crate::finding::{Finding, Severity};
-use formula::Formula;
+use crate::finding::{FindingSeverity, ImportFinding};
+use formula::FaceFormula;
 
-pub use fit::{Fit, Reach};
-pub use mesh::{FaceMesh, MEASURES, Measures};
+pub use faces_fit::{ExcursionReach, FaceCalibration};
+pub use faces_mesh::{FACE_MEASURE_COUNT, FaceMeasures, FaceMesh};
 
 /// The files of systems, in the order in which a capture is compared with them.
-const FILES: [&str; 7] = [
+const FACE_SYSTEM_FILES: [&str; 7] = [
     chereme_data::schema_text("faces/house.json"),
     chereme_data::schema_text("faces/mediapipe.json"),
     chereme_data::schema_text("faces/arkit.json"),
@@ -54,7 +54,7 @@ const FILES: [&str; 7] = [
 /// A system of face parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct System {
+pub struct FaceSystem {
     /// The short name, such as `arkit`.
     pub id: String,
     /// The version of the mapping.
@@ -76,7 +76,7 @@ pub struct System {
     /// Other names of channels.
     #[serde(default)]
     pub aliases: BTreeMap<String, String>,
-    /// The formula over the channels for each number of a [`Face`], by its name in [`Face::NAMES`].
+    /// The formula over the channels for each number of a [`FacePosture`], by its name in [`FacePosture::FACE_NUMBER_NAMES`].
     pub house: BTreeMap<String, String>,
     /// The formulas in radians for the turns of the head: `pitch` (down), `yaw` (to the signer's left) and `roll` (to
     /// the right).
@@ -94,7 +94,7 @@ pub struct System {
     /// Numbers of a face for which the system has no channels.
     pub unknown: Vec<String>,
     /// The losses of the mapping.
-    pub loses: Vec<Loss>,
+    pub loses: Vec<MappingLoss>,
     /// The least values of channels in a frame with a face; frames below them show no face.
     #[serde(default)]
     sure: BTreeMap<String, f64>,
@@ -107,24 +107,24 @@ pub struct System {
 /// Something that a mapping loses.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Loss {
+pub struct MappingLoss {
     /// The affected numbers of a face, or `head`.
     pub channels: Vec<String>,
     /// A sentence that describes the loss.
     pub says: String,
     /// The severity of the loss.
-    pub severity: Severity,
+    pub severity: FindingSeverity,
 }
 
 /// A face that is derived from captured channels, frame by frame.
 #[derive(Debug, Clone, PartialEq)]
-pub struct View {
+pub struct DerivedFaceView {
     /// The system of the channels.
-    pub system: &'static System,
+    pub system: &'static FaceSystem,
     /// The face of each frame; unknown numbers are 0.
-    pub faces: Vec<Face>,
+    pub faces: Vec<FacePosture>,
     /// Which numbers of a face the capture gives.
-    pub known: [bool; Face::LEN],
+    pub known: [bool; FacePosture::FACE_NUMBER_COUNT],
     /// The turns of the head in each frame, in radians: pitch (down), yaw (to the signer's left), roll (to the right).
     pub head: Option<Vec<[f64; 3]>>,
     /// The place of the head in each frame, in metres to the signer's left, up and forward.
@@ -132,50 +132,55 @@ pub struct View {
     /// The number of frames with a gap that was filled from its neighbours.
     pub bridged: usize,
     /// The losses of the mapping, and oddities of the capture.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<ImportFinding>,
     /// The units that were converted or guessed; they are among the findings, too.
-    pub units: Vec<Finding>,
+    pub units: Vec<ImportFinding>,
 }
 
-impl View {
-    /// Returns the numbers of a name of [`Face::NAMES`] over all frames; `None` if the capture does not give them.
+impl DerivedFaceView {
+    /// Returns the numbers of a name of [`FacePosture::FACE_NUMBER_NAMES`] over all frames; `None` if the capture does not give them.
     #[must_use]
-    pub fn value(&self, name: &str) -> Option<Vec<f64>> {
-        let at = Face::position(name).filter(|at| self.known[*at])?;
-        Some(self.faces.iter().map(|face| face.numbers()[at]).collect())
+    pub fn face_number_values(&self, name: &str) -> Option<Vec<f64>> {
+        let channel_index = FacePosture::face_number_position(name).filter(|at| self.known[*at])?;
+        Some(
+            self.faces
+                .iter()
+                .map(|face| face.face_numbers()[channel_index])
+                .collect(),
+        )
     }
 }
 
-impl System {
+impl FaceSystem {
     /// Returns every system.
     #[must_use]
-    pub fn all() -> &'static [Self] {
-        static ALL: OnceLock<Vec<System>> = OnceLock::new();
-        ALL.get_or_init(|| {
+    pub fn all_face_systems() -> &'static [Self] {
+        static ALL_FACE_SYSTEMS: OnceLock<Vec<FaceSystem>> = OnceLock::new();
+        ALL_FACE_SYSTEMS.get_or_init(|| {
             let read = |text: &&str| serde_json::from_str(text);
-            let all: Result<_, _> = FILES.iter().map(read).collect();
+            let all: Result<_, _> = FACE_SYSTEM_FILES.iter().map(read).collect();
             all.expect("the program's own face systems are whole, which a test shows")
         })
     }
 
     /// Returns the system of that short name.
     #[must_use]
-    pub fn named(id: &str) -> Option<&'static Self> {
-        Self::all().iter().find(|system| system.id == id)
+    pub fn find_face_system(id: &str) -> Option<&'static Self> {
+        Self::all_face_systems().iter().find(|system| system.id == id)
     }
 
     /// Returns the system of a track of curves; `None` if the curves are not a face.
     #[must_use]
-    pub fn of(curves: &Curves) -> Option<&'static Self> {
-        Self::of_names(curves.curves().iter().map(|it| it.name.as_str()))
+    pub fn system_of_curves(curves: &CurveTrack) -> Option<&'static Self> {
+        Self::of_names(curves.track_curves().iter().map(|curve| curve.name.as_str()))
     }
 
     /// Returns the system of channels of these names; `None` if they are not a face's.
     #[must_use]
     pub fn of_names<'a>(names: impl Iterator<Item = &'a str>) -> Option<&'static Self> {
-        let names: Vec<String> = names.map(plain).collect();
-        let has = |name: &String| names.contains(&plain(name));
-        Self::all().iter().find(|system| {
+        let names: Vec<String> = names.map(plain_channel_name).collect();
+        let has = |name: &String| names.contains(&plain_channel_name(name));
+        Self::all_face_systems().iter().find(|system| {
             let alias = |name: &String| {
                 let other = system.aliases.iter().find(|(_, channel)| *channel == name);
                 has(name) || other.is_some_and(|(alias, _)| has(alias))
@@ -187,80 +192,74 @@ impl System {
 
     /// Returns the face that the channels of this system describe.
     #[must_use]
-    pub fn view(&'static self, curves: &Curves) -> View {
-        let mut bridged = vec![false; curves.frames()];
+    pub fn derive_face_view(&'static self, curves: &CurveTrack) -> DerivedFaceView {
+        let mut bridged = vec![false; curves.curve_frame_count()];
         let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        let counted = self.counted();
+        let counted = self.used_channel_names();
         let unsure = self.unsure(curves);
-        for curve in curves.curves() {
-            let name = plain(&curve.name);
-            let known = self.aliases.iter().find(|(alias, _)| plain(alias) == name);
-            let name = known.map_or(name, |(_, channel)| plain(channel));
+        for curve in curves.track_curves() {
+            let name = plain_channel_name(&curve.name);
+            let matched_alias = self.aliases.iter().find(|(alias, _)| plain_channel_name(alias) == name);
+            let name = matched_alias.map_or(name, |(_, channel)| plain_channel_name(channel));
             if !counted.contains(&name) {
                 continue;
             }
-            let mut values: Vec<Option<f64>> = curve.values.values().collect();
-            for (value, _) in values
-                .iter_mut()
-                .zip(&unsure)
-                .filter(|(_, unsure)| **unsure)
-            {
+            let mut values: Vec<Option<f64>> = curve.values.column_values().collect();
+            for (value, _) in values.iter_mut().zip(&unsure).filter(|(_, unsure)| **unsure) {
                 *value = None;
             }
             for (gap, value) in bridged.iter_mut().zip(&values) {
                 *gap |= value.is_none();
             }
-            if let Some(whole) = bridge(&mut values) {
+            if let Some(whole) = interpolate_gaps(&mut values) {
                 columns.entry(name).or_insert(whole);
             }
         }
         let mut units = Vec::new();
         if self.shares {
             let of_head = Self::named_in(self.head.values().chain(self.place.values()));
-            let (turns, mut shapes) = columns
-                .into_iter()
-                .partition(|(name, _)| of_head.contains(name));
+            let (turns, mut shapes) = columns.into_iter().partition(|(name, _)| of_head.contains(name));
             units.extend(from_percent(&mut shapes));
             columns = turns;
             columns.extend(shapes);
         }
-        let frames = curves.frames();
-        let channel = |name: &str| columns.get(&plain(name)).map(Vec::as_slice);
+        let frames = curves.curve_frame_count();
+        let channel = |name: &str| columns.get(&plain_channel_name(name)).map(Vec::as_slice);
         let of = |formulas: &BTreeMap<String, String>, name: &str| {
-            let formula = Formula::read(formulas.get(name)?).ok()?;
-            formula.values(frames, &channel)
+            let formula = FaceFormula::parse_face_formula(formulas.get(name)?).ok()?;
+            formula.evaluate_formula(frames, &channel)
         };
         let three = |formulas: &BTreeMap<String, String>, names: [&str; 3]| {
             let [a, b, c] = names.map(|name| of(formulas, name));
             let (a, b, c) = (a?, b?, c?);
             Some((0..frames).map(|at| [a[at], b[at], c[at]]).collect())
         };
-        let numbers = Face::NAMES.map(|name| of(&self.house, name));
+        let numbers = FacePosture::FACE_NUMBER_NAMES.map(|name| of(&self.house, name));
         let face = |frame: usize| {
-            let number = |values: &Option<Vec<f64>>| values.as_ref().map_or(0.0, |it| it[frame]);
-            Face::from_numbers(std::array::from_fn(|at| number(&numbers[at])))
+            let number = |values: &Option<Vec<f64>>| values.as_ref().map_or(0.0, |column| column[frame]);
+            FacePosture::from_numbers(std::array::from_fn(|at| number(&numbers[at])))
         };
-        let known = std::array::from_fn(|at| numbers[at].is_some());
+        let given_channels = std::array::from_fn(|at| numbers[at].is_some());
         let mut head: Option<Vec<[f64; 3]>> = three(&self.head, ["pitch", "yaw", "roll"]);
         if let Some(head) = &mut head {
             units.extend(from_degrees(head, self.stated_unit(curves)));
         }
         let still = head
             .as_ref()
-            .is_some_and(|all| all.iter().flatten().all(|it| *it == 0.0));
-        let mut findings = self.findings(&known);
+            .is_some_and(|all| all.iter().flatten().all(|angle| *angle == 0.0));
+        let mut findings = self.mapping_loss_findings(&given_channels);
         findings.extend(units.iter().cloned());
         if still {
             let says = "the turns of the head are all 0: the tracker did not record them";
-            findings.push(Finding::note(None, says));
+            findings.push(ImportFinding::new_note_finding(None, says));
         }
         for [a, b] in &self.agree {
-            findings.extend(disagree([a, b], channel(a), channel(b)));
+            findings.extend(disagreeing_channels_finding([a, b], channel(a), channel(b)));
         }
-        View {
+        DerivedFaceView {
             system: self,
             faces: (0..frames).map(face).collect(),
-            known,
+            known: given_channels,
             head: head.filter(|_| !still),
             place: three(&self.place, ["left", "up", "forward"]),
             bridged: bridged.into_iter().filter(|gap| *gap).count(),
@@ -270,25 +269,26 @@ impl System {
     }
 
     /// Returns the unit of the turns of the head as the file states it; empty if it does not.
-    fn stated_unit<'c>(&self, curves: &'c Curves) -> &'c str {
+    fn stated_unit<'c>(&self, curves: &'c CurveTrack) -> &'c str {
         let turns = Self::named_in(self.head.values());
-        let mut own = curves.curves().iter().filter(|curve| {
-            let name = plain(&curve.name);
-            let alias = self.aliases.iter().find(|(alias, _)| plain(alias) == name);
-            turns.contains(&alias.map_or(name, |(_, channel)| plain(channel)))
+        let mut turn_curves = curves.track_curves().iter().filter(|curve| {
+            let name = plain_channel_name(&curve.name);
+            let alias = self.aliases.iter().find(|(alias, _)| plain_channel_name(alias) == name);
+            turns.contains(&alias.map_or(name, |(_, channel)| plain_channel_name(channel)))
         });
-        own.find(|curve| !curve.unit.is_empty())
+        turn_curves
+            .find(|curve| !curve.unit.is_empty())
             .map_or("", |curve| &curve.unit)
     }
 
     /// Returns for each frame whether the capture found no face in it.
-    fn unsure(&self, curves: &Curves) -> Vec<bool> {
-        let mut unsure = vec![false; curves.frames()];
-        for curve in curves.curves() {
-            let name = plain(&curve.name);
-            let least = self.sure.iter().find(|(known, _)| plain(known) == name);
+    fn unsure(&self, curves: &CurveTrack) -> Vec<bool> {
+        let mut unsure = vec![false; curves.curve_frame_count()];
+        for curve in curves.track_curves() {
+            let name = plain_channel_name(&curve.name);
+            let least = self.sure.iter().find(|(known, _)| plain_channel_name(known) == name);
             let Some((_, least)) = least else { continue };
-            for (unsure, value) in unsure.iter_mut().zip(curve.values.values()) {
+            for (unsure, value) in unsure.iter_mut().zip(curve.values.column_values()) {
                 *unsure |= value.is_some_and(|value| value < *least);
             }
         }
@@ -296,22 +296,19 @@ impl System {
     }
 
     /// Returns the losses of the mapping for a capture that gives the `known` numbers.
-    fn findings(&self, known: &[bool; Face::LEN]) -> Vec<Finding> {
+    fn mapping_loss_findings(&self, known: &[bool; FacePosture::FACE_NUMBER_COUNT]) -> Vec<ImportFinding> {
         let concerns = |name: &String| {
-            let known = |at: usize| known[at] || self.unknown.contains(name);
-            Face::position(name).map_or(self.head.contains_key("yaw"), known)
+            let is_known = |at: usize| known[at] || self.unknown.contains(name);
+            FacePosture::face_number_position(name).map_or(self.head.contains_key("yaw"), is_known)
         };
-        let found = self
-            .loses
-            .iter()
-            .filter(|loss| loss.channels.iter().any(concerns));
-        let mut findings: Vec<Finding> = found
+        let relevant_losses = self.loses.iter().filter(|loss| loss.channels.iter().any(concerns));
+        let mut findings: Vec<ImportFinding> = relevant_losses
             .map(|loss| match loss.severity {
-                Severity::Note => Finding::note(None, &*loss.says),
-                Severity::Warning => Finding::warning(None, &*loss.says),
+                FindingSeverity::Note => ImportFinding::new_note_finding(None, &*loss.says),
+                FindingSeverity::Warning => ImportFinding::new_warning_finding(None, &*loss.says),
             })
             .collect();
-        let missing: Vec<&str> = Face::NAMES
+        let missing: Vec<&str> = FacePosture::FACE_NUMBER_NAMES
             .into_iter()
             .zip(known)
             .filter(|(name, known)| !**known && self.house.contains_key(*name))
@@ -320,30 +317,33 @@ impl System {
         if !missing.is_empty() && !self.expressions {
             let says = format!("the capture lacks channels for {}", missing.join(", "));
             let remedy = "they are unknown, not at rest, and are left out of scores";
-            findings.push(Finding::warning(None, says).with_remedy(remedy));
+            findings.push(ImportFinding::new_warning_finding(None, says).with_remedy(remedy));
         }
         findings
     }
 
     /// Returns the channels that formulas and checks use.
-    fn counted(&self) -> BTreeSet<String> {
+    fn used_channel_names(&self) -> BTreeSet<String> {
         let formulas = self.house.values().chain(self.head.values());
         let mut named = Self::named_in(formulas.chain(self.place.values()));
-        named.extend(self.agree.iter().flatten().map(|name| plain(name)));
+        named.extend(self.agree.iter().flatten().map(|name| plain_channel_name(name)));
         named
     }
 
     /// Returns the channels that formulas name.
     fn named_in<'a>(formulas: impl Iterator<Item = &'a String>) -> BTreeSet<String> {
-        let read: Vec<Formula> = formulas
-            .filter_map(|text| Formula::read(text).ok())
+        let read: Vec<FaceFormula> = formulas
+            .filter_map(|text| FaceFormula::parse_face_formula(text).ok())
             .collect();
-        read.iter().flat_map(Formula::channels).map(plain).collect()
+        read.iter()
+            .flat_map(FaceFormula::formula_channel_names)
+            .map(plain_channel_name)
+            .collect()
     }
 }
 
 /// Returns a name without regard to case and surrounding blanks, and with its side in full: `browDown_L` is `browdownleft`.
-fn plain(name: &str) -> String {
+fn plain_channel_name(name: &str) -> String {
     let name = name.trim().to_lowercase();
     let sides = [("_l", "left"), ("_r", "right")];
     let sided = sides.iter().find_map(|(end, side)| {
@@ -354,29 +354,24 @@ fn plain(name: &str) -> String {
 }
 
 /// The value above which numbers that should be shares are percent: trackers exceed 1 a little.
-const PERCENT: f64 = 2.0;
+const PERCENT_VALUE_LIMIT: f64 = 2.0;
 /// The value above which they are percent without a doubt.
 const CLEARLY_PERCENT: f64 = 10.0;
 
 /// Divides the channels of shares by 100 if they are percent, and says so.
-fn from_percent(columns: &mut BTreeMap<String, Vec<f64>>) -> Option<Finding> {
+fn from_percent(columns: &mut BTreeMap<String, Vec<f64>>) -> Option<ImportFinding> {
     let all = columns.values().flatten();
     let most = all.fold(0.0, |most: f64, value| most.max(value.abs()));
-    if most <= PERCENT {
+    if most <= PERCENT_VALUE_LIMIT {
         return None;
     }
-    columns
-        .values_mut()
-        .flatten()
-        .for_each(|value| *value /= 100.0);
-    let says = format!(
-        "the shapes should be shares from 0 to 1 and reach {most}: they are read as percent"
-    );
+    columns.values_mut().flatten().for_each(|value| *value /= 100.0);
+    let says = format!("the shapes should be shares from 0 to 1 and reach {most}: they are read as percent");
     let remedy = match most < CLEARLY_PERCENT {
         true => "check them: if they are shares beyond 1, cut them to 1 and import the file again",
         false => "nothing needs to be done if they are",
     };
-    Some(Finding::warning(None, says).with_remedy(remedy))
+    Some(ImportFinding::new_warning_finding(None, says).with_remedy(remedy))
 }
 
 /// The farthest that a head turns to a side, in radians, with some room; a greater number may be degrees.
@@ -386,18 +381,18 @@ pub(crate) const HALF_TURN: f64 = 3.2;
 
 /// Converts the turns of a head to radians if they are degrees, by the unit that the file states or else by their size, and
 /// says so.
-fn from_degrees(head: &mut [[f64; 3]], unit: &str) -> Option<Finding> {
+fn from_degrees(head: &mut [[f64; 3]], unit: &str) -> Option<ImportFinding> {
     let most = (head.iter().flatten()).fold(0.0, |most: f64, turn| most.max(turn.abs()));
     let remedy = "write the unit into the titles, such as HeadYaw [deg] or HeadYaw [rad]";
     let finding = match unit {
         "rad" => return None,
         // A head that was not tracked turns nowhere in any unit.
         _ if most == 0.0 => return None,
-        "deg" => Finding::note(
+        "deg" => ImportFinding::new_note_finding(
             None,
             format!("the turns of the head are degrees and reach {most}: they were converted"),
         ),
-        _ if most > HALF_TURN => Finding::warning(
+        _ if most > HALF_TURN => ImportFinding::new_warning_finding(
             None,
             format!("the turns of the head reach {most}: they are read as degrees"),
         )
@@ -406,7 +401,7 @@ fn from_degrees(head: &mut [[f64; 3]], unit: &str) -> Option<Finding> {
             let says = format!(
                 "the turns of the head reach {most}, too far for radians and little for degrees: they are read as radians"
             );
-            return Some(Finding::warning(None, says).with_remedy(remedy));
+            return Some(ImportFinding::new_warning_finding(None, says).with_remedy(remedy));
         }
         _ => return None,
     };
@@ -417,26 +412,26 @@ fn from_degrees(head: &mut [[f64; 3]], unit: &str) -> Option<Finding> {
 }
 
 /// Fills gaps by linear interpolation between their neighbours; `None` if there are only gaps.
-fn bridge(values: &mut [Option<f64>]) -> Option<Vec<f64>> {
-    let known: Vec<(usize, f64)> = values
+fn interpolate_gaps(values: &mut [Option<f64>]) -> Option<Vec<f64>> {
+    let present_values: Vec<(usize, f64)> = values
         .iter()
         .enumerate()
         .filter_map(|(at, value)| Some((at, (*value)?)))
         .collect();
-    let (first, last) = (known.first()?, known.last()?);
-    let mut whole = vec![first.1; values.len()];
-    for pair in known.windows(2) {
+    let (first, last) = (present_values.first()?, present_values.last()?);
+    let mut bridged = vec![first.1; values.len()];
+    for pair in present_values.windows(2) {
         let ((from, a), (to, b)) = (pair[0], pair[1]);
-        for (n, value) in whole[from..to].iter_mut().enumerate() {
+        for (n, value) in bridged[from..to].iter_mut().enumerate() {
             *value = a + (b - a) * n as f64 / (to - from) as f64;
         }
     }
-    whole[last.0..].fill(last.1);
-    Some(whole)
+    bridged[last.0..].fill(last.1);
+    Some(bridged)
 }
 
 /// Returns a finding if two channels that move together in people move against each other.
-fn disagree(names: [&str; 2], a: Option<&[f64]>, b: Option<&[f64]>) -> Option<Finding> {
+fn disagreeing_channels_finding(names: [&str; 2], a: Option<&[f64]>, b: Option<&[f64]>) -> Option<ImportFinding> {
     let (a, b) = (a?, b?);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
     let (mean_a, mean_b) = (mean(a), mean(b));
@@ -451,9 +446,8 @@ fn disagree(names: [&str; 2], a: Option<&[f64]>, b: Option<&[f64]>) -> Option<Fi
     let odd = moves(own_a, a) && moves(own_b, b) && together < -0.2;
     odd.then(|| {
         let [a, b] = names;
-        let says =
-            format!("{a} and {b} move against each other (r = {together:.2}), which faces do not");
+        let says = format!("{a} and {b} move against each other (r = {together:.2}), which faces do not");
         let remedy = "the writer of the file may have exchanged the sides of one pair";
-        Finding::warning(None, says).with_remedy(remedy)
+        ImportFinding::new_warning_finding(None, says).with_remedy(remedy)
     })
 }

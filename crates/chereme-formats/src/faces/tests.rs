@@ -1,77 +1,58 @@
 //! Face systems as data, and the meaning of captures of each.
 
-use chereme_motion::{Column, Curve, Curves, Face, Rate, Times};
+use chereme_motion::{CurveTrack, FacePosture, FrameNumberColumn, FrameRate, FrameTimes, ScalarCurve};
 
-use super::formula::Formula;
-use super::{System, View};
-use crate::tracks::Content;
+use super::formula::FaceFormula;
+use super::{DerivedFaceView, FaceSystem};
+use crate::tracks::CapturedTrackContent;
 
-fn curves(channels: &[(&str, &[f64])]) -> Curves {
-    let curve =
-        |(name, values): &(&str, &[f64])| Curve::new(*name, Column::doubles(values.to_vec()));
-    let rate = Times::Even(Rate::new(30, 1).expect("a rate"));
-    Curves::new(rate, channels.iter().map(curve).collect()).expect("a track")
+fn curves(channels: &[(&str, &[f64])]) -> CurveTrack {
+    let curve = |(name, values): &(&str, &[f64])| {
+        ScalarCurve::new(*name, FrameNumberColumn::from_double_floats(values.to_vec()))
+    };
+    let rate = FrameTimes::Even(FrameRate::new(30, 1).expect("a rate"));
+    CurveTrack::new(rate, channels.iter().map(curve).collect()).expect("a track")
 }
 
-fn view(channels: &[(&str, &[f64])]) -> View {
+fn view(channels: &[(&str, &[f64])]) -> DerivedFaceView {
     let curves = curves(channels);
-    System::of(&curves).expect("a system").view(&curves)
+    FaceSystem::system_of_curves(&curves)
+        .expect("a system")
+        .derive_face_view(&curves)
 }
 
-fn says(view: &View, text: &str) -> bool {
+fn says(view: &DerivedFaceView, text: &str) -> bool {
     view.findings.iter().any(|it| it.message.contains(text))
 }
 
 #[test]
 fn every_face_system_is_complete() {
-    let ids: Vec<&str> = System::all().iter().map(|it| it.id.as_str()).collect();
-    assert_eq!(
-        ids,
-        [
-            "house",
-            "mediapipe",
-            "arkit",
-            "openface",
-            "fap",
-            "sigml",
-            "mesh"
-        ]
-    );
-    for system in System::all() {
+    let ids: Vec<&str> = FaceSystem::all_face_systems().iter().map(|it| it.id.as_str()).collect();
+    assert_eq!(ids, ["house", "mediapipe", "arkit", "openface", "fap", "sigml", "mesh"]);
+    for system in FaceSystem::all_face_systems() {
         let id = &system.id;
         let formulas = system.house.iter().chain(&system.head).chain(&system.place);
         for (name, text) in formulas {
-            let formula =
-                Formula::read(text).unwrap_or_else(|error| panic!("{id} {name}: {error}"));
-            for channel in formula.channels() {
-                let older = ["gaze_0_", "gaze_1_"]
-                    .iter()
-                    .any(|start| channel.starts_with(start));
-                let known = system
-                    .channels
-                    .iter()
-                    .any(|it| it.eq_ignore_ascii_case(channel))
-                    || older;
+            let formula = FaceFormula::parse_face_formula(text).unwrap_or_else(|error| panic!("{id} {name}: {error}"));
+            for channel in formula.formula_channel_names() {
+                let older = ["gaze_0_", "gaze_1_"].iter().any(|start| channel.starts_with(start));
+                let known = system.channels.iter().any(|it| it.eq_ignore_ascii_case(channel)) || older;
                 assert!(known, "{id} {name}: {channel}");
             }
         }
         for name in system.house.keys().chain(&system.unknown) {
-            assert!(Face::position(name).is_some(), "{id}: {name}");
+            assert!(FacePosture::face_number_position(name).is_some(), "{id}: {name}");
         }
-        for name in Face::NAMES {
-            let listed =
-                system.house.contains_key(name) ^ system.unknown.iter().any(|it| it == name);
-            assert!(
-                listed || system.expressions,
-                "{id} says nothing about {name}, or both"
-            );
+        for name in FacePosture::FACE_NUMBER_NAMES {
+            let listed = system.house.contains_key(name) ^ system.unknown.iter().any(|it| it == name);
+            assert!(listed || system.expressions, "{id} says nothing about {name}, or both");
         }
         for loss in &system.loses {
-            let known = |it: &String| it == "head" || Face::position(it).is_some();
+            let known = |it: &String| it == "head" || FacePosture::face_number_position(it).is_some();
             assert!(loss.channels.iter().all(known), "{id}: {:?}", loss.channels);
         }
     }
-    let count = |id: &str| System::named(id).map(|it| it.channels.len());
+    let count = |id: &str| FaceSystem::find_face_system(id).map(|it| it.channels.len());
     assert_eq!(
         [count("arkit"), count("mediapipe"), count("fap")],
         [Some(61), Some(52), Some(68)]
@@ -94,7 +75,7 @@ fn captures_are_recognised_by_their_channels() {
     ];
     for (names, id) in cases {
         let channels: Vec<(&str, &[f64])> = names.iter().map(|name| (*name, &[0.0][..])).collect();
-        let found = System::of(&curves(&channels)).map(|it| it.id.as_str());
+        let found = FaceSystem::system_of_curves(&curves(&channels)).map(|it| it.id.as_str());
         assert_eq!(found, id, "{names:?}");
     }
 }
@@ -125,8 +106,8 @@ fn shapes_of_arkit_are_a_face_and_its_brows_have_no_side() {
     );
     assert!(says(&it, "single raised brow cannot be seen"));
     assert!(says(&it, "lacks channels for eye_close_right"));
-    assert_eq!(it.value("eye_close_right"), None, "unknown is not at rest");
-    assert_eq!(it.value("jaw_open"), Some(vec![0.6, 0.6]));
+    assert_eq!(it.face_number_values("eye_close_right"), None, "unknown is not at rest");
+    assert_eq!(it.face_number_values("jaw_open"), Some(vec![0.6, 0.6]));
 }
 
 #[test]
@@ -151,7 +132,7 @@ fn shapes_are_known_by_short_sides_and_as_percent() {
     ]);
     assert_eq!(short.known, usual.known);
     for (a, b) in short.faces.iter().zip(&usual.faces) {
-        let pairs = a.numbers().into_iter().zip(b.numbers());
+        let pairs = a.face_numbers().into_iter().zip(b.face_numbers());
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-12));
     }
     assert_eq!(short.head, usual.head);
@@ -175,11 +156,7 @@ fn parameters_of_mpeg_4_keep_both_sides_and_the_head() {
     ]);
     let face = it.faces[0];
     assert_eq!(face.brows[1], 1.0);
-    assert!(
-        (face.brows[0] + 1.0 / 6.0).abs() < 1e-12,
-        "{:?}",
-        face.brows
-    );
+    assert!((face.brows[0] + 1.0 / 6.0).abs() < 1e-12, "{:?}", face.brows);
     assert_eq!(face.gaze[0], 1.0);
     assert_eq!(it.head, Some(vec![[0.1, -0.2, 0.0]]));
     assert!(!says(&it, "single raised brow"));
@@ -195,7 +172,7 @@ fn scores_of_mediapipe_leave_cheeks_nose_and_tongue_unknown() {
     ];
     let it = view(&channels);
     for name in ["cheek_puff_left", "nose_wrinkle", "tongue_out"] {
-        assert_eq!(it.value(name), None, "{name}");
+        assert_eq!(it.face_number_values(name), None, "{name}");
     }
     assert!(says(&it, "there is no tongue") && says(&it, "cheeks and nose hardly react"));
 }
@@ -210,20 +187,19 @@ fn gaps_are_bridged_and_counted_and_a_still_head_is_reported() {
         ("head_yaw", &[0.0; 4]),
         ("head_roll", &[0.0; 4]),
     ]);
-    assert_eq!(it.value("brow_raise_right"), Some(vec![0.0, 0.5, 1.0, 1.0]));
-    assert_eq!((it.bridged, it.value("jaw_open")), (4, Some(vec![0.5; 4])));
+    assert_eq!(
+        it.face_number_values("brow_raise_right"),
+        Some(vec![0.0, 0.5, 1.0, 1.0])
+    );
+    assert_eq!((it.bridged, it.face_number_values("jaw_open")), (4, Some(vec![0.5; 4])));
     assert_eq!(it.head, None);
     assert!(says(&it, "turns of the head are all 0"));
 }
 
 #[test]
 fn sides_that_were_exchanged_are_reported() {
-    let up: Vec<f64> = (0..40)
-        .map(|n| (f64::from(n) * 0.3).sin().max(0.0))
-        .collect();
-    let down: Vec<f64> = (0..40)
-        .map(|n| (-f64::from(n) * 0.3).sin().max(0.0))
-        .collect();
+    let up: Vec<f64> = (0..40).map(|n| (f64::from(n) * 0.3).sin().max(0.0)).collect();
+    let down: Vec<f64> = (0..40).map(|n| (-f64::from(n) * 0.3).sin().max(0.0)).collect();
     let base = |left: &[f64]| {
         let still = vec![0.0; 40];
         let names = [
@@ -251,18 +227,15 @@ fn faces_of_others_are_seen_as_faces() {
         ("cosanlab-py-feat/OpenFace_Test.csv", "openface"),
     ] {
         let bytes = std::fs::read(folder.join(path)).expect("a file");
-        let (tracks, _) = crate::curves::read(&bytes).expect("read");
-        let Content::Curves(curves) = &tracks.tracks[0].content else {
+        let (tracks, _) = crate::curves::read_curves(&bytes).expect("read");
+        let CapturedTrackContent::Curves(curves) = &tracks.tracks[0].content else {
             panic!("curves");
         };
-        let system = System::of(curves).expect("a system");
-        let view = system.view(curves);
-        assert_eq!(
-            (system.id.as_str(), view.faces.len()),
-            (id, curves.frames())
-        );
+        let system = FaceSystem::system_of_curves(curves).expect("a system");
+        let view = system.derive_face_view(curves);
+        assert_eq!((system.id.as_str(), view.faces.len()), (id, curves.curve_frame_count()));
         let moves = |name: &str| {
-            let values = view.value(name).expect(name);
+            let values = view.face_number_values(name).expect(name);
             let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             most - values.iter().copied().fold(f64::INFINITY, f64::min)
         };
@@ -277,10 +250,10 @@ fn faces_of_others_are_seen_as_faces() {
     }
     let path = "google-ai-edge-mediapipe/portrait_expected_blendshapes.pbtxt";
     let bytes = std::fs::read(folder.join(path)).expect("a file");
-    let (tracks, _) = crate::curves::read(&bytes).expect("read");
-    let Content::Curves(scores) = &tracks.tracks[0].content else {
+    let (tracks, _) = crate::curves::read_curves(&bytes).expect("read");
+    let CapturedTrackContent::Curves(scores) = &tracks.tracks[0].content else {
         panic!("curves");
     };
-    let system = System::of(scores).map(|it| (it.id.as_str(), scores.curves().len()));
+    let system = FaceSystem::system_of_curves(scores).map(|it| (it.id.as_str(), scores.track_curves().len()));
     assert_eq!(system, Some(("mediapipe", 52)));
 }

@@ -4,9 +4,9 @@
 //! The library `ufbx` parses the file and evaluates its curves, layers, pivots and pre-rotations; this module
 //! chooses the nodes that are joints, folds scales into offsets, and finds rate and range. No other file is opened.
 
+mod fbx_read;
 mod joints;
-mod read;
 #[cfg(test)]
 mod tests;
 
-pub use read::{Error, read};
+pub use fbx_read::{FbxError, read_fbx};

@@ -2,7 +2,7 @@
 
 /// A reason why a file could not be read as glTF.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum GltfError {
     /// The bytes are neither GLB nor JSON of glTF 2.
     #[error("this is no glTF 2.0 file")]
     NoGltf,
@@ -26,9 +26,7 @@ pub enum Error {
     #[error("the movement is packed by the extension {0}; export it without compression")]
     Packed(String),
     /// A buffer is in a file or at an address that the reader does not open.
-    #[error(
-        "the buffer {0:?} is not in the file or next to it; save as .glb, or keep the .bin beside the .gltf"
-    )]
+    #[error("the buffer {0:?} is not in the file or next to it; save as .glb, or keep the .bin beside the .gltf")]
     Elsewhere(String),
     /// There is no skeleton.
     #[error("the file holds no skeleton: no skin and no animated node")]
@@ -38,8 +36,8 @@ pub enum Error {
     Skeleton(String),
 }
 
-impl Error {
-    pub(super) fn element(element: &'static str, index: usize, problem: impl Into<String>) -> Self {
+impl GltfError {
+    pub(super) fn gltf_element_error(element: &'static str, index: usize, problem: impl Into<String>) -> Self {
         Self::Element {
             element,
             index,

@@ -1,8 +1,8 @@
 //! glTF 2.0: writes movement as GLB for Blender, three.js and game engines, and reads skeletons with
 //! movement.
 //!
-//! [`write()`] makes a GLB with a skin, a small mesh of bones and the annotations, [`vrma`] the movement of a
-//! humanoid for avatars; [`read`] returns the
+//! [`write_glb()`] makes a GLB with a skin, a small mesh of bones and the annotations, [`vrma`] the movement of a
+//! humanoid for avatars; [`read_gltf`] returns the
 //! skeleton, its movement and the weights of morph targets. Source: the glTF 2.0 specification of the
 //! Khronos Group.
 
@@ -12,16 +12,16 @@ mod avatar_face;
 mod avatar_tests;
 mod container;
 mod error;
-mod model;
-mod read;
+mod gltf_model;
+mod gltf_read;
+mod gltf_write;
 mod rig;
 mod sample;
 #[cfg(test)]
 mod tests;
 pub mod vrma;
-mod write;
 
-pub use crate::scene::Scene;
-pub use error::Error;
-pub use read::read;
-pub use write::{About, Note, write};
+pub use crate::scene::BodyScene;
+pub use error::GltfError;
+pub use gltf_read::read_gltf;
+pub use gltf_write::{GlbDescription, MovementNote, write_glb};

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use chereme_motion::Joint;
+use chereme_motion::SkeletonJoint;
 use chereme_motion::glam::{DMat4, DQuat, DVec3};
 
-use super::error::Error;
-use super::model::{Document, FaceNode, Node};
-use super::sample::turn;
-use crate::finding::Finding;
-use crate::tally::Findings;
-use crate::tracks::unique;
+use super::error::GltfError;
+use super::gltf_model::{FaceNode, GltfDocument, GltfNode};
+use super::sample::unit_rotation_from;
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
+use crate::tracks::unique_track_names;
 
 /// Largest difference of scales, from 1 or from each other, that count as equal.
 pub(super) const SAME_SCALE: f64 = 1e-4;
@@ -18,47 +18,45 @@ pub(super) const SAME_SCALE: f64 = 1e-4;
 const MOST_NODES: usize = 20_000;
 
 /// The nodes that are joints, parents before children, with scales folded into offsets.
-pub(super) struct Rig {
+pub(super) struct GltfRig {
     /// The node of each joint; `None` for a root that joins several trees.
     pub(super) nodes: Vec<Option<usize>>,
-    pub(super) joints: Vec<Joint>,
+    pub(super) joints: Vec<SkeletonJoint>,
     /// The scale of each joint's translations.
     pub(super) scales: Vec<f64>,
 }
 
 /// The translation, rotation and scale of a node.
-fn transform(node: &Node) -> (DVec3, DQuat, DVec3) {
+fn transform(node: &GltfNode) -> (DVec3, DQuat, DVec3) {
     if let Some(matrix) = &node.matrix {
-        let (scale, rotation, translation) =
-            DMat4::from_cols_array(matrix).to_scale_rotation_translation();
+        let (scale, rotation, translation) = DMat4::from_cols_array(matrix).to_scale_rotation_translation();
         let sound = scale.is_finite() && rotation.is_finite() && translation.is_finite();
         if sound {
-            return (translation, turn(&rotation.to_array()), scale);
+            return (translation, unit_rotation_from(&rotation.to_array()), scale);
         }
     }
     let translation = DVec3::from_array(node.translation.unwrap_or_default());
-    let rotation = node.rotation.map_or(DQuat::IDENTITY, |it| turn(&it));
+    let rotation = node
+        .rotation
+        .map_or(DQuat::IDENTITY, |rotation| unit_rotation_from(&rotation));
     let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]));
     (translation, rotation, scale)
 }
 
-impl Rig {
+impl GltfRig {
     /// Returns the joints of skins, animated nodes and all nodes above them.
     ///
     /// # Errors
     /// [`Error`] if a node is missing, has two parents or is below itself, or no node is a joint.
-    pub(super) fn of(document: &Document, findings: &mut Findings) -> Result<Self, Error> {
+    pub(super) fn rig_from_document(document: &GltfDocument, findings: &mut FindingTally) -> Result<Self, GltfError> {
         let nodes = &document.nodes;
         if nodes.len() > MOST_NODES {
-            return Err(Error::Skeleton(format!(
-                "{} nodes are too many",
-                nodes.len()
-            )));
+            return Err(GltfError::Skeleton(format!("{} nodes are too many", nodes.len())));
         }
         let mut parents = vec![None; nodes.len()];
         for (at, node) in nodes.iter().enumerate() {
             for child in &node.children {
-                let fault = |problem: &str| Error::element("nodes", at, problem);
+                let fault = |problem: &str| GltfError::gltf_element_error("nodes", at, problem);
                 let parent = parents
                     .get_mut(*child)
                     .ok_or_else(|| fault("has a child that does not exist"))?;
@@ -68,17 +66,17 @@ impl Rig {
             }
         }
         if let Some(at) = below_itself(nodes, &parents) {
-            return Err(Error::element("nodes", at, "is below itself"));
+            return Err(GltfError::gltf_element_error("nodes", at, "is below itself"));
         }
-        let mut kept = kept(document, &parents, &document.face_nodes())?;
+        let mut kept = mark_kept_nodes(document, &parents, &document.face_nodes())?;
         if !kept.contains(&true) {
-            kept = self::kept(document, &parents, &BTreeMap::new())?;
+            kept = self::mark_kept_nodes(document, &parents, &BTreeMap::new())?;
         }
         let roots: Vec<usize> = (0..nodes.len())
             .filter(|at| kept[*at] && parents[*at].is_none())
             .collect();
         if roots.is_empty() {
-            return Err(Error::NoSkeleton);
+            return Err(GltfError::NoSkeleton);
         }
         let mut rig = Self {
             nodes: Vec::new(),
@@ -87,43 +85,42 @@ impl Rig {
         };
         if roots.len() > 1 {
             rig.nodes.push(None);
-            rig.joints.push(Joint::new("scene", None, DVec3::ZERO));
+            rig.joints.push(SkeletonJoint::new("scene", None, DVec3::ZERO));
             rig.scales.push(1.0);
-            findings.push(Finding::note(
+            findings.push_counted_finding(ImportFinding::new_note_finding(
                 None,
                 format!("{} trees of joints were put below one root", roots.len()),
             ));
         }
         let top = (roots.len() > 1).then_some(0);
-        let mut open: Vec<(usize, Option<usize>, f64)> =
-            roots.iter().rev().map(|root| (*root, top, 1.0)).collect();
+        let mut open: Vec<(usize, Option<usize>, f64)> = roots.iter().rev().map(|root| (*root, top, 1.0)).collect();
         while let Some((at, parent, above)) = open.pop() {
             let (translation, rotation, scale) = transform(&nodes[at]);
             let offset = translation * above;
             if !offset.is_finite() || rig.joints.len() > nodes.len() {
-                return Err(Error::element("nodes", at, "has a place that is no number"));
+                return Err(GltfError::gltf_element_error(
+                    "nodes",
+                    at,
+                    "has a place that is no number",
+                ));
             }
             let below = above * uniform(scale, at, &nodes[at], findings);
-            rig.joints.push(Joint {
+            rig.joints.push(SkeletonJoint {
                 rest: rotation,
-                tip: tip(nodes, at, &kept).map(|tip| tip * below),
-                ..Joint::new(name(&nodes[at], at), parent, offset)
+                tip: node_bone_tip(nodes, at, &kept).map(|tip| tip * below),
+                ..SkeletonJoint::new(original_node_name(&nodes[at], at), parent, offset)
             });
             rig.nodes.push(Some(at));
             rig.scales.push(above);
             let joint = rig.joints.len() - 1;
-            let children = nodes[at]
-                .children
-                .iter()
-                .rev()
-                .filter(|child| kept[**child]);
+            let children = nodes[at].children.iter().rev().filter(|child| kept[**child]);
             open.extend(children.map(|child| (*child, Some(joint), below)));
         }
         let names: Vec<String> = rig.joints.iter().map(|joint| joint.name.clone()).collect();
         for (joint, name) in rig
             .joints
             .iter_mut()
-            .zip(unique(names.iter().map(String::as_str), "joint"))
+            .zip(unique_track_names(names.iter().map(String::as_str), "joint"))
         {
             joint.name = name;
         }
@@ -132,7 +129,7 @@ impl Rig {
 }
 
 /// Returns a node that no root leads to, because it is an ancestor of itself.
-fn below_itself(nodes: &[Node], parents: &[Option<usize>]) -> Option<usize> {
+fn below_itself(nodes: &[GltfNode], parents: &[Option<usize>]) -> Option<usize> {
     let mut reached = vec![false; nodes.len()];
     let roots = (0..nodes.len()).filter(|at| parents[*at].is_none());
     let mut open: Vec<usize> = roots.collect();
@@ -144,7 +141,7 @@ fn below_itself(nodes: &[Node], parents: &[Option<usize>]) -> Option<usize> {
 }
 
 /// Returns a node's original name, undoing an exporter's changes.
-fn name(node: &Node, at: usize) -> String {
+fn original_node_name(node: &GltfNode, at: usize) -> String {
     let original = node.extras.get("name").and_then(serde_json::Value::as_str);
     let name = original.or(node.name.as_deref()).unwrap_or_default();
     if name.is_empty() {
@@ -156,7 +153,7 @@ fn name(node: &Node, at: usize) -> String {
 
 /// Returns the end of a bone without a further joint: the one that [`super::write()`] wrote, or the only child if other
 /// programs name it as an end.
-fn tip(nodes: &[Node], at: usize, kept: &[bool]) -> Option<DVec3> {
+fn node_bone_tip(nodes: &[GltfNode], at: usize, kept: &[bool]) -> Option<DVec3> {
     let node = &nodes[at];
     let written = node.extras.get("tip").and_then(|tip| {
         let number = |at: usize| tip.get(at)?.as_f64();
@@ -170,68 +167,58 @@ fn tip(nodes: &[Node], at: usize, kept: &[bool]) -> Option<DVec3> {
 }
 
 /// Returns whether a node only marks the end of a bone: `Head_end`, `LeftHandIndex4_end`, `End Site`.
-fn is_end(node: &Node) -> bool {
+fn is_end(node: &GltfNode) -> bool {
     let name = node.name.as_deref().unwrap_or_default().to_lowercase();
     let marks = ["_end", ".end", "end site", "endsite", "_tip", "_nub"];
-    node.mesh.is_none() && node.children.is_empty() && marks.iter().any(|it| name.ends_with(it))
+    node.mesh.is_none() && node.children.is_empty() && marks.iter().any(|mark| name.ends_with(mark))
 }
 
 /// Returns a scale as one number, and reports a scale that differs between axes.
-fn uniform(scale: DVec3, at: usize, node: &Node, findings: &mut Findings) -> f64 {
+fn uniform(scale: DVec3, at: usize, node: &GltfNode, findings: &mut FindingTally) -> f64 {
     let mean = (scale.x.abs() + scale.y.abs() + scale.z.abs()) / 3.0;
     let even = (scale.abs() - DVec3::splat(mean)).abs().max_element() <= SAME_SCALE * mean.max(1.0);
     if !even || scale.min_element() < 0.0 || !mean.is_finite() {
-        let name = name(node, at);
-        findings.add("scales that are not even", || {
-            Finding::warning(
+        let name = original_node_name(node, at);
+        findings.add_limited_finding("scales that are not even", || {
+            ImportFinding::new_warning_finding(
                 None,
                 format!("the node {name:?} is stretched or mirrored; its mean scale is taken"),
             )
         });
     }
     let near_one = (mean - 1.0).abs() <= SAME_SCALE;
-    if near_one || !mean.is_finite() {
-        1.0
-    } else {
-        mean
-    }
+    if near_one || !mean.is_finite() { 1.0 } else { mean }
 }
 
 /// Marks joints of skins, animated nodes that stand for no part of a face, and all nodes above them.
-fn kept(
-    document: &Document,
+fn mark_kept_nodes(
+    document: &GltfDocument,
     parents: &[Option<usize>],
     face: &BTreeMap<usize, FaceNode>,
-) -> Result<Vec<bool>, Error> {
+) -> Result<Vec<bool>, GltfError> {
     let mut kept = vec![false; parents.len()];
-    let of_skins = document
-        .skins
-        .iter()
-        .flat_map(|skin| skin.joints.iter().copied());
-    let animated = document
-        .animations
-        .iter()
-        .flat_map(|animation| &animation.channels);
-    let animated = animated
+    let of_skins = document.skins.iter().flat_map(|skin| skin.joints.iter().copied());
+    let animated_nodes = document.animations.iter().flat_map(|animation| &animation.channels);
+    let animated = animated_nodes
         .filter(|channel| channel.target.path != "weights")
         .filter_map(|channel| channel.target.node)
         .filter(|node| !face.contains_key(node));
     for node in of_skins.chain(animated) {
-        let mut at = Some(node);
+        let mut ancestor = Some(node);
         let mut steps = 0;
-        while let Some(node) = at {
+        while let Some(node) = ancestor {
             let mark = kept
                 .get_mut(node)
-                .ok_or_else(|| Error::element("nodes", node, "does not exist"))?;
+                .ok_or_else(|| GltfError::gltf_element_error("nodes", node, "does not exist"))?;
             steps += 1;
             if steps > parents.len() {
-                return Err(Error::element("nodes", node, "is its own ancestor"));
+                return Err(GltfError::gltf_element_error("nodes", node, "is its own ancestor"));
             }
             if *mark && steps > 1 {
                 break;
             }
             *mark = true;
-            at = parents[node];
+            ancestor = parents[node];
         }
     }
     Ok(kept)

@@ -2,21 +2,21 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::model::Interpolation;
+use super::gltf_model::GltfInterpolation;
 
 /// The keys of one sampler.
-pub(super) struct Keys {
+pub(super) struct SamplerKeys {
     pub(super) times: Vec<f32>,
     pub(super) values: Vec<f32>,
-    pub(super) interpolation: Interpolation,
+    pub(super) interpolation: GltfInterpolation,
     /// The number of numbers in a value.
     pub(super) width: usize,
 }
 
-impl Keys {
+impl SamplerKeys {
     /// Returns whether there are as many values as times, and the times rise.
     pub(super) fn are_sound(&self) -> bool {
-        let each = if self.interpolation == Interpolation::Cubic {
+        let each = if self.interpolation == GltfInterpolation::Cubic {
             3
         } else {
             1
@@ -27,25 +27,25 @@ impl Keys {
     }
 
     /// Returns a part of a key: 1 for its value, 0 and 2 for the tangents of a spline.
-    fn value(&self, key: usize, part: usize) -> &[f32] {
-        let at = match self.interpolation {
-            Interpolation::Cubic => 3 * key + part,
+    fn sampler_key_part(&self, key: usize, part: usize) -> &[f32] {
+        let value_index = match self.interpolation {
+            GltfInterpolation::Cubic => 3 * key + part,
             _ => key,
         };
-        &self.values[at * self.width..(at + 1) * self.width]
+        &self.values[value_index * self.width..(value_index + 1) * self.width]
     }
 
     /// Returns the rotation at a time in seconds; outside the keys, that of the first or last key.
     pub(super) fn turn_at(&self, time: f64) -> DQuat {
-        match self.around(time) {
-            Around::Between(before, share) if self.interpolation == Interpolation::Linear => {
-                let (a, b) = (self.value(before, 1), self.value(before + 1, 1));
-                turn(&four(a)).slerp(turn(&four(b)), share)
+        match self.keys_around_time(time) {
+            KeyTimePlace::Between(before, share) if self.interpolation == GltfInterpolation::Linear => {
+                let (a, b) = (self.sampler_key_part(before, 1), self.sampler_key_part(before + 1, 1));
+                unit_rotation_from(&four_key_values(a)).slerp(unit_rotation_from(&four_key_values(b)), share)
             }
             _ => {
                 let mut values = [0.0; 4];
-                self.at(time, &mut values);
-                turn(&values)
+                self.write_values_at(time, &mut values);
+                unit_rotation_from(&values)
             }
         }
     }
@@ -53,27 +53,27 @@ impl Keys {
     /// Returns the position at a time in seconds; outside the keys, that of the first or last key.
     pub(super) fn place_at(&self, time: f64) -> DVec3 {
         let mut values = [0.0; 3];
-        self.at(time, &mut values);
+        self.write_values_at(time, &mut values);
         DVec3::from_array(values)
     }
 
     /// Writes the numbers at a time in seconds into `into`; outside the keys, those of the first or last key.
-    pub(super) fn at(&self, time: f64, into: &mut [f64]) {
-        let (before, share) = match self.around(time) {
-            Around::Key(key) => return put(self.value(key, 1), into),
-            Around::Between(before, share) => (before, share),
+    pub(super) fn write_values_at(&self, time: f64, into: &mut [f64]) {
+        let (before, share) = match self.keys_around_time(time) {
+            KeyTimePlace::Key(key) => return put_key_values(self.sampler_key_part(key, 1), into),
+            KeyTimePlace::Between(before, share) => (before, share),
         };
-        let (a, b) = (self.value(before, 1), self.value(before + 1, 1));
+        let (a, b) = (self.sampler_key_part(before, 1), self.sampler_key_part(before + 1, 1));
         match self.interpolation {
-            Interpolation::Step => put(a, into),
-            Interpolation::Linear => {
+            GltfInterpolation::Step => put_key_values(a, into),
+            GltfInterpolation::Linear => {
                 for (into, (a, b)) in into.iter_mut().zip(a.iter().zip(b)) {
                     let (a, b) = (f64::from(*a), f64::from(*b));
                     *into = a + (b - a) * share;
                 }
             }
-            Interpolation::Cubic => {
-                let (out, toward) = (self.value(before, 2), self.value(before + 1, 0));
+            GltfInterpolation::Cubic => {
+                let (out, toward) = (self.sampler_key_part(before, 2), self.sampler_key_part(before + 1, 0));
                 let length = f64::from(self.times[before + 1]) - f64::from(self.times[before]);
                 let (s, s2, s3) = (share, share * share, share * share * share);
                 for (at, into) in into.iter_mut().enumerate().take(self.width) {
@@ -88,50 +88,46 @@ impl Keys {
     }
 
     /// Returns the keys around a time.
-    fn around(&self, time: f64) -> Around {
+    fn keys_around_time(&self, time: f64) -> KeyTimePlace {
         let after = self.times.partition_point(|key| f64::from(*key) <= time);
         match after.checked_sub(1) {
-            None => Around::Key(0),
-            Some(before) if after == self.times.len() => Around::Key(before),
+            None => KeyTimePlace::Key(0),
+            Some(before) if after == self.times.len() => KeyTimePlace::Key(before),
             Some(before) => {
                 let (start, end) = (f64::from(self.times[before]), f64::from(self.times[after]));
-                Around::Between(before, (time - start) / (end - start))
+                KeyTimePlace::Between(before, (time - start) / (end - start))
             }
         }
     }
 }
 
 /// The place of a time among the keys.
-enum Around {
+enum KeyTimePlace {
     /// Outside the keys: this one is the nearest.
     Key(usize),
     /// After this key, by this share of the time to the next one.
     Between(usize, f64),
 }
 
-fn put(values: &[f32], into: &mut [f64]) {
+fn put_key_values(values: &[f32], into: &mut [f64]) {
     for (into, value) in into.iter_mut().zip(values) {
         *into = f64::from(*value);
     }
 }
 
-fn four(values: &[f32]) -> [f64; 4] {
+fn four_key_values(values: &[f32]) -> [f64; 4] {
     let mut four = [0.0; 4];
-    put(values, &mut four);
+    put_key_values(values, &mut four);
     four
 }
 
 /// Returns a unit rotation from x y z w; all zeros give the identity.
-pub(super) fn turn(values: &[f64]) -> DQuat {
+pub(super) fn unit_rotation_from(values: &[f64]) -> DQuat {
     match values {
         [x, y, z, w] => {
             let turn = DQuat::from_xyzw(*x, *y, *z, *w);
             let length = turn.length();
-            if length > 1e-9 {
-                turn / length
-            } else {
-                DQuat::IDENTITY
-            }
+            if length > 1e-9 { turn / length } else { DQuat::IDENTITY }
         }
         _ => DQuat::IDENTITY,
     }
@@ -141,8 +137,8 @@ pub(super) fn turn(values: &[f64]) -> DQuat {
 mod tests {
     use super::*;
 
-    fn keys(interpolation: Interpolation, width: usize, values: &[f32]) -> Keys {
-        Keys {
+    fn keys(interpolation: GltfInterpolation, width: usize, values: &[f32]) -> SamplerKeys {
+        SamplerKeys {
             times: vec![1.0, 3.0],
             values: values.to_vec(),
             interpolation,
@@ -150,16 +146,16 @@ mod tests {
         }
     }
 
-    fn at(keys: &Keys, time: f64) -> Vec<f64> {
+    fn at(keys: &SamplerKeys, time: f64) -> Vec<f64> {
         let mut values = vec![0.0; keys.width];
-        keys.at(time, &mut values);
+        keys.write_values_at(time, &mut values);
         values
     }
 
     #[test]
     fn four_weights_are_numbers_and_no_rotation() {
         let weights = [0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 0.0];
-        let keys = keys(Interpolation::Linear, 4, &weights);
+        let keys = keys(GltfInterpolation::Linear, 4, &weights);
         assert!(keys.are_sound());
         assert_eq!(at(&keys, 2.0), [0.5, 0.25, 0.0, 0.5]);
         assert_eq!(at(&keys, 0.0), [0.0, 0.0, 0.0, 1.0]);
@@ -171,7 +167,7 @@ mod tests {
         let turns = [0.0, 0.9].map(|angle| DQuat::from_rotation_y(angle).as_quat().to_array());
         let flipped = turns[1].map(|it| -it);
         for last in [turns[1], flipped] {
-            let keys = keys(Interpolation::Linear, 4, &[turns[0], last].concat());
+            let keys = keys(GltfInterpolation::Linear, 4, &[turns[0], last].concat());
             for (time, angle) in [(0.0, 0.0), (1.5, 0.225), (2.0, 0.45), (3.0, 0.9)] {
                 let turned = keys.turn_at(time);
                 let apart = turned.angle_between(DQuat::from_rotation_y(angle));
@@ -184,7 +180,7 @@ mod tests {
     fn a_cubic_spline_follows_the_formula_of_the_standard() {
         // In-tangent, value, out-tangent of two keys: the line 2 t has the tangent 2 everywhere.
         let line = [2.0, 2.0, 2.0, 2.0, 6.0, 2.0];
-        let keys = keys(Interpolation::Cubic, 1, &line);
+        let keys = keys(GltfInterpolation::Cubic, 1, &line);
         for time in [1.0, 1.25, 2.0, 2.9, 3.0] {
             assert!((at(&keys, time)[0] - 2.0 * time).abs() < 1e-12, "{time}");
         }

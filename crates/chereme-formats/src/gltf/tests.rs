@@ -3,22 +3,22 @@
 use std::sync::Arc;
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
+use chereme_motion::{Clip, FrameRate, JointChannel, Skeleton, SkeletonJoint};
 use serde_json::json;
 
 use super::avatar_tests::figure;
 use super::*;
-use crate::Finding;
+use crate::ImportFinding;
 
 fn clip() -> Clip {
     let turned = DQuat::from_rotation_z(0.3);
     let joints = vec![
-        Joint::new("Hips root", None, DVec3::new(0.0, 0.9, 0.0)),
-        Joint {
+        SkeletonJoint::new("Hips root", None, DVec3::new(0.0, 0.9, 0.0)),
+        SkeletonJoint {
             rest: turned,
-            ..Joint::new("Arm.L", Some(0), DVec3::new(0.2, 0.4, 0.0))
+            ..SkeletonJoint::new("Arm.L", Some(0), DVec3::new(0.2, 0.4, 0.0))
         },
-        Joint::new("Arm.L", Some(1), DVec3::new(0.3, 0.0, 0.0)).with_tip(DVec3::new(0.1, 0.0, 0.0)),
+        SkeletonJoint::new("Arm.L", Some(1), DVec3::new(0.3, 0.0, 0.0)).with_tip(DVec3::new(0.1, 0.0, 0.0)),
     ];
     let skeleton = Arc::new(Skeleton::new(joints).expect("a skeleton"));
     let turns = |speed: f64| {
@@ -27,7 +27,7 @@ fn clip() -> Clip {
             .collect()
     };
     let channels = vec![
-        Channel {
+        JointChannel {
             rotations: turns(0.4),
             translations: Some(
                 (0..20)
@@ -35,34 +35,34 @@ fn clip() -> Clip {
                     .collect(),
             ),
         },
-        Channel {
+        JointChannel {
             rotations: turns(-0.2),
             translations: None,
         },
-        Channel {
+        JointChannel {
             rotations: turns(0.0),
             translations: None,
         },
     ];
-    Clip::new(skeleton, Rate::new(25, 1).expect("a rate"), channels).expect("a clip")
+    Clip::new(skeleton, FrameRate::new(25, 1).expect("a rate"), channels).expect("a clip")
 }
 
-pub(super) fn parse(bytes: &[u8]) -> Result<(Scene, Vec<Finding>), Error> {
-    read(bytes, &|_| None)
+pub(super) fn parse(bytes: &[u8]) -> Result<(BodyScene, Vec<ImportFinding>), GltfError> {
+    read_gltf(bytes, &|_| None)
 }
 
 /// Returns the largest distance between joints of two clips, in metres.
 fn apart(a: &Clip, b: &Clip) -> f64 {
     assert_eq!(
-        (a.frames(), a.skeleton().len()),
-        (b.frames(), b.skeleton().len())
+        (a.clip_frame_count(), a.clip_skeleton().len()),
+        (b.clip_frame_count(), b.clip_skeleton().len())
     );
-    let frames = (0..a.frames()).flat_map(|frame| {
+    let frames = (0..a.clip_frame_count()).flat_map(|frame| {
         let (a, b) = (a.model_pose(frame), b.model_pose(frame));
         let pairs: Vec<f64> = a
-            .positions()
+            .model_joint_positions()
             .iter()
-            .zip(b.positions())
+            .zip(b.model_joint_positions())
             .map(|(a, b)| a.distance(*b))
             .collect();
         pairs
@@ -73,27 +73,27 @@ fn apart(a: &Clip, b: &Clip) -> f64 {
 #[test]
 fn movement_reads_back_to_a_hundredth_of_a_millimetre() {
     let clip = clip();
-    let about = About {
+    let about = GlbDescription {
         name: "CHAT".into(),
-        ..About::default()
+        ..GlbDescription::default()
     };
-    let (scene, findings) = parse(&write(&clip, &about).expect("written")).expect("a GLB");
+    let (scene, findings) = parse(&write_glb(&clip, &about).expect("written")).expect("a GLB");
     assert_eq!(findings, []);
     assert!(apart(&clip, &scene.clip) < 1e-5);
-    assert_eq!(scene.clip.rate(), clip.rate());
+    assert_eq!(scene.clip.clip_frame_rate(), clip.clip_frame_rate());
     assert_eq!(scene.take.as_deref(), Some("CHAT"));
     let names: Vec<&str> = scene
         .clip
-        .skeleton()
-        .joints()
+        .clip_skeleton()
+        .skeleton_joints()
         .iter()
         .map(|joint| joint.name.as_str())
         .collect();
     assert_eq!(names, ["Hips root", "Arm.L", "Arm.L (2)"]);
     let tips: Vec<Option<DVec3>> = scene
         .clip
-        .skeleton()
-        .joints()
+        .clip_skeleton()
+        .skeleton_joints()
         .iter()
         .map(|it| it.tip)
         .collect();
@@ -119,7 +119,7 @@ fn nodes_that_mark_the_end_of_a_bone_become_its_tip() {
             "skins": [{"joints": [0, 1]}],
         });
         let (scene, _) = parse(document.to_string().as_bytes()).expect("glTF");
-        let joints = scene.clip.skeleton().joints();
+        let joints = scene.clip.clip_skeleton().skeleton_joints();
         assert_eq!(joints.len(), 2, "{name}");
         assert_eq!(joints[1].tip, want, "{name}");
     }
@@ -132,17 +132,14 @@ fn nodes_have_exactly_the_names_of_the_joints() {
             ["mixamorig:Hips", "Arm.L", "Hand l"],
             ["mixamorig:Hips", "Arm.L", "Hand l"],
         ),
-        (
-            ["a/b", "jambe gauche é", "[2]"],
-            ["a/b", "jambe gauche é", "[2]"],
-        ),
+        (["a/b", "jambe gauche é", "[2]"], ["a/b", "jambe gauche é", "[2]"]),
         (["a", "a", ""], ["a", "a (2)", "joint 3"]),
     ] {
         let joints = names.iter().enumerate();
-        let joints = joints.map(|(at, name)| Joint::new(*name, at.checked_sub(1), DVec3::Y));
+        let joints = joints.map(|(at, name)| SkeletonJoint::new(*name, at.checked_sub(1), DVec3::Y));
         let skeleton = Skeleton::new(joints.collect()).expect("a tree");
-        let clip = Clip::still(Arc::new(skeleton), Rate::new(30, 1).expect("a rate"), 2);
-        let bytes = write(&clip, &About::default()).expect("written");
+        let clip = Clip::from_rest_pose(Arc::new(skeleton), FrameRate::new(30, 1).expect("a rate"), 2);
+        let bytes = write_glb(&clip, &GlbDescription::default()).expect("written");
         let document = json_of(&bytes);
         let nodes = (0..3).map(|at| document["nodes"][at]["name"].clone());
         assert_eq!(nodes.collect::<Vec<_>>(), written);
@@ -156,12 +153,12 @@ fn nodes_have_exactly_the_names_of_the_joints() {
 #[test]
 fn an_animation_and_its_scene_have_their_own_names() {
     for (source, scene) in [(None, "CHAT"), (Some("take 1.2s"), "take 1.2s")] {
-        let about = About {
+        let about = GlbDescription {
             name: "CHAT".into(),
             source: source.map(str::to_owned),
-            ..About::default()
+            ..GlbDescription::default()
         };
-        let document = json_of(&write(&clip(), &about).expect("written"));
+        let document = json_of(&write_glb(&clip(), &about).expect("written"));
         assert_eq!(document["animations"][0]["name"], "CHAT");
         assert_eq!(document["scenes"][0]["name"], scene);
     }
@@ -175,28 +172,25 @@ fn json_of(bytes: &[u8]) -> serde_json::Value {
 
 #[test]
 fn annotations_are_stored_where_blender_and_three_js_keep_them() {
-    let note = Note {
+    let note = MovementNote {
         tier: "gloss".into(),
         begin: 0.0,
         end: 0.4,
         value: "CHAT \"x\"".into(),
     };
-    let about = About {
+    let about = GlbDescription {
         licence: Some("CC0".into()),
         notes: vec![note],
-        ..About::default()
+        ..GlbDescription::default()
     };
-    let bytes = write(&clip(), &about).expect("written");
+    let bytes = write_glb(&clip(), &about).expect("written");
     let document = json_of(&bytes);
     let text = document["scenes"][0]["extras"]["chereme_annotations"]
         .as_str()
         .expect("a string");
     let notes: serde_json::Value = serde_json::from_str(text).expect("JSON in it");
     assert_eq!(notes[0]["value"], "CHAT \"x\"");
-    assert_eq!(
-        document["animations"][0]["extras"]["annotations"][0]["end"],
-        0.4
-    );
+    assert_eq!(document["animations"][0]["extras"]["annotations"][0]["end"], 0.4);
     assert_eq!(document["asset"]["copyright"], "CC0");
     assert_eq!(bytes.len() % 4, 0);
 }
@@ -226,13 +220,10 @@ fn document(extra: serde_json::Value, binary: &[u8]) -> Vec<u8> {
 }
 
 fn floats(values: &[f32]) -> Vec<u8> {
-    values
-        .iter()
-        .flat_map(|value| value.to_le_bytes())
-        .collect()
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
-fn animated(interpolation: &str, output: serde_json::Value, binary: &[u8]) -> Result<Clip, Error> {
+fn animated(interpolation: &str, output: serde_json::Value, binary: &[u8]) -> Result<Clip, GltfError> {
     let extra = json!({
         "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}],
             "samplers": [{"input": 0, "output": 1, "interpolation": interpolation}]}],
@@ -245,13 +236,9 @@ fn animated(interpolation: &str, output: serde_json::Value, binary: &[u8]) -> Re
 fn a_scale_above_the_joints_is_applied_to_their_offsets() {
     let (scene, findings) = parse(&document(json!({}), &[])).expect("a skeleton");
     let pose = scene.clip.model_pose(0);
-    assert!(pose.position(1).distance(DVec3::new(1.0, 0.0, 0.0)) < 1e-9);
-    assert!(pose.position(2).distance(DVec3::new(1.0, 0.5, 0.0)) < 1e-9);
-    assert!(
-        findings
-            .iter()
-            .any(|finding| finding.message.contains("no animation"))
-    );
+    assert!(pose.model_joint_position(1).distance(DVec3::new(1.0, 0.0, 0.0)) < 1e-9);
+    assert!(pose.model_joint_position(2).distance(DVec3::new(1.0, 0.5, 0.0)) < 1e-9);
+    assert!(findings.iter().any(|finding| finding.message.contains("no animation")));
 }
 
 #[test]
@@ -259,32 +246,19 @@ fn keys_of_every_kind_are_read() {
     let half = 0.5f32.sqrt();
     let times = [0.0, 0.04];
     let turn = [0.0, 0.0, 0.0, 1.0, 0.0, half, 0.0, half];
-    let angle = |clip: &Clip, frame: usize| clip.channels()[1].rotations[frame].to_axis_angle().1;
+    let angle = |clip: &Clip, frame: usize| clip.joint_channels()[1].rotations[frame].to_axis_angle().1;
     let right = std::f64::consts::FRAC_PI_2;
     let binary = floats(&[&times[..], &turn[..]].concat());
     let plain = json!({"bufferView": 0, "byteOffset": 8, "componentType": 5126, "type": "VEC4", "count": 2});
     for interpolation in ["LINEAR", "STEP"] {
         let clip = animated(interpolation, plain.clone(), &binary).expect("a clip");
-        assert_eq!(clip.frames(), 2);
+        assert_eq!(clip.clip_frame_count(), 2);
         assert!((angle(&clip, 1) - right).abs() < 1e-6);
     }
     let none = [0.0f32; 4];
-    let cubic = floats(
-        &[
-            &times[..],
-            &none,
-            &turn[..4],
-            &none,
-            &none,
-            &turn[4..],
-            &none,
-        ]
-        .concat(),
-    );
+    let cubic = floats(&[&times[..], &none, &turn[..4], &none, &none, &turn[4..], &none].concat());
     let output = json!({"bufferView": 0, "byteOffset": 8, "componentType": 5126, "type": "VEC4", "count": 6});
-    assert!(
-        (angle(&animated("CUBICSPLINE", output, &cubic).expect("a clip"), 1) - right).abs() < 1e-6
-    );
+    assert!((angle(&animated("CUBICSPLINE", output, &cubic).expect("a clip"), 1) - right).abs() < 1e-6);
     let mut small = floats(&times);
     let shorts = turn
         .iter()
@@ -316,29 +290,22 @@ fn documents_that_mean_nothing_are_refused() {
             .to_string()
             .contains("beyond its view")
     );
-    let loops =
-        json!({"nodes": [{"children": [1]}, {"children": [0]}], "skins": [{"joints": [0]}]});
+    let loops = json!({"nodes": [{"children": [1]}, {"children": [0]}], "skins": [{"joints": [0]}]});
     let own_child = json!({"nodes": [{"children": [0]}, {}], "skins": [{"joints": [1]}]});
     for cycle in [loops, own_child] {
         let error = parse(&document(cycle, &[])).expect_err("a cycle");
         assert!(error.to_string().contains("is below itself"), "{error}");
     }
     let far = json!({"buffers": [{"byteLength": 1, "uri": "../secret.bin"}]});
-    assert!(matches!(
-        parse(&document(far, &[])),
-        Err(Error::Elsewhere(_))
-    ));
+    assert!(matches!(parse(&document(far, &[])), Err(GltfError::Elsewhere(_))));
     let net = json!({"buffers": [{"byteLength": 1, "uri": "https://x.org/a.bin"}]});
-    assert!(matches!(
-        parse(&document(net, &[])),
-        Err(Error::Elsewhere(_))
-    ));
-    assert_eq!(parse(b"hello").err(), Some(Error::NoGltf));
+    assert!(matches!(parse(&document(net, &[])), Err(GltfError::Elsewhere(_))));
+    assert_eq!(parse(b"hello").err(), Some(GltfError::NoGltf));
     assert!(matches!(
         parse(&document(json!({"skins": []}), &[])),
-        Err(Error::NoSkeleton)
+        Err(GltfError::NoSkeleton)
     ));
-    let whole = write(&clip(), &About::default()).expect("written");
+    let whole = write_glb(&clip(), &GlbDescription::default()).expect("written");
     for end in (0..whole.len()).step_by(7) {
         let _ = parse(&whole[..end]);
         let mut changed = whole.clone();
@@ -353,15 +320,8 @@ fn the_text_form_reads_embedded_and_neighbouring_buffers() {
     let inside = text.replace("URI", "data:application/octet-stream;base64,AAAAAA==");
     assert!(parse(inside.as_bytes()).is_ok());
     let outside = text.replace("URI", "a%20b.bin");
-    assert!(
-        read(outside.as_bytes(), &|name| (name == "a b.bin")
-            .then(|| vec![0; 4]))
-        .is_ok()
-    );
-    assert!(matches!(
-        parse(outside.as_bytes()),
-        Err(Error::Elsewhere(_))
-    ));
+    assert!(read_gltf(outside.as_bytes(), &|name| (name == "a b.bin").then(|| vec![0; 4])).is_ok());
+    assert!(matches!(parse(outside.as_bytes()), Err(GltfError::Elsewhere(_))));
 }
 
 #[test]
@@ -376,16 +336,16 @@ fn base64_is_decoded_as_in_its_standard() {
         ("Zm9v YmE=", b"fooba"),
         ("Zm9vYmFy", b"foobar"),
     ] {
-        assert_eq!(container::base64(text).as_deref(), Some(bytes), "{text}");
+        assert_eq!(container::decode_base64(text).as_deref(), Some(bytes), "{text}");
     }
     let letters: String = ('A'..='Z').chain('a'..='z').chain('0'..='9').collect();
     for (last, letters) in [("+/", &letters), ("-_", &letters)] {
-        let bytes = container::base64(&format!("{letters}{last}")).expect("digits");
+        let bytes = container::decode_base64(&format!("{letters}{last}")).expect("digits");
         let bits: String = bytes.iter().map(|byte| format!("{byte:08b}")).collect();
         let digits: String = (0..64).map(|digit| format!("{digit:06b}")).collect();
         assert_eq!(bits, digits);
     }
-    assert_eq!(container::base64("Zm9v!"), None);
+    assert_eq!(container::decode_base64("Zm9v!"), None);
 }
 
 #[test]
@@ -404,31 +364,27 @@ fn files_of_others_are_read_or_refused_with_the_reason() {
             }
             seen += 1;
             let bytes = std::fs::read(&path).expect("a file");
-            let stem = path
-                .file_stem()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let scene = parse(&bytes);
             if stem == "mesh-without-skinning" {
-                assert_eq!(scene.err(), Some(Error::NoSkeleton));
+                assert_eq!(scene.err(), Some(GltfError::NoSkeleton));
                 continue;
             }
             let (scene, _) = scene.unwrap_or_else(|error| panic!("{stem}: {error}"));
             if stem == "model_with_motion" {
                 let clip = &scene.clip;
                 let find = |name: &str| {
-                    clip.skeleton()
-                        .joints()
+                    clip.clip_skeleton()
+                        .skeleton_joints()
                         .iter()
                         .position(|joint| joint.name == name)
                 };
                 let root = find("root").expect("a joint root");
-                assert!(clip.frames() >= 5, "{}", clip.frames());
-                assert!(clip.skeleton().joints()[root].offset.is_finite());
+                assert!(clip.clip_frame_count() >= 5, "{}", clip.clip_frame_count());
+                assert!(clip.clip_skeleton().skeleton_joints()[root].offset.is_finite());
             }
             if stem == "sort_joints" {
-                assert!(scene.clip.skeleton().len() >= 297);
+                assert!(scene.clip.clip_skeleton().len() >= 297);
             }
         }
     }
@@ -440,29 +396,26 @@ fn golden_scenes_and_avatars() {
     use crate::golden::{compare, put};
     use crate::tests::{clip as clip_of, scene_file};
     let mut out = String::new();
-    let about = About {
+    let about = GlbDescription {
         name: "CHAT".into(),
         licence: Some("CC0".into()),
-        notes: vec![Note {
+        notes: vec![MovementNote {
             tier: "gloss".into(),
             begin: 0.1,
             end: 0.4,
             value: "CHAT".into(),
         }],
-        ..About::default()
+        ..GlbDescription::default()
     };
-    let bytes = write(&clip(), &about).expect("written");
+    let bytes = write_glb(&clip(), &about).expect("written");
     scene_file(&mut out, &bytes);
     let (scene, found) = parse(&bytes).expect("a GLB");
     clip_of(&mut out, &scene.clip);
-    put(
-        &mut out,
-        format!("{:?} {:?} {found:?}", scene.convention, scene.take),
-    );
+    put(&mut out, format!("{:?} {:?} {found:?}", scene.convention, scene.take));
     put(&mut out, "## an avatar");
     let skeleton = Arc::new(figure());
-    let anatomy = chereme_motion::Anatomy::detect(&skeleton);
-    let channel = |joint: usize| Channel {
+    let anatomy = chereme_motion::BodyAnatomy::detect_anatomy(&skeleton);
+    let channel = |joint: usize| JointChannel {
         rotations: (0..6)
             .map(|frame| DQuat::from_rotation_x(0.07 * f64::from(frame) * (joint % 4) as f64))
             .collect(),
@@ -472,9 +425,9 @@ fn golden_scenes_and_avatars() {
         }),
     };
     let channels = (0..skeleton.len()).map(channel).collect();
-    let rate = Rate::new(30, 1).expect("a rate");
+    let rate = FrameRate::new(30, 1).expect("a rate");
     let moving = Clip::new(skeleton, rate, channels).expect("a clip");
-    let expressions = ["happy", "brow_raise"].map(|name| vrma::Expression {
+    let expressions = ["happy", "brow_raise"].map(|name| vrma::ExpressionTrack {
         name: name.into(),
         weights: (0..6).map(|frame| 0.2 * f64::from(frame)).collect(),
     });
@@ -482,7 +435,7 @@ fn golden_scenes_and_avatars() {
         expressions: expressions.into(),
         gaze: vec![],
     };
-    let bytes = vrma::write(&moving, &anatomy, &face, &about).expect("written");
+    let bytes = vrma::write_vrma(&moving, &anatomy, &face, &about).expect("written");
     scene_file(&mut out, &bytes);
     compare("gltf", &out);
 }
@@ -491,15 +444,15 @@ fn golden_scenes_and_avatars() {
 fn places_beyond_32_bits_are_refused_by_joint_and_frame() {
     let at_rest = |joint: usize, offset: f64, tip: f64| {
         let clip = clip();
-        let mut joints = clip.skeleton().joints().to_vec();
+        let mut joints = clip.clip_skeleton().skeleton_joints().to_vec();
         joints[joint].offset.y = offset;
         joints[2].tip = Some(DVec3::X * tip);
         let skeleton = Arc::new(Skeleton::new(joints).expect("a skeleton"));
-        Clip::new(skeleton, clip.rate(), clip.into_channels()).expect("a clip")
+        Clip::new(skeleton, clip.clip_frame_rate(), clip.into_channels()).expect("a clip")
     };
     let moving = |joint: usize, frame: usize, place: f64| {
         let clip = clip();
-        let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
+        let (skeleton, rate) = (clip.clip_skeleton().clone(), clip.clip_frame_rate());
         let mut channels = clip.into_channels();
         let mut places = vec![DVec3::ZERO; 20];
         places[frame].z = place;
@@ -530,11 +483,8 @@ fn places_beyond_32_bits_are_refused_by_joint_and_frame() {
             Some("joint \"Arm.L\" is too far away to be written in frame 19"),
         ),
     ] {
-        let written = write(&clip, &About::default());
-        assert_eq!(
-            written.as_ref().err().map(ToString::to_string).as_deref(),
-            want
-        );
+        let written = write_glb(&clip, &GlbDescription::default());
+        assert_eq!(written.as_ref().err().map(ToString::to_string).as_deref(), want);
         if let Ok(bytes) = written {
             let text = String::from_utf8_lossy(&bytes);
             assert!(!text.contains("null"), "{want:?}");
@@ -542,25 +492,25 @@ fn places_beyond_32_bits_are_refused_by_joint_and_frame() {
         }
     }
     let skeleton = Arc::new(figure());
-    let anatomy = chereme_motion::Anatomy::detect(&skeleton);
-    let still = Channel {
+    let anatomy = chereme_motion::BodyAnatomy::detect_anatomy(&skeleton);
+    let still = JointChannel {
         rotations: vec![DQuat::IDENTITY; 2],
         translations: None,
     };
     let mut channels = vec![still; skeleton.len()];
     channels[0].translations = Some(vec![DVec3::Y, DVec3::Y * 1e40]);
-    let rate = Rate::new(30, 1).expect("a rate");
+    let rate = FrameRate::new(30, 1).expect("a rate");
     let clip = Clip::new(Arc::clone(&skeleton), rate, channels).expect("a clip");
-    let refused = vrma::write(
+    let refused = vrma::write_vrma(
         &clip,
         &anatomy,
         &vrma::AvatarFace::default(),
-        &About::default(),
+        &GlbDescription::default(),
     );
     let want = crate::TooFar {
         kind: "joint",
-        name: skeleton.joint(0).name.clone(),
+        name: skeleton.joint_at(0).name.clone(),
         frame: Some(1),
     };
-    assert_eq!(refused, Err(vrma::WriteError::TooFar(want)));
+    assert_eq!(refused, Err(vrma::VrmaWriteError::TooFar(want)));
 }

@@ -2,22 +2,24 @@
 
 use std::collections::BTreeMap;
 
-use chereme_motion::column::{Column, Number};
+use chereme_motion::column::{FileNumber, FrameNumberColumn};
 use chereme_motion::glam::DVec2;
-use chereme_motion::markers::Frame;
-use chereme_motion::{Capture, Convention, Marker, Markers, Quality, Space, Times};
+use chereme_motion::markers::PointPictureSize;
+use chereme_motion::{
+    CaptureMethod, FrameTimes, MarkerSpace, MarkerTrack, MotionMarker, QualityMeaning, SpaceConvention,
+};
 use serde_json::Value;
 
-use super::Error;
-use super::names;
-use crate::finding::Finding;
-use crate::tally::Findings;
+use super::KeypointError;
+use super::keypoints_names;
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
 
 /// The message for places that are shares of the picture.
-const SHARES: &str =
+const PICTURE_SHARES_MESSAGE: &str =
     "places are shares of the picture's width and height: angles between them need its proportions";
 /// The most coordinates of one person's points.
-const PLACES: usize = 30_000_000;
+const MAX_CLOUD_COORDINATES: usize = 30_000_000;
 
 /// The space of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,34 +34,34 @@ pub(super) enum PointSpace {
 
 /// One point in one frame.
 #[derive(Debug, Clone)]
-pub(super) struct Point {
+pub(super) struct KeypointSample {
     group: String,
     name: String,
     /// The coordinates; `None` if the point is not seen.
-    at: Option<Vec<Number>>,
-    sure: Option<Number>,
+    at: Option<Vec<FileNumber>>,
+    sure: Option<FileNumber>,
 }
 
-impl Point {
+impl KeypointSample {
     pub(super) fn is_seen(&self) -> bool {
         self.at.is_some()
     }
 }
 
-fn number(value: &Value) -> Option<Number> {
-    Number::parse(value.as_number()?.to_string().as_bytes()).ok()
+fn number_from_json(value: &Value) -> Option<FileNumber> {
+    FileNumber::parse_file_number(value.as_number()?.to_string().as_bytes()).ok()
 }
 
 /// Adds the points of one of OpenPose's lists, which repeats x, y and confidence; 0, 0, 0 is a gap.
-pub(super) fn triples(group: &str, values: &[Value], points: &mut Vec<Point>) {
+pub(super) fn add_openpose_triples(group: &str, values: &[Value], points: &mut Vec<KeypointSample>) {
     let count = values.len() / 3;
     for (at, triple) in values.chunks_exact(3).enumerate() {
-        let sure = number(&triple[2]);
+        let sure = number_from_json(&triple[2]);
         let seen = sure.as_ref().is_some_and(|sure| sure.to_f64() > 0.0);
-        let place: Option<Vec<Number>> = triple[..2].iter().map(number).collect();
-        points.push(Point {
+        let place: Option<Vec<FileNumber>> = triple[..2].iter().map(number_from_json).collect();
+        points.push(KeypointSample {
             group: group.to_owned(),
-            name: names::openpose(group, count, at),
+            name: keypoints_names::openpose_point_name(group, count, at),
             at: place.filter(|_| seen),
             sure,
         });
@@ -68,12 +70,12 @@ pub(super) fn triples(group: &str, values: &[Value], points: &mut Vec<Point>) {
 
 /// Adds landmarks: objects with x, y, z and an optional visibility; a list of such lists belongs to several hands or
 /// people.
-pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
+pub(super) fn add_mediapipe_landmarks(group: &str, value: &Value, points: &mut Vec<KeypointSample>) {
     let Value::Array(all) = value else { return };
     // A landmark may be a list of its coordinates too: x, y, z and perhaps its visibility.
-    let is_numbers = |it: &Value| {
-        it.as_array()
-            .is_some_and(|it| (2..=5).contains(&it.len()) && it.iter().all(Value::is_number))
+    let is_numbers = |item: &Value| {
+        item.as_array()
+            .is_some_and(|numbers| (2..=5).contains(&numbers.len()) && numbers.iter().all(Value::is_number))
     };
     if all.iter().any(Value::is_array) && !all.iter().all(is_numbers) {
         for (at, list) in (1..).zip(all.iter().take(8)) {
@@ -82,11 +84,8 @@ pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
             } else {
                 format!("{group} {at}")
             };
-            if list
-                .as_array()
-                .is_some_and(|it| !it.iter().any(Value::is_array))
-            {
-                landmarks(&group, list, points);
+            if list.as_array().is_some_and(|items| !items.iter().any(Value::is_array)) {
+                add_mediapipe_landmarks(&group, list, points);
             }
         }
         return;
@@ -99,15 +98,15 @@ pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
             "visibility" => mark.get(3),
             _ => None,
         };
-        let field = |key: &str| mark.get(key).or_else(|| column(key)).and_then(number);
-        let place: Option<Vec<Number>> = ["x", "y"].into_iter().map(field).collect();
-        let place = place.map(|mut place| {
-            place.push(field("z").unwrap_or(Number::ZERO));
+        let field = |key: &str| mark.get(key).or_else(|| column(key)).and_then(number_from_json);
+        let coordinates: Option<Vec<FileNumber>> = ["x", "y"].into_iter().map(field).collect();
+        let place = coordinates.map(|mut place| {
+            place.push(field("z").unwrap_or(FileNumber::ZERO_NUMBER));
             place
         });
-        points.push(Point {
+        points.push(KeypointSample {
             group: group.to_owned(),
-            name: names::mediapipe(group, all.len(), at),
+            name: keypoints_names::mediapipe_point_name(group, all.len(), at),
             at: place,
             sure: field("visibility").or_else(|| field("score")),
         });
@@ -115,7 +114,7 @@ pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
 }
 
 /// Returns the mean position of the points that are seen.
-pub(super) fn middle(points: &[Point]) -> DVec2 {
+pub(super) fn mean_seen_position(points: &[KeypointSample]) -> DVec2 {
     let seen: Vec<DVec2> = points
         .iter()
         .filter_map(|point| match point.at.as_deref() {
@@ -127,7 +126,7 @@ pub(super) fn middle(points: &[Point]) -> DVec2 {
 }
 
 /// Returns the greater side of the box around the points that are seen.
-fn extent(points: &[Point]) -> f64 {
+fn seen_point_extent(points: &[KeypointSample]) -> f64 {
     let seen = points.iter().filter_map(|point| match point.at.as_deref() {
         Some([x, y, ..]) => Some(DVec2::new(x.to_f64(), y.to_f64())),
         _ => None,
@@ -141,15 +140,15 @@ fn extent(points: &[Point]) -> f64 {
 }
 
 /// The growing columns of one point: three coordinates and the confidence.
-type Columns = [Vec<Option<Number>>; 4];
+type KeypointColumns = [Vec<Option<FileNumber>>; 4];
 
 /// The points of one person.
 #[derive(Debug)]
-pub(super) struct Cloud {
+pub(super) struct PersonCloud {
     kind: PointSpace,
     names: Vec<(String, String)>,
     known: BTreeMap<(String, String), usize>,
-    columns: Vec<Columns>,
+    columns: Vec<KeypointColumns>,
     rows: usize,
     last: Option<DVec2>,
     /// The greatest extent of the points in a frame.
@@ -161,9 +160,9 @@ pub(super) struct Cloud {
 }
 
 /// The distance from a person's last place, as a share of the person's extent, that no person moves at once.
-const LEAP: f64 = 1.5;
+const MAX_LEAP_SHARE: f64 = 1.5;
 
-impl Cloud {
+impl PersonCloud {
     pub(super) fn new(kind: PointSpace) -> Self {
         Self {
             kind,
@@ -187,51 +186,51 @@ impl Cloud {
         }
     }
 
-    pub(super) fn number(&self) -> Option<u64> {
+    pub(super) fn stated_person_number(&self) -> Option<u64> {
         self.number
     }
 
-    pub(super) fn rows(&self) -> usize {
+    pub(super) fn cloud_row_count(&self) -> usize {
         self.rows
     }
 
     /// Returns whether points are too far from the last ones for the same person.
-    pub(super) fn leaps(&self, points: &[Point]) -> bool {
-        let most = self.extent.max(extent(points)) * LEAP;
-        self.last.is_some() && most > 0.0 && self.far(middle(points)) > most
+    pub(super) fn is_person_leap(&self, points: &[KeypointSample]) -> bool {
+        let most = self.extent.max(seen_point_extent(points)) * MAX_LEAP_SHARE;
+        self.last.is_some() && most > 0.0 && self.distance_from_last(mean_seen_position(points)) > most
     }
 
-    pub(super) fn kind(&self) -> PointSpace {
+    pub(super) fn cloud_point_space(&self) -> PointSpace {
         self.kind
     }
 
     /// Returns the distance of a position from the person's last one.
-    pub(super) fn far(&self, at: DVec2) -> f64 {
+    pub(super) fn distance_from_last(&self, at: DVec2) -> f64 {
         self.last.map_or(f64::MAX, |last| last.distance(at))
     }
 
     /// Adds the points of a frame; if two frames have the same number, the first counts.
-    pub(super) fn push(&mut self, row: usize, points: Vec<Point>) -> Result<(), Error> {
-        self.last = Some(middle(&points));
-        self.extent = self.extent.max(extent(&points));
-        self.reach(row)?;
+    pub(super) fn push_cloud_points(&mut self, row: usize, points: Vec<KeypointSample>) -> Result<(), KeypointError> {
+        self.last = Some(mean_seen_position(&points));
+        self.extent = self.extent.max(seen_point_extent(&points));
+        self.extend_cloud_rows(row)?;
         if self.rows > row {
             return Ok(());
         }
         for point in points {
             let key = (point.group, point.name);
-            let at = match self.known.get(&key) {
+            let point_index = match self.known.get(&key) {
                 Some(at) => *at,
                 None => {
                     self.known.insert(key.clone(), self.names.len());
                     self.names.push(key);
                     self.columns.push([(); 4].map(|()| vec![None; self.rows]));
-                    self.fits(self.rows + 1)?;
+                    self.check_cloud_size(self.rows + 1)?;
                     self.names.len() - 1
                 }
             };
             let [x, y, ..] = point.at.as_deref().unwrap_or_default() else {
-                self.columns[at][3].push(point.sure);
+                self.columns[point_index][3].push(point.sure);
                 continue;
             };
             for (most, value) in self.largest.iter_mut().zip([x, y]) {
@@ -239,31 +238,31 @@ impl Cloud {
                 self.least = self.least.min(value.to_f64());
             }
             // A name that occurs twice in a frame counts once.
-            if self.columns[at][0].len() == row {
+            if self.columns[point_index][0].len() == row {
                 let places = point.at.unwrap_or_default();
-                for (column, value) in self.columns[at].iter_mut().zip(places) {
+                for (column, value) in self.columns[point_index].iter_mut().zip(places) {
                     column.push(Some(value));
                 }
-                self.columns[at][3].resize(row, None);
-                self.columns[at][3].push(point.sure);
+                self.columns[point_index][3].resize(row, None);
+                self.columns[point_index][3].push(point.sure);
             }
         }
-        self.reach(row + 1)
+        self.extend_cloud_rows(row + 1)
     }
 
-    fn fits(&self, rows: usize) -> Result<(), Error> {
-        match self.names.len().saturating_mul(rows) > PLACES {
-            true => Err(Error::Large(PLACES)),
+    fn check_cloud_size(&self, rows: usize) -> Result<(), KeypointError> {
+        match self.names.len().saturating_mul(rows) > MAX_CLOUD_COORDINATES {
+            true => Err(KeypointError::Large(MAX_CLOUD_COORDINATES)),
             false => Ok(()),
         }
     }
 
     /// Adds gaps until there are `rows` frames.
-    pub(super) fn reach(&mut self, rows: usize) -> Result<(), Error> {
+    pub(super) fn extend_cloud_rows(&mut self, rows: usize) -> Result<(), KeypointError> {
         if rows <= self.rows {
             return Ok(());
         }
-        self.fits(rows)?;
+        self.check_cloud_size(rows)?;
         for column in self.columns.iter_mut().flatten() {
             column.resize(rows, None);
         }
@@ -272,51 +271,53 @@ impl Cloud {
     }
 
     /// Returns the track; `None` if there is no point.
-    pub(super) fn markers(
+    pub(super) fn cloud_to_markers(
         self,
-        times: Times,
+        times: FrameTimes,
         size: Option<[f64; 2]>,
-        findings: &mut Findings,
-    ) -> Result<Option<Markers>, Error> {
+        findings: &mut FindingTally,
+    ) -> Result<Option<MarkerTrack>, KeypointError> {
         if self.names.is_empty() || self.rows == 0 {
             return Ok(None);
         }
-        let space = self.space(size, findings)?;
-        let wide = space.coordinates();
-        let has_quality = |columns: &Columns| columns[3].iter().any(Option::is_some);
-        let points = self.names.into_iter().zip(self.columns);
-        let points = points.map(|((group, name), columns)| {
+        let space = self.cloud_marker_space(size, findings)?;
+        let wide = space.space_coordinate_count();
+        let has_quality = |columns: &KeypointColumns| columns[3].iter().any(Option::is_some);
+        let named_columns = self.names.into_iter().zip(self.columns);
+        let points = named_columns.map(|((group, name), columns)| {
             let quality = has_quality(&columns);
             let [x, y, z, sure] = columns;
             let place = [x, y, z].into_iter().take(wide);
-            Marker {
+            MotionMarker {
                 group,
                 name,
-                place: place.map(Column::decimals).collect(),
-                quality: quality.then(|| Column::decimals(sure)),
+                place: place.map(FrameNumberColumn::from_decimals).collect(),
+                quality: quality.then(|| FrameNumberColumn::from_decimals(sure)),
             }
         });
-        let limbs = |points: &[Marker]| names::limbs(points);
-        let points: Vec<Marker> = points.collect();
+        let limbs = |points: &[MotionMarker]| keypoints_names::limbs_between_points(points);
+        let points: Vec<MotionMarker> = points.collect();
         let limbs = limbs(&points);
-        let markers = Markers::new(times, space, points)
-            .and_then(|markers| markers.joined(limbs))
-            .map_err(|error| Error::Track(error.to_string()))?;
+        let markers = MarkerTrack::new(times, space, points)
+            .and_then(|markers| markers.with_marker_limbs(limbs))
+            .map_err(|error| KeypointError::Track(error.to_string()))?;
         Ok(Some(
             markers
-                .captured(Capture::Estimated)
-                .rated(Quality::Confidence),
+                .with_capture_method(CaptureMethod::Estimated)
+                .with_quality_meaning(QualityMeaning::Confidence),
         ))
     }
 
-    fn space(&self, size: Option<[f64; 2]>, findings: &mut Findings) -> Result<Space, Error> {
-        let frame = |[width, height]: [f64; 2]| Frame { width, height };
+    fn cloud_marker_space(
+        &self,
+        size: Option<[f64; 2]>,
+        findings: &mut FindingTally,
+    ) -> Result<MarkerSpace, KeypointError> {
+        let frame = |[width, height]: [f64; 2]| PointPictureSize { width, height };
         Ok(match self.kind {
-            PointSpace::World => Space::World(Convention {
+            PointSpace::World => MarkerSpace::World(SpaceConvention {
                 metres_per_unit: 1.0,
-                axes: "-Y,+X"
-                    .parse()
-                    .map_err(|_| Error::Track("axes".to_owned()))?,
+                axes: "-Y,+X".parse().map_err(|_| KeypointError::Track("axes".to_owned()))?,
             }),
             // No point of a picture is within its first pixel only.
             PointSpace::Pixels if self.largest == [1.0; 2] => {
@@ -324,27 +325,29 @@ impl Cloud {
                     true => {
                         "places are from -1 to 1 in the picture's width and height: angles between them need its proportions"
                     }
-                    false => SHARES,
+                    false => PICTURE_SHARES_MESSAGE,
                 };
-                findings.add("shares of the picture", || Finding::note(None, text));
-                Space::Image(frame([1.0, 1.0]))
+                findings.add_limited_finding("shares of the picture", || ImportFinding::new_note_finding(None, text));
+                MarkerSpace::Image(frame([1.0, 1.0]))
             }
-            PointSpace::Pixels => Space::Image(frame(size.unwrap_or_else(|| {
-                let found = self.largest.map(f64::ceil);
-                findings.add("pictures of unknown size", || {
-                    Finding::note(
+            PointSpace::Pixels => MarkerSpace::Image(frame(size.unwrap_or_else(|| {
+                let largest_size = self.largest.map(f64::ceil);
+                findings.add_limited_finding("pictures of unknown size", || {
+                    ImportFinding::new_note_finding(
                         None,
                         format!(
                             "the size of the pictures is not stated; points reach {} by {} pixels",
-                            found[0], found[1]
+                            largest_size[0], largest_size[1]
                         ),
                     )
                 });
-                found
+                largest_size
             }))),
             PointSpace::Share => {
-                findings.add("shares of the picture", || Finding::note(None, SHARES));
-                Space::Depth(frame([1.0, 1.0]))
+                findings.add_limited_finding("shares of the picture", || {
+                    ImportFinding::new_note_finding(None, PICTURE_SHARES_MESSAGE)
+                });
+                MarkerSpace::Depth(frame([1.0, 1.0]))
             }
         })
     }

@@ -17,33 +17,33 @@
 //! # Ok::<(), keypoints::Error>(())
 //! ```
 
-mod clock;
 mod cloud;
-mod hands;
-mod names;
+mod keypoints_clock;
+mod keypoints_hands;
+mod keypoints_names;
 #[cfg(test)]
 mod tests;
 
-use chereme_motion::Rate;
+use chereme_motion::FrameRate;
 use serde_json::{Map, Value};
 
-use crate::finding::Finding;
-use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks};
-use clock::Clock;
-use cloud::{Cloud, Point, PointSpace};
-pub(crate) use hands::has_sides;
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
+use crate::tracks::{CapturedTrackContent, CapturedTracks, FileTrack};
+use cloud::{KeypointSample, PersonCloud, PointSpace};
+use keypoints_clock::KeypointClock;
+pub(crate) use keypoints_hands::has_sides;
 
 /// Frames a second if neither the file nor the caller has a rate.
-pub const USUAL_RATE: u32 = 25;
+pub const DEFAULT_KEYPOINT_FPS: u32 = 25;
 /// The most people that are followed.
-const PEOPLE: usize = 16;
+const MAX_FOLLOWED_PEOPLE: usize = 16;
 /// The greatest number that a frame may have.
-const FRAMES: u64 = 5_184_000;
+const MAX_FRAME_NUMBER: u64 = 5_184_000;
 
 /// Why bytes could not be read as points from film.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum KeypointError {
     /// The bytes are not JSON.
     #[error("{0}")]
     Json(String),
@@ -64,14 +64,12 @@ pub enum Error {
 /// Returns whether a file that begins with these bytes holds points of OpenPose or MediaPipe.
 #[must_use]
 pub fn is_keypoints(head: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(&head[..head.len().min(1 << 14)]);
-    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let head_text = String::from_utf8_lossy(&head[..head.len().min(1 << 14)]);
+    let text = head_text.trim_start_matches('\u{feff}').trim_start();
     let lower = text.to_ascii_lowercase();
     text.starts_with(['{', '['])
-        && (lower.contains("\"people\"")
-            || lower.contains("_keypoints_")
-            || lower.contains("landmarks\""))
-        && (!lower.contains("\"categoryname\"") || hands::has_sides(&lower))
+        && (lower.contains("\"people\"") || lower.contains("_keypoints_") || lower.contains("landmarks\""))
+        && (!lower.contains("\"categoryname\"") || keypoints_hands::has_sides(&lower))
 }
 
 /// Returns the prefix and the number of the name of an OpenPose file of one frame:
@@ -80,142 +78,145 @@ pub fn is_keypoints(head: &[u8]) -> bool {
 pub fn frame_of_name(name: &str) -> Option<(&str, u64)> {
     let stem = name.strip_suffix(".json")?.strip_suffix("_keypoints")?;
     let (prefix, number) = stem.rsplit_once('_')?;
-    let digits = !number.is_empty() && number.bytes().all(|it| it.is_ascii_digit());
+    let digits = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
     (digits && !prefix.is_empty()).then_some((prefix, number.parse().ok()?))
 }
 
 /// Collects frames of points.
 #[derive(Debug, Default)]
-pub struct Reader {
-    films: Vec<Film>,
+pub struct KeypointReader {
+    films: Vec<CameraFilm>,
     /// The number of the first frame, which counts as 0.
     first: Option<u64>,
-    clock: Clock,
-    findings: Findings,
+    clock: KeypointClock,
+    findings: FindingTally,
 }
 
 /// The people of one camera, and the landmarks that belong to no particular person.
 #[derive(Debug, Default)]
-struct Film {
+struct CameraFilm {
     camera: String,
     size: Option<[f64; 2]>,
-    people: Vec<Cloud>,
-    marks: Vec<Cloud>,
+    people: Vec<PersonCloud>,
+    marks: Vec<PersonCloud>,
 }
 
-impl Reader {
+impl KeypointReader {
     /// Adds a document: one frame with the number `frame`, or a whole film if its frames have numbers of their own.
     ///
     /// # Errors
-    /// [`Error`] if the bytes are not JSON of points, or there are too many of them.
-    pub fn push(&mut self, frame: Option<u64>, bytes: &[u8]) -> Result<(), Error> {
+    /// [`KeypointError`] if the bytes are not JSON of points, or there are too many of them.
+    pub fn push_keypoint_document(&mut self, frame: Option<u64>, bytes: &[u8]) -> Result<(), KeypointError> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let document: Value = serde_json::from_slice(bytes)
-            .map_err(|error| Error::Json(format!("line {}: {error}", error.line())))?;
+            .map_err(|error| KeypointError::Json(format!("line {}: {error}", error.line())))?;
         match &document {
-            Value::Array(all) if all.iter().any(|it| frames_of(it).is_some()) => {
+            Value::Array(all) if all.iter().any(|camera| film_document_frames(camera).is_some()) => {
                 // All cameras count from the first frame of any of them.
                 for camera in all {
                     let first = first_number(camera)?;
                     self.first = self.first.into_iter().chain(first).min();
                 }
                 for camera in all {
-                    self.camera(camera)?;
+                    self.add_camera_frames(camera)?;
                 }
             }
-            Value::Array(all) => self.frames(0, frame.unwrap_or(0), all)?,
-            other if frames_of(other).is_some() => self.camera(other)?,
-            other => self.frame(0, frame.unwrap_or(0), other)?,
+            Value::Array(all) => self.add_film_frames(0, frame.unwrap_or(0), all)?,
+            other if film_document_frames(other).is_some() => self.add_camera_frames(other)?,
+            other => self.add_film_frame(0, frame.unwrap_or(0), other)?,
         }
         Ok(())
     }
 
     /// Adds frames with the numbers that all of them state, else one after the other from `begin` on.
-    fn frames(&mut self, film: usize, begin: u64, frames: &[Value]) -> Result<(), Error> {
-        let stated = numbers(frames);
+    fn add_film_frames(&mut self, film: usize, begin: u64, frames: &[Value]) -> Result<(), KeypointError> {
+        let stated = stated_frame_numbers(frames);
         for (at, one) in frames.iter().enumerate() {
             let number = stated.as_ref().map_or(begin + at as u64, |all| all[at]);
-            self.frame(film, number, one)?;
+            self.add_film_frame(film, number, one)?;
         }
         Ok(())
     }
 
     /// Adds the frames of one camera: an object of frames by number, or an array.
-    fn camera(&mut self, document: &Value) -> Result<(), Error> {
-        let name = document.get("camera").map(|it| match it {
+    fn add_camera_frames(&mut self, document: &Value) -> Result<(), KeypointError> {
+        let name = document.get("camera").map(|value| match value {
             Value::String(name) => name.clone(),
             other => other.to_string(),
         });
         let number = |key: &str| document.get(key).and_then(Value::as_f64);
         let rates = ["fps", "frame_rate", "frameRate", "framerate"];
-        self.clock.state(rates.into_iter().find_map(number));
+        self.clock.take_stated_rate(rates.into_iter().find_map(number));
         let film = self.films.len();
-        self.films.push(Film {
+        self.films.push(CameraFilm {
             camera: name.unwrap_or_default(),
             size: number("width")
                 .zip(number("height"))
                 .map(|(width, height)| [width, height]),
-            ..Film::default()
+            ..CameraFilm::default()
         });
-        match frames_of(document) {
+        match film_document_frames(document) {
             Some(Value::Object(frames)) => {
-                for (number, value) in numbered(frames)? {
-                    self.frame(film, number, value)?;
+                for (number, value) in numbered_film_frames(frames)? {
+                    self.add_film_frame(film, number, value)?;
                 }
             }
-            Some(Value::Array(frames)) => self.frames(film, 0, frames)?,
+            Some(Value::Array(frames)) => self.add_film_frames(film, 0, frames)?,
             _ => {}
         }
         Ok(())
     }
 
-    fn frame(&mut self, film: usize, number: u64, document: &Value) -> Result<(), Error> {
+    fn add_film_frame(&mut self, film: usize, number: u64, document: &Value) -> Result<(), KeypointError> {
         let first = *self.first.get_or_insert(number);
         let row = number.checked_sub(first).unwrap_or(number);
-        if row > FRAMES {
-            return Err(Error::Frame(number));
+        if row > MAX_FRAME_NUMBER {
+            return Err(KeypointError::Frame(number));
         }
         while self.films.len() <= film {
-            self.films.push(Film::default());
+            self.films.push(CameraFilm::default());
         }
-        self.clock.see(row, document);
+        self.clock.take_frame_time(row, document);
         let film = &mut self.films[film];
         let row = row as usize;
         match document.get("people") {
             Some(Value::Array(people)) => {
-                film.people(row, people, &mut self.findings)?;
+                film.add_frame_people(row, people, &mut self.findings)?;
             }
             _ => {
                 if let Value::Object(object) = document {
-                    film.landmarks(row, object, &mut self.findings)?;
+                    film.add_frame_landmarks(row, object, &mut self.findings)?;
                 }
             }
         }
-        film.reach(row + 1)
+        film.extend_film_rows(row + 1)
     }
 
     /// Returns the tracks, one for each person, camera and space; `rate` is that of the film if the caller knows it.
     ///
     /// # Errors
-    /// [`Error::Empty`] if there is no point at all.
-    pub fn finish(mut self, rate: Option<Rate>) -> Result<(Tracks, Vec<Finding>), Error> {
-        let rows = self.films.iter().map(Film::rows).max().unwrap_or(0);
-        let (times, offset) = self.clock.times(rows, rate, &mut self.findings)?;
+    /// [`KeypointError::Empty`] if there is no point at all.
+    pub fn finish_keypoint_tracks(
+        mut self,
+        rate: Option<FrameRate>,
+    ) -> Result<(CapturedTracks, Vec<ImportFinding>), KeypointError> {
+        let rows = self.films.iter().map(CameraFilm::film_row_count).max().unwrap_or(0);
+        let (times, offset) = self.clock.keypoint_frame_times(rows, rate, &mut self.findings)?;
         if let Some(first) = self.first.filter(|first| *first > 0) {
-            self.findings.push(Finding::note(
+            self.findings.push_counted_finding(ImportFinding::new_note_finding(
                 None,
                 format!("it begins with frame {first} of its film; that is 0 s here"),
             ));
         }
-        let mut tracks = Tracks::default();
+        let mut tracks = CapturedTracks::default();
         let several = self.films.len() > 1;
         for film in self.films {
             let prefix = match (several, film.camera.as_str()) {
                 (true, camera) if !camera.is_empty() => format!("{camera} "),
                 _ => String::new(),
             };
-            let people = film.people.into_iter().enumerate();
-            let people = people.map(|(at, cloud)| {
+            let numbered_people = film.people.into_iter().enumerate();
+            let people = numbered_people.map(|(at, cloud)| {
                 let name = match at {
                     0 => "landmarks".to_owned(),
                     at => format!("landmarks {}", at + 1),
@@ -223,44 +224,46 @@ impl Reader {
                 (name, cloud)
             });
             let marks = film.marks.into_iter().map(|cloud| {
-                let name = match cloud.kind() {
+                let name = match cloud.cloud_point_space() {
                     PointSpace::World => "world landmarks",
                     PointSpace::Pixels | PointSpace::Share => "landmarks",
                 };
                 (name.to_owned(), cloud)
             });
             for (name, cloud) in people.chain(marks).collect::<Vec<_>>() {
-                let markers = cloud.markers(times.clone(), film.size, &mut self.findings)?;
+                let markers = cloud.cloud_to_markers(times.clone(), film.size, &mut self.findings)?;
                 let Some(markers) = markers else { continue };
                 let name = format!("{prefix}{name}");
-                let mut track = FileTrack::new(name, Content::Markers(markers));
+                let mut track = FileTrack::new(name, CapturedTrackContent::Markers(markers));
                 track.offset = offset;
                 tracks.tracks.push(track);
             }
         }
         if tracks.tracks.is_empty() {
-            return Err(Error::Empty);
+            return Err(KeypointError::Empty);
         }
-        self.findings
-            .push(Finding::note(None, "the points are estimated from film"));
-        Ok((tracks, self.findings.finish()))
+        self.findings.push_counted_finding(ImportFinding::new_note_finding(
+            None,
+            "the points are estimated from film",
+        ));
+        Ok((tracks, self.findings.finish_finding_tally()))
     }
 }
 
 /// Returns the frames of a document of a whole film.
-fn frames_of(document: &Value) -> Option<&Value> {
+fn film_document_frames(document: &Value) -> Option<&Value> {
     let named = ["frames", "results"].into_iter();
     named
         .filter_map(|key| document.get(key))
-        .find(|it| it.is_array() || it.is_object())
+        .find(|value| value.is_array() || value.is_object())
 }
 
 /// Returns the frames of an object by their numbers.
-fn numbered(frames: &Map<String, Value>) -> Result<Vec<(u64, &Value)>, Error> {
+fn numbered_film_frames(frames: &Map<String, Value>) -> Result<Vec<(u64, &Value)>, KeypointError> {
     let mut numbered = Vec::with_capacity(frames.len());
     for (key, value) in frames {
-        let number = key.trim().parse();
-        let number = number.map_err(|_| Error::Json(format!("{key:?} is no number of a frame")))?;
+        let parsed_number = key.trim().parse();
+        let number = parsed_number.map_err(|_| KeypointError::Json(format!("{key:?} is no number of a frame")))?;
         numbered.push((number, value));
     }
     numbered.sort_by_key(|(number, _)| *number);
@@ -268,16 +271,16 @@ fn numbered(frames: &Map<String, Value>) -> Result<Vec<(u64, &Value)>, Error> {
 }
 
 /// Returns the number of the first frame of a camera.
-fn first_number(camera: &Value) -> Result<Option<u64>, Error> {
-    Ok(match frames_of(camera) {
-        Some(Value::Object(frames)) => numbered(frames)?.first().map(|(number, _)| *number),
-        Some(Value::Array(frames)) => numbers(frames).map_or(Some(0), |all| all.first().copied()),
+fn first_number(camera: &Value) -> Result<Option<u64>, KeypointError> {
+    Ok(match film_document_frames(camera) {
+        Some(Value::Object(frames)) => numbered_film_frames(frames)?.first().map(|(number, _)| *number),
+        Some(Value::Array(frames)) => stated_frame_numbers(frames).map_or(Some(0), |all| all.first().copied()),
         _ => None,
     })
 }
 
 /// Returns the numbers that frames state under the same name, each greater than the one before.
-fn numbers(frames: &[Value]) -> Option<Vec<u64>> {
+fn stated_frame_numbers(frames: &[Value]) -> Option<Vec<u64>> {
     let keys = [
         "frame",
         "frame_id",
@@ -296,21 +299,21 @@ fn numbers(frames: &[Value]) -> Option<Vec<u64>> {
     all.find(|numbers| !numbers.is_empty() && numbers.is_sorted_by(|a, b| a < b))
 }
 
-impl Film {
-    fn rows(&self) -> usize {
+impl CameraFilm {
+    fn film_row_count(&self) -> usize {
         let clouds = self.people.iter().chain(&self.marks);
-        clouds.map(Cloud::rows).max().unwrap_or(0)
+        clouds.map(PersonCloud::cloud_row_count).max().unwrap_or(0)
     }
 
     /// Adds the people of a frame, each to the track of the person with the same number, or without numbers to that of
     /// the person whose last position was nearest.
-    fn people(
+    fn add_frame_people(
         &mut self,
         row: usize,
         people: &[Value],
-        findings: &mut Findings,
-    ) -> Result<(), Error> {
-        let mut bodies: Vec<Vec<Point>> = Vec::new();
+        findings: &mut FindingTally,
+    ) -> Result<(), KeypointError> {
+        let mut bodies: Vec<Vec<KeypointSample>> = Vec::new();
         let mut free: Vec<usize> = (0..self.people.len()).collect();
         for person in people {
             let Value::Object(person) = person else {
@@ -323,56 +326,56 @@ impl Film {
                     continue;
                 };
                 if group.ends_with("_3d") && !values.is_empty() {
-                    findings.add("points in three dimensions", || {
-                        Finding::warning(
+                    findings.add_limited_finding("points in three dimensions", || {
+                        ImportFinding::new_warning_finding(
                             None,
                             format!("the points {group:?} in three dimensions are left out: their unit is not stated"),
                         )
                     });
                 }
                 if group.ends_with("_keypoints_2d") || group.ends_with("_keypoints") {
-                    cloud::triples(group, values, &mut points);
+                    cloud::add_openpose_triples(group, values, &mut points);
                 }
             }
-            if !points.iter().any(Point::is_seen) {
+            if !points.iter().any(KeypointSample::is_seen) {
                 continue;
             }
             let Some(number) = number else {
                 bodies.push(points);
                 continue;
             };
-            let known = self
+            let matched_person = self
                 .people
                 .iter()
-                .position(|it| it.number() == Some(number));
-            let known = match known {
+                .position(|person| person.stated_person_number() == Some(number));
+            let person_index = match matched_person {
                 // A number that occurs twice in a frame identifies nobody.
                 Some(known) if !free.contains(&known) => {
                     bodies.push(points);
                     continue;
                 }
                 Some(known) => known,
-                None if self.people.len() == PEOPLE => {
+                None if self.people.len() == MAX_FOLLOWED_PEOPLE => {
                     bodies.push(points);
                     continue;
                 }
                 None => {
-                    self.people.push(Cloud::of_person(number));
+                    self.people.push(PersonCloud::of_person(number));
                     self.people.len() - 1
                 }
             };
-            free.retain(|it| *it != known);
-            self.people[known].push(row, points)?;
+            free.retain(|index| *index != person_index);
+            self.people[person_index].push_cloud_points(row, points)?;
         }
-        free.retain(|it| self.people[*it].number().is_none());
+        free.retain(|index| self.people[*index].stated_person_number().is_none());
         // Pairs the nearest first, so that two people who pass each other are not exchanged because of their order in
         // the file.
         while !bodies.is_empty() {
             let mut best: Option<(f64, usize, usize)> = None;
             for (body, points) in bodies.iter().enumerate() {
-                let at = cloud::middle(points);
+                let body_middle = cloud::mean_seen_position(points);
                 for &known in &free {
-                    let far = self.people[known].far(at);
+                    let far = self.people[known].distance_from_last(body_middle);
                     if best.is_none_or(|(least, _, _)| far < least) {
                         best = Some((far, body, known));
                     }
@@ -380,79 +383,79 @@ impl Film {
             }
             let (body, known) = match best {
                 Some((_, body, known)) => (body, known),
-                None if self.people.len() == PEOPLE => {
+                None if self.people.len() == MAX_FOLLOWED_PEOPLE => {
                     let left = bodies.len();
-                    findings.add("people who are left out", || {
-                        Finding::warning(
+                    findings.add_limited_finding("people who are left out", || {
+                        ImportFinding::new_warning_finding(
                             None,
-                            format!("frame {row} shows {left} more people than the {PEOPLE} who are followed"),
+                            format!(
+                                "frame {row} shows {left} more people than the {MAX_FOLLOWED_PEOPLE} who are followed"
+                            ),
                         )
                     });
                     return Ok(());
                 }
                 None => {
-                    self.people.push(Cloud::new(PointSpace::Pixels));
+                    self.people.push(PersonCloud::new(PointSpace::Pixels));
                     free.push(self.people.len() - 1);
                     (0, self.people.len() - 1)
                 }
             };
-            free.retain(|it| *it != known);
+            free.retain(|index| *index != known);
             let points = bodies.remove(body);
-            if self.people[known].leaps(&points) {
-                findings.add("people who jump", || {
-                    Finding::warning(
+            if self.people[known].is_person_leap(&points) {
+                findings.add_limited_finding("people who jump", || {
+                    ImportFinding::new_warning_finding(
                         None,
                         format!("in row {row} a person is far from the last place of the person who is nearest, and may be another one"),
                     )
                 });
             }
-            self.people[known].push(row, points)?;
+            self.people[known].push_cloud_points(row, points)?;
         }
         Ok(())
     }
 
     /// Adds MediaPipe's landmarks of a frame.
-    fn landmarks(
+    fn add_frame_landmarks(
         &mut self,
         row: usize,
         frame: &Map<String, Value>,
-        findings: &mut Findings,
-    ) -> Result<(), Error> {
-        let mut found: [(PointSpace, Vec<Point>); 2] = [
-            (PointSpace::Share, Vec::new()),
-            (PointSpace::World, Vec::new()),
-        ];
-        let sides = hands::sides(frame);
+        findings: &mut FindingTally,
+    ) -> Result<(), KeypointError> {
+        let mut space_points: [(PointSpace, Vec<KeypointSample>); 2] =
+            [(PointSpace::Share, Vec::new()), (PointSpace::World, Vec::new())];
+        let sides = keypoints_hands::hand_landmark_sides(frame);
         for (key, value) in frame {
             let lower = key.to_ascii_lowercase();
             if !lower.ends_with("landmarks") {
                 continue;
             }
-            let points = &mut found[usize::from(lower.contains("world"))].1;
-            if !hands::add(key, value, &sides, points, findings) {
-                cloud::landmarks(key, value, points);
+            let points = &mut space_points[usize::from(lower.contains("world"))].1;
+            if !keypoints_hands::add_hand_landmarks(key, value, &sides, points, findings) {
+                cloud::add_mediapipe_landmarks(key, value, points);
             }
         }
-        for (kind, points) in found {
+        for (kind, points) in space_points {
             if points.is_empty() {
                 continue;
             }
-            let at = match self.marks.iter().position(|cloud| cloud.kind() == kind) {
+            let cloud_index = match self.marks.iter().position(|cloud| cloud.cloud_point_space() == kind) {
                 Some(at) => at,
                 None => {
-                    self.marks.push(Cloud::new(kind));
+                    self.marks.push(PersonCloud::new(kind));
                     self.marks.len() - 1
                 }
             };
-            self.marks[at].push(row, points)?;
+            self.marks[cloud_index].push_cloud_points(row, points)?;
         }
         Ok(())
     }
 
     /// Extends every track with gaps to `rows` frames.
-    fn reach(&mut self, rows: usize) -> Result<(), Error> {
+    fn extend_film_rows(&mut self, rows: usize) -> Result<(), KeypointError> {
         let mut all = self.people.iter_mut().chain(&mut self.marks);
-        all.try_for_each(|cloud| cloud.reach(rows))
+        all.try_for_each(|cloud| cloud.extend_cloud_rows(rows))
     }
 }
 

@@ -1,10 +1,10 @@
 //! Tables of lexicon codings: one sign per row, one component per column.
 //!
-//! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`Mapping`]. Compound
+//! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`TierMapping`]. Compound
 //! cells are split: `neutral space > head` is two successive values, `S + W` two at once, `>S` a final value alone. Beside
 //! a final value of another column a value is the initial one. `-` and `N/A` are not applicable, `?` is unclear. A column of HamNoSys, recognised by its title or its symbols, gives
 //! the sign's notation. A table may also come as JSON: an array of objects, an object whose keys are the glosses, JSON
-//! Lines, or an export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`]
+//! Lines, or an export of SLP-AA. The original cells are kept together with their meanings, so that [`write_lexicon()`]
 //! reproduces the table.
 //!
 //! ```
@@ -18,34 +18,34 @@
 //! # Ok::<(), chereme_formats::table::TableError>(())
 //! ```
 
-mod columns;
-mod json;
+mod lexicon_columns;
+mod lexicon_json;
+mod lexicon_values;
 mod slpaa;
-mod values;
 
-use chereme_sign::Remedy;
-use columns::Columns;
-pub use columns::{Column, Meaning};
+use chereme_sign::ErrorRemedy;
+use lexicon_columns::LexiconTableColumns;
+pub use lexicon_columns::{LexiconColumn, LexiconColumnMeaning};
 
-use crate::finding::Finding;
+use crate::finding::ImportFinding;
 use crate::hns::{holds_symbols, mended_finding};
-use crate::roles::{Hands, Mapping};
-use crate::table::{Cells, Row, TableError, decode, lines_above_titles, listed};
-use crate::tally::Findings;
-use chereme_sign::hamnosys::{in_plain_symbols, mended};
-use chereme_sign::text::{edit_distance, fold};
-use chereme_sign::{Component, Field, Phase, Reading};
+use crate::roles::{AnnotatedHands, TierMapping};
+use crate::table::{TableCells, TableError, TableRow, decode_table_bytes, join_column_names, lines_above_titles};
+use crate::tally::FindingTally;
+use chereme_sign::hamnosys::{in_plain_symbols, repair_garbled_symbols};
+use chereme_sign::text::{edit_distance, fold_text};
+use chereme_sign::{ComponentField, ComponentReading, SignComponent, SignPhase};
+use lexicon_values::EmptyCells;
+pub use lexicon_values::is_value;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io;
-use values::EmptyCells;
-pub use values::is_value;
 
 /// A table of signs with their component values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Lexicon {
+pub struct SignLexicon {
     /// The columns in order, with their meanings.
-    pub columns: Vec<Column>,
+    pub columns: Vec<LexiconColumn>,
     /// The signs in the order of the table.
     pub entries: Vec<LexiconEntry>,
     /// The character between cells: a tab, comma, semicolon or bar.
@@ -62,7 +62,7 @@ pub struct LexiconEntry {
     /// Translations and glosses in other languages: the language (empty if unknown) and the text.
     pub translations: Vec<(String, String)>,
     /// The component values of the sign, in the order of the columns; unset cells give no value.
-    pub codings: Vec<Coding>,
+    pub codings: Vec<ComponentCoding>,
     /// The sign as HamNoSys, blanks at its ends left out.
     pub notation: Option<String>,
     /// Other information about the sign, as title and cell; empty cells are left out.
@@ -73,30 +73,30 @@ pub struct LexiconEntry {
 
 /// A component value of a sign, from a cell or a part of one.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Coding {
+pub struct ComponentCoding {
     /// The hand; `None` for a value of the sign as a whole.
-    pub hand: Option<Hands>,
+    pub hand: Option<AnnotatedHands>,
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The part of the component, such as `palm` or `direction`.
     pub feature: Option<String>,
     /// The phase: initial, middle or final.
     #[serde(serialize_with = "phase_name")]
-    pub phase: Option<Phase>,
+    pub phase: Option<SignPhase>,
     /// The value, or its absence.
-    pub reading: Reading,
+    pub reading: ComponentReading,
     /// The part of the cell with the value, as written.
     pub raw: String,
     /// The index of the column, from 0.
     pub column: usize,
 }
 
-impl Coding {
+impl ComponentCoding {
     /// Returns the field as queries spell it; a coding of both hands names no hand.
     #[must_use]
-    pub fn field(&self) -> Field {
-        Field {
-            hand: self.hand.and_then(Hands::one),
+    pub fn coding_field(&self) -> ComponentField {
+        ComponentField {
+            hand: self.hand.and_then(AnnotatedHands::single_hand),
             component: self.component,
             feature: self.feature.clone(),
             phase: self.phase,
@@ -104,7 +104,7 @@ impl Coding {
     }
 }
 
-fn phase_name<S: serde::Serializer>(phase: &Option<Phase>, out: S) -> Result<S::Ok, S::Error> {
+fn phase_name<S: serde::Serializer>(phase: &Option<SignPhase>, out: S) -> Result<S::Ok, S::Error> {
     match phase {
         Some(phase) => out.collect_str(phase),
         None => out.serialize_none(),
@@ -113,9 +113,9 @@ fn phase_name<S: serde::Serializer>(phase: &Option<Phase>, out: S) -> Result<S::
 
 /// The values that a lexicon uses for one component, or one part of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Inventory {
+pub struct LexiconInventory {
     /// The component.
-    pub component: Component,
+    pub component: SignComponent,
     /// The part of it.
     pub feature: Option<String>,
     /// Each value with its number of uses, in alphabetical order.
@@ -132,19 +132,19 @@ pub struct Inventory {
 ///
 /// # Errors
 /// [`TableError`] if the bytes are not a table or no column is a gloss.
-pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
-    let mut findings = Findings::default();
+pub fn read_lexicon(bytes: &[u8], mapping: &TierMapping) -> Result<(SignLexicon, Vec<ImportFinding>), TableError> {
+    let mut findings = FindingTally::default();
     // Text that only begins as JSON Lines do may be a table.
-    let found = slpaa::read(bytes).or_else(|| json::read(bytes).ok().flatten());
-    let table = match found {
+    let read_table = slpaa::read_slpaa_cells(bytes).or_else(|| lexicon_json::read_json_cells(bytes).ok().flatten());
+    let table = match read_table {
         Some(table) => table,
         None => {
-            let text = decode(bytes, &mut findings)?;
+            let text = decode_table_bytes(bytes, &mut findings)?;
             let above = headings(&text, mapping);
             if above > 0 {
-                findings.add("headings above the titles", || left_out(&text, above));
+                findings.add_limited_finding("headings above the titles", || left_out(&text, above));
             }
-            Cells::read_text(&text, above, false, &mut findings)?
+            TableCells::read_text_cells(&text, above, false, &mut findings)?
         }
     };
     interpret(table, mapping, findings)
@@ -152,71 +152,61 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
 
 /// Returns the meaning of a column with this title, as far as the title says it.
 #[must_use]
-pub fn meaning_of_title(title: &str) -> Meaning {
-    columns::column(title, &Mapping::default()).meaning
+pub fn meaning_of_title(title: &str) -> LexiconColumnMeaning {
+    lexicon_columns::column_from_title(title, &TierMapping::default()).meaning
 }
 
 /// Returns the number of lines above the titles, such as a heading and its date: lines of few cells, if one of the titles
 /// below them is that of a gloss.
-fn headings(text: &str, mapping: &Mapping) -> u64 {
-    const SURE: f64 = 0.9;
-    let is_sure = |column: &Column| {
-        matches!(column.meaning, Meaning::Gloss { .. }) && column.confidence >= SURE
+fn headings(text: &str, mapping: &TierMapping) -> u64 {
+    const SURE_HEADING_SHARE: f64 = 0.9;
+    let is_sure = |column: &LexiconColumn| {
+        matches!(column.meaning, LexiconColumnMeaning::Gloss { .. }) && column.confidence >= SURE_HEADING_SHARE
     };
     let below = |above: u64| {
-        let table = Cells::read_text(text, above, false, &mut Findings::default()).ok()?;
-        let (lexicon, _) = interpret(table, mapping, Findings::default()).ok()?;
+        let table = TableCells::read_text_cells(text, above, false, &mut FindingTally::default()).ok()?;
+        let (lexicon, _) = interpret(table, mapping, FindingTally::default()).ok()?;
         lexicon.columns.iter().any(is_sure).then_some(above)
     };
     lines_above_titles(text).and_then(below).unwrap_or(0)
 }
 
 /// Returns the finding that the lines above the titles were left out.
-fn left_out(text: &str, above: u64) -> Finding {
-    let lines = text
-        .lines()
-        .take(usize::try_from(above).unwrap_or(usize::MAX));
-    let lines: Vec<&str> = lines
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .collect();
+fn left_out(text: &str, above: u64) -> ImportFinding {
+    let above_lines = text.lines().take(usize::try_from(above).unwrap_or(usize::MAX));
+    let lines: Vec<&str> = above_lines.map(str::trim).filter(|line| !line.is_empty()).collect();
     let (line, texts) = (above + 1, lines.join(" / "));
-    Finding::note(
+    ImportFinding::new_note_finding(
         line,
-        format!(
-            "the titles of the columns are in line {line}; the text above them was left out: {texts:?}"
-        ),
+        format!("the titles of the columns are in line {line}; the text above them was left out: {texts:?}"),
     )
 }
 
-/// Reads a lexicon from JSON as [`read`] does; `None` for anything else than JSON of such a form.
+/// Reads a lexicon from JSON as [`read_lexicon`] does; `None` for anything else than JSON of such a form.
 ///
 /// # Errors
 /// [`TableError`] if no key is a gloss, or JSON Lines hold anything but an object.
-pub fn read_json(
-    bytes: &[u8],
-    mapping: &Mapping,
-) -> Result<Option<(Lexicon, Vec<Finding>)>, TableError> {
-    let found = match slpaa::read(bytes) {
+pub fn read_json(bytes: &[u8], mapping: &TierMapping) -> Result<Option<(SignLexicon, Vec<ImportFinding>)>, TableError> {
+    let read_table = match slpaa::read_slpaa_cells(bytes) {
         Some(table) => Some(table),
-        None => json::read(bytes)?,
+        None => lexicon_json::read_json_cells(bytes)?,
     };
-    found
-        .map(|table| interpret(table, mapping, Findings::default()))
+    read_table
+        .map(|table| interpret(table, mapping, FindingTally::default()))
         .transpose()
 }
 
 /// Returns the lexicon that a table holds.
 fn interpret(
-    mut table: Cells,
-    mapping: &Mapping,
-    mut findings: Findings,
-) -> Result<(Lexicon, Vec<Finding>), TableError> {
+    mut table: TableCells,
+    mapping: &TierMapping,
+    mut findings: FindingTally,
+) -> Result<(SignLexicon, Vec<ImportFinding>), TableError> {
     without_titles(&mut table, &mut findings);
-    let Columns { columns, names } =
-        columns::meanings(&table.header, &table.rows, mapping, &mut findings);
+    let LexiconTableColumns { columns, names } =
+        lexicon_columns::infer_column_meanings(&table.header, &table.rows, mapping, &mut findings);
     let gloss = *names.first().ok_or_else(|| TableError::Missing {
-        found: listed(&table.header),
+        found: join_column_names(&table.header),
         needed: "a gloss",
         remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
     })?;
@@ -226,10 +216,10 @@ fn interpret(
     let mut stand_ins: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
     for row in table.rows {
         let line = row.line;
-        let filled = names.iter().find(|at| columns::is_filled(&row, **at));
+        let filled = names.iter().find(|at| lexicon_columns::is_filled(&row, **at));
         let Some(at) = filled.copied() else {
-            findings.add("rows without a gloss", || {
-                Finding::warning(
+            findings.add_limited_finding("rows without a gloss", || {
+                ImportFinding::new_warning_finding(
                     line,
                     format!("the row has no {}; it was left out", columns[gloss].title),
                 )
@@ -242,8 +232,8 @@ fn interpret(
         let name = row.cells[at].trim();
         let first = *lines.entry(name.to_owned()).or_insert(line);
         if first != line {
-            findings.add("glosses given twice", || {
-                Finding::note(
+            findings.add_limited_finding("glosses given twice", || {
+                ImportFinding::new_note_finding(
                     line,
                     format!(
                         "the gloss {name:?} stands in line {first} too; this row is kept as another entry of \
@@ -257,42 +247,42 @@ fn interpret(
                 ))
             });
         }
-        let garbled = |(column, cell): (&Column, &String)| {
-            column.meaning == Meaning::Notation && mended(cell).is_some()
+        let garbled = |(column, cell): (&LexiconColumn, &String)| {
+            column.meaning == LexiconColumnMeaning::Notation && repair_garbled_symbols(cell).is_some()
         };
         if columns.iter().zip(&row.cells).any(garbled) {
-            findings.add("symbols in a wrong encoding", || mended_finding(line));
+            findings.add_limited_finding("symbols in a wrong encoding", || mended_finding(line));
         }
-        entries.push(entry(row, at, &columns, &mut empty));
+        entries.push(entry_from_row(row, at, &columns, &mut empty));
     }
     for (at, (count, line)) in stand_ins {
         let (title, other) = (&columns[gloss].title, &columns[at].title);
         let message = format!("rows without {title:?} that {other:?} names: {count}");
-        findings.push(Finding::note(line, message));
+        findings.push_counted_finding(ImportFinding::new_note_finding(line, message));
     }
-    let lexicon = Lexicon {
+    let lexicon = SignLexicon {
         columns,
         entries,
         delimiter: table.delimiter,
     };
-    if let Some(finding) = empty.finding() {
-        findings.push(finding);
+    if let Some(finding) = empty.empty_cells_finding() {
+        findings.push_counted_finding(finding);
     }
     shapes_of_changes(&lexicon, &mut findings);
-    slips(&lexicon, &mut findings);
-    Ok((lexicon, findings.finish()))
+    report_value_slips(&lexicon, &mut findings);
+    Ok((lexicon, findings.finish_finding_tally()))
 }
 
 /// Treats a first row that holds HamNoSys as a sign, as in a table without titles.
-fn without_titles(table: &mut Cells, findings: &mut Findings) {
+fn without_titles(table: &mut TableCells, findings: &mut FindingTally) {
     if !table.header.iter().any(|cell| holds_symbols(cell)) {
         return;
     }
     let titles = (1..=table.header.len()).map(|n| format!("column {n}"));
     let cells = std::mem::replace(&mut table.header, titles.collect());
-    table.rows.insert(0, Row { line: 1, cells });
-    findings.add("no titles", || {
-        Finding::warning(
+    table.rows.insert(0, TableRow { line: 1, cells });
+    findings.add_limited_finding("no titles", || {
+        ImportFinding::new_warning_finding(
             1,
             "the first row holds HamNoSys: it was taken for a sign, not for titles",
         )
@@ -304,10 +294,8 @@ fn without_titles(table: &mut Cells, findings: &mut Findings) {
 ///
 /// # Errors
 /// The errors of `out`.
-pub fn write(lexicon: &Lexicon, out: impl io::Write) -> io::Result<()> {
-    let mut table = csv::WriterBuilder::new()
-        .delimiter(lexicon.delimiter)
-        .from_writer(out);
+pub fn write_lexicon(lexicon: &SignLexicon, out: impl io::Write) -> io::Result<()> {
+    let mut table = csv::WriterBuilder::new().delimiter(lexicon.delimiter).from_writer(out);
     table.write_record(lexicon.columns.iter().map(|column| &column.title))?;
     for entry in &lexicon.entries {
         table.write_record(&entry.cells)?;
@@ -315,22 +303,20 @@ pub fn write(lexicon: &Lexicon, out: impl io::Write) -> io::Result<()> {
     table.flush()
 }
 
-impl Lexicon {
+impl SignLexicon {
     /// Returns the values in use for each component and part of one, so that the table is its own
     /// inventory; values of either hand and of every phase are listed together.
     #[must_use]
-    pub fn inventories(&self) -> Vec<Inventory> {
-        let mut all: BTreeMap<(Component, Option<&str>), BTreeMap<String, usize>> = BTreeMap::new();
+    pub fn component_inventories(&self) -> Vec<LexiconInventory> {
+        let mut all: BTreeMap<(SignComponent, Option<&str>), BTreeMap<String, usize>> = BTreeMap::new();
         for coding in self.entries.iter().flat_map(|entry| &entry.codings) {
-            if let Some(value) = coding.reading.value() {
-                let values = all
-                    .entry((coding.component, coding.feature.as_deref()))
-                    .or_default();
+            if let Some(value) = coding.reading.reading_value() {
+                let values = all.entry((coding.component, coding.feature.as_deref())).or_default();
                 *values.entry(value.to_owned()).or_default() += 1;
             }
         }
         all.into_iter()
-            .map(|((component, feature), values)| Inventory {
+            .map(|((component, feature), values)| LexiconInventory {
                 component,
                 feature: feature.map(str::to_owned),
                 values,
@@ -339,7 +325,7 @@ impl Lexicon {
     }
 }
 
-fn entry(row: Row, gloss: usize, columns: &[Column], empty: &mut EmptyCells) -> LexiconEntry {
+fn entry_from_row(row: TableRow, gloss: usize, columns: &[LexiconColumn], empty: &mut EmptyCells) -> LexiconEntry {
     let mut entry = LexiconEntry {
         line: row.line,
         gloss: row.cells[gloss].trim().to_owned(),
@@ -351,34 +337,34 @@ fn entry(row: Row, gloss: usize, columns: &[Column], empty: &mut EmptyCells) -> 
     };
     for (at, (column, cell)) in columns.iter().zip(&row.cells).enumerate() {
         match &column.meaning {
-            Meaning::Translation { language } if !["", "-"].contains(&cell.trim()) => {
+            LexiconColumnMeaning::Translation { language } if !["", "-"].contains(&cell.trim()) => {
                 let language = language.clone().unwrap_or_default();
                 entry.translations.push((language, cell.trim().to_owned()));
             }
             // The blanks of a garbled cell may be parts of symbols.
-            Meaning::Notation if !cell.trim().is_empty() && entry.notation.is_none() => {
+            LexiconColumnMeaning::Notation if !cell.trim().is_empty() && entry.notation.is_none() => {
                 entry.notation = Some(in_plain_symbols(cell).trim().to_owned());
             }
             // Signbank writes a dash for what is not set.
-            Meaning::Attribute if !["", "-"].contains(&cell.trim()) => {
+            LexiconColumnMeaning::Attribute if !["", "-"].contains(&cell.trim()) => {
                 entry.attributes.push((column.title.clone(), cell.clone()));
             }
-            Meaning::Coding {
+            LexiconColumnMeaning::Coding {
                 hand,
                 component,
                 feature,
                 phase,
             } => {
-                let whole = Coding {
+                let whole_coding = ComponentCoding {
                     hand: *hand,
                     component: *component,
                     feature: feature.clone(),
                     phase: *phase,
-                    reading: Reading::Unset,
+                    reading: ComponentReading::Unset,
                     raw: String::new(),
                     column: at,
                 };
-                values::split(cell, &whole, row.line, &mut entry.codings, empty);
+                lexicon_values::split_cell_codings(cell, &whole_coding, row.line, &mut entry.codings, empty);
             }
             _ => {}
         }
@@ -390,89 +376,101 @@ fn entry(row: Row, gloss: usize, columns: &[Column], empty: &mut EmptyCells) -> 
 
 /// Makes values without a phase initial where another column gives the same field a final reading, and none an initial
 /// one.
-fn begin_before_final(codings: &mut [Coding]) {
-    let field = |it: &Coding| (it.hand, it.component, it.feature.clone());
-    let fields = |phase: Phase| -> Vec<_> {
-        let own = codings.iter().filter(|it| it.phase == Some(phase));
-        own.map(field).collect()
+fn begin_before_final(codings: &mut [ComponentCoding]) {
+    let field = |coding: &ComponentCoding| (coding.hand, coding.component, coding.feature.clone());
+    let fields = |phase: SignPhase| -> Vec<_> {
+        let phase_codings = codings.iter().filter(|coding| coding.phase == Some(phase));
+        phase_codings.map(field).collect()
     };
-    let (begun, ended) = (fields(Phase::Initial), fields(Phase::Final));
+    let (begun, ended) = (fields(SignPhase::Initial), fields(SignPhase::Final));
     if ended.is_empty() {
         return;
     }
-    for coding in codings.iter_mut().filter(|it| it.phase.is_none()) {
+    for coding in codings.iter_mut().filter(|coding| coding.phase.is_none()) {
         let field = field(coding);
         if ended.contains(&field) && !begun.contains(&field) {
-            coding.phase = Some(Phase::Initial);
+            coding.phase = Some(SignPhase::Initial);
         }
     }
 }
 
 /// Reports the handshapes in columns of changes, such as `>S`.
-fn shapes_of_changes(lexicon: &Lexicon, findings: &mut Findings) {
+fn shapes_of_changes(lexicon: &SignLexicon, findings: &mut FindingTally) {
     for (at, column) in lexicon.columns.iter().enumerate() {
-        let Meaning::Coding {
-            feature: Some(feature),
-            ..
+        let LexiconColumnMeaning::Coding {
+            feature: Some(feature), ..
         } = &column.meaning
         else {
             continue;
         };
         let entries = lexicon.entries.iter().filter_map(|entry| {
-            let mut own = entry.codings.iter().filter(|it| it.column == at);
-            let shape = own.find(|it| it.feature.as_ref() != Some(feature))?;
+            let mut column_codings = entry.codings.iter().filter(|coding| coding.column == at);
+            let shape = column_codings.find(|coding| coding.feature.as_ref() != Some(feature))?;
             Some((entry, shape))
         });
         let entries: Vec<_> = entries.collect();
         if let Some((entry, shape)) = entries.first() {
             let (title, cell, count) = (&column.title, &entry.cells[at], entries.len());
-            let message = format!(
-                "cells of {title:?} that name handshapes, such as {cell:?}, were taken for these: {count}"
+            let message =
+                format!("cells of {title:?} that name handshapes, such as {cell:?}, were taken for these: {count}");
+            findings.push_counted_finding(
+                ImportFinding::new_note_finding(entry.line, message).with_remedy(format!(
+                    "search for them as {}={:?}, and for the others as {}.{feature}=*",
+                    shape.coding_field(),
+                    shape.raw,
+                    shape.component
+                )),
             );
-            findings.push(Finding::note(entry.line, message).with_remedy(format!(
-                "search for them as {}={:?}, and for the others as {}.{feature}=*",
-                shape.field(),
-                shape.raw,
-                shape.component
-            )));
         }
     }
 }
 
 /// Reports rare values that differ from a common one by case or by one letter after the first.
-fn slips(lexicon: &Lexicon, findings: &mut Findings) {
-    const RARE: usize = 5;
-    const MANY: usize = 1000;
+fn report_value_slips(lexicon: &SignLexicon, findings: &mut FindingTally) {
+    const MAX_RARE_USES: usize = 5;
+    const MAX_CHECKED_VALUES: usize = 1000;
     for inventory in lexicon
-        .inventories()
+        .component_inventories()
         .iter()
-        .filter(|it| it.values.len() <= MANY)
+        .filter(|inventory| inventory.values.len() <= MAX_CHECKED_VALUES)
     {
         let folded: Vec<(&str, String, usize)> = inventory
             .values
             .iter()
-            .map(|(value, uses)| (&**value, fold(value), *uses))
+            .map(|(value, uses)| (&**value, fold_text(value), *uses))
             .collect();
-        for (value, plain, count) in folded.iter().filter(|(_, _, count)| *count <= RARE) {
+        for (value, plain, count) in folded.iter().filter(|(_, _, count)| *count <= MAX_RARE_USES) {
             let common = folded.iter().find(|(other, near, uses)| {
-                *uses >= count * 10
-                    && other != value
-                    && (near == plain || one_letter_off(plain, near))
+                *uses >= count * 10 && other != value && (near == plain || one_letter_off(plain, near))
             });
             let Some((common, _, uses)) = common else {
                 continue;
             };
-            findings.add("values that may be slips", || {
-                let name = Field { hand: None, component: inventory.component, feature: inventory.feature.clone(), phase: None };
+            findings.add_limited_finding("values that may be slips", || {
+                let name = ComponentField {
+                    hand: None,
+                    component: inventory.component,
+                    feature: inventory.feature.clone(),
+                    phase: None,
+                };
                 let line = first_line(lexicon, inventory, value);
-                Finding::note(line, format!("{name}: {value:?} ({}) and {common:?} ({}) are kept as two values", times(*count), times(*uses)))
-                    .with_remedy(Remedy::command(format!("if they are one: chereme inventory CORPUS merge-value INVENTORY {value:?} {common:?}")))
+                ImportFinding::new_note_finding(
+                    line,
+                    format!(
+                        "{name}: {value:?} ({}) and {common:?} ({}) are kept as two values",
+                        count_of_times(*count),
+                        count_of_times(*uses)
+                    ),
+                )
+                .with_remedy(ErrorRemedy::command_remedy(format!(
+                    "if they are one: chereme inventory CORPUS merge-value INVENTORY {value:?} {common:?}"
+                )))
             });
         }
     }
 }
 
-fn times(count: usize) -> String {
+fn count_of_times(count: usize) -> String {
     match count {
         1 => "once".to_owned(),
         count => format!("{count} times"),
@@ -482,11 +480,7 @@ fn times(count: usize) -> String {
 /// Returns whether two folded values of six letters or more differ by one letter, which is neither the
 /// first nor a digit.
 fn one_letter_off(a: &str, b: &str) -> bool {
-    let digits = |text: &str| {
-        text.chars()
-            .filter(char::is_ascii_digit)
-            .collect::<String>()
-    };
+    let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
     a.len() >= 6
         && a.len().abs_diff(b.len()) <= 4
         && a.chars().next() == b.chars().next()
@@ -494,11 +488,11 @@ fn one_letter_off(a: &str, b: &str) -> bool {
         && edit_distance(a, b, 1).is_some()
 }
 
-fn first_line(lexicon: &Lexicon, inventory: &Inventory, value: &str) -> Option<u64> {
-    let uses = |coding: &Coding| {
+fn first_line(lexicon: &SignLexicon, inventory: &LexiconInventory, value: &str) -> Option<u64> {
+    let uses = |coding: &ComponentCoding| {
         coding.component == inventory.component
             && coding.feature == inventory.feature
-            && coding.reading.value() == Some(value)
+            && coding.reading.reading_value() == Some(value)
     };
     lexicon
         .entries

@@ -1,11 +1,11 @@
 //! Errors that make an annotation file in XML unreadable.
 
-use super::Tool;
+use super::MarkupTool;
 use crate::eaf;
 
 /// The reason why an annotation file of another program could not be read; every case names the line and a correction.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum MarkupError {
     /// The file is in an encoding that is not read.
     #[error(
         "line {line}: the text is in {encoding}; files of {tool} are read in UTF-8 and UTF-16, and in Latin-1 and \
@@ -99,30 +99,18 @@ pub enum Error {
     },
 }
 
-impl Error {
+impl MarkupError {
     /// Returns the error of a file of `tool` for one of its XML.
-    pub(crate) fn of(tool: Tool, error: eaf::Error) -> Self {
-        let Tool { name: tool, root } = tool;
+    pub(crate) fn from_eaf_error(tool: MarkupTool, error: eaf::EafError) -> Self {
+        let MarkupTool { name: tool, root } = tool;
         match error {
-            eaf::Error::Encoding { encoding, line } => Self::Encoding {
-                tool,
-                encoding,
-                line,
-            },
-            eaf::Error::NotXml { line } => Self::NotXml { tool, root, line },
-            eaf::Error::Root {
-                line,
-                found,
-                expected,
-            } => Self::Root {
-                line,
-                found,
-                expected,
-            },
-            eaf::Error::Truncated { line, open } => Self::Truncated { line, open },
-            eaf::Error::Syntax { line, message } => Self::Syntax { line, message },
-            eaf::Error::Doctype { line } => Self::Entities { line },
-            eaf::Error::Limit { line, what, limit } => Self::Limit {
+            eaf::EafError::Encoding { encoding, line } => Self::Encoding { tool, encoding, line },
+            eaf::EafError::NotXml { line } => Self::NotXml { tool, root, line },
+            eaf::EafError::Root { line, found, expected } => Self::Root { line, found, expected },
+            eaf::EafError::Truncated { line, open } => Self::Truncated { line, open },
+            eaf::EafError::Syntax { line, message } => Self::Syntax { line, message },
+            eaf::EafError::Doctype { line } => Self::Entities { line },
+            eaf::EafError::Limit { line, what, limit } => Self::Limit {
                 tool,
                 line,
                 what,

@@ -1,87 +1,84 @@
 //! The parts that readers of annotation files in XML share: ANVIL's, EXMARaLDA's and SignStream's.
 
 mod error;
-mod lanes;
-mod names;
-mod times;
+mod markup_lanes;
+mod markup_names;
+mod markup_times;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::eaf;
-use crate::eaf::convert::{Annotation, Media, Timing};
-use crate::eaf::xml::{Cursor, Tag};
-use crate::finding::Finding;
-use crate::tally::Findings;
-use chereme_motion::{Instant, Span};
+use crate::eaf::eaf_convert::{AnnotationTiming, TranscriptAnnotation, TranscriptMedia};
+use crate::eaf::xml::{XmlCursor, XmlStartTag};
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
+use chereme_motion::{RecordingInstant, TimeSpan};
 
-pub use error::Error;
-pub(crate) use lanes::{LANES, Timed, lanes, split};
-pub(crate) use names::Names;
-pub(crate) use times::{micros, millis};
+pub use error::MarkupError;
+pub(crate) use markup_lanes::{MAX_TIER_LANES, TimedAnnotation, arrange_tier_lanes, report_split_lanes};
+pub(crate) use markup_names::UniqueNames;
+pub(crate) use markup_times::{parse_decimal_millis, parse_decimal_seconds};
 
 /// The program that writes a kind of file, and the root element of its files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Tool {
+pub(crate) struct MarkupTool {
     pub(crate) name: &'static str,
     pub(crate) root: &'static str,
 }
 
-impl Tool {
+impl MarkupTool {
     /// Returns the text of a file, with findings about its encoding.
-    pub(crate) fn decode(self, bytes: &[u8]) -> Result<(Cow<'_, str>, Vec<Finding>), Error> {
-        let decoded = eaf::decode(bytes).map_err(|error| Error::of(self, error))?;
+    pub(crate) fn decode_markup_file(self, bytes: &[u8]) -> Result<(Cow<'_, str>, Vec<ImportFinding>), MarkupError> {
+        let decoded = eaf::decode_eaf(bytes).map_err(|error| MarkupError::from_eaf_error(self, error))?;
         let mut findings = decoded.findings;
         // These files are not written again.
-        findings.retain(|it| !it.message.contains("written so again"));
+        findings.retain(|finding| !finding.message.contains("written so again"));
         Ok((decoded.text, findings))
     }
 
     /// Returns a cursor at the root element of a text, and the element.
-    pub(crate) fn open(self, text: &str) -> Result<(Cursor<'_>, Tag<'_>), Error> {
+    pub(crate) fn open_markup_root(self, text: &str) -> Result<(XmlCursor<'_>, XmlStartTag<'_>), MarkupError> {
         let at_root = || {
-            let mut cursor = Cursor::new_with_type(text.as_bytes())?;
-            let root = cursor.root(self.root)?;
+            let mut cursor = XmlCursor::new_with_type(text.as_bytes())?;
+            let root = cursor.read_root_tag(self.root)?;
             Ok((cursor, root))
         };
-        at_root().map_err(|error| Error::of(self, error))
+        at_root().map_err(|error| MarkupError::from_eaf_error(self, error))
     }
 }
 
 /// Returns one attribute of an element.
-pub(crate) fn attribute<'a>(
-    cursor: &mut Cursor<'a>,
-    tag: &Tag<'a>,
+pub(crate) fn find_tag_attribute<'a>(
+    cursor: &mut XmlCursor<'a>,
+    tag: &XmlStartTag<'a>,
     wanted: &str,
-) -> Result<Option<Cow<'a, str>>, eaf::Error> {
-    let mut found = None;
-    cursor.attributes(tag, |name, value| {
-        if name == wanted && found.is_none() {
-            found = Some(value);
+) -> Result<Option<Cow<'a, str>>, eaf::EafError> {
+    let mut first_value = None;
+    cursor.visit_tag_attributes(tag, |name, value| {
+        if name == wanted && first_value.is_none() {
+            first_value = Some(value);
         }
     })?;
-    Ok(found)
+    Ok(first_value)
 }
 
 /// Elements that a reader passed over, by name, with their number.
 #[derive(Debug, Default)]
-pub(crate) struct Unread(BTreeMap<String, u64>);
+pub(crate) struct UnreadElements(BTreeMap<String, u64>);
 
-impl Unread {
+impl UnreadElements {
     /// Counts an element.
-    pub(crate) fn count(&mut self, name: &str) {
+    pub(crate) fn count_unread_element(&mut self, name: &str) {
         let name: String = name.chars().take(40).collect();
         let full = self.0.len() >= 20 && !self.0.contains_key(&name);
-        *self
-            .0
-            .entry(if full { "…".to_owned() } else { name })
-            .or_default() += 1;
+        *self.0.entry(if full { "…".to_owned() } else { name }).or_default() += 1;
     }
 
     /// Reports the elements.
-    pub(crate) fn report(self, findings: &mut Findings) {
+    pub(crate) fn report_unread_elements(self, findings: &mut FindingTally) {
         for (name, many) in self.0 {
-            findings.push(Finding::warning(
+            findings.push_counted_finding(ImportFinding::new_warning_finding(
                 None,
                 format!("elements <{name}> are not read and were left out: {many}"),
             ));
@@ -90,7 +87,7 @@ impl Unread {
 }
 
 /// Returns a medium at this address; its type follows from the ending.
-pub(crate) fn medium(url: &str) -> Media {
+pub(crate) fn media_from_url(url: &str) -> TranscriptMedia {
     let ending = url.rsplit('.').next().unwrap_or_default();
     let mime = match &*ending.to_ascii_lowercase() {
         "mp4" | "m4v" => "video/mp4",
@@ -103,29 +100,29 @@ pub(crate) fn medium(url: &str) -> Media {
         "mp3" => "audio/mpeg",
         _ => "",
     };
-    Media {
+    TranscriptMedia {
         url: url.to_owned(),
         mime_type: mime.to_owned(),
-        ..Media::default()
+        ..TranscriptMedia::default()
     }
 }
 
 /// Returns the id of an annotation. It depends on the name of its tier and its start alone, so that it stays the same if
 /// the file gets other annotations.
-pub(crate) fn id(tier: &str, start: Instant) -> String {
+pub(crate) fn stable_annotation_id(tier: &str, start: RecordingInstant) -> String {
     // FNV-1a, cut to 32 bits: ids that are the same get numbers.
     let hash = tier.bytes().fold(0x811c_9dc5_u32, |hash, byte| {
         (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
     });
-    format!("i{hash:08x}.{}", start.micros())
+    format!("i{hash:08x}.{}", start.instant_micros())
 }
 
 /// Returns an annotation with a time of its own.
-pub(crate) fn annotation(id: String, span: Span, value: &str) -> Annotation {
-    Annotation {
+pub(crate) fn new_timed_annotation(id: String, span: TimeSpan, value: &str) -> TranscriptAnnotation {
+    TranscriptAnnotation {
         id,
         span,
-        timing: Timing::Own,
+        timing: AnnotationTiming::Own,
         parent: None,
         order: 0,
         value: value.to_owned(),

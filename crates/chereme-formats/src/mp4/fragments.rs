@@ -1,12 +1,12 @@
 //! Samples of fragmented files, which are written piece by piece.
 
-use super::boxes::Inner;
-use super::table::Shape;
-use super::{Error, Frame, MAX_FRAMES};
+use super::boxes::InnerBox;
+use super::mp4_table::FrameListBuilder;
+use super::{CodedFrame, MAX_FRAMES, Mp4Error};
 
 /// Default properties of a track's samples, which a fragment may override.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Defaults {
+pub(super) struct SampleDefaults {
     duration: u32,
     size: u32,
     flags: u32,
@@ -14,11 +14,11 @@ pub(super) struct Defaults {
 
 /// The time of the next sample.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Clock(i64);
+pub(super) struct FragmentClock(i64);
 
-impl Clock {
+impl FragmentClock {
     /// Returns the time after `frames`, which are in the order of decoding.
-    pub(super) fn after(frames: &[Frame]) -> Self {
+    pub(super) fn clock_after_frames(frames: &[CodedFrame]) -> Self {
         let durations = frames.iter().map(|frame| i64::from(frame.duration));
         Self(durations.sum())
     }
@@ -28,67 +28,67 @@ impl Clock {
 const NOT_SYNC: u32 = 0x1_0000;
 
 /// Reads the default properties of a track's samples in fragments.
-pub(super) fn defaults(moov: Inner<'_>, track: u32) -> Result<Defaults, Error> {
-    let Some(mvex) = moov.child(b"mvex") else {
-        return Ok(Defaults::default());
+pub(super) fn read_sample_defaults(moov: InnerBox<'_>, track: u32) -> Result<SampleDefaults, Mp4Error> {
+    let Some(mvex) = moov.find_child_box(b"mvex") else {
+        return Ok(SampleDefaults::default());
     };
-    for trex in mvex.children(0).filter(|it| it.kind == *b"trex") {
-        if trex.number(4)? == track {
-            return Ok(Defaults {
-                duration: trex.number(12)?,
-                size: trex.number(16)?,
-                flags: trex.number(20)?,
+    for trex in mvex.child_boxes(0).filter(|child| child.kind == *b"trex") {
+        if trex.box_u32_at(4)? == track {
+            return Ok(SampleDefaults {
+                duration: trex.box_u32_at(12)?,
+                size: trex.box_u32_at(16)?,
+                flags: trex.box_u32_at(20)?,
             });
         }
     }
-    Ok(Defaults::default())
+    Ok(SampleDefaults::default())
 }
 
 /// Adds the frames of a fragment that begins at byte `start` of the file.
-pub(super) fn frames(
-    moof: Inner<'_>,
+pub(super) fn add_fragment_frames(
+    moof: InnerBox<'_>,
     start: u64,
-    (track, defaults): (u32, Defaults),
-    clock: &mut Clock,
-    shape: &mut Shape,
-) -> Result<(), Error> {
-    for traf in moof.children(0).filter(|it| it.kind == *b"traf") {
-        let tfhd = traf.child(b"tfhd");
-        let tfhd = tfhd.ok_or_else(|| traf.fault("it has no header (tfhd)"))?;
-        if tfhd.number(4)? != track {
+    (track, defaults): (u32, SampleDefaults),
+    clock: &mut FragmentClock,
+    shape: &mut FrameListBuilder,
+) -> Result<(), Mp4Error> {
+    for traf in moof.child_boxes(0).filter(|child| child.kind == *b"traf") {
+        let header_box = traf.find_child_box(b"tfhd");
+        let tfhd = header_box.ok_or_else(|| traf.inner_box_error("it has no header (tfhd)"))?;
+        if tfhd.box_u32_at(4)? != track {
             continue;
         }
-        let flags = tfhd.number(0)? & 0xff_ffff;
-        let mut at = 8;
+        let flags = tfhd.box_u32_at(0)? & 0xff_ffff;
+        let mut field_start = 8;
         let mut base = start;
         if flags & 1 != 0 {
-            base = tfhd.long(at)?;
-            at += 8;
+            base = tfhd.box_u64_at(field_start)?;
+            field_start += 8;
         }
         if flags & 2 != 0 {
-            at += 4;
+            field_start += 4;
         }
-        let mut own = defaults;
+        let mut fragment_defaults = defaults;
         for (bit, value) in [
-            (8, &mut own.duration),
-            (16, &mut own.size),
-            (32, &mut own.flags),
+            (8, &mut fragment_defaults.duration),
+            (16, &mut fragment_defaults.size),
+            (32, &mut fragment_defaults.flags),
         ] {
             if flags & bit != 0 {
-                *value = tfhd.number(at)?;
-                at += 4;
+                *value = tfhd.box_u32_at(field_start)?;
+                field_start += 4;
             }
         }
-        if let Some(tfdt) = traf.child(b"tfdt") {
-            let time = match tfdt.version()? {
-                1 => tfdt.long(4)?,
-                _ => u64::from(tfdt.number(4)?),
+        if let Some(tfdt) = traf.find_child_box(b"tfdt") {
+            let time = match tfdt.box_version()? {
+                1 => tfdt.box_u64_at(4)?,
+                _ => u64::from(tfdt.box_u32_at(4)?),
             };
             clock.0 = i64::try_from(time).unwrap_or(i64::MAX);
         }
         let mut next = base;
-        for trun in traf.children(0).filter(|it| it.kind == *b"trun") {
-            next = run(trun, (base, next), own, clock, shape)?;
+        for trun in traf.child_boxes(0).filter(|child| child.kind == *b"trun") {
+            next = run(trun, (base, next), fragment_defaults, clock, shape)?;
         }
     }
     Ok(())
@@ -96,52 +96,51 @@ pub(super) fn frames(
 
 /// Adds the frames of a run, and returns the byte at which the next run begins unless it states another one.
 fn run(
-    trun: Inner<'_>,
+    trun: InnerBox<'_>,
     (base, next): (u64, u64),
-    own: Defaults,
-    clock: &mut Clock,
-    shape: &mut Shape,
-) -> Result<u64, Error> {
-    let flags = trun.number(0)? & 0xff_ffff;
-    let count = trun.number(4)? as usize;
-    let mut at = 8;
+    own: SampleDefaults,
+    clock: &mut FragmentClock,
+    shape: &mut FrameListBuilder,
+) -> Result<u64, Mp4Error> {
+    let flags = trun.box_u32_at(0)? & 0xff_ffff;
+    let count = trun.box_u32_at(4)? as usize;
+    let mut field_start = 8;
     let mut offset = next;
     if flags & 1 != 0 {
-        let shift = i64::from(trun.number(at)?.cast_signed());
+        let shift = i64::from(trun.box_u32_at(field_start)?.cast_signed());
         offset = base.saturating_add_signed(shift);
-        at += 4;
+        field_start += 4;
     }
     let mut first = None;
     if flags & 4 != 0 {
-        first = Some(trun.number(at)?);
-        at += 4;
+        first = Some(trun.box_u32_at(field_start)?);
+        field_start += 4;
     }
     let columns = [0x100, 0x200, 0x400, 0x800];
     let width = 4 * columns.iter().filter(|bit| flags & **bit != 0).count();
-    let held = match width {
+    let sample_limit = match width {
         // The run describes no single samples: there are never more of them than bytes in the file.
         0 if own.size == 0 => 0,
         0 => (shape.end / u64::from(own.size)) as usize,
-        width => trun.bytes.len().saturating_sub(at) / width,
+        width => trun.bytes.len().saturating_sub(field_start) / width,
     };
-    for index in 0..count.min(held).min(MAX_FRAMES) {
+    for index in 0..count.min(sample_limit).min(MAX_FRAMES) {
         let mut frame = own;
         let mut shift = 0;
-        for (bit, value) in columns.into_iter().zip([
-            &mut frame.duration,
-            &mut frame.size,
-            &mut frame.flags,
-            &mut shift,
-        ]) {
+        for (bit, value) in
+            columns
+                .into_iter()
+                .zip([&mut frame.duration, &mut frame.size, &mut frame.flags, &mut shift])
+        {
             if flags & bit != 0 {
-                *value = trun.number(at)?;
-                at += 4;
+                *value = trun.box_u32_at(field_start)?;
+                field_start += 4;
             }
         }
         if let Some(first) = first.filter(|_| index == 0 && flags & 0x400 == 0) {
             frame.flags = first;
         }
-        shape.add(Frame {
+        shape.add_coded_frame(CodedFrame {
             offset,
             size: frame.size,
             sync: frame.flags & NOT_SYNC == 0,

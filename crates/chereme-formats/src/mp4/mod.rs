@@ -1,7 +1,7 @@
 //! MP4 and QuickTime films: reads the position of each coded frame in the file and the time at which it is shown, and
 //! writes films.
 //!
-//! The pictures themselves stay coded: a decoder turns a [`Frame`]'s bytes into a picture. Only the boxes of the index
+//! The pictures themselves stay coded: a decoder turns a [`CodedFrame`]'s bytes into a picture. Only the boxes of the index
 //! are read, so that a film of hours needs no more memory than its index. Every count of the file is bounded by the
 //! bytes that hold it; no input makes the reader hang or use unbounded memory. Source: ISO/IEC 14496-12 (boxes),
 //! 14496-15 (`avcC`).
@@ -17,15 +17,15 @@
 
 mod boxes;
 mod fragments;
-pub mod h264;
-mod read;
-mod table;
+pub mod mp4_h264;
+mod mp4_read;
+mod mp4_table;
+mod mp4_write;
 #[cfg(test)]
 mod tests;
-mod write;
 
-pub use read::read;
-pub use write::{Muxer, Picture};
+pub use mp4_read::read_mp4_index;
+pub use mp4_write::{FilmProperties, Mp4Muxer};
 
 use serde::Serialize;
 
@@ -34,7 +34,7 @@ pub const MAX_FRAMES: usize = 5_184_000;
 
 /// A film as its container describes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Container {
+pub struct Mp4Container {
     /// The four letters of its coding, such as `avc1`, `hvc1`, `av01`.
     pub coding: String,
     /// The data that a decoder needs before the first frame: for H.264 the content of `avcC`, else empty.
@@ -44,18 +44,18 @@ pub struct Container {
     /// Height of a coded picture in pixels, before rotation.
     pub height: u32,
     /// The rotation that shows pictures upright.
-    pub turn: Turn,
+    pub turn: PictureRotation,
     /// The coding of colours, if the container states it.
-    pub colours: Option<Colours>,
+    pub colours: Option<PictureColours>,
     /// Ticks per second.
     pub timescale: u32,
     /// The frames in the order in which they are decoded.
-    pub frames: Vec<Frame>,
+    pub frames: Vec<CodedFrame>,
 }
 
 /// A coded picture of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Frame {
+pub struct CodedFrame {
     /// The byte of the file at which it begins.
     pub offset: u64,
     /// The number of its bytes.
@@ -74,7 +74,7 @@ pub struct Frame {
 /// The clockwise rotation that shows a picture upright.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Turn {
+pub enum PictureRotation {
     /// No rotation.
     #[default]
     None,
@@ -86,10 +86,10 @@ pub enum Turn {
     ThreeQuarters,
 }
 
-impl Turn {
+impl PictureRotation {
     /// Returns the size of a picture after the rotation.
     #[must_use]
-    pub fn size(self, [width, height]: [usize; 2]) -> [usize; 2] {
+    pub fn rotated_picture_size(self, [width, height]: [usize; 2]) -> [usize; 2] {
         match self {
             Self::None | Self::Half => [width, height],
             Self::Quarter | Self::ThreeQuarters => [height, width],
@@ -99,7 +99,7 @@ impl Turn {
 
 /// The mapping from a picture's numbers to colours (ITU-T H.273).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Colours {
+pub struct PictureColours {
     /// `matrix_coefficients`: 1 is BT.709, 5 and 6 are BT.601, 9 is BT.2020.
     pub matrix: u8,
     /// Whether black is 0 and white 255, instead of 16 and 235.
@@ -108,7 +108,7 @@ pub struct Colours {
 
 /// Why bytes could not be read as a film.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum Mp4Error {
     /// The file is of another kind.
     #[error("this is no MP4 or QuickTime file")]
     NoMp4,
@@ -146,16 +146,16 @@ pub enum Error {
     Input(String),
 }
 
-impl From<std::io::Error> for Error {
+impl From<std::io::Error> for Mp4Error {
     fn from(error: std::io::Error) -> Self {
         Self::Input(error.to_string())
     }
 }
 
-impl Container {
+impl Mp4Container {
     /// Returns the length of the film in ticks.
     #[must_use]
-    pub fn length(&self) -> i64 {
+    pub fn film_length_ticks(&self) -> i64 {
         let shown = self.frames.iter().filter(|frame| !frame.hidden);
         let ends = shown.map(|frame| frame.shown.saturating_add(i64::from(frame.duration)));
         ends.max().unwrap_or_default().max(0)
@@ -163,7 +163,7 @@ impl Container {
 
     /// Converts a time in ticks to microseconds.
     #[must_use]
-    pub fn micros(&self, ticks: i64) -> i64 {
+    pub fn ticks_to_micros(&self, ticks: i64) -> i64 {
         let scale = i128::from(self.timescale.max(1));
         let micros = (i128::from(ticks) * 1_000_000 + scale / 2).div_euclid(scale);
         i64::try_from(micros).unwrap_or_default()
@@ -173,9 +173,7 @@ impl Container {
     /// shown.
     #[must_use]
     pub fn shown_order(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.frames.len())
-            .filter(|at| !self.frames[*at].hidden)
-            .collect();
+        let mut order: Vec<usize> = (0..self.frames.len()).filter(|at| !self.frames[*at].hidden).collect();
         order.sort_by_key(|at| self.frames[*at].shown);
         order
     }
@@ -187,7 +185,7 @@ impl Container {
     pub fn sync_before(&self, at: usize) -> usize {
         let shown = self.frames.get(at).map_or(i64::MAX, |frame| frame.shown);
         let mut until = self.frames.iter().take(at.saturating_add(1));
-        let begins = |frame: &Frame| frame.sync && frame.shown <= shown;
+        let begins = |frame: &CodedFrame| frame.sync && frame.shown <= shown;
         until.rposition(begins).unwrap_or_default()
     }
 

@@ -1,10 +1,11 @@
 //! Tests of reading and writing MP4: times, colours, rotations, fragments, and damaged files.
 
+use crate::mp4::read_mp4_index;
 use std::io::Cursor;
 
 use proptest::prelude::*;
 
-use super::{Colours, Container, Error, Muxer, Picture, Turn, h264, read};
+use super::{FilmProperties, Mp4Container, Mp4Error, Mp4Muxer, PictureColours, PictureRotation, mp4_h264};
 
 /// Returns Exp-Golomb codes as binary digits.
 fn codes(values: &[u32]) -> String {
@@ -58,11 +59,11 @@ fn sequence_of(profile: u8, format: &str, order: &str, frames: &str) -> Vec<u8> 
 
 /// Returns a film of `count` made-up coded pictures; every fourth refreshes.
 fn film(count: usize) -> Vec<u8> {
-    let mut muxer = Muxer::new(Picture {
+    let mut muxer = Mp4Muxer::new(FilmProperties {
         width: 32,
         height: 32,
         rate: (25, 1),
-        colours: Colours {
+        colours: PictureColours {
             matrix: 1,
             full_range: false,
         },
@@ -80,15 +81,15 @@ fn film(count: usize) -> Vec<u8> {
         } else {
             put(&[0x41, 0x9a, index as u8 + 1, 7]);
         }
-        muxer.add(&stream);
+        muxer.add_coded_picture(&stream);
     }
     let mut bytes = Vec::new();
-    muxer.write(&mut bytes).expect("written");
+    muxer.write_mp4_film(&mut bytes).expect("written");
     bytes
 }
 
-fn opened(bytes: &[u8]) -> Container {
-    read(&mut Cursor::new(bytes)).expect("a film").0
+fn opened(bytes: &[u8]) -> Mp4Container {
+    read_mp4_index(&mut Cursor::new(bytes)).expect("a film").0
 }
 
 /// Returns the byte at which the content of the first box of a kind begins.
@@ -142,32 +143,29 @@ fn a_film_that_is_written_is_read_back() {
     let bytes = film(10);
     let film = opened(&bytes);
     assert_eq!((film.width, film.height), (32, 32));
-    assert_eq!(
-        (film.coding.as_str(), film.coding_name()),
-        ("avc1", "H.264")
-    );
+    assert_eq!((film.coding.as_str(), film.coding_name()), ("avc1", "H.264"));
     assert_eq!(film.frames.len(), 10);
-    assert_eq!(film.micros(film.length()), 400_000);
+    assert_eq!(film.ticks_to_micros(film.film_length_ticks()), 400_000);
     let sync: Vec<bool> = film.frames.iter().map(|frame| frame.sync).collect();
     let want: Vec<bool> = (0..10).map(|index| index % 4 == 0).collect();
     assert_eq!(sync, want);
     for (index, frame) in film.frames.iter().enumerate() {
-        assert_eq!(film.micros(frame.shown), index as i64 * 40_000);
+        assert_eq!(film.ticks_to_micros(frame.shown), index as i64 * 40_000);
         let sample = &bytes[frame.offset as usize..][..frame.size as usize];
         let last = if index % 4 == 0 { index + 1 } else { 7 };
         assert_eq!(sample.last(), Some(&(last as u8)), "{index}");
     }
     assert_eq!(film.sync_before(7), 4);
-    let said = h264::configuration(&film.configuration).expect("parameter sets");
+    let said = mp4_h264::read_avc_configuration(&film.configuration).expect("parameter sets");
     assert_eq!((said.length, said.sets.len()), (4, 2));
     let frame = film.frames[1];
     let sample = &bytes[frame.offset as usize..][..frame.size as usize];
     let mut stream = Vec::new();
-    h264::annex_b(&said, sample, true, &mut stream).expect("a stream");
-    let pieces: Vec<&[u8]> = h264::pieces(&stream).collect();
+    mp4_h264::annex_b(&said, sample, true, &mut stream).expect("a stream");
+    let pieces: Vec<&[u8]> = mp4_h264::split_stream_pieces(&stream).collect();
     assert_eq!(pieces.len(), 3);
-    assert!(h264::is_sequence(pieces[0]) && h264::is_parameters(pieces[1]));
-    assert!(!h264::is_refresh(pieces[2]));
+    assert!(mp4_h264::is_sequence(pieces[0]) && mp4_h264::is_parameters(pieces[1]));
+    assert!(!mp4_h264::is_refresh(pieces[2]));
 }
 
 #[test]
@@ -191,52 +189,43 @@ fn sequences_of_every_kind_are_read_up_to_their_colours() {
         codes(&[1]) + "0" + &codes(&[5, 2, 0]),
         codes(&[1]) + "1" + &codes(&[0, 0, 3, 7, 8, 9]),
     ];
-    for (profile, format) in [
-        (100, &plain),
-        (100, &lists),
-        (244, &full),
-        (66, &String::new()),
-    ] {
+    for (profile, format) in [(100, &plain), (100, &lists), (244, &full), (66, &String::new())] {
         for order in &orders {
             for (frames, interlaced) in [("11", false), ("001", true)] {
-                let read = h264::sequence(&sequence_of(profile, format, order, frames));
+                let read = mp4_h264::read_sequence_parameters(&sequence_of(profile, format, order, frames));
                 let read = read.unwrap_or_else(|error| panic!("{profile} {order}: {error}"));
                 assert_eq!((read.profile, read.interlaced), (profile, interlaced));
-                let colours = Colours {
+                let colours = PictureColours {
                     matrix: 1,
                     full_range: true,
                 };
-                assert_eq!(
-                    read.colours,
-                    Some(colours),
-                    "{profile} {format} {order} {frames}"
-                );
+                assert_eq!(read.colours, Some(colours), "{profile} {format} {order} {frames}");
             }
         }
     }
     let endless = codes(&[1]) + "0" + &codes(&[0, 0, 256]);
-    let refused = h264::sequence(&sequence_of(66, "", &endless, "11"));
-    assert!(matches!(refused, Err(Error::Parameters(_))), "{refused:?}");
+    let refused = mp4_h264::read_sequence_parameters(&sequence_of(66, "", &endless, "11"));
+    assert!(matches!(refused, Err(Mp4Error::Parameters(_))), "{refused:?}");
 }
 
 #[test]
 fn colours_are_read_from_the_stream_and_from_the_container() {
-    let said = h264::sequence(&sequence()).expect("a sequence");
-    let full = Colours {
+    let said = mp4_h264::read_sequence_parameters(&sequence()).expect("a sequence");
+    let full = PictureColours {
         matrix: 1,
         full_range: true,
     };
     assert_eq!((said.profile, said.interlaced), (100, false));
     assert_eq!(said.colours, Some(full));
     let film = opened(&film(1));
-    let limited = Colours {
+    let limited = PictureColours {
         full_range: false,
         ..full
     };
     assert_eq!(film.colours, Some(limited));
     for cut in 0..sequence().len() {
         // A sequence cut short gives an error, but no panic.
-        let _ = h264::sequence(&sequence()[..cut]);
+        let _ = mp4_h264::read_sequence_parameters(&sequence()[..cut]);
     }
 }
 
@@ -245,11 +234,11 @@ fn the_rotation_of_phone_films_is_read() {
     let one = 0x1_0000_u32;
     let minus = one.wrapping_neg();
     for (matrix, turn, size) in [
-        ([one, 0, 0, one], Turn::None, [40, 30]),
-        ([0, one, minus, 0], Turn::Quarter, [30, 40]),
-        ([minus, 0, 0, minus], Turn::Half, [40, 30]),
-        ([0, minus, one, 0], Turn::ThreeQuarters, [30, 40]),
-        ([7, 7, 7, 7], Turn::None, [40, 30]),
+        ([one, 0, 0, one], PictureRotation::None, [40, 30]),
+        ([0, one, minus, 0], PictureRotation::Quarter, [30, 40]),
+        ([minus, 0, 0, minus], PictureRotation::Half, [40, 30]),
+        ([0, minus, one, 0], PictureRotation::ThreeQuarters, [30, 40]),
+        ([7, 7, 7, 7], PictureRotation::None, [40, 30]),
     ] {
         let mut bytes = film(2);
         let at = find(&bytes, b"tkhd") + 40;
@@ -258,7 +247,7 @@ fn the_rotation_of_phone_films_is_read() {
         }
         let film = opened(&bytes);
         assert_eq!(film.turn, turn, "{matrix:?}");
-        assert_eq!(turn.size([40, 30]), size);
+        assert_eq!(turn.rotated_picture_size([40, 30]), size);
     }
 }
 
@@ -275,7 +264,7 @@ fn pictures_are_shown_at_their_composition_times() {
     let edit = boxed(b"elst", &words(&[0, 1, 160, 3600, 0x1_0000]));
     let bytes = inserted(&bytes, &[b"moov", b"trak"], &boxed(b"edts", &edit));
     let film = opened(&bytes);
-    let shown: Vec<i64> = film.frames.iter().map(|it| film.micros(it.shown)).collect();
+    let shown: Vec<i64> = film.frames.iter().map(|it| film.ticks_to_micros(it.shown)).collect();
     assert_eq!(shown, [0, 120_000, 40_000, 80_000]);
     assert_eq!(film.shown_order(), [0, 2, 3, 1]);
     assert!(film.frames.iter().all(|frame| !frame.hidden));
@@ -299,7 +288,7 @@ fn an_edit_list_may_delay_and_cut_a_film() {
     let film = opened(&inserted(&film(8), &[b"moov", b"trak"], &edit));
     let hidden: Vec<bool> = film.frames.iter().map(|frame| frame.hidden).collect();
     assert_eq!(hidden, [true, true, false, false, true, true, true, true]);
-    assert_eq!(film.micros(film.frames[2].shown), 500_000);
+    assert_eq!(film.ticks_to_micros(film.frames[2].shown), 500_000);
     assert_eq!(film.shown_order(), [2, 3]);
 }
 
@@ -335,11 +324,11 @@ fn fragmented_films_are_read() {
 #[test]
 fn files_that_are_no_film_are_refused_with_an_explanation() {
     let said = |bytes: &[u8]| {
-        let refused = read(&mut Cursor::new(bytes)).expect_err("refused");
+        let refused = read_mp4_index(&mut Cursor::new(bytes)).expect_err("refused");
         refused.to_string()
     };
-    assert_eq!(said(b""), Error::NoMp4.to_string());
-    assert_eq!(said(b"RIFF....AVI LIST"), Error::NoMp4.to_string());
+    assert_eq!(said(b""), Mp4Error::NoMp4.to_string());
+    assert_eq!(said(b"RIFF....AVI LIST"), Mp4Error::NoMp4.to_string());
     let bytes = film(3);
     let movie = find(&bytes, b"moov") - 8;
     assert!(said(&bytes[..movie]).contains("moov"));
@@ -357,24 +346,18 @@ fn files_that_are_no_film_are_refused_with_an_explanation() {
 fn a_truncated_film_shows_the_pictures_it_still_has() {
     let bytes = film(10);
     let cut = &bytes[..bytes.len() - 20];
-    let (film, findings) = read(&mut Cursor::new(cut)).expect("a film");
+    let (film, findings) = read_mp4_index(&mut Cursor::new(cut)).expect("a film");
     assert!((1..10).contains(&film.frames.len()));
     assert_eq!(findings.len(), 2, "{findings:?}");
 }
 
 #[test]
 fn counts_that_no_file_holds_take_no_memory() {
-    for (kind, at) in [
-        (b"stsz", 8),
-        (b"stts", 4),
-        (b"stss", 4),
-        (b"stsc", 4),
-        (b"stco", 4),
-    ] {
+    for (kind, at) in [(b"stsz", 8), (b"stts", 4), (b"stss", 4), (b"stsc", 4), (b"stco", 4)] {
         let mut bytes = film(4);
         let place = find(&bytes, kind) + at;
         bytes[place..place + 4].fill(0xff);
-        let read = read(&mut Cursor::new(&bytes));
+        let read = read_mp4_index(&mut Cursor::new(&bytes));
         if let Ok((film, _)) = read {
             assert!(film.frames.len() <= 4, "{kind:?}");
         }
@@ -410,15 +393,15 @@ proptest! {
             bytes[at] = value;
         }
         bytes.truncate(bytes.len().max(cut));
-        if let Ok((film, _)) = read(&mut Cursor::new(&bytes)) {
+        if let Ok((film, _)) = read_mp4_index(&mut Cursor::new(&bytes)) {
             prop_assert!(!film.shown_order().is_empty());
             for frame in &film.frames {
                 prop_assert!(frame.offset + u64::from(frame.size) <= bytes.len() as u64);
             }
-            let _ = (film.length(), film.micros(i64::MAX), film.sync_before(usize::MAX));
-            if let Ok(said) = h264::configuration(&film.configuration) {
+            let _ = (film.film_length_ticks(), film.ticks_to_micros(i64::MAX), film.sync_before(usize::MAX));
+            if let Ok(said) = mp4_h264::read_avc_configuration(&film.configuration) {
                 for set in &said.sets {
-                    let _ = h264::sequence(set);
+                    let _ = mp4_h264::read_sequence_parameters(set);
                 }
             }
         }
@@ -439,25 +422,25 @@ fn golden_films_written_and_read() {
         &mut out,
         format!(
             "{:?}",
-            Container {
+            Mp4Container {
                 frames: Vec::new(),
                 ..container
             }
         ),
     );
     let piece = sequence();
-    put(&mut out, format!("{:?}", h264::sequence(&piece)));
+    put(&mut out, format!("{:?}", mp4_h264::read_sequence_parameters(&piece)));
     for profile in [66, 77, 100, 122] {
         for format in ["1", "010", "011"] {
             let odd = sequence_of(profile, format, &codes(&[0, 3]), "01");
             put(
                 &mut out,
-                format!("{profile} {format}: {:?}", h264::sequence(&odd)),
+                format!("{profile} {format}: {:?}", mp4_h264::read_sequence_parameters(&odd)),
             );
         }
     }
     for cut in [0, 8, 40, whole.len() / 2, whole.len() - 1] {
-        let read = read(&mut Cursor::new(&whole[..cut])).map(|it| it.0.frames.len());
+        let read = read_mp4_index(&mut Cursor::new(&whole[..cut])).map(|it| it.0.frames.len());
         put(
             &mut out,
             format!("{cut} bytes: {:?}", read.map_err(|it| it.to_string())),

@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 
 /// The lines of a text, whatever ends them.
-pub(super) struct Lines<'t> {
+pub(super) struct TableTextLines<'t> {
     text: Cow<'t, str>,
     /// Whether the last line has an end.
     pub(super) is_whole: bool,
 }
 
-impl<'t> Lines<'t> {
-    pub(super) fn of(text: &'t str) -> Self {
+impl<'t> TableTextLines<'t> {
+    pub(super) fn from_table_text(text: &'t str) -> Self {
         let is_whole = text.ends_with(['\n', '\r']);
         let text = match text.contains('\n') {
             true => Cow::Borrowed(text),
@@ -20,7 +20,7 @@ impl<'t> Lines<'t> {
     }
 
     /// Returns the lines with their numbers, counted from 1; lines of nothing but blanks and delimiters are empty.
-    pub(super) fn all(&self) -> impl Iterator<Item = (u64, &str)> {
+    pub(super) fn numbered_lines(&self) -> impl Iterator<Item = (u64, &str)> {
         let blank = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ';');
         (1..).zip(self.text.lines()).map(move |(line, text)| {
             let bare = text.trim_start_matches('\u{feff}');
@@ -33,9 +33,9 @@ impl<'t> Lines<'t> {
 
     /// Returns the lines from `first` on that hold rows. A line of delimiters alone is a row of gaps if `gaps` says so,
     /// but not at the end.
-    pub(super) fn rows(&self, first: u64, gaps: bool) -> impl Iterator<Item = (u64, &str)> {
-        let raw = (1..).zip(self.text.lines());
-        let raw = raw.skip_while(move |(line, _)| *line < first);
+    pub(super) fn data_row_lines(&self, first: u64, gaps: bool) -> impl Iterator<Item = (u64, &str)> {
+        let numbered_lines = (1..).zip(self.text.lines());
+        let raw = numbered_lines.skip_while(move |(line, _)| *line < first);
         let mut open: Vec<(u64, &str)> = Vec::new();
         let blank = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ';');
         raw.flat_map(move |(line, text)| {
@@ -52,20 +52,20 @@ impl<'t> Lines<'t> {
     }
 
     /// Returns the lines that are not blank.
-    pub(super) fn filled(&self) -> impl Iterator<Item = (u64, &str)> {
-        self.all().filter(|(_, text)| !text.is_empty())
+    pub(super) fn filled_lines(&self) -> impl Iterator<Item = (u64, &str)> {
+        self.numbered_lines().filter(|(_, text)| !text.is_empty())
     }
 
     /// Returns the first lines that are not blank, without one like `sep=;`.
-    pub(super) fn first(&self, count: usize) -> Vec<(u64, &str)> {
-        let filled = self.filled();
-        let filled = filled.filter(|(_, line)| !line.trim_matches('"').starts_with("sep="));
+    pub(super) fn first_filled_lines(&self, count: usize) -> Vec<(u64, &str)> {
+        let filled_lines = self.filled_lines();
+        let filled = filled_lines.filter(|(_, line)| !line.trim_matches('"').starts_with("sep="));
         filled.take(count).collect()
     }
 }
 
 /// Returns the delimiter that occurs most often in a line of titles.
-pub(super) fn delimiter(line: &str) -> char {
+pub(super) fn detect_column_delimiter(line: &str) -> char {
     let count = |letter: char| line.matches(letter).count();
     let all = [',', ';', '\t'];
     let most = all.into_iter().max_by_key(|letter| count(*letter));
@@ -73,11 +73,11 @@ pub(super) fn delimiter(line: &str) -> char {
 }
 
 /// Returns the cells of a line without the blanks and quotation marks around them.
-pub(super) fn cells(line: &str, delimiter: char) -> Vec<&str> {
+pub(super) fn split_line_cells(line: &str, delimiter: char) -> Vec<&str> {
     let mut cells = Vec::new();
     let mut rest = Some(line);
     while let Some(text) = rest {
-        let (cell, after) = match quoted(text, delimiter) {
+        let (cell, after) = match split_quoted_cell(text, delimiter) {
             Some(found) => found,
             None => match text.split_once(delimiter) {
                 Some((cell, after)) => (cell, Some(after)),
@@ -91,7 +91,7 @@ pub(super) fn cells(line: &str, delimiter: char) -> Vec<&str> {
 }
 
 /// Splits off a cell in quotation marks that close before a delimiter or the end of the line.
-fn quoted(text: &str, delimiter: char) -> Option<(&str, Option<&str>)> {
+fn split_quoted_cell(text: &str, delimiter: char) -> Option<(&str, Option<&str>)> {
     let inside = text.trim_start_matches(' ').strip_prefix('"')?;
     let (cell, after) = inside.split_once('"')?;
     let after = after.trim_start_matches(' ');

@@ -13,12 +13,12 @@
 //! # Ok::<(), points::Error>(())
 //! ```
 
-mod clock;
 mod lines;
 mod motive;
 mod plain;
+mod points_clock;
+mod points_rows;
 mod qualisys;
-mod rows;
 mod space;
 mod stacked;
 #[cfg(test)]
@@ -26,16 +26,21 @@ mod tests;
 mod titles;
 mod vicon;
 
-use chereme_motion::column::Column;
-use chereme_motion::{Capture, Curve, Curves, Instant, Marker, Markers, Quality, Rate, Times};
+use chereme_motion::column::FrameNumberColumn;
+use chereme_motion::{
+    CaptureMethod, CurveTrack, FrameRate, FrameTimes, MarkerTrack, MotionMarker, QualityMeaning, RecordingInstant,
+    ScalarCurve,
+};
 
-use crate::finding::Finding;
+use crate::finding::ImportFinding;
 use crate::noughts::open_noughts;
-use crate::table::{TableError, decode};
-use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks, events, rate_of, unique};
-use lines::Lines;
-use rows::{Layout, Rows};
+use crate::table::{TableError, decode_table_bytes};
+use crate::tally::FindingTally;
+use crate::tracks::{
+    CapturedTrackContent, CapturedTracks, FileTrack, events_to_transcript, rate_of, unique_track_names,
+};
+use lines::TableTextLines;
+use points_rows::{PointTableLayout, PointTableRows};
 
 /// The kinds of tables of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,28 +60,28 @@ pub enum PointFile {
 impl PointFile {
     /// Returns the kind of table that begins with these bytes; `None` if it holds no points.
     #[must_use]
-    pub fn of(head: &[u8]) -> Option<Self> {
-        let text = decode(head, &mut Findings::default()).ok()?;
-        let lines = Lines::of(&text);
-        if motive::begins(&lines) {
+    pub fn detect_point_file(head: &[u8]) -> Option<Self> {
+        let text = decode_table_bytes(head, &mut FindingTally::default()).ok()?;
+        let lines = TableTextLines::from_table_text(&text);
+        if motive::is_motive_export(&lines) {
             return Some(Self::Motive);
         }
-        if vicon::begins(&lines) {
+        if vicon::is_vicon_export(&lines) {
             return Some(Self::Vicon);
         }
-        if qualisys::begins(&lines) {
+        if qualisys::is_qualisys_export(&lines) {
             return Some(Self::Qualisys);
         }
-        if stacked::layout(&lines).is_some() {
+        if stacked::read_stacked_layout(&lines).is_some() {
             return Some(Self::Stacked);
         }
-        plain::begins(&lines).then_some(Self::Plain)
+        plain::is_plain_point_table(&lines).then_some(Self::Plain)
     }
 }
 
 /// Why bytes could not be read as a table of points.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum PointTableError {
     /// The file is not text.
     #[error("line {line}: this is not text")]
     NotText {
@@ -92,9 +97,7 @@ pub enum Error {
     #[error("the header has no row of {0}; export the take again with its header")]
     Missing(&'static str),
     /// The sections of the file hold no places of markers.
-    #[error(
-        "the file has no section Trajectories, which holds markers, but {0}; export the trajectories, too"
-    )]
+    #[error("the file has no section Trajectories, which holds markers, but {0}; export the trajectories, too")]
     Sections(String),
     /// Places of bones are relative to their parents.
     #[error(
@@ -149,9 +152,7 @@ pub enum Error {
         cell: String,
     },
     /// The time of a row is not after that of the row before.
-    #[error(
-        "line {line}: its time is not after that of the row before; sort the rows by time, one row for each frame"
-    )]
+    #[error("line {line}: its time is not after that of the row before; sort the rows by time, one row for each frame")]
     Backwards {
         /// The line, counted from 1.
         line: u64,
@@ -164,49 +165,52 @@ pub enum Error {
     Track(String),
 }
 
-/// Reads a table of points of any kind that [`PointFile::of`] recognises; `rate` is that of the frames if the table
+/// Reads a table of points of any kind that [`PointFile::detect_point_file`] recognises; `rate` is that of the frames if the table
 /// states none.
 ///
 /// # Errors
-/// [`Error`] if the table holds no points, or its rows do not fit its header.
-pub fn read(bytes: &[u8], rate: Option<Rate>) -> Result<(Tracks, Vec<Finding>), Error> {
-    let mut findings = Findings::default();
-    let text = decode(bytes, &mut findings).map_err(|error| match error {
-        TableError::NotText { line } => Error::NotText { line },
-        _ => Error::Unknown,
+/// [`PointTableError`] if the table holds no points, or its rows do not fit its header.
+pub fn read_point_table(
+    bytes: &[u8],
+    rate: Option<FrameRate>,
+) -> Result<(CapturedTracks, Vec<ImportFinding>), PointTableError> {
+    let mut findings = FindingTally::default();
+    let text = decode_table_bytes(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => PointTableError::NotText { line },
+        _ => PointTableError::Unknown,
     })?;
-    let lines = Lines::of(&text);
-    let layout = if motive::begins(&lines) {
-        motive::layout(&lines, &mut findings)?
-    } else if vicon::begins(&lines) {
-        vicon::layout(&lines, &mut findings)?
-    } else if qualisys::begins(&lines) {
-        qualisys::layout(&lines, &mut findings)?
-    } else if let Some(layout) = stacked::layout(&lines) {
+    let lines = TableTextLines::from_table_text(&text);
+    let layout = if motive::is_motive_export(&lines) {
+        motive::read_motive_layout(&lines, &mut findings)?
+    } else if vicon::is_vicon_export(&lines) {
+        vicon::read_vicon_layout(&lines, &mut findings)?
+    } else if qualisys::is_qualisys_export(&lines) {
+        qualisys::read_qualisys_layout(&lines, &mut findings)?
+    } else if let Some(layout) = stacked::read_stacked_layout(&lines) {
         layout
     } else {
-        plain::layout(&lines, &mut findings)?
+        plain::read_plain_layout(&lines, &mut findings)?
     };
-    let tracks = tracks(&lines, layout, rate, &mut findings)?;
-    Ok((tracks, findings.finish()))
+    let tracks = read_point_tracks(&lines, layout, rate, &mut findings)?;
+    Ok((tracks, findings.finish_finding_tally()))
 }
 
 /// Reads the rows of a table whose columns are known.
-fn tracks(
-    lines: &Lines<'_>,
-    layout: Layout,
-    wanted: Option<Rate>,
-    findings: &mut Findings,
-) -> Result<Tracks, Error> {
-    let mut rows = Rows::read(lines, &layout, findings)?;
-    let held = rows.lines.len();
-    if let Some(stated) = layout.frames.filter(|stated| *stated != held) {
-        let text = format!("the header states {stated} frames, and the file holds {held}");
-        findings.push(Finding::warning(layout.line, text));
+fn read_point_tracks(
+    lines: &TableTextLines<'_>,
+    layout: PointTableLayout,
+    wanted: Option<FrameRate>,
+    findings: &mut FindingTally,
+) -> Result<CapturedTracks, PointTableError> {
+    let mut rows = PointTableRows::read_point_rows(lines, &layout, findings)?;
+    let row_count = rows.lines.len();
+    if let Some(stated) = layout.frames.filter(|stated| *stated != row_count) {
+        let text = format!("the header states {stated} frames, and the file holds {row_count}");
+        findings.push_counted_finding(ImportFinding::new_warning_finding(layout.line, text));
     }
-    let (times, offset) = clock::times(&rows, &layout, wanted, findings)?;
-    let wide = layout.wide();
-    let names = names(&layout, findings);
+    let (times, offset) = points_clock::infer_row_times(&rows, &layout, wanted, findings)?;
+    let wide = layout.coordinates_per_point();
+    let names = unique_point_names(&layout, findings);
     if wide == 3 {
         let shown: Vec<String> = names.iter().map(|(_, name)| name.clone()).collect();
         open_noughts(&shown, &mut rows.places, findings);
@@ -214,85 +218,85 @@ fn tracks(
     rows.open_unsure(&layout);
     let mut places = rows.places.into_iter();
     let mut sure = rows.quality.into_iter();
-    let made = layout
-        .points
-        .iter()
-        .zip(names)
-        .map(|(point, (group, name))| {
-            let place = places.by_ref().take(wide).map(Column::decimals).collect();
-            let quality = point.quality.and_then(|_| sure.next());
-            Marker {
-                group,
-                name,
-                place,
-                quality: quality.map(Column::decimals),
-            }
-        });
-    let made: Vec<Marker> = made.collect();
-    let space = space::of(&layout, &made, findings);
+    let made = layout.points.iter().zip(names).map(|(point, (group, name))| {
+        let place = places
+            .by_ref()
+            .take(wide)
+            .map(FrameNumberColumn::from_decimals)
+            .collect();
+        let quality = point.quality.and_then(|_| sure.next());
+        MotionMarker {
+            group,
+            name,
+            place,
+            quality: quality.map(FrameNumberColumn::from_decimals),
+        }
+    });
+    let made: Vec<MotionMarker> = made.collect();
+    let space = space::infer_point_space(&layout, &made, findings);
     let capture = match layout.quality {
-        Some(Quality::Confidence) => Capture::Estimated,
-        _ if wide == 2 => Capture::Estimated,
-        _ => Capture::Measured,
+        Some(QualityMeaning::Confidence) => CaptureMethod::Estimated,
+        _ if wide == 2 => CaptureMethod::Estimated,
+        _ => CaptureMethod::Measured,
     };
-    let fault = |error: chereme_motion::TrackError| Error::Track(error.to_string());
-    let markers = Markers::new(times.clone(), space, made).map_err(fault)?;
-    let markers = markers.captured(capture);
+    let fault = |error: chereme_motion::TrackError| PointTableError::Track(error.to_string());
+    let plain_markers = MarkerTrack::new(times.clone(), space, made).map_err(fault)?;
+    let markers = plain_markers.with_capture_method(capture);
     let markers = match layout.quality {
-        Some(quality) => markers.rated(quality),
+        Some(quality) => markers.with_quality_meaning(quality),
         None => markers,
     };
-    let rate = times.rate().or(layout.rate.and_then(rate_of));
-    let name = if capture == Capture::Estimated && layout.program.is_empty() {
+    let rate = times.even_times_rate().or(layout.rate.and_then(rate_of));
+    let name = if capture == CaptureMethod::Estimated && layout.program.is_empty() {
         "landmarks"
     } else {
         "markers"
     };
-    let mut all = vec![FileTrack::new(name, Content::Markers(markers))];
-    if let Some(curves) = curves(&layout.others, rows.others, times)? {
-        all.push(FileTrack::new("curves", Content::Curves(curves)));
+    let mut all = vec![FileTrack::new(name, CapturedTrackContent::Markers(markers))];
+    if let Some(curves) = columns_to_curves(&layout.others, rows.others, times)? {
+        all.push(FileTrack::new("curves", CapturedTrackContent::Curves(curves)));
     }
     for track in &mut all {
         track.offset = offset;
     }
-    let moments: Vec<(Instant, String)> = layout.events;
-    Ok(Tracks {
+    let moments: Vec<(RecordingInstant, String)> = layout.events;
+    Ok(CapturedTracks {
         tracks: all,
-        events: rate.and_then(|rate| events("events", &moments, rate)),
+        events: rate.and_then(|rate| events_to_transcript("events", &moments, rate)),
     })
 }
 
 /// Returns the columns that belong to no point as curves.
-fn curves(
+fn columns_to_curves(
     titles: &[(String, usize)],
-    columns: Vec<Vec<Option<chereme_motion::column::Number>>>,
-    times: Times,
-) -> Result<Option<Curves>, Error> {
-    let names = unique(titles.iter().map(|(title, _)| title.as_str()), "column");
-    let held = names.into_iter().zip(columns);
-    let held = held.filter(|(_, numbers)| numbers.iter().any(Option::is_some));
-    let curves = held.map(|(name, numbers)| Curve {
+    columns: Vec<Vec<Option<chereme_motion::column::FileNumber>>>,
+    times: FrameTimes,
+) -> Result<Option<CurveTrack>, PointTableError> {
+    let names = unique_track_names(titles.iter().map(|(title, _)| title.as_str()), "column");
+    let named_columns = names.into_iter().zip(columns);
+    let filled_columns = named_columns.filter(|(_, numbers)| numbers.iter().any(Option::is_some));
+    let all_curves = filled_columns.map(|(name, numbers)| ScalarCurve {
         name,
         unit: String::new(),
-        values: Column::decimals(numbers),
+        values: FrameNumberColumn::from_decimals(numbers),
     });
-    let curves: Vec<Curve> = curves.collect();
+    let curves: Vec<ScalarCurve> = all_curves.collect();
     if curves.is_empty() {
         return Ok(None);
     }
-    let curves = Curves::new(times, curves).map_err(|error| Error::Track(error.to_string()))?;
+    let curves = CurveTrack::new(times, curves).map_err(|error| PointTableError::Track(error.to_string()))?;
     Ok(Some(curves))
 }
 
 /// Returns the groups and names of the points, each pair once.
-fn names(layout: &Layout, findings: &mut Findings) -> Vec<(String, String)> {
-    let whole = |point: &rows::Place| match (point.group.as_str(), point.name.as_str()) {
+fn unique_point_names(layout: &PointTableLayout, findings: &mut FindingTally) -> Vec<(String, String)> {
+    let full_name = |point: &points_rows::PointColumns| match (point.group.as_str(), point.name.as_str()) {
         ("", name) => name.to_owned(),
         (_, "") => String::new(),
         (group, name) => format!("{group}:{name}"),
     };
-    let given: Vec<String> = layout.points.iter().map(whole).collect();
-    let made = unique(given.iter().map(String::as_str), "marker");
+    let given: Vec<String> = layout.points.iter().map(full_name).collect();
+    let made = unique_track_names(given.iter().map(String::as_str), "marker");
     let points = layout.points.iter().zip(&given).zip(made);
     let named = points.map(|((point, given), made)| {
         if *given == made {
@@ -308,7 +312,7 @@ fn names(layout: &Layout, findings: &mut Findings) -> Vec<(String, String)> {
                 format!("the label {given:?} occurs again; it is {made:?} here"),
             ),
         };
-        findings.add(kind, || Finding::note(layout.line, text));
+        findings.add_limited_finding(kind, || ImportFinding::new_note_finding(layout.line, text));
         let name = match made.strip_prefix(&format!("{}:", point.group)) {
             Some(name) if !point.group.is_empty() => name.to_owned(),
             _ => made,

@@ -4,41 +4,39 @@ mod kinds;
 mod programs;
 mod truth;
 
-use chereme_motion::Space;
+use chereme_motion::MarkerSpace;
 
 use super::*;
-use crate::tracks::Tracks;
+use crate::tracks::CapturedTracks;
 
 /// Returns a table as read, with its findings.
-fn table(text: &str) -> (Tracks, Vec<Finding>) {
-    read(text.as_bytes(), None).unwrap_or_else(|error| panic!("{error}\n{text}"))
+fn table(text: &str) -> (CapturedTracks, Vec<ImportFinding>) {
+    read_point_table(text.as_bytes(), None).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 /// Returns the markers of a table, with its findings.
-fn markers(text: &str) -> (Markers, Vec<Finding>) {
+fn markers(text: &str) -> (MarkerTrack, Vec<ImportFinding>) {
     let (tracks, findings) = table(text);
-    let Content::Markers(markers) = tracks.tracks[0].content.clone() else {
+    let CapturedTrackContent::Markers(markers) = tracks.tracks[0].content.clone() else {
         panic!("markers");
     };
     (markers, findings)
 }
 
 /// Returns the groups and names of points.
-fn labels(markers: &Markers) -> Vec<(&str, &str)> {
-    let points = markers.points().iter();
-    points
-        .map(|it| (it.group.as_str(), it.name.as_str()))
-        .collect()
+fn labels(markers: &MarkerTrack) -> Vec<(&str, &str)> {
+    let points = markers.marker_points().iter();
+    points.map(|it| (it.group.as_str(), it.name.as_str())).collect()
 }
 
 fn refused(text: &str) -> String {
-    match read(text.as_bytes(), None) {
+    match read_point_table(text.as_bytes(), None) {
         Ok((tracks, _)) => panic!("{tracks:?}"),
         Err(error) => error.to_string(),
     }
 }
 
-fn holds(findings: &[Finding], text: &str) -> bool {
+fn holds(findings: &[ImportFinding], text: &str) -> bool {
     findings.iter().any(|it| it.message.contains(text))
 }
 
@@ -51,11 +49,14 @@ fn spellings_of_titles_read_to_equal_points() {
     let (expected, findings) = markers(PLAIN);
     assert_eq!(labels(&expected), [("", "wrist"), ("", "elbow")]);
     assert_eq!(
-        expected.points()[0].place[0].text(0).as_deref(),
+        expected.marker_points()[0].place[0].column_text_at(0).as_deref(),
         Some("0.10")
     );
-    assert_eq!(expected.points()[1].at(1), None);
-    assert_eq!(expected.times().rate().map(|it| it.frames()), Some(100));
+    assert_eq!(expected.marker_points()[1].marker_position(1), None);
+    assert_eq!(
+        expected.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+        Some(100)
+    );
     assert!(holds(&findings, "so metres are assumed"), "{findings:?}");
     let titles = |spelling: &dyn Fn(&str, &str) -> String| {
         let mut head = "time".to_owned();
@@ -76,36 +77,15 @@ fn spellings_of_titles_read_to_equal_points() {
             "before",
             titles(&|name, axis| format!("{}_{name}", axis.to_uppercase())),
         ),
-        (
-            "a blank",
-            titles(&|name, axis| format!("\"{name} {axis}\"")),
-        ),
+        ("a blank", titles(&|name, axis| format!("\"{name} {axis}\""))),
         ("a colon", titles(&|name, axis| format!("{name}:{axis}"))),
-        (
-            "joined",
-            titles(&|name, axis| format!("{name}{}", axis.to_uppercase())),
-        ),
-        (
-            "a word more",
-            titles(&|name, axis| format!("{name}_position_{axis}")),
-        ),
-        (
-            "the unit",
-            titles(&|name, axis| format!("{name}_{axis} [m]")),
-        ),
-        (
-            "the unit behind",
-            titles(&|name, axis| format!("{name}_{axis}_m")),
-        ),
-        (
-            "semicolons and commas",
-            PLAIN.replace(',', ";").replace('.', ","),
-        ),
+        ("joined", titles(&|name, axis| format!("{name}{}", axis.to_uppercase()))),
+        ("a word more", titles(&|name, axis| format!("{name}_position_{axis}"))),
+        ("the unit", titles(&|name, axis| format!("{name}_{axis} [m]"))),
+        ("the unit behind", titles(&|name, axis| format!("{name}_{axis}_m"))),
+        ("semicolons and commas", PLAIN.replace(',', ";").replace('.', ",")),
         ("tabs", PLAIN.replace(',', "\t")),
-        (
-            "Windows",
-            format!("\u{feff}{}", PLAIN.replace('\n', "\r\n")),
-        ),
+        ("Windows", format!("\u{feff}{}", PLAIN.replace('\n', "\r\n"))),
         ("Macintosh", PLAIN.replace('\n', "\r")),
         ("a line of Excel", format!("sep=,\n{PLAIN}")),
         ("comments", format!("# made by hand\n\n{PLAIN}")),
@@ -113,20 +93,16 @@ fn spellings_of_titles_read_to_equal_points() {
         ("a short row", PLAIN.replace(",,,", "")),
         (
             "long rows of nothing",
-            PLAIN
-                .replace(",0.5\n", ",0.5,,,\n")
-                .replace(",,,\n", ",,,,,,\n"),
+            PLAIN.replace(",0.5\n", ",0.5,,,\n").replace(",,,\n", ",,,,,,\n"),
         ),
         (
             "milliseconds",
-            PLAIN
-                .replace("time,", "time_ms,")
-                .replace("0.01,0.11", "10,0.11"),
+            PLAIN.replace("time,", "time_ms,").replace("0.01,0.11", "10,0.11"),
         ),
     ];
     for (name, text) in dialects {
         assert_eq!(
-            PointFile::of(text.as_bytes()),
+            PointFile::detect_point_file(text.as_bytes()),
             Some(PointFile::Plain),
             "{name}"
         );
@@ -135,33 +111,35 @@ fn spellings_of_titles_read_to_equal_points() {
     }
     let wide: Vec<u8> = PLAIN.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let wide = [b"\xff\xfe".to_vec(), wide].concat();
-    assert_eq!(PointFile::of(&wide), Some(PointFile::Plain));
-    let (tracks, _) = read(&wide, None).expect("read");
-    assert_eq!(tracks.tracks[0].content, Content::Markers(expected));
+    assert_eq!(PointFile::detect_point_file(&wide), Some(PointFile::Plain));
+    let (tracks, _) = read_point_table(&wide, None).expect("read");
+    assert_eq!(tracks.tracks[0].content, CapturedTrackContent::Markers(expected));
 }
 
 #[test]
 fn landmarks_by_number_and_their_visibility_are_shares_of_a_picture() {
-    let text =
-        "x0,y0,z0,v0,x1,y1,z1,v1\n0.5,0.25,-0.1,0.9,0.6,0.3,0,1\n0.5,0.26,-0.1,0.8,0.6,0.3,0,1\n";
+    let text = "x0,y0,z0,v0,x1,y1,z1,v1\n0.5,0.25,-0.1,0.9,0.6,0.3,0,1\n0.5,0.26,-0.1,0.8,0.6,0.3,0,1\n";
     let (found, findings) = markers(text);
     assert_eq!(labels(&found), [("", "0"), ("", "1")]);
-    assert_eq!(found.space().name(), "image-2.5d");
-    assert_eq!(found.capture(), Capture::Estimated);
-    assert_eq!(found.quality(), Some(Quality::Confidence));
-    let quality = found.points()[0].quality.as_ref().map(|it| it.value(1));
+    assert_eq!(found.marker_space().marker_space_name(), "image-2.5d");
+    assert_eq!(found.marker_capture(), CaptureMethod::Estimated);
+    assert_eq!(found.marker_quality(), Some(QualityMeaning::Confidence));
+    let quality = found.marker_points()[0]
+        .quality
+        .as_ref()
+        .map(|it| it.column_value_at(1));
     assert_eq!(quality, Some(Some(0.8)));
-    assert_eq!(found.times().rate().map(|it| it.frames()), Some(25));
-    assert!(
-        holds(&findings, "neither a rate nor times; 25 frames"),
-        "{findings:?}"
+    assert_eq!(
+        found.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+        Some(25)
     );
-    let rate = Rate::new(50, 1).expect("a rate");
-    let (tracks, findings) = read(text.as_bytes(), Some(rate)).expect("read");
-    let Content::Markers(found) = &tracks.tracks[0].content else {
+    assert!(holds(&findings, "neither a rate nor times; 25 frames"), "{findings:?}");
+    let rate = FrameRate::new(50, 1).expect("a rate");
+    let (tracks, findings) = read_point_table(text.as_bytes(), Some(rate)).expect("read");
+    let CapturedTrackContent::Markers(found) = &tracks.tracks[0].content else {
         panic!("markers");
     };
-    assert_eq!(found.times().rate(), Some(rate));
+    assert_eq!(found.marker_times().even_times_rate(), Some(rate));
     assert!(!holds(&findings, "25 frames"), "{findings:?}");
 }
 
@@ -169,35 +147,28 @@ fn landmarks_by_number_and_their_visibility_are_shares_of_a_picture() {
 fn points_on_a_picture_have_two_coordinates_and_are_gaps_where_nothing_was_seen() {
     let text = "frame,nose_x,nose_y,nose_c,eye_x,eye_y,eye_c\n0,320,240.5,0.9,0,0,0\n1,321,240,0.9,310,230,0.5\n";
     let (found, findings) = markers(text);
-    assert_eq!(found.space().name(), "image-2d");
-    assert_eq!(found.points()[1].at(0), None);
-    assert!(
-        holds(&findings, "points reach 321 by 241 pixels"),
-        "{findings:?}"
-    );
+    assert_eq!(found.marker_space().marker_space_name(), "image-2d");
+    assert_eq!(found.marker_points()[1].marker_position(0), None);
+    assert!(holds(&findings, "points reach 321 by 241 pixels"), "{findings:?}");
 }
 
 #[test]
 fn other_columns_of_numbers_become_curves_and_text_is_named() {
     let text = "fnum,p_x,p_y,p_z,p_error,p_ncams,p_score,take\n0,1.5,2,3,0.7,3,0.9,a\n1,1.6,2,3,0.8,2,0.9,a\n";
     let (tracks, findings) = table(text);
-    let Content::Curves(curves) = &tracks.tracks[1].content else {
+    let CapturedTrackContent::Curves(curves) = &tracks.tracks[1].content else {
         panic!("curves");
     };
-    let names: Vec<&str> = curves.curves().iter().map(|it| it.name.as_str()).collect();
+    let names: Vec<&str> = curves.track_curves().iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["p_error", "p_ncams"]);
-    assert!(
-        holds(&findings, "columns of text are left out: take"),
-        "{findings:?}"
-    );
+    assert!(holds(&findings, "columns of text are left out: take"), "{findings:?}");
 }
 
 #[test]
 fn units_follow_from_titles_else_from_the_extent() {
     let scaled = |scale: f64| {
         let rows = (0..3).map(|row| {
-            let at = [0.1, 1.6, 0.2, -0.4, 0.1 + 0.01 * f64::from(row), 0.3]
-                .map(|it| (it * scale).to_string());
+            let at = [0.1, 1.6, 0.2, -0.4, 0.1 + 0.01 * f64::from(row), 0.3].map(|it| (it * scale).to_string());
             format!("{row},{}\n", at.join(","))
         });
         format!(
@@ -207,7 +178,7 @@ fn units_follow_from_titles_else_from_the_extent() {
     };
     for (scale, metres) in [(1.0, 1.0), (100.0, 0.01), (1000.0, 0.001)] {
         let (found, findings) = markers(&scaled(scale));
-        let Space::World(convention) = found.space() else {
+        let MarkerSpace::World(convention) = found.marker_space() else {
             panic!("a room");
         };
         assert_eq!(convention.metres_per_unit, metres, "{findings:?}");
@@ -215,10 +186,7 @@ fn units_follow_from_titles_else_from_the_extent() {
     }
     let text = scaled(1000.0).replace("_x", "_x (mm)");
     let (_, findings) = markers(&text);
-    assert!(
-        !holds(&findings, "the table states no unit"),
-        "{findings:?}"
-    );
+    assert!(!holds(&findings, "the table states no unit"), "{findings:?}");
 }
 
 #[test]
@@ -227,35 +195,35 @@ fn times_are_those_of_the_rows() {
         let rows: Vec<String> = times.iter().map(|time| format!("{time},1,2,3\n")).collect();
         format!("{title},a_x,a_y,a_z\n{}", rows.concat())
     };
-    let rate = |text: &str| markers(text).0.times().rate().map(|it| it.per_second());
-    assert_eq!(
-        rate(&rows("time", &["0", "0.0083", "0.0167", "0.025"])),
-        Some(120.0)
-    );
+    let rate = |text: &str| {
+        markers(text)
+            .0
+            .marker_times()
+            .even_times_rate()
+            .map(|it| it.per_second())
+    };
+    assert_eq!(rate(&rows("time", &["0", "0.0083", "0.0167", "0.025"])), Some(120.0));
     assert_eq!(rate(&rows("timestamp", &["0", "40", "80"])), Some(25.0));
     assert_eq!(rate(&rows("frame [50 fps]", &["7", "8", "9"])), Some(50.0));
     assert_eq!(rate(&rows("time", &["0", "0.04", "0.1", "0.11"])), None);
-    let (tracks, findings) = table(&rows(
-        "time",
-        &["1760000000.00", "1760000000.02", "1760000000.04"],
-    ));
-    assert_eq!(tracks.tracks[0].offset, Instant::ZERO);
+    let (tracks, findings) = table(&rows("time", &["1760000000.00", "1760000000.02", "1760000000.04"]));
+    assert_eq!(tracks.tracks[0].offset, RecordingInstant::RECORDING_START);
     assert!(
         holds(&findings, "its first frame has the time 1760000000.000 s"),
         "{findings:?}"
     );
     let late = table(&rows("time", &["2.00", "2.02", "2.04"])).0;
-    assert_eq!(late.tracks[0].offset, Instant::from_seconds(2.0));
+    assert_eq!(late.tracks[0].offset, RecordingInstant::from_seconds(2.0));
     let (found, findings) = markers(&rows("frame", &["1", "2", "14"]));
-    assert_eq!(found.times().instant(2), Instant::from_seconds(13.0 / 25.0));
+    assert_eq!(
+        found.marker_times().frame_time_instant(2),
+        RecordingInstant::from_seconds(13.0 / 25.0)
+    );
     assert!(holds(&findings, "frames are missing"), "{findings:?}");
     let (_, findings) = markers(&rows("time", &["0", "", "0.02"]));
     assert!(holds(&findings, "some rows have no time"), "{findings:?}");
     let message = refused(&rows("time", &["0", "0.5", "0.4", "0.9"]));
-    assert!(
-        message.starts_with("line 4: its time is not after"),
-        "{message}"
-    );
+    assert!(message.starts_with("line 4: its time is not after"), "{message}");
 }
 
 #[test]
@@ -263,27 +231,18 @@ fn repeated_names_and_cut_rows_are_reported() {
     let text = PLAIN.replace("elbow", "wrist");
     let (found, findings) = markers(&text);
     assert_eq!(labels(&found), [("", "wrist"), ("", "wrist (2)")]);
-    assert!(
-        holds(&findings, "the label \"wrist\" occurs again"),
-        "{findings:?}"
-    );
+    assert!(holds(&findings, "the label \"wrist\" occurs again"), "{findings:?}");
     let cut = PLAIN.trim_end().trim_end_matches(',');
     let (found, findings) = markers(cut);
-    assert_eq!(found.points()[1].at(1), None);
+    assert_eq!(found.marker_points()[1].marker_position(1), None);
     assert!(holds(&findings, "may be cut short"), "{findings:?}");
 }
 
 #[test]
 fn damaged_tables_are_refused_with_the_line() {
     for (text, part) in [
-        (
-            PLAIN.replace("1.25", "high"),
-            "line 3: \"high\" is no number",
-        ),
-        (
-            PLAIN.replace("1.25", "1e999"),
-            "line 3: \"1e999\" is no number",
-        ),
+        (PLAIN.replace("1.25", "high"), "line 3: \"high\" is no number"),
+        (PLAIN.replace("1.25", "1e999"), "line 3: \"1e999\" is no number"),
         (
             PLAIN.replace("1.25", "1,25"),
             "line 3: the row has 8 cells, and the header has 7",
@@ -308,7 +267,7 @@ fn damaged_tables_are_refused_with_the_line() {
     let message = refused(&(head + &"1\n2\n3\n".repeat(50)));
     assert!(message.contains("the rows up to here lack"), "{message}");
     let text = [PLAIN.as_bytes(), b"\x00\x01"].concat();
-    assert_eq!(read(&text, None), Err(Error::NotText { line: 4 }));
+    assert_eq!(read_point_table(&text, None), Err(PointTableError::NotText { line: 4 }));
 }
 
 #[test]
@@ -339,8 +298,8 @@ fn no_bytes_panic() {
                     _ => bytes.insert(at, odd[next() % odd.len()]),
                 }
             }
-            let _ = PointFile::of(&bytes);
-            let _ = read(&bytes, None);
+            let _ = PointFile::detect_point_file(&bytes);
+            let _ = read_point_table(&bytes, None);
         }
     }
 }

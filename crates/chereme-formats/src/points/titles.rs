@@ -2,24 +2,24 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_motion::Quality;
+use chereme_motion::QualityMeaning;
 
-use super::rows::Place;
+use super::points_rows::PointColumns;
 use crate::tracks::metres_of_unit;
 
 /// The part of a point that a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum PointPart {
     /// A coordinate: 0 for x, 1 for y, 2 for z.
     Axis(usize),
     /// The fourth number of a rotation.
     Fourth,
-    Sure(Quality),
+    Sure(QualityMeaning),
 }
 
 /// Where a title has its axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Style {
+enum AxisTitleStyle {
     /// `wrist_x`, `wrist.X`, `wrist X`, `wrist:x`
     After,
     /// `x_wrist`, `X.wrist`
@@ -30,7 +30,7 @@ enum Style {
     Joined,
 }
 
-const SEPARATORS: [char; 6] = ['_', '.', ' ', ':', '-', '/'];
+const TITLE_SEPARATORS: [char; 6] = ['_', '.', ' ', ':', '-', '/'];
 
 /// Words of columns that hold no places, though they have axes.
 const NO_PLACES: &[&str] = &[
@@ -101,65 +101,62 @@ const NO_PLACES: &[&str] = &[
 ];
 
 /// Returns the part that a word such as `x`, `likelihood` or `v` stands for.
-pub(super) fn part(word: &str) -> Option<Part> {
+pub(super) fn parse_point_part(word: &str) -> Option<PointPart> {
     Some(match word.to_lowercase().as_str() {
-        "x" => Part::Axis(0),
-        "y" => Part::Axis(1),
-        "z" => Part::Axis(2),
-        "w" => Part::Fourth,
-        "confidence" | "conf" | "c" | "likelihood" | "visibility" | "vis" | "v" | "presence"
-        | "score" | "prob" | "probability" => Part::Sure(Quality::Confidence),
-        "residual" => Part::Sure(Quality::Residual),
+        "x" => PointPart::Axis(0),
+        "y" => PointPart::Axis(1),
+        "z" => PointPart::Axis(2),
+        "w" => PointPart::Fourth,
+        "confidence" | "conf" | "c" | "likelihood" | "visibility" | "vis" | "v" | "presence" | "score" | "prob"
+        | "probability" => PointPart::Sure(QualityMeaning::Confidence),
+        "residual" => PointPart::Sure(QualityMeaning::Residual),
         _ => return None,
     })
 }
 
 /// A title that names a point.
-struct Title {
+struct PointTitle {
     stem: String,
-    part: Part,
+    part: PointPart,
 }
 
-impl Style {
-    fn read(self, title: &str) -> Option<Title> {
-        let made = |stem: &str, part: Part| {
-            Some(Title {
-                stem: stem.trim_matches(SEPARATORS).to_owned(),
+impl AxisTitleStyle {
+    fn parse_point_title(self, title: &str) -> Option<PointTitle> {
+        let made = |stem: &str, part: PointPart| {
+            Some(PointTitle {
+                stem: stem.trim_matches(TITLE_SEPARATORS).to_owned(),
                 part,
             })
         };
-        if let Some(part) = part(title).filter(|_| title.len() == 1 || title.len() > 3) {
+        if let Some(part) = parse_point_part(title).filter(|_| title.len() == 1 || title.len() > 3) {
             return made("", part);
         }
         match self {
             Self::After => {
-                let (stem, word) = title.rsplit_once(SEPARATORS)?;
-                made(stem, part(word)?).filter(|it| !it.stem.is_empty())
+                let (stem, word) = title.rsplit_once(TITLE_SEPARATORS)?;
+                made(stem, parse_point_part(word)?).filter(|title| !title.stem.is_empty())
             }
             Self::Before => {
-                let (word, stem) = title.split_once(SEPARATORS)?;
-                made(stem, part(word)?).filter(|it| !it.stem.is_empty())
+                let (word, stem) = title.split_once(TITLE_SEPARATORS)?;
+                made(stem, parse_point_part(word)?).filter(|title| !title.stem.is_empty())
             }
             Self::Number => {
-                let digits = title.find(|it: char| it.is_ascii_digit())?;
+                let digits = title.find(|character: char| character.is_ascii_digit())?;
                 let (word, digits) = title.split_at(digits);
-                let whole = digits.bytes().all(|it| it.is_ascii_digit());
-                made(digits, part(word)?).filter(|_| whole)
+                let are_digits = digits.bytes().all(|byte| byte.is_ascii_digit());
+                made(digits, parse_point_part(word)?).filter(|_| are_digits)
             }
             Self::Joined => {
                 let (at, last) = title.char_indices().next_back()?;
                 let stem = &title[..at];
-                let letters = stem.chars().filter(|it| it.is_alphanumeric()).count();
-                let part = part(last.encode_utf8(&mut [0; 4]))?;
+                let letters = stem.chars().filter(|character| character.is_alphanumeric()).count();
+                let part = parse_point_part(last.encode_utf8(&mut [0; 4]))?;
                 // In `wrist_ax` and `pose_Rx` a letter for another quantity stands before the axis.
-                let last = stem.rsplit(SEPARATORS).next().unwrap_or_default();
+                let last = stem.rsplit(TITLE_SEPARATORS).next().unwrap_or_default();
                 let letters_of_others = ["a", "f", "g", "m", "q", "r", "v", "w"];
                 let is_other = letters_of_others.contains(&last.to_lowercase().as_str());
-                let is_axis =
-                    matches!(part, Part::Axis(_)) && !stem.ends_with(SEPARATORS) && !is_other;
-                (letters >= 3 && is_axis)
-                    .then(|| made(stem, part))
-                    .flatten()
+                let is_axis = matches!(part, PointPart::Axis(_)) && !stem.ends_with(TITLE_SEPARATORS) && !is_other;
+                (letters >= 3 && is_axis).then(|| made(stem, part)).flatten()
             }
         }
     }
@@ -167,9 +164,9 @@ impl Style {
 
 /// The points that the titles of a table name.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Named {
-    pub(super) points: Vec<Place>,
-    pub(super) quality: Option<Quality>,
+pub(super) struct TitledPoints {
+    pub(super) points: Vec<PointColumns>,
+    pub(super) quality: Option<QualityMeaning>,
     /// The columns of the points.
     pub(super) used: BTreeSet<usize>,
     /// Metres of the unit that the titles state.
@@ -179,9 +176,14 @@ pub(super) struct Named {
 }
 
 /// Returns the points that titles name, in the style that names most of them.
-pub(super) fn points(titles: &[&str]) -> Named {
-    let bare: Vec<(&str, Option<&str>)> = titles.iter().map(|it| without_unit(it)).collect();
-    let styles = [Style::After, Style::Before, Style::Number, Style::Joined];
+pub(super) fn find_titled_points(titles: &[&str]) -> TitledPoints {
+    let bare: Vec<(&str, Option<&str>)> = titles.iter().map(|title| without_unit(title)).collect();
+    let styles = [
+        AxisTitleStyle::After,
+        AxisTitleStyle::Before,
+        AxisTitleStyle::Number,
+        AxisTitleStyle::Joined,
+    ];
     let read = styles.map(|style| in_style(&bare, style));
     // Of equally good styles the first counts.
     let best = read.into_iter().rev().max_by_key(|named| named.used.len());
@@ -192,9 +194,7 @@ pub(super) fn points(titles: &[&str]) -> Named {
 fn without_unit(title: &str) -> (&str, Option<&str>) {
     let title = title.trim();
     let is_unit = |unit: &str| metres_of_unit(unit).is_some() || is_pixels(unit);
-    let open = title
-        .rfind(['[', '('])
-        .filter(|_| title.ends_with([']', ')']));
+    let open = title.rfind(['[', '(']).filter(|_| title.ends_with([']', ')']));
     if let Some(open) = open {
         let unit = &title[open + 1..title.len() - 1];
         return match is_unit(unit) {
@@ -213,87 +213,81 @@ fn is_pixels(unit: &str) -> bool {
 }
 
 fn is_axis_at_end(title: &str) -> bool {
-    let word = title.rsplit(SEPARATORS).next().unwrap_or_default();
-    matches!(part(word), Some(Part::Axis(_)))
+    let word = title.rsplit(TITLE_SEPARATORS).next().unwrap_or_default();
+    matches!(parse_point_part(word), Some(PointPart::Axis(_)))
 }
 
 /// The columns of one name, as they are found.
 #[derive(Default)]
-struct Found {
+struct TitledPointColumns {
     stem: String,
     axes: [Option<usize>; 3],
-    sure: Option<(usize, Quality)>,
+    sure: Option<(usize, QualityMeaning)>,
     is_rotation: bool,
 }
 
-fn in_style(titles: &[(&str, Option<&str>)], style: Style) -> Named {
-    let mut found: Vec<Found> = Vec::new();
+fn in_style(titles: &[(&str, Option<&str>)], style: AxisTitleStyle) -> TitledPoints {
+    let mut found_points: Vec<TitledPointColumns> = Vec::new();
     // The last columns with a name, so that a name that occurs again begins a point of its own.
     let mut last: BTreeMap<String, usize> = BTreeMap::new();
     for (at, (title, _)) in titles.iter().enumerate() {
-        let Some(Title { stem, part }) = style.read(title) else {
+        let Some(PointTitle { stem, part }) = style.parse_point_title(title) else {
             continue;
         };
-        let known = last.get(&stem).copied().filter(|known| {
-            let known = &found[*known];
+        let earlier_index = last.get(&stem).copied().filter(|known| {
+            let open_point = &found_points[*known];
             match part {
-                Part::Axis(axis) => known.axes[axis].is_none(),
-                Part::Fourth => true,
-                Part::Sure(_) => known.sure.is_none(),
+                PointPart::Axis(axis) => open_point.axes[axis].is_none(),
+                PointPart::Fourth => true,
+                PointPart::Sure(_) => open_point.sure.is_none(),
             }
         });
-        let place = known.unwrap_or_else(|| {
-            last.insert(stem.clone(), found.len());
-            found.push(Found {
+        let place = earlier_index.unwrap_or_else(|| {
+            last.insert(stem.clone(), found_points.len());
+            found_points.push(TitledPointColumns {
                 stem,
-                ..Found::default()
+                ..TitledPointColumns::default()
             });
-            found.len() - 1
+            found_points.len() - 1
         });
-        let place = &mut found[place];
+        let place = &mut found_points[place];
         match part {
-            Part::Axis(axis) => place.axes[axis] = Some(at),
-            Part::Fourth => place.is_rotation = true,
-            Part::Sure(quality) => place.sure = Some((at, quality)),
+            PointPart::Axis(axis) => place.axes[axis] = Some(at),
+            PointPart::Fourth => place.is_rotation = true,
+            PointPart::Sure(quality) => place.sure = Some((at, quality)),
         }
     }
-    found.retain(|it| !it.is_rotation && holds_places(&it.stem));
-    let wide = match found.iter().any(|it| it.axes.iter().all(Option::is_some)) {
+    found_points.retain(|point| !point.is_rotation && holds_places(&point.stem));
+    let wide = match found_points.iter().any(|point| point.axes.iter().all(Option::is_some)) {
         true => 3,
         false => 2,
     };
-    let is_whole = |it: &Found| it.axes[..wide].iter().all(Option::is_some);
-    let is_flat = |it: &Found| wide == 3 || it.axes[2].is_none();
-    found.retain(|it| is_whole(it) && is_flat(it));
-    let quality = found
+    let is_whole = |point: &TitledPointColumns| point.axes[..wide].iter().all(Option::is_some);
+    let is_flat = |point: &TitledPointColumns| wide == 3 || point.axes[2].is_none();
+    found_points.retain(|point| is_whole(point) && is_flat(point));
+    let quality = found_points
         .iter()
-        .find_map(|it| it.sure)
+        .find_map(|point| point.sure)
         .map(|(_, quality)| quality);
-    let mut named = Named {
+    let mut named = TitledPoints {
         quality,
-        ..Named::default()
+        ..TitledPoints::default()
     };
     let unit = |at: usize| titles[at].1;
-    let units: Vec<&str> = found
+    let units: Vec<&str> = found_points
         .iter()
-        .flat_map(|it| it.axes.iter().flatten())
+        .flat_map(|point| point.axes.iter().flatten())
         .filter_map(|at| unit(*at))
         .collect();
-    if let Some(first) = units
-        .first()
-        .filter(|first| units.iter().all(|unit| unit == *first))
-    {
+    if let Some(first) = units.first().filter(|first| units.iter().all(|unit| unit == *first)) {
         named.unit = metres_of_unit(first);
         named.pixels = is_pixels(first);
     }
-    let bare: Vec<&str> = found.iter().map(|it| of_position(&it.stem)).collect();
-    for (it, bare) in found.iter().zip(&bare) {
+    let bare: Vec<&str> = found_points.iter().map(|point| of_position(&point.stem)).collect();
+    for (it, bare) in found_points.iter().zip(&bare) {
         let axes: Vec<usize> = it.axes[..wide].iter().flatten().copied().collect();
-        let mut place = Place::named(if bare.is_empty() { "point" } else { bare }, axes);
-        place.quality = it
-            .sure
-            .filter(|(_, own)| Some(*own) == quality)
-            .map(|(at, _)| at);
+        let mut place = PointColumns::with_grouped_name(if bare.is_empty() { "point" } else { bare }, axes);
+        place.quality = it.sure.filter(|(_, own)| Some(*own) == quality).map(|(at, _)| at);
         named.used.extend(&place.axes);
         named.used.extend(place.quality);
         named.points.push(place);
@@ -303,7 +297,7 @@ fn in_style(titles: &[(&str, Option<&str>)], style: Style) -> Named {
 
 /// Returns a name without a word such as `position` at its end.
 fn of_position(stem: &str) -> &str {
-    let Some((rest, word)) = stem.rsplit_once(SEPARATORS) else {
+    let Some((rest, word)) = stem.rsplit_once(TITLE_SEPARATORS) else {
         return stem;
     };
     match ["position", "pos", "translation", "location"].contains(&word.to_lowercase().as_str()) {

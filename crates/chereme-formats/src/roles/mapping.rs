@@ -1,8 +1,8 @@
 //! A file that maps tiers and columns to their meanings.
 
-use super::{Hands, same};
-use chereme_sign::text::{did_you_mean, nearest};
-use chereme_sign::{Phase, RoleError, TierRole, TierTopic};
+use super::{AnnotatedHands, is_same_folded};
+use chereme_sign::text::{did_you_mean, nearest_candidate};
+use chereme_sign::{RoleError, SignPhase, TierRole, TierTopic};
 use serde_json::Value;
 
 /// The meaning of tiers and columns, by name or pattern.
@@ -18,24 +18,24 @@ use serde_json::Value;
 ///
 /// `*` stands for any text and `?` for one character; case and accents do not count. An entry without a
 /// pattern comes before those with one, and among patterns the first counts. A value is one of
-/// [`TierRole::PLAIN`] (or `note` and `attribute` of a column), or a component as queries
+/// [`TierRole::PLAIN_TIER_ROLES`] (or `note` and `attribute` of a column), or a component as queries
 /// spell it, with an optional hand before it and an optional feature after it: `both.gloss`,
 /// `nonmanual.brows`, `weak.configuration`, `translation.en` of a column.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Mapping {
-    tiers: Vec<(String, Target)>,
-    columns: Vec<(String, Target)>,
+pub struct TierMapping {
+    tiers: Vec<(String, MappingTarget)>,
+    columns: Vec<(String, MappingTarget)>,
 }
 
-/// The meaning in one entry of a [`Mapping`].
+/// The meaning in one entry of a [`TierMapping`].
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Target {
+pub struct MappingTarget {
     /// The role of the annotations or values; `None` to leave them alone.
     pub role: Option<TierRole>,
     /// The hand that they describe.
-    pub hand: Option<Hands>,
+    pub hand: Option<AnnotatedHands>,
     /// The phase of a column's values: initial, middle or final.
-    pub phase: Option<Phase>,
+    pub phase: Option<SignPhase>,
     /// The language of a gloss or translation, of a column.
     pub language: Option<String>,
     /// Whether a column holds an attribute of the sign, a number or a text.
@@ -73,7 +73,7 @@ pub enum MappingError {
     },
 }
 
-impl Mapping {
+impl TierMapping {
     /// Reads a mapping file.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Mapping {
         })?;
         let form = |place: &str| MappingError::Form {
             place: place.to_owned(),
-            nearest: nearest(place, ["tiers", "columns"]).map(str::to_owned),
+            nearest: nearest_candidate(place, ["tiers", "columns"]).map(str::to_owned),
         };
         let mut mapping = Self::default();
         for (key, entries) in file.as_object().ok_or_else(|| form("the file"))? {
@@ -99,8 +99,8 @@ impl Mapping {
             for (name, value) in entries.as_object().ok_or_else(|| form(key))? {
                 let text = value.as_str().ok_or_else(|| form(name))?;
                 let target = match &**key {
-                    "columns" => Target::of_column(name, text)?,
-                    _ => Target::parse(name, text)?,
+                    "columns" => MappingTarget::of_column(name, text)?,
+                    _ => MappingTarget::parse_mapping_target(name, text)?,
                 };
                 list.push((name.clone(), target));
             }
@@ -112,45 +112,44 @@ impl Mapping {
     #[must_use]
     pub fn completed_by(&self, other: &Self) -> Self {
         let mut both = self.clone();
-        let new = |(name, _): &&(String, Target)| self.tier(name).is_none();
+        let new = |(name, _): &&(String, MappingTarget)| self.tier_mapping_entry(name).is_none();
         both.tiers.extend(other.tiers.iter().filter(new).cloned());
         both
     }
 
     /// Returns the names and patterns of tiers and columns that the mapping has entries for.
-    pub fn entries(&self) -> impl Iterator<Item = &str> {
+    pub fn mapping_entry_names(&self) -> impl Iterator<Item = &str> {
         let all = self.tiers.iter().chain(&self.columns);
         all.map(|(entry, _)| entry.as_str())
     }
 
     /// Returns the entry for a tier of this name, with its meaning.
     #[must_use]
-    pub fn tier(&self, name: &str) -> Option<(&str, &Target)> {
-        find(&self.tiers, name)
+    pub fn tier_mapping_entry(&self, name: &str) -> Option<(&str, &MappingTarget)> {
+        find_mapping_entry(&self.tiers, name)
     }
 
     /// Returns the entry for a column of this name, with its meaning.
     #[must_use]
-    pub fn column(&self, name: &str) -> Option<(&str, &Target)> {
-        find(&self.columns, name)
+    pub fn column_mapping_entry(&self, name: &str) -> Option<(&str, &MappingTarget)> {
+        find_mapping_entry(&self.columns, name)
     }
 }
 
-fn find<'m>(entries: &'m [(String, Target)], name: &str) -> Option<(&'m str, &'m Target)> {
-    let exact = entries.iter().find(|(entry, _)| same(entry, name));
-    let found = exact.or_else(|| {
-        let name = chereme_sign::text::fold(name);
+fn find_mapping_entry<'m>(entries: &'m [(String, MappingTarget)], name: &str) -> Option<(&'m str, &'m MappingTarget)> {
+    let exact = entries.iter().find(|(entry, _)| is_same_folded(entry, name));
+    let matched_entry = exact.or_else(|| {
+        let name = chereme_sign::text::fold_text(name);
         entries
             .iter()
-            .find(|(entry, _)| matches(&chereme_sign::text::fold(entry), &name))
+            .find(|(entry, _)| is_wildcard_match(&chereme_sign::text::fold_text(entry), &name))
     });
-    found.map(|(entry, target)| (&**entry, target))
+    matched_entry.map(|(entry, target)| (&**entry, target))
 }
 
 /// Returns whether a pattern of `*` and `?` fits the whole of `name`.
-fn matches(pattern: &str, name: &str) -> bool {
-    let (pattern, name): (Vec<char>, Vec<char>) =
-        (pattern.chars().collect(), name.chars().collect());
+fn is_wildcard_match(pattern: &str, name: &str) -> bool {
+    let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
     let (mut p, mut n, mut star) = (0, 0, None);
     while n < name.len() {
         match pattern.get(p) {
@@ -173,10 +172,10 @@ fn matches(pattern: &str, name: &str) -> bool {
     pattern[p..].iter().all(|c| *c == '*')
 }
 
-impl Target {
+impl MappingTarget {
     /// Reads a column title that states its own meaning: `right.configuration`.
     pub(crate) fn of_title(title: &str) -> Option<Self> {
-        Self::parse(title, title).ok()
+        Self::parse_mapping_target(title, title).ok()
     }
 
     /// Reads the value of the entry `entry` for a column.
@@ -187,14 +186,14 @@ impl Target {
                 ..Self::default()
             });
         }
-        Self::parse(entry, text)
+        Self::parse_mapping_target(entry, text)
     }
 
     /// Reads the value of the entry `entry`.
-    pub(crate) fn parse(entry: &str, text: &str) -> Result<Self, MappingError> {
+    pub(crate) fn parse_mapping_target(entry: &str, text: &str) -> Result<Self, MappingError> {
         if let Some((first, language)) = text.trim().split_once('.')
             && let Ok(role) = first.parse::<TierRole>()
-            && role.component().is_none()
+            && role.role_component().is_none()
         {
             return Ok(Self {
                 role: Some(role),
@@ -221,34 +220,34 @@ mod tests {
 
     #[test]
     fn entries_match_by_name_and_by_pattern() {
-        let mapping = Mapping::from_json(
+        let mapping = TierMapping::from_json(
             r#"{"tiers": {"*": "free", "config ?D*": "right.configuration", "Été": "both.gloss"}, "columns": {"EN*": "translation.en"}}"#,
         )
         .expect("a mapping");
         for (name, entry) in [("ete", "Été"), ("Config MD 2", "*"), ("anything", "*")] {
-            assert_eq!(mapping.tier(name).map(|it| it.0), Some(entry), "{name}");
+            assert_eq!(mapping.tier_mapping_entry(name).map(|it| it.0), Some(entry), "{name}");
         }
         assert_eq!(
-            mapping.tier("ÉTÉ").and_then(|it| it.1.hand),
-            Some(Hands::Both)
+            mapping.tier_mapping_entry("ÉTÉ").and_then(|it| it.1.hand),
+            Some(AnnotatedHands::Both)
         );
         assert_eq!(
             mapping
-                .column("EN gloss")
+                .column_mapping_entry("EN gloss")
                 .and_then(|it| it.1.language.as_deref()),
             Some("en")
         );
-        assert_eq!(mapping.column("NL gloss"), None);
+        assert_eq!(mapping.column_mapping_entry("NL gloss"), None);
     }
 
     #[test]
     fn own_entries_take_precedence_over_those_of_the_completing_mapping() {
-        let mapping = |text| Mapping::from_json(text).expect("a mapping");
+        let mapping = |text| TierMapping::from_json(text).expect("a mapping");
         let own = mapping(r#"{"tiers": {"K*": "left.configuration"}}"#);
         let other = mapping(r#"{"tiers": {"K1": "right.gloss", "L1": "right.gloss"}}"#);
         let both = own.completed_by(&other);
         for (name, entry) in [("K1", Some("K*")), ("L1", Some("L1")), ("M1", None)] {
-            assert_eq!(both.tier(name).map(|it| it.0), entry, "{name}");
+            assert_eq!(both.tier_mapping_entry(name).map(|it| it.0), entry, "{name}");
         }
     }
 
@@ -264,17 +263,14 @@ mod tests {
             ("rh_*", "rh_config", true),
             ("rh_*", "lh_config", false),
         ] {
-            assert_eq!(matches(pattern, name), fits, "{pattern} {name}");
+            assert_eq!(is_wildcard_match(pattern, name), fits, "{pattern} {name}");
         }
     }
 
     #[test]
     fn errors_name_the_entry_and_suggest_a_correction() {
         for (text, message) in [
-            (
-                "{\"tiers\": {",
-                "line 1, column 11: the mapping is not JSON",
-            ),
+            ("{\"tiers\": {", "line 1, column 11: the mapping is not JSON"),
             ("[]", "the file: a mapping is"),
             (
                 "{\"tires\": {}}",
@@ -290,14 +286,10 @@ mod tests {
                 "\"RH\": \"rigth.handshape\" is no role",
             ),
         ] {
-            let error = Mapping::from_json(text).expect_err(text).to_string();
+            let error = TierMapping::from_json(text).expect_err(text).to_string();
             assert!(error.starts_with(message), "{error}");
         }
-        let error =
-            Mapping::from_json("{\"tiers\": {\"RH\": \"right.handshap\"}}").expect_err("no role");
-        assert!(
-            error.to_string().ends_with("did you mean \"handshape\"?"),
-            "{error}"
-        );
+        let error = TierMapping::from_json("{\"tiers\": {\"RH\": \"right.handshap\"}}").expect_err("no role");
+        assert!(error.to_string().ends_with("did you mean \"handshape\"?"), "{error}");
     }
 }

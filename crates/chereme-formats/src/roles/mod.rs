@@ -1,28 +1,28 @@
 //! Infers the roles of tiers and columns in people's files, from their names or a mapping file.
 //!
 //! Names are looked up in `schema/tier_words.json`, a table of the words that projects use in several
-//! languages; a [`Mapping`] overrides these guesses.
+//! languages; a [`TierMapping`] overrides these guesses.
 
 mod mapping;
-mod words;
+mod roles_words;
 
-pub use chereme_sign::Hands;
-pub use mapping::{Mapping, MappingError, Target};
-pub(crate) use words::normal;
+pub use chereme_sign::AnnotatedHands;
+pub use mapping::{MappingError, MappingTarget, TierMapping};
+pub(crate) use roles_words::normalize_tier_name;
 
 use crate::anvil;
-use crate::eaf::Transcript;
-use crate::eaf::convert::Tier;
-use crate::textgrid::POINTS;
-use chereme_sign::text::fold;
-use chereme_sign::{Component, HandRef, Stereotype, TierRole, TierTopic};
+use crate::eaf::AnnotationTranscript;
+use crate::eaf::eaf_convert::TranscriptTier;
+use crate::textgrid::POINT_TIER_KIND;
+use chereme_sign::text::fold_text;
+use chereme_sign::{HandRef, SignComponent, TierRole, TierStereotype, TierTopic};
+use roles_words::{ROLE_WORD_TABLE, RoleWordMatch};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use words::{Match, TABLE};
 
 /// The properties of a tier that its role is inferred from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct TierName<'a> {
+pub struct TierRoleEvidence<'a> {
     /// The tier's name.
     pub name: &'a str,
     /// The name of its ELAN tier type.
@@ -46,7 +46,7 @@ pub struct TierGuess {
     /// The role of its annotations; `None` if unknown.
     pub role: Option<TierRole>,
     /// The hand that they describe.
-    pub hand: Option<Hands>,
+    pub hand: Option<AnnotatedHands>,
     /// The confidence, from 0 to 1; 1 for tiers of a mapping.
     pub confidence: f64,
     /// The evidence for the role.
@@ -56,7 +56,7 @@ pub struct TierGuess {
 impl TierGuess {
     /// Returns role and hand together, as mappings spell them; nothing if the role is unknown.
     #[must_use]
-    pub fn topic(&self) -> Option<TierTopic> {
+    pub fn guessed_tier_topic(&self) -> Option<TierTopic> {
         let role = self.role.clone()?;
         let hand = self.hand;
         Some(TierTopic { role, hand })
@@ -65,52 +65,48 @@ impl TierGuess {
 
 /// Returns the inferred role of each tier of a transcript; see [`guess_roles`].
 #[must_use]
-pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess> {
-    let tracks = tracks(transcript);
-    let names = transcript
-        .tiers
-        .iter()
-        .enumerate()
-        .map(|(at, tier)| TierName {
-            name: &tier.name,
-            kind: &tier.kind,
-            parent: tier.parent,
-            one_to_one: tier.stereotype == Some(Stereotype::SymbolicAssociation),
-            is_track: tracks.contains(&at),
-            subject: subject(tier, transcript, &tracks),
-        });
+pub fn guess_tiers(transcript: &AnnotationTranscript, mapping: &TierMapping) -> Vec<TierGuess> {
+    let tracks = anvil_track_tiers(transcript);
+    let names = transcript.tiers.iter().enumerate().map(|(at, tier)| TierRoleEvidence {
+        name: &tier.name,
+        kind: &tier.kind,
+        parent: tier.parent,
+        one_to_one: tier.stereotype == Some(TierStereotype::SymbolicAssociation),
+        is_track: tracks.contains(&at),
+        subject: tier_attribute_name(tier, transcript, &tracks),
+    });
     guess_roles(&names.collect::<Vec<_>>(), mapping)
 }
 
 /// Returns the tiers that hold the elements of ANVIL's tracks, whose attributes have tiers of their own.
-fn tracks(transcript: &Transcript) -> BTreeSet<usize> {
+fn anvil_track_tiers(transcript: &AnnotationTranscript) -> BTreeSet<usize> {
     let tiers = &transcript.tiers;
-    let child = |tier: &Tier| {
-        tier.parent
-            .filter(|above| is_attribute(tier, *above, tiers))
-    };
+    let child = |tier: &TranscriptTier| tier.parent.filter(|above| is_attribute(tier, *above, tiers));
     let above: BTreeSet<usize> = tiers.iter().filter_map(child).collect();
     let is_track = |at: &usize| {
-        tiers[*at].kind == anvil::ELEMENTS
-            || tiers[*at].annotations.iter().all(|it| it.value.is_empty())
+        tiers[*at].kind == anvil::ELEMENT_TIER_TYPE
+            || tiers[*at]
+                .annotations
+                .iter()
+                .all(|annotation| annotation.value.is_empty())
     };
     above.into_iter().filter(is_track).collect()
 }
 
 /// Returns whether a tier is named as that of an attribute below the tier of a track.
-fn is_attribute(tier: &Tier, above: usize, tiers: &[Tier]) -> bool {
+fn is_attribute(tier: &TranscriptTier, above: usize, tiers: &[TranscriptTier]) -> bool {
     let Some(above) = tiers.get(above) else {
         return false;
     };
-    let own = tier.name.strip_prefix(&above.name);
-    let is_track = above.kind == anvil::ELEMENTS || above.kind == POINTS;
-    is_track && own.and_then(|own| own.strip_prefix('.')) == Some(&*tier.kind)
+    let name_rest = tier.name.strip_prefix(&above.name);
+    let is_track = above.kind == anvil::ELEMENT_TIER_TYPE || above.kind == POINT_TIER_KIND;
+    is_track && name_rest.and_then(|own| own.strip_prefix('.')) == Some(&*tier.kind)
 }
 
 /// Returns the name of the attribute whose values a tier holds.
-fn subject<'t>(
-    tier: &'t Tier,
-    transcript: &Transcript,
+fn tier_attribute_name<'t>(
+    tier: &'t TranscriptTier,
+    transcript: &AnnotationTranscript,
     tracks: &BTreeSet<usize>,
 ) -> Option<&'t str> {
     let above = tier.parent.filter(|above| tracks.contains(above))?;
@@ -126,13 +122,13 @@ fn subject<'t>(
 /// reading of the same signs, usually in another language: it is a translation, so that each sign stays
 /// one token.
 #[must_use]
-pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> {
-    let context = Context::new(tiers.iter().map(|tier| tier.name));
+pub fn guess_roles(tiers: &[TierRoleEvidence<'_>], mapping: &TierMapping) -> Vec<TierGuess> {
+    let context = TierAbbreviations::new(tiers.iter().map(|tier| tier.name));
     let mut guesses: Vec<TierGuess> = tiers
         .iter()
-        .map(|tier| guess(tier, mapping, &context))
+        .map(|tier| guess_tier_role(tier, mapping, &context))
         .collect();
-    share(tiers, &mut guesses);
+    share_track_role(tiers, &mut guesses);
     let mut second_readings = BTreeSet::new();
     for (at, tier) in tiers.iter().enumerate() {
         let above = tier.parent.filter(|above| tier.one_to_one && *above != at);
@@ -159,7 +155,7 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         let above = tier
             .parent
             .and_then(|parent| guesses.get(parent))
-            .and_then(|it| it.hand.map(|hand| (hand, it.tier.clone())));
+            .and_then(|parent| parent.hand.map(|hand| (hand, parent.tier.clone())));
         if let (true, None, Some((hand, name))) = (manual, guesses[at].hand, above) {
             let guess = &mut guesses[at];
             guess.hand = Some(hand);
@@ -172,7 +168,7 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
 
 /// Gives the role of a track to its first attribute, unless an attribute names that role itself; a track has no values.
 /// Further attributes that name glosses of the same hand are second readings.
-fn share(tiers: &[TierName<'_>], guesses: &mut [TierGuess]) {
+fn share_track_role(tiers: &[TierRoleEvidence<'_>], guesses: &mut [TierGuess]) {
     let mut attributes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (at, tier) in tiers.iter().enumerate() {
         if let Some(above) = tier.parent.filter(|_| tier.subject.is_some()) {
@@ -199,9 +195,7 @@ fn share(tiers: &[TierName<'_>], guesses: &mut [TierGuess]) {
         if role.is_none() || attributes.iter().any(|at| guesses[*at].role == role) {
             continue;
         }
-        let unknown = attributes
-            .into_iter()
-            .find(|at| guesses[*at].role.is_none());
+        let unknown = attributes.into_iter().find(|at| guesses[*at].role.is_none());
         if let Some(first) = unknown.filter(|at| guesses[*at].confidence < 1.0) {
             let why = format!("{}; it is that of its track", guesses[track].why);
             let hand = guesses[track].hand;
@@ -213,48 +207,52 @@ fn share(tiers: &[TierName<'_>], guesses: &mut [TierGuess]) {
 }
 
 /// The abbreviations in the tiers of one file.
-struct Context {
+struct TierAbbreviations {
     /// The dominant hand is `MD` or `D`, because the weak one is `MND` or `ND`.
     dominance: bool,
 }
 
-impl Context {
+impl TierAbbreviations {
     fn new<'a>(names: impl Iterator<Item = &'a str>) -> Self {
-        let pieces: BTreeSet<String> = names.flat_map(words::pieces).collect();
+        let pieces: BTreeSet<String> = names.flat_map(roles_words::split_tier_name).collect();
         Self {
             dominance: pieces.contains("mnd") || pieces.contains("nd"),
         }
     }
 
-    fn hand(&self, word: &str) -> Option<Hands> {
+    fn abbreviated_hand(&self, word: &str) -> Option<AnnotatedHands> {
         if matches!(word, "md" | "d") {
             let right = if self.dominance {
                 HandRef::Dominant
             } else {
                 HandRef::Right
             };
-            return Some(Hands::One(right));
+            return Some(AnnotatedHands::One(right));
         }
-        TABLE.hand(word)
+        ROLE_WORD_TABLE.hand_word_meaning(word)
     }
 }
 
 /// Returns the hand that each title of a table states, if it states one.
-pub(crate) fn stated_hands(titles: &[String]) -> Vec<Option<Hands>> {
-    let context = Context::new(titles.iter().map(String::as_str));
-    let hand = |title: &String| TABLE.find(title, |word| context.hand(word)).hand;
+pub(crate) fn stated_hands(titles: &[String]) -> Vec<Option<AnnotatedHands>> {
+    let context = TierAbbreviations::new(titles.iter().map(String::as_str));
+    let hand = |title: &String| {
+        ROLE_WORD_TABLE
+            .match_name_words(title, |word| context.abbreviated_hand(word))
+            .hand
+    };
     let all = titles.iter().map(hand);
     all.map(|found| found.map(|(hand, _)| hand)).collect()
 }
 
 /// Returns whether words, written as one, mean a hand and nothing else: `weakhand`.
 pub(crate) fn is_hand(words: &str) -> bool {
-    TABLE.hand(words).is_some()
+    ROLE_WORD_TABLE.hand_word_meaning(words).is_some()
 }
 
-fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess {
+fn guess_tier_role(tier: &TierRoleEvidence<'_>, mapping: &TierMapping, context: &TierAbbreviations) -> TierGuess {
     let name = tier.name.to_owned();
-    if let Some((entry, target)) = mapping.tier(tier.name) {
+    if let Some((entry, target)) = mapping.tier_mapping_entry(tier.name) {
         let why = format!("the mapping says so ({entry:?})");
         return TierGuess {
             tier: name,
@@ -264,43 +262,31 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
             why,
         };
     }
-    let mut own = TABLE.find(tier.name, |word| context.hand(word));
+    let mut name_match = ROLE_WORD_TABLE.match_name_words(tier.name, |word| context.abbreviated_hand(word));
     if let Some(subject) = tier.subject {
         // The hand may be that of the track; the role is that of the attribute, unless that names only a hand.
-        let attribute = TABLE.find(subject, |word| context.hand(word));
+        let attribute = ROLE_WORD_TABLE.match_name_words(subject, |word| context.abbreviated_hand(word));
         let has_other_words = !attribute.roles.is_empty() || !attribute.unknown.is_empty();
         if has_other_words || attribute.hand.is_none() {
-            own.roles = attribute.roles;
-            own.unknown = vec![subject.to_owned()];
+            name_match.roles = attribute.roles;
+            name_match.unknown = vec![subject.to_owned()];
         }
     }
     // A single letter such as "d" or "g" in the name of a type does not mean a hand.
-    let spelt = |word: &str| context.hand(word).filter(|_| word.chars().count() > 2);
-    let kind = TABLE.find(tier.kind, spelt);
-    let hand = own
-        .hand
-        .as_ref()
-        .or(kind.hand.as_ref())
-        .map(|(hand, _)| *hand);
-    let (role, confidence, why) = if let Some((role, word)) = role_of(&own) {
+    let spelt = |word: &str| context.abbreviated_hand(word).filter(|_| word.chars().count() > 2);
+    let kind = ROLE_WORD_TABLE.match_name_words(tier.kind, spelt);
+    let hand = name_match.hand.as_ref().or(kind.hand.as_ref()).map(|(hand, _)| *hand);
+    let (role, confidence, why) = if let Some((role, word)) = role_of(&name_match) {
         (
             Some(role),
             if word.chars().count() > 3 { 0.9 } else { 0.75 },
             format!("{word:?} in its name"),
         )
     } else if let Some((role, word)) = role_of(&kind) {
-        (
-            Some(role),
-            0.6,
-            format!("{word:?} in its type {:?}", tier.kind),
-        )
-    } else if let Some(role) = TABLE.code(tier.subject.unwrap_or(tier.name)) {
-        (
-            Some(role),
-            0.4,
-            "a code used for this in other corpora".to_owned(),
-        )
-    } else if let Some((_, word)) = own.hand.as_ref().filter(|_| own.unknown.is_empty()) {
+        (Some(role), 0.6, format!("{word:?} in its type {:?}", tier.kind))
+    } else if let Some(role) = ROLE_WORD_TABLE.tier_code_role(tier.subject.unwrap_or(tier.name)) {
+        (Some(role), 0.4, "a code used for this in other corpora".to_owned())
+    } else if let Some((_, word)) = name_match.hand.as_ref().filter(|_| name_match.unknown.is_empty()) {
         (
             Some(TierRole::Gloss),
             0.5,
@@ -310,8 +296,8 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
         (None, 0.0, "no word of its name or type is known".to_owned())
     };
     let manual = role.as_ref().is_none_or(|role| {
-        let component = role.component().map(|(component, _)| component);
-        !role.is_prose() && component != Some(Component::NonManual)
+        let component = role.role_component().map(|(component, _)| component);
+        !role.is_prose() && component != Some(SignComponent::NonManual)
     });
     TierGuess {
         tier: name,
@@ -327,20 +313,18 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
 /// A comment on anything is a comment, a translation a translation, and information about signs as words
 /// (their part of speech) is free; a placement may be on the head, other movements and orientations of the
 /// head are non-manual; a component's gloss is the component.
-fn role_of(found: &Match) -> Option<(TierRole, String)> {
+fn role_of(found: &RoleWordMatch) -> Option<(TierRole, String)> {
     let rank = |role: &TierRole| match role {
         TierRole::Translation => 1,
         TierRole::Component {
-            component: Component::Placement,
+            component: SignComponent::Placement,
             feature: None,
         } => 2,
         TierRole::Component {
-            component: Component::NonManual,
+            component: SignComponent::NonManual,
             feature,
         } => 3 + usize::from(feature.is_none()),
-        TierRole::Component {
-            feature: Some(_), ..
-        } => 5,
+        TierRole::Component { feature: Some(_), .. } => 5,
         TierRole::Component { .. } => 6,
         TierRole::Gloss => 7,
         // A comment on glosses is a comment, and their parts of speech are not glosses.
@@ -348,10 +332,10 @@ fn role_of(found: &Match) -> Option<(TierRole, String)> {
     };
     let mut roles: Vec<&(TierRole, String)> = found.roles.iter().collect();
     roles.sort_by_key(|(role, word)| (rank(role), std::cmp::Reverse(word.chars().count())));
-    roles.first().map(|it| (*it).clone())
+    roles.first().map(|role| (*role).clone())
 }
 
 /// Returns whether texts are equal after [`fold`].
-pub(crate) fn same(a: &str, b: &str) -> bool {
-    a == b || fold(a) == fold(b)
+pub(crate) fn is_same_folded(a: &str, b: &str) -> bool {
+    a == b || fold_text(a) == fold_text(b)
 }

@@ -2,9 +2,9 @@
 
 /// The reason why a file could not be read as SiGML; every case names the line and a correction.
 ///
-/// Oddities that the reader tolerates are a [`Finding`](crate::Finding) instead.
+/// Oddities that the reader tolerates are a [`ImportFinding`](crate::ImportFinding) instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
+pub enum SigmlError {
     /// The file is not UTF-8.
     #[error(
         "line {line}: the text is in {encoding}, and SiGML is read in UTF-8; \

@@ -1,21 +1,21 @@
 //! Collections of SignStream in XML, as SignStream 2 and the NCSLGR corpus have them.
 //!
-//! [`raw`] mirrors the file: a coding scheme of fields, and utterances with tracks. [`read`] turns it into a
-//! [`Transcript`]: each field becomes a tier, for each participant if there are several, and the utterances become one.
+//! [`signstream_raw`] mirrors the file: a coding scheme of fields, and utterances with tracks. [`read_signstream_file`] turns it into a
+//! [`AnnotationTranscript`]: each field becomes a tier, for each participant if there are several, and the utterances become one.
 
-mod convert;
-pub mod raw;
+mod signstream_convert;
+pub mod signstream_raw;
 #[cfg(test)]
 mod tests;
 
-use crate::eaf::Transcript;
-use crate::finding::Finding;
-use crate::markup::{Error, Tool};
+use crate::eaf::AnnotationTranscript;
+use crate::finding::ImportFinding;
+use crate::markup::{MarkupError, MarkupTool};
 
 /// The name of the tier of utterances.
-pub const UTTERANCES: &str = "utterance";
+pub const UTTERANCE_TIER_NAME: &str = "utterance";
 
-pub(crate) const TOOL: Tool = Tool {
+pub(crate) const SIGNSTREAM_TOOL: MarkupTool = MarkupTool {
     name: "SignStream",
     root: "SIGNSTREAM-DATABASE",
 };
@@ -23,13 +23,13 @@ pub(crate) const TOOL: Tool = Tool {
 /// Reads a collection.
 ///
 /// # Errors
-/// [`Error`] if the bytes are not text, no XML, cut short, declare entities, are no collection, or its utterances lie in
+/// [`MarkupError`] if the bytes are not text, no XML, cut short, declare entities, are no collection, or its utterances lie in
 /// different films.
-pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
-    let (text, mut findings) = TOOL.decode(bytes)?;
-    let (document, more) = raw::read(&text)?;
+pub fn read_signstream_file(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), MarkupError> {
+    let (text, mut findings) = SIGNSTREAM_TOOL.decode_markup_file(bytes)?;
+    let (document, more) = signstream_raw::read_signstream_document(&text)?;
     findings.extend(more);
-    let (transcript, more) = convert::from_raw(&document)?;
+    let (transcript, more) = signstream_convert::interpret_signstream_document(&document)?;
     findings.extend(more);
     Ok((transcript, findings))
 }

@@ -1,6 +1,6 @@
-use super::read;
-use crate::markup::Error;
-use crate::roles::{Mapping, guess_tiers};
+use super::read_signstream_file;
+use crate::markup::MarkupError;
+use crate::roles::{TierMapping, guess_tiers};
 use crate::tests::tiers_as_lines as lines;
 
 const WHOLE: &str = r#"<SIGNSTREAM-DATABASE SIGNSTREAM-VERSION="2"><AUTHOR>C. N.</AUTHOR>
@@ -17,7 +17,7 @@ const WHOLE: &str = r#"<SIGNSTREAM-DATABASE SIGNSTREAM-VERSION="2"><AUTHOR>C. N.
 
 #[test]
 fn fields_become_tiers_on_the_clock_of_the_film() {
-    let (transcript, findings) = read(WHOLE.as_bytes()).expect("a collection");
+    let (transcript, findings) = read_signstream_file(WHOLE.as_bytes()).expect("a collection");
     assert_eq!(
         lines(&transcript),
         [
@@ -29,24 +29,27 @@ fn fields_become_tiers_on_the_clock_of_the_film() {
     assert_eq!(transcript.tiers[1].participant.as_deref(), Some("Benjamin"));
     assert_eq!(transcript.media[1].url, "data/side.mov");
     assert_eq!(findings.len(), 1, "{findings:?}");
-    let guesses = guess_tiers(&transcript, &Mapping::default());
-    let topic = |at: usize| guesses[at].topic().map(|it| it.to_string());
+    let guesses = guess_tiers(&transcript, &TierMapping::default());
+    let topic = |at: usize| guesses[at].guessed_tier_topic().map(|it| it.to_string());
     assert_eq!(topic(1).as_deref(), Some("gloss"));
     assert_eq!(topic(2).as_deref(), Some("nonmanual.brows"));
 }
 
 #[test]
 fn utterances_of_several_films_have_no_common_clock() {
-    let other = WHOLE.replace(
-        "E=\"5000\"><MEDIA-REF ID=\"1\"/>",
-        "E=\"5000\"><MEDIA-REF ID=\"3\"/>",
+    let other = WHOLE.replace("E=\"5000\"><MEDIA-REF ID=\"1\"/>", "E=\"5000\"><MEDIA-REF ID=\"3\"/>");
+    assert_eq!(
+        read_signstream_file(other.as_bytes()),
+        Err(MarkupError::Films { films: 2 })
     );
-    assert_eq!(read(other.as_bytes()), Err(Error::Films { films: 2 }));
     let joined = WHOLE.replace(
         "E=\"5000\"><MEDIA-REF ID=\"1\"/>",
         "E=\"5000\"><MEDIA-REF ID=\"3\"/><MEDIA-REF ID=\"2\"/>",
     );
-    assert!(read(joined.as_bytes()).is_ok());
+    assert!(read_signstream_file(joined.as_bytes()).is_ok());
     let newer = "<SIGNSTREAM-DATABASE SIGNSTREAM-VERSION=\"3\"><SEGMENTS/></SIGNSTREAM-DATABASE>";
-    assert!(matches!(read(newer.as_bytes()), Err(Error::Missing { .. })));
+    assert!(matches!(
+        read_signstream_file(newer.as_bytes()),
+        Err(MarkupError::Missing { .. })
+    ));
 }

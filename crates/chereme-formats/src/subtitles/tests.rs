@@ -3,15 +3,15 @@
 use super::*;
 
 /// Cues as `voice|start-end|text`, in milliseconds.
-fn cues(transcript: &Transcript) -> Vec<String> {
+fn cues(transcript: &AnnotationTranscript) -> Vec<String> {
     let tiers = transcript.tiers.iter();
     let all = tiers.flat_map(|tier| tier.annotations.iter().map(move |cue| (tier, cue)));
     all.map(|(tier, cue)| {
         format!(
             "{}|{}-{}|{}",
             tier.name,
-            cue.span.start().millis(),
-            cue.span.end().millis(),
+            cue.span.span_start_instant().instant_millis(),
+            cue.span.span_end_instant().instant_millis(),
             cue.value
         )
     })
@@ -51,7 +51,7 @@ fn both_kinds_and_their_dialects_are_read() {
         ),
     ];
     for (text, expected) in cases {
-        let (transcript, _) = read(text.as_bytes()).expect("subtitles");
+        let (transcript, _) = read_subtitles(text.as_bytes()).expect("subtitles");
         assert_eq!(cues(&transcript), expected, "{text}");
     }
 }
@@ -59,7 +59,7 @@ fn both_kinds_and_their_dialects_are_read() {
 #[test]
 fn skipped_lines_are_reported() {
     let text = "WEBVTT\n\nNOTE\nx\n\n00:00.000 --> 00:01.000 line:0\na\n\nsoon --> later\nb\n";
-    let (_, findings) = read(text.as_bytes()).expect("subtitles");
+    let (_, findings) = read_subtitles(text.as_bytes()).expect("subtitles");
     let lines: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
     assert_eq!(lines, [Some(1), Some(3), Some(6), Some(9)], "{findings:?}");
 }
@@ -100,7 +100,7 @@ fn text_after_a_blank_line_is_added_or_named() {
         ),
     ];
     for (text, expected, lines) in cases {
-        let (transcript, findings) = read(text.as_bytes()).expect("subtitles");
+        let (transcript, findings) = read_subtitles(text.as_bytes()).expect("subtitles");
         assert_eq!(cues(&transcript), expected, "{text}");
         let found: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
         assert_eq!(found, lines, "{text}{findings:?}");
@@ -109,34 +109,29 @@ fn text_after_a_blank_line_is_added_or_named() {
 
 #[test]
 fn files_without_a_cue_are_refused() {
-    for bytes in [
-        &b""[..],
-        b"WEBVTT\n",
-        b"hello",
-        b"\x00\x01",
-        b"1\n-1:00 --> x\n",
-    ] {
-        assert!(read(bytes).is_err(), "{bytes:?}");
+    for bytes in [&b""[..], b"WEBVTT\n", b"hello", b"\x00\x01", b"1\n-1:00 --> x\n"] {
+        assert!(read_subtitles(bytes).is_err(), "{bytes:?}");
     }
 }
 
 #[test]
 fn subtitles_read_back_unchanged() {
     let text = "WEBVTT\n\n00:00:01.000 --> 00:00:02.000\n<v Anna>R&amp;D &lt;3\n\n00:00:02.000 --> 01:00:03.000\n<v Bo>x\ny\n\n";
-    let (transcript, _) = read(text.as_bytes()).expect("subtitles");
-    assert_eq!(write(&transcript, Form::Vtt), text);
+    let (transcript, _) = read_subtitles(text.as_bytes()).expect("subtitles");
+    assert_eq!(write_subtitles(&transcript, SubtitleFormat::Vtt), text);
     let srt = "1\n00:00:01,000 --> 00:00:02,500\nHallo\n\n2\n00:00:03,000 --> 00:00:04,000\nja\n\n";
-    let (transcript, _) = read(srt.as_bytes()).expect("subtitles");
-    assert_eq!(write(&transcript, Form::Srt), srt);
+    let (transcript, _) = read_subtitles(srt.as_bytes()).expect("subtitles");
+    assert_eq!(write_subtitles(&transcript, SubtitleFormat::Srt), srt);
 }
 
 #[test]
 fn no_cut_or_changed_byte_breaks_the_reader() {
-    let whole = "WEBVTT\n\n00:00:01.000 --> 00:00:02.000\n<v Ännä>é {\\a} <i\n\n1\n00:00:03,000 --> 00:00:04,000\nx\n".as_bytes();
+    let whole = "WEBVTT\n\n00:00:01.000 --> 00:00:02.000\n<v Ännä>é {\\a} <i\n\n1\n00:00:03,000 --> 00:00:04,000\nx\n"
+        .as_bytes();
     for end in 0..whole.len() {
-        let _ = read(&whole[..end]);
+        let _ = read_subtitles(&whole[..end]);
         let mut changed = whole.to_vec();
         changed[end] ^= 0x5f;
-        let _ = read(&changed);
+        let _ = read_subtitles(&changed);
     }
 }

@@ -5,11 +5,12 @@
 //! | [`annotations`] | changes to annotations in bulk |
 
 pub mod annotations;
-mod cells;
-mod rows;
+mod table_cells;
+mod table_rows;
 
-pub use cells::TableError;
-pub(crate) use cells::{
-    COLUMNS, Cells, PADDED, Row, WINDOWS, decode, is_gap, lines_above_titles, listed, western,
+pub use table_cells::TableError;
+pub(crate) use table_cells::{
+    MAX_PADDED_CELLS, MAX_TABLE_COLUMNS, TableCells, TableRow, WINDOWS_1252_CHARS, decode_table_bytes,
+    decode_windows_byte, is_gap, join_column_names, lines_above_titles,
 };
-pub use rows::{tab_rows, write_tab_rows};
+pub use table_rows::{tab_rows, write_tab_rows};

@@ -1,20 +1,17 @@
 //! Golden tables of annotation documents: EAF read, changed and written; tables of changes; exported tables.
 
-use chereme_motion::{Instant, Span};
+use chereme_motion::{RecordingInstant, TimeSpan};
 
 use super::{findings, transcript};
-use crate::eaf::{self, Transcript, from_raw, patched, raw, to_raw};
+use crate::eaf::{self, AnnotationTranscript, eaf_raw, patch_eaf, to_raw, transcript_from_eaf};
 use crate::golden::{compare, put};
-use crate::table::annotations::{TimeUnit, read as read_table};
-use crate::table::annotations::{is_export, transcript as exported};
+use crate::table::annotations::{TableTimeUnit, read_change_table as read_table};
+use crate::table::annotations::{is_export, read_elan_table as exported};
 
 const FILES: [(&str, &str); 4] = [
     ("elan 2", include_str!("../../tests/eaf/elan2.eaf")),
     ("elan 6", include_str!("../../tests/eaf/elan6.eaf")),
-    (
-        "merge",
-        include_str!("../../../chereme-corpus/src/merge/tests.eaf"),
-    ),
+    ("merge", include_str!("../../../chereme-corpus/src/merge/tests.eaf")),
     ("odd", ODD),
 ];
 
@@ -72,9 +69,9 @@ const ODD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </ANNOTATION_DOCUMENT>
 "#;
 
-fn written(document: &raw::Document<'_>) -> String {
+fn written(document: &eaf_raw::EafDocument<'_>) -> String {
     let mut out = Vec::new();
-    raw::write(document, &mut out).expect("a vector takes everything");
+    eaf_raw::write_eaf_document(document, &mut out).expect("a vector takes everything");
     String::from_utf8(out).expect("UTF-8")
 }
 
@@ -91,43 +88,39 @@ fn golden_annotation_documents_read_and_written() {
     let mut out = String::new();
     for (name, text) in FILES {
         put(&mut out, format!("## {name}"));
-        let (it, found) = eaf::read(text.as_bytes()).expect("EAF");
+        let (it, found) = eaf::read_eaf(text.as_bytes()).expect("EAF");
         transcript(&mut out, &it);
         findings(&mut out, &found);
-        let (document, found) = raw::read(text.as_bytes()).expect("EAF");
+        let (document, found) = eaf_raw::read_eaf_document(text.as_bytes()).expect("EAF");
         findings(&mut out, &found);
         put(&mut out, "### written again");
         put(&mut out, written(&document));
-        let (meant, _) = from_raw(&document);
+        let (meant, _) = transcript_from_eaf(&document);
         put(&mut out, "### from its meaning");
         put(&mut out, written(&to_raw(&meant, &document)));
         put(&mut out, "### from its meaning alone");
+        put(&mut out, written(&to_raw(&meant, &eaf_raw::EafDocument::default())));
         put(
             &mut out,
-            written(&to_raw(&meant, &raw::Document::default())),
+            format!("check {:?}", eaf_raw::check_eaf_references(&document)),
         );
-        put(&mut out, format!("check {:?}", raw::check(&document)));
     }
     compare("eaf", &out);
 }
 
-fn millis(from: i64, to: i64) -> Span {
-    Span::between(Instant::from_millis(from), Instant::from_millis(to))
+fn millis(from: i64, to: i64) -> TimeSpan {
+    TimeSpan::span_between(RecordingInstant::from_millis(from), RecordingInstant::from_millis(to))
 }
 
 /// A change to a document.
-type Change = fn(&mut Transcript);
+type Change = fn(&mut AnnotationTranscript);
 
 #[test]
 fn golden_annotation_documents_changed_in_place() {
     let mut out = String::new();
     let changes: [(&str, Change); 9] = [
-        ("a value", |it| {
-            it.tiers[0].annotations[0].value = "ÂNE <b>".into()
-        }),
-        ("a time", |it| {
-            it.tiers[0].annotations[0].span = millis(20, 640)
-        }),
+        ("a value", |it| it.tiers[0].annotations[0].value = "ÂNE <b>".into()),
+        ("a time", |it| it.tiers[0].annotations[0].span = millis(20, 640)),
         ("one less", |it| {
             let last = it.tiers.len() - 1;
             it.tiers[last].annotations.pop();
@@ -144,12 +137,8 @@ fn golden_annotation_documents_changed_in_place() {
             (more.name, more.annotations) = ("More".into(), Vec::new());
             it.tiers.push(more);
         }),
-        ("a participant", |it| {
-            it.tiers[0].participant = Some("Q".into())
-        }),
-        ("a property", |it| {
-            it.properties.push(("k".into(), "v".into()))
-        }),
+        ("a participant", |it| it.tiers[0].participant = Some("Q".into())),
+        ("a property", |it| it.properties.push(("k".into(), "v".into()))),
         ("media", |it| {
             if let Some(media) = it.media.first_mut() {
                 media.url = "file:///b.mp4".into();
@@ -159,9 +148,9 @@ fn golden_annotation_documents_changed_in_place() {
     for (name, text) in FILES {
         for (what, change) in &changes {
             put(&mut out, format!("## {name}: {what}"));
-            let (mut after, _) = eaf::read(text.as_bytes()).expect("EAF");
+            let (mut after, _) = eaf::read_eaf(text.as_bytes()).expect("EAF");
             change(&mut after);
-            match patched(text.as_bytes(), &after) {
+            match patch_eaf(text.as_bytes(), &after) {
                 Ok(Some(new)) => {
                     let new = String::from_utf8(new).expect("UTF-8");
                     changed(&mut out, '-', text, &new);
@@ -192,7 +181,7 @@ fn golden_vocabularies_and_settings() {
 <prefGroup key="TierColors"><pref key="Gloss"><Object class="java.awt.Color">255,0,128</Object></pref>
 <pref key="Words"><Object class="java.awt.Color">1,2,3</Object></pref><pref key="Bad"><Object class="java.awt.Color">1,2</Object></pref></prefGroup>
 <pref key="other"><Int>3</Int></pref></preferences>"#;
-    let read = eaf::settings::read(settings.as_bytes());
+    let read = eaf::eaf_settings::read_display_settings(settings.as_bytes());
     put(&mut out, format!("{read:?}"));
     for text in [
         "",
@@ -204,7 +193,7 @@ fn golden_vocabularies_and_settings() {
             &mut out,
             format!(
                 "{text}: {:?}",
-                eaf::read(text.as_bytes()).map_err(|it| it.to_string())
+                eaf::read_eaf(text.as_bytes()).map_err(|it| it.to_string())
             ),
         );
     }
@@ -227,24 +216,18 @@ fn golden_tables_of_changes_and_exports() {
     for (n, text) in tables.iter().enumerate() {
         for unit in [
             None,
-            Some(TimeUnit::Seconds),
-            Some(TimeUnit::Milliseconds),
-            Some(TimeUnit::Frames),
+            Some(TableTimeUnit::Seconds),
+            Some(TableTimeUnit::Milliseconds),
+            Some(TableTimeUnit::Frames),
         ] {
             put(
                 &mut out,
-                format!("## table {n} in {:?}", unit.map(TimeUnit::name)),
+                format!("## table {n} in {:?}", unit.map(TableTimeUnit::time_unit_name)),
             );
             match read_table(text.as_bytes(), unit) {
                 Ok((table, found)) => {
-                    table
-                        .rows
-                        .iter()
-                        .for_each(|it| put(&mut out, format!("{it:?}")));
-                    table
-                        .faults
-                        .iter()
-                        .for_each(|it| put(&mut out, format!("{it}")));
+                    table.rows.iter().for_each(|it| put(&mut out, format!("{it:?}")));
+                    table.faults.iter().for_each(|it| put(&mut out, format!("{it}")));
                     findings(&mut out, &found);
                 }
                 Err(error) => put(&mut out, format!("refused: {error}")),
@@ -260,10 +243,7 @@ fn golden_tables_of_changes_and_exports() {
         "a\tb\n",
     ];
     for (n, text) in exports.iter().enumerate() {
-        put(
-            &mut out,
-            format!("## export {n}: {}", is_export(text.as_bytes())),
-        );
+        put(&mut out, format!("## export {n}: {}", is_export(text.as_bytes())));
         match exported(text.as_bytes()) {
             Ok((it, found)) => {
                 transcript(&mut out, &it);

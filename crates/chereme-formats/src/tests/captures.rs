@@ -1,14 +1,16 @@
 //! Golden tables of captures: BVH read and written, curves of faces, and faces of every system.
 
-use chereme_motion::{Column, Curve, Curves, Face, Instant, Rate, Times};
+use chereme_motion::{
+    CurveTrack, FacePosture, FrameNumberColumn, FrameRate, FrameTimes, RecordingInstant, ScalarCurve,
+};
 
 use super::{clip, curves, findings, tracks};
-use crate::bvh::bones::Bones;
-use crate::bvh::convert::{self, ClipBuilder};
-use crate::bvh::raw::{Block, BvhError, Options, Reader, Writer};
-use crate::faces::{Fit, System};
+use crate::bvh::bones::BonePositions;
+use crate::bvh::bvh_convert::{self, ClipBuilder};
+use crate::bvh::raw::{BvhError, BvhReadOptions, BvhReader, BvhWriter, MotionBlock};
+use crate::faces::{FaceCalibration, FaceSystem};
 use crate::golden::{compare, put};
-use crate::tracks::Content;
+use crate::tracks::CapturedTrackContent;
 
 const HEAD: &str = "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 90.50 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation \
 Xrotation Yrotation\n\tJOINT Left Arm\n\t{\n\t\tOFFSET 10.5 0 -1e-1\n\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n\
@@ -22,52 +24,52 @@ const ROWS: &str = "MOTION\nFrames: 4\nFrame Time: 0.0083333\n\
 
 /// Reads a file in blocks of three frames and writes down its contents; also its movement, if `moving`.
 fn captured(out: &mut String, text: &str, moving: bool) -> Result<(), BvhError> {
-    let mut reader = Reader::open_with(text.as_bytes(), Options { block_frames: 3 })?;
-    let hierarchy = reader.hierarchy().clone();
+    let mut reader = BvhReader::open_with(text.as_bytes(), BvhReadOptions { block_frames: 3 })?;
+    let hierarchy = reader.bvh_hierarchy().clone();
     for joint in &hierarchy.joints {
         put(out, format!("{joint:?}"));
     }
-    put(out, format!("{:?}", reader.header()));
-    let (mut blocks, mut block) = (Vec::new(), Block::default());
+    put(out, format!("{:?}", reader.bvh_motion_header()));
+    let (mut blocks, mut block) = (Vec::new(), MotionBlock::default());
     while reader.next_block(&mut block)? {
         put(out, format!("{block:?}"));
         blocks.push(block.clone());
     }
-    let (time, read) = (reader.header().frame_time.clone(), reader.bytes_read());
-    let summary = reader.finish();
+    let (time, read) = (reader.bvh_motion_header().frame_time.clone(), reader.bytes_read());
+    let summary = reader.finish_bvh_reading();
     put(
         out,
-        format!(
-            "{} frames, {read} bytes, fix {:?}",
-            summary.frames, summary.root_fix
-        ),
+        format!("{} frames, {read} bytes, fix {:?}", summary.frames, summary.root_fix),
     );
     findings(out, &summary.findings);
-    let mut bones = Bones::new(&hierarchy);
-    blocks.iter().for_each(|block| bones.push(block));
+    let mut bones = BonePositions::new(&hierarchy);
+    blocks.iter().for_each(|block| bones.sample_motion_block(block));
     put(out, format!("{bones:?}"));
-    let rate = convert::rate(time.as_ref());
+    let rate = bvh_convert::rate_from_frame_time(time.as_ref());
     put(out, format!("rate {rate:?}"));
     let builder = ClipBuilder::new(&hierarchy, summary.root_fix);
     if let (Ok(mut builder), Ok(rate), true) = (builder, rate, moving) {
         for block in &blocks {
-            builder.push(0..block.frames, |column| block.columns.get(column));
+            builder.push_block_rows(0..block.frames, |column| block.columns.get(column));
         }
-        let made = builder.finish(rate).expect("a clip");
+        let made = builder.finish_bvh_clip(rate).expect("a clip");
         clip(out, &made);
-        let own = convert::hierarchy(made.skeleton(), 4);
-        let wide = convert::widened(&own, &made);
+        let own = bvh_convert::hierarchy_from_skeleton(made.clip_skeleton(), 4);
+        let wide = bvh_convert::widen_hierarchy(&own, &made);
         for hierarchy in [&hierarchy, &own, &wide] {
-            put(out, format!("{:?}", convert::columns(&made, hierarchy, 3)));
+            put(
+                out,
+                format!("{:?}", bvh_convert::columns_from_clip(&made, hierarchy, 3)),
+            );
         }
     }
     let mut copy = Vec::new();
     let motion = Some((time.as_ref(), summary.frames));
-    let mut writer = Writer::new(&mut copy, &hierarchy, motion).expect("a vector");
+    let mut writer = BvhWriter::new(&mut copy, &hierarchy, motion).expect("a vector");
     blocks
         .iter()
-        .for_each(|block| writer.block(block).expect("a vector"));
-    writer.finish().expect("all frames");
+        .for_each(|block| writer.write_motion_block(block).expect("a vector"));
+    writer.finish_bvh_writing().expect("all frames");
     put(out, String::from_utf8_lossy(&copy));
     Ok(())
 }
@@ -99,15 +101,9 @@ fn golden_bvh_read_and_written() {
         ("no offset", good.replace("\t\tOFFSET 10.5 0 -1e-1\n", "")),
         (
             "scale channels",
-            good.replace(
-                "3 Zrotation Xrotation Yrotation",
-                "3 Xscale Xrotation Yrotation",
-            ),
+            good.replace("3 Zrotation Xrotation Yrotation", "3 Xscale Xrotation Yrotation"),
         ),
-        (
-            "a count that differs",
-            good.replace("CHANNELS 3", "CHANNELS 4"),
-        ),
+        ("a count that differs", good.replace("CHANNELS 3", "CHANNELS 4")),
         ("wrong frames", good.replace("Frames: 4", "Frames: 400")),
         ("no frames", good.replace("Frames: 4\n", "")),
         ("no colon", good.replace("Frame Time:", "Frame Time")),
@@ -116,10 +112,7 @@ fn golden_bvh_read_and_written() {
         ("no motion", HEAD.to_owned()),
         ("all on one line", rows(&format!("{row} {row} {row}\n"))),
         ("a row broken off", rows(&format!("{row}\n1 2 3 4\n"))),
-        (
-            "text after the last frame",
-            rows(&format!("{row}\nend of file\n")),
-        ),
+        ("text after the last frame", rows(&format!("{row}\nend of file\n"))),
         (
             "long numbers",
             rows(&format!(
@@ -147,21 +140,12 @@ fn golden_bvh_read_and_written() {
         ("a brace too few", good.replacen("\t}\n", "", 1)),
         ("a brace too many", good.replacen("\t}\n", "\t}\n\t}\n", 1)),
         ("two roots", good.replace("\tJOINT Leg", "ROOT Leg")),
-        (
-            "unknown channel",
-            good.replace("Zposition Y", "Wposition Y"),
-        ),
+        ("unknown channel", good.replace("Zposition Y", "Wposition Y")),
         (
             "two offsets",
-            good.replace(
-                "\t\tOFFSET 1 -40 0\n",
-                "\t\tOFFSET 1 -40 0\n\t\tOFFSET 1 2 3\n",
-            ),
+            good.replace("\t\tOFFSET 1 -40 0\n", "\t\tOFFSET 1 -40 0\n\t\tOFFSET 1 2 3\n"),
         ),
-        (
-            "a short offset",
-            good.replace("OFFSET 1 -40 0", "OFFSET 1 -40"),
-        ),
+        ("a short offset", good.replace("OFFSET 1 -40 0", "OFFSET 1 -40")),
         ("empty", String::new()),
         ("other text", "ROOT\n".to_owned()),
         ("a table", "a,b\n1,2\n".to_owned()),
@@ -189,11 +173,7 @@ fn golden_files_of_curves() {
         let bits = (1..=68).map(|at| if on.contains(&at) { "1" } else { "0" });
         bits.collect::<Vec<_>>().join(" ")
     };
-    let fap = format!(
-        "2.1 face 25 2\n{}\n0 120\n{}\n1 100 -7\n",
-        masks(&[3]),
-        masks(&[3, 31])
-    );
+    let fap = format!("2.1 face 25 2\n{}\n0 120\n{}\n1 100 -7\n", masks(&[3]), masks(&[3, 31]));
     let texts = [
         "Timecode,BlendShapeCount,JawOpen,HeadYaw\n23:59:59:58.500,61,0.25,-0.1473\n23:59:59:59.500,61,0.5,0.1\n\
          00:00:00:00.500,61,,0.2\n",
@@ -217,19 +197,19 @@ fn golden_files_of_curves() {
             &mut out,
             format!(
                 "## {head:?}: {:?}",
-                crate::curves::CurveFile::of(text.as_bytes())
+                crate::curves::CurveFile::detect_curve_file(text.as_bytes())
             ),
         );
-        match crate::curves::read(text.as_bytes()) {
+        match crate::curves::read_curves(text.as_bytes()) {
             Ok((read, found)) => {
                 tracks(&mut out, &read);
                 findings(&mut out, &found);
                 for track in &read.tracks {
-                    if let Content::Curves(it) = &track.content {
-                        put(&mut out, crate::curves::write(it, track.offset));
+                    if let CapturedTrackContent::Curves(it) = &track.content {
+                        put(&mut out, crate::curves::write_curves_csv(it, track.offset));
                         put(
                             &mut out,
-                            crate::curves::write(it, Instant::from_millis(250)),
+                            crate::curves::write_curves_csv(it, RecordingInstant::from_millis(250)),
                         );
                     }
                 }
@@ -243,12 +223,9 @@ fn golden_files_of_curves() {
 #[test]
 fn golden_faces_of_every_system() {
     let mut out = String::new();
-    let rate = Rate::new(30, 1).expect("a rate");
-    for system in System::all() {
-        put(
-            &mut out,
-            format!("## {} {} {}", system.id, system.version, system.name),
-        );
+    let rate = FrameRate::new(30, 1).expect("a rate");
+    for system in FaceSystem::all_face_systems() {
+        put(&mut out, format!("## {} {} {}", system.id, system.version, system.name));
         // Each channel rises and falls at its own time, and has a gap.
         let scale = if system.id == "fap" { 400.0 } else { 1.0 };
         let channel = |(n, name): (usize, &String)| {
@@ -256,46 +233,44 @@ fn golden_faces_of_every_system() {
                 true => f64::NAN,
                 false => scale * (0.5 + 0.5 * (0.3 * f64::from(frame) + 0.9 * n as f64).sin()),
             };
-            Curve::new(name.clone(), Column::doubles((0..40).map(value).collect()))
+            ScalarCurve::new(
+                name.clone(),
+                FrameNumberColumn::from_double_floats((0..40).map(value).collect()),
+            )
         };
         let all = system.channels.iter().enumerate().map(channel);
-        let all: Vec<Curve> = all.filter(|it| !it.name.is_empty()).collect();
-        let Ok(captured) = Curves::new(Times::Even(rate), all) else {
+        let all: Vec<ScalarCurve> = all.filter(|it| !it.name.is_empty()).collect();
+        let Ok(captured) = CurveTrack::new(FrameTimes::Even(rate), all) else {
             put(&mut out, "no channels of its own");
             continue;
         };
-        let found = System::of(&captured).map(|it| it.id.as_str());
+        let found = FaceSystem::system_of_curves(&captured).map(|it| it.id.as_str());
         put(&mut out, format!("recognised as {found:?}"));
-        let mut view = system.view(&captured);
-        put(
-            &mut out,
-            format!("known {:?} bridged {}", view.known, view.bridged),
-        );
+        let mut view = system.derive_face_view(&captured);
+        put(&mut out, format!("known {:?} bridged {}", view.known, view.bridged));
         findings(&mut out, &view.findings);
-        let shown = |out: &mut String, faces: &[Face]| {
+        let shown = |out: &mut String, faces: &[FacePosture]| {
             for face in faces.iter().step_by(6) {
-                put(out, format!("{:?}", face.numbers()));
+                put(out, format!("{:?}", face.face_numbers()));
             }
         };
         shown(&mut out, &view.faces);
         for (name, all) in [("head", &view.head), ("place", &view.place)] {
-            let some: Option<Vec<[f64; 3]>> = all
-                .as_ref()
-                .map(|it| it.iter().copied().step_by(9).collect());
+            let some: Option<Vec<[f64; 3]>> = all.as_ref().map(|it| it.iter().copied().step_by(9).collect());
             put(&mut out, format!("{name} {some:?}"));
         }
-        let Some(fit) = Fit::of(&view) else {
+        let Some(fit) = FaceCalibration::calibration_from_view(&view) else {
             put(&mut out, "nothing to fit");
             continue;
         };
-        put(&mut out, format!("{fit:?} suits {}", fit.suits(&view)));
+        put(&mut out, format!("{fit:?} suits {}", fit.is_calibration_for(&view)));
         put(
             &mut out,
-            format!("untried {:?}", fit.untried().collect::<Vec<_>>()),
+            format!("untried {:?}", fit.untried_number_names().collect::<Vec<_>>()),
         );
-        fit.apply(&mut view);
+        fit.apply_face_calibration(&mut view);
         shown(&mut out, &view.faces);
-        let first = Curves::new(Times::Even(rate), captured.curves()[..1].to_vec());
+        let first = CurveTrack::new(FrameTimes::Even(rate), captured.track_curves()[..1].to_vec());
         curves(&mut out, &first.expect("a curve"));
     }
     compare("faces", &out);

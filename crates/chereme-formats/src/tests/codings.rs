@@ -1,11 +1,11 @@
 //! Golden tables of lexicons, roles of tiers, notation, subtitles, and texts of times.
 
-use chereme_sign::hamnosys::{Notated, from_names, parse_lenient};
+use chereme_sign::hamnosys::{NotatedSign, from_names, parse_lenient};
 
 use super::{findings, transcript};
 use crate::golden::{compare, put};
 use crate::lexicon;
-use crate::roles::{Mapping, TierName, guess_roles};
+use crate::roles::{TierMapping, TierRoleEvidence, guess_roles};
 use crate::{hns, sigml, subtitles, timecode};
 
 const LEXICON: &str = chereme_data::starter_text("lexicon.csv");
@@ -18,8 +18,8 @@ B;;-;cheek + chin;;variable;> final;>S;back/palm;no;;1,5;\"dog; hound\";;\n\
 A;?;N/A;weak hand: back;;;;wiggle, closing;;;;x;;hamnothing;\n\
 ;B;;;;;;;;;;;;;\n";
 
-fn lexicon_of(out: &mut String, text: &str, mapping: &Mapping) {
-    let (read, found) = match lexicon::read(text.as_bytes(), mapping) {
+fn lexicon_of(out: &mut String, text: &str, mapping: &TierMapping) {
+    let (read, found) = match lexicon::read_lexicon(text.as_bytes(), mapping) {
         Ok(read) => read,
         Err(error) => {
             put(out, format!("refused: {error}"));
@@ -35,26 +35,27 @@ fn lexicon_of(out: &mut String, text: &str, mapping: &Mapping) {
         head.codings.clear();
         put(out, format!("{head:?}"));
         for coding in &entry.codings {
-            put(out, format!("  {} {coding:?}", coding.field()));
+            put(out, format!("  {} {coding:?}", coding.coding_field()));
         }
     }
-    for inventory in read.inventories() {
+    for inventory in read.component_inventories() {
         put(out, format!("{inventory:?}"));
     }
     findings(out, &found);
     let mut bytes = Vec::new();
-    lexicon::write(&read, &mut bytes).expect("a vector takes everything");
+    lexicon::write_lexicon(&read, &mut bytes).expect("a vector takes everything");
     put(out, String::from_utf8(bytes).expect("UTF-8"));
 }
 
 #[test]
 fn golden_lexicons() {
     let mut out = String::new();
-    let plain = Mapping::default();
-    let mapping = Mapping::from_json(
+    let plain = TierMapping::default();
+    let mapping = TierMapping::from_json(
         r#"{"columns": {"Frequency": "movement.count", "English": "translation", "Notes": "comment"}}"#,
     );
-    let usual = "[{\"gloss\": \"CHAT\", \"handshape\": \"B\", \"n\": 3}, {\"gloss\": \"CHIEN\", \"location\": \"chin\"}]";
+    let usual =
+        "[{\"gloss\": \"CHAT\", \"handshape\": \"B\", \"n\": 3}, {\"gloss\": \"CHIEN\", \"location\": \"chin\"}]";
     let keyed = "{\"CHAT\": \"hamfist hamextfingeru hampalml\", \"CHIEN\": \"hamflathand hamextfingeru hampalmd\"}";
     let slots = "{\"signs\": [{\"signlevel information\": {\"gloss\": [\"A\"]}}]}";
     for (name, text) in [
@@ -180,32 +181,26 @@ const TIERS: [&str; 96] = [
 #[test]
 fn golden_roles_of_tiers() {
     let mut out = String::new();
-    let tier = |name: &'static str, parent: Option<usize>| TierName {
+    let tier = |name: &'static str, parent: Option<usize>| TierRoleEvidence {
         name,
         parent,
-        kind: if name.len().is_multiple_of(5) {
-            "gloss"
-        } else {
-            ""
-        },
+        kind: if name.len().is_multiple_of(5) { "gloss" } else { "" },
         one_to_one: parent.is_some(),
-        ..TierName::default()
+        ..TierRoleEvidence::default()
     };
     put(&mut out, "## each by itself");
     for name in TIERS {
-        let guesses = guess_roles(&[tier(name, None)], &Mapping::default());
-        guesses
-            .iter()
-            .for_each(|it| put(&mut out, format!("{it:?}")));
+        let guesses = guess_roles(&[tier(name, None)], &TierMapping::default());
+        guesses.iter().for_each(|it| put(&mut out, format!("{it:?}")));
     }
     put(&mut out, "## all together, each second one below the first");
-    let all: Vec<TierName<'_>> = TIERS
+    let all: Vec<TierRoleEvidence<'_>> = TIERS
         .iter()
         .enumerate()
         .map(|(n, name)| tier(name, (n % 2 == 1).then(|| n - 1)))
         .collect();
-    for guess in guess_roles(&all, &Mapping::default()) {
-        put(&mut out, format!("{guess:?} {:?}", guess.topic()));
+    for guess in guess_roles(&all, &TierMapping::default()) {
+        put(&mut out, format!("{guess:?} {:?}", guess.guessed_tier_topic()));
     }
     put(&mut out, "## mappings");
     for text in [
@@ -217,7 +212,7 @@ fn golden_roles_of_tiers() {
         "[1]",
         "{",
     ] {
-        match Mapping::from_json(text) {
+        match TierMapping::from_json(text) {
             Ok(mapping) => {
                 put(&mut out, format!("{text}: {mapping:?}"));
                 for guess in guess_roles(&all[..20], &mapping) {
@@ -247,20 +242,20 @@ const SIGNS: [&str; 14] = [
     "hamflathand hamparend hamextfingeru",
 ];
 
-fn signs() -> Vec<Notated> {
+fn signs() -> Vec<NotatedSign> {
     let sign = |(n, names): (usize, &&str)| {
         let text = from_names(names.split(' ')).expect(names);
-        Notated {
+        NotatedSign {
             gloss: format!("S{n}"),
             sign: parse_lenient(&text).sign,
-            ..Notated::default()
+            ..NotatedSign::default()
         }
     };
     SIGNS.iter().enumerate().map(sign).collect()
 }
 
 fn sigml_of(out: &mut String, bytes: &[u8]) {
-    match sigml::read(bytes) {
+    match sigml::read_sigml_signs(bytes) {
         Ok((signs, found)) => {
             signs.iter().for_each(|it| put(out, format!("{it:?}")));
             findings(out, &found);
@@ -306,16 +301,10 @@ fn golden_signs_in_sigml_and_lines_of_symbols() {
         put(&mut out, String::from_utf8_lossy(&gestural));
         sigml_of(&mut out, &gestural);
         let (symbols, lost) = sigml::write_symbols([sign]);
-        put(
-            &mut out,
-            format!("{}lost {lost:?}", String::from_utf8_lossy(&symbols)),
-        );
+        put(&mut out, format!("{}lost {lost:?}", String::from_utf8_lossy(&symbols)));
         sigml_of(&mut out, &symbols);
-        let (line, lost) = hns::write([sign]);
-        put(
-            &mut out,
-            format!("{}lost {lost:?}", String::from_utf8_lossy(&line)),
-        );
+        let (line, lost) = hns::write_hns([sign]);
+        put(&mut out, format!("{}lost {lost:?}", String::from_utf8_lossy(&line)));
     }
     put(&mut out, "## refused");
     for text in ["", "<sigml>", "<a/>", "<sigml/>", "text"] {
@@ -327,11 +316,9 @@ fn golden_signs_in_sigml_and_lines_of_symbols() {
         "a title\nA\thamfist hamextfingeru hampalml hamparend\nB\t\n\nD D\thamfist hamextfingero\n",
         "nothing\n",
     ] {
-        match hns::read(text.as_bytes()) {
+        match hns::read_hns(text.as_bytes()) {
             Ok((entries, found)) => {
-                entries
-                    .iter()
-                    .for_each(|it| put(&mut out, format!("{it:?}")));
+                entries.iter().for_each(|it| put(&mut out, format!("{it:?}")));
                 findings(&mut out, &found);
             }
             Err(error) => put(&mut out, format!("refused: {error}")),
@@ -354,15 +341,12 @@ fn golden_subtitles_and_timecodes() {
         "",
     ] {
         put(&mut out, format!("## {text:?}"));
-        match subtitles::read(text.as_bytes()) {
+        match subtitles::read_subtitles(text.as_bytes()) {
             Ok((it, found)) => {
                 transcript(&mut out, &it);
                 findings(&mut out, &found);
-                for form in [subtitles::Form::Srt, subtitles::Form::Vtt] {
-                    put(
-                        &mut out,
-                        format!("{form:?}\n{}", subtitles::write(&it, form)),
-                    );
+                for form in [subtitles::SubtitleFormat::Srt, subtitles::SubtitleFormat::Vtt] {
+                    put(&mut out, format!("{form:?}\n{}", subtitles::write_subtitles(&it, form)));
                 }
             }
             Err(error) => put(&mut out, format!("refused: {error}")),
@@ -390,8 +374,8 @@ fn golden_subtitles_and_timecodes() {
     }
     put(&mut out, "## rates");
     for per_second in [
-        0.0, -1.0, 0.5, 0.0001, 1.0, 12.5, 23.976, 23.98, 24.0, 29.97, 29.970_03, 30.0, 59.94,
-        99.999, 100.1, 119.88, 240.0, 1e5, 2e6, 33.3333,
+        0.0, -1.0, 0.5, 0.0001, 1.0, 12.5, 23.976, 23.98, 24.0, 29.97, 29.970_03, 30.0, 59.94, 99.999, 100.1, 119.88,
+        240.0, 1e5, 2e6, 33.3333,
     ] {
         put(
             &mut out,

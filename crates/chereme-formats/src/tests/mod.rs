@@ -4,29 +4,26 @@ mod annotations;
 mod captures;
 mod codings;
 
-use chereme_motion::{Clip, Curves, Markers};
+use chereme_motion::{Clip, CurveTrack, MarkerTrack};
 
-use crate::Finding;
-use crate::eaf::Transcript;
+use crate::ImportFinding;
+use crate::eaf::AnnotationTranscript;
 use crate::golden::put;
-use crate::tracks::{Content, Tracks};
+use crate::tracks::{CapturedTrackContent, CapturedTracks};
 
 /// Writes down findings, one on each line.
-pub(crate) fn findings(out: &mut String, all: &[Finding]) {
+pub(crate) fn findings(out: &mut String, all: &[ImportFinding]) {
     for it in all {
         let line = it.line.map_or("-".to_owned(), |line| line.to_string());
         put(
             out,
-            format!(
-                "{:?} {line}: {} {:?} {:?}",
-                it.severity, it.message, it.remedy, it.mend
-            ),
+            format!("{:?} {line}: {} {:?} {:?}", it.severity, it.message, it.remedy, it.mend),
         );
     }
 }
 
 /// Writes down the tiers and annotations of a document, one on each line.
-pub(crate) fn transcript(out: &mut String, it: &Transcript) {
+pub(crate) fn transcript(out: &mut String, it: &AnnotationTranscript) {
     put(
         out,
         format!(
@@ -47,44 +44,41 @@ pub(crate) fn transcript(out: &mut String, it: &Transcript) {
     }
 }
 
-fn markers(out: &mut String, it: &Markers) {
+fn markers(out: &mut String, it: &MarkerTrack) {
     put(
         out,
         format!(
             "{:?} {:?} {:?} {:?} {} frames limbs {:?}",
-            it.space(),
-            it.capture(),
-            it.quality(),
-            it.times(),
-            it.frames(),
-            it.limbs()
+            it.marker_space(),
+            it.marker_capture(),
+            it.marker_quality(),
+            it.marker_times(),
+            it.marker_frame_count(),
+            it.marker_limbs()
         ),
     );
-    for point in it.points() {
+    for point in it.marker_points() {
         put(out, format!("  {point:?}"));
     }
 }
 
-pub(crate) fn curves(out: &mut String, it: &Curves) {
-    put(out, format!("{:?} {} frames", it.times(), it.frames()));
-    for curve in it.curves() {
+pub(crate) fn curves(out: &mut String, it: &CurveTrack) {
+    put(out, format!("{:?} {} frames", it.curve_times(), it.curve_frame_count()));
+    for curve in it.track_curves() {
         put(out, format!("  {curve:?}"));
     }
 }
 
 /// Writes down tracks with all their numbers, and their events.
-pub(crate) fn tracks(out: &mut String, it: &Tracks) {
+pub(crate) fn tracks(out: &mut String, it: &CapturedTracks) {
     for track in &it.tracks {
         put(
             out,
-            format!(
-                "{:?} offset {:?} clock {:?}",
-                track.name, track.offset, track.clock
-            ),
+            format!("{:?} offset {:?} clock {:?}", track.name, track.offset, track.clock),
         );
         match &track.content {
-            Content::Markers(it) => markers(out, it),
-            Content::Curves(it) => curves(out, it),
+            CapturedTrackContent::Markers(it) => markers(out, it),
+            CapturedTrackContent::Curves(it) => curves(out, it),
         }
     }
     if let Some(events) = &it.events {
@@ -94,17 +88,17 @@ pub(crate) fn tracks(out: &mut String, it: &Tracks) {
 
 /// Writes down a clip: its joints, and some frames of each channel.
 pub(crate) fn clip(out: &mut String, it: &Clip) {
-    put(out, format!("{} frames at {:?}", it.frames(), it.rate()));
-    let step = (it.frames() / 3).max(1);
-    for (n, joint) in it.skeleton().joints().iter().enumerate() {
+    put(
+        out,
+        format!("{} frames at {:?}", it.clip_frame_count(), it.clip_frame_rate()),
+    );
+    let step = (it.clip_frame_count() / 3).max(1);
+    for (n, joint) in it.clip_skeleton().skeleton_joints().iter().enumerate() {
         put(out, format!("{n} {joint:?}"));
-        let channel = it.channel(n);
-        for frame in (0..it.frames()).step_by(step) {
+        let channel = it.joint_channel(n);
+        for frame in (0..it.clip_frame_count()).step_by(step) {
             let at = channel.translations.as_ref().map(|all| all[frame]);
-            put(
-                out,
-                format!("  {frame}: {:?} {at:?}", channel.rotations[frame]),
-            );
+            put(out, format!("  {frame}: {:?} {at:?}", channel.rotations[frame]));
         }
     }
 }
@@ -128,9 +122,7 @@ pub(crate) fn scene_file(out: &mut String, file: &[u8]) {
         match value.as_array() {
             Some(all) => all.iter().for_each(|it| put(out, format!("{key}: {it}"))),
             None => {
-                let value = value
-                    .to_string()
-                    .replace(env!("CARGO_PKG_VERSION"), "VERSION");
+                let value = value.to_string().replace(env!("CARGO_PKG_VERSION"), "VERSION");
                 put(out, format!("{key}: {value}"));
             }
         }
@@ -149,8 +141,8 @@ pub(crate) fn scene_file(out: &mut String, file: &[u8]) {
 
 /// Returns a line for each tier of a transcript: its name, type and relation, and its annotations, each after the letter
 /// of the one above it.
-pub(crate) fn tiers_as_lines(transcript: &crate::eaf::Transcript) -> Vec<String> {
-    let line = |tier: &crate::eaf::convert::Tier| {
+pub(crate) fn tiers_as_lines(transcript: &crate::eaf::AnnotationTranscript) -> Vec<String> {
+    let line = |tier: &crate::eaf::eaf_convert::TranscriptTier| {
         let mut line = format!("{} [{}]", tier.name, tier.kind);
         if let (Some(stereotype), Some(above)) = (tier.stereotype, tier.parent) {
             line += &format!(" {stereotype} of {}", transcript.tiers[above].name);
@@ -159,10 +151,13 @@ pub(crate) fn tiers_as_lines(transcript: &crate::eaf::Transcript) -> Vec<String>
             .annotations
             .iter()
             .map(|it| {
-                let above = it.parent.map_or(String::new(), |it| {
-                    format!("{} ", char::from(b'a' + it.index as u8))
-                });
-                let (start, end) = (it.span.start().micros(), it.span.end().micros());
+                let above = it
+                    .parent
+                    .map_or(String::new(), |it| format!("{} ", char::from(b'a' + it.index as u8)));
+                let (start, end) = (
+                    it.span.span_start_instant().instant_micros(),
+                    it.span.span_end_instant().instant_micros(),
+                );
                 format!(" {above}{start}-{end} {:?}", it.value)
             })
             .collect();

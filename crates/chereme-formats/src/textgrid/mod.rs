@@ -1,30 +1,30 @@
 //! Praat's TextGrid files: long, short and binary.
 //!
-//! [`raw`] mirrors the file: tiers of intervals or points in seconds. [`read`] turns it into a
-//! [`Transcript`]: empty intervals are dropped and counted, a point becomes a short annotation on a tier
-//! of the kind [`POINTS`]. [`write()`] fills the gaps again, so that a TextGrid comes back with the same
+//! [`textgrid_raw`] mirrors the file: tiers of intervals or points in seconds. [`read_textgrid_file`] turns it into a
+//! [`AnnotationTranscript`]: empty intervals are dropped and counted, a point becomes a short annotation on a tier
+//! of the kind [`POINT_TIER_KIND`]. [`write_textgrid()`] fills the gaps again, so that a TextGrid comes back with the same
 //! intervals, points and labels.
 
-pub mod raw;
 #[cfg(test)]
 mod tests;
+pub mod textgrid_raw;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use chereme_motion::{Instant, Span};
+use chereme_motion::{RecordingInstant, TimeSpan};
 
-use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
-use crate::finding::Finding;
-use crate::tally::Findings;
-use raw::{Grid, GridTier, Item};
+use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
+use textgrid_raw::{GridTier, GridTierItem, RawTextGrid};
 
-pub use raw::{Error, Form};
+pub use textgrid_raw::{TextGridError, TextGridForm};
 
 /// The kind of a tier whose annotations are points in time.
-pub const POINTS: &str = "TextTier";
+pub const POINT_TIER_KIND: &str = "TextTier";
 /// The kind of a tier of intervals.
-pub const INTERVALS: &str = "IntervalTier";
+pub const INTERVAL_TIER_KIND: &str = "IntervalTier";
 
 /// The length of a point as an annotation, in microseconds, unless the next one begins before: one frame at 25 per
 /// second.
@@ -36,28 +36,33 @@ const LONGEST_SECONDS: f64 = 1e9;
 ///
 /// # Errors
 /// Fails if the bytes are no TextGrid, or are cut short.
-pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
-    let (grid, mut findings) = raw::read(bytes)?;
-    let transcript = from_raw(&grid, &mut findings);
-    Ok((transcript, findings.finish()))
+pub fn read_textgrid_file(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), TextGridError> {
+    let (grid, mut findings) = textgrid_raw::read_raw_textgrid(bytes)?;
+    let transcript = grid_to_transcript(&grid, &mut findings);
+    Ok((transcript, findings.finish_finding_tally()))
 }
 
-fn from_raw(grid: &Grid, findings: &mut Findings) -> Transcript {
-    let mut transcript = Transcript::default();
+fn grid_to_transcript(grid: &RawTextGrid, findings: &mut FindingTally) -> AnnotationTranscript {
+    let mut transcript = AnnotationTranscript::default();
     let mut names = BTreeSet::new();
     let (mut empty, mut next_id) = (0u64, 1u64);
     for (at, tier) in grid.tiers.iter().enumerate() {
-        let name = unique(&tier.name, at, &mut names, findings);
-        let annotations = annotations(tier, &name, (&mut empty, &mut next_id), findings);
-        transcript.tiers.push(Tier {
+        let name = unique_tier_name(&tier.name, at, &mut names, findings);
+        let annotations = read_grid_annotations(tier, &name, (&mut empty, &mut next_id), findings);
+        transcript.tiers.push(TranscriptTier {
             name,
-            kind: if tier.is_points { POINTS } else { INTERVALS }.to_owned(),
+            kind: if tier.is_points {
+                POINT_TIER_KIND
+            } else {
+                INTERVAL_TIER_KIND
+            }
+            .to_owned(),
             annotations,
-            ..Tier::default()
+            ..TranscriptTier::default()
         });
     }
     if empty > 0 {
-        findings.push(Finding::note(
+        findings.push_counted_finding(ImportFinding::new_note_finding(
             None,
             format!("{empty} empty intervals were left out; they are gaps now"),
         ));
@@ -66,7 +71,7 @@ fn from_raw(grid: &Grid, findings: &mut Findings) -> Transcript {
 }
 
 /// Returns a name that no earlier tier has.
-fn unique(name: &str, at: usize, names: &mut BTreeSet<String>, findings: &mut Findings) -> String {
+fn unique_tier_name(name: &str, at: usize, names: &mut BTreeSet<String>, findings: &mut FindingTally) -> String {
     let wanted = if name.trim().is_empty() {
         format!("tier {}", at + 1)
     } else {
@@ -79,8 +84,8 @@ fn unique(name: &str, at: usize, names: &mut BTreeSet<String>, findings: &mut Fi
         unique = format!("{wanted} ({count})");
     }
     if unique != name {
-        findings.add("renamed tiers", || {
-            Finding::note(
+        findings.add_limited_finding("renamed tiers", || {
+            ImportFinding::new_note_finding(
                 None,
                 format!("tier {} is called {name:?}; here it is {unique:?}", at + 1),
             )
@@ -89,13 +94,13 @@ fn unique(name: &str, at: usize, names: &mut BTreeSet<String>, findings: &mut Fi
     unique
 }
 
-fn annotations(
+fn read_grid_annotations(
     tier: &GridTier,
     name: &str,
     (empty, next_id): (&mut u64, &mut u64),
-    findings: &mut Findings,
-) -> Vec<Annotation> {
-    let mut items: Vec<(Span, &Item)> = Vec::with_capacity(tier.items.len());
+    findings: &mut FindingTally,
+) -> Vec<TranscriptAnnotation> {
+    let mut items: Vec<(TimeSpan, &GridTierItem)> = Vec::with_capacity(tier.items.len());
     for item in &tier.items {
         if !tier.is_points && item.text.is_empty() {
             *empty += 1;
@@ -103,8 +108,8 @@ fn annotations(
         }
         let length = |seconds: f64| seconds.is_finite() && seconds.abs() <= LONGEST_SECONDS;
         if !length(item.start) || !length(item.end) || item.end < item.start {
-            findings.add("intervals without a time", || {
-                Finding::warning(
+            findings.add_limited_finding("intervals without a time", || {
+                ImportFinding::new_warning_finding(
                     item.line,
                     format!(
                         "{:?} on {name:?} lasts from {} to {} s; it was left out",
@@ -115,24 +120,24 @@ fn annotations(
             });
             continue;
         }
-        let start = Instant::from_seconds(item.start);
-        let end = Instant::from_seconds(item.end);
+        let start = RecordingInstant::from_seconds(item.start);
+        let stated_end = RecordingInstant::from_seconds(item.end);
         let end = if tier.is_points {
-            start.shifted(POINT_MICROS)
+            start.shifted_instant(POINT_MICROS)
         } else {
-            end
+            stated_end
         };
-        items.push((Span::between(start, end), item));
+        items.push((TimeSpan::span_between(start, end), item));
     }
-    items.sort_by_key(|(span, _)| span.start());
+    items.sort_by_key(|(span, _)| span.span_start_instant());
     for at in 1..items.len() {
-        let start = items[at].0.start();
+        let start = items[at].0.span_start_instant();
         let (before, item) = items[at - 1];
-        if before.end() > start {
-            items[at - 1].0 = Span::between(before.start().min(start), start);
+        if before.span_end_instant() > start {
+            items[at - 1].0 = TimeSpan::span_between(before.span_start_instant().min(start), start);
             if !tier.is_points {
-                findings.add("overlapping intervals", || {
-                    Finding::warning(
+                findings.add_limited_finding("overlapping intervals", || {
+                    ImportFinding::new_warning_finding(
                         item.line,
                         format!(
                             "{:?} on {name:?} ends after the next interval begins; it ends at {start} now",
@@ -143,13 +148,13 @@ fn annotations(
             }
         }
     }
-    let make = |(span, item): (Span, &Item)| {
+    let make = |(span, item): (TimeSpan, &GridTierItem)| {
         let id = format!("a{next_id}");
         *next_id += 1;
-        Annotation {
+        TranscriptAnnotation {
             id,
             span,
-            timing: Timing::Own,
+            timing: AnnotationTiming::Own,
             parent: None,
             order: 0,
             value: item.text.clone(),
@@ -164,13 +169,17 @@ fn annotations(
 
 /// Writes tiers as a TextGrid in one of its two forms of text, and reports everything that a TextGrid cannot hold.
 #[must_use]
-pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<Finding>) {
-    let mut findings = Findings::default();
-    let mut first = Instant::ZERO;
-    let mut last = end.max(transcript.end());
+pub fn write_textgrid(
+    transcript: &AnnotationTranscript,
+    form: TextGridForm,
+    end: RecordingInstant,
+) -> (String, Vec<ImportFinding>) {
+    let mut findings = FindingTally::default();
+    let mut first = RecordingInstant::RECORDING_START;
+    let mut last = end.max(transcript.transcript_end());
     for annotation in transcript.tiers.iter().flat_map(|tier| &tier.annotations) {
-        first = first.min(annotation.span.start());
-        last = last.max(annotation.span.end());
+        first = first.min(annotation.span.span_start_instant());
+        last = last.max(annotation.span.span_end_instant());
     }
     let mut empty = 0;
     let tiers = transcript
@@ -179,7 +188,7 @@ pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<
         .map(|tier| grid_tier(tier, (first, last), &mut empty, &mut findings))
         .collect();
     if empty > 0 {
-        findings.push(Finding::warning(
+        findings.push_counted_finding(ImportFinding::new_warning_finding(
             None,
             format!(
                 "annotations without text are not in the TextGrid, where an empty interval is a gap; \
@@ -188,36 +197,39 @@ pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<
         ));
     }
     if transcript.tiers.iter().any(|tier| tier.parent.is_some()) {
-        findings.push(Finding::note(
+        findings.push_counted_finding(ImportFinding::new_note_finding(
             None,
             "a TextGrid has no hierarchy; tiers below others stand next to them",
         ));
     }
-    let grid = Grid {
-        start: first.seconds(),
-        end: last.seconds(),
+    let grid = RawTextGrid {
+        start: first.instant_seconds(),
+        end: last.instant_seconds(),
         tiers,
     };
-    (text(&grid, form), findings.finish())
+    (format_textgrid(&grid, form), findings.finish_finding_tally())
 }
 
 /// Returns a tier of intervals without gaps and overlaps, or one of points; counts annotations that become gaps.
 fn grid_tier(
-    tier: &Tier,
-    (first, last): (Instant, Instant),
+    tier: &TranscriptTier,
+    (first, last): (RecordingInstant, RecordingInstant),
     empty: &mut u64,
-    findings: &mut Findings,
+    findings: &mut FindingTally,
 ) -> GridTier {
-    let is_points = tier.kind == POINTS;
-    let mut annotations: Vec<&Annotation> = tier.annotations.iter().collect();
-    annotations.sort_by_key(|annotation| annotation.span.start());
+    let is_points = tier.kind == POINT_TIER_KIND;
+    let mut annotations: Vec<&TranscriptAnnotation> = tier.annotations.iter().collect();
+    annotations.sort_by_key(|annotation| annotation.span.span_start_instant());
     let mut items = Vec::new();
-    let mut at = first;
+    let mut filled_end = first;
     for annotation in annotations {
-        let (start, end) = (annotation.span.start().max(at), annotation.span.end());
+        let (start, end) = (
+            annotation.span.span_start_instant().max(filled_end),
+            annotation.span.span_end_instant(),
+        );
         if is_points {
-            let start = annotation.span.start().seconds();
-            items.push(Item::new(start, start, &annotation.value));
+            let start = annotation.span.span_start_instant().instant_seconds();
+            items.push(GridTierItem::new(start, start, &annotation.value));
             continue;
         }
         if annotation.value.is_empty() {
@@ -225,63 +237,75 @@ fn grid_tier(
             continue;
         }
         if end <= start {
-            findings.add("annotations without room", || {
-                Finding::warning(
+            findings.add_limited_finding("annotations without room", || {
+                ImportFinding::new_warning_finding(
                     None,
                     format!(
                         "{:?} at {} on {:?} overlaps others; a TextGrid has no room for it",
                         annotation.value,
-                        annotation.span.start(),
+                        annotation.span.span_start_instant(),
                         tier.name
                     ),
                 )
             });
             continue;
         }
-        if start > annotation.span.start() {
-            findings.add("annotations that overlap others and start later", || {
-                Finding::warning(
+        if start > annotation.span.span_start_instant() {
+            findings.add_limited_finding("annotations that overlap others and start later", || {
+                ImportFinding::new_warning_finding(
                     None,
                     format!(
                         "{:?} at {} on {:?} overlaps others; in the TextGrid it starts at {start}",
                         annotation.value,
-                        annotation.span.start(),
+                        annotation.span.span_start_instant(),
                         tier.name
                     ),
                 )
             });
         }
-        if start > at {
-            items.push(Item::new(at.seconds(), start.seconds(), ""));
+        if start > filled_end {
+            items.push(GridTierItem::new(
+                filled_end.instant_seconds(),
+                start.instant_seconds(),
+                "",
+            ));
         }
-        items.push(Item::new(start.seconds(), end.seconds(), &annotation.value));
-        at = end;
+        items.push(GridTierItem::new(
+            start.instant_seconds(),
+            end.instant_seconds(),
+            &annotation.value,
+        ));
+        filled_end = end;
     }
-    if !is_points && at < last {
-        items.push(Item::new(at.seconds(), last.seconds(), ""));
+    if !is_points && filled_end < last {
+        items.push(GridTierItem::new(
+            filled_end.instant_seconds(),
+            last.instant_seconds(),
+            "",
+        ));
     }
     GridTier {
         name: tier.name.clone(),
         is_points,
-        start: first.seconds(),
-        end: last.seconds(),
+        start: first.instant_seconds(),
+        end: last.instant_seconds(),
         items,
     }
 }
 
 /// Returns a number of seconds with as many decimals as microseconds need.
-fn seconds(value: f64) -> String {
+fn format_grid_seconds(value: f64) -> String {
     let text = format!("{value:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn quoted(text: &str) -> String {
+fn quote_grid_text(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
 
-fn text(grid: &Grid, form: Form) -> String {
+fn format_textgrid(grid: &RawTextGrid, form: TextGridForm) -> String {
     let mut out = String::from("File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n");
-    let long = form == Form::Long;
+    let long = form == TextGridForm::Long;
     let mut line = |indent: usize, key: &str, value: &str| {
         let indent = " ".repeat(4 * indent);
         if long && value.is_empty() {
@@ -292,8 +316,8 @@ fn text(grid: &Grid, form: Form) -> String {
             let _ = writeln!(out, "{value}");
         }
     };
-    line(0, "xmin = ", &seconds(grid.start));
-    line(0, "xmax = ", &seconds(grid.end));
+    line(0, "xmin = ", &format_grid_seconds(grid.start));
+    line(0, "xmax = ", &format_grid_seconds(grid.end));
     line(0, "tiers? ", "<exists>");
     line(0, "size = ", &grid.tiers.len().to_string());
     if long {
@@ -301,32 +325,28 @@ fn text(grid: &Grid, form: Form) -> String {
     }
     for (at, tier) in (1..).zip(&grid.tiers) {
         let (class, many) = match tier.is_points {
-            true => (POINTS, "points"),
-            false => (INTERVALS, "intervals"),
+            true => (POINT_TIER_KIND, "points"),
+            false => (INTERVAL_TIER_KIND, "intervals"),
         };
         if long {
             line(1, &format!("item [{at}]:"), "");
         }
-        line(2, "class = ", &quoted(class));
-        line(2, "name = ", &quoted(&tier.name));
-        line(2, "xmin = ", &seconds(tier.start));
-        line(2, "xmax = ", &seconds(tier.end));
-        line(
-            2,
-            &format!("{many}: size = "),
-            &tier.items.len().to_string(),
-        );
+        line(2, "class = ", &quote_grid_text(class));
+        line(2, "name = ", &quote_grid_text(&tier.name));
+        line(2, "xmin = ", &format_grid_seconds(tier.start));
+        line(2, "xmax = ", &format_grid_seconds(tier.end));
+        line(2, &format!("{many}: size = "), &tier.items.len().to_string());
         for (at, item) in (1..).zip(&tier.items) {
             if long {
                 line(2, &format!("{many} [{at}]:"), "");
             }
             if tier.is_points {
-                line(3, "number = ", &seconds(item.start));
-                line(3, "mark = ", &quoted(&item.text));
+                line(3, "number = ", &format_grid_seconds(item.start));
+                line(3, "mark = ", &quote_grid_text(&item.text));
             } else {
-                line(3, "xmin = ", &seconds(item.start));
-                line(3, "xmax = ", &seconds(item.end));
-                line(3, "text = ", &quoted(&item.text));
+                line(3, "xmin = ", &format_grid_seconds(item.start));
+                line(3, "xmax = ", &format_grid_seconds(item.end));
+                line(3, "text = ", &quote_grid_text(&item.text));
             }
         }
     }

@@ -6,10 +6,9 @@ const PLAIN: &str = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumF
 100\t100\t2\t2\tmm\t100\t1\t2\nFrame#\tTime\tLSHO\t\t\tRSHO\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n\
 1\t0.000000\t1.50\t-2\t3e2\t4\t5\t6\n2\t0.010000\t1.6\t\t3\t4\t5\t6\n";
 
-fn markers(text: &str) -> (Markers, Vec<Finding>) {
-    let (tracks, findings) =
-        read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let Content::Markers(markers) = tracks.tracks[0].content.clone() else {
+fn markers(text: &str) -> (MarkerTrack, Vec<ImportFinding>) {
+    let (tracks, findings) = read_trc_file(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let CapturedTrackContent::Markers(markers) = tracks.tracks[0].content.clone() else {
         panic!("markers");
     };
     (markers, findings)
@@ -18,17 +17,19 @@ fn markers(text: &str) -> (Markers, Vec<Finding>) {
 #[test]
 fn the_plain_form_is_read_with_its_exact_numbers_and_gaps() {
     let (markers, findings) = markers(PLAIN);
-    assert_eq!(
-        findings.len(),
-        1,
-        "no feet show which axis is up: {findings:?}"
-    );
-    let left = &markers.points()[0];
+    assert_eq!(findings.len(), 1, "no feet show which axis is up: {findings:?}");
+    let left = &markers.marker_points()[0];
     assert_eq!(left.name, "LSHO");
-    assert_eq!(left.place[0].text(0).as_deref(), Some("1.50"));
-    assert_eq!(left.at(1), None, "an empty cell is a gap");
-    assert_eq!(markers.points()[1].at(1).map(|at| at.z), Some(6.0));
-    assert_eq!(markers.times().rate().map(|rate| rate.frames()), Some(100));
+    assert_eq!(left.place[0].column_text_at(0).as_deref(), Some("1.50"));
+    assert_eq!(left.marker_position(1), None, "an empty cell is a gap");
+    assert_eq!(markers.marker_points()[1].marker_position(1).map(|at| at.z), Some(6.0));
+    assert_eq!(
+        markers
+            .marker_times()
+            .even_times_rate()
+            .map(|rate| rate.rate_numerator()),
+        Some(100)
+    );
 }
 
 #[test]
@@ -77,14 +78,8 @@ fn labels_and_rows_of_other_programs_read_to_equal_places() {
             "blanks instead of tabs",
             PLAIN.replace("1.6\t\t3", "1.6\tnan\t3").replace('\t', " "),
         ),
-        (
-            "decimal commas",
-            PLAIN.replace('.', ",").replace("a,trc", "a.trc"),
-        ),
-        (
-            "another word for a gap",
-            PLAIN.replace("1.6\t\t3", "1.6\t-1.#IND\t3"),
-        ),
+        ("decimal commas", PLAIN.replace('.', ",").replace("a,trc", "a.trc")),
+        ("another word for a gap", PLAIN.replace("1.6\t\t3", "1.6\t-1.#IND\t3")),
         (
             "a header without the number of frames",
             PLAIN.replace("100\t100\t2\t2\tmm", "100\t100\t\t2\tmm"),
@@ -104,12 +99,9 @@ fn a_marker_without_a_label_keeps_its_place_among_the_others() {
     ] {
         let text = PLAIN.replace(from, to);
         let (found, findings) = markers(&text);
-        let given: Vec<&str> = found.points().iter().map(|it| it.name.as_str()).collect();
+        let given: Vec<&str> = found.marker_points().iter().map(|it| it.name.as_str()).collect();
         assert_eq!(given, names);
-        assert!(
-            findings[0].message.contains("a marker has no label"),
-            "{findings:?}"
-        );
+        assert!(findings[0].message.contains("a marker has no label"), "{findings:?}");
     }
     let middle = PLAIN
         .replace("RSHO", "\t\t\tRSHO")
@@ -117,15 +109,15 @@ fn a_marker_without_a_label_keeps_its_place_among_the_others() {
         .replace("\t2\tmm", "\t3\tmm")
         .replace("4\t5\t6\n", "7\t8\t9\t4\t5\t6\n");
     let (found, _) = markers(&middle);
-    let given: Vec<&str> = found.points().iter().map(|it| it.name.as_str()).collect();
+    let given: Vec<&str> = found.marker_points().iter().map(|it| it.name.as_str()).collect();
     assert_eq!(given, ["LSHO", "marker 2", "RSHO"]);
-    assert_eq!(found.points()[2].at(1).map(|at| at.z), Some(6.0));
+    assert_eq!(found.marker_points()[2].marker_position(1).map(|at| at.z), Some(6.0));
 }
 
 #[test]
 fn labels_that_the_rows_do_not_hold_are_refused() {
     let text = PLAIN.replace("LSHO\t", "Trial\t\t\tLSHO\t");
-    let error = read(text.as_bytes())
+    let error = read_trc_file(text.as_bytes())
         .expect_err("a label too many")
         .to_string();
     assert!(error.contains("3 markers need 11"), "{error}");
@@ -180,13 +172,17 @@ fn times_with_few_decimals_or_in_milliseconds_or_missing_show_the_rate() {
     ];
     for (name, times, frames, rate, finding) in cases {
         let (found, findings) = markers(&rows(times, frames));
-        assert_eq!(found.times().rate().map(|it| it.frames()), rate, "{name}");
+        assert_eq!(
+            found.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+            rate,
+            "{name}"
+        );
         assert!(
             finding.is_empty() || findings.iter().any(|it| it.message.contains(finding)),
             "{name}: {findings:?}"
         );
         if rate.is_none() {
-            let last = found.times().instant(2).seconds();
+            let last = found.marker_times().frame_time_instant(2).instant_seconds();
             assert!((last - 13.0 / 120.0).abs() < 1e-5, "{last}");
         }
     }
@@ -203,18 +199,16 @@ fn units_are_known_by_their_words_and_a_row_that_is_cut_is_reported() {
         ("millimeters", 0.001),
     ] {
         let (found, _) = markers(&PLAIN.replace("mm", unit));
-        let Space::World(convention) = found.space() else {
+        let MarkerSpace::World(convention) = found.marker_space() else {
             panic!("a room");
         };
         assert_eq!(convention.metres_per_unit, metres, "{unit}");
-        let text = write("a.trc", &found, Instant::ZERO).expect("TRC");
-        assert_eq!(markers(&text).0.space(), found.space(), "{unit}");
+        let text = write_trc_file("a.trc", &found, RecordingInstant::RECORDING_START).expect("TRC");
+        assert_eq!(markers(&text).0.marker_space(), found.marker_space(), "{unit}");
     }
     for (cut, is_reported) in [(1, false), (3, true)] {
         let (_, findings) = markers(&PLAIN[..PLAIN.len() - cut]);
-        let found = findings
-            .iter()
-            .any(|it| it.message.contains("may be cut short"));
+        let found = findings.iter().any(|it| it.message.contains("may be cut short"));
         assert_eq!(found, is_reported, "{findings:?}");
     }
 }
@@ -267,19 +261,15 @@ fn places_at_nought_are_gaps_of_markers_that_are_elsewhere_else() {
         ),
     ];
     for (left, right, gaps, warnings) in cases {
-        let mut text = PLAIN
-            .split("1\t0.000000")
-            .next()
-            .unwrap_or(PLAIN)
-            .to_owned();
+        let mut text = PLAIN.split("1\t0.000000").next().unwrap_or(PLAIN).to_owned();
         for (frame, (a, b)) in left.iter().zip(right).enumerate() {
             let cells = format!("{a} {b}").replace(' ', "\t");
             text += &format!("{}\t{}\t{cells}\n", frame + 1, frame as f64 / 100.0);
         }
         let (markers, findings) = markers(&text);
         let found = [0, 1].map(|point| {
-            let point = &markers.points()[point];
-            (0..3).filter(|frame| point.at(*frame).is_none()).count()
+            let point = &markers.marker_points()[point];
+            (0..3).filter(|frame| point.marker_position(*frame).is_none()).count()
         });
         assert_eq!(found, gaps, "{left:?} {right:?}");
         let noughts = findings.iter().filter(|it| it.message.contains("0 0 0"));
@@ -294,12 +284,9 @@ fn places_at_nought_are_gaps_of_markers_that_are_elsewhere_else() {
 #[test]
 fn wrong_counts_and_uneven_times_are_reported() {
     let (_, findings) = markers(&PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm"));
-    assert_eq!(
-        findings[0].message,
-        "NumFrames says 9, and the file holds 2"
-    );
+    assert_eq!(findings[0].message, "NumFrames says 9, and the file holds 2");
     let (uneven, findings) = markers(&PLAIN.replace("0.010000", "0.5"));
-    assert_eq!(uneven.times().instant(1).seconds(), 0.5);
+    assert_eq!(uneven.marker_times().frame_time_instant(1).instant_seconds(), 0.5);
     assert!(findings[0].message.contains("do not follow DataRate"));
 }
 
@@ -309,10 +296,10 @@ fn without_a_rate_in_the_header_the_times_decide() {
     for other in ["0", "fast", "-5"] {
         let text = PLAIN.replacen("\n100\t", &format!("\n{other}\t"), 1);
         let (again, findings) = markers(&text);
-        assert_eq!(again.times(), first.times(), "{other}");
+        assert_eq!(again.marker_times(), first.marker_times(), "{other}");
         assert_eq!(findings[0].line, Some(3));
         let timeless = text.replace("0.010000", "").replace("0.000000", "");
-        let error = read(timeless.as_bytes()).expect_err("no rate").to_string();
+        let error = read_trc_file(timeless.as_bytes()).expect_err("no rate").to_string();
         assert!(error.starts_with("line 3: DataRate is"), "{error}");
     }
 }
@@ -331,18 +318,18 @@ fn damaged_files_are_refused_with_the_line() {
         (PLAIN.replace("1.50", "inf"), "no number"),
     ];
     for (text, expected) in cases {
-        let error = read(text.as_bytes()).expect_err(expected).to_string();
+        let error = read_trc_file(text.as_bytes()).expect_err(expected).to_string();
         assert!(error.contains(expected), "{error}");
     }
     for end in 0..PLAIN.len() {
-        let _ = read(&PLAIN.as_bytes()[..end]);
+        let _ = read_trc_file(&PLAIN.as_bytes()[..end]);
     }
 }
 
 #[test]
 fn markers_read_back_unchanged() {
     let (expected, _) = markers(PLAIN);
-    let text = write("a.trc", &expected, Instant::ZERO).expect("TRC");
+    let text = write_trc_file("a.trc", &expected, RecordingInstant::RECORDING_START).expect("TRC");
     assert_eq!(markers(&text).0, expected);
     let mut lines = text.lines();
     assert_eq!(lines.nth(5), Some(""));
@@ -356,16 +343,16 @@ fn frames_without_an_even_rate_read_back_with_their_times() {
         rows + &format!("{}\t{time:.7}\t1\t2\t3\t4\t5\t6\n", frame + 1)
     });
     let (expected, _) = markers(&(PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm") + &rows));
-    assert_eq!(expected.times().rate(), None, "uneven");
-    let text = write("a.trc", &expected, Instant::ZERO).expect("TRC");
+    assert_eq!(expected.marker_times().even_times_rate(), None, "uneven");
+    let text = write_trc_file("a.trc", &expected, RecordingInstant::RECORDING_START).expect("TRC");
     let (again, _) = markers(&text);
-    let times = |it: &Markers| {
+    let times = |it: &MarkerTrack| {
         (0..9)
-            .map(|frame| it.times().instant(frame))
+            .map(|frame| it.marker_times().frame_time_instant(frame))
             .collect::<Vec<_>>()
     };
     assert_eq!(times(&again), times(&expected));
-    assert_eq!(again.points(), expected.points());
+    assert_eq!(again.marker_points(), expected.marker_points());
 }
 
 #[test]
@@ -391,26 +378,22 @@ fn files_of_others_are_read_whole() {
                 continue;
             }
             let bytes = std::fs::read(&path).expect("a file");
-            let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-            let Content::Markers(markers) = &tracks.tracks[0].content else {
+            let (tracks, _) = read_trc_file(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+            let CapturedTrackContent::Markers(markers) = &tracks.tracks[0].content else {
                 panic!("markers");
             };
-            let stem = path
-                .file_stem()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             for (name, points, frames) in expected {
                 if stem == name {
                     assert_eq!(
-                        (markers.points().len(), markers.frames()),
+                        (markers.marker_points().len(), markers.marker_frame_count()),
                         (points, frames),
                         "{stem}"
                     );
                 }
             }
             if stem == "init100" {
-                let first = markers.points()[0].at(0).expect("a place");
+                let first = markers.marker_points()[0].marker_position(0).expect("a place");
                 assert_eq!(first.to_array(), [273.71817, 56.52052, 1296.20374]);
             }
             seen += 1;
@@ -428,37 +411,26 @@ fn golden_points_of_trc() {
         ("plain", PLAIN.to_owned()),
         ("metres", PLAIN.replace("mm", "m")),
         ("an odd unit", PLAIN.replace("mm", "ell")),
-        (
-            "feet",
-            PLAIN.replace("LSHO", "LTOE").replace("RSHO", "HEAD"),
-        ),
+        ("feet", PLAIN.replace("LSHO", "LTOE").replace("RSHO", "HEAD")),
         ("wrong count", PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm")),
         ("uneven", PLAIN.replace("0.010000", "0.5")),
-        (
-            "no times",
-            PLAIN.replace("0.010000", "").replace("0.000000", ""),
-        ),
+        ("no times", PLAIN.replace("0.010000", "").replace("0.000000", "")),
         (
             "late",
-            PLAIN
-                .replace("0.010000", "5.010000")
-                .replace("0.000000", "5.000000"),
+            PLAIN.replace("0.010000", "5.010000").replace("0.000000", "5.000000"),
         ),
         ("other rate", PLAIN.replace("100\t100\t2", "60\t60\t2")),
         ("broken off", PLAIN[..PLAIN.len() - 4].to_owned()),
-        (
-            "no rows",
-            PLAIN.split("1\t0.0").next().unwrap_or_default().to_owned(),
-        ),
+        ("no rows", PLAIN.split("1\t0.0").next().unwrap_or_default().to_owned()),
         ("not one", "a\tb\n".to_owned()),
     ] {
         put(&mut out, format!("## {name}"));
-        match read(text.as_bytes()) {
+        match read_trc_file(text.as_bytes()) {
             Ok((read, found)) => {
                 tracks(&mut out, &read);
                 findings(&mut out, &found);
-                if let Content::Markers(markers) = &read.tracks[0].content {
-                    let written = write("a", markers, read.tracks[0].offset);
+                if let CapturedTrackContent::Markers(markers) = &read.tracks[0].content {
+                    let written = write_trc_file("a", markers, read.tracks[0].offset);
                     put(&mut out, written.unwrap_or_else(|error| error));
                 }
             }

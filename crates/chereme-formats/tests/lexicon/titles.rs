@@ -19,10 +19,7 @@ fn exports_of_signbank_and_asl_lex_are_understood_by_their_titles() {
         "movement.direction=backwards",
         "nonmanual.mouthing=pet",
     ] {
-        assert!(
-            codings.iter().any(|it| it == wanted),
-            "{wanted}: {codings:?}"
-        );
+        assert!(codings.iter().any(|it| it == wanted), "{wanted}: {codings:?}");
     }
     let asl_lex = "EntryID,LemmaID,SignFrequency(Z),SignType.2.0,MajorLocation.2.0,MinorLocation.2.0,SecondMinorLocation.2.0,\
         Movement.2.0,RepeatedMovement.2.0,Contact.2.0,Handshape.2.0,NonDominantHandshape.2.0,SelectedFingers.2.0,Flexion.2.0,\
@@ -43,16 +40,13 @@ fn exports_of_signbank_and_asl_lex_are_understood_by_their_titles() {
     ] {
         assert!(all.iter().any(|it| it == wanted), "{wanted}: {all:?}");
     }
-    assert!(
-        !all.iter().any(|it| it.ends_with("=NA")),
-        "NA is no value: {all:?}"
-    );
-    let title = |column: &chereme_formats::lexicon::Column| {
+    assert!(!all.iter().any(|it| it.ends_with("=NA")), "NA is no value: {all:?}");
+    let title = |column: &chereme_formats::lexicon::LexiconColumn| {
         (column.title == "SignFrequency(Z)").then(|| column.meaning.clone())
     };
     assert_eq!(
         lexicon.columns.iter().find_map(title),
-        Some(Meaning::Attribute)
+        Some(LexiconColumnMeaning::Attribute)
     );
 }
 
@@ -76,24 +70,14 @@ fn a_table_of_signbank_names_signs_by_their_annotation_gloss() {
             of("nl", "1. paard")
         ]
     );
-    assert_eq!(
-        lexicon.entries[1].translations.len(),
-        3,
-        "a dash is no sense"
-    );
+    assert_eq!(lexicon.entries[1].translations.len(), 3, "a dash is no sense");
     assert_eq!(
         codings(&lexicon, 1),
-        [
-            "dominant.configuration=S",
-            "orientation.relative-movement=Palm"
-        ]
+        ["dominant.configuration=S", "orientation.relative-movement=Palm"]
     );
     let attributes = |entry: usize| lexicon.entries[entry].attributes.clone();
     assert_eq!(attributes(0), [of("Signbank ID", "7")]);
-    assert_eq!(
-        attributes(1),
-        [of("Signbank ID", "8"), of("Phonology Other", "hidden")]
-    );
+    assert_eq!(attributes(1), [of("Signbank ID", "8"), of("Phonology Other", "hidden")]);
 }
 
 #[test]
@@ -105,11 +89,7 @@ fn columns_of_measures_are_attributes_and_never_components() {
     let (lexicon, findings) = read(text);
     assert_eq!(
         codings(&lexicon, 0),
-        [
-            "dominant.configuration=open_b",
-            "placement=head",
-            "movement.repeated=1"
-        ]
+        ["dominant.configuration=open_b", "placement=head", "movement.repeated=1"]
     );
     let own: Vec<String> = (lexicon.entries[0].attributes.iter())
         .map(|(name, text)| format!("{name}={text}"))
@@ -126,18 +106,15 @@ fn columns_of_measures_are_attributes_and_never_components() {
             "LexicalClass=Minor"
         ]
     );
-    assert_eq!(
-        lexicon.entries[1].attributes.len(),
-        6,
-        "an empty cell gives none"
-    );
+    assert_eq!(lexicon.entries[1].attributes.len(), 6, "an empty cell gives none");
     assert_eq!(findings.len(), 1, "{findings:?}");
     assert!(findings[0].contains("\"LexicalClass\" are kept as attributes"));
-    let mapping = r#"{"columns": {"*Frequency": "note", "LexicalClass": "translation", "MajorLocation.2.0": "attribute"}}"#;
-    let mapping = Mapping::from_json(mapping).expect("a mapping");
-    let (lexicon, _) = lexicon::read(text.as_bytes(), &mapping).expect("a table");
-    assert_eq!(lexicon.columns[2].meaning, Meaning::Note);
-    assert_eq!(lexicon.columns[3].meaning, Meaning::Attribute);
+    let mapping =
+        r#"{"columns": {"*Frequency": "note", "LexicalClass": "translation", "MajorLocation.2.0": "attribute"}}"#;
+    let mapping = TierMapping::from_json(mapping).expect("a mapping");
+    let (lexicon, _) = lexicon::read_lexicon(text.as_bytes(), &mapping).expect("a table");
+    assert_eq!(lexicon.columns[2].meaning, LexiconColumnMeaning::Note);
+    assert_eq!(lexicon.columns[3].meaning, LexiconColumnMeaning::Attribute);
     assert_eq!(lexicon.entries[1].translations[0].1, "Noun");
 }
 
@@ -156,11 +133,7 @@ fn titles_of_changes_pictures_and_later_morphemes_are_no_components() {
         ("Handshape.M1.2.0", "b", "dominant.configuration"),
         ("Flexion.2.0", "1", "dominant.configuration.flexion"),
         ("Spread.2.0", "0", "dominant.configuration.spread"),
-        (
-            "Handshape change MG",
-            "closing",
-            "left.configuration.change",
-        ),
+        ("Handshape change MG", "closing", "left.configuration.change"),
     ] {
         let (lexicon, _) = read(&format!("gloss\t{title}\nX\t{cell}\n"));
         assert_eq!(lexicon.columns[1].meaning.to_string(), wanted, "{title}");
@@ -191,17 +164,12 @@ fn a_column_that_many_rows_leave_empty_names_only_what_no_other_column_names() {
         assert_eq!((glosses[0], glosses[19]), (first, last), "{filled}");
         let named = findings.iter().filter(|it| it.starts_with("rows without"));
         assert_eq!(named.cloned().collect::<String>(), found);
-        assert!(
-            lexicon.entries[0]
-                .translations
-                .iter()
-                .any(|(_, text)| text == "L")
-        );
+        assert!(lexicon.entries[0].translations.iter().any(|(_, text)| text == "L"));
     }
     // A mapping decides, and the rows that it leaves without a name have the next one.
-    let mapping = Mapping::from_json(r#"{"columns": {"SignBankAnnotationID": "gloss"}}"#);
+    let mapping = TierMapping::from_json(r#"{"columns": {"SignBankAnnotationID": "gloss"}}"#);
     let text = format!("EntryID,SignBankAnnotationID,LemmaID\n{}", rows(5));
-    let (lexicon, _) = lexicon::read(text.as_bytes(), &mapping.expect("a mapping")).expect("read");
+    let (lexicon, _) = lexicon::read_lexicon(text.as_bytes(), &mapping.expect("a mapping")).expect("read");
     let glosses = lexicon.entries.iter().map(|it| it.gloss.as_str());
     assert_eq!(glosses.skip(4).take(2).collect::<Vec<_>>(), ["A4", "E5"]);
 }
@@ -210,11 +178,7 @@ fn a_column_that_many_rows_leave_empty_names_only_what_no_other_column_names() {
 fn titles_are_found_below_headings_and_by_their_capital_letters() {
     let rows = "A;B;chin\n\"B, C\";5;nose\n";
     for (text, line, found) in [
-        (
-            format!("sep=;\nNL gloss;Handshape strong;Location\n{rows}"),
-            3,
-            "",
-        ),
+        (format!("sep=;\nNL gloss;Handshape strong;Location\n{rows}"), 3, ""),
         (
             format!("Lexicon, NGT\n\nNL gloss;Handshape strong;Location\n{rows}"),
             4,

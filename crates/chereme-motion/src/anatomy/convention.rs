@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::measures::{Measures, trunk_axes};
-use super::{Anatomy, Part};
-use crate::axes::{Axes, Convention, Direction};
-use crate::hand::Side;
+use super::measures::{BodyMeasures, trunk_axes};
+use super::{BodyAnatomy, BodyPart};
+use crate::axes::{AxisDirection, SignerAxes, SpaceConvention};
+use crate::hand::BodySide;
 use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
@@ -13,7 +13,7 @@ use crate::skeleton::Skeleton;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConventionGuess {
     /// The unit and axes; those of model space if there is no evidence for others.
-    pub convention: Convention,
+    pub convention: SpaceConvention,
     /// `m`, `cm`, `mm`, `inch`, `acclaim` (1/0.45 inch) or `unknown`.
     pub unit_name: &'static str,
     /// Confidence in the guess: 1 if everything fits, 0 if there is no evidence.
@@ -29,16 +29,16 @@ impl ConventionGuess {
     #[must_use]
     pub fn unusual_stature(&self) -> Option<&str> {
         let mut reasons = self.reasons.iter().map(String::as_str);
-        reasons.find(|it| it.starts_with(UNUSUAL))
+        reasons.find(|reason| reason.starts_with(UNUSUAL_UNIT_REASON))
     }
 }
 
 /// The beginning of the reason that doubts the unit.
-const UNUSUAL: &str = "a stature of ";
+const UNUSUAL_UNIT_REASON: &str = "a stature of ";
 
 /// The units in which files are written, each with its name and its length in metres. Acclaim's unit is 1/0.45 inch,
 /// as CMU's skeletons state it.
-const UNITS: [(&str, f64); 5] = [
+const FILE_LENGTH_UNITS: [(&str, f64); 5] = [
     ("m", 1.0),
     ("cm", 0.01),
     ("mm", 0.001),
@@ -48,13 +48,13 @@ const UNITS: [(&str, f64); 5] = [
 
 /// The factor in stature, as a logarithm, by which a unit other than metric ones must fit better: a body of 100 units is
 /// rather 1 m tall in centimetres than 2.54 m in inches.
-const RARE: f64 = 0.15;
+const RARE_UNIT_PENALTY: f64 = 0.15;
 
 /// The statures that a unit may give to a body, in metres; they include children.
-const STATURE: std::ops::Range<f64> = 1.2..2.3;
+const STATURE_RANGE_M: std::ops::Range<f64> = 1.2..2.3;
 
 /// The stature in metres assumed for a body whose unit is not one of the usual units of files.
-const PERSON: f64 = 1.7;
+const ASSUMED_STATURE_M: f64 = 1.7;
 
 /// Guesses the unit and axes of a skeleton as a file wrote it.
 ///
@@ -64,23 +64,20 @@ const PERSON: f64 = 1.7;
 /// ambiguous, or if the two stand or face in different directions.
 #[must_use]
 pub fn detect_convention(skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
-    Anatomy::detect(skeleton).convention(skeleton, first)
+    BodyAnatomy::detect_anatomy(skeleton).guess_convention(skeleton, first)
 }
 
-impl Anatomy {
+impl BodyAnatomy {
     /// Guesses the unit and axes as [`detect_convention`] does, with the parts already found.
     #[must_use]
-    pub fn convention(&self, skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
+    pub fn guess_convention(&self, skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
         let mut reasons = Vec::new();
         let rest = skeleton.rest_model_pose();
-        let measures = Measures::of(self, skeleton, &rest);
-        let (unit_name, metres_per_unit, sure) = unit(measures, skeleton, &rest, &mut reasons);
-        let (axes, sure_axes) = self.axes(&rest, first, &mut reasons);
+        let measures = BodyMeasures::measure_body(self, skeleton, &rest);
+        let (unit_name, metres_per_unit, sure) = guess_length_unit(measures, skeleton, &rest, &mut reasons);
+        let (axes, sure_axes) = self.guess_signer_axes(&rest, first, &mut reasons);
         ConventionGuess {
-            convention: Convention {
-                metres_per_unit,
-                axes,
-            },
+            convention: SpaceConvention { metres_per_unit, axes },
             unit_name,
             confidence: sure.min(sure_axes),
             axes_confidence: sure_axes,
@@ -88,12 +85,12 @@ impl Anatomy {
         }
     }
 
-    fn axes(
+    fn guess_signer_axes(
         &self,
         rest: &ModelPose,
         first: Option<&ModelPose>,
         reasons: &mut Vec<String>,
-    ) -> (Axes, f64) {
+    ) -> (SignerAxes, f64) {
         let still = trunk_axes(self, rest);
         let posed = first.and_then(|pose| trunk_axes(self, pose));
         let turned = |n: usize, least: f64| {
@@ -112,25 +109,25 @@ impl Anatomy {
                      Y up and the left at +X are assumed; say the axes if that is wrong"
                         .to_owned(),
                 );
-                return (Axes::MODEL, 0.0);
+                return (SignerAxes::MODEL_AXES, 0.0);
             }
         };
         let [left, up, _] = chosen;
-        let up_axis = Direction::nearest(up);
+        let up_axis = AxisDirection::nearest_axis_direction(up);
         let mut off = left;
         off[up_axis.axis.index()] = 0.0;
-        let Some(axes) = Axes::new(up_axis, Direction::nearest(off)) else {
+        let Some(axes) = SignerAxes::new(up_axis, AxisDirection::nearest_axis_direction(off)) else {
             reasons.push("the trunk lies askew to all axes; Y up is assumed".to_owned());
-            return (Axes::MODEL, 0.0);
+            return (SignerAxes::MODEL_AXES, 0.0);
         };
         reasons.push(format!(
             "up is {} and left is {} in {why}",
-            axes.up(),
-            axes.left()
+            axes.up_direction(),
+            axes.left_direction()
         ));
         let mut sure = up
-            .dot(axes.up().vector())
-            .min(left.dot(axes.left().vector()));
+            .dot(axes.up_direction().axis_direction_vector())
+            .min(left.dot(axes.left_direction().axis_direction_vector()));
         if self.toes_point_back(first.unwrap_or(rest)) {
             sure *= 0.5;
             reasons.push(
@@ -143,22 +140,21 @@ impl Anatomy {
     }
 
     fn toes_point_back(&self, pose: &ModelPose) -> bool {
-        let feet: Vec<DVec3> = Side::BOTH
+        let feet: Vec<DVec3> = BodySide::BOTH_SIDES
             .iter()
             .filter_map(|&side| {
-                let toes = self.joint(Part::Toes(side))?;
-                let foot = self.joint(Part::Foot(side))?;
-                (pose.position(toes) - pose.position(foot)).try_normalize()
+                let toes = self.part_joint(BodyPart::Toes(side))?;
+                let foot = self.part_joint(BodyPart::Foot(side))?;
+                (pose.model_joint_position(toes) - pose.model_joint_position(foot)).try_normalize()
             })
             .collect();
         let forward = trunk_axes(self, pose).map(|[_, _, forward]| forward);
-        !feet.is_empty()
-            && forward.is_some_and(|forward| feet.iter().all(|foot| foot.dot(forward) < -0.5))
+        !feet.is_empty() && forward.is_some_and(|forward| feet.iter().all(|foot| foot.dot(forward) < -0.5))
     }
 }
 
-fn unit(
-    measures: Option<Measures>,
+fn guess_length_unit(
+    measures: Option<BodyMeasures>,
     skeleton: &Skeleton,
     rest: &ModelPose,
     reasons: &mut Vec<String>,
@@ -170,23 +166,23 @@ fn unit(
         ));
         return ("unknown", metres, 0.0);
     };
-    let middle = (STATURE.start * STATURE.end).sqrt();
+    let middle = (STATURE_RANGE_M.start * STATURE_RANGE_M.end).sqrt();
     let off = |metres: f64| (measures.stature * metres / middle).ln().abs();
     let unlikely = |(name, metres): (&str, f64)| {
         let is_rare = matches!(name, "inch" | "acclaim");
-        off(metres) + if is_rare { RARE } else { 0.0 }
+        off(metres) + if is_rare { RARE_UNIT_PENALTY } else { 0.0 }
     };
-    let (name, metres) = UNITS
+    let (name, metres) = FILE_LENGTH_UNITS
         .into_iter()
         .min_by(|a, b| unlikely(*a).total_cmp(&unlikely(*b)))
-        .unwrap_or(UNITS[0]);
+        .unwrap_or(FILE_LENGTH_UNITS[0]);
     let stature = measures.stature * metres;
-    let half = (STATURE.end / middle).ln();
+    let half = (STATURE_RANGE_M.end / middle).ln();
     if off(metres) > half * 1.7 {
-        let metres = PERSON / measures.stature;
+        let metres = ASSUMED_STATURE_M / measures.stature;
         reasons.push(format!(
             "a body {:.4} units tall is no person in metres, centimetres, millimetres, inches or \
-             Acclaim's unit: it is taken for {PERSON} m tall; say the unit if that is wrong",
+             Acclaim's unit: it is taken for {ASSUMED_STATURE_M} m tall; say the unit if that is wrong",
             measures.stature
         ));
         return ("unknown", metres, 0.0);
@@ -195,9 +191,9 @@ fn unit(
         "a body {:.2} units tall is {stature:.2} m in {name}",
         measures.stature
     ));
-    let sure = if STATURE.contains(&stature) { 1.0 } else { 0.5 };
+    let sure = if STATURE_RANGE_M.contains(&stature) { 1.0 } else { 0.5 };
     if sure < 1.0 {
-        reasons.push(format!("{UNUSUAL}{stature:.2} m is unusual"));
+        reasons.push(format!("{UNUSUAL_UNIT_REASON}{stature:.2} m is unusual"));
     }
     (name, metres, sure)
 }
@@ -205,8 +201,11 @@ fn unit(
 /// Returns the scale for an unknown unit and its name: metres, or centimetres if the skeleton would be larger than
 /// three metres.
 fn fallback_scale(skeleton: &Skeleton, rest: &ModelPose) -> (f64, &'static str) {
-    let root = rest.position(0);
-    let ends = (0..skeleton.len()).map(|j| rest.tip(skeleton, j).unwrap_or(rest.position(j)));
+    let root = rest.model_joint_position(0);
+    let ends = (0..skeleton.len()).map(|j| {
+        rest.bone_tip_position(skeleton, j)
+            .unwrap_or(rest.model_joint_position(j))
+    });
     let extent = ends.map(|at| at.distance(root)).fold(0.0, f64::max);
     if extent > 3.0 {
         (0.01, "it is taken for centimetres")

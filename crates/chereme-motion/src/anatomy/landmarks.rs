@@ -10,14 +10,14 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Anatomy, BodyFrame, Measures, Part};
-use crate::hand::{Finger, Side};
+use super::{BodyAnatomy, BodyFrame, BodyMeasures, BodyPart};
+use crate::hand::{BodySide, HandFinger};
 use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
 /// Places of the head: name, and the offset to the left, up and forward from the middle of the skull at the height of
 /// the chin, in head heights. Those off the middle exist on both sides.
-const HEAD: [(&str, [f64; 3]); 19] = [
+const HEAD_LANDMARKS: [(&str, [f64; 3]); 19] = [
     ("head-top", [0.0, 1.0, 0.0]),
     ("head-back", [0.0, 0.58, -0.43]),
     ("forehead", [0.0, 0.74, 0.42]),
@@ -41,7 +41,7 @@ const HEAD: [(&str, [f64; 3]); 19] = [
 
 /// Places of the trunk: name, offset to the left and forward in shoulder widths, and up in trunk lengths, all from the
 /// point midway between the shoulder joints.
-const TRUNK: [(&str, [f64; 3]); 12] = [
+const TRUNK_LANDMARKS: [(&str, [f64; 3]); 12] = [
     ("throat", [0.0, 0.18, 0.16]),
     ("neck", [0.0, 0.24, 0.12]),
     ("neck-side", [0.17, 0.24, 0.02]),
@@ -57,7 +57,7 @@ const TRUNK: [(&str, [f64; 3]); 12] = [
 ];
 
 /// Other names for places.
-const SYNONYMS: [(&str, &str); 11] = [
+const LANDMARK_SYNONYMS: [(&str, &str); 11] = [
     ("top-of-head", "head-top"),
     ("back-of-head", "head-back"),
     ("back-of-hand", "hand-back"),
@@ -72,7 +72,7 @@ const SYNONYMS: [(&str, &str); 11] = [
 ];
 
 /// Places of each arm and hand.
-const ARM: [&str; 14] = [
+const ARM_LANDMARKS: [&str; 14] = [
     "shoulder",
     "upper-arm",
     "elbow",
@@ -90,7 +90,7 @@ const ARM: [&str; 14] = [
 ];
 
 /// Places of the trunk that exist on both sides.
-const SIDED: [&str; 4] = ["neck-side", "chest-side", "armpit", "waist"];
+const SIDED_TRUNK_LANDMARKS: [&str; 4] = ["neck-side", "chest-side", "armpit", "waist"];
 
 /// The head's directions and the position of its chin, in the space of the head's joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,24 +103,24 @@ pub(super) struct HeadFrame {
 
 impl HeadFrame {
     /// Returns the frame of a head that has the same direction as the trunk in the posture `model`.
-    pub(super) fn of(
-        anatomy: &Anatomy,
+    pub(super) fn from_head_anatomy(
+        anatomy: &BodyAnatomy,
         model: &ModelPose,
         axes: DQuat,
-        measures: &Measures,
+        measures: &BodyMeasures,
     ) -> Option<Self> {
-        let head = anatomy.joint(Part::Head)?;
-        let back = model.rotation(head).inverse();
+        let head = anatomy.part_joint(BodyPart::Head)?;
+        let back = model.model_joint_rotation(head).inverse();
         let axes = (back * axes).normalize();
         let size = measures.head;
         let mut chin = DVec3::new(0.0, measures.head_top - size, 0.0);
-        let eyes = Side::BOTH.map(|side| anatomy.joint(Part::Eye(side)));
+        let eyes = BodySide::BOTH_SIDES.map(|side| anatomy.part_joint(BodyPart::Eye(side)));
         if let [Some(right), Some(left)] = eyes {
-            let middle = (model.position(right) + model.position(left)) / 2.0;
-            let at = axes.inverse() * (back * (middle - model.position(head)));
+            let middle = (model.model_joint_position(right) + model.model_joint_position(left)) / 2.0;
+            let head_point = axes.inverse() * (back * (middle - model.model_joint_position(head)));
             let seat = DVec3::new(0.0, 0.5 * size, 0.32 * size);
-            if at.distance(chin + seat) < 0.5 * size {
-                chin = DVec3::new(0.0, at.y - seat.y, at.z - seat.z);
+            if head_point.distance(chin + seat) < 0.5 * size {
+                chin = DVec3::new(0.0, head_point.y - seat.y, head_point.z - seat.z);
             }
         }
         Some(Self {
@@ -130,34 +130,34 @@ impl HeadFrame {
     }
 }
 
-impl Anatomy {
-    /// Returns the names that [`landmark`](Self::landmark) accepts, in alphabetical order.
+impl BodyAnatomy {
+    /// Returns the names that [`landmark_place_position`](Self::landmark_place_position) accepts, in alphabetical order.
     ///
     /// Not every skeleton has the joints for all of them.
     #[must_use]
-    pub fn landmarks() -> Vec<String> {
+    pub fn landmark_names() -> Vec<String> {
         let sided = |name: &str, each: bool| -> Vec<String> {
             if each {
-                Side::BOTH
-                    .map(|side| format!("{}-{name}", side.name()))
+                BodySide::BOTH_SIDES
+                    .map(|side| format!("{}-{name}", side.body_side_name()))
                     .to_vec()
             } else {
                 vec![name.to_owned()]
             }
         };
         let mut names = vec!["neutral-space".to_owned()];
-        for (name, at) in HEAD {
+        for (name, at) in HEAD_LANDMARKS {
             names.extend(sided(name, at[0] != 0.0));
         }
-        for (name, _) in TRUNK {
-            names.extend(sided(name, SIDED.contains(&name)));
+        for (name, _) in TRUNK_LANDMARKS {
+            names.extend(sided(name, SIDED_TRUNK_LANDMARKS.contains(&name)));
         }
         names.extend(sided("chest", true));
         names.push("hips".to_owned());
         names.extend(sided("hip", true));
         names.extend(sided("thigh", true));
         names.extend(sided("knee", true));
-        for name in ARM {
+        for name in ARM_LANDMARKS {
             names.extend(sided(name, true));
         }
         names.sort_unstable();
@@ -168,13 +168,13 @@ impl Anatomy {
     ///
     /// The side comes before or after the name (`left-ear`, `ear left`); blanks and underscores count as hyphens. The
     /// distance of places on the skin from the bone is that of a person of this size. Returns `None` for a name that is
-    /// not in [`landmarks`](Self::landmarks), or if the skeleton lacks the joints for it.
+    /// not in [`landmark_names`](Self::landmark_names), or if the skeleton lacks the joints for it.
     #[must_use]
-    pub fn landmark(&self, skeleton: &Skeleton, model: &ModelPose, name: &str) -> Option<DVec3> {
-        let (side, name) = split(name);
+    pub fn landmark_place_position(&self, skeleton: &Skeleton, model: &ModelPose, name: &str) -> Option<DVec3> {
+        let (side, name) = split_landmark_name(name);
         let name = name.as_str();
-        if let Some(&(_, [x, y, z])) = HEAD.iter().find(|(known, _)| *known == name) {
-            let x = if x == 0.0 { 0.0 } else { side?.sign() * x };
+        if let Some(&(_, [x, y, z])) = HEAD_LANDMARKS.iter().find(|(known, _)| *known == name) {
+            let x = if x == 0.0 { 0.0 } else { side?.side_sign() * x };
             return self.on_head(model, DVec3::new(x, y, z));
         }
         if let Some(side) = side
@@ -183,70 +183,68 @@ impl Anatomy {
             return Some(at);
         }
         let frame = self.body_frame(model)?;
-        let trunk = self.measures()?.trunk / frame.scale;
+        let trunk = self.anatomy_measures()?.trunk / frame.scale;
         let place = |x: f64, y: f64, z: f64| frame.to_model(DVec3::new(x, y * trunk, z));
-        let sign = side.map(Side::sign);
+        let sign = side.map(BodySide::side_sign);
         match name {
             "neutral-space" => {
-                let reach = self.measures()?.arm / frame.scale;
+                let reach = self.anatomy_measures()?.arm / frame.scale;
                 Some(place(0.0, -0.5, 0.33 + 0.45 * reach))
             }
-            "hip" if side.is_none() => Some(model.position(self.joint(Part::Hips)?)),
-            "hip" => Some(match self.joint(Part::Thigh(side?)) {
-                Some(joint) => model.position(joint) + frame.left * (sign? * 0.15 * frame.scale),
+            "hip" if side.is_none() => Some(model.model_joint_position(self.part_joint(BodyPart::Hips)?)),
+            "hip" => Some(match self.part_joint(BodyPart::Thigh(side?)) {
+                Some(joint) => model.model_joint_position(joint) + frame.left * (sign? * 0.15 * frame.scale),
                 None => place(sign? * 0.42, -1.0, 0.0),
             }),
             "thigh" => {
                 let (hip, knee) = (
-                    self.joint(Part::Thigh(side?))?,
-                    self.joint(Part::Shin(side?))?,
+                    self.part_joint(BodyPart::Thigh(side?))?,
+                    self.part_joint(BodyPart::Shin(side?))?,
                 );
-                let middle = (model.position(hip) + model.position(knee)) / 2.0;
+                let middle = (model.model_joint_position(hip) + model.model_joint_position(knee)) / 2.0;
                 Some(middle + frame.forward * (0.22 * frame.scale))
             }
-            "knee" => Some(model.position(self.joint(Part::Shin(side?))?)),
+            "knee" => Some(model.model_joint_position(self.part_joint(BodyPart::Shin(side?))?)),
             "chest" if side.is_some() => Some(place(sign? * 0.28, -0.25, 0.30)),
             _ => {
-                let &(_, [x, y, z]) = TRUNK.iter().find(|(known, _)| *known == name)?;
-                let x = if SIDED.contains(&name) { sign? * x } else { x };
+                let &(_, [x, y, z]) = TRUNK_LANDMARKS.iter().find(|(known, _)| *known == name)?;
+                let x = if SIDED_TRUNK_LANDMARKS.contains(&name) {
+                    sign? * x
+                } else {
+                    x
+                };
                 Some(place(x, y, z))
             }
         }
     }
 
     fn on_head(&self, model: &ModelPose, at: DVec3) -> Option<DVec3> {
-        let (head, measures) = (self.joint(Part::Head)?, self.measures()?);
-        let at = at * measures.head;
+        let (head, measures) = (self.part_joint(BodyPart::Head)?, self.anatomy_measures()?);
+        let scaled_place = at * measures.head;
         if let Some(frame) = self.head {
-            return Some(model.point(head, frame.chin + frame.axes * at));
+            return Some(model.joint_point_to_model(head, frame.chin + frame.axes * scaled_place));
         }
         let body = self.body_frame(model)?;
         let chin = DVec3::new(0.0, measures.head_top - measures.head, 0.0);
-        Some(model.position(head) + body.direction_to_model(chin + at))
+        Some(model.model_joint_position(head) + body.direction_to_model(chin + scaled_place))
     }
 
     /// Returns the unit vectors left, up and forward of the head in model space.
     #[must_use]
     pub fn head_axes(&self, model: &ModelPose) -> Option<[DVec3; 3]> {
         let turned = match self.head {
-            Some(frame) => model.rotation(self.joint(Part::Head)?) * frame.axes,
-            None => self.body_frame(model)?.rotation(),
+            Some(frame) => model.model_joint_rotation(self.part_joint(BodyPart::Head)?) * frame.axes,
+            None => self.body_frame(model)?.body_frame_rotation(),
         };
         Some([DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turned * axis))
     }
 
-    fn on_arm(
-        &self,
-        skeleton: &Skeleton,
-        model: &ModelPose,
-        side: Side,
-        name: &str,
-    ) -> Option<DVec3> {
-        let at = |part| self.joint(part).map(|joint| model.position(joint));
+    fn on_arm(&self, skeleton: &Skeleton, model: &ModelPose, side: BodySide, name: &str) -> Option<DVec3> {
+        let part_place = |part| self.part_joint(part).map(|joint| model.model_joint_position(joint));
         let (upper, forearm, hand) = (
-            at(Part::UpperArm(side)),
-            at(Part::Forearm(side)),
-            at(Part::Hand(side)),
+            part_place(BodyPart::UpperArm(side)),
+            part_place(BodyPart::Forearm(side)),
+            part_place(BodyPart::Hand(side)),
         );
         match name {
             "shoulder" => {
@@ -268,15 +266,15 @@ impl Anatomy {
 
     /// Returns a place on the hand's palm, back or edges, half a hand's thickness or breadth from its middle; the
     /// middle lies half-way from the wrist to the base of the middle finger.
-    fn on_hand(&self, model: &ModelPose, side: Side, wrist: DVec3, name: &str) -> Option<DVec3> {
-        let length = self.measures()?.hand;
+    fn on_hand(&self, model: &ModelPose, side: BodySide, wrist: DVec3, name: &str) -> Option<DVec3> {
+        let length = self.anatomy_measures()?.hand;
         let along = self.hand_direction(side, model)?;
         let base = self
-            .joint(Part::Finger(side, Finger::Middle, 1))
-            .map_or(0.5 * length, |joint| model.position(joint).distance(wrist));
+            .part_joint(BodyPart::Finger(side, HandFinger::Middle, 1))
+            .map_or(0.5 * length, |joint| model.model_joint_position(joint).distance(wrist));
         let middle = wrist + along * (0.55 * base);
         let palm = self.palm_normal(side, model);
-        let radial = palm.map(|palm| palm.cross(along) * side.sign());
+        let radial = palm.map(|palm| palm.cross(along) * side.side_sign());
         let out = match name {
             "palm" => palm.map_or(DVec3::ZERO, |palm| palm * (0.08 * length)),
             "hand-back" => palm.map_or(DVec3::ZERO, |palm| palm * (-0.08 * length)),
@@ -289,27 +287,21 @@ impl Anatomy {
 
     /// Returns the end of a digit: its last joint's tip, else a point beyond the last joint by 0.8 of the last bone's
     /// length.
-    fn fingertip(
-        &self,
-        skeleton: &Skeleton,
-        model: &ModelPose,
-        side: Side,
-        digit: &str,
-    ) -> Option<DVec3> {
-        let parts: Vec<Part> = if digit == "thumb" {
-            (0..3).map(|n| Part::Thumb(side, n)).collect()
+    fn fingertip(&self, skeleton: &Skeleton, model: &ModelPose, side: BodySide, digit: &str) -> Option<DVec3> {
+        let parts: Vec<BodyPart> = if digit == "thumb" {
+            (0..3).map(|n| BodyPart::Thumb(side, n)).collect()
         } else {
-            let finger = Finger::ALL
+            let finger = HandFinger::ALL_FINGERS
                 .into_iter()
-                .find(|finger| finger.name() == digit)?;
-            (1..4).map(|n| Part::Finger(side, finger, n)).collect()
+                .find(|finger| finger.finger_name() == digit)?;
+            (1..4).map(|n| BodyPart::Finger(side, finger, n)).collect()
         };
-        let last = parts.iter().rev().find_map(|&part| self.joint(part))?;
+        let last = parts.iter().rev().find_map(|&part| self.part_joint(part))?;
         if let Some(tip) = super::tips::digit_tip(self, skeleton, last) {
-            return Some(model.point(last, tip));
+            return Some(model.joint_point_to_model(last, tip));
         }
-        let from = model.position(skeleton.parent(last)?);
-        Some(model.position(last) + (model.position(last) - from) * 0.8)
+        let from = model.model_joint_position(skeleton.joint_parent(last)?);
+        Some(model.model_joint_position(last) + (model.model_joint_position(last) - from) * 0.8)
     }
 
     /// Returns the frame of the trunk in the posture `model`.
@@ -320,11 +312,13 @@ impl Anatomy {
     #[must_use]
     pub fn body_frame(&self, model: &ModelPose) -> Option<BodyFrame> {
         let [left, up, forward] = super::measures::trunk_axes(self, model)?;
-        let origin = super::measures::middle(self, model, Part::UpperArm).or_else(|| {
-            let joint = self.joint(Part::Chest).or_else(|| self.joint(Part::Neck))?;
-            Some(model.position(joint))
+        let origin = super::measures::part_midpoint(self, model, BodyPart::UpperArm).or_else(|| {
+            let joint = self
+                .part_joint(BodyPart::Chest)
+                .or_else(|| self.part_joint(BodyPart::Neck))?;
+            Some(model.model_joint_position(joint))
         })?;
-        let scale = self.measures()?.shoulder_width;
+        let scale = self.anatomy_measures()?.shoulder_width;
         Some(BodyFrame {
             origin,
             left,
@@ -336,45 +330,44 @@ impl Anatomy {
 }
 
 /// Splits a landmark's name into its side and the canonical rest.
-fn split(name: &str) -> (Option<Side>, String) {
+fn split_landmark_name(name: &str) -> (Option<BodySide>, String) {
     let lower = name.to_lowercase().replace(['_', ' '], "-");
     let mut side = None;
     let rest: Vec<&str> = lower
         .split('-')
         .filter(|word| {
-            let found = Side::BOTH.into_iter().find(|side| side.name() == *word);
-            side = side.or(found);
-            found.is_none() && !word.is_empty()
+            let word_side = BodySide::BOTH_SIDES
+                .into_iter()
+                .find(|side| side.body_side_name() == *word);
+            side = side.or(word_side);
+            word_side.is_none() && !word.is_empty()
         })
         .collect();
     let rest = rest.join("-");
-    let meant = SYNONYMS.iter().find(|(word, _)| *word == rest);
-    (
-        side,
-        meant.map_or(rest.clone(), |(_, name)| (*name).to_owned()),
-    )
+    let synonym = LANDMARK_SYNONYMS.iter().find(|(word, _)| *word == rest);
+    (side, synonym.map_or(rest.clone(), |(_, name)| (*name).to_owned()))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN, body};
+    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body};
     use super::*;
 
     #[test]
     fn a_rest_pose_along_one_axis_gives_the_same_face_in_a_usual_posture() {
-        let whole = body(PLAIN);
+        let whole = fixture_body(PLAIN_BODY_VARIATION);
         let model = whole.rest_model_pose();
-        let usual = Anatomy::detect(&whole);
-        let mut joints = whole.joints().to_vec();
+        let usual = BodyAnatomy::detect_anatomy(&whole);
+        let mut joints = whole.skeleton_joints().to_vec();
         for joint in &mut joints {
             joint.offset = DVec3::Y * joint.offset.length();
         }
         let straight = Skeleton::new(joints).expect("a tree");
-        let odd = Anatomy::detect(&straight);
+        let odd = BodyAnatomy::detect_anatomy(&straight);
         assert!(usual.is_posed() && !odd.is_posed());
         for name in ["chin", "nose", "forehead", "left-eye", "head-top"] {
             let [one, two] = [(&usual, &whole), (&odd, &straight)]
-                .map(|(anatomy, skeleton)| anatomy.landmark(skeleton, &model, name).expect(name));
+                .map(|(anatomy, skeleton)| anatomy.landmark_place_position(skeleton, &model, name).expect(name));
             assert!(one.distance(two) < 0.03, "{name}: {one} {two}");
         }
     }

@@ -2,26 +2,26 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::{Anatomy, Part};
-use crate::hand::{Finger, Side};
+use super::{BodyAnatomy, BodyPart};
+use crate::hand::{BodySide, HandFinger};
 use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
 /// Shares of stature after Drillis & Contini 1966, as in Winter, *Biomechanics and Motor Control of Human Movement*,
 /// fig. 4.1.
-pub(super) const ARM: f64 = 0.186 + 0.146;
-pub(super) const HAND: f64 = 0.108;
-const LEG: f64 = 0.245 + 0.246;
-const ANKLE: f64 = 0.039;
-const HEAD: f64 = 0.130;
-const TRUNK: f64 = 0.818 - 0.530;
+pub(super) const ARM_STATURE_SHARE: f64 = 0.186 + 0.146;
+pub(super) const HAND_STATURE_SHARE: f64 = 0.108;
+const LEG_STATURE_SHARE: f64 = 0.245 + 0.246;
+const ANKLE_STATURE_SHARE: f64 = 0.039;
+const HEAD_STATURE_SHARE: f64 = 0.130;
+const TRUNK_STATURE_SHARE: f64 = 0.818 - 0.530;
 /// The distance of the shoulder joints' centres as a share of stature: the breadth of the shoulders, 0.259, less some 5
 /// cm of bone and flesh on either side at a stature of 1.7 m.
-const SHOULDERS: f64 = 0.200;
+const SHOULDER_STATURE_SHARE: f64 = 0.200;
 
 /// The size of a body, in the unit of its skeleton: metres in model space.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measures {
+pub struct BodyMeasures {
     /// From the sole to the top of the head; measured on the whole body if the skeleton has it, else inferred from the
     /// arm, the leg or the hand.
     pub stature: f64,
@@ -39,43 +39,46 @@ pub struct Measures {
     pub head_top: f64,
 }
 
-impl Measures {
+impl BodyMeasures {
     /// Measures bone lengths, and distances in the posture `model` if the bones do not show them. Returns `None` if
     /// the skeleton has no arm, leg or hand to measure.
-    pub(super) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
-        let arm = both(|side| {
-            let arm = anatomy.arm(side)?;
-            Some(length(skeleton, arm.hand, arm.upper))
+    pub(super) fn measure_body(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+        let arm = average_both_sides(|side| {
+            let arm = anatomy.arm_chain(side)?;
+            Some(bone_chain_length(skeleton, arm.hand, arm.upper))
         });
-        let leg = both(|side| {
+        let leg = average_both_sides(|side| {
             let (foot, thigh) = (
-                anatomy.joint(Part::Foot(side))?,
-                anatomy.joint(Part::Thigh(side))?,
+                anatomy.part_joint(BodyPart::Foot(side))?,
+                anatomy.part_joint(BodyPart::Thigh(side))?,
             );
             anatomy
                 .is_below(foot, thigh)
-                .then(|| length(skeleton, foot, thigh))
+                .then(|| bone_chain_length(skeleton, foot, thigh))
         });
-        let sum = arm.map(|l| l / ARM).or(leg.map(|l| l / LEG));
-        let hand = both(|side| hand_length(anatomy, skeleton, side, sum.map(|all| HAND * all)));
-        let rough = sum.or(hand.map(|l| l / HAND)).filter(|&h| h > 0.0)?;
+        let sum = arm
+            .map(|l| l / ARM_STATURE_SHARE)
+            .or(leg.map(|l| l / LEG_STATURE_SHARE));
+        let hand =
+            average_both_sides(|side| hand_length(anatomy, skeleton, side, sum.map(|all| HAND_STATURE_SHARE * all)));
+        let rough = sum.or(hand.map(|l| l / HAND_STATURE_SHARE)).filter(|&h| h > 0.0)?;
         let head_top = head_top(anatomy, skeleton, rough);
         let stature = match (leg, trunk_and_neck(anatomy, skeleton, model)) {
-            (Some(leg), Some(middle)) => leg * (1.0 + ANKLE / LEG) + middle + head_top,
+            (Some(leg), Some(middle)) => leg * (1.0 + ANKLE_STATURE_SHARE / LEG_STATURE_SHARE) + middle + head_top,
             _ => rough,
         };
         let head = if head_top <= 0.115 * stature {
-            HEAD * stature
+            HEAD_STATURE_SHARE * stature
         } else {
-            head_top * HEAD / 0.115
+            head_top * HEAD_STATURE_SHARE / 0.115
         };
         let measured = trunk_length(anatomy, model).filter(|t| *t > 0.15 * stature);
         Some(Self {
             stature,
             shoulder_width: shoulder_width(anatomy, skeleton, model, stature),
-            trunk: measured.unwrap_or(TRUNK * stature),
-            arm: arm.unwrap_or(ARM * stature),
-            hand: hand.unwrap_or(HAND * stature),
+            trunk: measured.unwrap_or(TRUNK_STATURE_SHARE * stature),
+            arm: arm.unwrap_or(ARM_STATURE_SHARE * stature),
+            hand: hand.unwrap_or(HAND_STATURE_SHARE * stature),
             head,
             head_top,
         })
@@ -83,58 +86,54 @@ impl Measures {
 }
 
 /// Distances of a hand's tip from its wrist, as shares of the usual hand, between which the tip is the end of the hand.
-const TIPS: [f64; 2] = [0.75, 1.4];
+const HAND_TIP_SHARES: [f64; 2] = [0.75, 1.4];
 
 /// The length of a hand's bones from which they are impossible, as a multiple of the usual hand.
-const GIANT: f64 = 2.0;
+const GIANT_HAND_FACTOR: f64 = 2.0;
 
-fn both(measure: impl Fn(Side) -> Option<f64>) -> Option<f64> {
-    let found: Vec<f64> = Side::BOTH
-        .iter()
-        .filter_map(|&side| measure(side))
-        .collect();
-    (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
+fn average_both_sides(measure: impl Fn(BodySide) -> Option<f64>) -> Option<f64> {
+    let measured_lengths: Vec<f64> = BodySide::BOTH_SIDES.iter().filter_map(|&side| measure(side)).collect();
+    (!measured_lengths.is_empty()).then(|| measured_lengths.iter().sum::<f64>() / measured_lengths.len() as f64)
 }
 
 /// Returns the length of the bones from `above` down to `joint`.
-fn length(skeleton: &Skeleton, joint: usize, above: usize) -> f64 {
-    let path = skeleton.ancestors(joint).take_while(|&j| j != above);
-    path.map(|j| skeleton.joint(j).offset.length()).sum()
+fn bone_chain_length(skeleton: &Skeleton, joint: usize, above: usize) -> f64 {
+    let path = skeleton.joint_ancestors(joint).take_while(|&j| j != above);
+    path.map(|j| skeleton.joint_at(j).offset.length()).sum()
 }
 
 /// Returns the length of a hand: of its middle finger's bones, or without fingers to the hand's tip, if that is far
 /// enough for a hand of the `usual` length; the tips of many skeletons without fingers end at the palm.
-fn hand_length(
-    anatomy: &Anatomy,
-    skeleton: &Skeleton,
-    side: Side,
-    usual: Option<f64>,
-) -> Option<f64> {
-    let hand = anatomy.joint(Part::Hand(side))?;
-    let middle = [3, 2, 1].map(|n| anatomy.joint(Part::Finger(side, Finger::Middle, n)));
+fn hand_length(anatomy: &BodyAnatomy, skeleton: &Skeleton, side: BodySide, usual: Option<f64>) -> Option<f64> {
+    let hand = anatomy.part_joint(BodyPart::Hand(side))?;
+    let middle = [3, 2, 1].map(|n| anatomy.part_joint(BodyPart::Finger(side, HandFinger::Middle, n)));
     let Some(last) = middle.into_iter().flatten().next() else {
-        let [least, most] = usual.map_or([0.0, f64::INFINITY], |it| TIPS.map(|share| share * it));
-        let tip = skeleton.joint(hand).tip.map(DVec3::length);
+        let [least, most] = usual.map_or([0.0, f64::INFINITY], |size| HAND_TIP_SHARES.map(|share| share * size));
+        let tip = skeleton.joint_at(hand).tip.map(DVec3::length);
         return tip.filter(|&length| length > least && length < most);
     };
-    let tip = super::tips::digit_tip(anatomy, skeleton, last);
-    let tip = tip.map_or(0.8 * skeleton.joint(last).offset.length(), DVec3::length);
-    let whole = length(skeleton, last, hand) + tip;
+    let digit_end = super::tips::digit_tip(anatomy, skeleton, last);
+    let tip = digit_end.map_or(0.8 * skeleton.joint_at(last).offset.length(), DVec3::length);
+    let full_length = bone_chain_length(skeleton, last, hand) + tip;
     // A finger of impossible bones does not make a giant's hand.
-    Some(usual.filter(|usual| whole > GIANT * usual).unwrap_or(whole))
+    Some(
+        usual
+            .filter(|usual| full_length > GIANT_HAND_FACTOR * usual)
+            .unwrap_or(full_length),
+    )
 }
 
 /// Returns the height of the head above its joint: from its tip or a child such as `HeadTop_End`, if that is long
 /// enough; else two thirds of the head's height, the usual height of head joints.
-fn head_top(anatomy: &Anatomy, skeleton: &Skeleton, stature: f64) -> f64 {
-    let usual = HEAD * stature * 2.0 / 3.0;
-    let Some(head) = anatomy.joint(Part::Head) else {
+fn head_top(anatomy: &BodyAnatomy, skeleton: &Skeleton, stature: f64) -> f64 {
+    let usual = HEAD_STATURE_SHARE * stature * 2.0 / 3.0;
+    let Some(head) = anatomy.part_joint(BodyPart::Head) else {
         return usual;
     };
-    let children = skeleton.children(head).iter();
+    let children = skeleton.joint_children(head).iter();
     let unknown = children.filter(|&&j| anatomy.part_of(j).is_none());
-    let ends = unknown.map(|&j| skeleton.joint(j).offset.length());
-    let tip = skeleton.joint(head).tip.map(DVec3::length);
+    let ends = unknown.map(|&j| skeleton.joint_at(j).offset.length());
+    let tip = skeleton.joint_at(head).tip.map(DVec3::length);
     let longest = ends.chain(tip).fold(0.0, f64::max);
     if (0.08 * stature..0.25 * stature).contains(&longest) {
         longest
@@ -144,56 +143,59 @@ fn head_top(anatomy: &Anatomy, skeleton: &Skeleton, stature: f64) -> f64 {
 }
 
 /// Returns the distance from the hip joints up to the head's joint.
-fn trunk_and_neck(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<f64> {
-    let (head, hips) = (anatomy.joint(Part::Head)?, anatomy.joint(Part::Hips)?);
+fn trunk_and_neck(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<f64> {
+    let (head, hips) = (anatomy.part_joint(BodyPart::Head)?, anatomy.part_joint(BodyPart::Hips)?);
     if !anatomy.is_below(head, hips) {
         return None;
     }
-    let distance = length(skeleton, head, hips);
-    let below = middle(anatomy, model, Part::Thigh).map_or(0.0, |thighs| {
-        let up = (model.position(head) - model.position(hips)).normalize_or_zero();
-        (model.position(hips) - thighs).dot(up)
+    let distance = bone_chain_length(skeleton, head, hips);
+    let below = part_midpoint(anatomy, model, BodyPart::Thigh).map_or(0.0, |thighs| {
+        let up = (model.model_joint_position(head) - model.model_joint_position(hips)).normalize_or_zero();
+        (model.model_joint_position(hips) - thighs).dot(up)
     });
     Some(distance + below.clamp(0.0, 0.2 * distance))
 }
 
-fn trunk_length(anatomy: &Anatomy, model: &ModelPose) -> Option<f64> {
-    let shoulders = middle(anatomy, model, Part::UpperArm)?;
-    let hips = model.position(anatomy.joint(Part::Hips)?);
+fn trunk_length(anatomy: &BodyAnatomy, model: &ModelPose) -> Option<f64> {
+    let shoulders = part_midpoint(anatomy, model, BodyPart::UpperArm)?;
+    let hips = model.model_joint_position(anatomy.part_joint(BodyPart::Hips)?);
     Some(shoulders.distance(hips))
 }
 
 /// Returns the distance of the shoulders in the posture if it fits the stature; else the distance that they have when
 /// both collar bones lie in one line, if that fits; else the usual share of the stature.
-fn shoulder_width(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, stature: f64) -> f64 {
-    let joint = |side| anatomy.joint(Part::UpperArm(side));
+fn shoulder_width(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose, stature: f64) -> f64 {
+    let joint = |side| anatomy.part_joint(BodyPart::UpperArm(side));
     let fits = |width: &f64| (0.12 * stature..0.35 * stature).contains(width);
-    let [Some(right), Some(left)] = Side::BOTH.map(joint) else {
-        return SHOULDERS * stature;
+    let [Some(right), Some(left)] = BodySide::BOTH_SIDES.map(joint) else {
+        return SHOULDER_STATURE_SHARE * stature;
     };
-    let posed = model.position(right).distance(model.position(left));
-    let collars = Side::BOTH.map(|side| anatomy.joint(Part::Clavicle(side)));
+    let posed = model
+        .model_joint_position(right)
+        .distance(model.model_joint_position(left));
+    let collars = BodySide::BOTH_SIDES.map(|side| anatomy.part_joint(BodyPart::Clavicle(side)));
     let line = match collars {
         [Some(a), Some(b)] => {
-            let bones = length(skeleton, right, a) + length(skeleton, left, b);
-            model.position(a).distance(model.position(b)) + bones
+            let bones = bone_chain_length(skeleton, right, a) + bone_chain_length(skeleton, left, b);
+            model.model_joint_position(a).distance(model.model_joint_position(b)) + bones
         }
         _ => 0.0,
     };
     Some(posed)
         .filter(fits)
         .or(Some(line).filter(fits))
-        .unwrap_or(SHOULDERS * stature)
+        .unwrap_or(SHOULDER_STATURE_SHARE * stature)
 }
 
 /// Returns the point midway between a part on the right and on the left, or the position of the only one.
-pub(super) fn middle(
-    anatomy: &Anatomy,
+pub(super) fn part_midpoint(
+    anatomy: &BodyAnatomy,
     model: &ModelPose,
-    part: impl Fn(Side) -> Part,
+    part: impl Fn(BodySide) -> BodyPart,
 ) -> Option<DVec3> {
-    let at = Side::BOTH.map(|side| anatomy.joint(part(side)).map(|j| model.position(j)));
-    match at {
+    let side_places =
+        BodySide::BOTH_SIDES.map(|side| anatomy.part_joint(part(side)).map(|j| model.model_joint_position(j)));
+    match side_places {
         [Some(right), Some(left)] => Some((right + left) / 2.0),
         [one, other] => one.or(other),
     }
@@ -241,54 +243,53 @@ impl BodyFrame {
 
     /// Returns the rotation from the model axes to left, up and forward.
     #[must_use]
-    pub fn rotation(&self) -> DQuat {
+    pub fn body_frame_rotation(&self) -> DQuat {
         DQuat::from_mat3(&DMat3::from_cols(self.left, self.up, self.forward)).normalize()
     }
 }
 
 /// Returns left, up and forward of the trunk; `None` if the joints do not span a plane.
-pub(super) fn trunk_axes(anatomy: &Anatomy, model: &ModelPose) -> Option<[DVec3; 3]> {
-    let at = |part| anatomy.joint(part).map(|j| model.position(j));
-    let low = at(Part::Hips)
-        .or_else(|| middle(anatomy, model, Part::Thigh))
-        .or_else(|| at(Part::Spine))
-        .or_else(|| at(Part::Chest))?;
-    let high = middle(anatomy, model, Part::UpperArm)
-        .filter(|_| at(Part::Hips).is_some())
-        .or_else(|| at(Part::Head))
-        .or_else(|| at(Part::Neck))?;
+pub(super) fn trunk_axes(anatomy: &BodyAnatomy, model: &ModelPose) -> Option<[DVec3; 3]> {
+    let part_place = |part| anatomy.part_joint(part).map(|j| model.model_joint_position(j));
+    let low = part_place(BodyPart::Hips)
+        .or_else(|| part_midpoint(anatomy, model, BodyPart::Thigh))
+        .or_else(|| part_place(BodyPart::Spine))
+        .or_else(|| part_place(BodyPart::Chest))?;
+    let high = part_midpoint(anatomy, model, BodyPart::UpperArm)
+        .filter(|_| part_place(BodyPart::Hips).is_some())
+        .or_else(|| part_place(BodyPart::Head))
+        .or_else(|| part_place(BodyPart::Neck))?;
     let up = (high - low).try_normalize()?;
-    let across = |part: fn(Side) -> Part| {
-        let [right, left] = Side::BOTH.map(|side| at(part(side)));
+    let across = |part: fn(BodySide) -> BodyPart| {
+        let [right, left] = BodySide::BOTH_SIDES.map(|side| part_place(part(side)));
         let line = left? - right?;
         let left = line.reject_from_normalized(up);
-        (left.length() > 0.3 * line.length() && left.length() > 0.05 * high.distance(low))
-            .then_some(left)
+        (left.length() > 0.3 * line.length() && left.length() > 0.05 * high.distance(low)).then_some(left)
     };
-    let shoulders = across(Part::UpperArm);
-    let collars = across(Part::Clavicle)
+    let shoulders = across(BodyPart::UpperArm);
+    let collars = across(BodyPart::Clavicle)
         .filter(|collars| shoulders.is_none_or(|line| collars.length() > 0.1 * line.length()));
-    let left = collars.or(shoulders).or_else(|| across(Part::Thigh))?;
-    let left = left.try_normalize()?;
+    let leftwards = collars.or(shoulders).or_else(|| across(BodyPart::Thigh))?;
+    let left = leftwards.try_normalize()?;
     let up = up.reject_from_normalized(left).try_normalize()?;
     Some([left, up, left.cross(up)])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN, body};
+    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body};
     use super::*;
 
     /// Returns the body with every bone of its limbs along the joint's X axis, as Maya writes them, backwards on the
     /// right side if `mirrored`; the trunk branches off sideways of its own axis.
     fn along_x(mirrored: bool) -> Skeleton {
-        let mut joints = body(PLAIN).joints().to_vec();
+        let mut joints = fixture_body(PLAIN_BODY_VARIATION).skeleton_joints().to_vec();
         for joint in &mut joints {
-            let part: Part = joint.name.parse().expect("a part");
-            let back = mirrored && part.side() == Some(Side::Right);
+            let part: BodyPart = joint.name.parse().expect("a part");
+            let back = mirrored && part.part_side() == Some(BodySide::Right);
             joint.offset = match part {
-                Part::Hips | Part::Spine | Part::Thigh(_) => joint.offset,
-                Part::Chest | Part::Neck | Part::Head | Part::Clavicle(_) => {
+                BodyPart::Hips | BodyPart::Spine | BodyPart::Thigh(_) => joint.offset,
+                BodyPart::Chest | BodyPart::Neck | BodyPart::Head | BodyPart::Clavicle(_) => {
                     DVec3::new(joint.offset.y, -joint.offset.x, joint.offset.z)
                 }
                 _ => DVec3::X * joint.offset.length() * if back { -1.0 } else { 1.0 },
@@ -299,7 +300,12 @@ mod tests {
 
     #[test]
     fn a_rest_pose_along_one_axis_is_no_reference() {
-        let lowered = |lowered| body(super::super::fixtures::Wear { lowered, ..PLAIN });
+        let lowered = |lowered| {
+            fixture_body(super::super::fixtures::BodyVariation {
+                lowered,
+                ..PLAIN_BODY_VARIATION
+            })
+        };
         for (skeleton, is_posed) in [
             (along_x(false), false),
             (along_x(true), false),
@@ -309,7 +315,7 @@ mod tests {
             // Both arms straight up.
             (lowered(-1.5), true),
         ] {
-            let anatomy = Anatomy::detect(&skeleton);
+            let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
             assert_eq!(anatomy.is_posed(), is_posed);
         }
     }
@@ -317,15 +323,13 @@ mod tests {
     #[test]
     fn a_head_whose_top_is_measured_gives_its_own_height() {
         for (top, measured) in [(0.16, false), (0.19, false), (0.26, true), (0.32, true)] {
-            let mut joints = body(PLAIN).joints().to_vec();
+            let mut joints = fixture_body(PLAIN_BODY_VARIATION).skeleton_joints().to_vec();
 
-            let head = joints
-                .iter()
-                .position(|joint| joint.name == Part::Head.to_string());
+            let head = joints.iter().position(|joint| joint.name == BodyPart::Head.to_string());
             joints[head.expect("a head")].tip = Some(DVec3::Y * top);
             let skeleton = Skeleton::new(joints).expect("a tree");
-            let anatomy = Anatomy::detect(&skeleton);
-            let m = anatomy.measures().expect("measures");
+            let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
+            let m = anatomy.anatomy_measures().expect("measures");
             assert!((m.head_top - top).abs() < 1e-12, "{top}: {}", m.head_top);
             // The joint lies as far below the top as the middle of the ear, 0.115 of the stature; the chin is at 0.130.
             let head = match measured {

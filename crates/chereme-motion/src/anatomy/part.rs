@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::hand::{Finger, Side};
+use crate::hand::{BodySide, HandFinger};
 
 /// A part of the body; its joint is the one about which the part turns.
 ///
@@ -13,7 +13,7 @@ use crate::hand::{Finger, Side};
 /// elbow the forearm's, the wrist the hand's, the hip the thigh's, the knee the shin's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub enum Part {
+pub enum BodyPart {
     /// The pelvis.
     Hips,
     /// The lowest joint of the spine above the hips.
@@ -27,45 +27,38 @@ pub enum Part {
     /// The lower jaw.
     Jaw,
     /// An eyeball.
-    Eye(Side),
+    Eye(BodySide),
     /// The collar bone.
-    Clavicle(Side),
+    Clavicle(BodySide),
     /// The upper arm, which turns at the shoulder.
-    UpperArm(Side),
+    UpperArm(BodySide),
     /// The forearm, which turns at the elbow.
-    Forearm(Side),
+    Forearm(BodySide),
     /// The hand, which turns at the wrist.
-    Hand(Side),
+    Hand(BodySide),
     /// A joint of the thumb: 0 at the wrist (CMC), 1 in the middle (MCP), 2 at the end (IP).
-    Thumb(Side, u8),
+    Thumb(BodySide, u8),
     /// A joint of a finger: 0 the metacarpal's, if there is one, 1 the base (MCP), 2 the middle (PIP), 3 the end (DIP).
-    Finger(Side, Finger, u8),
+    Finger(BodySide, HandFinger, u8),
     /// The thigh, which turns at the hip.
-    Thigh(Side),
+    Thigh(BodySide),
     /// The shin, which turns at the knee.
-    Shin(Side),
+    Shin(BodySide),
     /// The foot, which turns at the ankle.
-    Foot(Side),
+    Foot(BodySide),
     /// The toes, which turn at the ball of the foot.
-    Toes(Side),
+    Toes(BodySide),
 }
 
-const THUMB: [&str; 3] = ["base", "middle", "end"];
-const FINGER: [&str; 4] = ["metacarpal", "base", "middle", "end"];
+const THUMB_PART_SEGMENTS: [&str; 3] = ["base", "middle", "end"];
+const FINGER_PART_SEGMENTS: [&str; 4] = ["metacarpal", "base", "middle", "end"];
 
-impl Part {
+impl BodyPart {
     /// Returns every part, in order.
     #[must_use]
-    pub fn all() -> Vec<Self> {
-        let mut all = vec![
-            Self::Hips,
-            Self::Spine,
-            Self::Chest,
-            Self::Neck,
-            Self::Head,
-            Self::Jaw,
-        ];
-        for side in Side::BOTH {
+    pub fn all_body_parts() -> Vec<Self> {
+        let mut all = vec![Self::Hips, Self::Spine, Self::Chest, Self::Neck, Self::Head, Self::Jaw];
+        for side in BodySide::BOTH_SIDES {
             all.extend([
                 Self::Eye(side),
                 Self::Clavicle(side),
@@ -78,7 +71,7 @@ impl Part {
                 Self::Toes(side),
             ]);
             all.extend((0..3).map(|n| Self::Thumb(side, n)));
-            for finger in Finger::ALL {
+            for finger in HandFinger::ALL_FINGERS {
                 all.extend((0..4).map(|n| Self::Finger(side, finger, n)));
             }
         }
@@ -88,7 +81,7 @@ impl Part {
 
     /// Returns the side; `None` for a part in the middle.
     #[must_use]
-    pub fn side(self) -> Option<Side> {
+    pub fn part_side(self) -> Option<BodySide> {
         match self {
             Self::Hips | Self::Spine | Self::Chest | Self::Neck | Self::Head | Self::Jaw => None,
             Self::Eye(side)
@@ -107,19 +100,19 @@ impl Part {
 
     /// Returns the same part on the other side; a part in the middle is returned unchanged.
     #[must_use]
-    pub fn mirrored(self) -> Self {
+    pub fn mirrored_part(self) -> Self {
         match self {
-            Self::Eye(side) => Self::Eye(side.other()),
-            Self::Clavicle(side) => Self::Clavicle(side.other()),
-            Self::UpperArm(side) => Self::UpperArm(side.other()),
-            Self::Forearm(side) => Self::Forearm(side.other()),
-            Self::Hand(side) => Self::Hand(side.other()),
-            Self::Thumb(side, n) => Self::Thumb(side.other(), n),
-            Self::Finger(side, finger, n) => Self::Finger(side.other(), finger, n),
-            Self::Thigh(side) => Self::Thigh(side.other()),
-            Self::Shin(side) => Self::Shin(side.other()),
-            Self::Foot(side) => Self::Foot(side.other()),
-            Self::Toes(side) => Self::Toes(side.other()),
+            Self::Eye(side) => Self::Eye(side.opposite_side()),
+            Self::Clavicle(side) => Self::Clavicle(side.opposite_side()),
+            Self::UpperArm(side) => Self::UpperArm(side.opposite_side()),
+            Self::Forearm(side) => Self::Forearm(side.opposite_side()),
+            Self::Hand(side) => Self::Hand(side.opposite_side()),
+            Self::Thumb(side, n) => Self::Thumb(side.opposite_side(), n),
+            Self::Finger(side, finger, n) => Self::Finger(side.opposite_side(), finger, n),
+            Self::Thigh(side) => Self::Thigh(side.opposite_side()),
+            Self::Shin(side) => Self::Shin(side.opposite_side()),
+            Self::Foot(side) => Self::Foot(side.opposite_side()),
+            Self::Toes(side) => Self::Toes(side.opposite_side()),
             middle => middle,
         }
     }
@@ -131,7 +124,7 @@ impl Part {
     }
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for BodyPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self {
             Self::Hips => "hips",
@@ -146,19 +139,19 @@ impl fmt::Display for Part {
             Self::Forearm(_) => "forearm",
             Self::Hand(_) => "hand",
             Self::Thumb(..) => "thumb",
-            Self::Finger(_, finger, _) => finger.name(),
+            Self::Finger(_, finger, _) => finger.finger_name(),
             Self::Thigh(_) => "thigh",
             Self::Shin(_) => "shin",
             Self::Foot(_) => "foot",
             Self::Toes(_) => "toes",
         };
-        if let Some(side) = self.side() {
-            write!(f, "{} ", side.name())?;
+        if let Some(side) = self.part_side() {
+            write!(f, "{} ", side.body_side_name())?;
         }
         f.write_str(name)?;
         match *self {
-            Self::Thumb(_, n) => write!(f, " {}", THUMB[usize::from(n.min(2))]),
-            Self::Finger(_, _, n) => write!(f, " {}", FINGER[usize::from(n.min(3))]),
+            Self::Thumb(_, n) => write!(f, " {}", THUMB_PART_SEGMENTS[usize::from(n.min(2))]),
+            Self::Finger(_, _, n) => write!(f, " {}", FINGER_PART_SEGMENTS[usize::from(n.min(3))]),
             _ => Ok(()),
         }
     }
@@ -175,7 +168,7 @@ pub struct PartError {
 }
 
 /// Common synonyms for parts.
-const SYNONYMS: [(&str, &str); 15] = [
+const PART_SYNONYMS: [(&str, &str); 15] = [
     ("pelvis", "hips"),
     ("pinky", "little"),
     ("shoulder", "upper arm"),
@@ -193,7 +186,7 @@ const SYNONYMS: [(&str, &str); 15] = [
     ("toe", "toes"),
 ];
 
-impl FromStr for Part {
+impl FromStr for BodyPart {
     type Err = PartError;
     /// Reads a part's name, ignoring case and separators, so that `right-hand` is `right hand`; common synonyms (`left
     /// elbow`, `right pinky base`) are understood.
@@ -201,15 +194,11 @@ impl FromStr for Part {
         let name = text.to_lowercase().replace(['-', '_', '.'], " ");
         let words: Vec<&str> = name.split_whitespace().collect();
         let mut name = words.join(" ");
-        let find = |name: &str| {
-            Self::all()
-                .into_iter()
-                .find(|part| part.to_string() == name)
-        };
+        let find = |name: &str| Self::all_body_parts().into_iter().find(|part| part.to_string() == name);
         if let Some(part) = find(&name) {
             return Ok(part);
         }
-        for (word, meant) in SYNONYMS {
+        for (word, meant) in PART_SYNONYMS {
             let padded = format!(" {name} ").replace(&format!(" {word} "), &format!(" {meant} "));
             if let Some(part) = find(padded.trim()) {
                 return Ok(part);
@@ -218,38 +207,38 @@ impl FromStr for Part {
                 name = padded.trim().to_owned();
             }
         }
-        let names = Self::all();
-        let names: Vec<String> = names.iter().map(Self::to_string).collect();
+        let all_parts = Self::all_body_parts();
+        let names: Vec<String> = all_parts.iter().map(Self::to_string).collect();
         Err(PartError {
             text: text.to_owned(),
-            suggestion: nearest(&name, names.iter().map(String::as_str)).to_owned(),
+            suggestion: nearest_spelling(&name, names.iter().map(String::as_str)).to_owned(),
         })
     }
 }
 
-impl TryFrom<String> for Part {
+impl TryFrom<String> for BodyPart {
     type Error = PartError;
     fn try_from(text: String) -> Result<Self, PartError> {
         text.parse()
     }
 }
 
-impl From<Part> for String {
-    fn from(part: Part) -> Self {
+impl From<BodyPart> for String {
+    fn from(part: BodyPart) -> Self {
         part.to_string()
     }
 }
 
 /// Returns the candidate with the spelling most similar to `text`, ignoring case; the first of equal ones.
-pub(super) fn nearest<'a>(text: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
+pub(super) fn nearest_spelling<'a>(text: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
     let text: String = text.to_lowercase().chars().take(100).collect();
     candidates
-        .min_by_key(|name| edits(&text, &name.to_lowercase()))
+        .min_by_key(|name| spelling_edit_distance(&text, &name.to_lowercase()))
         .unwrap_or_default()
 }
 
 /// Returns the number of letters to add, drop or change to turn `a` into `b` (Levenshtein distance).
-fn edits(a: &str, b: &str) -> usize {
+fn spelling_edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, x) in a.chars().enumerate() {
@@ -269,12 +258,12 @@ mod tests {
 
     #[test]
     fn every_name_reads_back_as_its_part_and_twice_mirrored_is_the_same() {
-        for part in Part::all() {
+        for part in BodyPart::all_body_parts() {
             assert_eq!(part.to_string().parse(), Ok(part));
-            assert_eq!(part.mirrored().mirrored(), part);
-            assert_eq!(part.mirrored() == part, part.side().is_none());
+            assert_eq!(part.mirrored_part().mirrored_part(), part);
+            assert_eq!(part.mirrored_part() == part, part.part_side().is_none());
         }
-        assert_eq!(Part::all().len(), 6 + 2 * (9 + 3 + 16));
+        assert_eq!(BodyPart::all_body_parts().len(), 6 + 2 * (9 + 3 + 16));
     }
 
     #[test]
@@ -287,10 +276,10 @@ mod tests {
             ("left pinky end", "left little end"),
             ("right shoulder", "right upper arm"),
         ] {
-            let part: Part = text.parse().expect(text);
+            let part: BodyPart = text.parse().expect(text);
             assert_eq!(part.to_string(), want);
         }
-        let error = "rigt hand".parse::<Part>().expect_err("misspelt");
+        let error = "rigt hand".parse::<BodyPart>().expect_err("misspelt");
         assert_eq!(error.suggestion, "right hand");
     }
 }

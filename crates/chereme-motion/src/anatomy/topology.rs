@@ -4,76 +4,76 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::detect::Finder;
+use super::anatomy_detect::PartFinder;
+use super::anatomy_names::{AnatomyDigit, JointWord, stated_side};
 use super::fingers::in_hand;
-use super::names::{Digit, Word, stated_side};
-use super::part::Part;
-use super::{Ambiguity, Evidence};
-use crate::hand::{Finger, Side};
+use super::part::BodyPart;
+use super::{PartAmbiguity, PartEvidence};
+use crate::hand::{BodySide, HandFinger};
 use crate::skeleton::Skeleton;
 
-impl Finder<'_> {
+impl PartFinder<'_> {
     /// Finds arms and legs as pairs of similar chains, fills gaps in chains, and finds digits.
     pub(super) fn by_topology(&mut self) {
-        let unnamed = |finder: &Self, part: fn(Side) -> Part| {
-            Side::BOTH
+        let unnamed = |finder: &Self, part: fn(BodySide) -> BodyPart| {
+            BodySide::BOTH_SIDES
                 .iter()
-                .all(|&side| finder.joint(part(side)).is_none())
+                .all(|&side| finder.assigned_joint(part(side)).is_none())
         };
-        if unnamed(self, Part::UpperArm) && unnamed(self, Part::Hand) {
-            self.limbs();
+        if unnamed(self, BodyPart::UpperArm) && unnamed(self, BodyPart::Hand) {
+            self.find_limb_chains();
         }
-        for side in Side::BOTH {
-            self.fill([Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)]);
-            self.fill([Part::Thigh(side), Part::Shin(side), Part::Foot(side)]);
+        for side in BodySide::BOTH_SIDES {
+            self.fill_limb_joint([BodyPart::UpperArm(side), BodyPart::Forearm(side), BodyPart::Hand(side)]);
+            self.fill_limb_joint([BodyPart::Thigh(side), BodyPart::Shin(side), BodyPart::Foot(side)]);
             self.digits_by_shape(side);
         }
-        self.hips();
+        self.find_hips_joint();
     }
 
     /// Finds the hips, where the thighs branch off, else at a joint called root. A root may also be a node on the floor.
-    fn hips(&mut self) {
-        let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
+    fn find_hips_joint(&mut self) {
+        let thighs = BodySide::BOTH_SIDES.map(|side| self.assigned_joint(BodyPart::Thigh(side)));
         if let [Some(right), Some(left)] = thighs
-            && let Some(hips) = self.common(right, left)
+            && let Some(hips) = self.lowest_common_ancestor(right, left)
         {
-            let root = self.labels[hips].is_some_and(|label| label.word == Word::Root);
+            let root = self.labels[hips].is_some_and(|label| label.word == JointWord::Root);
             let how = if root {
-                Evidence::Name
+                PartEvidence::Name
             } else {
-                Evidence::Topology
+                PartEvidence::Topology
             };
-            self.put(Part::Hips, hips, how);
+            self.assign_part_joint(BodyPart::Hips, hips, how);
         }
-        self.take(Part::Hips, &[Word::Root]);
+        self.assign_labelled_part(BodyPart::Hips, &[JointWord::Root]);
     }
 
     /// Finds neck and head as the chain that continues from the chest beside the arms.
     pub(super) fn neck_and_head(&mut self) {
-        let Some(chest) = self.joint(Part::Chest) else {
+        let Some(chest) = self.assigned_joint(BodyPart::Chest) else {
             return;
         };
-        let arms: Vec<usize> = Side::BOTH
+        let arms: Vec<usize> = BodySide::BOTH_SIDES
             .iter()
-            .flat_map(|&side| [Part::Clavicle(side), Part::UpperArm(side)])
-            .filter_map(|part| self.joint(part))
+            .flat_map(|&side| [BodyPart::Clavicle(side), BodyPart::UpperArm(side)])
+            .filter_map(|part| self.assigned_joint(part))
             .collect();
-        let children = self.skeleton.children(chest).iter().copied();
+        let children = self.skeleton.joint_children(chest).iter().copied();
         let free = children.filter(|&child| !arms.iter().any(|&arm| self.is_below(arm, child)));
         let depths = depths(self.skeleton);
         let Some(neck) = free.max_by_key(|&child| (depths[child], child)) else {
             return;
         };
         let mut chain = vec![neck];
-        while let [child] = *self.skeleton.children(chain[chain.len() - 1]) {
+        while let [child] = *self.skeleton.joint_children(chain[chain.len() - 1]) {
             chain.push(child);
         }
         match *chain {
-            [head] => self.put(Part::Head, head, Evidence::Topology),
+            [head] => self.assign_part_joint(BodyPart::Head, head, PartEvidence::Topology),
             [.., head] => {
-                self.put(Part::Head, head, Evidence::Topology);
-                if self.joint(Part::Head) != Some(neck) {
-                    self.put(Part::Neck, neck, Evidence::Topology);
+                self.assign_part_joint(BodyPart::Head, head, PartEvidence::Topology);
+                if self.assigned_joint(BodyPart::Head) != Some(neck) {
+                    self.assign_part_joint(BodyPart::Neck, neck, PartEvidence::Topology);
                 }
             }
             [] => {}
@@ -81,25 +81,25 @@ impl Finder<'_> {
     }
 
     /// Finds the middle or the last of three joints of a limb if its neighbours are known.
-    fn fill(&mut self, [first, second, third]: [Part; 3]) {
-        let joints = [first, second, third].map(|part| self.joint(part));
+    fn fill_limb_joint(&mut self, [first, second, third]: [BodyPart; 3]) {
+        let joints = [first, second, third].map(|part| self.assigned_joint(part));
         match joints {
             [Some(upper), None, Some(lower)] if self.is_below(lower, upper) => {
-                let between = self.skeleton.parent(lower).filter(|&joint| joint != upper);
+                let between = self.skeleton.joint_parent(lower).filter(|&joint| joint != upper);
                 if let Some(joint) = between.filter(|&joint| self.is_free(joint)) {
-                    self.put(second, joint, Evidence::Topology);
+                    self.assign_part_joint(second, joint, PartEvidence::Topology);
                 }
             }
             [Some(_), Some(middle), None] => {
-                let mut free = self.skeleton.children(middle).iter().copied();
+                let mut free = self.skeleton.joint_children(middle).iter().copied();
                 if let Some(joint) = free.find(|&joint| self.is_free(joint)) {
-                    self.put(third, joint, Evidence::Topology);
+                    self.assign_part_joint(third, joint, PartEvidence::Topology);
                 }
             }
             [None, Some(middle), Some(_)] => {
-                let above = self.skeleton.parent(middle);
+                let above = self.skeleton.joint_parent(middle);
                 if let Some(joint) = above.filter(|&joint| joint != 0 && self.is_free(joint)) {
-                    self.put(first, joint, Evidence::Topology);
+                    self.assign_part_joint(first, joint, PartEvidence::Topology);
                 }
             }
             _ => {}
@@ -113,50 +113,50 @@ impl Finder<'_> {
     /// Finds two pairs of similar chains: the one nearer to the root are the legs, the other the arms. A single pair
     /// are the arms if something else, a neck, continues beside them. Names decide which limb is the left one, if they
     /// state a side; else the direction of the toes does.
-    fn limbs(&mut self) {
-        let pairs = pairs(self.skeleton);
+    fn find_limb_chains(&mut self) {
+        let pairs = find_limb_pairs(self.skeleton);
         let rest = self.skeleton.rest_model_pose();
         let (legs, arms) = match *pairs.as_slice() {
             [legs, arms, ..] => (Some(legs), arms),
-            [arms] if self.skeleton.children(arms.fork).len() > 2 => (None, arms),
+            [arms] if self.skeleton.joint_children(arms.fork).len() > 2 => (None, arms),
             _ => return,
         };
-        let at = |joint: usize| rest.position(joint);
+        let joint_place = |joint: usize| rest.model_joint_position(joint);
         let up = match legs {
-            Some(legs) => at(arms.fork) - at(legs.fork),
+            Some(legs) => joint_place(arms.fork) - joint_place(legs.fork),
             None => DVec3::Y,
         };
         let mut toes = DVec3::ZERO;
         for limb in legs.iter().flat_map(|pair| pair.limbs) {
-            if let [.., foot, end] = *chain(self.skeleton, limb) {
-                toes += rest.tip(self.skeleton, end).unwrap_or(at(end)) - at(foot);
+            if let [.., foot, end] = *single_child_chain(self.skeleton, limb) {
+                toes += rest.bone_tip_position(self.skeleton, end).unwrap_or(joint_place(end)) - joint_place(foot);
             }
         }
         let up = up.normalize_or(DVec3::Y);
         let facing = toes.reject_from_normalized(up);
-        let sure = facing.length() > 0.01 * at(arms.fork).distance(at(0));
+        let sure = facing.length() > 0.01 * joint_place(arms.fork).distance(joint_place(0));
         let left = if sure { up.cross(facing) } else { DVec3::X };
         for (pair, is_arm) in [(Some(arms), true), (legs, false)] {
             let Some(pair) = pair else { continue };
-            let [a, b] = pair.limbs.map(|limb| end(self.skeleton, limb));
-            let across = (at(a) - at(b)).dot(left);
+            let [a, b] = pair.limbs.map(|limb| chain_end(self.skeleton, limb));
+            let across = (joint_place(a) - joint_place(b)).dot(left);
             let [first, second] = pair.limbs.map(|limb| self.stated_side(limb));
             let stated = match (first, second) {
                 (Some(first), Some(second)) if first != second => Some(first),
                 _ => None,
             };
-            let first_is_left = stated.map_or(across > 0.0, |side| side == Side::Left);
+            let first_is_left = stated.map_or(across > 0.0, |side| side == BodySide::Left);
             let order = if first_is_left { [1, 0] } else { [0, 1] };
             let sure = sure || stated.is_some();
-            for (side, which) in Side::BOTH.into_iter().zip(order) {
-                self.limb(side, pair.limbs[which], is_arm);
+            for (side, which) in BodySide::BOTH_SIDES.into_iter().zip(order) {
+                self.assign_limb_joints(side, pair.limbs[which], is_arm);
                 let part = if is_arm {
-                    Part::UpperArm(side)
+                    BodyPart::UpperArm(side)
                 } else {
-                    Part::Thigh(side)
+                    BodyPart::Thigh(side)
                 };
-                if let Some(taken) = self.joint(part).filter(|_| !sure) {
-                    self.ambiguous.push(Ambiguity {
+                if let Some(taken) = self.assigned_joint(part).filter(|_| !sure) {
+                    self.ambiguous.push(PartAmbiguity {
                         part,
                         taken,
                         others: Vec::new(),
@@ -167,125 +167,115 @@ impl Finder<'_> {
     }
 
     /// Returns the side that the names of a limb's joints state, if they agree.
-    fn stated_side(&self, limb: usize) -> Option<Side> {
-        let joints = self.skeleton.subtree(limb);
+    fn stated_side(&self, limb: usize) -> Option<BodySide> {
+        let joints = self.skeleton.joint_subtree(limb);
         let mut sides = joints
             .into_iter()
-            .filter_map(|joint| stated_side(&self.skeleton.joint(joint).name));
+            .filter_map(|joint| stated_side(&self.skeleton.joint_at(joint).name));
         let first = sides.next()?;
         sides.all(|side| side == first).then_some(first)
     }
 
-    fn limb(&mut self, side: Side, first: usize, is_arm: bool) {
-        let joints = chain(self.skeleton, first);
-        let parts: &[Part] = match (is_arm, joints.len()) {
-            (true, 3) => &[Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)],
+    fn assign_limb_joints(&mut self, side: BodySide, first: usize, is_arm: bool) {
+        let joints = single_child_chain(self.skeleton, first);
+        let parts: &[BodyPart] = match (is_arm, joints.len()) {
+            (true, 3) => &[BodyPart::UpperArm(side), BodyPart::Forearm(side), BodyPart::Hand(side)],
             (true, _) => &[
-                Part::Clavicle(side),
-                Part::UpperArm(side),
-                Part::Forearm(side),
-                Part::Hand(side),
+                BodyPart::Clavicle(side),
+                BodyPart::UpperArm(side),
+                BodyPart::Forearm(side),
+                BodyPart::Hand(side),
             ],
             (false, _) => &[
-                Part::Thigh(side),
-                Part::Shin(side),
-                Part::Foot(side),
-                Part::Toes(side),
+                BodyPart::Thigh(side),
+                BodyPart::Shin(side),
+                BodyPart::Foot(side),
+                BodyPart::Toes(side),
             ],
         };
         for (&part, &joint) in parts.iter().zip(&joints) {
-            self.put(part, joint, Evidence::Topology);
+            self.assign_part_joint(part, joint, PartEvidence::Topology);
         }
     }
 
     /// Finds thumb and fingers of a hand that has five chains, none of them found by name: the thumb is the chain that
     /// points away from the others and begins near the wrist, and the others follow from it outwards.
-    fn digits_by_shape(&mut self, side: Side) {
-        let Some(hand) = self.joint(Part::Hand(side)) else {
+    fn digits_by_shape(&mut self, side: BodySide) {
+        let Some(hand) = self.assigned_joint(BodyPart::Hand(side)) else {
             return;
         };
-        let known = self
+        let has_digits = self
             .found
             .keys()
-            .any(|part| matches!(part, Part::Thumb(s, _) | Part::Finger(s, _, _) if *s == side));
+            .any(|part| matches!(part, BodyPart::Thumb(s, _) | BodyPart::Finger(s, _, _) if *s == side));
         let mut chains: Vec<Vec<usize>> = self
             .skeleton
-            .children(hand)
+            .joint_children(hand)
             .iter()
-            .map(|&child| chain(self.skeleton, child))
+            .map(|&child| single_child_chain(self.skeleton, child))
             .filter(|chain| chain.len() > 1)
             .collect();
-        if known || chains.len() != 5 {
+        if has_digits || chains.len() != 5 {
             return;
         }
-        let at = |joint| in_hand(self.skeleton, hand, joint).0;
-        let direction = |chain: &[usize]| (at(chain[1]) - at(chain[0])).normalize_or_zero();
+        let hand_place = |joint| in_hand(self.skeleton, hand, joint).0;
+        let direction = |chain: &[usize]| (hand_place(chain[1]) - hand_place(chain[0])).normalize_or_zero();
         let mean = chains.iter().map(|chain| direction(chain)).sum::<DVec3>();
-        let farthest = chains.iter().map(|c| at(c[1]).length()).fold(0.0, f64::max);
+        let farthest = chains.iter().map(|c| hand_place(c[1]).length()).fold(0.0, f64::max);
         let apart = |chain: &[usize]| {
-            let near = 1.0 - at(chain[1]).length() / farthest.max(f64::MIN_POSITIVE);
+            let near = 1.0 - hand_place(chain[1]).length() / farthest.max(f64::MIN_POSITIVE);
             1.0 - direction(chain).dot(mean.normalize_or_zero()) + near
         };
         chains.sort_by(|a, b| apart(b).total_cmp(&apart(a)));
-        let thumb = at(end(self.skeleton, chains[0][0]));
+        let thumb = hand_place(chain_end(self.skeleton, chains[0][0]));
         let along = (mean - direction(&chains[0])).normalize_or_zero();
         let across = |chain: &[usize]| {
-            let start = if self.starts_inside(Digit::Finger(Finger::Index), chain) {
+            let start = if self.starts_inside(AnatomyDigit::Finger(HandFinger::Index), chain) {
                 chain[1]
             } else {
                 chain[0]
             };
-            (at(start) - thumb).reject_from(along).length()
+            (hand_place(start) - thumb).reject_from(along).length()
         };
         chains[1..].sort_by(|a, b| across(a).total_cmp(&across(b)));
-        for (digit, chain) in Digit::ALL.into_iter().zip(&chains) {
+        for (digit, chain) in AnatomyDigit::ALL_ANATOMY_DIGITS.into_iter().zip(&chains) {
             let metacarpal = self.starts_inside(digit, chain);
-            self.assign_digit(side, digit, chain, metacarpal, Evidence::Topology);
+            self.assign_digit(side, digit, chain, metacarpal, PartEvidence::Topology);
         }
     }
 }
 
 /// Two similar chains that branch off at one joint.
 #[derive(Debug, Clone, Copy)]
-struct Pair {
+struct LimbPair {
     fork: usize,
     limbs: [usize; 2],
 }
 
 /// Returns the pairs of limbs, from the root outwards: two children of one joint with similar subtrees of at least
 /// three joints, whose bones have similar lengths.
-fn pairs(skeleton: &Skeleton) -> Vec<Pair> {
-    let shapes = shapes(skeleton);
+fn find_limb_pairs(skeleton: &Skeleton) -> Vec<LimbPair> {
+    let shapes = subtree_shapes(skeleton);
     let reach = |joint: usize| -> f64 {
-        let joints = chain(skeleton, joint);
-        joints[1..]
-            .iter()
-            .map(|&j| skeleton.joint(j).offset.length())
-            .sum()
+        let joints = single_child_chain(skeleton, joint);
+        joints[1..].iter().map(|&j| skeleton.joint_at(j).offset.length()).sum()
     };
     let depths = depths(skeleton);
-    let mut pairs: Vec<Pair> = Vec::new();
+    let mut pairs: Vec<LimbPair> = Vec::new();
     let mut inside = vec![false; skeleton.len()];
     for fork in 0..skeleton.len() {
-        inside[fork] |= skeleton.parent(fork).is_some_and(|parent| inside[parent]);
+        inside[fork] |= skeleton.joint_parent(fork).is_some_and(|parent| inside[parent]);
         if inside[fork] {
             continue;
         }
         let mut waiting: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
-        for &b in skeleton
-            .children(fork)
-            .iter()
-            .filter(|&&child| depths[child] > 2)
-        {
+        for &b in skeleton.joint_children(fork).iter().filter(|&&child| depths[child] > 2) {
             let y = reach(b);
             match waiting.remove(&shapes[b]) {
                 Some((a, x)) if (x - y).abs() <= 0.2 * x.max(y) => {
                     inside[a] = true;
                     inside[b] = true;
-                    pairs.push(Pair {
-                        fork,
-                        limbs: [a, b],
-                    });
+                    pairs.push(LimbPair { fork, limbs: [a, b] });
                 }
                 _ => drop(waiting.insert(shapes[b], (b, y))),
             }
@@ -298,7 +288,7 @@ fn pairs(skeleton: &Skeleton) -> Vec<Pair> {
 fn depths(skeleton: &Skeleton) -> Vec<usize> {
     let mut depths = vec![1; skeleton.len()];
     for joint in (0..skeleton.len()).rev() {
-        if let Some(parent) = skeleton.parent(joint) {
+        if let Some(parent) = skeleton.joint_parent(joint) {
             depths[parent] = depths[parent].max(depths[joint] + 1);
         }
     }
@@ -306,26 +296,25 @@ fn depths(skeleton: &Skeleton) -> Vec<usize> {
 }
 
 /// Returns a number for each joint; joints with the same number have subtrees of the same shape.
-fn shapes(skeleton: &Skeleton) -> Vec<usize> {
-    let mut known: std::collections::BTreeMap<Vec<usize>, usize> =
-        std::collections::BTreeMap::new();
+fn subtree_shapes(skeleton: &Skeleton) -> Vec<usize> {
+    let mut shape_numbers: std::collections::BTreeMap<Vec<usize>, usize> = std::collections::BTreeMap::new();
     let mut shapes = vec![0; skeleton.len()];
     for joint in (0..skeleton.len()).rev() {
         let mut below: Vec<usize> = skeleton
-            .children(joint)
+            .joint_children(joint)
             .iter()
             .map(|&child| shapes[child])
             .collect();
         below.sort_unstable();
-        let next = known.len();
-        shapes[joint] = *known.entry(below).or_insert(next);
+        let next = shape_numbers.len();
+        shapes[joint] = *shape_numbers.entry(below).or_insert(next);
     }
     shapes
 }
 
 /// Returns `joint` and its descendants as long as each has one child; a joint with several is the last. Helpers on the
 /// bone do not count as children.
-fn chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
+fn single_child_chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
     let mut joints = vec![joint];
     while let Some(child) = only_child(skeleton, joints[joints.len() - 1]) {
         joints.push(child);
@@ -335,22 +324,22 @@ fn chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
 
 /// Returns the child of a joint that has one, besides leaves that lie on the bone to it, as those that spread a twist.
 fn only_child(skeleton: &Skeleton, joint: usize) -> Option<usize> {
-    let children = skeleton.children(joint);
+    let children = skeleton.joint_children(joint);
     if let [child] = *children {
         return Some(child);
     }
     let mut inner = children
         .iter()
-        .filter(|&&child| !skeleton.children(child).is_empty());
+        .filter(|&&child| !skeleton.joint_children(child).is_empty());
     let (&child, None) = (inner.next()?, inner.next()) else {
         return None;
     };
-    let bone = skeleton.joint(child).offset;
+    let bone = skeleton.joint_at(child).offset;
     let length = bone.length();
     let on_bone = |leaf: usize| {
-        let at = skeleton.joint(leaf).offset;
-        let along = at.dot(bone.normalize_or_zero());
-        let aside = (at - bone.normalize_or_zero() * along).length();
+        let leaf_offset = skeleton.joint_at(leaf).offset;
+        let along = leaf_offset.dot(bone.normalize_or_zero());
+        let aside = (leaf_offset - bone.normalize_or_zero() * along).length();
         aside <= ON_BONE * length && (-ON_BONE..=1.0 + ON_BONE).contains(&(along / length))
     };
     let leaves = children.iter().filter(|&&leaf| leaf != child);
@@ -360,6 +349,6 @@ fn only_child(skeleton: &Skeleton, joint: usize) -> Option<usize> {
 /// How far from a bone a helper lies at most, as a share of the bone's length.
 const ON_BONE: f64 = 0.02;
 
-fn end(skeleton: &Skeleton, joint: usize) -> usize {
-    chain(skeleton, joint).last().copied().unwrap_or(joint)
+fn chain_end(skeleton: &Skeleton, joint: usize) -> usize {
+    single_child_chain(skeleton, joint).last().copied().unwrap_or(joint)
 }

@@ -19,33 +19,33 @@ mod number;
 
 use std::ops::Range;
 
-pub use decimals::Decimals;
-pub use gaps::Gaps;
-pub use number::{Decimal, MANTISSA_LIMIT, NotANumber, Number, POW10};
+pub use decimals::DecimalColumn;
+pub use gaps::ColumnGaps;
+pub use number::{ExactDecimal, FileNumber, MANTISSA_LIMIT, NotANumber, POWERS_OF_TEN};
 
 /// One number per frame, in the form of the file; some frames may have none.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    numbers: Numbers,
-    gaps: Gaps,
+pub struct FrameNumberColumn {
+    numbers: ColumnNumbers,
+    gaps: ColumnGaps,
 }
 
 /// The numbers of a column; at a gap the number is zero and has no meaning.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Numbers {
+pub enum ColumnNumbers {
     /// Decimals of a text file.
-    Decimals(Decimals),
+    Decimals(DecimalColumn),
     /// Floats of 32 bits, all finite.
     Singles(Vec<f32>),
     /// Floats of 64 bits, all finite.
     Doubles(Vec<f64>),
     /// Integers with a scale, as C3D and analog converters write them.
-    Integers(Integers),
+    Integers(ScaledIntegers),
 }
 
 /// Integers that represent `(value - zero) * unit`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Integers {
+pub struct ScaledIntegers {
     /// The integers of the file, whatever their width there.
     pub values: Vec<i32>,
     /// The integer that represents zero; finite.
@@ -81,58 +81,42 @@ pub enum ColumnError {
     Form(&'static str),
 }
 
-impl Column {
+impl FrameNumberColumn {
     /// Returns the column of decimals of text; `None` is a gap.
     #[must_use]
-    pub fn decimals(numbers: impl IntoIterator<Item = Option<Number>>) -> Self {
+    pub fn from_decimals(numbers: impl IntoIterator<Item = Option<FileNumber>>) -> Self {
         let mut gaps = Vec::new();
         let numbers = (0..).zip(numbers).map(|(frame, number)| {
             number.unwrap_or_else(|| {
                 gaps.push(frame);
-                Number::ZERO
+                FileNumber::ZERO_NUMBER
             })
         });
-        let numbers = Numbers::Decimals(Decimals::of(numbers.collect::<Vec<_>>()));
+        let numbers = ColumnNumbers::Decimals(DecimalColumn::from_exact_numbers(numbers.collect::<Vec<_>>()));
         Self {
             numbers,
-            gaps: Gaps::at(gaps),
+            gaps: ColumnGaps::from_gap_frames(gaps),
         }
     }
 
     /// Returns the column of 32-bit floats; a float that is not finite is a gap.
     #[must_use]
-    pub fn singles(mut values: Vec<f32>) -> Self {
-        let gaps = Gaps::at(
-            (0..)
-                .zip(&values)
-                .filter(|(_, v)| !v.is_finite())
-                .map(|(f, _)| f),
-        );
-        values
-            .iter_mut()
-            .filter(|v| !v.is_finite())
-            .for_each(|v| *v = 0.0);
+    pub fn from_single_floats(mut values: Vec<f32>) -> Self {
+        let gaps = ColumnGaps::from_gap_frames((0..).zip(&values).filter(|(_, v)| !v.is_finite()).map(|(f, _)| f));
+        values.iter_mut().filter(|v| !v.is_finite()).for_each(|v| *v = 0.0);
         Self {
-            numbers: Numbers::Singles(values),
+            numbers: ColumnNumbers::Singles(values),
             gaps,
         }
     }
 
     /// Returns the column of 64-bit floats; a float that is not finite is a gap.
     #[must_use]
-    pub fn doubles(mut values: Vec<f64>) -> Self {
-        let gaps = Gaps::at(
-            (0..)
-                .zip(&values)
-                .filter(|(_, v)| !v.is_finite())
-                .map(|(f, _)| f),
-        );
-        values
-            .iter_mut()
-            .filter(|v| !v.is_finite())
-            .for_each(|v| *v = 0.0);
+    pub fn from_double_floats(mut values: Vec<f64>) -> Self {
+        let gaps = ColumnGaps::from_gap_frames((0..).zip(&values).filter(|(_, v)| !v.is_finite()).map(|(f, _)| f));
+        values.iter_mut().filter(|v| !v.is_finite()).for_each(|v| *v = 0.0);
         Self {
-            numbers: Numbers::Doubles(values),
+            numbers: ColumnNumbers::Doubles(values),
             gaps,
         }
     }
@@ -141,10 +125,10 @@ impl Column {
     ///
     /// # Errors
     /// [`ColumnError::Scale`] if `zero` or `unit` is not finite, or `unit` is zero.
-    pub fn integers(values: Vec<i32>, zero: f64, unit: f64) -> Result<Self, ColumnError> {
+    pub fn from_scaled_integers(values: Vec<i32>, zero: f64, unit: f64) -> Result<Self, ColumnError> {
         Self::new(
-            Numbers::Integers(Integers { values, zero, unit }),
-            Gaps::default(),
+            ColumnNumbers::Integers(ScaledIntegers { values, zero, unit }),
+            ColumnGaps::default(),
         )
     }
 
@@ -153,18 +137,18 @@ impl Column {
     ///
     /// # Errors
     /// [`ColumnError`] if a gap lies after the last number, or the zero or unit of integers is invalid.
-    pub fn new(numbers: Numbers, gaps: Gaps) -> Result<Self, ColumnError> {
+    pub fn new(numbers: ColumnNumbers, gaps: ColumnGaps) -> Result<Self, ColumnError> {
         let column = match numbers {
-            Numbers::Singles(values) => Self::singles(values),
-            Numbers::Doubles(values) => Self::doubles(values),
-            Numbers::Integers(Integers { zero, unit, .. })
+            ColumnNumbers::Singles(values) => Self::from_single_floats(values),
+            ColumnNumbers::Doubles(values) => Self::from_double_floats(values),
+            ColumnNumbers::Integers(ScaledIntegers { zero, unit, .. })
                 if !zero.is_finite() || !unit.is_finite() || unit == 0.0 =>
             {
                 return Err(ColumnError::Scale { zero, unit });
             }
             numbers => Self {
                 numbers,
-                gaps: Gaps::default(),
+                gaps: ColumnGaps::default(),
             },
         };
         if u32::try_from(column.len()).is_err() {
@@ -177,44 +161,42 @@ impl Column {
     ///
     /// # Errors
     /// [`ColumnError::Gap`] if a gap lies after the last number.
-    pub fn with_gaps(mut self, gaps: &Gaps) -> Result<Self, ColumnError> {
-        let (end, frames) = (gaps.end(), self.len());
+    pub fn with_gaps(mut self, gaps: &ColumnGaps) -> Result<Self, ColumnError> {
+        let (end, frames) = (gaps.gaps_end_frame(), self.len());
         if end > frames {
             return Err(ColumnError::Gap { end, frames });
         }
-        for run in gaps.runs() {
-            let own = run.start as usize..run.end as usize;
+        for run in gaps.gap_runs() {
+            let gap_rows = run.start as usize..run.end as usize;
             match &mut self.numbers {
-                Numbers::Decimals(decimals) => {
-                    decimals.mantissas[own].fill(0);
-                    decimals
-                        .exceptions
-                        .retain(|(frame, _)| !run.contains(frame));
+                ColumnNumbers::Decimals(decimals) => {
+                    decimals.mantissas[gap_rows].fill(0);
+                    decimals.exceptions.retain(|(frame, _)| !run.contains(frame));
                 }
-                Numbers::Singles(values) => values[own].fill(0.0),
-                Numbers::Doubles(values) => values[own].fill(0.0),
-                Numbers::Integers(integers) => integers.values[own].fill(0),
+                ColumnNumbers::Singles(values) => values[gap_rows].fill(0.0),
+                ColumnNumbers::Doubles(values) => values[gap_rows].fill(0.0),
+                ColumnNumbers::Integers(integers) => integers.values[gap_rows].fill(0),
             }
         }
-        self.gaps.append(0, gaps);
+        self.gaps.append_gaps(0, gaps);
         Ok(self)
     }
 
     /// Returns the numbers in the form of the file; they have no meaning at gaps.
     #[must_use]
-    pub fn numbers(&self) -> &Numbers {
+    pub fn column_numbers(&self) -> &ColumnNumbers {
         &self.numbers
     }
 
     /// Returns the numbers in the form of the file; they have no meaning at gaps.
     #[must_use]
-    pub fn into_numbers(self) -> Numbers {
+    pub fn into_numbers(self) -> ColumnNumbers {
         self.numbers
     }
 
     /// Returns the frames without a number.
     #[must_use]
-    pub fn gaps(&self) -> &Gaps {
+    pub fn column_gaps(&self) -> &ColumnGaps {
         &self.gaps
     }
 
@@ -222,10 +204,10 @@ impl Column {
     #[must_use]
     pub fn len(&self) -> usize {
         match &self.numbers {
-            Numbers::Decimals(decimals) => decimals.len(),
-            Numbers::Singles(values) => values.len(),
-            Numbers::Doubles(values) => values.len(),
-            Numbers::Integers(integers) => integers.values.len(),
+            ColumnNumbers::Decimals(decimals) => decimals.len(),
+            ColumnNumbers::Singles(values) => values.len(),
+            ColumnNumbers::Doubles(values) => values.len(),
+            ColumnNumbers::Integers(integers) => integers.values.len(),
         }
     }
 
@@ -237,48 +219,46 @@ impl Column {
 
     /// Returns the number in a frame as the nearest `f64`, `None` in a gap and after the last frame.
     #[must_use]
-    pub fn value(&self, frame: usize) -> Option<f64> {
-        if frame >= self.len() || (!self.gaps.is_empty() && self.gaps.holds(frame)) {
+    pub fn column_value_at(&self, frame: usize) -> Option<f64> {
+        if frame >= self.len() || (!self.gaps.is_empty() && self.gaps.is_gap_frame(frame)) {
             return None;
         }
         Some(match &self.numbers {
-            Numbers::Decimals(decimals) => decimals.value(frame),
-            Numbers::Singles(values) => f64::from(values[frame]),
-            Numbers::Doubles(values) => values[frame],
-            Numbers::Integers(integers) => {
-                (f64::from(integers.values[frame]) - integers.zero) * integers.unit
-            }
+            ColumnNumbers::Decimals(decimals) => decimals.decimal_value_at(frame),
+            ColumnNumbers::Singles(values) => f64::from(values[frame]),
+            ColumnNumbers::Doubles(values) => values[frame],
+            ColumnNumbers::Integers(integers) => (f64::from(integers.values[frame]) - integers.zero) * integers.unit,
         })
     }
 
     /// Returns every frame's number as the nearest `f64`, `None` in gaps.
-    pub fn values(&self) -> impl Iterator<Item = Option<f64>> + '_ {
-        (0..self.len()).map(|frame| self.value(frame))
+    pub fn column_values(&self) -> impl Iterator<Item = Option<f64>> + '_ {
+        (0..self.len()).map(|frame| self.column_value_at(frame))
     }
 
     /// Returns the number in a frame as text that reads back as the same number: decimals unchanged, floats with the
     /// fewest digits, integers as their value; `None` in a gap and after the last frame.
     #[must_use]
-    pub fn text(&self, frame: usize) -> Option<String> {
-        let value = self.value(frame)?;
+    pub fn column_text_at(&self, frame: usize) -> Option<String> {
+        let value = self.column_value_at(frame)?;
         Some(match &self.numbers {
-            Numbers::Decimals(decimals) => decimals.number(frame)?.to_string(),
-            Numbers::Singles(values) => values[frame].to_string(),
-            Numbers::Doubles(_) | Numbers::Integers(_) => value.to_string(),
+            ColumnNumbers::Decimals(decimals) => decimals.exact_number_at(frame)?.to_string(),
+            ColumnNumbers::Singles(values) => values[frame].to_string(),
+            ColumnNumbers::Doubles(_) | ColumnNumbers::Integers(_) => value.to_string(),
         })
     }
 
     /// Returns the frames `rows`, as far as they exist.
     #[must_use]
-    pub fn slice(&self, rows: Range<usize>) -> Self {
+    pub fn slice_column(&self, rows: Range<usize>) -> Self {
         let end = rows.end.min(self.len());
         let rows = rows.start.min(end)..end;
-        let gaps = self.gaps.slice(rows.clone());
+        let gaps = self.gaps.slice_gaps(rows.clone());
         let numbers = match &self.numbers {
-            Numbers::Decimals(decimals) => Numbers::Decimals(decimals.slice(rows)),
-            Numbers::Singles(values) => Numbers::Singles(values[rows].to_vec()),
-            Numbers::Doubles(values) => Numbers::Doubles(values[rows].to_vec()),
-            Numbers::Integers(integers) => Numbers::Integers(Integers {
+            ColumnNumbers::Decimals(decimals) => ColumnNumbers::Decimals(decimals.slice_decimals(rows)),
+            ColumnNumbers::Singles(values) => ColumnNumbers::Singles(values[rows].to_vec()),
+            ColumnNumbers::Doubles(values) => ColumnNumbers::Doubles(values[rows].to_vec()),
+            ColumnNumbers::Integers(integers) => ColumnNumbers::Integers(ScaledIntegers {
                 values: integers.values[rows].to_vec(),
                 ..*integers
             }),
@@ -290,28 +270,28 @@ impl Column {
     ///
     /// # Errors
     /// [`ColumnError::Form`] if its numbers have another form, or integers another zero or unit.
-    pub fn append(&mut self, other: &Self) -> Result<(), ColumnError> {
+    pub fn append_column(&mut self, other: &Self) -> Result<(), ColumnError> {
         let before = self.len();
         match (&mut self.numbers, &other.numbers) {
-            (Numbers::Decimals(own), Numbers::Decimals(more)) => own.append(more),
-            (Numbers::Singles(own), Numbers::Singles(more)) => own.extend_from_slice(more),
-            (Numbers::Doubles(own), Numbers::Doubles(more)) => own.extend_from_slice(more),
-            (Numbers::Integers(own), Numbers::Integers(more))
+            (ColumnNumbers::Decimals(own), ColumnNumbers::Decimals(more)) => own.append_decimals(more),
+            (ColumnNumbers::Singles(own), ColumnNumbers::Singles(more)) => own.extend_from_slice(more),
+            (ColumnNumbers::Doubles(own), ColumnNumbers::Doubles(more)) => own.extend_from_slice(more),
+            (ColumnNumbers::Integers(own), ColumnNumbers::Integers(more))
                 if own.zero == more.zero && own.unit == more.unit =>
             {
                 own.values.extend_from_slice(&more.values);
             }
-            (_, other) => return Err(ColumnError::Form(other.form())),
+            (_, other) => return Err(ColumnError::Form(other.number_form_name())),
         }
-        self.gaps.append(before, &other.gaps);
+        self.gaps.append_gaps(before, &other.gaps);
         Ok(())
     }
 }
 
-impl Numbers {
+impl ColumnNumbers {
     /// Returns the name of the form: `decimals`, `f32`, `f64` or `integers`.
     #[must_use]
-    pub fn form(&self) -> &'static str {
+    pub fn number_form_name(&self) -> &'static str {
         match self {
             Self::Decimals(_) => "decimals",
             Self::Singles(_) => "f32",
@@ -321,11 +301,11 @@ impl Numbers {
     }
 }
 
-impl From<Decimals> for Column {
-    fn from(decimals: Decimals) -> Self {
+impl From<DecimalColumn> for FrameNumberColumn {
+    fn from(decimals: DecimalColumn) -> Self {
         Self {
-            numbers: Numbers::Decimals(decimals),
-            gaps: Gaps::default(),
+            numbers: ColumnNumbers::Decimals(decimals),
+            gaps: ColumnGaps::default(),
         }
     }
 }
@@ -334,14 +314,14 @@ impl From<Decimals> for Column {
 mod tests {
     use super::*;
 
-    fn forms() -> Vec<Column> {
+    fn forms() -> Vec<FrameNumberColumn> {
         let texts = ["1.50", "", "-2e-3", "7", ""];
         vec![
-            Column::decimals(texts.map(|text| text.parse().ok())),
-            Column::singles(vec![0.1, f32::NAN, -0.0, f32::MAX, f32::INFINITY]),
-            Column::doubles(vec![0.1, f64::NAN, -0.0, f64::MIN_POSITIVE, f64::INFINITY]),
-            Column::integers(vec![-32768, 1, 2, 32767, 5], 2.0, 0.05)
-                .and_then(|column| column.with_gaps(&Gaps::at([1, 4])))
+            FrameNumberColumn::from_decimals(texts.map(|text| text.parse().ok())),
+            FrameNumberColumn::from_single_floats(vec![0.1, f32::NAN, -0.0, f32::MAX, f32::INFINITY]),
+            FrameNumberColumn::from_double_floats(vec![0.1, f64::NAN, -0.0, f64::MIN_POSITIVE, f64::INFINITY]),
+            FrameNumberColumn::from_scaled_integers(vec![-32768, 1, 2, 32767, 5], 2.0, 0.05)
+                .and_then(|column| column.with_gaps(&ColumnGaps::from_gap_frames([1, 4])))
                 .expect("a column"),
         ]
     }
@@ -355,28 +335,22 @@ mod tests {
             [-32770.0 * 0.05, 0.0, 32765.0 * 0.05],
         ];
         for (column, values) in forms().into_iter().zip(values) {
-            let form = column.numbers().form();
-            let found: Vec<Option<f64>> = column.values().collect();
+            let form = column.column_numbers().number_form_name();
+            let found: Vec<Option<f64>> = column.column_values().collect();
             assert_eq!(
                 found,
-                [
-                    Some(values[0]),
-                    None,
-                    Some(values[1]),
-                    Some(values[2]),
-                    None
-                ],
+                [Some(values[0]), None, Some(values[1]), Some(values[2]), None],
                 "{form}"
             );
             for frame in 0..7 {
-                let text = column.text(frame);
-                assert_eq!(text.is_some(), column.value(frame).is_some(), "{form}");
-                let single = matches!(column.numbers(), Numbers::Singles(_));
+                let text = column.column_text_at(frame);
+                assert_eq!(text.is_some(), column.column_value_at(frame).is_some(), "{form}");
+                let single = matches!(column.column_numbers(), ColumnNumbers::Singles(_));
                 let read = text.map(|text| match single {
                     true => f64::from(text.parse::<f32>().expect("a number")),
                     false => text.parse().expect("a number"),
                 });
-                assert_eq!(read, column.value(frame), "{form} {frame}");
+                assert_eq!(read, column.column_value_at(frame), "{form} {frame}");
             }
         }
     }
@@ -385,10 +359,10 @@ mod tests {
     fn joined_parts_equal_the_whole() {
         for whole in forms() {
             for cut in 0..=5 {
-                let mut both = whole.slice(0..cut);
-                both.append(&whole.slice(cut..9)).expect("one form");
-                assert!(both.values().eq(whole.values()), "{whole:?} cut at {cut}");
-                assert_eq!(both.gaps(), whole.gaps());
+                let mut both = whole.slice_column(0..cut);
+                both.append_column(&whole.slice_column(cut..9)).expect("one form");
+                assert!(both.column_values().eq(whole.column_values()), "{whole:?} cut at {cut}");
+                assert_eq!(both.column_gaps(), whole.column_gaps());
             }
         }
     }
@@ -396,18 +370,18 @@ mod tests {
     #[test]
     fn numbers_that_cannot_form_a_column_are_refused() {
         assert!(matches!(
-            Column::integers(vec![1], 0.0, 0.0),
+            FrameNumberColumn::from_scaled_integers(vec![1], 0.0, 0.0),
             Err(ColumnError::Scale { .. })
         ));
         assert!(matches!(
-            Column::integers(vec![1], f64::NAN, 1.0),
+            FrameNumberColumn::from_scaled_integers(vec![1], f64::NAN, 1.0),
             Err(ColumnError::Scale { .. })
         ));
-        let short = Column::singles(vec![1.0]).with_gaps(&Gaps::at([1]));
+        let short = FrameNumberColumn::from_single_floats(vec![1.0]).with_gaps(&ColumnGaps::from_gap_frames([1]));
         assert_eq!(short, Err(ColumnError::Gap { end: 2, frames: 1 }));
-        let mut floats = Column::singles(vec![1.0]);
+        let mut floats = FrameNumberColumn::from_single_floats(vec![1.0]);
         assert_eq!(
-            floats.append(&Column::doubles(vec![1.0])),
+            floats.append_column(&FrameNumberColumn::from_double_floats(vec![1.0])),
             Err(ColumnError::Form("f64"))
         );
     }

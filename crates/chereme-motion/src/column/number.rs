@@ -5,11 +5,11 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// The bound of a [`Decimal`]'s mantissa, which has at most eighteen digits: |mantissa| < 10^18.
+/// The bound of a [`ExactDecimal`]'s mantissa, which has at most eighteen digits: |mantissa| < 10^18.
 pub const MANTISSA_LIMIT: i64 = 1_000_000_000_000_000_000;
 
 /// Powers of ten that an `i64` holds.
-pub const POW10: [i64; 19] = {
+pub const POWERS_OF_TEN: [i64; 19] = {
     let mut table = [1i64; 19];
     let mut i = 1;
     while i < 19 {
@@ -21,8 +21,8 @@ pub const POW10: [i64; 19] = {
 
 /// Powers of ten that an `f64` holds exactly.
 const POW10_F64: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
-    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
+    1e21, 1e22,
 ];
 
 /// An exact decimal of at most eighteen digits: `mantissa / 10^scale`.
@@ -30,23 +30,21 @@ const POW10_F64: [f64; 23] = [
 /// The scale is the number of digits after the point as written, so that `1.50` is written back unchanged; equality
 /// compares values: `1.50 == 1.5`, `-0 == 0`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Decimal {
+pub struct ExactDecimal {
     /// The digits without the point, |mantissa| < 10^18.
     pub mantissa: i64,
     /// How many of the digits are after the point.
     pub scale: u8,
 }
 
-impl Decimal {
+impl ExactDecimal {
     /// Returns the correctly rounded `f64` of the decimal.
     #[must_use]
     pub fn to_f64(self) -> f64 {
         let exact_in_f64 = self.mantissa.unsigned_abs() <= 1 << 53;
         match POW10_F64.get(usize::from(self.scale)) {
             Some(power) if exact_in_f64 => self.mantissa as f64 / power,
-            _ => format!("{}e-{}", self.mantissa, self.scale)
-                .parse()
-                .unwrap_or(f64::NAN),
+            _ => format!("{}e-{}", self.mantissa, self.scale).parse().unwrap_or(f64::NAN),
         }
     }
 
@@ -54,7 +52,7 @@ impl Decimal {
     ///
     /// Returns `None` if the value is not finite or needs more than eighteen digits.
     #[must_use]
-    pub fn rounded(value: f64, decimals: u8) -> Option<Self> {
+    pub fn from_rounded_value(value: f64, decimals: u8) -> Option<Self> {
         let scaled = (value * POW10_F64.get(usize::from(decimals))?).round();
         (scaled.abs() < MANTISSA_LIMIT as f64).then_some(Self {
             mantissa: scaled as i64,
@@ -67,19 +65,17 @@ impl Decimal {
     #[must_use]
     pub fn at_scale(self, scale: u8) -> Option<i64> {
         if scale >= self.scale {
-            let factor = *POW10.get(usize::from(scale - self.scale))?;
-            self.mantissa
-                .checked_mul(factor)
-                .filter(|m| m.abs() < MANTISSA_LIMIT)
+            let factor = *POWERS_OF_TEN.get(usize::from(scale - self.scale))?;
+            self.mantissa.checked_mul(factor).filter(|m| m.abs() < MANTISSA_LIMIT)
         } else {
-            let divisor = *POW10.get(usize::from(self.scale - scale))?;
+            let divisor = *POWERS_OF_TEN.get(usize::from(self.scale - scale))?;
             (self.mantissa % divisor == 0).then(|| self.mantissa / divisor)
         }
     }
 
     /// Returns the same value without zeros at the end.
     #[must_use]
-    pub fn trimmed(mut self) -> Self {
+    pub fn trim_trailing_zeros(mut self) -> Self {
         while self.scale > 0 && self.mantissa % 10 == 0 {
             self.mantissa /= 10;
             self.scale -= 1;
@@ -93,16 +89,16 @@ impl Decimal {
     }
 }
 
-impl PartialEq for Decimal {
+impl PartialEq for ExactDecimal {
     fn eq(&self, other: &Self) -> bool {
-        let (a, b) = (self.trimmed(), other.trimmed());
+        let (a, b) = (self.trim_trailing_zeros(), other.trim_trailing_zeros());
         (a.mantissa, a.scale) == (b.mantissa, b.scale)
     }
 }
 
-impl Eq for Decimal {}
+impl Eq for ExactDecimal {}
 
-impl fmt::Display for Decimal {
+impl fmt::Display for ExactDecimal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut text = Vec::with_capacity(24);
         push_decimal(&mut text, *self);
@@ -111,8 +107,8 @@ impl fmt::Display for Decimal {
 }
 
 /// Appends the decimal to the text, with exactly `scale` digits after the point.
-fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
-    const PAIRS: &[u8; 200] = b"0001020304050607080910111213141516171819\
+fn push_decimal(text: &mut Vec<u8>, ExactDecimal { mantissa, scale }: ExactDecimal) {
+    const DIGIT_PAIRS: &[u8; 200] = b"0001020304050607080910111213141516171819\
 2021222324252627282930313233343536373839\
 4041424344454647484950515253545556575859\
 6061626364656667686970717273747576777879\
@@ -124,7 +120,7 @@ fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
         let pair = (rest % 100) as usize * 2;
         rest /= 100;
         start -= 2;
-        digits[start..start + 2].copy_from_slice(&PAIRS[pair..pair + 2]);
+        digits[start..start + 2].copy_from_slice(&DIGIT_PAIRS[pair..pair + 2]);
     }
     if rest > 0 {
         start -= 1;
@@ -146,30 +142,27 @@ fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
     }
 }
 
-/// A number as a file gives it: a [`Decimal`], or the original text if it has too many digits.
+/// A number as a file gives it: a [`ExactDecimal`], or the original text if it has too many digits.
 ///
 /// Equality compares values whatever the form: `1e-3 == 0.001`, `-0 == 0`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-pub enum Number {
+pub enum FileNumber {
     /// A number of at most eighteen digits.
-    Decimal(Decimal),
-    /// The original text of a number with more digits than a [`Decimal`] holds; it parses and is finite.
+    Decimal(ExactDecimal),
+    /// The original text of a number with more digits than a [`ExactDecimal`] holds; it parses and is finite.
     Text(Box<str>),
 }
 
-impl Number {
+impl FileNumber {
     /// The number zero.
-    pub const ZERO: Self = Self::Decimal(Decimal {
-        mantissa: 0,
-        scale: 0,
-    });
+    pub const ZERO_NUMBER: Self = Self::Decimal(ExactDecimal { mantissa: 0, scale: 0 });
 
     /// Reads a number from a token of a file, such as `-1.50` or `3e-3`.
     ///
     /// # Errors
     /// [`NotANumber`] for text that is not a finite decimal number.
-    pub fn parse(token: &[u8]) -> Result<Self, NotANumber> {
+    pub fn parse_file_number(token: &[u8]) -> Result<Self, NotANumber> {
         parse_number(token)
     }
 
@@ -193,7 +186,7 @@ impl Number {
     /// Returns the sign, the digits without zeros at either end, and the power of ten of the last digit.
     fn canonical(&self) -> (bool, String, i64) {
         let text = self.to_string();
-        let parts = Parts::of(text.as_bytes()).unwrap_or_default();
+        let parts = NumberParts::parse_number_parts(text.as_bytes()).unwrap_or_default();
         let digits: String = parts
             .whole
             .iter()
@@ -214,13 +207,13 @@ impl Number {
     }
 }
 
-impl Default for Number {
+impl Default for FileNumber {
     fn default() -> Self {
-        Self::ZERO
+        Self::ZERO_NUMBER
     }
 }
 
-impl PartialEq for Number {
+impl PartialEq for FileNumber {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Decimal(a), Self::Decimal(b)) => a == b,
@@ -229,15 +222,15 @@ impl PartialEq for Number {
     }
 }
 
-impl Eq for Number {}
+impl Eq for FileNumber {}
 
-impl From<Decimal> for Number {
-    fn from(decimal: Decimal) -> Self {
+impl From<ExactDecimal> for FileNumber {
+    fn from(decimal: ExactDecimal) -> Self {
         Self::Decimal(decimal)
     }
 }
 
-impl fmt::Display for Number {
+impl fmt::Display for FileNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Decimal(decimal) => decimal.fmt(f),
@@ -246,13 +239,13 @@ impl fmt::Display for Number {
     }
 }
 
-impl From<Number> for String {
-    fn from(number: Number) -> Self {
+impl From<FileNumber> for String {
+    fn from(number: FileNumber) -> Self {
         number.to_string()
     }
 }
 
-impl TryFrom<String> for Number {
+impl TryFrom<String> for FileNumber {
     type Error = NotANumber;
 
     fn try_from(text: String) -> Result<Self, NotANumber> {
@@ -260,7 +253,7 @@ impl TryFrom<String> for Number {
     }
 }
 
-impl FromStr for Number {
+impl FromStr for FileNumber {
     type Err = NotANumber;
 
     fn from_str(text: &str) -> Result<Self, NotANumber> {
@@ -286,15 +279,15 @@ pub enum NotANumber {
 }
 
 /// Reads a number from a token.
-fn parse_number(token: &[u8]) -> Result<Number, NotANumber> {
-    let parts = Parts::of(token).ok_or_else(|| why_not(token))?;
-    if let Some(decimal) = parts.decimal() {
-        return Ok(Number::Decimal(decimal));
+fn parse_number(token: &[u8]) -> Result<FileNumber, NotANumber> {
+    let parts = NumberParts::parse_number_parts(token).ok_or_else(|| why_not(token))?;
+    if let Some(decimal) = parts.to_exact_decimal() {
+        return Ok(FileNumber::Decimal(decimal));
     }
     let text = std::str::from_utf8(token).map_err(|_| NotANumber::Garbage)?;
     let surely_finite = parts.exponent.saturating_add(parts.whole.len() as i64) <= 300;
     if surely_finite || text.parse().is_ok_and(f64::is_finite) {
-        return Ok(Number::Text(text.into()));
+        return Ok(FileNumber::Text(text.into()));
     }
     Err(NotANumber::TooLarge)
 }
@@ -305,16 +298,13 @@ fn why_not(token: &[u8]) -> NotANumber {
         .or(token.strip_prefix(b"+"))
         .unwrap_or(token)
         .to_ascii_lowercase();
-    let dotted: Vec<u8> = token
-        .iter()
-        .map(|&b| if b == b',' { b'.' } else { b })
-        .collect();
+    let dotted: Vec<u8> = token.iter().map(|&b| if b == b',' { b'.' } else { b }).collect();
     let not_finite = [&b"nan"[..], b"inf", b"1.#", b"-1.#"]
         .iter()
         .any(|word| bare.starts_with(word));
     if not_finite {
         NotANumber::NotFinite
-    } else if token.contains(&b',') && Parts::of(&dotted).is_some() {
+    } else if token.contains(&b',') && NumberParts::parse_number_parts(&dotted).is_some() {
         NotANumber::Comma
     } else {
         NotANumber::Garbage
@@ -323,17 +313,17 @@ fn why_not(token: &[u8]) -> NotANumber {
 
 /// The parts of a number's text.
 #[derive(Default)]
-struct Parts<'a> {
+struct NumberParts<'a> {
     negative: bool,
     whole: &'a [u8],
     fraction: &'a [u8],
     exponent: i64,
 }
 
-impl<'a> Parts<'a> {
+impl<'a> NumberParts<'a> {
     /// Returns the parts of `[+-]digits[.digits][e[+-]digits]`, `None` for anything else.
-    fn of(token: &'a [u8]) -> Option<Self> {
-        let (negative, rest) = signed(token);
+    fn parse_number_parts(token: &'a [u8]) -> Option<Self> {
+        let (negative, rest) = split_number_sign(token);
         let (whole, rest) = rest.split_at(leading_digits(rest));
         let (fraction, rest) = match rest.strip_prefix(b".") {
             Some(after) => after.split_at(leading_digits(after)),
@@ -355,7 +345,7 @@ impl<'a> Parts<'a> {
         })
     }
 
-    fn decimal(&self) -> Option<Decimal> {
+    fn to_exact_decimal(&self) -> Option<ExactDecimal> {
         let mut mantissa = 0i64;
         for &digit in self.whole.iter().chain(self.fraction) {
             mantissa = mantissa
@@ -365,23 +355,21 @@ impl<'a> Parts<'a> {
         }
         let mut scale = (self.fraction.len() as i64).saturating_sub(self.exponent);
         if scale < 0 && mantissa != 0 {
-            let factor = POW10.get(usize::try_from(-scale).ok()?)?;
-            mantissa = mantissa
-                .checked_mul(*factor)
-                .filter(|&m| m < MANTISSA_LIMIT)?;
+            let factor = POWERS_OF_TEN.get(usize::try_from(-scale).ok()?)?;
+            mantissa = mantissa.checked_mul(*factor).filter(|&m| m < MANTISSA_LIMIT)?;
         }
         if mantissa == 0 {
             scale = scale.clamp(0, 18);
         }
         let signed = if self.negative { -mantissa } else { mantissa };
-        Some(Decimal {
+        Some(ExactDecimal {
             mantissa: signed,
             scale: u8::try_from(scale.max(0)).ok()?,
         })
     }
 }
 
-fn signed(token: &[u8]) -> (bool, &[u8]) {
+fn split_number_sign(token: &[u8]) -> (bool, &[u8]) {
     match token {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),
@@ -395,13 +383,13 @@ fn leading_digits(text: &[u8]) -> usize {
 
 /// Returns the exponent, clamped to a thousand million, since no number needs more.
 fn exponent(text: &[u8]) -> Option<i64> {
-    let (negative, digits) = signed(text);
+    let (negative, digits) = split_number_sign(text);
     if digits.is_empty() || leading_digits(digits) < digits.len() {
         return None;
     }
-    let size = digits.iter().fold(0i64, |size, &b| {
-        (size * 10 + i64::from(b - b'0')).min(1_000_000_000)
-    });
+    let size = digits
+        .iter()
+        .fold(0i64, |size, &b| (size * 10 + i64::from(b - b'0')).min(1_000_000_000));
     Some(if negative { -size } else { size })
 }
 
@@ -410,7 +398,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn number(text: &str) -> Number {
+    fn number(text: &str) -> FileNumber {
         text.parse().unwrap_or_else(|why| panic!("{text:?} {why}"))
     }
 
@@ -435,12 +423,7 @@ mod tests {
         for (a, b) in equal {
             assert_eq!(number(a), number(b), "{a} {b}");
         }
-        for (a, b) in [
-            ("1.5", "1.50001"),
-            ("1", "-1"),
-            ("1e-300", "1e-301"),
-            ("1e-300", "0"),
-        ] {
+        for (a, b) in [("1.5", "1.50001"), ("1", "-1"), ("1e-300", "1e-301"), ("1e-300", "0")] {
             assert_ne!(number(a), number(b), "{a} {b}");
         }
     }
@@ -455,11 +438,7 @@ mod tests {
             "922337203685477580.7",
             "0.0000000000000000000099999999999999999999",
         ] {
-            assert_eq!(
-                number(text).to_f64(),
-                text.parse::<f64>().expect(text),
-                "{text}"
-            );
+            assert_eq!(number(text).to_f64(), text.parse::<f64>().expect(text), "{text}");
         }
     }
 
@@ -501,7 +480,7 @@ mod tests {
             ("", NotANumber::Garbage),
         ];
         for (text, why) in cases {
-            assert_eq!(text.parse::<Number>(), Err(why), "{text:?}");
+            assert_eq!(text.parse::<FileNumber>(), Err(why), "{text:?}");
         }
     }
 
@@ -511,10 +490,10 @@ mod tests {
         #[test]
         fn the_value_equals_that_of_the_standard_library(mantissa in -MANTISSA_LIMIT + 1..MANTISSA_LIMIT, scale in 0u8..40) {
             let text = format!("{mantissa}e-{scale}");
-            let decimal = Decimal { mantissa, scale };
+            let decimal = ExactDecimal { mantissa, scale };
             prop_assert_eq!(decimal.to_f64(), text.parse::<f64>().unwrap());
             prop_assert_eq!(number(&decimal.to_string()), number(&text));
-            prop_assert_eq!(number(&text), Number::from(decimal));
+            prop_assert_eq!(number(&text), FileNumber::from(decimal));
         }
     }
 }

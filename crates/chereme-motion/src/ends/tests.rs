@@ -5,39 +5,36 @@ use std::sync::Arc;
 use glam::DQuat;
 
 use super::*;
-use crate::anatomy::fixtures::{PLAIN, Wear, body, roles};
-use crate::clip::Channel;
-use crate::time::Rate;
+use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+use crate::clip::JointChannel;
+use crate::time::FrameRate;
 
 /// Returns a clip of 100 frames in which a body with hanging arms raises and lowers its right hand.
-fn clip(change: impl Fn(usize, usize, &mut Vec<DQuat>, &mut Vec<DVec3>)) -> (Clip, Anatomy) {
-    let skeleton = Arc::new(body(PLAIN));
-    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
-    let (count, rate) = (100, Rate::new(25, 1).expect("a rate"));
+fn clip(change: impl Fn(usize, usize, &mut Vec<DQuat>, &mut Vec<DVec3>)) -> (Clip, BodyAnatomy) {
+    let skeleton = Arc::new(fixture_body(PLAIN_BODY_VARIATION));
+    let anatomy = BodyAnatomy::with_roles(&skeleton, &fixture_joint_roles(&skeleton)).expect("a body");
+    let (count, rate) = (100, FrameRate::new(25, 1).expect("a rate"));
     let raise = |frame: usize| match frame {
         30..70 => ((frame - 30) as f64 / 39.0 * std::f64::consts::PI).sin() * 1.3,
         _ => 0.0,
     };
-    let mut channels: Vec<Channel> = Vec::new();
-    for (index, joint) in skeleton.joints().iter().enumerate() {
+    let mut channels: Vec<JointChannel> = Vec::new();
+    for (index, joint) in skeleton.skeleton_joints().iter().enumerate() {
         let part = anatomy.part_of(index);
         let turned = |frame: usize| match part {
-            Some(Part::UpperArm(Side::Right)) => DQuat::from_rotation_z(1.4 - raise(frame)),
-            Some(Part::UpperArm(Side::Left)) => DQuat::from_rotation_z(-1.4),
+            Some(BodyPart::UpperArm(BodySide::Right)) => DQuat::from_rotation_z(1.4 - raise(frame)),
+            Some(BodyPart::UpperArm(BodySide::Left)) => DQuat::from_rotation_z(-1.4),
             _ => joint.rest,
         };
         let mut rotations: Vec<DQuat> = (0..count).map(turned).collect();
         let mut places = vec![joint.offset; count];
         change(index, count, &mut rotations, &mut places);
-        channels.push(Channel {
+        channels.push(JointChannel {
             rotations,
             translations: (index == 0).then_some(places),
         });
     }
-    (
-        Clip::new(skeleton, rate, channels).expect("a clip"),
-        anatomy,
-    )
+    (Clip::new(skeleton, rate, channels).expect("a clip"), anatomy)
 }
 
 #[test]
@@ -121,47 +118,44 @@ fn odd_first_and_last_frames_are_found_with_their_numbers() {
     ];
     for (want, change, sound) in cases {
         let (clip, anatomy) = clip(change);
-        let ends = Ends::of(&clip, &anatomy);
-        let read = |frames| Ok::<_, std::convert::Infallible>(clip.slice(frames));
-        let Ok(in_parts) = Ends::of_long_take(&clip.path(0), 60, &anatomy, read);
+        let ends = ClipEnds::examine_clip_ends(&clip, &anatomy);
+        let read = |frames| Ok::<_, std::convert::Infallible>(clip.slice_clip_frames(frames));
+        let Ok(in_parts) = ClipEnds::of_long_take(&clip.joint_path(0), 60, &anatomy, read);
         assert_eq!(in_parts, ends, "{want}");
         let texts: Vec<String> = ends.odd.iter().map(ToString::to_string).collect();
         assert_eq!(ends.sound, sound, "{want}: {texts:?}");
         let text = texts.join("; ");
-        assert!(
-            text.starts_with(want) && text.is_empty() == want.is_empty(),
-            "{text}"
-        );
+        assert!(text.starts_with(want) && text.is_empty() == want.is_empty(), "{text}");
     }
 }
 
 #[test]
 fn hands_that_wait_in_front_of_the_belly_are_at_rest() {
-    let lap = |joint: usize, anatomy: &Anatomy| match anatomy.part_of(joint) {
-        Some(Part::Forearm(side)) => Some(DQuat::from_rotation_y(side.sign() * -1.4)),
+    let lap = |joint: usize, anatomy: &BodyAnatomy| match anatomy.part_of(joint) {
+        Some(BodyPart::Forearm(side)) => Some(DQuat::from_rotation_y(side.side_sign() * -1.4)),
         _ => None,
     };
-    let plain = Arc::new(body(PLAIN));
-    let of = Anatomy::with_roles(&plain, &roles(&plain)).expect("a body");
+    let plain = Arc::new(fixture_body(PLAIN_BODY_VARIATION));
+    let of = BodyAnatomy::with_roles(&plain, &fixture_joint_roles(&plain)).expect("a body");
     let (clip, anatomy) = clip(|joint, _, turned, _| {
         if let Some(bent) = lap(joint, &of) {
             turned.fill(bent);
         }
     });
-    let lows = Looks {
+    let lows = TakeSnapshots {
         clip: &clip,
         anatomy: &anatomy,
         first: 0,
     }
-    .at(0)
+    .body_snapshot_at(0)
     .low;
     assert!(
         lows.iter()
             .flatten()
-            .all(|low| (WAIT.0..REST.0).contains(low)),
+            .all(|low| (HAND_WAIT_LIMITS.0..WRIST_REST_LIMITS.0).contains(low)),
         "{lows:?}"
     );
-    let active = activity(&clip, &anatomy).expect("a raised hand");
+    let active = activity_frames(&clip, &anatomy).expect("a raised hand");
     assert!(
         (30..=34).contains(&active.start) && (66..=70).contains(&active.end),
         "{active:?}"
@@ -179,12 +173,12 @@ fn a_t_pose_that_is_left_slowly_is_found() {
             }
         }
     });
-    let ends = Ends::of(&clip, &anatomy);
+    let ends = ClipEnds::examine_clip_ends(&clip, &anatomy);
     assert!(
-        matches!(ends.odd.as_slice(), [odd] if odd.what == Oddity::Tee),
+        matches!(ends.odd.as_slice(), [odd] if odd.what == FrameOddity::Tee),
         "{ends:?}"
     );
-    let active = activity(&clip, &anatomy).expect("a raised hand");
+    let active = activity_frames(&clip, &anatomy).expect("a raised hand");
     assert!(active.start > 25 && active.start <= 31, "{active:?}");
 }
 
@@ -198,7 +192,7 @@ fn hands_that_stir_at_rest_are_not_active() {
             }
         }
     });
-    let active = activity(&clip, &anatomy).expect("a raised hand");
+    let active = activity_frames(&clip, &anatomy).expect("a raised hand");
     assert!(
         (27..=31).contains(&active.start) && (69..=73).contains(&active.end),
         "{active:?}"
@@ -208,17 +202,17 @@ fn hands_that_stir_at_rest_are_not_active() {
 #[test]
 fn activity_is_between_two_rests_and_a_still_body_has_none() {
     let (moving, anatomy) = clip(|_, _, _, _| {});
-    let active = activity(&moving, &anatomy).expect("a raised hand");
+    let active = activity_frames(&moving, &anatomy).expect("a raised hand");
     assert!(
         (27..=31).contains(&active.start) && (69..=73).contains(&active.end),
         "{active:?}"
     );
-    let skeleton = Arc::new(body(Wear {
+    let skeleton = Arc::new(fixture_body(BodyVariation {
         lowered: 1.4,
-        ..PLAIN
+        ..PLAIN_BODY_VARIATION
     }));
-    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
-    let still = Clip::still(skeleton, Rate::new(25, 1).expect("a rate"), 50);
-    assert_eq!(activity(&still, &anatomy), None);
-    assert!(Ends::of(&still, &anatomy).is_sound());
+    let anatomy = BodyAnatomy::with_roles(&skeleton, &fixture_joint_roles(&skeleton)).expect("a body");
+    let still = Clip::from_rest_pose(skeleton, FrameRate::new(25, 1).expect("a rate"), 50);
+    assert_eq!(activity_frames(&still, &anatomy), None);
+    assert!(ClipEnds::examine_clip_ends(&still, &anatomy).is_sound());
 }

@@ -7,10 +7,10 @@
 //! itself would do. The error of every marker is part of the result, so that nobody takes a fit for a capture without
 //! checking.
 
-mod labels;
-mod people;
+mod fit_labels;
+mod fit_people;
+mod fit_solve;
 mod roll;
-mod solve;
 #[cfg(test)]
 mod tests;
 
@@ -18,23 +18,23 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::anatomy::{Anatomy, Part};
-use crate::clip::{Channel, Clip, ClipError};
-use crate::hand::Side;
-use crate::markers::{Marker, Markers, Space};
-use crate::pose::{ModelPose, Pose};
-use crate::skeleton::{Joint, Skeleton, SkeletonError};
-use crate::time::{Rate, RateError};
-use crate::times::Times;
+use crate::anatomy::{BodyAnatomy, BodyPart};
+use crate::clip::{Clip, ClipError, JointChannel};
+use crate::hand::BodySide;
+use crate::markers::{MarkerSpace, MarkerTrack, MotionMarker};
+use crate::pose::{LocalPose, ModelPose};
+use crate::skeleton::{Skeleton, SkeletonError, SkeletonJoint};
+use crate::time::{FrameRate, RateError};
+use crate::times::FrameTimes;
 
-pub use labels::{Attachment, attachment};
-use people::Person;
-use roll::Wrist;
-use solve::{Solver, Target};
+pub use fit_labels::{MarkerAttachment, find_marker_attachment};
+use fit_people::MarkerPerson;
+use fit_solve::{FitSolver, MarkerTarget};
+use roll::WristMarkers;
 
 /// A skeleton that moves with the markers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fitted {
+pub struct FittedSkeleton {
     /// The movement in metres and model space; the skeleton has the size of the markers' body.
     pub clip: Clip,
     /// The size of the skeleton relative to the given one.
@@ -51,7 +51,7 @@ pub struct Fitted {
     /// The number of frames with too few markers, in which the posture before is held.
     pub held: usize,
     /// The sides whose two wrist markers are not both there: the turn of forearm and palm about the forearm is a guess.
-    pub unturned: Vec<Side>,
+    pub unturned: Vec<BodySide>,
 }
 
 /// The distance of a marker from its place on the skeleton.
@@ -73,11 +73,11 @@ pub struct FittedMarker {
     pub distances: Vec<f64>,
 }
 
-impl Fitted {
+impl FittedSkeleton {
     /// Returns the median of the markers' median distances, in metres.
     #[must_use]
-    pub fn median(&self) -> f64 {
-        middle(self.markers.iter().map(|marker| marker.median).collect())
+    pub fn median_marker_distance(&self) -> f64 {
+        median_of_values(self.markers.iter().map(|marker| marker.median).collect())
     }
 }
 
@@ -126,21 +126,21 @@ pub enum FitError {
 }
 
 /// The least number of markers with a known label, in all and in a frame.
-const FEWEST: usize = 8;
+const MIN_LABELLED_MARKERS: usize = 8;
 const FEWEST_SEEN: usize = 6;
 /// The least and the largest size of a fitted skeleton relative to the given one.
-const SCALES: [f64; 2] = [0.3, 3.0];
+const FIT_SCALE_LIMITS: [f64; 2] = [0.3, 3.0];
 /// The number of frames that are used to find the places of markers on their bones, and the number of rounds.
-const SAMPLES: usize = 40;
-const ROUNDS: usize = 4;
+const FIT_SAMPLE_FRAMES: usize = 40;
+const FIT_SAMPLE_ROUNDS: usize = 4;
 /// The greatest distance of a marker from its expected place on the bone, in metres.
-const FARTHEST: f64 = 0.18;
+const MAX_MARKER_DISTANCE_M: f64 = 0.18;
 /// The number of solver steps for a frame after its neighbour, and from scratch.
-const STEPS: usize = 6;
+const FIT_SOLVER_STEPS: usize = 6;
 const FIRST_STEPS: usize = 60;
 
 /// A marker that is used.
-struct Used {
+struct UsedMarker {
     marker: usize,
     joint: usize,
     expected: DVec3,
@@ -148,10 +148,10 @@ struct Used {
 }
 
 /// Returns the names of the people to whom markers belong if they are those of several, such as `Anna` and `Bob` for
-/// `Anna:LSHO` and `Bob:LSHO`: [`fit`] needs the name of one of them then. None if they are those of one person.
+/// `Anna:LSHO` and `Bob:LSHO`: [`fit_skeleton`] needs the name of one of them then. None if they are those of one person.
 #[must_use]
-pub fn people(markers: &Markers) -> Vec<String> {
-    people::several(markers)
+pub fn people_of_markers(markers: &MarkerTrack) -> Vec<String> {
+    fit_people::list_marker_people(markers)
 }
 
 /// Fits a skeleton in metres and model space to markers: to those of `subject`, such as `Anna` for `Anna:LSHO`, if it is
@@ -160,33 +160,35 @@ pub fn people(markers: &Markers) -> Vec<String> {
 /// # Errors
 /// [`FitError`] if the points are not in metric space, belong to several people and `subject` names none of them, too few
 /// labels are known, no frame has enough markers, or the skeleton is not that of a body.
-pub fn fit(
-    markers: &Markers,
+pub fn fit_skeleton(
+    markers: &MarkerTrack,
     skeleton: &Skeleton,
-    anatomy: &Anatomy,
+    anatomy: &BodyAnatomy,
     subject: Option<&str>,
-) -> Result<Fitted, FitError> {
-    if !matches!(markers.space(), Space::World(_)) {
+) -> Result<FittedSkeleton, FitError> {
+    if !matches!(markers.marker_space(), MarkerSpace::World(_)) {
         return Err(FitError::Flat);
     }
     let Some(measures) = anatomy
-        .measures()
-        .filter(|_| anatomy.joint(Part::Head).is_some())
+        .anatomy_measures()
+        .filter(|_| anatomy.part_joint(BodyPart::Head).is_some())
     else {
         return Err(FitError::NoBody);
     };
-    let shown: Vec<Vec<Option<DVec3>>> = (0..markers.frames()).map(|f| shown(markers, f)).collect();
-    let Person { labels, others } = people::person(markers, subject)?;
-    let measured = scale(&shown, &labels, skeleton, anatomy);
-    let scale = measured.clamp(SCALES[0], SCALES[1]);
-    let skeleton = scaled(skeleton, scale)?;
+    let shown: Vec<Vec<Option<DVec3>>> = (0..markers.marker_frame_count())
+        .map(|f| visible_marker_places(markers, f))
+        .collect();
+    let MarkerPerson { labels, others } = fit_people::select_marker_person(markers, subject)?;
+    let measured = estimate_body_scale(&shown, &labels, skeleton, anatomy);
+    let scale = measured.clamp(FIT_SCALE_LIMITS[0], FIT_SCALE_LIMITS[1]);
+    let skeleton = scaled_skeleton(skeleton, scale)?;
     let rest = skeleton.rest_model_pose();
-    let mut used: Vec<Used> = Vec::new();
+    let mut used: Vec<UsedMarker> = Vec::new();
     let mut unused = Vec::new();
-    for (marker, point) in markers.points().iter().enumerate() {
-        let found = labels[marker].and_then(|it| anchored(it, &rest, &skeleton, anatomy));
-        match found {
-            Some((joint, expected)) => used.push(Used {
+    for (marker, point) in markers.marker_points().iter().enumerate() {
+        let label_anchor = labels[marker].and_then(|label| anchored(label, &rest, &skeleton, anatomy));
+        match label_anchor {
+            Some((joint, expected)) => used.push(UsedMarker {
                 marker,
                 joint,
                 expected,
@@ -196,38 +198,37 @@ pub fn fit(
             None => unused.push(full_name(point)),
         }
     }
-    if used.len() < FEWEST {
+    if used.len() < MIN_LABELLED_MARKERS {
         return Err(FitError::Few {
             known: used.len(),
-            all: markers.points().len(),
-            needed: FEWEST,
+            all: markers.marker_points().len(),
+            needed: MIN_LABELLED_MARKERS,
         });
     }
     let seen = |frame: usize| {
         used.iter()
-            .filter(|it| shown[frame][it.marker].is_some())
+            .filter(|marker| shown[frame][marker.marker].is_some())
             .count()
     };
-    let whole: Vec<usize> = (0..shown.len())
-        .filter(|&f| seen(f) >= FEWEST_SEEN)
-        .collect();
-    if whole.is_empty() {
+    let full_frames: Vec<usize> = (0..shown.len()).filter(|&f| seen(f) >= FEWEST_SEEN).collect();
+    if full_frames.is_empty() {
         return Err(FitError::Gaps(FEWEST_SEEN));
     }
-    let wrists = Side::BOTH.map(|side| Wrist::of(side, &used, &labels, &shown, &rest, anatomy));
-    let unturned = Side::BOTH.into_iter().zip(&wrists);
-    let unturned = unturned.filter_map(|(side, wrist)| wrist.is_none().then_some(side));
-    let unturned: Vec<Side> = unturned.collect();
-    let wrists: Vec<Wrist> = wrists.into_iter().flatten().collect();
-    let mut solver = Solver::new(&skeleton, used.iter().map(|it| it.joint));
-    calibrate(&mut solver, &mut used, &wrists, &shown, &whole, &skeleton);
+    let wrists =
+        BodySide::BOTH_SIDES.map(|side| WristMarkers::find_wrist_markers(side, &used, &labels, &shown, &rest, anatomy));
+    let unturned_sides = BodySide::BOTH_SIDES.into_iter().zip(&wrists);
+    let unturned = unturned_sides.filter_map(|(side, wrist)| wrist.is_none().then_some(side));
+    let unturned: Vec<BodySide> = unturned.collect();
+    let wrists: Vec<WristMarkers> = wrists.into_iter().flatten().collect();
+    let mut solver = FitSolver::new(&skeleton, used.iter().map(|marker| marker.joint));
+    calibrate(&mut solver, &mut used, &wrists, &shown, &full_frames, &skeleton);
     let moved = all_frames(&mut solver, &used, &shown, &skeleton);
-    let rate = rate(markers)?;
+    let rate = infer_marker_rate(markers)?;
     let others = match subject {
-        Some(_) => others.into_iter().filter(|it| *it).count(),
+        Some(_) => others.into_iter().filter(|is_other| *is_other).count(),
         None => 0,
     };
-    let fitted = finish(
+    let fitted = finish_skeleton_fit(
         markers,
         skeleton,
         (scale, measured * measures.stature),
@@ -236,131 +237,128 @@ pub fn fit(
         &shown,
         moved,
     )?;
-    Ok(Fitted { others, ..fitted })
+    Ok(FittedSkeleton { others, ..fitted })
 }
 
 /// Returns the places of a frame; a place at exactly 0 0 0 in the file is a gap that a program wrote so.
-fn shown(markers: &Markers, frame: usize) -> Vec<Option<DVec3>> {
-    let points = markers.points().iter().zip(markers.shown(frame));
-    let seen = points.map(|(point, at)| at.filter(|_| point.at(frame) != Some(DVec3::ZERO)));
+fn visible_marker_places(markers: &MarkerTrack, frame: usize) -> Vec<Option<DVec3>> {
+    let points = markers.marker_points().iter().zip(markers.displayed_markers(frame));
+    let seen = points.map(|(point, at)| at.filter(|_| point.marker_position(frame) != Some(DVec3::ZERO)));
     seen.collect()
 }
 
 /// Finds the places of markers on their bones from frames over the whole take.
 fn calibrate(
-    solver: &mut Solver,
-    used: &mut [Used],
-    wrists: &[Wrist],
+    solver: &mut FitSolver,
+    used: &mut [UsedMarker],
+    wrists: &[WristMarkers],
     shown: &[Vec<Option<DVec3>>],
     whole: &[usize],
     skeleton: &Skeleton,
 ) {
-    let count = whole.len().min(SAMPLES);
+    let count = whole.len().min(FIT_SAMPLE_FRAMES);
     let samples: Vec<usize> = (0..count)
         .map(|n| whole[n * (whole.len() - 1) / (count - 1).max(1)])
         .collect();
-    let mut poses: Vec<Option<Pose>> = vec![None; samples.len()];
-    for round in 0..ROUNDS {
-        let mut before: Option<Pose> = None;
+    let mut poses: Vec<Option<LocalPose>> = vec![None; samples.len()];
+    for round in 0..FIT_SAMPLE_ROUNDS {
+        let mut before: Option<LocalPose> = None;
         for (pose, &frame) in poses.iter_mut().zip(&samples) {
-            let targets = targets(used, &shown[frame]);
+            let targets = marker_targets(used, &shown[frame]);
             let (start, steps) = match pose.take().or_else(|| before.clone()) {
-                Some(pose) => (pose, if round == 0 { FIRST_STEPS } else { 4 * STEPS }),
-                None => (upright(&targets, skeleton), FIRST_STEPS),
+                Some(pose) => (pose, if round == 0 { FIRST_STEPS } else { 4 * FIT_SOLVER_STEPS }),
+                None => (upright_rest_pose(&targets, skeleton), FIRST_STEPS),
             };
-            let solved = solver.solve(start, &targets, steps);
+            let solved = solver.solve_fit_pose(start, &targets, steps);
             before = Some(solved.clone());
             *pose = Some(solved);
         }
         let models: Vec<ModelPose> = poses
             .iter()
             .flatten()
-            .map(|pose| ModelPose::of(skeleton, pose))
+            .map(|pose| ModelPose::from_local_pose(skeleton, pose))
             .collect();
         for it in used.iter_mut() {
             let places: Vec<DVec3> = samples
                 .iter()
                 .zip(&models)
                 .filter_map(|(&frame, model)| {
-                    let at = shown[frame][it.marker]? - model.position(it.joint);
-                    Some(model.rotation(it.joint).inverse() * at)
+                    let marker_offset = shown[frame][it.marker]? - model.model_joint_position(it.joint);
+                    Some(model.model_joint_rotation(it.joint).inverse() * marker_offset)
                 })
                 .collect();
             if places.is_empty() {
                 continue;
             }
-            let median = DVec3::from_array(
-                [0, 1, 2].map(|axis| middle(places.iter().map(|at| at[axis]).collect())),
-            );
-            it.place = it.expected + (median - it.expected).clamp_length_max(FARTHEST);
+            let median =
+                DVec3::from_array([0, 1, 2].map(|axis| median_of_values(places.iter().map(|at| at[axis]).collect())));
+            it.place = it.expected + (median - it.expected).clamp_length_max(MAX_MARKER_DISTANCE_M);
         }
         for wrist in wrists {
-            wrist.turn(used);
+            wrist.turn_forearm_markers(used);
         }
     }
 }
 
 /// The postures of all frames, and how many of them are held because of missing markers.
-struct Moved {
-    poses: Vec<Pose>,
+struct FittedMotion {
+    poses: Vec<LocalPose>,
     held: usize,
 }
 
 fn all_frames(
-    solver: &mut Solver,
-    used: &[Used],
+    solver: &mut FitSolver,
+    used: &[UsedMarker],
     shown: &[Vec<Option<DVec3>>],
     skeleton: &Skeleton,
-) -> Moved {
-    let mut moved = Moved {
+) -> FittedMotion {
+    let mut moved = FittedMotion {
         poses: Vec::with_capacity(shown.len()),
         held: 0,
     };
     let mut first = true;
     for frame in shown {
-        let targets = targets(used, frame);
+        let targets = marker_targets(used, frame);
         if targets.len() < FEWEST_SEEN {
-            let held = moved.poses.last().cloned();
-            moved
-                .poses
-                .push(held.unwrap_or_else(|| skeleton.rest_pose()));
+            let last_pose = moved.poses.last().cloned();
+            moved.poses.push(last_pose.unwrap_or_else(|| skeleton.rest_pose()));
             moved.held += 1;
             continue;
         }
         let (start, steps) = match moved.poses.last().filter(|_| !first) {
-            Some(before) => (before.clone(), STEPS),
-            None => (upright(&targets, skeleton), FIRST_STEPS),
+            Some(before) => (before.clone(), FIT_SOLVER_STEPS),
+            None => (upright_rest_pose(&targets, skeleton), FIRST_STEPS),
         };
         first = false;
-        moved.poses.push(solver.solve(start, &targets, steps));
+        moved.poses.push(solver.solve_fit_pose(start, &targets, steps));
     }
     moved
 }
 
-fn targets(used: &[Used], shown: &[Option<DVec3>]) -> Vec<Target> {
-    let target = |it: &Used| {
-        Some(Target {
-            joint: it.joint,
-            place: it.place,
-            at: shown[it.marker]?,
+fn marker_targets(used: &[UsedMarker], shown: &[Option<DVec3>]) -> Vec<MarkerTarget> {
+    let target = |marker: &UsedMarker| {
+        Some(MarkerTarget {
+            joint: marker.joint,
+            place: marker.place,
+            at: shown[marker.marker]?,
         })
     };
     used.iter().filter_map(target).collect()
 }
 
 /// Returns the rest posture, turned about the vertical and moved so that it fits the markers best.
-fn upright(targets: &[Target], skeleton: &Skeleton) -> Pose {
+fn upright_rest_pose(targets: &[MarkerTarget], skeleton: &Skeleton) -> LocalPose {
     let mut pose = skeleton.rest_pose();
-    let rest = ModelPose::of(skeleton, &pose);
+    let rest = ModelPose::from_local_pose(skeleton, &pose);
     let count = targets.len().max(1) as f64;
-    let own: Vec<DVec3> = targets
+    let rest_points: Vec<DVec3> = targets
         .iter()
-        .map(|target| rest.point(target.joint, target.place))
+        .map(|target| rest.joint_point_to_model(target.joint, target.place))
         .collect();
-    let from = own.iter().sum::<DVec3>() / count;
+    let from = rest_points.iter().sum::<DVec3>() / count;
     let to = targets.iter().map(|target| target.at).sum::<DVec3>() / count;
     let (mut sine, mut cosine) = (0.0, 0.0);
-    for (own, target) in own.iter().zip(targets) {
+    for (own, target) in rest_points.iter().zip(targets) {
         let (a, b) = (*own - from, target.at - to);
         cosine += a.x * b.x + a.z * b.z;
         sine += a.z * b.x - a.x * b.z;
@@ -373,139 +371,143 @@ fn upright(targets: &[Target], skeleton: &Skeleton) -> Pose {
 
 /// Returns the joint of a marker and its expected place in that joint's space.
 fn anchored(
-    label: Attachment,
+    label: MarkerAttachment,
     rest: &ModelPose,
     skeleton: &Skeleton,
-    anatomy: &Anatomy,
+    anatomy: &BodyAnatomy,
 ) -> Option<(usize, DVec3)> {
-    let joint = label.on.iter().find_map(|&part| anatomy.joint(part))?;
-    let from = rest.position(joint);
-    let at = match label.towards {
+    let joint = label.on.iter().find_map(|&part| anatomy.part_joint(part))?;
+    let from = rest.model_joint_position(joint);
+    let line_place = match label.towards {
         None => from,
         Some((part, share)) => {
-            let end = match anatomy.joint(part) {
-                Some(end) => rest.position(end),
-                None => rest.tip(skeleton, joint)?,
+            let end = match anatomy.part_joint(part) {
+                Some(end) => rest.model_joint_position(end),
+                None => rest.bone_tip_position(skeleton, joint)?,
             };
             from.lerp(end, share)
         }
     };
-    let beside = roll::beside(label, rest, anatomy).unwrap_or_default();
-    let at = at + beside;
-    Some((joint, rest.rotation(joint).inverse() * (at - from)))
+    let roll_offset = roll::marker_bone_shift(label, rest, anatomy).unwrap_or_default();
+    let anchor_place = line_place + roll_offset;
+    Some((
+        joint,
+        rest.model_joint_rotation(joint).inverse() * (anchor_place - from),
+    ))
 }
 
 /// Returns the size of the markers' body relative to the skeleton, from the distances of markers at the ends of its
 /// limbs.
-fn scale(
+fn estimate_body_scale(
     shown: &[Vec<Option<DVec3>>],
-    labels: &[Option<Attachment>],
+    labels: &[Option<MarkerAttachment>],
     skeleton: &Skeleton,
-    anatomy: &Anatomy,
+    anatomy: &BodyAnatomy,
 ) -> f64 {
     let rest = skeleton.rest_model_pose();
-    let at = |part: Part, frame: &[Option<DVec3>]| {
+    let part_place = |part: BodyPart, frame: &[Option<DVec3>]| {
         let places: Vec<DVec3> = labels
             .iter()
             .zip(frame)
-            .filter(|(label, _)| label.is_some_and(|it| it.near == Some(part)))
+            .filter(|(label, _)| label.is_some_and(|attachment| attachment.near == Some(part)))
             .filter_map(|(_, at)| *at)
             .collect();
         let count = places.len() as f64;
         (count > 0.0).then(|| places.iter().sum::<DVec3>() / count)
     };
     let mut ratios = Vec::new();
-    for side in Side::BOTH {
+    for side in BodySide::BOTH_SIDES {
         let bones = [
-            (Part::UpperArm(side), Part::Forearm(side)),
-            (Part::Forearm(side), Part::Hand(side)),
-            (Part::Shin(side), Part::Foot(side)),
+            (BodyPart::UpperArm(side), BodyPart::Forearm(side)),
+            (BodyPart::Forearm(side), BodyPart::Hand(side)),
+            (BodyPart::Shin(side), BodyPart::Foot(side)),
         ];
         for (from, to) in bones {
-            let (Some(a), Some(b)) = (anatomy.joint(from), anatomy.joint(to)) else {
+            let (Some(a), Some(b)) = (anatomy.part_joint(from), anatomy.part_joint(to)) else {
                 continue;
             };
-            let own = rest.position(a).distance(rest.position(b));
+            let rest_length = rest.model_joint_position(a).distance(rest.model_joint_position(b));
             let lengths: Vec<f64> = shown
                 .iter()
-                .filter_map(|frame| Some(at(from, frame)?.distance(at(to, frame)?)))
+                .filter_map(|frame| Some(part_place(from, frame)?.distance(part_place(to, frame)?)))
                 .collect();
-            if own > 1e-6 && !lengths.is_empty() {
-                ratios.push(middle(lengths) / own);
+            if rest_length > 1e-6 && !lengths.is_empty() {
+                ratios.push(median_of_values(lengths) / rest_length);
             }
         }
     }
     if ratios.is_empty() {
         return 1.0;
     }
-    middle(ratios)
+    median_of_values(ratios)
 }
 
-fn scaled(skeleton: &Skeleton, scale: f64) -> Result<Skeleton, SkeletonError> {
-    let joint = |joint: &Joint| Joint {
+fn scaled_skeleton(skeleton: &Skeleton, scale: f64) -> Result<Skeleton, SkeletonError> {
+    let joint = |joint: &SkeletonJoint| SkeletonJoint {
         offset: joint.offset * scale,
         tip: joint.tip.map(|tip| tip * scale),
         ..joint.clone()
     };
-    Skeleton::new(skeleton.joints().iter().map(joint).collect())
+    Skeleton::new(skeleton.skeleton_joints().iter().map(joint).collect())
 }
 
-fn rate(markers: &Markers) -> Result<Rate, RateError> {
-    if let Times::Even(rate) = markers.times() {
+fn infer_marker_rate(markers: &MarkerTrack) -> Result<FrameRate, RateError> {
+    if let FrameTimes::Even(rate) = markers.marker_times() {
         return Ok(*rate);
     }
-    let seconds = markers.span().seconds().max(1e-6);
-    let per_second = (markers.frames() as f64 / seconds * 1000.0).round();
-    Rate::new(per_second.clamp(1.0, 4e9) as u32, 1000)
+    let seconds = markers.marker_track_span().span_seconds().max(1e-6);
+    let per_second = (markers.marker_frame_count() as f64 / seconds * 1000.0).round();
+    FrameRate::new(per_second.clamp(1.0, 4e9) as u32, 1000)
 }
 
-fn finish(
-    markers: &Markers,
+fn finish_skeleton_fit(
+    markers: &MarkerTrack,
     skeleton: Skeleton,
     (scale, stature): (f64, f64),
-    rate: Rate,
-    (used, unused, unturned): (Vec<Used>, Vec<String>, Vec<Side>),
+    rate: FrameRate,
+    (used, unused, unturned): (Vec<UsedMarker>, Vec<String>, Vec<BodySide>),
     shown: &[Vec<Option<DVec3>>],
-    moved: Moved,
-) -> Result<Fitted, FitError> {
+    moved: FittedMotion,
+) -> Result<FittedSkeleton, FitError> {
     let skeleton = Arc::new(skeleton);
     let models: Vec<ModelPose> = moved
         .poses
         .iter()
-        .map(|pose| ModelPose::of(&skeleton, pose))
+        .map(|pose| ModelPose::from_local_pose(&skeleton, pose))
         .collect();
-    let fitted = used.iter().map(|it| {
+    let fitted = used.iter().map(|marker| {
         let distances: Vec<f64> = shown
             .iter()
             .zip(&models)
             .map(|(frame, model)| {
-                frame[it.marker].map_or(f64::NAN, |at| at.distance(model.point(it.joint, it.place)))
+                frame[marker.marker].map_or(f64::NAN, |at| {
+                    at.distance(model.joint_point_to_model(marker.joint, marker.place))
+                })
             })
             .collect();
         let mut off: Vec<f64> = distances
             .iter()
             .copied()
-            .filter(|it| !it.is_nan())
+            .filter(|distance| !distance.is_nan())
             .collect();
         off.sort_by(f64::total_cmp);
         let most = off.get(off.len() * 19 / 20).or(off.last()).copied();
         FittedMarker {
-            name: full_name(&markers.points()[it.marker]),
-            joint: it.joint,
-            place: it.place,
+            name: full_name(&markers.marker_points()[marker.marker]),
+            joint: marker.joint,
+            place: marker.place,
             seen: off.len() as f64 / shown.len().max(1) as f64,
             most: most.unwrap_or_default(),
-            median: middle(off),
+            median: median_of_values(off),
             distances,
         }
     });
     let fitted = fitted.collect();
-    let channels = (0..skeleton.len()).map(|joint| Channel {
-        rotations: moved.poses.iter().map(|it| it.rotations[joint]).collect(),
-        translations: (joint == 0)
-            .then(|| moved.poses.iter().map(|it| it.translations[0]).collect()),
+    let channels = (0..skeleton.len()).map(|joint| JointChannel {
+        rotations: moved.poses.iter().map(|pose| pose.rotations[joint]).collect(),
+        translations: (joint == 0).then(|| moved.poses.iter().map(|pose| pose.translations[0]).collect()),
     });
-    Ok(Fitted {
+    Ok(FittedSkeleton {
         clip: Clip::new(skeleton.clone(), rate, channels.collect())?,
         scale,
         stature,
@@ -518,14 +520,14 @@ fn finish(
 }
 
 /// Returns the name of a marker with its subject: `Anna:LSHO`.
-fn full_name(point: &Marker) -> String {
+fn full_name(point: &MotionMarker) -> String {
     match point.group.is_empty() {
         true => point.name.clone(),
         false => format!("{}:{}", point.group, point.name),
     }
 }
 
-fn middle(mut values: Vec<f64>) -> f64 {
+fn median_of_values(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
 }

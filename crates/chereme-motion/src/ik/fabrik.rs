@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{IkError, finite};
 
-/// The conditions that stop [`fabrik`].
+/// The conditions that stop [`solve_fabrik`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FabrikOptions {
     /// The distance of the end from the target that is near enough, in the unit of the points.
@@ -28,7 +28,7 @@ impl Default for FabrikOptions {
 
 /// The resulting chain.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fabrik {
+pub struct FabrikChain {
     /// The positions of the chain's points; the first is unchanged.
     pub points: Vec<DVec3>,
     /// The distance of the last point from the target.
@@ -45,7 +45,7 @@ pub struct Fabrik {
 ///
 /// # Errors
 /// [`IkError`] if a number is not finite, a bone has no length, or there is no bone.
-pub fn fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) -> Result<Fabrik, IkError> {
+pub fn solve_fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) -> Result<FabrikChain, IkError> {
     finite("source", points)?;
     finite("target", &[target])?;
     finite("pole", &[options.pole.unwrap_or(DVec3::ZERO)])?;
@@ -55,31 +55,28 @@ pub fn fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) -> Resul
     let [root, .., _] = *points else {
         return Err(IkError::Short(points.len()));
     };
-    let lengths: Vec<f64> = points
-        .windows(2)
-        .map(|pair| pair[0].distance(pair[1]))
-        .collect();
-    let whole: f64 = lengths.iter().sum();
+    let lengths: Vec<f64> = points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
+    let full_length: f64 = lengths.iter().sum();
     if lengths
         .iter()
-        .any(|&l| l <= 1e-9 * whole || l < f64::MIN_POSITIVE)
+        .any(|&l| l <= 1e-9 * full_length || l < f64::MIN_POSITIVE)
     {
         return Err(IkError::ZeroBone("bone"));
     }
     let mut points = points.to_vec();
     let mut passes = 0;
-    if root.distance(target) >= whole {
+    if root.distance(target) >= full_length {
         let direction = (target - root).normalize_or(DVec3::X);
-        stretch(&mut points, &lengths, direction);
+        stretch_chain(&mut points, &lengths, direction);
     } else {
-        unbend_line(&mut points, target, whole, options.pole);
+        unbend_line(&mut points, target, full_length, options.pole);
         while passes < options.passes && residual(&points, target) > options.tolerance {
             pull(points.iter_mut().rev(), lengths.iter().rev(), target);
             pull(points.iter_mut(), lengths.iter(), root);
             passes += 1;
         }
     }
-    Ok(Fabrik {
+    Ok(FabrikChain {
         residual: residual(&points, target),
         points,
         passes,
@@ -90,20 +87,16 @@ fn residual(points: &[DVec3], target: DVec3) -> f64 {
     points.last().map_or(0.0, |end| end.distance(target))
 }
 
-fn stretch(points: &mut [DVec3], lengths: &[f64], direction: DVec3) {
-    let mut at = points[0];
+fn stretch_chain(points: &mut [DVec3], lengths: &[f64], direction: DVec3) {
+    let mut joint_place = points[0];
     for (point, length) in points[1..].iter_mut().zip(lengths) {
-        at += direction * *length;
-        *point = at;
+        joint_place += direction * *length;
+        *point = joint_place;
     }
 }
 
 /// Sets the first of `points` on `anchor`, and the others at their lengths in the direction of their old positions.
-fn pull<'a>(
-    points: impl Iterator<Item = &'a mut DVec3>,
-    lengths: impl Iterator<Item = &'a f64>,
-    anchor: DVec3,
-) {
+fn pull<'a>(points: impl Iterator<Item = &'a mut DVec3>, lengths: impl Iterator<Item = &'a f64>, anchor: DVec3) {
     let mut before = anchor;
     for (point, length) in points.zip(std::iter::once(&0.0).chain(lengths)) {
         *point = before + (*point - before).normalize_or(DVec3::X) * *length;
@@ -118,17 +111,11 @@ fn unbend_line(points: &mut [DVec3], target: DVec3, whole: f64, pole: Option<DVe
         return;
     };
     let off = |point: &DVec3| (*point - root).reject_from_normalized(line).length();
-    if points
-        .iter()
-        .chain([&target])
-        .any(|point| off(point) > 1e-6 * whole)
-    {
+    if points.iter().chain([&target]).any(|point| off(point) > 1e-6 * whole) {
         return;
     }
     let pole = pole.unwrap_or(DVec3::ZERO).reject_from_normalized(line);
-    let out = pole
-        .try_normalize()
-        .unwrap_or_else(|| line.any_orthonormal_vector());
+    let out = pole.try_normalize().unwrap_or_else(|| line.any_orthonormal_vector());
     let last = points.len() - 1;
     for point in &mut points[1..last.max(1)] {
         *point += out * (0.01 * whole);

@@ -4,17 +4,15 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::anatomy::fixtures::real::{read_bvh, shared};
-use crate::anatomy::fixtures::{PLAIN, Wear, any_turn, body, roles, wears};
-use crate::anatomy::{Anatomy, Part};
-use crate::pose::{ModelPose, Pose};
+use crate::anatomy::fixtures::real::{read_bvh, shared_bvh_files};
+use crate::anatomy::fixtures::{
+    BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, fixture_joint_roles,
+};
+use crate::anatomy::{BodyAnatomy, BodyPart};
+use crate::pose::{LocalPose, ModelPose};
 use crate::skeleton::Skeleton;
 
-const ARM: [DVec3; 3] = [
-    DVec3::ZERO,
-    DVec3::new(0.2, -0.2, -0.05),
-    DVec3::new(0.3, -0.05, 0.2),
-];
+const ARM: [DVec3; 3] = [DVec3::ZERO, DVec3::new(0.2, -0.2, -0.05), DVec3::new(0.3, -0.05, 0.2)];
 
 fn lengths([root, middle, end]: [DVec3; 3]) -> [f64; 2] {
     [root.distance(middle), middle.distance(end)]
@@ -46,12 +44,7 @@ fn odd_targets_are_solved_with_unchanged_bone_lengths() {
         ),
         ("at the root", straight, DVec3::ZERO, true),
         ("at the end", ARM, ARM[2], false),
-        (
-            "on the line of a straight arm",
-            straight,
-            DVec3::X * 0.4,
-            false,
-        ),
+        ("on the line of a straight arm", straight, DVec3::X * 0.4, false),
         ("behind a straight arm", straight, DVec3::NEG_X * 0.4, false),
         ("from a folded arm", folded, DVec3::Y * 0.4, false),
         ("folded on the root", folded, DVec3::ZERO, false),
@@ -79,25 +72,14 @@ fn non_finite_numbers_and_zero_length_bones_are_errors() {
     let bad = |source, target| two_bone(source, target, &options).expect_err("bad");
     assert_eq!(bad(ARM, nan), IkError::NotFinite("target"));
     assert_eq!(bad(ARM, DVec3::INFINITY), IkError::NotFinite("target"));
-    assert_eq!(
-        bad([nan, ARM[1], ARM[2]], ARM[2]),
-        IkError::NotFinite("source")
-    );
+    assert_eq!(bad([nan, ARM[1], ARM[2]], ARM[2]), IkError::NotFinite("source"));
     let zero = bad([ARM[1], ARM[1], ARM[2]], ARM[0]);
     assert_eq!(zero, IkError::ZeroBone("first bone"));
     assert_eq!(bad([ARM[1]; 3], ARM[0]), IkError::ZeroBone("first bone"));
-    assert_eq!(
-        bad([ARM[0], ARM[2], ARM[2]], ARM[0]),
-        IkError::ZeroBone("second bone")
-    );
-    let fab = |points: &[DVec3], target| {
-        fabrik(points, target, &FabrikOptions::default()).expect_err("bad")
-    };
+    assert_eq!(bad([ARM[0], ARM[2], ARM[2]], ARM[0]), IkError::ZeroBone("second bone"));
+    let fab = |points: &[DVec3], target| solve_fabrik(points, target, &FabrikOptions::default()).expect_err("bad");
     assert_eq!(fab(&ARM, nan), IkError::NotFinite("target"));
-    assert_eq!(
-        fab(&[ARM[0], ARM[0], ARM[1]], ARM[2]),
-        IkError::ZeroBone("bone")
-    );
+    assert_eq!(fab(&[ARM[0], ARM[0], ARM[1]], ARM[2]), IkError::ZeroBone("bone"));
     assert_eq!(fab(&ARM[..1], ARM[2]), IkError::Short(1));
 }
 
@@ -113,11 +95,7 @@ fn the_end_lags_smoothly_behind_a_target_out_of_reach() {
         keeps_lengths(ARM, &solved);
         let reached = solved.end.length();
         assert!(reached + 1e-12 >= before && reached <= length * (1.0 + 1e-12));
-        assert!(
-            wanted > length || wanted - reached < 0.001,
-            "{}",
-            wanted - reached
-        );
+        assert!(wanted > length || wanted - reached < 0.001, "{}", wanted - reached);
         assert_eq!(solved.soft, wanted > length * 0.996 + 1e-12, "{wanted}");
         before = reached;
     }
@@ -225,7 +203,7 @@ proptest! {
         let target = reachable(source, direction, share);
         let exact = solve(source, target);
         let options = FabrikOptions { tolerance: 1e-10, passes: 20_000, pole: None };
-        let chain = fabrik(&source, target, &options).expect("finite");
+        let chain = solve_fabrik(&source, target, &options).expect("finite");
         prop_assert!(chain.residual < 1e-8, "{}", chain.residual);
         let side = |middle: DVec3| (middle - root).cross(target - root).dot(normal).signum();
         prop_assume!(side(chain.points[1]) == side(exact.middle));
@@ -256,9 +234,9 @@ fn a_wavering_straight_source_does_not_flip_the_elbow() {
 #[test]
 fn fabrik_bends_a_straight_chain_and_stretches_towards_far_targets() {
     let line: Vec<DVec3> = (0..5).map(|n| DVec3::X * f64::from(n)).collect();
-    let bent = fabrik(&line, DVec3::X * 2.0, &FabrikOptions::default()).expect("finite");
+    let bent = solve_fabrik(&line, DVec3::X * 2.0, &FabrikOptions::default()).expect("finite");
     assert!(bent.residual < 1e-5, "{bent:?}");
-    let far = fabrik(&line, DVec3::Y * 9.0, &FabrikOptions::default()).expect("finite");
+    let far = solve_fabrik(&line, DVec3::Y * 9.0, &FabrikOptions::default()).expect("finite");
     assert!(far.points[4].abs_diff_eq(DVec3::Y * 4.0, 1e-12) && far.residual == 5.0);
     for chain in [&bent, &far] {
         for pair in chain.points.windows(2) {
@@ -267,32 +245,32 @@ fn fabrik_bends_a_straight_chain_and_stretches_towards_far_targets() {
     }
 }
 
-fn worn(wear: Wear) -> (Skeleton, Anatomy) {
-    let skeleton = body(wear);
-    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("its own names");
+fn worn(wear: BodyVariation) -> (Skeleton, BodyAnatomy) {
+    let skeleton = fixture_body(wear);
+    let anatomy = BodyAnatomy::with_roles(&skeleton, &fixture_joint_roles(&skeleton)).expect("its own names");
     (skeleton, anatomy)
 }
 
 /// Returns a posture with both arms bent in front of the body.
-fn posture(skeleton: &Skeleton, anatomy: &Anatomy, sway: f64) -> Pose {
+fn posture(skeleton: &Skeleton, anatomy: &BodyAnatomy, sway: f64) -> LocalPose {
     let mut pose = skeleton.rest_pose();
-    for side in Side::BOTH {
-        let arm = anatomy.arm(side).expect("an arm");
+    for side in BodySide::BOTH_SIDES {
+        let arm = anatomy.arm_chain(side).expect("an arm");
         for (joint, turn) in [
             (
                 arm.upper,
-                DQuat::from_rotation_y(-side.sign() * (0.6 + 0.1 * sway)),
+                DQuat::from_rotation_y(-side.side_sign() * (0.6 + 0.1 * sway)),
             ),
-            (arm.upper, DQuat::from_rotation_z(-side.sign() * 0.9)),
+            (arm.upper, DQuat::from_rotation_z(-side.side_sign() * 0.9)),
             (
                 arm.forearm,
-                DQuat::from_rotation_y(-side.sign() * (1.2 + 0.3 * sway)),
+                DQuat::from_rotation_y(-side.side_sign() * (1.2 + 0.3 * sway)),
             ),
             (arm.hand, DQuat::from_rotation_x(0.4 + 0.2 * sway)),
         ] {
-            let world = turn * ModelPose::of(skeleton, &pose).rotation(joint);
-            let above = skeleton.parent(joint).expect("no root");
-            let above = ModelPose::of(skeleton, &pose).rotation(above);
+            let world = turn * ModelPose::from_local_pose(skeleton, &pose).model_joint_rotation(joint);
+            let above = skeleton.joint_parent(joint).expect("no root");
+            let above = ModelPose::from_local_pose(skeleton, &pose).model_joint_rotation(above);
             pose.rotations[joint] = (above.inverse() * world).normalize();
         }
     }
@@ -304,16 +282,16 @@ proptest! {
 
     #[test]
     fn a_moved_wrist_reaches_its_target_and_only_the_arm_changes(by in vector(), spin in vector(), help in proptest::bool::ANY) {
-        for (name, wear) in wears().into_iter().filter(|(_, wear)| wear.unit == 1.0) {
+        for (name, wear) in body_variations().into_iter().filter(|(_, wear)| wear.unit == 1.0) {
             let (skeleton, anatomy) = worn(wear);
             let source = posture(&skeleton, &anatomy, 0.0);
-            let before = ModelPose::of(&skeleton, &source);
-            for side in Side::BOTH {
-                let arm = anatomy.arm(side).expect("an arm");
+            let before = ModelPose::from_local_pose(&skeleton, &source);
+            for side in BodySide::BOTH_SIDES {
+                let arm = anatomy.arm_chain(side).expect("an arm");
                 let spin = DQuat::from_scaled_axis(spin);
                 let target = WristTarget {
-                    position: before.position(arm.hand) + by * 0.25,
-                    rotation: spin * before.rotation(arm.hand),
+                    position: before.model_joint_position(arm.hand) + by * 0.25,
+                    rotation: spin * before.model_joint_rotation(arm.hand),
                 };
                 let options = ReachOptions {
                     clavicle: help.then_some(0.9),
@@ -322,20 +300,20 @@ proptest! {
                 let mut pose = source.clone();
                 let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose)
                     .expect("an arm");
-                let after = ModelPose::of(&skeleton, &pose);
-                let residual = after.position(arm.hand).distance(target.position);
+                let after = ModelPose::from_local_pose(&skeleton, &pose);
+                let residual = after.model_joint_position(arm.hand).distance(target.position);
                 prop_assert!((residual - reach.residual_m).abs() < 1e-12);
                 prop_assert!(reach.clamped || residual < 1e-3, "{name} {reach:?}");
                 prop_assert!(reach.clamped || reach.soft || residual < 1e-8, "{name} {reach:?}");
-                prop_assert!(after.rotation(arm.hand).angle_between(target.rotation) < 1e-7);
+                prop_assert!(after.model_joint_rotation(arm.hand).angle_between(target.rotation) < 1e-7);
                 let moved = [Some(arm.upper), Some(arm.forearm), Some(arm.hand), arm.clavicle.filter(|_| help)];
                 for joint in 0..skeleton.len() {
                     let same = pose.rotations[joint] == source.rotations[joint];
-                    prop_assert!(same || moved.contains(&Some(joint)), "{}", skeleton.joint(joint).name);
+                    prop_assert!(same || moved.contains(&Some(joint)), "{}", skeleton.joint_at(joint).name);
                 }
                 prop_assert_eq!(&pose.translations, &source.translations);
                 for (a, b) in [(arm.upper, arm.forearm), (arm.forearm, arm.hand)] {
-                    let length = |model: &ModelPose| model.position(a).distance(model.position(b));
+                    let length = |model: &ModelPose| model.model_joint_position(a).distance(model.model_joint_position(b));
                     prop_assert!((length(&before) - length(&after)).abs() < 1e-9);
                 }
             }
@@ -344,12 +322,12 @@ proptest! {
 
     #[test]
     fn moving_a_wrist_there_and_back_restores_the_arm(by in vector()) {
-        let (skeleton, anatomy) = worn(Wear { frames: any_turn, ..PLAIN });
+        let (skeleton, anatomy) = worn(BodyVariation { frames: any_turn, ..PLAIN_BODY_VARIATION });
         let source = posture(&skeleton, &anatomy, 0.0);
-        let hand = anatomy.joint(Part::Hand(Side::Left)).expect("a hand");
-        let at = |pose: &Pose| {
-            let model = ModelPose::of(&skeleton, pose);
-            WristTarget { position: model.position(hand), rotation: model.rotation(hand) }
+        let hand = anatomy.part_joint(BodyPart::Hand(BodySide::Left)).expect("a hand");
+        let at = |pose: &LocalPose| {
+            let model = ModelPose::from_local_pose(&skeleton, pose);
+            WristTarget { position: model.model_joint_position(hand), rotation: model.model_joint_rotation(hand) }
         };
         let mut pose = source.clone();
         let mut away = at(&source);
@@ -357,31 +335,31 @@ proptest! {
         let mut farthest = 0.0f64;
         for target in [away, at(&source)] {
             let options = ReachOptions::default();
-            let reach = reach_wrist(&anatomy, &skeleton, Side::Left, &target, &options, &mut pose);
+            let reach = reach_wrist(&anatomy, &skeleton, BodySide::Left, &target, &options, &mut pose);
             let reach = reach.expect("an arm");
             prop_assume!(!reach.soft && !reach.clamped);
             prop_assert!(reach.residual_m < 1e-6);
             farthest = farthest.max(reach.extension);
         }
-        let (before, after) = (ModelPose::of(&skeleton, &source), ModelPose::of(&skeleton, &pose));
-        let fingers = anatomy.fingers(Side::Left);
+        let (before, after) = (ModelPose::from_local_pose(&skeleton, &source), ModelPose::from_local_pose(&skeleton, &pose));
+        let fingers = anatomy.finger_joints(BodySide::Left);
         for joint in 0..skeleton.len() {
             if farthest > 0.99 && !fingers.contains(&joint) {
                 continue;
             }
-            prop_assert!(before.position(joint).abs_diff_eq(after.position(joint), 1e-6));
-            prop_assert!(before.rotation(joint).angle_between(after.rotation(joint)) < 1e-5);
+            prop_assert!(before.model_joint_position(joint).abs_diff_eq(after.model_joint_position(joint), 1e-6));
+            prop_assert!(before.model_joint_rotation(joint).angle_between(after.model_joint_rotation(joint)) < 1e-5);
         }
     }
 }
 
 #[test]
 fn a_displaced_moving_arm_stays_as_smooth_as_before() {
-    let (skeleton, anatomy) = worn(Wear {
+    let (skeleton, anatomy) = worn(BodyVariation {
         frames: any_turn,
-        ..PLAIN
+        ..PLAIN_BODY_VARIATION
     });
-    for solver in [Solver::Analytic, Solver::Fabrik] {
+    for solver in [ElbowSolver::Analytic, ElbowSolver::Fabrik] {
         for by in [
             DVec3::ZERO,
             DVec3::new(0.1, 0.2, 0.05),
@@ -393,34 +371,27 @@ fn a_displaced_moving_arm_stays_as_smooth_as_before() {
                 clavicle: Some(0.9),
                 ..ReachOptions::default()
             };
-            let arm = anatomy.arm(Side::Right).expect("an arm");
+            let arm = anatomy.arm_chain(BodySide::Right).expect("an arm");
             let mut before: Option<(ModelPose, ModelPose)> = None;
             for frame in 0..120 {
                 let source = posture(&skeleton, &anatomy, (f64::from(frame) / 20.0).sin());
-                let was = ModelPose::of(&skeleton, &source);
+                let was = ModelPose::from_local_pose(&skeleton, &source);
                 let target = WristTarget {
-                    position: was.position(arm.hand) + by,
-                    rotation: was.rotation(arm.hand),
+                    position: was.model_joint_position(arm.hand) + by,
+                    rotation: was.model_joint_rotation(arm.hand),
                 };
                 let mut pose = source.clone();
-                reach_wrist(
-                    &anatomy,
-                    &skeleton,
-                    Side::Right,
-                    &target,
-                    &options,
-                    &mut pose,
-                )
-                .expect("an arm");
-                let now = ModelPose::of(&skeleton, &pose);
+                reach_wrist(&anatomy, &skeleton, BodySide::Right, &target, &options, &mut pose).expect("an arm");
+                let now = ModelPose::from_local_pose(&skeleton, &pose);
                 if let Some((old_was, old_now)) = before {
                     for joint in [arm.upper, arm.forearm] {
-                        let had = old_was.rotation(joint).angle_between(was.rotation(joint));
-                        let has = old_now.rotation(joint).angle_between(now.rotation(joint));
-                        assert!(
-                            has < had + 5.0f64.to_radians(),
-                            "{solver:?} {by} {frame}: {has}"
-                        );
+                        let had = old_was
+                            .model_joint_rotation(joint)
+                            .angle_between(was.model_joint_rotation(joint));
+                        let has = old_now
+                            .model_joint_rotation(joint)
+                            .angle_between(now.model_joint_rotation(joint));
+                        assert!(has < had + 5.0f64.to_radians(), "{solver:?} {by} {frame}: {has}");
                     }
                 }
                 before = Some((was, now));
@@ -431,17 +402,17 @@ fn a_displaced_moving_arm_stays_as_smooth_as_before() {
 
 #[test]
 fn the_collar_bone_helps_past_the_stated_reach_and_no_further_than_it_may() {
-    let (skeleton, anatomy) = worn(PLAIN);
-    let side = Side::Left;
+    let (skeleton, anatomy) = worn(PLAIN_BODY_VARIATION);
+    let side = BodySide::Left;
     let source = posture(&skeleton, &anatomy, 0.0);
-    let model = ModelPose::of(&skeleton, &source);
-    let arm = anatomy.arm(side).expect("an arm");
+    let model = ModelPose::from_local_pose(&skeleton, &source);
+    let arm = anatomy.arm_chain(side).expect("an arm");
     let mut last = 0.0;
     for n in 0..100 {
         let target = WristTarget {
-            position: model.position(arm.upper)
+            position: model.model_joint_position(arm.upper)
                 + DVec3::new(0.1, 0.2, 1.0).normalize() * (0.3 + 0.004 * f64::from(n)),
-            rotation: model.rotation(arm.hand),
+            rotation: model.model_joint_rotation(arm.hand),
         };
         let reach = |clavicle| {
             let options = ReachOptions {
@@ -464,7 +435,7 @@ fn the_collar_bone_helps_past_the_stated_reach_and_no_further_than_it_may() {
 
 #[test]
 fn a_skeleton_without_the_arm_and_an_invalid_target_are_refused() {
-    let (skeleton, anatomy) = worn(PLAIN);
+    let (skeleton, anatomy) = worn(PLAIN_BODY_VARIATION);
     let mut pose = skeleton.rest_pose();
     let before = pose.clone();
     let options = ReachOptions::default();
@@ -472,28 +443,21 @@ fn a_skeleton_without_the_arm_and_an_invalid_target_are_refused() {
         position: DVec3::NAN,
         rotation: DQuat::IDENTITY,
     };
-    let error = reach_wrist(&anatomy, &skeleton, Side::Left, &nan, &options, &mut pose);
+    let error = reach_wrist(&anatomy, &skeleton, BodySide::Left, &nan, &options, &mut pose);
     assert_eq!(error, Err(IkError::NotFinite("target")));
     let turned = WristTarget {
         position: DVec3::ONE,
         rotation: DQuat::from_xyzw(0.0, 0.0, 0.0, 3.0),
     };
-    let error = reach_wrist(
-        &anatomy,
-        &skeleton,
-        Side::Left,
-        &turned,
-        &options,
-        &mut pose,
-    );
+    let error = reach_wrist(&anatomy, &skeleton, BodySide::Left, &turned, &options, &mut pose);
     assert_eq!(error, Err(IkError::NotFinite("target's rotation")));
     assert_eq!(pose, before);
     let roles = "left hand =".parse().expect("roles");
-    let bare = Anatomy::with_roles(&skeleton, &roles).expect("roles");
-    let bare_again = bare.arm(Side::Left);
+    let bare = BodyAnatomy::with_roles(&skeleton, &roles).expect("roles");
+    let bare_again = bare.arm_chain(BodySide::Left);
     assert!(bare_again.is_none(), "the user's word holds");
-    let error = reach_wrist(&bare, &skeleton, Side::Left, &nan, &options, &mut pose);
-    assert_eq!(error, Err(IkError::NoArm(Side::Left)));
+    let error = reach_wrist(&bare, &skeleton, BodySide::Left, &nan, &options, &mut pose);
+    assert_eq!(error, Err(IkError::NoArm(BodySide::Left)));
 }
 
 /// Moves every captured arm aside: the wrist reaches its target if possible, the hand keeps its rotation, and if the
@@ -501,41 +465,39 @@ fn a_skeleton_without_the_arm_and_an_invalid_target_are_refused() {
 /// arms that pass through full extension, jump more.
 #[test]
 fn captured_arms_displaced_aside_stay_smooth() {
-    for path in shared("motion/bvh") {
+    for path in shared_bvh_files("motion/bvh") {
         let shown = path.display();
-        let (skeleton, poses, frame_time) =
-            read_bvh(&path, 400).unwrap_or_else(|| panic!("{shown}"));
+        let (skeleton, poses, frame_time) = read_bvh(&path, 400).unwrap_or_else(|| panic!("{shown}"));
         let Some(first) = poses.first() else { continue };
-        let first = ModelPose::of(&skeleton, first);
-        let anatomy = Anatomy::detect(&skeleton).with_reference(&skeleton, &first);
-        let Some(length) = anatomy.measures().map(|m| m.arm) else {
+        let first = ModelPose::from_local_pose(&skeleton, first);
+        let anatomy = BodyAnatomy::detect_anatomy(&skeleton).with_reference(&skeleton, &first);
+        let Some(length) = anatomy.anatomy_measures().map(|m| m.arm) else {
             continue;
         };
         for (side, direction) in [
-            (Side::Right, DVec3::new(0.3, 0.2, 0.2)),
-            (Side::Left, DVec3::new(0.1, -0.2, 0.3)),
+            (BodySide::Right, DVec3::new(0.3, 0.2, 0.2)),
+            (BodySide::Left, DVec3::new(0.1, -0.2, 0.3)),
         ] {
-            let Some(arm) = anatomy.arm(side) else {
+            let Some(arm) = anatomy.arm_chain(side) else {
                 continue;
             };
             let mut before: Option<(ModelPose, ModelPose)> = None;
             let (mut jump, mut reached, mut worst) = (0.0f64, 0, 0.0f64);
             for source in &poses {
-                let was = ModelPose::of(&skeleton, source);
+                let was = ModelPose::from_local_pose(&skeleton, source);
                 let Some(body) = anatomy.body_frame(&was) else {
                     continue;
                 };
                 let target = WristTarget {
-                    position: was.position(arm.hand) + body.direction_to_model(direction * length),
-                    rotation: was.rotation(arm.hand),
+                    position: was.model_joint_position(arm.hand) + body.direction_to_model(direction * length),
+                    rotation: was.model_joint_rotation(arm.hand),
                 };
                 let mut pose = source.clone();
                 let options = ReachOptions::default();
-                let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose)
-                    .expect("an arm");
-                let now = ModelPose::of(&skeleton, &pose);
+                let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose).expect("an arm");
+                let now = ModelPose::from_local_pose(&skeleton, &pose);
                 assert!(
-                    now.rotation(arm.hand).angle_between(target.rotation) < 1e-6,
+                    now.model_joint_rotation(arm.hand).angle_between(target.rotation) < 1e-6,
                     "{shown}"
                 );
                 if !reach.clamped {
@@ -544,8 +506,12 @@ fn captured_arms_displaced_aside_stay_smooth() {
                 }
                 if let Some((old_was, old_now)) = before {
                     for joint in [arm.upper, arm.forearm] {
-                        let had = old_was.rotation(joint).angle_between(was.rotation(joint));
-                        let has = old_now.rotation(joint).angle_between(now.rotation(joint));
+                        let had = old_was
+                            .model_joint_rotation(joint)
+                            .angle_between(was.model_joint_rotation(joint));
+                        let has = old_now
+                            .model_joint_rotation(joint)
+                            .angle_between(now.model_joint_rotation(joint));
                         if had.to_degrees() < 5.0 {
                             let frames = (120.0 * frame_time).max(1.0);
                             jump = jump.max((has - had).to_degrees() / frames);

@@ -42,7 +42,7 @@ pub struct TwoBone {
 
 /// The distance of the middle from the line between root and end, as a share of the arm's length, from which the
 /// source's swivel counts in full.
-const CLEAR: f64 = 0.05;
+const CLEAR_SWIVEL_SHARE: f64 = 0.05;
 
 /// Places the middle and the end of two bones so that the end reaches `target`.
 ///
@@ -56,11 +56,7 @@ const CLEAR: f64 = 0.05;
 ///
 /// # Errors
 /// [`IkError`] if a number is not finite or a bone has no length.
-pub fn two_bone(
-    source: [DVec3; 3],
-    target: DVec3,
-    options: &TwoBoneOptions,
-) -> Result<TwoBone, IkError> {
+pub fn two_bone(source: [DVec3; 3], target: DVec3, options: &TwoBoneOptions) -> Result<TwoBone, IkError> {
     let [root, middle, end] = source;
     finite("source", &source)?;
     finite("target", &[target])?;
@@ -77,25 +73,24 @@ pub fn two_bone(
     let length = first + second;
     let line = source_line(source);
     let wanted = root.distance(target);
-    let reached = limit(wanted, root.distance(end), [first, second], options.soft);
+    let reached = limit_reach_distance(wanted, root.distance(end), [first, second], options.soft);
     let towards = (target - root).try_normalize().unwrap_or(line);
     let (along, beside) = if reached < 1e-12 * length {
         (0.0, first)
     } else {
-        let x = (first * first - second * second + reached * reached) / (2.0 * reached);
-        let x = x.clamp(-first, first);
+        let raw_x = (first * first - second * second + reached * reached) / (2.0 * reached);
+        let x = raw_x.clamp(-first, first);
         (x, (first * first - x * x).max(0.0).sqrt())
     };
-    let out = swivel(source, line, beside, options.pole);
-    let out = least_turn(line, towards) * out;
+    let bend_direction = swivel_direction(source, line, beside, options.pole);
+    let out = least_turn(line, towards) * bend_direction;
     let out = out.reject_from_normalized(towards).normalize_or(out);
     Ok(TwoBone {
         middle: root + towards * along + out * beside,
         end: root + towards * reached,
         extension: wanted / length,
         soft: reached < wanted,
-        clamped: wanted > length * (1.0 + 1e-12)
-            || wanted < (first - second).abs() - 1e-12 * length,
+        clamped: wanted > length * (1.0 + 1e-12) || wanted < (first - second).abs() - 1e-12 * length,
     })
 }
 
@@ -117,7 +112,7 @@ pub(super) fn least_turn(from: DVec3, to: DVec3) -> DQuat {
 
 /// Returns the distance to reach for a wanted one: at least the shortest that the bones allow, and at most their whole
 /// length, which is approached softly in the last share `soft`, or beyond the source's distance.
-fn limit(wanted: f64, source: f64, [first, second]: [f64; 2], soft: f64) -> f64 {
+fn limit_reach_distance(wanted: f64, source: f64, [first, second]: [f64; 2], soft: f64) -> f64 {
     let length = first + second;
     let near = (first - second).abs();
     let from = (length * (1.0 - soft.clamp(0.0, 1.0))).max(source.min(length));
@@ -132,16 +127,16 @@ fn limit(wanted: f64, source: f64, [first, second]: [f64; 2], soft: f64) -> f64 
 }
 
 /// Returns the unit vector perpendicular to `line` in which the middle lies, from the swivel of the source.
-fn swivel(source: [DVec3; 3], line: DVec3, beside: f64, pole: Option<DVec3>) -> DVec3 {
+fn swivel_direction(source: [DVec3; 3], line: DVec3, beside: f64, pole: Option<DVec3>) -> DVec3 {
     let [root, middle, end] = source;
-    let clear = CLEAR * (root.distance(middle) + middle.distance(end));
-    let own = (middle - root).reject_from_normalized(line);
-    let share = (own.length() / clear).clamp(0.0, 1.0);
+    let clear = CLEAR_SWIVEL_SHARE * (root.distance(middle) + middle.distance(end));
+    let middle_offset = (middle - root).reject_from_normalized(line);
+    let share = (middle_offset.length() / clear).clamp(0.0, 1.0);
     let trust = share * share * (3.0 - 2.0 * share);
-    let grown = ((beside - own.length()) / clear).clamp(0.0, 1.0);
-    let pole = pole.unwrap_or(DVec3::ZERO).normalize_or_zero();
-    let pole = pole.reject_from_normalized(line);
-    let mixed = own + pole * (clear * (1.0 - trust) * grown);
+    let grown = ((beside - middle_offset.length()) / clear).clamp(0.0, 1.0);
+    let raw_pole = pole.unwrap_or(DVec3::ZERO).normalize_or_zero();
+    let pole = raw_pole.reject_from_normalized(line);
+    let mixed = middle_offset + pole * (clear * (1.0 - trust) * grown);
     mixed
         .try_normalize()
         .filter(|_| mixed.length() > 1e-9 * clear)

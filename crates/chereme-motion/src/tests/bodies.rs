@@ -4,36 +4,38 @@ use glam::{DQuat, DVec3};
 
 use super::{dressed, list, milli, signing, turned};
 use crate::anatomy::detect_convention;
-use crate::anatomy::fixtures::conventions::{conventional, conventions};
-use crate::anatomy::fixtures::{PLAIN, Wear, any_turn, body, renamed, wears};
+use crate::anatomy::fixtures::conventions::{conventional_joint_name, naming_conventions};
+use crate::anatomy::fixtures::{
+    BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, rename_joints,
+};
 use crate::golden::{compare, put};
 use crate::{
-    Anatomy, Axes, Axis, Convention, Direction, Evidence, FingerAngles, HandAngles, Joint,
-    ModelPose, Part, Side, Skeleton, ThumbAngles,
+    AxisDirection, BodyAnatomy, BodyPart, BodySide, FingerAngles, HandAngles, ModelPose, PartEvidence, SignerAxes,
+    Skeleton, SkeletonJoint, SpaceAxis, SpaceConvention, ThumbAngles,
 };
 
 /// Returns the joints of all parts that were found, with a letter for the evidence of each.
-fn parts(anatomy: &Anatomy) -> String {
+fn parts(anatomy: &BodyAnatomy) -> String {
     let letter = |evidence| match evidence {
-        Evidence::Roles => 'r',
-        Evidence::Name => 'n',
-        Evidence::Topology => 't',
+        PartEvidence::Roles => 'r',
+        PartEvidence::Name => 'n',
+        PartEvidence::Topology => 't',
     };
     let found = anatomy
-        .found()
+        .found_parts()
         .map(|(part, joint, how)| format!("{part} {joint}{}", letter(how)));
     found.collect::<Vec<_>>().join(", ")
 }
 
-fn described(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy) {
+fn described(out: &mut String, skeleton: &Skeleton, anatomy: &BodyAnatomy) {
     put(out, format!("parts: {}", parts(anatomy)));
     put(
         out,
         format!(
             "missing {:?} ambiguous {:?} markers {:?}",
-            anatomy.missing(),
-            anatomy.ambiguous(),
-            anatomy.markers()
+            anatomy.missing_parts(),
+            anatomy.ambiguous_parts(),
+            anatomy.marker_joints()
         ),
     );
     put(out, format!("mirror {:?}", anatomy.mirror_map(skeleton)));
@@ -42,41 +44,39 @@ fn described(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy) {
 #[test]
 fn golden_parts_of_skeletons_under_many_names() {
     let mut out = String::new();
-    let plain = body(PLAIN);
-    for (name, sides, names) in conventions() {
+    let plain = fixture_body(PLAIN_BODY_VARIATION);
+    for (name, sides, names) in naming_conventions() {
         put(&mut out, format!("## {name}"));
-        let named = renamed(&plain, |_, part| {
-            let part: Part = part.parse().expect("a part");
-            conventional(part, sides, &names)
+        let named = rename_joints(&plain, |_, part| {
+            let part: BodyPart = part.parse().expect("a part");
+            conventional_joint_name(part, sides, &names)
         });
-        described(&mut out, &named, &Anatomy::detect(&named));
+        described(&mut out, &named, &BodyAnatomy::detect_anatomy(&named));
     }
-    let nameless = |wear: Wear| renamed(&body(wear), |n, _| format!("J{n}"));
-    for (name, wear) in wears() {
+    let nameless = |wear: BodyVariation| rename_joints(&fixture_body(wear), |n, _| format!("J{n}"));
+    for (name, wear) in body_variations() {
         put(&mut out, format!("## {name}, without names"));
         let skeleton = nameless(wear);
-        described(&mut out, &skeleton, &Anatomy::detect(&skeleton));
+        described(&mut out, &skeleton, &BodyAnatomy::detect_anatomy(&skeleton));
     }
     put(&mut out, "## sides that no name shows");
-    let sideless = renamed(&plain, |_, part| {
-        part.replace("right ", "").replace("left ", "")
-    });
-    described(&mut out, &sideless, &Anatomy::detect(&sideless));
+    let sideless = rename_joints(&plain, |_, part| part.replace("right ", "").replace("left ", ""));
+    described(&mut out, &sideless, &BodyAnatomy::detect_anatomy(&sideless));
     put(&mut out, "## names that say two things");
-    let twice = renamed(&plain, |n, part| match n {
+    let twice = rename_joints(&plain, |n, part| match n {
         3 => "Head".to_owned(),
         12 | 13 => "RightHand".to_owned(),
         _ => part.to_owned(),
     });
-    described(&mut out, &twice, &Anatomy::detect(&twice));
+    described(&mut out, &twice, &BodyAnatomy::detect_anatomy(&twice));
     put(&mut out, "## parts");
-    for part in Part::all() {
+    for part in BodyPart::all_body_parts() {
         put(
             &mut out,
             format!(
                 "{part}: {:?} {} usual {}",
-                part.side().map(Side::name),
-                part.mirrored(),
+                part.part_side().map(BodySide::body_side_name),
+                part.mirrored_part(),
                 part.is_usual()
             ),
         );
@@ -108,25 +108,25 @@ fn hands() -> Vec<HandAngles> {
     ]
 }
 
-fn handled(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy) {
-    for side in Side::BOTH {
-        let Some(hand) = anatomy.joint(Part::Hand(side)) else {
+fn handled(out: &mut String, skeleton: &Skeleton, anatomy: &BodyAnatomy) {
+    for side in BodySide::BOTH_SIDES {
+        let Some(hand) = anatomy.part_joint(BodyPart::Hand(side)) else {
             continue;
         };
         for (n, angles) in hands().iter().enumerate() {
             let mut pose = signing(skeleton, anatomy, 0.7 + n as f64);
             let set = anatomy.set_hand_angles(skeleton, side, angles, &mut pose);
-            put(out, format!("{} hand {n}: set {set}", side.name()));
+            put(out, format!("{} hand {n}: set {set}", side.body_side_name()));
             let read = anatomy.hand_angles(skeleton, side, &pose);
-            let degrees = read.map(|it| list(it.map(f64::to_degrees).to_array()));
+            let degrees = read.map(|it| list(it.map_hand_angles(f64::to_degrees).to_array()));
             put(out, format!("  read {degrees:?}"));
-            let model = ModelPose::of(skeleton, &pose);
-            let back = model.rotation(hand).inverse();
+            let model = ModelPose::from_local_pose(skeleton, &pose);
+            let back = model.model_joint_rotation(hand).inverse();
             let tips = ["thumb", "index", "middle", "ring", "little"].map(|digit| {
-                let name = format!("{}-{digit}-tip", side.name());
-                let at = anatomy.landmark(skeleton, &model, &name);
+                let name = format!("{}-{digit}-tip", side.body_side_name());
+                let at = anatomy.landmark_place_position(skeleton, &model, &name);
                 at.map_or("none".to_owned(), |at| {
-                    milli(back * (at - model.position(hand)))
+                    milli(back * (at - model.model_joint_position(hand)))
                 })
             });
             put(out, format!("  tips {}", tips.join(", ")));
@@ -134,21 +134,21 @@ fn handled(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy) {
     }
 }
 
-fn directed(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy, model: &ModelPose) {
-    for side in Side::BOTH {
+fn directed(out: &mut String, skeleton: &Skeleton, anatomy: &BodyAnatomy, model: &ModelPose) {
+    for side in BodySide::BOTH_SIDES {
         let along = anatomy.hand_direction(side, model);
         let palm = anatomy.palm_normal(side, model);
         put(
             out,
             format!(
                 "{}: along {:?} palm {:?} elbow {:?} fingers {:?} {} arm {:?} {:?}",
-                side.name(),
+                side.body_side_name(),
                 along.map(milli),
                 palm.map(milli),
-                anatomy.elbow(side).map(milli),
-                anatomy.fingers(side),
+                anatomy.elbow_direction(side).map(milli),
+                anatomy.finger_joints(side),
                 anatomy.has_fingers(side),
-                anatomy.arm(side),
+                anatomy.arm_chain(side),
                 anatomy.arm_joints(side)
             ),
         );
@@ -157,10 +157,7 @@ fn directed(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy, model: &Mo
     }
     put(
         out,
-        format!(
-            "head {:?}",
-            anatomy.head_axes(model).map(|it| it.map(milli))
-        ),
+        format!("head {:?}", anatomy.head_axes(model).map(|it| it.map(milli))),
     );
     if let Some(frame) = anatomy.body_frame(model) {
         let at = DVec3::new(0.2, 1.3, 0.4);
@@ -177,23 +174,23 @@ fn directed(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy, model: &Mo
                 milli(frame.to_model(at)),
                 milli(frame.direction_to_body(at)),
                 milli(frame.direction_to_model(at)),
-                turned(frame.rotation())
+                turned(frame.body_frame_rotation())
             ),
         );
     }
-    let tips = (0..skeleton.len()).filter_map(|joint| model.tip(skeleton, joint));
+    let tips = (0..skeleton.len()).filter_map(|joint| model.bone_tip_position(skeleton, joint));
     put(out, format!("tips {}", milli(tips.sum::<DVec3>())));
 }
 
 #[test]
 fn golden_measures_and_hands_of_bodies() {
     let mut out = String::new();
-    for (name, wear) in wears() {
+    for (name, wear) in body_variations() {
         let (skeleton, anatomy) = dressed(wear);
         put(&mut out, format!("## {name}"));
         put(
             &mut out,
-            format!("{:?} posed {}", anatomy.measures(), anatomy.is_posed()),
+            format!("{:?} posed {}", anatomy.anatomy_measures(), anatomy.is_posed()),
         );
         directed(&mut out, &skeleton, &anatomy, &skeleton.rest_model_pose());
         let pose = signing(&skeleton, &anatomy, 0.7);
@@ -201,7 +198,7 @@ fn golden_measures_and_hands_of_bodies() {
             &mut out,
             &skeleton,
             &anatomy,
-            &ModelPose::of(&skeleton, &pose),
+            &ModelPose::from_local_pose(&skeleton, &pose),
         );
         handled(&mut out, &skeleton, &anatomy);
     }
@@ -212,26 +209,20 @@ fn golden_measures_and_hands_of_bodies() {
 fn golden_places_on_bodies() {
     let mut out = String::new();
     let eyes = {
-        let mut joints = body(PLAIN).joints().to_vec();
+        let mut joints = fixture_body(PLAIN_BODY_VARIATION).skeleton_joints().to_vec();
         let head = joints.iter().position(|it| it.name == "head");
-        for side in Side::BOTH {
-            let at = DVec3::new(side.sign() * 0.03, 0.07, 0.08);
-            let name = Part::Eye(side).to_string();
-            joints.push(Joint::new(name, head, at));
+        for side in BodySide::BOTH_SIDES {
+            let at = DVec3::new(side.side_sign() * 0.03, 0.07, 0.08);
+            let name = BodyPart::Eye(side).to_string();
+            joints.push(SkeletonJoint::new(name, head, at));
         }
         Skeleton::new(joints).expect("a tree")
     };
     let legless = {
-        let keep = |name: &str| {
-            !["thigh", "shin", "foot", "toes"]
-                .iter()
-                .any(|it| name.contains(it))
-        };
-        let joints = body(PLAIN).joints().to_vec();
-        let kept: Vec<usize> = (0..joints.len())
-            .filter(|&n| keep(&joints[n].name))
-            .collect();
-        let moved = kept.iter().map(|&n| Joint {
+        let keep = |name: &str| !["thigh", "shin", "foot", "toes"].iter().any(|it| name.contains(it));
+        let joints = fixture_body(PLAIN_BODY_VARIATION).skeleton_joints().to_vec();
+        let kept: Vec<usize> = (0..joints.len()).filter(|&n| keep(&joints[n].name)).collect();
+        let moved = kept.iter().map(|&n| SkeletonJoint {
             parent: joints[n]
                 .parent
                 .and_then(|parent| kept.iter().position(|&it| it == parent)),
@@ -239,34 +230,31 @@ fn golden_places_on_bodies() {
         });
         Skeleton::new(moved.collect()).expect("a tree")
     };
-    let odd = body(Wear {
+    let odd = fixture_body(BodyVariation {
         frames: any_turn,
         tips: false,
         bent: 0.2,
         lowered: 0.5,
-        ..PLAIN
+        ..PLAIN_BODY_VARIATION
     });
     let bodies = [
-        ("plain", body(PLAIN)),
+        ("plain", fixture_body(PLAIN_BODY_VARIATION)),
         ("with eyes", eyes),
         ("without legs", legless),
         ("odd frames", odd),
     ];
     for (name, skeleton) in &bodies {
         put(&mut out, format!("## {name}"));
-        let roles = crate::anatomy::fixtures::roles(skeleton);
-        let anatomy = Anatomy::with_roles(skeleton, &roles).expect("a body");
-        put(&mut out, format!("{:?}", anatomy.measures()));
-        let model = ModelPose::of(skeleton, &signing(skeleton, &anatomy, 0.7));
-        for place in Anatomy::landmarks() {
-            let at = anatomy.landmark(skeleton, &model, &place).map(milli);
-            put(
-                &mut out,
-                format!("{place} {}", at.as_deref().unwrap_or("none")),
-            );
+        let roles = crate::anatomy::fixtures::fixture_joint_roles(skeleton);
+        let anatomy = BodyAnatomy::with_roles(skeleton, &roles).expect("a body");
+        put(&mut out, format!("{:?}", anatomy.anatomy_measures()));
+        let model = ModelPose::from_local_pose(skeleton, &signing(skeleton, &anatomy, 0.7));
+        for place in BodyAnatomy::landmark_names() {
+            let at = anatomy.landmark_place_position(skeleton, &model, &place).map(milli);
+            put(&mut out, format!("{place} {}", at.as_deref().unwrap_or("none")));
         }
     }
-    let (skeleton, anatomy) = dressed(PLAIN);
+    let (skeleton, anatomy) = dressed(PLAIN_BODY_VARIATION);
     let model = skeleton.rest_model_pose();
     put(&mut out, "## other names");
     for name in [
@@ -278,7 +266,7 @@ fn golden_places_on_bodies() {
         "right hips",
         "Trunk",
     ] {
-        let at = anatomy.landmark(&skeleton, &model, name).map(milli);
+        let at = anatomy.landmark_place_position(&skeleton, &model, name).map(milli);
         put(&mut out, format!("{name}: {at:?}"));
     }
     compare("places", &out);
@@ -286,9 +274,9 @@ fn golden_places_on_bodies() {
 
 /// Returns a usual body, one whose toes point backwards, one in a row, and one without limbs.
 fn odd_bodies() -> Vec<(&'static str, Skeleton)> {
-    let usual = body(PLAIN);
-    let change = |change: &dyn Fn(&mut Joint)| {
-        let mut joints = usual.joints().to_vec();
+    let usual = fixture_body(PLAIN_BODY_VARIATION);
+    let change = |change: &dyn Fn(&mut SkeletonJoint)| {
+        let mut joints = usual.skeleton_joints().to_vec();
         joints.iter_mut().for_each(change);
         Skeleton::new(joints).expect("a tree")
     };
@@ -299,8 +287,8 @@ fn odd_bodies() -> Vec<(&'static str, Skeleton)> {
     });
     let row = change(&|joint| joint.offset = DVec3::Y * joint.offset.length());
     let limbless = |size: f64| {
-        let trunk = usual.joints()[..5].iter();
-        let trunk = trunk.map(|joint| Joint {
+        let trunk = usual.skeleton_joints()[..5].iter();
+        let trunk = trunk.map(|joint| SkeletonJoint {
             offset: joint.offset * size,
             ..joint.clone()
         });
@@ -319,8 +307,8 @@ fn odd_bodies() -> Vec<(&'static str, Skeleton)> {
 #[test]
 fn golden_counterparts_of_joints() {
     let mut out = String::new();
-    let mut joints = body(PLAIN).joints().to_vec();
-    let at = |name: &str| body(PLAIN).find(name).expect("a joint");
+    let mut joints = fixture_body(PLAIN_BODY_VARIATION).skeleton_joints().to_vec();
+    let at = |name: &str| fixture_body(PLAIN_BODY_VARIATION).find_joint(name).expect("a joint");
     for (name, on) in [
         ("skirt.L", "hips"),
         ("skirt.R", "hips"),
@@ -342,22 +330,15 @@ fn golden_counterparts_of_joints() {
         ("2L", "neck"),
         ("2R", "neck"),
     ] {
-        joints.push(Joint::new(name, Some(at(on)), DVec3::new(0.01, 0.02, 0.03)));
+        joints.push(SkeletonJoint::new(name, Some(at(on)), DVec3::new(0.01, 0.02, 0.03)));
         let last = joints.len() - 1;
-        joints.push(Joint::new(
-            format!("{name} end"),
-            Some(last),
-            DVec3::Y * 0.02,
-        ));
+        joints.push(SkeletonJoint::new(format!("{name} end"), Some(last), DVec3::Y * 0.02));
     }
     let skeleton = Skeleton::new(joints).expect("a tree");
-    let anatomy = Anatomy::detect(&skeleton);
+    let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
     for (joint, other) in anatomy.mirror_map(&skeleton).into_iter().enumerate() {
-        let name = other.map(|other| &skeleton.joint(other).name);
-        put(
-            &mut out,
-            format!("{}: {name:?}", skeleton.joint(joint).name),
-        );
+        let name = other.map(|other| &skeleton.joint_at(other).name);
+        put(&mut out, format!("{}: {name:?}", skeleton.joint_at(joint).name));
     }
     compare("counterparts", &out);
 }
@@ -383,38 +364,32 @@ fn golden_units_and_axes_of_skeletons() {
     ];
     for (unit, size) in sizes {
         for (turn, axes) in axes {
-            let skeleton = body(Wear {
+            let skeleton = fixture_body(BodyVariation {
                 unit: size,
                 axes,
                 lowered: 0.4,
-                ..PLAIN
+                ..PLAIN_BODY_VARIATION
             });
             put(&mut out, format!("## {unit}, {turn}"));
-            put(
-                &mut out,
-                format!("{:?}", detect_convention(&skeleton, None)),
-            );
+            put(&mut out, format!("{:?}", detect_convention(&skeleton, None)));
             let mut first = skeleton.rest_pose();
             first.rotations[0] = DQuat::from_rotation_y(quarter);
-            let first = ModelPose::of(&skeleton, &first);
+            let first = ModelPose::from_local_pose(&skeleton, &first);
             put(
                 &mut out,
                 format!("turned {:?}", detect_convention(&skeleton, Some(&first))),
             );
         }
     }
-    put(
-        &mut out,
-        "## first frames that stand or face in another direction",
-    );
+    put(&mut out, "## first frames that stand or face in another direction");
     for (name, skeleton) in odd_bodies() {
         let found = detect_convention(&skeleton, None);
         put(&mut out, format!("{name}: {found:?}"));
         for degrees in [20.0_f64, 50.0, 65.0, 100.0, 170.0] {
-            for axis in [Axis::X, Axis::Y, Axis::Z] {
+            for axis in [SpaceAxis::X, SpaceAxis::Y, SpaceAxis::Z] {
                 let mut first = skeleton.rest_pose();
-                first.rotations[0] = axis.rotation(degrees.to_radians());
-                let first = ModelPose::of(&skeleton, &first);
+                first.rotations[0] = axis.axis_rotation(degrees.to_radians());
+                let first = ModelPose::from_local_pose(&skeleton, &first);
                 let found = detect_convention(&skeleton, Some(&first));
                 put(&mut out, format!("  {degrees} about {axis:?}: {found:?}"));
             }
@@ -424,12 +399,12 @@ fn golden_units_and_axes_of_skeletons() {
     let directions = ["+X", "-x", "Y", "-Y", "+z", "-Z", "W", ""];
     for up in directions {
         for left in directions {
-            let found: Option<(Direction, Direction)> = up.parse().ok().zip(left.parse().ok());
+            let found: Option<(AxisDirection, AxisDirection)> = up.parse().ok().zip(left.parse().ok());
             let Some((up, left)) = found else { continue };
-            let Some(axes) = Axes::new(up, left) else {
+            let Some(axes) = SignerAxes::new(up, left) else {
                 continue;
             };
-            let convention = Convention {
+            let convention = SpaceConvention {
                 metres_per_unit: 0.01,
                 axes,
             };
@@ -437,19 +412,18 @@ fn golden_units_and_axes_of_skeletons() {
                 &mut out,
                 format!(
                     "{up} {left}: forward {} {} {}",
-                    axes.forward(),
+                    axes.forward_direction(),
                     turned(axes.to_model()),
-                    milli(convention.point(DVec3::new(10.0, 20.0, 35.0)))
+                    milli(convention.file_point_to_model(DVec3::new(10.0, 20.0, 35.0)))
                 ),
             );
         }
     }
-    for at in [
-        DVec3::new(1.0, -1.0, 0.5),
-        DVec3::new(0.1, -1.0, 1.0),
-        DVec3::NEG_Z,
-    ] {
-        put(&mut out, format!("nearest {}", Direction::nearest(at)));
+    for at in [DVec3::new(1.0, -1.0, 0.5), DVec3::new(0.1, -1.0, 1.0), DVec3::NEG_Z] {
+        put(
+            &mut out,
+            format!("nearest {}", AxisDirection::nearest_axis_direction(at)),
+        );
     }
     compare("units_axes", &out);
 }

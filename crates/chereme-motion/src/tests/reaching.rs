@@ -3,12 +3,12 @@
 use glam::{DQuat, DVec3};
 
 use super::{dressed, milli, signing, turned};
-use crate::anatomy::fixtures::{PLAIN, Wear, any_turn};
+use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, any_turn};
 use crate::golden::{LITTLE, compare, compare_to, put};
 use crate::ik::{
-    FabrikOptions, ReachOptions, Solver, TwoBoneOptions, WristTarget, fabrik, reach_wrist, two_bone,
+    ElbowSolver, FabrikOptions, ReachOptions, TwoBoneOptions, WristTarget, reach_wrist, solve_fabrik, two_bone,
 };
-use crate::{ModelPose, Part, Side};
+use crate::{BodyPart, BodySide, ModelPose};
 
 /// Targets at many distances from the origin, in metres: near, usual, at the reach of half a metre, and beyond.
 fn targets() -> Vec<DVec3> {
@@ -30,35 +30,19 @@ fn golden_reach_of_chains() {
     let sources = [
         (
             "bent",
-            [
-                DVec3::ZERO,
-                DVec3::new(0.0, -0.28, 0.05),
-                DVec3::new(0.1, -0.2, 0.25),
-            ],
+            [DVec3::ZERO, DVec3::new(0.0, -0.28, 0.05), DVec3::new(0.1, -0.2, 0.25)],
         ),
         (
             "straight",
-            [
-                DVec3::ZERO,
-                DVec3::new(0.28, 0.0, 0.0),
-                DVec3::new(0.5, 0.0, 0.0),
-            ],
+            [DVec3::ZERO, DVec3::new(0.28, 0.0, 0.0), DVec3::new(0.5, 0.0, 0.0)],
         ),
         (
             "nearly straight",
-            [
-                DVec3::ZERO,
-                DVec3::new(0.28, 0.005, 0.0),
-                DVec3::new(0.5, 0.0, 0.0),
-            ],
+            [DVec3::ZERO, DVec3::new(0.28, 0.005, 0.0), DVec3::new(0.5, 0.0, 0.0)],
         ),
         (
             "folded",
-            [
-                DVec3::ZERO,
-                DVec3::new(0.0, 0.0, 0.25),
-                DVec3::new(0.0, 0.001, 0.01),
-            ],
+            [DVec3::ZERO, DVec3::new(0.0, 0.0, 0.25), DVec3::new(0.0, 0.001, 0.01)],
         ),
     ];
     for (name, source) in sources {
@@ -67,10 +51,7 @@ fn golden_reach_of_chains() {
             (0.0, Some(DVec3::new(0.0, -1.0, -1.0))),
             (0.05, Some(DVec3::new(0.3, 0.2, -0.4))),
         ] {
-            put(
-                &mut out,
-                format!("## {name}, soft {soft}, pole {:?}", pole.map(milli)),
-            );
+            put(&mut out, format!("## {name}, soft {soft}, pole {:?}", pole.map(milli)));
             for target in targets() {
                 let found = two_bone(source, target, &TwoBoneOptions { soft, pole });
                 let found = found.expect("a reach");
@@ -126,11 +107,7 @@ fn golden_chains_that_reach_step_by_step() {
     let chains: [(&str, Vec<DVec3>); 3] = [
         (
             "arm",
-            vec![
-                DVec3::ZERO,
-                DVec3::new(0.0, -0.28, 0.05),
-                DVec3::new(0.1, -0.2, 0.25),
-            ],
+            vec![DVec3::ZERO, DVec3::new(0.0, -0.28, 0.05), DVec3::new(0.1, -0.2, 0.25)],
         ),
         (
             "five bones",
@@ -138,10 +115,7 @@ fn golden_chains_that_reach_step_by_step() {
                 .map(|n| DVec3::new(0.1 * f64::from(n), 0.02 * f64::from(n % 2), 0.0))
                 .collect(),
         ),
-        (
-            "line",
-            (0..4).map(|n| DVec3::X * 0.15 * f64::from(n)).collect(),
-        ),
+        ("line", (0..4).map(|n| DVec3::X * 0.15 * f64::from(n)).collect()),
     ];
     for (name, chain) in &chains {
         for (passes, tolerance, pole) in [
@@ -149,26 +123,18 @@ fn golden_chains_that_reach_step_by_step() {
             (3, 1e-6, Some(DVec3::new(0.0, 0.0, 1.0))),
             (200, 0.01, Some(DVec3::new(1.0, 1.0, 0.2))),
         ] {
-            put(
-                &mut out,
-                format!("## {name}, {passes} passes, near {tolerance}"),
-            );
+            put(&mut out, format!("## {name}, {passes} passes, near {tolerance}"));
             let options = FabrikOptions {
                 tolerance,
                 passes,
                 pole,
             };
             for target in targets().into_iter().chain([DVec3::X * 0.3]) {
-                let found = fabrik(chain, target, &options).expect("a chain");
+                let found = solve_fabrik(chain, target, &options).expect("a chain");
                 let points: Vec<String> = found.points.iter().copied().map(milli).collect();
                 put(
                     &mut out,
-                    format!(
-                        "{}: {} off {:?}",
-                        milli(target),
-                        points.join(" | "),
-                        found.residual
-                    ),
+                    format!("{}: {} off {:?}", milli(target), points.join(" | "), found.residual),
                 );
                 // Slow convergence may take another pass on another machine.
                 if found.passes < 20 {
@@ -185,11 +151,11 @@ fn golden_chains_that_reach_step_by_step() {
     };
     let [(_, arm), ..] = &chains;
     for odd in [
-        fabrik(&[DVec3::ZERO], DVec3::X, &usual),
-        fabrik(&[DVec3::ZERO, DVec3::ZERO], DVec3::X, &usual),
-        fabrik(&[DVec3::NAN, DVec3::ZERO], DVec3::X, &usual),
-        fabrik(arm, DVec3::NAN, &usual),
-        fabrik(arm, DVec3::X, &bad),
+        solve_fabrik(&[DVec3::ZERO], DVec3::X, &usual),
+        solve_fabrik(&[DVec3::ZERO, DVec3::ZERO], DVec3::X, &usual),
+        solve_fabrik(&[DVec3::NAN, DVec3::ZERO], DVec3::X, &usual),
+        solve_fabrik(arm, DVec3::NAN, &usual),
+        solve_fabrik(arm, DVec3::X, &bad),
     ] {
         put(&mut out, odd.expect_err("no chain").to_string());
     }
@@ -200,13 +166,13 @@ fn golden_chains_that_reach_step_by_step() {
 fn golden_wrists_that_reach() {
     let mut out = String::new();
     let bodies = [
-        ("plain", PLAIN),
+        ("plain", PLAIN_BODY_VARIATION),
         (
             "odd frames",
-            Wear {
+            BodyVariation {
                 frames: any_turn,
                 lowered: 0.6,
-                ..PLAIN
+                ..PLAIN_BODY_VARIATION
             },
         ),
     ];
@@ -216,7 +182,7 @@ fn golden_wrists_that_reach() {
         (
             "fabrik",
             ReachOptions {
-                solver: Solver::Fabrik,
+                solver: ElbowSolver::Fabrik,
                 ..usual
             },
         ),
@@ -249,7 +215,7 @@ fn golden_wrists_that_reach() {
         let (skeleton, anatomy) = dressed(wear);
         for (name, options) in options {
             put(&mut out, format!("## {body}, {name}"));
-            for (n, side) in [Side::Right, Side::Left]
+            for (n, side) in [BodySide::Right, BodySide::Left]
                 .into_iter()
                 .cycle()
                 .take(8)
@@ -257,20 +223,19 @@ fn golden_wrists_that_reach() {
             {
                 let at = n as f64;
                 let mut pose = signing(&skeleton, &anatomy, 0.5 * at);
-                let shoulder = DVec3::new(side.sign() * 0.18, 1.43, 0.0);
-                let direction = DVec3::new(-side.sign() * (0.4 - 0.2 * at), 0.6 - 0.15 * at, 0.7);
+                let shoulder = DVec3::new(side.side_sign() * 0.18, 1.43, 0.0);
+                let direction = DVec3::new(-side.side_sign() * (0.4 - 0.2 * at), 0.6 - 0.15 * at, 0.7);
                 let target = WristTarget {
                     position: shoulder + direction.normalize() * (0.2 + 0.06 * at),
                     rotation: DQuat::from_rotation_y(0.3 * at) * DQuat::from_rotation_x(0.7),
                 };
-                let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose)
-                    .expect("a reach");
-                let model = ModelPose::of(&skeleton, &pose);
+                let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose).expect("a reach");
+                let model = ModelPose::from_local_pose(&skeleton, &pose);
                 put(
                     &mut out,
                     format!(
                         "{} {}: off {:?} extension {:?} soft {} clamped {} collar {:?}",
-                        side.name(),
+                        side.body_side_name(),
                         milli(target.position),
                         reach.residual_m,
                         reach.extension,
@@ -280,19 +245,19 @@ fn golden_wrists_that_reach() {
                     ),
                 );
                 let parts = [
-                    Part::Clavicle(side),
-                    Part::UpperArm(side),
-                    Part::Forearm(side),
-                    Part::Hand(side),
+                    BodyPart::Clavicle(side),
+                    BodyPart::UpperArm(side),
+                    BodyPart::Forearm(side),
+                    BodyPart::Hand(side),
                 ];
                 for part in parts {
-                    let joint = anatomy.joint(part).expect("a joint");
+                    let joint = anatomy.part_joint(part).expect("a joint");
                     put(
                         &mut out,
                         format!(
                             "  {part} at {} turned {}",
-                            milli(model.position(joint)),
-                            turned(model.rotation(joint))
+                            milli(model.model_joint_position(joint)),
+                            turned(model.model_joint_rotation(joint))
                         ),
                     );
                 }

@@ -1,6 +1,6 @@
 //! The phones that the program `espeak-ng` prints in IPA, cut into the symbols that a code knows.
 
-use super::{Alphabet, CueCode};
+use super::{CueCode, PhoneAlphabet};
 
 /// Returns the phones of what `espeak-ng --ipa` printed, separated by blanks with `#` for the end of a line, and the
 /// characters that the code does not know.
@@ -12,28 +12,28 @@ pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
     let french = code.language == "fr";
     let (mut phones, mut unknown) = (Vec::new(), Vec::new());
     for line in printed.lines() {
-        let letters = bare(line, french);
-        let mut at = 0;
-        let mut own: Vec<String> = Vec::new();
-        while at < letters.len() {
-            match first(&letters[at..], code, Alphabet::Ipa) {
+        let letters = strip_phone_marks(line, french);
+        let mut letter_index = 0;
+        let mut read_symbols: Vec<String> = Vec::new();
+        while letter_index < letters.len() {
+            match longest_leading_symbol(&letters[letter_index..], code, PhoneAlphabet::Ipa) {
                 Some(label) => {
-                    at += label.chars().count();
-                    own.push(label);
+                    letter_index += label.chars().count();
+                    read_symbols.push(label);
                 }
                 None => {
-                    if letters[at] != ' ' {
-                        unknown.push(letters[at]);
+                    if letters[letter_index] != ' ' {
+                        unknown.push(letters[letter_index]);
                     }
-                    at += 1;
+                    letter_index += 1;
                 }
             }
         }
         if french {
-            glide(&mut own);
+            glide(&mut read_symbols);
         }
-        if !own.is_empty() {
-            phones.extend(own);
+        if !read_symbols.is_empty() {
+            phones.extend(read_symbols);
             phones.push("#".to_owned());
         }
     }
@@ -41,32 +41,32 @@ pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
 }
 
 /// Returns the longest symbol of the code with which some letters begin; `None` if it knows none.
-fn first(letters: &[char], code: &CueCode, alphabet: Alphabet) -> Option<String> {
-    const LONGEST: usize = 4;
-    (1..=LONGEST.min(letters.len())).rev().find_map(|count| {
+fn longest_leading_symbol(letters: &[char], code: &CueCode, alphabet: PhoneAlphabet) -> Option<String> {
+    const MAX_SYMBOL_LETTERS: usize = 4;
+    (1..=MAX_SYMBOL_LETTERS.min(letters.len())).rev().find_map(|count| {
         let label: String = letters[..count].iter().collect();
         // `eu` and `oe` are labels of one phone by themselves only: `poezi` has an `o` and an `e`.
-        let several = alphabet == Alphabet::Sampa && count > 1;
-        let several = several && label.bytes().all(|letter| b"aeiouy".contains(&letter));
-        let known = !several && !label.contains(' ') && code.symbols(&label, alphabet).is_some();
-        known.then_some(label)
+        let is_joined = alphabet == PhoneAlphabet::Sampa && count > 1;
+        let several = is_joined && label.bytes().all(|letter| b"aeiouy".contains(&letter));
+        let is_known = !several && !label.contains(' ') && code.sampa_symbols(&label, alphabet).is_some();
+        is_known.then_some(label)
     })
 }
 
 /// Cuts phones that are written together, such as `bɔ̃ʒuʁ` or `/həˈloʊ/`, into symbols of the code; `None` if the
 /// code does not know a part of them. A symbol of the code is not cut.
-pub(super) fn cut(word: &str, code: &CueCode, alphabet: Alphabet) -> Option<Vec<String>> {
-    if code.symbols(word, alphabet).is_some() {
+pub(super) fn cut_joined_phones(word: &str, code: &CueCode, alphabet: PhoneAlphabet) -> Option<Vec<String>> {
+    if code.sampa_symbols(word, alphabet).is_some() {
         return Some(vec![word.to_owned()]);
     }
     let letters: Vec<char> = match alphabet {
-        Alphabet::Ipa => bare(word.trim_matches(['/', '[', ']', '\\']), false),
-        Alphabet::Sampa | Alphabet::Mfa => word.chars().collect(),
+        PhoneAlphabet::Ipa => strip_phone_marks(word.trim_matches(['/', '[', ']', '\\']), false),
+        PhoneAlphabet::Sampa | PhoneAlphabet::Mfa => word.chars().collect(),
     };
     let mut symbols = Vec::new();
     let mut rest = &letters[..];
     while !rest.is_empty() {
-        let label = first(rest, code, alphabet)?;
+        let label = longest_leading_symbol(rest, code, alphabet)?;
         rest = &rest[label.chars().count()..];
         symbols.push(label);
     }
@@ -74,7 +74,7 @@ pub(super) fn cut(word: &str, code: &CueCode, alphabet: Alphabet) -> Option<Vec<
 }
 
 /// Returns the letters of a line without marks and names of languages; blanks stay as word boundaries.
-fn bare(line: &str, french: bool) -> Vec<char> {
+fn strip_phone_marks(line: &str, french: bool) -> Vec<char> {
     let mut inside = false;
     let mut letters = Vec::new();
     for letter in line.chars() {
@@ -96,7 +96,7 @@ fn glide(phones: &mut [String]) {
         phone
             .chars()
             .next()
-            .is_some_and(|it| "aeiouyɑɔɛœøə".contains(it))
+            .is_some_and(|letter| "aeiouyɑɔɛœøə".contains(letter))
     };
     for at in 0..phones.len().saturating_sub(1) {
         let next = phones[at + 1].clone();
@@ -110,17 +110,16 @@ fn glide(phones: &mut [String]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::code;
     use super::*;
+    use crate::cue::find_cue_code;
 
     #[test]
     fn printed_lines_become_phones_of_the_code() {
-        let french = code("french").expect("French");
-        let (phones, unknown) =
-            of_espeak(" lə ʃˈa dˈɔʁ\n nyˈi rjˈɛ̃ lə-z-ɑ̃fˈɑ̃\n (en)ɹ(fr)\n", french);
+        let french = find_cue_code("french").expect("French");
+        let (phones, unknown) = of_espeak(" lə ʃˈa dˈɔʁ\n nyˈi rjˈɛ̃ lə-z-ɑ̃fˈɑ̃\n (en)ɹ(fr)\n", french);
         assert_eq!(phones, "l ə ʃ a d ɔ ʁ # n ɥ i r j ɛ̃ l ə z ɑ̃ f ɑ̃ #");
         assert_eq!(unknown, ['ɹ']);
-        let english = code("en-US").expect("American");
+        let english = find_cue_code("en-US").expect("American");
         let (phones, unknown) = of_espeak("hˈaʊs ɪz fˈiːt tʃˈɛɹ", english);
         assert_eq!(phones, "h aʊ s ɪ z f iː t tʃ ɛ ɹ #");
         assert!(unknown.is_empty());

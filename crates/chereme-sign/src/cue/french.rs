@@ -1,6 +1,6 @@
 //! French text to phones, by rules of spelling and a list of words (`schema/cues/french-spelling.json`).
 //!
-//! Liaison and the schwa between words are switches of [`Options`]; uncertain mid vowels are marked.
+//! Liaison and the schwa between words are switches of [`PronunciationOptions`]; uncertain mid vowels are marked.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
@@ -9,30 +9,30 @@ use regex::Regex;
 use serde::Deserialize;
 
 use super::CueFinding;
-use super::numbers;
-use super::written::{Written, split};
+use super::cue_numbers;
+use super::written::{WrittenPart, split_written_text};
 
 /// Choices of pronunciation that the spelling leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
+pub struct PronunciationOptions {
     /// Whether a silent last consonant is pronounced before a vowel, as in *les amis*.
     pub liaison: bool,
     /// The condition under which an *e* at the end of a word is pronounced.
-    pub schwa: Schwa,
+    pub schwa: SchwaCondition,
 }
 
-impl Default for Options {
+impl Default for PronunciationOptions {
     fn default() -> Self {
         Self {
             liaison: true,
-            schwa: Schwa::Usual,
+            schwa: SchwaCondition::Usual,
         }
     }
 }
 
 /// The condition under which an *e* at the end of a word is pronounced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Schwa {
+pub enum SchwaCondition {
     /// Never.
     Dropped,
     /// Between two consonants such as *tr* and a consonant of the next word, as in *maître corbeau*, and where four
@@ -45,16 +45,16 @@ pub enum Schwa {
 
 /// The pronunciation of a text.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Spoken {
+pub struct FrenchPronunciation {
     /// The words in the order of the text; pauses are words without letters.
-    pub words: Vec<Word>,
+    pub words: Vec<FrenchWord>,
     /// The parts that could not be read.
     pub findings: Vec<CueFinding>,
 }
 
 /// A word and its pronunciation.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Word {
+pub struct FrenchWord {
     /// The letters as written, in lower case; empty for a pause.
     pub text: String,
     /// The phones in SAMPA; `#` for a pause.
@@ -65,9 +65,9 @@ pub struct Word {
     pub hyphened: bool,
 }
 
-impl Spoken {
+impl FrenchPronunciation {
     /// Returns the phones of all words.
-    pub fn phones(&self) -> impl Iterator<Item = &str> {
+    pub fn spoken_phones(&self) -> impl Iterator<Item = &str> {
         self.words
             .iter()
             .flat_map(|word| word.phones.iter().map(String::as_str))
@@ -75,29 +75,28 @@ impl Spoken {
 }
 
 /// The words that stand between a subject and its verb.
-const PRONOUNS: [&str; 18] = [
-    "ne", "n'", "se", "s'", "me", "m'", "te", "t'", "le", "la", "les", "l'", "lui", "leur", "y",
-    "en", "nous", "vous",
+const VERB_PRONOUNS: [&str; 18] = [
+    "ne", "n'", "se", "s'", "me", "m'", "te", "t'", "le", "la", "les", "l'", "lui", "leur", "y", "en", "nous", "vous",
 ];
 
 /// Returns the pronunciation of French `text`.
 #[must_use]
-pub fn phones(text: &str, options: Options) -> Spoken {
-    let rules = &*RULES;
-    let mut spoken = Spoken::default();
-    for written in split(text) {
+pub fn pronounce_french_text(text: &str, options: PronunciationOptions) -> FrenchPronunciation {
+    let rules = &*FRENCH_SPELLING_RULES;
+    let mut spoken = FrenchPronunciation::default();
+    for written in split_written_text(text) {
         match written {
-            Written::Pause => spoken.words.push(Word {
+            WrittenPart::Pause => spoken.words.push(FrenchWord {
                 phones: vec!["#".to_owned()],
-                ..Word::default()
+                ..FrenchWord::default()
             }),
-            Written::Word(text, hyphened) => {
-                let word = rules.word(text, &mut spoken.findings);
-                spoken.words.push(Word { hyphened, ..word });
+            WrittenPart::Word(text, hyphened) => {
+                let word = rules.pronounce_french_word(text, &mut spoken.findings);
+                spoken.words.push(FrenchWord { hyphened, ..word });
             }
-            Written::Letters(text) => spoken.words.push(rules.spelled(text)),
-            Written::Acronym(text) => spoken.words.push(rules.acronym(text)),
-            Written::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
+            WrittenPart::Letters(text) => spoken.words.push(rules.spelled(text)),
+            WrittenPart::Acronym(text) => spoken.words.push(rules.acronym(text)),
+            WrittenPart::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
         }
     }
     rules.follow_subjects(&mut spoken.words);
@@ -105,9 +104,9 @@ pub fn phones(text: &str, options: Options) -> Spoken {
         let (before, after) = spoken.words.split_at_mut(at);
         let (earlier, word) = before.split_at_mut(at - 1);
         let (word, next) = (&mut word[0], &after[0]);
-        let settled = numbers::join(earlier.last(), word, next, rules.begins_with_vowel(next));
+        let settled = cue_numbers::join_number_word(earlier.last(), word, next, rules.begins_with_vowel(next));
         if !settled {
-            rules.join(word, next, options);
+            rules.join_next_word(word, next, options);
         }
     }
     spoken
@@ -115,7 +114,7 @@ pub fn phones(text: &str, options: Options) -> Spoken {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct FrenchRuleFile {
     #[serde(rename = "about")]
     _about: String,
     vowels: String,
@@ -143,7 +142,7 @@ struct File {
     rules: Vec<Vec<String>>,
 }
 
-struct Rule {
+struct SpellingRule {
     left: Regex,
     letters: String,
     right: Regex,
@@ -151,7 +150,7 @@ struct Rule {
     verb_ending: bool,
 }
 
-pub(super) struct Rules {
+pub(super) struct SpellingRules {
     pub(super) vowels: String,
     nasal_ent: Option<Regex>,
     er_is_said: BTreeSet<String>,
@@ -186,16 +185,16 @@ pub(super) struct Rules {
     /// Short forms and the words that they stand for.
     pub(super) abbreviations: BTreeMap<String, String>,
     /// The rules by their first letter, in the order of the file.
-    by_letter: BTreeMap<char, Vec<Rule>>,
+    by_letter: BTreeMap<char, Vec<SpellingRule>>,
 }
 
-pub(super) static RULES: LazyLock<Rules> = LazyLock::new(|| {
+pub(super) static FRENCH_SPELLING_RULES: LazyLock<SpellingRules> = LazyLock::new(|| {
     let text = chereme_data::schema_text("cues/french-spelling.json");
-    serde_json::from_str(text).map_or_else(|_| Rules::empty(), Rules::of)
+    serde_json::from_str(text).map_or_else(|_| SpellingRules::empty_spelling_rules(), SpellingRules::from_rule_file)
 });
 
-impl Rules {
-    fn empty() -> Self {
+impl SpellingRules {
+    fn empty_spelling_rules() -> Self {
         Self {
             vowels: String::new(),
             nasal_ent: None,
@@ -221,10 +220,10 @@ impl Rules {
         }
     }
 
-    fn of(file: File) -> Self {
-        let mut rules = Self::empty();
+    fn from_rule_file(file: FrenchRuleFile) -> Self {
+        let mut rules = Self::empty_spelling_rules();
         for row in &file.rules {
-            let Some((rule, first)) = rule(row, &file) else {
+            let Some((rule, first)) = parse_spelling_rule(row, &file) else {
                 continue;
             };
             rules.by_letter.entry(first).or_default().push(rule);
@@ -256,26 +255,26 @@ impl Rules {
         rules
     }
 
-    fn word(&self, text: String, findings: &mut Vec<CueFinding>) -> Word {
+    fn pronounce_french_word(&self, text: String, findings: &mut Vec<CueFinding>) -> FrenchWord {
         let split = |phones: &str| phones.split_whitespace().map(str::to_owned).collect();
         // *Soeur* and *oeil* are written without a ligature as often as with it.
         let joined = text.replace("oeu", "œu").replace("oeil", "œil");
         if let Some(phones) = self.words.get(&text).or_else(|| self.words.get(&joined)) {
-            return Word {
+            return FrenchWord {
                 phones: split(phones),
                 text,
-                ..Word::default()
+                ..FrenchWord::default()
             };
         }
-        if let Some(phones) = text.strip_suffix('\'').and_then(|it| self.elided.get(it)) {
-            return Word {
+        if let Some(phones) = text.strip_suffix('\'').and_then(|rest| self.elided.get(rest)) {
+            return FrenchWord {
                 phones: split(phones),
                 text,
-                ..Word::default()
+                ..FrenchWord::default()
             };
         }
-        let phones = self.spell(&joined, findings);
-        Word {
+        let phones = self.apply_spelling_rules(&joined, findings);
+        FrenchWord {
             doubtful: doubtful(&phones),
             phones,
             text,
@@ -284,23 +283,23 @@ impl Rules {
     }
 
     /// Says a word letter by letter.
-    fn spelled(&self, text: String) -> Word {
+    fn spelled(&self, text: String) -> FrenchWord {
         let names = text.chars().filter_map(|letter| self.letters.get(&letter));
         let phones = names.flat_map(|name| name.split_whitespace());
-        Word {
+        FrenchWord {
             phones: phones.map(str::to_owned).collect(),
             text,
-            ..Word::default()
+            ..FrenchWord::default()
         }
     }
 
     /// Says a word in capitals that has a pronunciation of its own.
-    fn acronym(&self, text: String) -> Word {
+    fn acronym(&self, text: String) -> FrenchWord {
         let phones = self.acronyms.get(&text).map_or("", String::as_str);
-        Word {
+        FrenchWord {
             phones: phones.split(' ').map(str::to_owned).collect(),
             text,
-            ..Word::default()
+            ..FrenchWord::default()
         }
     }
 
@@ -317,16 +316,16 @@ impl Rules {
     }
 
     /// Applies the rules to a word from left to right.
-    fn spell(&self, word: &str, findings: &mut Vec<CueFinding>) -> Vec<String> {
+    fn apply_spelling_rules(&self, word: &str, findings: &mut Vec<CueFinding>) -> Vec<String> {
         let marked = format!("#{word}#");
         let mut phones: Vec<String> = Vec::new();
-        let mut at = 1;
-        while let Some(letter) = marked[at..].chars().next() {
-            if at + 1 == marked.len() {
+        let mut letter_start = 1;
+        while let Some(letter) = marked[letter_start..].chars().next() {
+            if letter_start + 1 == marked.len() {
                 break;
             }
-            let (left, rest) = marked.split_at(at);
-            let fits = |rule: &&Rule| {
+            let (left, rest) = marked.split_at(letter_start);
+            let fits = |rule: &&SpellingRule| {
                 rest.strip_prefix(rule.letters.as_str())
                     .is_some_and(|right| rule.left.is_match(left) && rule.right.is_match(right))
             };
@@ -338,11 +337,11 @@ impl Rules {
                         word: word.to_owned(),
                     });
                 }
-                at += letter.len_utf8();
+                letter_start += letter.len_utf8();
                 continue;
             };
-            at += rule.letters.len();
-            let is_nasal = self.nasal_ent.as_ref().is_some_and(|it| it.is_match(word));
+            letter_start += rule.letters.len();
+            let is_nasal = self.nasal_ent.as_ref().is_some_and(|pattern| pattern.is_match(word));
             if rule.verb_ending && is_nasal {
                 phones.push("A~".to_owned());
             } else {
@@ -361,20 +360,20 @@ impl Rules {
 
     /// Says words as verbs that also are nouns or adjectives, if their subject stands before them: *ils content*, *nous
     /// portions*.
-    fn follow_subjects(&self, words: &mut [Word]) {
+    fn follow_subjects(&self, words: &mut [FrenchWord]) {
         for at in 1..words.len() {
             let (before, word) = words.split_at_mut(at);
             let word = &mut word[0];
-            let near = before.iter().rev();
-            let mut near = near.take_while(|it| {
-                let text = it.text.as_str();
-                PRONOUNS.contains(&text) || ["ils", "elles"].contains(&text)
+            let near_words = before.iter().rev();
+            let mut near = near_words.take_while(|neighbour| {
+                let text = neighbour.text.as_str();
+                VERB_PRONOUNS.contains(&text) || ["ils", "elles"].contains(&text)
             });
             let mut is_subject =
-                |names: &[&str]| near.any(|it| !it.hyphened && names.contains(&it.text.as_str()));
+                |names: &[&str]| near.any(|neighbour| !neighbour.hyphened && names.contains(&neighbour.text.as_str()));
             let ends = |phones: &[&str]| {
                 word.phones
-                    .ends_with(&phones.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>())
+                    .ends_with(&phones.iter().map(|phone| (*phone).to_owned()).collect::<Vec<_>>())
             };
             if let Some(stem) = word.text.strip_suffix("nt")
                 && stem.ends_with('e')
@@ -382,20 +381,17 @@ impl Rules {
                 && ends(&["A~"])
                 && is_subject(&["ils", "elles"])
             {
-                word.phones = self.spell(stem, &mut Vec::new());
+                word.phones = self.apply_spelling_rules(stem, &mut Vec::new());
                 word.doubtful = doubtful(&word.phones);
-            } else if word.text.ends_with("tions")
-                && ends(&["s", "j", "O~"])
-                && is_subject(&["nous"])
-            {
-                let at = word.phones.len() - 3;
-                "t".clone_into(&mut word.phones[at]);
+            } else if word.text.ends_with("tions") && ends(&["s", "j", "O~"]) && is_subject(&["nous"]) {
+                let phone_index = word.phones.len() - 3;
+                "t".clone_into(&mut word.phones[phone_index]);
             }
         }
     }
 
     /// Adds to a word the sound that the next word requires: a linking consonant, or a schwa.
-    fn join(&self, word: &mut Word, next: &Word, options: Options) {
+    fn join_next_word(&self, word: &mut FrenchWord, next: &FrenchWord, options: PronunciationOptions) {
         if next.text.is_empty() || word.text.is_empty() {
             return;
         }
@@ -427,16 +423,16 @@ impl Rules {
             return;
         };
         let is_vowel = |phone: &str| "aAeEiouOyYU29@".contains(&phone[..1]);
-        let cluster = ["l", "R"].contains(&end.as_str())
-            && ["p", "b", "t", "d", "k", "g", "f", "v"].contains(&before.as_str());
+        let cluster =
+            ["l", "R"].contains(&end.as_str()) && ["p", "b", "t", "d", "k", "g", "f", "v"].contains(&before.as_str());
         let says = match options.schwa {
-            Schwa::Dropped => false,
-            Schwa::Usual => {
+            SchwaCondition::Dropped => false,
+            SchwaCondition::Usual => {
                 let mut first = next.phones.iter().take(2);
                 let two = first.len() == 2 && first.all(|phone| !is_vowel(phone));
                 cluster || (two && !is_vowel(end) && !is_vowel(before))
             }
-            Schwa::Said => true,
+            SchwaCondition::Said => true,
         };
         if silent_e && says && !is_vowel(end) {
             word.phones.push("@".to_owned());
@@ -445,7 +441,7 @@ impl Rules {
 
     /// Returns the consonant that links a word to the next, which begins with a vowel: from the lists, else that of a
     /// verb before its pronoun (*dit-elle*, *allez-y*), or that of a verb's ending (*tenait en*).
-    fn linking(&self, word: &Word, next: &Word) -> Option<&str> {
+    fn linking(&self, word: &FrenchWord, next: &FrenchWord) -> Option<&str> {
         let text = word.text.as_str();
         if next.hyphened {
             let ends = |letters: &[char]| text.ends_with(letters);
@@ -466,29 +462,22 @@ impl Rules {
         if self.never_linked.contains(text) {
             return None;
         }
-        let longer =
-            |ending: &&String| text.len() > ending.len() && text.ends_with(ending.as_str());
+        let longer = |ending: &&String| text.len() > ending.len() && text.ends_with(ending.as_str());
         let mut endings = self.linked_endings.iter();
-        let found = endings.find(|(_, endings)| endings.iter().any(|it| longer(&it)));
-        found.map(|(sound, _)| sound.as_str())
+        let matched_ending = endings.find(|(_, endings)| endings.iter().any(|ending| longer(&ending)));
+        matched_ending.map(|(sound, _)| sound.as_str())
     }
 
-    fn begins_with_vowel(&self, word: &Word) -> bool {
+    fn begins_with_vowel(&self, word: &FrenchWord) -> bool {
         let text = word.text.as_str();
         // The names of *F*, *L*, *M*, *N*, *R*, *S* and *X* begin with a vowel: *un SMS*.
-        if text.starts_with(['f', 'l', 'm', 'n', 'r', 's', 'x'])
-            && word.phones == self.spelled(text.to_owned()).phones
+        if text.starts_with(['f', 'l', 'm', 'n', 'r', 's', 'x']) && word.phones == self.spelled(text.to_owned()).phones
         {
             return true;
         }
         let singular = text.strip_suffix(['s', 'x']).unwrap_or(text);
-        if [text, singular]
-            .iter()
-            .any(|it| self.aspirated_h.contains(*it))
-            || self
-                .aspirated_stems
-                .iter()
-                .any(|stem| text.starts_with(stem.as_str()))
+        if [text, singular].iter().any(|stem| self.aspirated_h.contains(*stem))
+            || self.aspirated_stems.iter().any(|stem| text.starts_with(stem.as_str()))
         {
             return false;
         }
@@ -503,12 +492,12 @@ impl Rules {
 }
 
 /// Reads a row of the file; V and C stand for the letters of the file.
-fn rule(row: &[String], file: &File) -> Option<(Rule, char)> {
+fn parse_spelling_rule(row: &[String], file: &FrenchRuleFile) -> Option<(SpellingRule, char)> {
     let [left, letters, right, phones, ..] = row else {
         return None;
     };
     let expand = |pattern: &str| {
-        let mut whole = String::new();
+        let mut pattern_text = String::new();
         let mut inside = false;
         for letter in pattern.chars() {
             match letter {
@@ -517,17 +506,17 @@ fn rule(row: &[String], file: &File) -> Option<(Rule, char)> {
                 _ => {}
             }
             match letter {
-                'V' if inside => whole.push_str(&file.vowels),
-                'C' if inside => whole.push_str(&file.consonants),
-                'V' => whole.push_str(&format!("[{}]", file.vowels)),
-                'C' => whole.push_str(&format!("[{}]", file.consonants)),
-                '#' => whole.push_str(r"\#"),
-                _ => whole.push(letter),
+                'V' if inside => pattern_text.push_str(&file.vowels),
+                'C' if inside => pattern_text.push_str(&file.consonants),
+                'V' => pattern_text.push_str(&format!("[{}]", file.vowels)),
+                'C' => pattern_text.push_str(&format!("[{}]", file.consonants)),
+                '#' => pattern_text.push_str(r"\#"),
+                _ => pattern_text.push(letter),
             }
         }
-        whole
+        pattern_text
     };
-    let rule = Rule {
+    let rule = SpellingRule {
         left: Regex::new(&format!("(?:{})$", expand(left))).ok()?,
         right: Regex::new(&format!("^(?:{})", expand(right))).ok()?,
         letters: letters.clone(),
@@ -542,9 +531,7 @@ fn rule(row: &[String], file: &File) -> Option<(Rule, char)> {
 fn doubtful(phones: &[String]) -> Vec<usize> {
     let is_vowel = |phone: &String| {
         let nasal = phone.ends_with('~');
-        nasal
-            || ["a", "A", "e", "E", "i", "o", "O", "u", "y", "2", "9", "@"]
-                .contains(&phone.as_str())
+        nasal || ["a", "A", "e", "E", "i", "o", "O", "u", "y", "2", "9", "@"].contains(&phone.as_str())
     };
     let is_mid = |phone: &String| ["e", "E", "o", "O", "2", "9"].contains(&phone.as_str());
     let last = phones.iter().rposition(is_vowel).unwrap_or(0);

@@ -1,45 +1,45 @@
 //! Cued speech: the keys that a hand shows beside the face while a person speaks.
 //!
-//! A [`CueCode`] lists the consonants of each handshape and the vowels of each placement. [`CueCode::keys`] turns
-//! phones into keys; [`french::phones`] turns French text into phones. Codes are data under `schema/cues`.
+//! A [`CueCode`] lists the consonants of each handshape and the vowels of each placement. [`CueCode::phones_to_keys`] turns
+//! phones into keys; [`french`] turns French text into phones. Codes are data under `schema/cues`.
 //!
 //! Keys follow Gibert et al. (2004): from the left, a consonant and the vowel after it share one key;
 //! a vowel without a consonant takes the shape of [`CueCode::vowel_alone`], a consonant without a
 //! vowel the placement of [`CueCode::consonant_alone`]. A pause breaks such pairs; syllables and words
 //! do not.
 
-mod code;
+mod cue_code;
+mod cue_names;
+mod cue_numbers;
 mod espeak;
 pub mod french;
-mod names;
-mod numbers;
 #[cfg(test)]
 mod tests;
 mod utterance;
 mod written;
 
+pub use cue_names::{gloss_cue_key, key_of_label, of_gloss, placement_number, placement_of_number};
 pub use espeak::of_espeak;
-pub use names::{gloss, key_of_label, of_gloss, placement_number, placement_of_number};
-pub use utterance::{Reading, Utterance, UtteranceError};
+pub use utterance::{CuedUtterance, UtteranceError, UtteranceReading};
 
-pub use code::{
-    Alphabet, CueCode, CuePlacement, CueShape, CueVariant, UnknownVariant, code, codes,
+pub use cue_code::{
+    CueCode, CuePlacement, CueShape, CueVariant, PhoneAlphabet, UnknownVariant, all_cue_codes, find_cue_code,
 };
 
 use std::ops::Range;
 
-use chereme_motion::Span;
+use chereme_motion::TimeSpan;
 
 /// One phone of an utterance, as its source wrote it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Phone {
+pub struct SpokenPhone {
     /// The symbol, in the alphabet of the source.
     pub label: String,
     /// The time of the phone, if the source gives it.
-    pub span: Option<Span>,
+    pub span: Option<TimeSpan>,
 }
 
-impl Phone {
+impl SpokenPhone {
     /// Returns a phone without times.
     #[must_use]
     pub fn new(label: impl Into<String>) -> Self {
@@ -52,7 +52,7 @@ impl Phone {
 
 /// One key: a handshape at a placement, for a consonant, a vowel, or both.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Key {
+pub struct HandCueKey {
     /// The number of the handshape.
     pub shape: u8,
     /// The name of the placement, such as `mouth`.
@@ -62,9 +62,9 @@ pub struct Key {
     /// The positions of those phones in the input.
     pub from: Vec<usize>,
     /// The span from the start of the first phone to the end of the last, if both are known.
-    pub span: Option<Span>,
+    pub span: Option<TimeSpan>,
     /// The span of the vowel, for a key of a consonant and a vowel with times.
-    pub vowel: Option<Span>,
+    pub vowel: Option<TimeSpan>,
     /// The placement that the key would have with the other pronunciation of an uncertain vowel.
     pub or_at: Option<String>,
 }
@@ -113,7 +113,7 @@ pub enum CueFinding {
 }
 
 /// The role of a phone in a code: consonant, vowel or pause.
-enum Sound {
+enum CueSound {
     Consonant(u8),
     /// The placements that a vowel passes; a diphthong has two.
     Vowel(Vec<String>),
@@ -121,33 +121,41 @@ enum Sound {
 }
 
 /// A phone in the code's own symbols, with its position in the input.
-struct Heard {
+struct TranslatedPhone {
     symbol: String,
     at: usize,
-    sound: Sound,
+    sound: CueSound,
 }
 
 impl CueCode {
     /// Returns the keys of phones written in `alphabet`, and the phones that have no key.
     #[must_use]
-    pub fn keys(&self, phones: &[Phone], alphabet: Alphabet) -> (Vec<Key>, Vec<CueFinding>) {
-        let (heard, mut findings) = self.hear(phones, alphabet);
+    pub fn phones_to_keys(
+        &self,
+        phones: &[SpokenPhone],
+        alphabet: PhoneAlphabet,
+    ) -> (Vec<HandCueKey>, Vec<CueFinding>) {
+        let (heard, mut findings) = self.translate_phones(phones, alphabet);
         if let Some(caution) = self.unchecked.clone().filter(|_| !phones.is_empty()) {
             findings.push(CueFinding::Unchecked { caution });
         }
         let mut keys = Vec::new();
-        let mut at = 0;
-        while let Some(first) = heard.get(at) {
-            at += 1;
+        let mut position = 0;
+        while let Some(first) = heard.get(position) {
+            position += 1;
             match &first.sound {
-                Sound::Pause => {}
-                Sound::Vowel(_) => self.vowel_keys(self.vowel_alone, &heard, at - 1..at, &mut keys),
-                Sound::Consonant(shape) => match heard.get(at) {
-                    Some(next) if matches!(next.sound, Sound::Vowel(_)) => {
-                        at += 1;
-                        self.vowel_keys(*shape, &heard, at - 2..at, &mut keys);
+                CueSound::Pause => {}
+                CueSound::Vowel(_) => self.vowel_keys(self.vowel_alone, &heard, position - 1..position, &mut keys),
+                CueSound::Consonant(shape) => match heard.get(position) {
+                    Some(next) if matches!(next.sound, CueSound::Vowel(_)) => {
+                        position += 1;
+                        self.vowel_keys(*shape, &heard, position - 2..position, &mut keys);
                     }
-                    _ => keys.push(key(*shape, &self.consonant_alone, &heard[at - 1..at])),
+                    _ => keys.push(build_cue_key(
+                        *shape,
+                        &self.consonant_alone,
+                        &heard[position - 1..position],
+                    )),
                 },
             }
         }
@@ -158,49 +166,51 @@ impl CueCode {
     }
 
     /// Adds the keys of `sounds`, whose last one is a vowel: two keys for a diphthong.
-    fn vowel_keys(&self, shape: u8, heard: &[Heard], sounds: Range<usize>, keys: &mut Vec<Key>) {
+    fn vowel_keys(&self, shape: u8, heard: &[TranslatedPhone], sounds: Range<usize>, keys: &mut Vec<HandCueKey>) {
         let end = sounds.end;
         let sounds = &heard[sounds];
-        let Some(Heard {
+        let Some(TranslatedPhone {
             symbol,
-            sound: Sound::Vowel(path),
+            sound: CueSound::Vowel(path),
             ..
         }) = sounds.last()
         else {
             return;
         };
-        let is_last = heard
-            .get(end)
-            .is_none_or(|next| matches!(next.sound, Sound::Pause));
+        let is_last = heard.get(end).is_none_or(|next| matches!(next.sound, CueSound::Pause));
         let moved = self.final_placements.get(symbol).filter(|_| is_last);
         let Some((first, rest)) = path.split_first() else {
             return;
         };
-        keys.push(key(shape, moved.unwrap_or(first), sounds));
+        keys.push(build_cue_key(shape, moved.unwrap_or(first), sounds));
         for place in rest {
-            keys.push(key(self.vowel_alone, place, &sounds[sounds.len() - 1..]));
+            keys.push(build_cue_key(self.vowel_alone, place, &sounds[sounds.len() - 1..]));
         }
     }
 
     /// Translates phones into the code's symbols.
-    fn hear(&self, phones: &[Phone], alphabet: Alphabet) -> (Vec<Heard>, Vec<CueFinding>) {
+    fn translate_phones(
+        &self,
+        phones: &[SpokenPhone],
+        alphabet: PhoneAlphabet,
+    ) -> (Vec<TranslatedPhone>, Vec<CueFinding>) {
         let (mut heard, mut findings) = (Vec::with_capacity(phones.len()), Vec::new());
         let mut end = None;
         for (at, phone) in phones.iter().enumerate() {
             if let Some(span) = phone.span {
-                if end.is_some_and(|end| span.start() < end) {
+                if end.is_some_and(|end| span.span_start_instant() < end) {
                     findings.push(CueFinding::Overlap {
                         position: at + 1,
                         label: phone.label.clone(),
                     });
                 }
-                end = Some(span.end());
+                end = Some(span.span_end_instant());
             }
-            match self.symbols(&phone.label, alphabet) {
+            match self.sampa_symbols(&phone.label, alphabet) {
                 Some(symbols) => {
                     for symbol in symbols {
-                        if let Some(sound) = self.sound(&symbol) {
-                            heard.push(Heard { symbol, at, sound });
+                        if let Some(sound) = self.find_symbol_sound(&symbol) {
+                            heard.push(TranslatedPhone { symbol, at, sound });
                         }
                     }
                 }
@@ -210,10 +220,10 @@ impl CueCode {
                         label: phone.label.clone(),
                         code: self.id.clone(),
                     });
-                    heard.push(Heard {
+                    heard.push(TranslatedPhone {
                         symbol: "#".to_owned(),
                         at,
-                        sound: Sound::Pause,
+                        sound: CueSound::Pause,
                     });
                 }
             }
@@ -221,33 +231,32 @@ impl CueCode {
         (heard, findings)
     }
 
-    fn sound(&self, symbol: &str) -> Option<Sound> {
+    fn find_symbol_sound(&self, symbol: &str) -> Option<CueSound> {
         if self.is_pause(symbol) {
-            return Some(Sound::Pause);
+            return Some(CueSound::Pause);
         }
         if let Some(shape) = self.shape_of(symbol) {
-            return Some(Sound::Consonant(shape.number));
+            return Some(CueSound::Consonant(shape.number));
         }
-        self.path_of(symbol).map(Sound::Vowel)
+        self.path_of(symbol).map(CueSound::Vowel)
     }
 
     /// Gives a key its span, and the vowel's own.
-    fn set_times(&self, key: &mut Key, phones: &[Phone]) {
-        let spans: Vec<Span> = key
-            .from
-            .iter()
-            .filter_map(|at| phones.get(*at)?.span)
-            .collect();
+    fn set_times(&self, key: &mut HandCueKey, phones: &[SpokenPhone]) {
+        let spans: Vec<TimeSpan> = key.from.iter().filter_map(|at| phones.get(*at)?.span).collect();
         if spans.len() != key.from.len() {
             return;
         }
         let (Some(first), Some(last)) = (spans.first(), spans.last()) else {
             return;
         };
-        if first.start() > last.end() {
+        if first.span_start_instant() > last.span_end_instant() {
             return;
         }
-        key.span = Some(Span::between(first.start(), last.end()));
+        key.span = Some(TimeSpan::span_between(
+            first.span_start_instant(),
+            last.span_end_instant(),
+        ));
         key.vowel = key
             .phones
             .last()
@@ -256,8 +265,8 @@ impl CueCode {
     }
 }
 
-fn key(shape: u8, placement: &str, heard: &[Heard]) -> Key {
-    Key {
+fn build_cue_key(shape: u8, placement: &str, heard: &[TranslatedPhone]) -> HandCueKey {
+    HandCueKey {
         shape,
         placement: placement.to_owned(),
         phones: heard.iter().map(|phone| phone.symbol.clone()).collect(),

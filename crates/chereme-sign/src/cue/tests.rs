@@ -4,9 +4,9 @@ use super::*;
 
 /// Keys of phones in SAMPA as `shape-placement`, with findings as `!`.
 fn keys_of(code_name: &str, sampa: &str) -> String {
-    let code = code(code_name).expect("a code of the program");
-    let phones: Vec<Phone> = sampa.split_whitespace().map(Phone::new).collect();
-    let (keys, findings) = code.keys(&phones, Alphabet::Sampa);
+    let code = find_cue_code(code_name).expect("a code of the program");
+    let phones: Vec<SpokenPhone> = sampa.split_whitespace().map(SpokenPhone::new).collect();
+    let (keys, findings) = code.phones_to_keys(&phones, PhoneAlphabet::Sampa);
     let mut words: Vec<String> = keys
         .iter()
         .map(|key| format!("{}-{}", key.shape, key.placement))
@@ -17,11 +17,11 @@ fn keys_of(code_name: &str, sampa: &str) -> String {
 
 #[test]
 fn every_built_in_code_is_read_completely() {
-    let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
+    let ids: Vec<&str> = all_cue_codes().iter().map(|code| code.id.as_str()).collect();
     assert_eq!(ids, ["french", "english-us", "english-gb"]);
-    for code in codes() {
-        assert!(code.shape(code.vowel_alone).is_some());
-        assert!(code.placement(&code.consonant_alone).is_some());
+    for code in all_cue_codes() {
+        assert!(code.find_cue_shape(code.vowel_alone).is_some());
+        assert!(code.find_cue_placement(&code.consonant_alone).is_some());
         for table in code.alphabets.values() {
             for sounds in table.values() {
                 for sound in sounds.split(' ') {
@@ -55,11 +55,7 @@ fn consonants_and_vowels_share_keys_as_charts_print_them() {
         ("french", "l O/ t E/", "6-chin 5-chin"),
         ("french", "v U~/ d a~ m o~", "2-cheek 1-mouth 5-mouth"),
         ("french", "p eu p oe R", "1-cheek 1-side 3-side"),
-        (
-            "english-us",
-            "m aI h aU s",
-            "5-side 5-throat 3-side 5-throat 3-side",
-        ),
+        ("english-us", "m aI h aU s", "5-side 5-throat 3-side 5-throat 3-side"),
         ("english-us", "j i: s t", "8-mouth 3-side 5-side"),
         ("english-us", "dZ V dZ", "7-side-down 7-side"),
         ("english-us", "k @U v", "2-side-forward 2-side"),
@@ -71,27 +67,24 @@ fn consonants_and_vowels_share_keys_as_charts_print_them() {
 
 #[test]
 fn three_alphabets_give_the_same_keys() {
-    let french = code("fr").expect("French");
+    let french = find_cue_code("fr").expect("French");
     let say = |text: &str, alphabet| {
-        let phones: Vec<Phone> = text.split_whitespace().map(Phone::new).collect();
-        let (keys, findings) = french.keys(&phones, alphabet);
+        let phones: Vec<SpokenPhone> = text.split_whitespace().map(SpokenPhone::new).collect();
+        let (keys, findings) = french.phones_to_keys(&phones, alphabet);
         assert_eq!(findings, [], "{text}");
-        let plain: Vec<(u8, String)> = keys
-            .into_iter()
-            .map(|it| (it.shape, it.placement))
-            .collect();
+        let plain: Vec<(u8, String)> = keys.into_iter().map(|it| (it.shape, it.placement)).collect();
         plain
     };
-    let sampa = say("k i l a m O~ t R e # tS E k", Alphabet::Sampa);
-    assert_eq!(sampa, say("k i l a m ɔ̃ t ʁ e | tʃ ɛ k", Alphabet::Ipa));
-    assert_eq!(sampa, say("c i l a mʲ ɔ̃ t ʁ e sil tʃ ɛː k", Alphabet::Mfa));
+    let sampa = say("k i l a m O~ t R e # tS E k", PhoneAlphabet::Sampa);
+    assert_eq!(sampa, say("k i l a m ɔ̃ t ʁ e | tʃ ɛ k", PhoneAlphabet::Ipa));
+    assert_eq!(sampa, say("c i l a mʲ ɔ̃ t ʁ e sil tʃ ɛː k", PhoneAlphabet::Mfa));
 }
 
 #[test]
 fn a_variant_changes_only_the_keys_that_it_names() {
-    let french = code("french").expect("French");
+    let french = find_cue_code("french").expect("French");
     let usual = |code: &CueCode, phone: &str| {
-        let (keys, _) = code.keys(&[Phone::new(phone)], Alphabet::Sampa);
+        let (keys, _) = code.phones_to_keys(&[SpokenPhone::new(phone)], PhoneAlphabet::Sampa);
         format!("{}-{}", keys[0].shape, keys[0].placement)
     };
     let other = french
@@ -100,29 +93,25 @@ fn a_variant_changes_only_the_keys_that_it_names() {
     assert_eq!(usual(french, "@"), "5-side");
     assert_eq!(usual(&other, "@"), "4-cheek");
     assert_eq!(usual(&other, "9~"), "4-throat");
-    let error = french
-        .with_variants(&["nonsense"])
-        .expect_err("no such variant");
+    let error = french.with_variants(&["nonsense"]).expect_err("no such variant");
     assert!(error.to_string().contains("un-as-in"), "{error}");
-    let english = code("english-us").expect("American");
-    let throat = english
-        .with_variants(&["final-ee-at-throat"])
-        .expect("a variant");
-    let phones: Vec<Phone> = "h { p i:".split(' ').map(Phone::new).collect();
-    let (keys, _) = throat.keys(&phones, Alphabet::Sampa);
+    let english = find_cue_code("english-us").expect("American");
+    let throat = english.with_variants(&["final-ee-at-throat"]).expect("a variant");
+    let phones: Vec<SpokenPhone> = "h { p i:".split(' ').map(SpokenPhone::new).collect();
+    let (keys, _) = throat.phones_to_keys(&phones, PhoneAlphabet::Sampa);
     assert_eq!(keys[1].placement, "throat");
 }
 
 #[test]
 fn keys_have_the_times_of_their_phones() {
-    use chereme_motion::Instant;
+    use chereme_motion::RecordingInstant;
     let at = |from, to| {
-        Some(Span::between(
-            Instant::from_millis(from),
-            Instant::from_millis(to),
+        Some(TimeSpan::span_between(
+            RecordingInstant::from_millis(from),
+            RecordingInstant::from_millis(to),
         ))
     };
-    let phone = |label: &str, span| Phone {
+    let phone = |label: &str, span| SpokenPhone {
         label: label.to_owned(),
         span,
     };
@@ -132,8 +121,8 @@ fn keys_have_the_times_of_their_phones() {
         phone("t", at(150, 300)),
         phone("i", None),
     ];
-    let french = code("french").expect("French");
-    let (keys, findings) = french.keys(&phones, Alphabet::Sampa);
+    let french = find_cue_code("french").expect("French");
+    let (keys, findings) = french.phones_to_keys(&phones, PhoneAlphabet::Sampa);
     assert_eq!(keys[0].span, at(0, 200));
     assert_eq!(keys[0].vowel, at(80, 200));
     assert_eq!(keys[1].span, None, "one phone has no time");
@@ -146,15 +135,15 @@ fn keys_have_the_times_of_their_phones() {
     );
 }
 
-fn said(text: &str, options: french::Options) -> String {
-    let spoken = french::phones(text, options);
-    let phones: Vec<&str> = spoken.phones().collect();
+fn said(text: &str, options: french::PronunciationOptions) -> String {
+    let spoken = french::pronounce_french_text(text, options);
+    let phones: Vec<&str> = spoken.spoken_phones().collect();
     phones.join(" ")
 }
 
 #[test]
 fn french_spelling_is_read_by_rules_lists_and_neighbours() {
-    let usual = french::Options::default();
+    let usual = french::PronunciationOptions::default();
     let cases = [
         ("oiseau", "w a z o"),
         ("parlent", "p a R l"),
@@ -197,9 +186,9 @@ fn french_spelling_is_read_by_rules_lists_and_neighbours() {
     for (text, expected) in cases {
         assert_eq!(said(text, usual), expected, "{text}");
     }
-    let plain = french::Options {
+    let plain = french::PronunciationOptions {
         liaison: false,
-        schwa: french::Schwa::Dropped,
+        schwa: french::SchwaCondition::Dropped,
     };
     assert_eq!(said("les amis", plain), "l e a m i");
     assert_eq!(said("maître corbeau", plain), "m E t R k O R b o");
@@ -207,7 +196,7 @@ fn french_spelling_is_read_by_rules_lists_and_neighbours() {
 
 #[test]
 fn numbers_are_read_as_their_words() {
-    let usual = french::Options::default();
+    let usual = french::PronunciationOptions::default();
     for (digits, words) in [
         ("0", "zéro"),
         ("1", "un"),
@@ -260,13 +249,13 @@ fn numbers_are_read_as_their_words() {
         assert_eq!(said(text, usual), expected, "{text}");
     }
     let long = "9".repeat(40);
-    let spoken = french::phones(&long, usual);
+    let spoken = french::pronounce_french_text(&long, usual);
     assert_eq!(spoken.findings, [CueFinding::NotAWord { text: long }]);
 }
 
 #[test]
 fn capitals_are_spelled_and_short_forms_said_in_full() {
-    let usual = french::Options::default();
+    let usual = french::PronunciationOptions::default();
     for (text, expected) in [
         ("la SNCF", "l a E s E n s e E f"),
         ("S.N.C.F.", "E s E n s e E f"),
@@ -289,7 +278,7 @@ fn capitals_are_spelled_and_short_forms_said_in_full() {
 
 #[test]
 fn capitals_are_spelled_if_they_are_no_word_and_letters_alone_have_their_names() {
-    let usual = french::Options::default();
+    let usual = french::PronunciationOptions::default();
     for (text, expected) in [
         ("la TVA", "l a t e v e a"),
         ("un CDI", "9~ s e d e i"),
@@ -321,7 +310,7 @@ fn capitals_are_spelled_if_they_are_no_word_and_letters_alone_have_their_names()
 
 #[test]
 fn signs_are_said_or_reported_and_never_lost() {
-    let usual = french::Options::default();
+    let usual = french::PronunciationOptions::default();
     for (short, long) in [
         ("10 €", "dix euros"),
         ("3,50 €", "trois virgule cinquante euros"),
@@ -337,7 +326,7 @@ fn signs_are_said_or_reported_and_never_lost() {
         ("et/ou", "et ou"),
         ("« oui »", "oui"),
     ] {
-        let spoken = french::phones(short, usual);
+        let spoken = french::pronounce_french_text(short, usual);
         assert_eq!(said(short, usual), said(long, usual), "{short}");
         assert_eq!(spoken.findings, [], "{short}");
     }
@@ -347,7 +336,7 @@ fn signs_are_said_or_reported_and_never_lost() {
         ("*** fin", "***"),
         ("a ♥ b", "♥"),
     ] {
-        let spoken = french::phones(text, usual);
+        let spoken = french::pronounce_french_text(text, usual);
         let text = sign.to_owned();
         assert_eq!(spoken.findings, [CueFinding::NotAWord { text }]);
     }
@@ -355,7 +344,7 @@ fn signs_are_said_or_reported_and_never_lost() {
 
 #[test]
 fn words_that_are_not_french_are_reported() {
-    let spoken = french::phones("½ чат", french::Options::default());
+    let spoken = french::pronounce_french_text("½ чат", french::PronunciationOptions::default());
     let reported: Vec<String> = spoken.findings.iter().map(ToString::to_string).collect();
     assert_eq!(reported[0], "\"½\" was left out; write it in words");
     assert!(reported[1].contains("'ч'"), "{reported:?}");
@@ -363,7 +352,7 @@ fn words_that_are_not_french_are_reported() {
 
 #[test]
 fn uncertain_mid_vowels_are_marked() {
-    let spoken = french::phones("maison", french::Options::default());
+    let spoken = french::pronounce_french_text("maison", french::PronunciationOptions::default());
     assert_eq!(spoken.words[0].doubtful, [1]);
 }
 
@@ -380,19 +369,17 @@ fn every_published_key_is_reproduced_from_sampa_and_ipa() {
         let [name, _, sampa, ipa, expected] = row[..] else {
             panic!("a row of five cells: {row:?}");
         };
-        let plain = |keys: Vec<Key>| {
-            let words = keys
-                .iter()
-                .map(|key| format!("{}-{}", key.shape, key.placement));
+        let plain = |keys: Vec<HandCueKey>| {
+            let words = keys.iter().map(|key| format!("{}-{}", key.shape, key.placement));
             words.collect::<Vec<String>>().join(" ")
         };
-        let code = code(name).expect("a code");
-        for (text, alphabet) in [(sampa, Alphabet::Sampa), (ipa, Alphabet::Ipa)] {
-            if alphabet == Alphabet::Ipa && name != "french" {
+        let code = find_cue_code(name).expect("a code");
+        for (text, alphabet) in [(sampa, PhoneAlphabet::Sampa), (ipa, PhoneAlphabet::Ipa)] {
+            if alphabet == PhoneAlphabet::Ipa && name != "french" {
                 continue;
             }
-            let phones: Vec<Phone> = text.split_whitespace().map(Phone::new).collect();
-            let found = plain(code.keys(&phones, alphabet).0);
+            let phones: Vec<SpokenPhone> = text.split_whitespace().map(SpokenPhone::new).collect();
+            let found = plain(code.phones_to_keys(&phones, alphabet).0);
             if found != expected {
                 wrong.push(format!("{text}: {found}, not {expected}"));
             }
@@ -405,7 +392,7 @@ fn every_published_key_is_reproduced_from_sampa_and_ipa() {
 fn words_are_converted_to_phones_by_the_rules() {
     let mut wrong = Vec::new();
     for row in rows(include_str!("spelling.tsv")) {
-        let found = said(row[0], french::Options::default());
+        let found = said(row[0], french::PronunciationOptions::default());
         if found != row[1] {
             wrong.push(format!("{}: {found}, not {}", row[0], row[1]));
         }
@@ -415,15 +402,15 @@ fn words_are_converted_to_phones_by_the_rules() {
 
 #[test]
 fn keys_of_sentences_agree_closely_with_keys_written_by_hand() {
-    let french = code("french").expect("French");
+    let french = find_cue_code("french").expect("French");
     let (mut errors, mut all, mut lines) = (0, 0, Vec::new());
     for row in rows(include_str!("vectors.tsv")) {
         if row[0] != "french" || !row[1].ends_with(['.', '?']) {
             continue;
         }
-        let spoken = french::phones(row[1], french::Options::default());
-        let phones: Vec<Phone> = spoken.phones().map(Phone::new).collect();
-        let (keys, _) = french.keys(&phones, Alphabet::Sampa);
+        let spoken = french::pronounce_french_text(row[1], french::PronunciationOptions::default());
+        let phones: Vec<SpokenPhone> = spoken.spoken_phones().map(SpokenPhone::new).collect();
+        let (keys, _) = french.phones_to_keys(&phones, PhoneAlphabet::Sampa);
         let found: Vec<String> = keys
             .iter()
             .map(|key| format!("{}-{}", key.shape, key.placement))
@@ -436,7 +423,7 @@ fn keys_of_sentences_agree_closely_with_keys_written_by_hand() {
             lines.push(format!(
                 "{off}: {} -> {:?}",
                 row[1],
-                spoken.phones().collect::<Vec<_>>().join(" ")
+                spoken.spoken_phones().collect::<Vec<_>>().join(" ")
             ));
         }
     }
@@ -462,56 +449,49 @@ fn edits(a: &[String], b: &[&str]) -> usize {
 
 #[test]
 fn british_keys_warn_of_unchecked_vowels_and_agree_with_aligners() {
-    let british = code("en-GB").expect("British");
-    let keys = |labels: &str, alphabet: Alphabet| {
-        let phones: Vec<Phone> = labels.split(' ').map(Phone::new).collect();
-        let (keys, findings) = british.keys(&phones, alphabet);
+    let british = find_cue_code("en-GB").expect("British");
+    let keys = |labels: &str, alphabet: PhoneAlphabet| {
+        let phones: Vec<SpokenPhone> = labels.split(' ').map(SpokenPhone::new).collect();
+        let (keys, findings) = british.phones_to_keys(&phones, alphabet);
         let cautions = findings
             .iter()
             .filter(|it| matches!(it, CueFinding::Unchecked { .. }))
             .count();
         assert_eq!((findings.len(), cautions), (1, 1), "{labels}: {findings:?}");
-        let keys = keys
-            .iter()
-            .map(|key| format!("{}-{}", key.shape, key.placement));
+        let keys = keys.iter().map(|key| format!("{}-{}", key.shape, key.placement));
         keys.collect::<Vec<String>>().join(" ")
     };
-    assert_eq!(keys("h Q t", Alphabet::Sampa), "3-side-forward 5-side");
-    assert_eq!(keys("h ɒ t", Alphabet::Ipa), "3-side-forward 5-side");
-    assert_eq!(keys("b eə", Alphabet::Ipa), "4-chin 5-side-down");
-    assert_eq!(
-        keys("HH AW1 S", Alphabet::Mfa),
-        keys("h aʊ s", Alphabet::Ipa)
-    );
-    assert!(british.keys(&[], Alphabet::Ipa).1.is_empty());
+    assert_eq!(keys("h Q t", PhoneAlphabet::Sampa), "3-side-forward 5-side");
+    assert_eq!(keys("h ɒ t", PhoneAlphabet::Ipa), "3-side-forward 5-side");
+    assert_eq!(keys("b eə", PhoneAlphabet::Ipa), "4-chin 5-side-down");
+    assert_eq!(keys("HH AW1 S", PhoneAlphabet::Mfa), keys("h aʊ s", PhoneAlphabet::Ipa));
+    assert!(british.phones_to_keys(&[], PhoneAlphabet::Ipa).1.is_empty());
 }
 
 #[test]
 fn keys_of_fables_agree_closely_with_keys_written_by_hand() {
-    let french = code("french").expect("French");
+    let french = find_cue_code("french").expect("French");
     let cigale = include_str!("../../../../tests/examples/cued/fable.txt").lines();
     let corbeau = include_str!("../../../../tests/examples/cued/corbeau.txt").lines();
     let by_hand = include_str!("../../../../tests/examples/cued/fable-phones.txt").lines();
     let second = include_str!("../../../../tests/examples/cued/corbeau-phones.txt").lines();
     let (mut errors, mut all, mut lines) = (0, 0, Vec::new());
     for (line, phones) in cigale.chain(corbeau).zip(by_hand.chain(second)) {
-        let named = |phones: &[Phone]| -> Vec<String> {
-            let keys = french.keys(phones, Alphabet::Sampa).0;
-            let words = keys
-                .iter()
-                .map(|key| format!("{}-{}", key.shape, key.placement));
+        let named = |phones: &[SpokenPhone]| -> Vec<String> {
+            let keys = french.phones_to_keys(phones, PhoneAlphabet::Sampa).0;
+            let words = keys.iter().map(|key| format!("{}-{}", key.shape, key.placement));
             words.collect()
         };
-        let expected: Vec<Phone> = phones.split(' ').map(Phone::new).collect();
+        let expected: Vec<SpokenPhone> = phones.split(' ').map(SpokenPhone::new).collect();
         let expected = named(&expected);
-        let spoken = french::phones(line, french::Options::default());
-        let found: Vec<Phone> = spoken.phones().map(Phone::new).collect();
+        let spoken = french::pronounce_french_text(line, french::PronunciationOptions::default());
+        let found: Vec<SpokenPhone> = spoken.spoken_phones().map(SpokenPhone::new).collect();
         let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
         let off = edits(&named(&found), &expected);
         errors += off;
         all += expected.len();
         if off > 0 {
-            let said: Vec<&str> = spoken.phones().collect();
+            let said: Vec<&str> = spoken.spoken_phones().collect();
             lines.push(format!("{off}: {line}\n   {}\n   {phones}", said.join(" ")));
         }
     }
@@ -524,7 +504,7 @@ fn keys_of_fables_agree_closely_with_keys_written_by_hand() {
 
 #[test]
 fn verbs_link_to_their_pronouns_and_nouns_do_not() {
-    let usual = french::Options::default();
+    let usual = french::PronunciationOptions::default();
     for (text, expected) in [
         ("dit-elle", "d i t E l"),
         ("a-t-il", "a t i l"),

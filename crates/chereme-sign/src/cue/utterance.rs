@@ -1,32 +1,33 @@
 //! Utterances to be cued: text or phones, with times and keys.
 
-use crate::Remedy;
-use chereme_motion::{Instant, Span};
+use crate::ErrorRemedy;
+use crate::cue::find_cue_code;
+use chereme_motion::{RecordingInstant, TimeSpan};
 
-use super::{Alphabet, CueCode, CueFinding, Key, Phone, code, codes, espeak, french};
+use super::{CueCode, CueFinding, HandCueKey, PhoneAlphabet, SpokenPhone, all_cue_codes, espeak, french};
 
 /// The form of an utterance, and the code that cues it.
 #[derive(Debug, Clone)]
-pub struct Reading {
+pub struct UtteranceReading {
     /// The code's name or language, such as `french` or `en-US`.
     pub code: String,
     /// The alphabet of the phones; `None` if the input is text.
-    pub phones: Option<Alphabet>,
+    pub phones: Option<PhoneAlphabet>,
     /// Habits of some cuers, by the names that the code gives them.
     pub variants: Vec<String>,
     /// Pronunciation of French text if the spelling leaves it open.
-    pub french: french::Options,
+    pub french: french::PronunciationOptions,
     /// Factor on the usual durations of phones; `None` leaves keys without times.
     pub pace: Option<f64>,
 }
 
-impl Default for Reading {
+impl Default for UtteranceReading {
     fn default() -> Self {
         Self {
             code: "french".to_owned(),
             phones: None,
             variants: Vec::new(),
-            french: french::Options::default(),
+            french: french::PronunciationOptions::default(),
             pace: None,
         }
     }
@@ -34,17 +35,17 @@ impl Default for Reading {
 
 /// An utterance as it was understood.
 #[derive(Debug, Clone)]
-pub struct Utterance {
+pub struct CuedUtterance {
     /// The code, with its variants.
     pub code: CueCode,
     /// The words with their phones in SAMPA, a pause as a word without text; empty if the input was phones.
     pub words: Vec<(String, Vec<String>)>,
     /// The phones, with times if the input has them or a pace is given.
-    pub phones: Vec<Phone>,
+    pub phones: Vec<SpokenPhone>,
     /// The alphabet of the phones.
-    pub alphabet: Alphabet,
+    pub alphabet: PhoneAlphabet,
     /// The keys in order.
-    pub keys: Vec<Key>,
+    pub keys: Vec<HandCueKey>,
     /// The parts that could not be read.
     pub findings: Vec<CueFinding>,
 }
@@ -83,23 +84,22 @@ pub enum UtteranceError {
 impl UtteranceError {
     /// Returns a correction.
     #[must_use]
-    pub fn remedy(&self) -> Remedy {
+    pub fn utterance_error_remedy(&self) -> ErrorRemedy {
         let text = match self {
             Self::NoCode(_) => {
-                let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
+                let ids: Vec<&str> = all_cue_codes().iter().map(|code| code.id.as_str()).collect();
                 format!("the codes are {}", ids.join(" and "))
             }
             Self::Variant(variant) => format!("the variants are {}", variant.known),
             Self::Long(_) => "give at most 1 MiB at once".to_owned(),
             Self::NoSpelling(_) => {
-                return Remedy::command(
+                return ErrorRemedy::command_remedy(
                     "give phones: --phones sampa, ipa or mfa; or --espeak, if espeak-ng is installed",
                 );
             }
             Self::Pace(_) => "a pace from 0.1 to 10; 1.6 is usual for people who cue".to_owned(),
             Self::NoDurations(_) => {
-                "give each phone its milliseconds, such as h=80 aU=240, or leave the pace out"
-                    .to_owned()
+                "give each phone its milliseconds, such as h=80 aU=240, or leave the pace out".to_owned()
             }
             Self::Duration { .. } => "write for example a=120: from 1 to 60000".to_owned(),
         };
@@ -108,24 +108,23 @@ impl UtteranceError {
 }
 
 /// The most bytes of input; an hour of speech has some 60,000 phones.
-const MOST_BYTES: usize = 1 << 20;
+const MAX_UTTERANCE_BYTES: usize = 1 << 20;
 /// The longest plausible phone, in milliseconds.
 const LONGEST_MS: f64 = 60_000.0;
 /// The duration of a sound that the table lacks, in milliseconds.
 const USUAL_MS: f64 = 100.0;
 
-impl Utterance {
+impl CuedUtterance {
     /// Reads text, or phones, separated by blanks or written together; `a=120` is a phone of 120 ms.
     ///
     /// # Errors
     /// [`UtteranceError`] if the code, a variant, the pace or a duration is wrong, the input is larger than
     /// a MiB, or text is given for a code without rules of spelling.
-    pub fn read(input: &str, reading: &Reading) -> Result<Self, UtteranceError> {
-        let known =
-            code(&reading.code).ok_or_else(|| UtteranceError::NoCode(reading.code.clone()))?;
+    pub fn read_cued_utterance(input: &str, reading: &UtteranceReading) -> Result<Self, UtteranceError> {
+        let cue_code = find_cue_code(&reading.code).ok_or_else(|| UtteranceError::NoCode(reading.code.clone()))?;
         let variants: Vec<&str> = reading.variants.iter().map(String::as_str).collect();
-        let code = known.with_variants(&variants)?;
-        if input.len() > MOST_BYTES {
+        let code = cue_code.with_variants(&variants)?;
+        if input.len() > MAX_UTTERANCE_BYTES {
             return Err(UtteranceError::Long(input.len()));
         }
         let (mut words, mut findings, mut doubtful) = (Vec::new(), Vec::new(), Vec::new());
@@ -134,26 +133,26 @@ impl Utterance {
             Some(alphabet) => {
                 for word in input.split_whitespace() {
                     let (label, ms) = with_duration(word)?;
-                    match espeak::cut(&label, &code, alphabet).filter(|_| ms.is_none()) {
-                        Some(symbols) => given.extend(symbols.into_iter().map(|it| (it, None))),
+                    match espeak::cut_joined_phones(&label, &code, alphabet).filter(|_| ms.is_none()) {
+                        Some(symbols) => given.extend(symbols.into_iter().map(|symbol| (symbol, None))),
                         None => given.push((label, ms)),
                     }
                 }
                 alphabet
             }
             None if code.language == "fr" => {
-                let spoken = french::phones(input, reading.french);
+                let spoken = french::pronounce_french_text(input, reading.french);
                 findings.extend(spoken.findings);
                 for word in spoken.words {
                     doubtful.extend(word.doubtful.iter().map(|at| at + given.len()));
                     given.extend(word.phones.iter().map(|phone| (phone.clone(), None)));
                     words.push((word.text, word.phones));
                 }
-                Alphabet::Sampa
+                PhoneAlphabet::Sampa
             }
             None => return Err(UtteranceError::NoSpelling(code.id)),
         };
-        let phones = timed(given, &code, alphabet, reading.pace)?;
+        let phones = assign_phone_times(given, &code, alphabet, reading.pace)?;
         let mut read = Self::of_phones(code, phones, alphabet);
         findings.append(&mut read.findings);
         read.findings = findings;
@@ -166,8 +165,8 @@ impl Utterance {
 
     /// Returns the utterance of phones that have their own times, such as those of an alignment.
     #[must_use]
-    pub fn of_phones(code: CueCode, phones: Vec<Phone>, alphabet: Alphabet) -> Self {
-        let (keys, findings) = code.keys(&phones, alphabet);
+    pub fn of_phones(code: CueCode, phones: Vec<SpokenPhone>, alphabet: PhoneAlphabet) -> Self {
+        let (keys, findings) = code.phones_to_keys(&phones, alphabet);
         Self {
             words: Vec::new(),
             code,
@@ -178,33 +177,29 @@ impl Utterance {
         }
     }
 
-    /// Returns the phones in SAMPA with their durations in milliseconds, in the form that [`read`](Self::read) reads;
+    /// Returns the phones in SAMPA with their durations in milliseconds, in the form that [`read`](Self::read_cued_utterance) reads;
     /// gaps and phones that the code does not know become pauses.
     #[must_use]
-    pub fn written(&self) -> String {
+    pub fn write_sampa_phones(&self) -> String {
         let mut out: Vec<String> = Vec::new();
-        let mut at: Option<Instant> = None;
+        let mut last_end: Option<RecordingInstant> = None;
         for phone in &self.phones {
-            let symbols = self.code.symbols(&phone.label, self.alphabet);
-            let symbols = symbols.unwrap_or_else(|| vec!["#".to_owned()]);
+            let known_symbols = self.code.sampa_symbols(&phone.label, self.alphabet);
+            let symbols = known_symbols.unwrap_or_else(|| vec!["#".to_owned()]);
             let Some(span) = phone.span else {
                 out.extend(symbols);
                 continue;
             };
-            let gap = at.map_or(0, |at| span.start().micros() - at.micros());
-            let mut length = span.micros();
+            let gap = last_end.map_or(0, |at| span.span_start_instant().instant_micros() - at.instant_micros());
+            let mut length = span.span_micros();
             if gap > 10_000 {
                 out.push(format!("#={}", ms(gap)));
             } else {
                 length += gap;
             }
             let each = length / symbols.len().max(1) as i64;
-            out.extend(
-                symbols
-                    .iter()
-                    .map(|symbol| format!("{symbol}={}", ms(each))),
-            );
-            at = Some(span.end());
+            out.extend(symbols.iter().map(|symbol| format!("{symbol}={}", ms(each))));
+            last_end = Some(span.span_end_instant());
         }
         out.join(" ")
     }
@@ -231,47 +226,44 @@ fn with_duration(word: &str) -> Result<(String, Option<f64>), UtteranceError> {
 }
 
 /// Gives phones times one after another: their own durations, else the usual ones of the code multiplied by `pace`.
-fn timed(
+fn assign_phone_times(
     given: Vec<(String, Option<f64>)>,
     code: &CueCode,
-    alphabet: Alphabet,
+    alphabet: PhoneAlphabet,
     pace: Option<f64>,
-) -> Result<Vec<Phone>, UtteranceError> {
+) -> Result<Vec<SpokenPhone>, UtteranceError> {
     if let Some(pace) = pace
         && !(0.1..=10.0).contains(&pace)
     {
         return Err(UtteranceError::Pace(pace));
     }
-    let own = !given.is_empty() && given.iter().all(|(_, ms)| ms.is_some());
-    if !own && pace.is_none() && given.iter().all(|(_, ms)| ms.is_none()) {
-        return Ok(given
-            .into_iter()
-            .map(|(label, _)| Phone::new(label))
-            .collect());
+    let is_timed = !given.is_empty() && given.iter().all(|(_, ms)| ms.is_some());
+    if !is_timed && pace.is_none() && given.iter().all(|(_, ms)| ms.is_none()) {
+        return Ok(given.into_iter().map(|(label, _)| SpokenPhone::new(label)).collect());
     }
-    if !own && code.durations_ms.is_empty() {
+    if !is_timed && code.durations_ms.is_empty() {
         return Err(UtteranceError::NoDurations(code.id.clone()));
     }
     let usual = |label: &str| {
-        let sounds = code.symbols(label, alphabet).unwrap_or_default();
+        let sounds = code.sampa_symbols(label, alphabet).unwrap_or_default();
         let one = |sound: &String| code.durations_ms.get(sound).copied().unwrap_or(USUAL_MS);
         sounds.iter().map(one).sum::<f64>() * pace.unwrap_or(1.0)
     };
-    let mut at = 0.0;
+    let mut end = 0.0;
     let phones = given.into_iter().map(|(label, ms)| {
-        let start = at;
-        at += ms.unwrap_or_else(|| usual(&label));
-        let instant = |ms: f64| Instant::from_seconds(ms / 1000.0);
-        Phone {
+        let start = end;
+        end += ms.unwrap_or_else(|| usual(&label));
+        let instant = |ms: f64| RecordingInstant::from_seconds(ms / 1000.0);
+        SpokenPhone {
             label,
-            span: Some(Span::between(instant(start), instant(at))),
+            span: Some(TimeSpan::span_between(instant(start), instant(end))),
         }
     });
     Ok(phones.collect())
 }
 
 /// Records the other placement of a key whose vowel is uncertain.
-fn mark_doubt(key: &mut Key, doubtful: &[usize], code: &CueCode) {
+fn mark_doubt(key: &mut HandCueKey, doubtful: &[usize], code: &CueCode) {
     let (Some(at), Some(vowel)) = (key.from.last(), key.phones.last()) else {
         return;
     };
@@ -296,32 +288,24 @@ mod tests {
     #[test]
     fn phones_written_together_are_those_with_blanks_between_them() {
         for (code, alphabet, together, apart) in [
-            ("french", Alphabet::Ipa, "bɔ̃ʒuʁ", "b ɔ̃ ʒ u ʁ"),
-            ("french", Alphabet::Ipa, "/lə.ʃa/ [dɔʁ]", "l ə ʃ a d ɔ ʁ"),
-            ("french", Alphabet::Ipa, "\\œ̃.n‿wa.zo\\", "œ̃ n w a z o"),
-            ("french", Alphabet::Sampa, "bO~ZuR", "b O~ Z u R"),
-            ("french", Alphabet::Sampa, "poezi oe", "p o e z i oe"),
-            (
-                "english-us",
-                Alphabet::Ipa,
-                "həˈloʊ tʃɛɹ",
-                "h ə l oʊ tʃ ɛ ɹ",
-            ),
-            ("english-us", Alphabet::Mfa, "HH AH0 L OW1", "HH AH0 L OW1"),
-            ("french", Alphabet::Ipa, "t͡ʃaχ", "t͡ʃaχ"),
-            ("french", Alphabet::Ipa, "bu=300", "bu=300"),
+            ("french", PhoneAlphabet::Ipa, "bɔ̃ʒuʁ", "b ɔ̃ ʒ u ʁ"),
+            ("french", PhoneAlphabet::Ipa, "/lə.ʃa/ [dɔʁ]", "l ə ʃ a d ɔ ʁ"),
+            ("french", PhoneAlphabet::Ipa, "\\œ̃.n‿wa.zo\\", "œ̃ n w a z o"),
+            ("french", PhoneAlphabet::Sampa, "bO~ZuR", "b O~ Z u R"),
+            ("french", PhoneAlphabet::Sampa, "poezi oe", "p o e z i oe"),
+            ("english-us", PhoneAlphabet::Ipa, "həˈloʊ tʃɛɹ", "h ə l oʊ tʃ ɛ ɹ"),
+            ("english-us", PhoneAlphabet::Mfa, "HH AH0 L OW1", "HH AH0 L OW1"),
+            ("french", PhoneAlphabet::Ipa, "t͡ʃaχ", "t͡ʃaχ"),
+            ("french", PhoneAlphabet::Ipa, "bu=300", "bu=300"),
         ] {
-            let reading = Reading {
+            let reading = UtteranceReading {
                 code: code.to_owned(),
                 phones: Some(alphabet),
-                ..Reading::default()
+                ..UtteranceReading::default()
             };
             let labels = |text: &str| {
-                let read = Utterance::read(text, &reading).expect("read");
-                read.phones
-                    .into_iter()
-                    .map(|it| it.label)
-                    .collect::<Vec<_>>()
+                let read = CuedUtterance::read_cued_utterance(text, &reading).expect("read");
+                read.phones.into_iter().map(|it| it.label).collect::<Vec<_>>()
             };
             let apart: Vec<String> = apart.split(' ').map(|it| it.replace("=300", "")).collect();
             assert_eq!(labels(together), apart, "{together}");
@@ -330,21 +314,24 @@ mod tests {
 
     #[test]
     fn phones_with_durations_read_back_unchanged() {
-        let reading = Reading {
-            phones: Some(Alphabet::Sampa),
-            ..Reading::default()
+        let reading = UtteranceReading {
+            phones: Some(PhoneAlphabet::Sampa),
+            ..UtteranceReading::default()
         };
         let text = "l=87 @=131 #=250 S=135.5 a=177";
-        let read = Utterance::read(text, &reading).expect("read");
-        assert_eq!(read.written(), text);
+        let read = CuedUtterance::read_cued_utterance(text, &reading).expect("read");
+        assert_eq!(read.write_sampa_phones(), text);
         let times: Vec<i64> = read.keys[1].span.map_or(Vec::new(), |span| {
-            vec![span.start().micros(), span.end().micros()]
+            vec![
+                span.span_start_instant().instant_micros(),
+                span.span_end_instant().instant_micros(),
+            ]
         });
         assert_eq!(times, [468_000, 780_500]);
         for wrong in ["a=x", "a=0", "a=-3", "a=NaN", "a=1e9"] {
-            assert!(Utterance::read(wrong, &reading).is_err(), "{wrong}");
+            assert!(CuedUtterance::read_cued_utterance(wrong, &reading).is_err(), "{wrong}");
         }
-        let mixed = Utterance::read("l=90 a", &reading).expect("the table has the others");
+        let mixed = CuedUtterance::read_cued_utterance("l=90 a", &reading).expect("the table has the others");
         assert!(mixed.phones[1].span.is_some());
     }
 }

@@ -1,11 +1,11 @@
 //! French text divided into words, short forms, numbers and pauses.
 
-use super::french::RULES;
-use super::numbers;
+use super::cue_numbers;
+use super::french::FRENCH_SPELLING_RULES;
 
 /// A part of a text.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Written {
+pub(super) enum WrittenPart {
     /// A word in lower case, and whether a hyphen joins it to the word before.
     Word(String, bool),
     /// A word that is said letter by letter, in lower case.
@@ -19,86 +19,73 @@ pub(super) enum Written {
 
 /// Splits text at blanks, hyphens, apostrophes and punctuation; an apostrophe stays with its word. Numbers and short
 /// forms become words.
-pub(super) fn split(text: &str) -> Vec<Written> {
+pub(super) fn split_written_text(text: &str) -> Vec<WrittenPart> {
     let plain = |letter| if letter == '’' { '\'' } else { letter };
     let letters: Vec<char> = text.chars().map(plain).collect();
-    let lower: String = letters.iter().flat_map(|it| it.to_lowercase()).collect();
-    let shouted =
-        !text.chars().any(char::is_lowercase) && text.trim().contains(char::is_whitespace);
+    let lower: String = letters.iter().flat_map(|letter| letter.to_lowercase()).collect();
+    let shouted = !text.chars().any(char::is_lowercase) && text.trim().contains(char::is_whitespace);
     let mut parts = Vec::new();
     let (mut at, mut hyphen) = (0, false);
     while let Some(&letter) = letters.get(at) {
         let rest = &letters[at..];
         if letter.is_numeric() {
-            let (length, words) = numbers::read(rest);
+            let (length, words) = cue_numbers::read_french_number(rest);
             match words {
-                Some(words) => parts.extend(words.into_iter().map(|it| Written::Word(it, false))),
-                None => parts.push(Written::Other(rest[..length].iter().collect())),
+                Some(words) => parts.extend(words.into_iter().map(|word| WrittenPart::Word(word, false))),
+                None => parts.push(WrittenPart::Other(rest[..length].iter().collect())),
             }
             at += length;
         } else if let Some((length, word)) = dotted(rest).filter(|_| starts_word(&letters, at)) {
             parts.push(as_written(&word, shouted, false));
             at += length;
         } else if matches!(letter, 'n' | 'N') && matches!(rest.get(1), Some('°' | 'º')) {
-            parts.push(Written::Word("numéro".to_owned(), false));
+            parts.push(WrittenPart::Word("numéro".to_owned(), false));
             at += 2;
         } else if letter.is_alphabetic() {
-            let word = word(rest, &lower);
-            let enclosed = hyphen && rest.get(1).is_some_and(|it| is_hyphen(*it));
+            let word = leading_written_word(rest, &lower);
+            let enclosed = hyphen && rest.get(1).is_some_and(|next| is_hyphen(*next));
             if word.chars().count() == 1
                 && !enclosed
-                && !RULES.words.contains_key(&word.to_lowercase())
-                && short(rest, &word, shouted).is_none()
+                && !FRENCH_SPELLING_RULES.words.contains_key(&word.to_lowercase())
+                && expand_short_form(rest, &word, shouted).is_none()
             {
                 parts.push(single(&word, rest));
                 at += 1;
-                hyphen = letters.get(at).is_some_and(|it| is_hyphen(*it));
+                hyphen = letters.get(at).is_some_and(|next| is_hyphen(*next));
                 continue;
             }
-            let short = short(rest, &word, shouted);
+            let short = expand_short_form(rest, &word, shouted);
             at += word.chars().count() + usize::from(short.is_some_and(|(_, dot)| dot));
             match short {
                 Some((long, _)) => {
-                    parts.extend(
-                        long.split(' ')
-                            .map(|it| Written::Word(it.to_owned(), false)),
-                    );
+                    parts.extend(long.split(' ').map(|part| WrittenPart::Word(part.to_owned(), false)));
                 }
                 None => parts.push(as_written(&word, shouted, hyphen)),
             }
-            hyphen = letters.get(at).is_some_and(|it| is_hyphen(*it));
+            hyphen = letters.get(at).is_some_and(|next| is_hyphen(*next));
             continue;
         } else {
-            let ends = matches!(
-                letter,
-                ',' | '.' | ';' | ':' | '!' | '?' | '…' | '—' | '(' | ')' | '\n'
-            );
+            let ends = matches!(letter, ',' | '.' | ';' | ':' | '!' | '?' | '…' | '—' | '(' | ')' | '\n');
             let minus = matches!(letter, '-' | '−')
                 && rest.get(1).is_some_and(char::is_ascii_digit)
                 && (at == 0 || letters[at - 1].is_whitespace());
             let mut length = 1;
             if minus {
-                parts.push(Written::Word("moins".to_owned(), false));
-            } else if let Some(words) = RULES.symbols.get(&letter) {
-                parts.extend(
-                    words
-                        .split(' ')
-                        .map(|it| Written::Word(it.to_owned(), false)),
-                );
+                parts.push(WrittenPart::Word("moins".to_owned(), false));
+            } else if let Some(words) = FRENCH_SPELLING_RULES.symbols.get(&letter) {
+                parts.extend(words.split(' ').map(|part| WrittenPart::Word(part.to_owned(), false)));
             } else if ends {
-                if !matches!(parts.last(), None | Some(Written::Pause)) {
-                    parts.push(Written::Pause);
+                if !matches!(parts.last(), None | Some(WrittenPart::Pause)) {
+                    parts.push(WrittenPart::Pause);
                 }
             } else if !is_silent(letter) {
                 // *Étudiant·e·s*: the endings behind a middle dot are no words.
                 let run = rest.iter().skip(1);
                 length += match letter {
-                    '·' => run
-                        .take_while(|it| it.is_alphabetic() || **it == '·')
-                        .count(),
-                    _ => run.take_while(|it| **it == letter).count(),
+                    '·' => run.take_while(|next| next.is_alphabetic() || **next == '·').count(),
+                    _ => run.take_while(|next| **next == letter).count(),
                 };
-                parts.push(Written::Other(rest[..length].iter().collect()));
+                parts.push(WrittenPart::Other(rest[..length].iter().collect()));
             }
             at += length;
             hyphen &= is_hyphen(letter);
@@ -148,7 +135,7 @@ fn starts_word(letters: &[char], at: usize) -> bool {
 }
 
 /// Returns the word at the start of `rest`: letters, with the apostrophe behind an elided word or within a known one.
-fn word(rest: &[char], text: &str) -> String {
+fn leading_written_word(rest: &[char], text: &str) -> String {
     let mut word = String::new();
     for &letter in rest {
         if letter.is_alphabetic() {
@@ -167,22 +154,21 @@ fn word(rest: &[char], text: &str) -> String {
 
 /// Returns whether a known word with an apostrophe inside begins so and stands in the text, such as *aujourd'hui*.
 fn is_known_start(begun: &str, text: &str) -> bool {
-    let mut words = RULES.words.keys().filter(|word| word.contains('\''));
+    let mut words = FRENCH_SPELLING_RULES.words.keys().filter(|word| word.contains('\''));
     words.any(|word| word.starts_with(begun) && text.contains(word.as_str()))
 }
 
 /// Returns capitals with a point behind each, such as *S.N.C.F.*, without the points, and their length in the text.
 fn dotted(rest: &[char]) -> Option<(usize, String)> {
     let pairs = rest.chunks(2);
-    let capitals =
-        pairs.take_while(|pair| pair.len() == 2 && pair[0].is_uppercase() && pair[1] == '.');
+    let capitals = pairs.take_while(|pair| pair.len() == 2 && pair[0].is_uppercase() && pair[1] == '.');
     let capitals: String = capitals.map(|pair| pair[0]).collect();
     let count = capitals.chars().count();
     (count > 1).then_some((2 * count, capitals))
 }
 
 /// Returns the words that a short form stands for, and whether the point behind it belongs to it.
-fn short(rest: &[char], word: &str, shouted: bool) -> Option<(&'static str, bool)> {
+fn expand_short_form(rest: &[char], word: &str, shouted: bool) -> Option<(&'static str, bool)> {
     let lower = word.to_lowercase();
     let point = rest.get(word.chars().count()) == Some(&'.');
     // *M.* needs its point, a title its capital, and a unit its small letters.
@@ -191,7 +177,7 @@ fn short(rest: &[char], word: &str, shouted: bool) -> Option<(&'static str, bool
         "m" if !(point && titled) => return None,
         _ => lower.as_str(),
     };
-    let long = RULES.abbreviations.get(key)?;
+    let long = FRENCH_SPELLING_RULES.abbreviations.get(key)?;
     // *BD* in capitals is a comic, not a boulevard.
     if word.chars().count() > 1 && word.chars().all(char::is_uppercase) && !point && key != "etc" {
         return None;
@@ -206,45 +192,48 @@ fn short(rest: &[char], word: &str, shouted: bool) -> Option<(&'static str, bool
 }
 
 /// Returns a letter that stands alone: an elided word without its apostrophe, as in *l ami*, else the letter's name.
-fn single(letter: &str, rest: &[char]) -> Written {
+fn single(letter: &str, rest: &[char]) -> WrittenPart {
     let next = match rest {
         [_, ' ', next, ..] => *next,
         _ => ' ',
     };
-    let vowel = next == 'h' || RULES.vowels.contains(next.to_ascii_lowercase());
+    let vowel = next == 'h' || FRENCH_SPELLING_RULES.vowels.contains(next.to_ascii_lowercase());
     let elided = ["c", "d", "j", "l", "m", "n", "s", "t"].contains(&letter);
     if vowel && elided {
-        return Written::Word(format!("{letter}'"), false);
+        return WrittenPart::Word(format!("{letter}'"), false);
     }
-    Written::Letters(letter.to_lowercase())
+    WrittenPart::Letters(letter.to_lowercase())
 }
 
 /// Returns a word as it is said: capitals without a vowel, of two letters, or that nobody can say as a word, letter by
 /// letter.
-fn as_written(word: &str, shouted: bool, hyphen: bool) -> Written {
+fn as_written(word: &str, shouted: bool, hyphen: bool) -> WrittenPart {
     // *Les ONGs* have an ending in small letters.
     let base = word.strip_suffix('s').unwrap_or(word);
     let is_capitals = |word: &str| word.chars().count() > 1 && word.chars().all(char::is_uppercase);
     let word = if is_capitals(base) { base } else { word };
     let lower = word.to_lowercase();
-    let mute = !lower.chars().any(|letter| RULES.vowels.contains(letter));
+    let mute = !lower
+        .chars()
+        .any(|letter| FRENCH_SPELLING_RULES.vowels.contains(letter));
     if !is_capitals(word) {
         // *Le dvd* and *LfPC* have no vowel, either; *pfff* and *zzz* repeat a letter.
         let mut pairs = word.as_bytes().windows(2);
         let repeats = pairs.any(|pair| pair[0].eq_ignore_ascii_case(&pair[1]));
         let sound = repeats || lower == "pst" || word.contains('\'');
         return match mute && !sound && lower.is_ascii() && lower.chars().count() > 1 {
-            true => Written::Letters(lower),
-            false => Written::Word(lower, hyphen),
+            true => WrittenPart::Letters(lower),
+            false => WrittenPart::Word(lower, hyphen),
         };
     }
     let two = lower.chars().count() == 2;
-    let listed = RULES.spelled.contains(&lower) || (two && !RULES.short_words.contains(&lower));
-    if RULES.acronyms.contains_key(&lower) && !shouted {
-        return Written::Acronym(lower);
+    let listed =
+        FRENCH_SPELLING_RULES.spelled.contains(&lower) || (two && !FRENCH_SPELLING_RULES.short_words.contains(&lower));
+    if FRENCH_SPELLING_RULES.acronyms.contains_key(&lower) && !shouted {
+        return WrittenPart::Acronym(lower);
     }
-    if mute || (!shouted && listed) || RULES.is_unpronounceable(&lower) {
-        return Written::Letters(lower);
+    if mute || (!shouted && listed) || FRENCH_SPELLING_RULES.is_unpronounceable(&lower) {
+        return WrittenPart::Letters(lower);
     }
-    Written::Word(lower, hyphen)
+    WrittenPart::Word(lower, hyphen)
 }

@@ -4,52 +4,52 @@
 //! engines; [`BodyLanguage`] defines the angle of 4. Recognition compares with the same angles. After
 //! Kennaway, *Avatar-independent scripting for real-time gesture animation*, section 4.3.
 
-use chereme_motion::{Finger, FingerAngles, HandAngles, ThumbAngles};
+use chereme_motion::{FingerAngles, HandAngles, HandFinger, ThumbAngles};
 
-use super::language::BodyLanguage;
+use super::hamnosys_language::BodyLanguage;
 use super::tree::{
-    Bend, Digit, FingerContact, FingerPart, Form, HandClass, Handshape, Opening, ThumbExtra,
+    CeeOpening, FingerBend, FingerContact, FingerPart, HandClass, HandDigit, Handshape, HandshapeForm, ThumbExtra,
     ThumbPosition,
 };
 
 /// The bends of three joints, in quarters of the largest bend.
-type Units = [f64; 3];
+type JointBendUnits = [f64; 3];
 
-const STRAIGHT: Units = [0.0, 0.1, 0.1];
-const CLOSED: Units = [3.86, 3.85, 3.82];
+const STRAIGHT_FINGER_BENDS: JointBendUnits = [0.0, 0.1, 0.1];
+const CLOSED_FINGER_BENDS: JointBendUnits = [3.86, 3.85, 3.82];
 /// Bends of the open fingers next to a pinch or a cee.
-const OPEN: Units = [0.0, 0.25, 0.2];
+const OPEN_FINGER_BENDS: JointBendUnits = [0.0, 0.25, 0.2];
 /// The spread of fingers in degrees towards the thumb, as in the inventory's spread hand.
-const SPREAD: [f64; 4] = [14.0, 3.0, -9.0, -20.0];
+const FINGER_SPREAD_DEGREES: [f64; 4] = [14.0, 3.0, -9.0, -20.0];
 /// The spread of two fingers apart.
 const SPREAD_TWO: [f64; 4] = [12.0, -9.0, 0.0, 0.0];
 /// The lean of the fingers of a flat hand from the hand's axis, in degrees towards the thumb: fingers taper.
-const FLAT: [f64; 4] = [-1.5, 0.0, 1.5, 3.0];
+const FLAT_LEAN_DEGREES: [f64; 4] = [-1.5, 0.0, 1.5, 3.0];
 /// The lean of the fingers of a fist, in degrees towards the thumb: they point to the root of the thumb.
-const FIST: [f64; 4] = [-4.0, 0.0, 5.0, 11.0];
+const FIST_LEAN_DEGREES: [f64; 4] = [-4.0, 0.0, 5.0, 11.0];
 
 /// Returns the finger of a digit; `None` for the thumb.
 #[must_use]
-pub fn finger_of(digit: Digit) -> Option<Finger> {
+pub fn finger_of(digit: HandDigit) -> Option<HandFinger> {
     match digit {
-        Digit::Thumb => None,
-        Digit::Index => Some(Finger::Index),
-        Digit::Middle => Some(Finger::Middle),
-        Digit::Ring => Some(Finger::Ring),
-        Digit::Little => Some(Finger::Little),
+        HandDigit::Thumb => None,
+        HandDigit::Index => Some(HandFinger::Index),
+        HandDigit::Middle => Some(HandFinger::Middle),
+        HandDigit::Ring => Some(HandFinger::Ring),
+        HandDigit::Little => Some(HandFinger::Little),
     }
 }
 
 /// The further bends of two crossed fingers, the one in front of the palm first: 15 degrees; -4, 26 and 20 degrees, as
 /// measured in the movement of another animator.
-const CROSSED: [Units; 2] = [[0.68, 0.0, 0.0], [-0.18, 1.0, 1.1]];
+const CROSSED_FINGER_BENDS: [JointBendUnits; 2] = [[0.68, 0.0, 0.0], [-0.18, 1.0, 1.1]];
 /// The spread of two crossed fingers in degrees towards the thumb, from the same measurement.
 const CROSSED_SPREAD: [f64; 2] = [-11.0, 8.0];
 
 /// A hand before its units become angles; betweenness averages these values.
 #[derive(Debug, Clone, Copy)]
-struct Shape {
-    bends: [Units; 4],
+struct HandBendShape {
+    bends: [JointBendUnits; 4],
     /// Degrees towards the thumb with the fingers straight.
     spread: [f64; 4],
     /// Radial, palmar, opposition, and two flexions in degrees.
@@ -63,13 +63,13 @@ struct Shape {
 /// hand; an animator may refine it.
 #[must_use]
 pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
-    let mut hand = form(&shape.form, shape);
+    let mut hand = form_bend_shape(&shape.form, shape);
     if let Some(second) = &shape.between {
-        hand = middle(&hand, &form(second, shape));
+        hand = mean_bend_shape(&hand, &form_bend_shape(second, shape));
     }
     for (finger, bend) in hand.bends.iter_mut().zip(&shape.bends[1..]) {
         if let Some(bend) = bend {
-            *finger = units(*bend, shape.form.class);
+            *finger = class_bend_units(*bend, shape.form.class);
         }
     }
     if let Some(splay) = shape.splay {
@@ -78,12 +78,12 @@ pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
             1 => language.splay,
             _ => language.splay * language.splay_more,
         };
-        hand.spread = SPREAD.map(|spread| spread * wide);
+        hand.spread = FINGER_SPREAD_DEGREES.map(|spread| spread * wide);
     } else {
         hand.spread = hand.spread.map(|spread| spread * language.splay);
     }
     for contact in &shape.contacts {
-        cross(&mut hand, contact);
+        cross_two_fingers(&mut hand, contact);
     }
     thumb_extra(&mut hand, shape);
     if let Some(bend) = shape.bends[0] {
@@ -91,120 +91,103 @@ pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
         hand.thumb[3] = middle / 4.0 * language.bend_thumb_middle;
         hand.thumb[4] = end / 4.0 * language.bend_thumb_end;
     }
-    angles(&hand, language)
+    bend_shape_angles(&hand, language)
 }
 
 /// Returns the fingers that a form of a class selects: those that its bend applies to.
 #[must_use]
-pub fn selected(class: HandClass, special: &[Digit]) -> [bool; 4] {
-    let own = match class {
-        HandClass::Fist
-        | HandClass::Flat
-        | HandClass::Finger2345
-        | HandClass::PinchAll
-        | HandClass::CeeAll => [true; 4],
-        HandClass::Finger2
-        | HandClass::Pinch12
-        | HandClass::Pinch12Open
-        | HandClass::Cee12
-        | HandClass::Cee12Open => [true, false, false, false],
+pub fn selected_fingers(class: HandClass, special: &[HandDigit]) -> [bool; 4] {
+    let class_fingers = match class {
+        HandClass::Fist | HandClass::Flat | HandClass::Finger2345 | HandClass::PinchAll | HandClass::CeeAll => {
+            [true; 4]
+        }
+        HandClass::Finger2 | HandClass::Pinch12 | HandClass::Pinch12Open | HandClass::Cee12 | HandClass::Cee12Open => {
+            [true, false, false, false]
+        }
         HandClass::Finger23 | HandClass::Finger23Spread => [true, true, false, false],
     };
-    let fingers: Vec<Finger> = special.iter().copied().filter_map(finger_of).collect();
-    if fingers.is_empty() || own == [true; 4] {
-        return own;
+    let fingers: Vec<HandFinger> = special.iter().copied().filter_map(finger_of).collect();
+    if fingers.is_empty() || class_fingers == [true; 4] {
+        return class_fingers;
     }
-    Finger::ALL.map(|finger| fingers.contains(&finger))
+    HandFinger::ALL_FINGERS.map(|finger| fingers.contains(&finger))
 }
 
 /// Returns a bend in quarters of the largest one, from the palm outwards.
 #[must_use]
-pub fn bend_units(bend: Bend) -> [f64; 3] {
+pub fn bend_units(bend: FingerBend) -> [f64; 3] {
     match bend {
-        Bend::Bent => [4.0, 0.0, 0.0],
-        Bend::Round => [2.0, 2.0, 2.0],
-        Bend::Hooked => [0.0, 4.0, 4.0],
-        Bend::DoubleBent => [4.0, 4.0, 0.0],
-        Bend::DoubleHooked => [4.0, 4.0, 4.0],
-        Bend::HalfBent => [2.0, 0.0, 0.0],
-        Bend::Joints(units) => units.map(|unit| unit.clamp(-1.0, 4.0)),
+        FingerBend::Bent => [4.0, 0.0, 0.0],
+        FingerBend::Round => [2.0, 2.0, 2.0],
+        FingerBend::Hooked => [0.0, 4.0, 4.0],
+        FingerBend::DoubleBent => [4.0, 4.0, 0.0],
+        FingerBend::DoubleHooked => [4.0, 4.0, 4.0],
+        FingerBend::HalfBent => [2.0, 0.0, 0.0],
+        FingerBend::Joints(units) => units.map(|unit| unit.clamp(-1.0, 4.0)),
     }
 }
 
 /// Returns a bend in the form for a class: in pinches and cees the tips must still meet.
-fn units(bend: Bend, class: HandClass) -> Units {
-    let pinch = matches!(
-        class,
-        HandClass::Pinch12 | HandClass::Pinch12Open | HandClass::PinchAll
-    );
-    let cee = matches!(
-        class,
-        HandClass::Cee12 | HandClass::Cee12Open | HandClass::CeeAll
-    );
+fn class_bend_units(bend: FingerBend, class: HandClass) -> JointBendUnits {
+    let pinch = matches!(class, HandClass::Pinch12 | HandClass::Pinch12Open | HandClass::PinchAll);
+    let cee = matches!(class, HandClass::Cee12 | HandClass::Cee12Open | HandClass::CeeAll);
     match bend {
-        Bend::Bent if pinch => [3.4, 0.6, 0.4],
-        Bend::Round if pinch => [2.3, 2.4, 2.2],
-        Bend::Hooked if pinch => [2.0, 3.2, 2.9],
-        Bend::DoubleBent if pinch => [2.8, 2.4, 1.0],
-        Bend::DoubleHooked if pinch => [2.6, 3.2, 2.8],
-        Bend::Bent if cee => [3.0, 0.4, 0.4],
-        Bend::Round if cee => [1.0, 3.0, 3.0],
-        Bend::Hooked if cee => [2.0, 4.0, 4.0],
-        Bend::DoubleBent if cee => [2.0, 3.0, 2.0],
-        Bend::DoubleHooked if cee => [2.0, 3.0, 3.0],
+        FingerBend::Bent if pinch => [3.4, 0.6, 0.4],
+        FingerBend::Round if pinch => [2.3, 2.4, 2.2],
+        FingerBend::Hooked if pinch => [2.0, 3.2, 2.9],
+        FingerBend::DoubleBent if pinch => [2.8, 2.4, 1.0],
+        FingerBend::DoubleHooked if pinch => [2.6, 3.2, 2.8],
+        FingerBend::Bent if cee => [3.0, 0.4, 0.4],
+        FingerBend::Round if cee => [1.0, 3.0, 3.0],
+        FingerBend::Hooked if cee => [2.0, 4.0, 4.0],
+        FingerBend::DoubleBent if cee => [2.0, 3.0, 2.0],
+        FingerBend::DoubleHooked if cee => [2.0, 3.0, 3.0],
         // Fingers bent at two joints meet the palm before the joints reach their limits.
-        Bend::DoubleBent => [3.3, 3.75, 0.4],
+        FingerBend::DoubleBent => [3.3, 3.75, 0.4],
         other => bend_units(other),
     }
 }
 
-fn form(form: &Form, shape: &Handshape) -> Shape {
+fn form_bend_shape(form: &HandshapeForm, shape: &Handshape) -> HandBendShape {
     let class = form.class;
-    let chosen = selected(class, &shape.special.0);
+    let chosen = selected_fingers(class, &shape.special.0);
     let (own, rest, spread) = match class {
-        HandClass::Fist => (CLOSED, CLOSED, [0.0; 4]),
-        HandClass::Flat => (STRAIGHT, STRAIGHT, [0.0; 4]),
-        HandClass::Finger2 | HandClass::Finger23 => (STRAIGHT, CLOSED, [0.0; 4]),
-        HandClass::Finger23Spread => (STRAIGHT, CLOSED, two_apart(chosen)),
-        HandClass::Finger2345 => (STRAIGHT, STRAIGHT, SPREAD),
-        HandClass::Pinch12 => ([2.4, 1.8, 1.2], CLOSED, [0.0; 4]),
-        HandClass::Pinch12Open => ([2.4, 1.8, 1.2], OPEN, beside(chosen)),
-        HandClass::PinchAll => ([2.4, 1.8, 1.2], CLOSED, [0.0; 4]),
-        HandClass::Cee12 => ([1.5, 1.8, 1.9], CLOSED, [0.0; 4]),
-        HandClass::Cee12Open => ([1.5, 1.8, 1.9], OPEN, beside(chosen)),
-        HandClass::CeeAll => ([1.2, 1.8, 1.9], CLOSED, [0.0; 4]),
+        HandClass::Fist => (CLOSED_FINGER_BENDS, CLOSED_FINGER_BENDS, [0.0; 4]),
+        HandClass::Flat => (STRAIGHT_FINGER_BENDS, STRAIGHT_FINGER_BENDS, [0.0; 4]),
+        HandClass::Finger2 | HandClass::Finger23 => (STRAIGHT_FINGER_BENDS, CLOSED_FINGER_BENDS, [0.0; 4]),
+        HandClass::Finger23Spread => (STRAIGHT_FINGER_BENDS, CLOSED_FINGER_BENDS, two_apart(chosen)),
+        HandClass::Finger2345 => (STRAIGHT_FINGER_BENDS, STRAIGHT_FINGER_BENDS, FINGER_SPREAD_DEGREES),
+        HandClass::Pinch12 => ([2.4, 1.8, 1.2], CLOSED_FINGER_BENDS, [0.0; 4]),
+        HandClass::Pinch12Open => ([2.4, 1.8, 1.2], OPEN_FINGER_BENDS, spread_beside_pinch(chosen)),
+        HandClass::PinchAll => ([2.4, 1.8, 1.2], CLOSED_FINGER_BENDS, [0.0; 4]),
+        HandClass::Cee12 => ([1.5, 1.8, 1.9], CLOSED_FINGER_BENDS, [0.0; 4]),
+        HandClass::Cee12Open => ([1.5, 1.8, 1.9], OPEN_FINGER_BENDS, spread_beside_pinch(chosen)),
+        HandClass::CeeAll => ([1.2, 1.8, 1.9], CLOSED_FINGER_BENDS, [0.0; 4]),
     };
-    let mut selected_bend = form.bend.map_or(own, |bend| units(bend, class));
+    let mut selected_bend = form.bend.map_or(own, |bend| class_bend_units(bend, class));
     match form.opening {
-        Some(Opening::Tight) => selected_bend[0] += 0.6,
-        Some(Opening::Slack) => selected_bend[0] -= 0.8,
+        Some(CeeOpening::Tight) => selected_bend[0] += 0.6,
+        Some(CeeOpening::Slack) => selected_bend[0] -= 0.8,
         None => {}
     }
-    let open = matches!(
-        class,
-        HandClass::Flat | HandClass::Finger2345 | HandClass::Fist
-    );
-    let bends = Finger::ALL.map(|finger| {
-        let digit = Digit::ALL[finger.index() + 1];
-        if shape.exempt.contains(digit) {
+    let open = matches!(class, HandClass::Flat | HandClass::Finger2345 | HandClass::Fist);
+    let bends = HandFinger::ALL_FINGERS.map(|finger| {
+        let digit = HandDigit::ALL_HAND_DIGITS[finger.index() + 1];
+        if shape.exempt.contains_digit(digit) {
             return if class == HandClass::Fist {
-                STRAIGHT
+                STRAIGHT_FINGER_BENDS
             } else if open {
                 own
             } else {
-                OPEN
+                OPEN_FINGER_BENDS
             };
         }
-        if chosen[finger.index()] {
-            selected_bend
-        } else {
-            rest
-        }
+        if chosen[finger.index()] { selected_bend } else { rest }
     });
-    Shape {
+    HandBendShape {
         bends,
         spread,
-        thumb: thumb(form, shape, chosen),
+        thumb: thumb_form_angles(form, shape, chosen),
     }
 }
 
@@ -223,31 +206,31 @@ fn two_apart(chosen: [bool; 4]) -> [f64; 4] {
 }
 
 /// Spreads the fingers next to a pinch.
-fn beside(chosen: [bool; 4]) -> [f64; 4] {
-    std::array::from_fn(|n| if chosen[n] { 0.0 } else { SPREAD[n] })
+fn spread_beside_pinch(chosen: [bool; 4]) -> [f64; 4] {
+    std::array::from_fn(|n| if chosen[n] { 0.0 } else { FINGER_SPREAD_DEGREES[n] })
 }
 
-fn thumb(form: &Form, shape: &Handshape, chosen: [bool; 4]) -> [f64; 5] {
+fn thumb_form_angles(form: &HandshapeForm, shape: &Handshape, chosen: [bool; 4]) -> [f64; 5] {
     use HandClass::{
-        Cee12, Cee12Open, CeeAll, Finger2, Finger23, Finger23Spread, Finger2345, Fist, Flat,
-        Pinch12, Pinch12Open, PinchAll,
+        Cee12, Cee12Open, CeeAll, Finger2, Finger23, Finger23Spread, Finger2345, Fist, Flat, Pinch12, Pinch12Open,
+        PinchAll,
     };
-    let at = match (form.class, form.thumb) {
+    let thumb_angles = match (form.class, form.thumb) {
         (Pinch12 | Pinch12Open, _) => match form.bend {
             None => [24.0, 58.0, 50.0, 22.0, 36.0],
-            Some(Bend::Bent | Bend::HalfBent) => [14.0, 52.0, 42.0, 0.0, 26.0],
-            Some(Bend::Hooked | Bend::DoubleHooked) => [36.0, 60.0, 45.0, 44.0, 69.0],
+            Some(FingerBend::Bent | FingerBend::HalfBent) => [14.0, 52.0, 42.0, 0.0, 26.0],
+            Some(FingerBend::Hooked | FingerBend::DoubleHooked) => [36.0, 60.0, 45.0, 44.0, 69.0],
             Some(_) => [39.0, 62.0, 36.0, 36.0, 58.0],
         },
         (PinchAll, _) => match form.bend {
             None => [14.0, 52.0, 38.0, 14.0, 28.0],
-            Some(Bend::Bent | Bend::HalfBent) => [1.0, 52.0, 58.0, 4.0, 7.0],
+            Some(FingerBend::Bent | FingerBend::HalfBent) => [1.0, 52.0, 58.0, 4.0, 7.0],
             Some(_) => [30.0, 62.0, 36.0, 36.0, 50.0],
         },
         (Cee12 | Cee12Open | CeeAll, _) => match form.opening {
             None => [32.0, 56.0, 62.0, 8.0, 18.0],
-            Some(Opening::Tight) => [28.0, 50.0, 62.0, 14.0, 26.0],
-            Some(Opening::Slack) => [38.0, 62.0, 62.0, 2.0, 6.0],
+            Some(CeeOpening::Tight) => [28.0, 50.0, 62.0, 14.0, 26.0],
+            Some(CeeOpening::Slack) => [38.0, 62.0, 62.0, 2.0, 6.0],
         },
         (Fist, Some(ThumbPosition::Out)) => [62.0, 5.0, 0.0, -5.0, -5.0],
         (Fist, Some(ThumbPosition::Across)) => [18.0, 40.0, -3.0, 49.0, 44.0],
@@ -255,19 +238,17 @@ fn thumb(form: &Form, shape: &Handshape, chosen: [bool; 4]) -> [f64; 5] {
         (Fist, None) => [15.0, 8.0, 0.0, 5.0, 10.0],
         (_, Some(ThumbPosition::Out)) => [60.0, 8.0, 0.0, 0.0, 0.0],
         (_, Some(ThumbPosition::Opposed)) => [35.0, 60.0, 60.0, 5.0, 8.0],
-        (Flat | Finger2345, Some(ThumbPosition::Across)) if form.bend.is_none() => {
-            [8.0, 4.0, -5.0, 67.0, 74.0]
-        }
+        (Flat | Finger2345, Some(ThumbPosition::Across)) if form.bend.is_none() => [8.0, 4.0, -5.0, 67.0, 74.0],
         (Flat | Finger2345, Some(ThumbPosition::Across)) => [15.0, 36.0, 20.0, 56.0, 70.0],
-        (Finger2 | Finger23 | Finger23Spread, Some(ThumbPosition::Across)) => over(chosen),
+        (Finger2 | Finger23 | Finger23Spread, Some(ThumbPosition::Across)) => thumb_over_fingers(chosen),
         (Finger2 | Finger23 | Finger23Spread, None) if !chosen[0] => [15.0, 8.0, 0.0, 5.0, 10.0],
         (_, None) => [12.0, 2.0, 0.0, 0.0, 0.0],
     };
-    opposed(at, form.class, shape)
+    opposed(thumb_angles, form.class, shape)
 }
 
 /// Returns the thumb across the folded fingers: on the middle finger, else on the first folded one.
-fn over(chosen: [bool; 4]) -> [f64; 5] {
+fn thumb_over_fingers(chosen: [bool; 4]) -> [f64; 5] {
     match chosen {
         [_, false, ..] => [22.0, 44.0, 0.0, 57.0, 32.0],
         [false, true, ..] => [44.0, 44.0, -5.0, 57.0, 40.0],
@@ -284,10 +265,10 @@ fn opposed(mut thumb: [f64; 5], class: HandClass, shape: &Handshape) -> [f64; 5]
     );
     let met = shape.opposed.or_else(|| shape.special.0.first().copied());
     let over = match met.filter(|_| pinches).and_then(finger_of) {
-        Some(Finger::Middle) => 1.0,
-        Some(Finger::Ring) => 2.0,
-        Some(Finger::Little) => 3.0,
-        Some(Finger::Index) | None => 0.0,
+        Some(HandFinger::Middle) => 1.0,
+        Some(HandFinger::Ring) => 2.0,
+        Some(HandFinger::Little) => 3.0,
+        Some(HandFinger::Index) | None => 0.0,
     };
     thumb[0] -= 9.0 * over;
     thumb[2] += 7.0 * over;
@@ -295,9 +276,9 @@ fn opposed(mut thumb: [f64; 5], class: HandClass, shape: &Handshape) -> [f64; 5]
     thumb
 }
 
-fn middle(a: &Shape, b: &Shape) -> Shape {
+fn mean_bend_shape(a: &HandBendShape, b: &HandBendShape) -> HandBendShape {
     let mean = |x: f64, y: f64| (x + y) / 2.0;
-    Shape {
+    HandBendShape {
         bends: std::array::from_fn(|f| std::array::from_fn(|j| mean(a.bends[f][j], b.bends[f][j]))),
         spread: std::array::from_fn(|f| mean(a.spread[f], b.spread[f])),
         thumb: std::array::from_fn(|n| mean(a.thumb[n], b.thumb[n])),
@@ -307,7 +288,7 @@ fn middle(a: &Shape, b: &Shape) -> Shape {
 /// Returns the fingers of a contact that cross, the one nearer to the thumb first; `None` if they only touch, at a base or
 /// a side.
 #[must_use]
-pub fn crossed_fingers(contact: &FingerContact) -> Option<[Finger; 2]> {
+pub fn crossed_fingers(contact: &FingerContact) -> Option<[HandFinger; 2]> {
     let (one, other) = (finger_of(contact.first)?, finger_of(contact.second)?);
     let touches = matches!(contact.part, Some(FingerPart::Base | FingerPart::Side));
     (!touches && one != other).then(|| match one.index() < other.index() {
@@ -318,11 +299,8 @@ pub fn crossed_fingers(contact: &FingerContact) -> Option<[Finger; 2]> {
 
 /// Crosses two fingers so that their tips change sides: the finger nearer to the thumb passes in front of the other, which
 /// curls about it. Fingers that touch at a base or a side come together.
-fn cross(hand: &mut Shape, contact: &FingerContact) {
-    let pair = [
-        contact.first.min(contact.second),
-        contact.first.max(contact.second),
-    ];
+fn cross_two_fingers(hand: &mut HandBendShape, contact: &FingerContact) {
+    let pair = [contact.first.min(contact.second), contact.first.max(contact.second)];
     let [Some(front), Some(back)] = pair.map(finger_of) else {
         return;
     };
@@ -332,10 +310,10 @@ fn cross(hand: &mut Shape, contact: &FingerContact) {
         return;
     }
     (hand.spread[front], hand.spread[back]) = (CROSSED_SPREAD[0], CROSSED_SPREAD[1]);
-    for (finger, by) in [front, back].into_iter().zip(CROSSED) {
+    for (finger, by) in [front, back].into_iter().zip(CROSSED_FINGER_BENDS) {
         let bends = &mut hand.bends[finger];
-        if *bends == CLOSED {
-            *bends = STRAIGHT;
+        if *bends == CLOSED_FINGER_BENDS {
+            *bends = STRAIGHT_FINGER_BENDS;
         }
         for (joint, by) in bends.iter_mut().zip(by) {
             *joint = (*joint + by).min(4.0);
@@ -343,10 +321,10 @@ fn cross(hand: &mut Shape, contact: &FingerContact) {
     }
 }
 
-fn thumb_extra(hand: &mut Shape, shape: &Handshape) {
+fn thumb_extra(hand: &mut HandBendShape, shape: &Handshape) {
     match shape.thumb {
         Some(ThumbExtra::Between(a, b)) => {
-            let over = f64::from(a.number().min(b.number())) - 2.0;
+            let over = f64::from(a.digit_number().min(b.digit_number())) - 2.0;
             hand.thumb = [14.0 - 5.0 * over, 34.0 + 5.0 * over, 30.0, 12.0, 16.0];
         }
         Some(ThumbExtra::Enclosed) => hand.thumb = [14.0, 50.0, 20.0, 50.0, 55.0],
@@ -355,7 +333,7 @@ fn thumb_extra(hand: &mut Shape, shape: &Handshape) {
     }
 }
 
-fn angles(hand: &Shape, language: &BodyLanguage) -> HandAngles {
+fn bend_shape_angles(hand: &HandBendShape, language: &BodyLanguage) -> HandAngles {
     let [radial, palmar, opposition, middle, end] = hand.thumb.map(f64::to_radians);
     HandAngles {
         thumb: ThumbAngles {
@@ -375,17 +353,12 @@ fn angles(hand: &Shape, language: &BodyLanguage) -> HandAngles {
 /// The formula's last factor, a twist of some degrees about the finger, is left to the skeleton: the
 /// angles here have none. Bend limits spread; both are defined by the direction of the finger's first
 /// bone.
-fn finger_angles(
-    finger: usize,
-    units: Units,
-    spread: f64,
-    language: &BodyLanguage,
-) -> FingerAngles {
+fn finger_angles(finger: usize, units: JointBendUnits, spread: f64, language: &BodyLanguage) -> FingerAngles {
     let most = [language.bend_base, language.bend_middle, language.bend_end];
     let bend = |joint: usize| (units[joint] / 4.0 * most[joint]).to_radians();
     let base = bend(0);
     let share = (base / std::f64::consts::FRAC_PI_2).clamp(0.0, 1.0);
-    let lean = (FLAT[finger] * (1.0 - share) + FIST[finger] * share).to_radians();
+    let lean = (FLAT_LEAN_DEGREES[finger] * (1.0 - share) + FIST_LEAN_DEGREES[finger] * share).to_radians();
     let spread = spread.to_radians() * (1.0 - share);
     // Along, towards the thumb, out of the palm.
     let leant = [lean.cos(), lean.sin(), 0.0];
@@ -401,24 +374,19 @@ fn finger_angles(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hamnosys::tree::Digits;
+    use crate::hamnosys::tree::DigitList;
 
     fn of(class: HandClass, change: impl FnOnce(&mut Handshape)) -> HandAngles {
         let mut shape = Handshape::default();
         shape.form.class = class;
         change(&mut shape);
-        hand_angles(&shape, BodyLanguage::usual())
+        hand_angles(&shape, BodyLanguage::default_body_language())
     }
 
     #[test]
     fn classes_and_bends_are_near_the_inventory() {
         let inventory = crate::inventory::builtin_by_id("configurations").expect("built in");
-        let pose = |id: &str| {
-            inventory
-                .get(id)
-                .and_then(|value| value.pose)
-                .expect("a pose")
-        };
+        let pose = |id: &str| inventory.value_by_id(id).and_then(|value| value.pose).expect("a pose");
         let across = |shape: &mut Handshape| shape.form.thumb = Some(ThumbPosition::Across);
         let bend = |bend| move |shape: &mut Handshape| shape.form.bend = Some(bend);
         let cases = [
@@ -426,22 +394,22 @@ mod tests {
             ("S", of(HandClass::Fist, across)),
             ("flat", of(HandClass::Flat, |_| {})),
             ("B", of(HandClass::Flat, across)),
-            ("B-bent", of(HandClass::Flat, bend(Bend::Bent))),
-            ("B-round", of(HandClass::Flat, bend(Bend::Round))),
+            ("B-bent", of(HandClass::Flat, bend(FingerBend::Bent))),
+            ("B-round", of(HandClass::Flat, bend(FingerBend::Round))),
             ("1", of(HandClass::Finger2, across)),
             (
                 "X",
                 of(HandClass::Finger2, |shape| {
                     across(shape);
-                    shape.form.bend = Some(Bend::Hooked);
+                    shape.form.bend = Some(FingerBend::Hooked);
                 }),
             ),
             ("U", of(HandClass::Finger23, across)),
             ("V", of(HandClass::Finger23Spread, across)),
             ("4", of(HandClass::Finger2345, across)),
             ("F", of(HandClass::Pinch12Open, |_| {})),
-            ("F-round", of(HandClass::Pinch12Open, bend(Bend::Round))),
-            ("pinch-bent", of(HandClass::Pinch12, bend(Bend::Bent))),
+            ("F-round", of(HandClass::Pinch12Open, bend(FingerBend::Round))),
+            ("pinch-bent", of(HandClass::Pinch12, bend(FingerBend::Bent))),
             ("beak", of(HandClass::PinchAll, |_| {})),
             ("C-small", of(HandClass::Cee12, |_| {})),
             ("C", of(HandClass::CeeAll, |_| {})),
@@ -449,7 +417,7 @@ mod tests {
                 "I",
                 of(HandClass::Finger2, |shape| {
                     across(shape);
-                    shape.special = Digits(vec![Digit::Little]);
+                    shape.special = DigitList(vec![HandDigit::Little]);
                 }),
             ),
         ];
@@ -464,9 +432,9 @@ mod tests {
 
     #[test]
     fn base_joints_follow_the_formula_at_both_ends() {
-        let language = BodyLanguage::usual();
+        let language = BodyLanguage::default_body_language();
         let flat = finger_angles(3, [0.0; 3], -20.0, language);
-        assert!((flat.spread.to_degrees() - (FLAT[3] - 20.0)).abs() < 1e-9);
+        assert!((flat.spread.to_degrees() - (FLAT_LEAN_DEGREES[3] - 20.0)).abs() < 1e-9);
         assert!(flat.flexion[0].abs() < 1e-9);
         let mut full = language.clone();
         full.bend_base = 90.0;
@@ -478,30 +446,26 @@ mod tests {
             (wide.spread - none.spread).abs() < 1e-9,
             "full bend takes the spread away"
         );
-        assert!((wide.spread.to_degrees() - FIST[3]).abs() < 1e-9);
+        assert!((wide.spread.to_degrees() - FIST_LEAN_DEGREES[3]).abs() < 1e-9);
         assert!((wide.flexion[0].to_degrees() - 90.0).abs() < 1e-9);
     }
 
     #[test]
     fn an_in_between_form_is_the_mean_and_single_digits_take_precedence() {
         let between = of(HandClass::Flat, |shape| {
-            shape.between = Some(Form {
-                bend: Some(Bend::Bent),
+            shape.between = Some(HandshapeForm {
+                bend: Some(FingerBend::Bent),
                 ..shape.form
             });
         });
         let [base, ..] = between.fingers[1].flexion;
-        assert!(
-            (base.to_degrees() - 44.0).abs() < 1.0,
-            "{}",
-            base.to_degrees()
-        );
-        let single = of(HandClass::Flat, |shape| shape.bends[2] = Some(Bend::Bent));
+        assert!((base.to_degrees() - 44.0).abs() < 1.0, "{}", base.to_degrees());
+        let single = of(HandClass::Flat, |shape| shape.bends[2] = Some(FingerBend::Bent));
         assert!(single.fingers[1].flexion[0] > 1.4 && single.fingers[0].flexion[0].abs() < 0.1);
         let crossed = of(HandClass::Finger23, |shape| {
             shape.contacts = vec![FingerContact {
-                first: Digit::Middle,
-                second: Digit::Index,
+                first: HandDigit::Middle,
+                second: HandDigit::Index,
                 part: None,
             }];
         });

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::symbol::Symbol;
-use crate::text::{did_you_mean, nearest};
+use super::symbol::HamnosysSymbol;
+use crate::text::{did_you_mean, nearest_candidate};
 
 /// The reason why a text is not a transcription. Indexes count symbols from 0,
 /// messages from 1.
@@ -16,7 +16,7 @@ pub enum HamnosysError {
     #[error(
         "symbol {} is {written:?}, which HamNoSys 4 does not have; write one of its 209 symbols or their names{}",
         index + 1,
-        meant(written)
+        similar_symbol_hint(written)
     )]
     Unknown {
         /// The index of the symbol.
@@ -30,7 +30,7 @@ pub enum HamnosysError {
         /// The index of the symbol.
         index: usize,
         /// The symbol.
-        symbol: Symbol,
+        symbol: HamnosysSymbol,
         /// The symbols that are possible there.
         expected: &'static str,
     },
@@ -48,7 +48,7 @@ pub enum HamnosysError {
         /// The opening bracket.
         index: usize,
         /// The bracket.
-        symbol: Symbol,
+        symbol: HamnosysSymbol,
         /// The index at which it should be closed.
         at: usize,
         /// The expected symbol.
@@ -73,8 +73,8 @@ pub enum HamnosysError {
 }
 
 /// Returns the end of a message about a word that names no symbol: the most similar name, if any.
-pub(super) fn meant(written: &str) -> String {
-    let near = nearest(written, Symbol::all().map(Symbol::name));
+pub(super) fn similar_symbol_hint(written: &str) -> String {
+    let near = nearest_candidate(written, HamnosysSymbol::all_symbols().map(HamnosysSymbol::symbol_name));
     did_you_mean(near.filter(|_| written.is_ascii()))
 }
 
@@ -95,7 +95,7 @@ impl HamnosysError {
 
 /// An oddity of a transcription that did not stop its reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct HamnosysFinding {
     /// The index of the symbol concerned, from 0.
     pub index: usize,
     /// The oddity.
@@ -106,22 +106,16 @@ pub struct Finding {
     pub dropped: bool,
 }
 
-impl Finding {
+impl HamnosysFinding {
     /// Returns the number of the symbol concerned, from 1, for messages.
     #[must_use]
-    pub fn number(&self) -> usize {
+    pub fn symbol_number(&self) -> usize {
         self.index + 1
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for HamnosysFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "symbol {}: {}; {}",
-            self.number(),
-            self.message,
-            self.remedy
-        )
+        write!(f, "symbol {}: {}; {}", self.symbol_number(), self.message, self.remedy)
     }
 }

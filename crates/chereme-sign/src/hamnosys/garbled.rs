@@ -1,15 +1,15 @@
 //! Repairs HamNoSys that was saved as UTF-8 and read as Latin-1 or Windows-1252, once or twice.
 
-use super::symbol::Symbol;
+use super::symbol::HamnosysSymbol;
 
 /// The characters of the bytes 0x80 to 0x9F in Windows-1252; the five bytes that it leaves out are Latin-1's.
-const WINDOWS: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
-    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+const WINDOWS_HIGH_CHARS: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’',
+    '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
 ];
 
 /// The first byte of a symbol of HamNoSys in UTF-8 as Latin-1 shows it, and after a second such reading.
-const TRACES: [char; 3] = ['î', 'ï', 'Ã'];
+const GARBLED_SYMBOL_TRACES: [char; 3] = ['î', 'ï', 'Ã'];
 
 /// Returns a text with its symbols repaired, if UTF-8 was read as another encoding, once or twice; `None`
 /// if it holds no such symbols.
@@ -21,15 +21,15 @@ const TRACES: [char; 3] = ['î', 'ï', 'Ã'];
 /// assert_eq!(mended("maître"), None);
 /// ```
 #[must_use]
-pub fn mended(text: &str) -> Option<String> {
-    if !text.contains(TRACES) {
+pub fn repair_garbled_symbols(text: &str) -> Option<String> {
+    if !text.contains(GARBLED_SYMBOL_TRACES) {
         return None;
     }
-    let pieces = pieces(text);
-    let symbols = |run: &&str| decoded(run, holds_symbol);
+    let pieces = split_misread_runs(text);
+    let symbols = |run: &&str| decode_misread_run(run, holds_symbol);
     pieces.iter().find_map(symbols)?;
     // Symbols next to garbled ones went through the same wrong encoding.
-    let mend = |run: &&str| match decoded(run, holds_symbol).or_else(|| plainest(run)) {
+    let mend = |run: &&str| match decode_misread_run(run, holds_symbol).or_else(|| plainest(run)) {
         Some(mended) => mended,
         None => (*run).to_owned(),
     };
@@ -41,11 +41,9 @@ pub fn mended(text: &str) -> Option<String> {
 #[must_use]
 pub fn is_garbled(text: &str) -> bool {
     let trace = |c: char| {
-        TRACES.contains(&c)
-            || c == char::REPLACEMENT_CHARACTER
-            || ('\u{80}'..='\u{9f}').contains(&c)
+        GARBLED_SYMBOL_TRACES.contains(&c) || c == char::REPLACEMENT_CHARACTER || ('\u{80}'..='\u{9f}').contains(&c)
     };
-    match mended(text) {
+    match repair_garbled_symbols(text) {
         Some(mended) => mended.contains(trace),
         None => text.contains(trace),
     }
@@ -61,7 +59,7 @@ fn run(text: &str) -> &str {
             (_, open) if open > 0 => open - 1,
             _ => 0,
         };
-        (c == ' ' && open == 1) || (!c.is_ascii() && byte(c).is_some())
+        (c == ' ' && open == 1) || (!c.is_ascii() && misread_char_byte(c).is_some())
     };
     let length: usize = text
         .chars()
@@ -70,10 +68,10 @@ fn run(text: &str) -> &str {
     &text[..length]
 }
 
-fn byte(c: char) -> Option<u8> {
+fn misread_char_byte(c: char) -> Option<u8> {
     match u8::try_from(c) {
         Ok(byte) => Some(byte),
-        Err(_) => WINDOWS
+        Err(_) => WINDOWS_HIGH_CHARS
             .iter()
             .position(|known| *known == c)
             .and_then(|at| u8::try_from(at + 0x80).ok()),
@@ -81,7 +79,7 @@ fn byte(c: char) -> Option<u8> {
 }
 
 /// Splits a text into runs of possibly misread bytes above 0x7F, and the text between them.
-fn pieces(text: &str) -> Vec<&str> {
+fn split_misread_runs(text: &str) -> Vec<&str> {
     let (mut pieces, mut rest) = (Vec::new(), text);
     while let Some(first) = rest.chars().next() {
         let length = match run(rest).len() {
@@ -96,11 +94,11 @@ fn pieces(text: &str) -> Vec<&str> {
 }
 
 fn holds_symbol(text: &str) -> bool {
-    text.chars().any(|c| Symbol::from_char(c).is_some())
+    text.chars().any(|c| HamnosysSymbol::from_char(c).is_some())
 }
 
 /// Returns the UTF-8 reading of a run, decoded once or twice until `wanted` accepts it.
-fn decoded(run: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
+fn decode_misread_run(run: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
     let first = read_again(run)?;
     if wanted(&first) {
         return Some(first);
@@ -118,7 +116,9 @@ fn read_again(text: &str) -> Option<String> {
     if text.is_ascii() {
         return None;
     }
-    let byte = |c| if c == ' ' { Some(0xa0) } else { byte(c) };
+    let byte = |c| {
+        if c == ' ' { Some(0xa0) } else { misread_char_byte(c) }
+    };
     let bytes: Vec<u8> = text.chars().map(byte).collect::<Option<_>>()?;
     String::from_utf8(bytes).ok()
 }
@@ -134,7 +134,7 @@ mod tests {
 
     fn as_windows(text: &str) -> String {
         let character = |byte: u8| match byte {
-            0x80..=0x9f => WINDOWS[usize::from(byte - 0x80)],
+            0x80..=0x9f => WINDOWS_HIGH_CHARS[usize::from(byte - 0x80)],
             _ => char::from(byte),
         };
         text.bytes().map(character).collect()
@@ -151,14 +151,14 @@ mod tests {
             for read in [as_latin, as_windows] {
                 let (once, twice) = (read(text), read(&read(text)));
                 for garbled in [&once, &twice, &as_latin(&as_windows(text))] {
-                    assert_eq!(mended(garbled).as_deref(), Some(text), "{garbled:?}");
+                    assert_eq!(repair_garbled_symbols(garbled).as_deref(), Some(text), "{garbled:?}");
                     assert!(!is_garbled(garbled));
                 }
             }
-            assert_eq!(mended(text), None, "what is whole stays as it is");
+            assert_eq!(repair_garbled_symbols(text), None, "what is whole stays as it is");
         }
         let blank = as_windows("\u{e020}\u{e03c}").replace('\u{a0}', " ");
-        assert_eq!(mended(&blank).as_deref(), Some("\u{e020}\u{e03c}"));
+        assert_eq!(repair_garbled_symbols(&blank).as_deref(), Some("\u{e020}\u{e03c}"));
     }
 
     #[test]
@@ -172,10 +172,10 @@ mod tests {
             ("", false),
         ] {
             assert_eq!(is_garbled(text), garbled, "{text:?}");
-            assert_eq!(mended(text), None, "{text:?}");
+            assert_eq!(repair_garbled_symbols(text), None, "{text:?}");
         }
         for word in ["maître", "Ãgypten", "ïle", "naïve €"] {
-            assert_eq!(mended(word), None, "{word}");
+            assert_eq!(repair_garbled_symbols(word), None, "{word}");
         }
     }
 
@@ -183,7 +183,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
         fn any_text_is_accepted(text in "[îïÃ®€\u{80}-\u{a0} \u{e000}-\u{e0ff}a]{0,40}") {
-            let _ = (mended(&text), is_garbled(&text));
+            let _ = (repair_garbled_symbols(&text), is_garbled(&text));
         }
     }
 }

@@ -19,11 +19,11 @@
 //!
 //! # Reading and writing text
 //!
-//! [`parse()`] refuses impossible notation and names the symbol; [`parse_lenient`] leaves such symbols out
-//! and reports them. In both modes the tree prints to exactly the bytes that were read: [`print()`] has
-//! one canonical order, and each part with another spelling remembers its own symbols ([`Written`]). Text
-//! that the tree does not hold is a [`Finding`]; a part of the tree that text cannot express is a
-//! [`Loss`].
+//! [`parse_hamnosys()`] refuses impossible notation and names the symbol; [`parse_lenient`] leaves such symbols out
+//! and reports them. In both modes the tree prints to exactly the bytes that were read: [`print_hamnosys()`] has
+//! one canonical order, and each part with another spelling remembers its own symbols ([`WrittenSymbols`]). Text
+//! that the tree does not hold is a [`HamnosysFinding`]; a part of the tree that text cannot express is a
+//! [`NotationLoss`].
 //!
 //! The grammar, in canonical order (`?` may be left out, `*` any number, `|` or; capitals are symbols):
 //!
@@ -64,12 +64,12 @@ pub mod components;
 pub mod direction;
 pub mod drawing;
 mod error;
-pub mod face;
 mod garbled;
-pub mod language;
-mod lex;
-pub mod nonmanual;
-mod notated;
+pub mod hamnosys_face;
+pub mod hamnosys_language;
+mod hamnosys_lex;
+pub mod hamnosys_nonmanual;
+mod hamnosys_notated;
 pub mod orientation;
 mod parse;
 mod print;
@@ -77,22 +77,23 @@ pub mod sites;
 pub mod symbol;
 pub mod tree;
 
-pub use direction::{Compass, Direction};
-pub use error::{Finding, HamnosysError};
-pub use garbled::{is_garbled, mended};
-pub use language::{BodyLanguage, LanguageChanges, LanguageError};
-pub use lex::{MAX_SYMBOLS, from_names, in_plain_symbols, spelled_symbols, to_names};
-pub use nonmanual::{Act, Nonmanual, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};
-pub use notated::Notated;
-pub use parse::{MAX_DEPTH, Transcription, parse, parse_lenient};
-pub use print::{Loss, Printed, print, text_of};
-pub use symbol::{Class, Symbol};
+pub use direction::{CompassDirection, SpatialDirection};
+pub use error::{HamnosysError, HamnosysFinding};
+pub use garbled::{is_garbled, repair_garbled_symbols};
+pub use hamnosys_language::{BodyLanguage, LanguageChanges, LanguageError};
+pub use hamnosys_lex::{MAX_SYMBOLS, from_names, in_plain_symbols, spelled_symbols, to_names};
+pub use hamnosys_nonmanual::{NonmanualAct, NonmanualActs, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};
+pub use hamnosys_notated::NotatedSign;
+pub use parse::{HamnosysTranscription, MAX_BRACKET_DEPTH, parse_hamnosys, parse_lenient};
+pub use print::{NotationLoss, PrintedSign, print_hamnosys, sign_hamnosys_text};
+pub use symbol::{HamnosysSymbol, SymbolClass};
 pub use tree::{
-    Aim, Amount, Bend, BodyAction, BodyLocation, BodyPlace, Circular, Clock, Constellation,
-    Contact, Curve, Digit, Digits, Directed, Each, Ellipse, FingerContact, FingerPart, Form, Frame,
-    Growth, HandClass, HandLocation, HandSite, HandsUsed, Handshape, Manner, Manual, Motion,
-    MotionKind, Opening, Place, Posture, Repeat, Repetition, Side, Sign, Site, Size, Symmetry,
-    ThumbExtra, ThumbPosition, WristMotion, Written, Zigzag,
+    BodyAction, BodyLocation, BodyPlace, CeeOpening, CircularPath, ClockRange, DigitList, DirectedPath, DirectionAim,
+    DirectionFrame, EachHand, EllipseAxis, FingerBend, FingerContact, FingerPart, HamnosysSign, HandClass,
+    HandConstellation, HandDigit, HandLocation, HandPlace, HandSite, HandSymmetry, HandsUsed, Handshape, HandshapeForm,
+    LocationSide, ManualPart, MotionGrowth, MotionKind, MotionManner, MotionRepetition, MotionSize, NotatedMotion,
+    NotatedPosture, PathCurve, PathZigzag, PlaceContact, RepeatKind, SidedLocation, SizeAmount, ThumbExtra,
+    ThumbPosition, WristMotion, WrittenSymbols,
 };
 
 #[cfg(test)]

@@ -14,46 +14,42 @@
 //! both.
 
 /// A vector to the signer's left, up and away from the signer.
-type Vector = [f64; 3];
+type SignerVector = [f64; 3];
 
 /// Returns the unit vector of a palm's direction: `direction` is the unit vector of the hand's axis, `angle` is as in
-/// [`Compass::angle`](super::Compass::angle).
+/// [`CompassDirection::compass_angle`](super::CompassDirection::compass_angle).
 #[must_use]
-pub fn palm(direction: [f64; 3], angle: f64) -> [f64; 3] {
-    about(direction, angle)
+pub fn palm_direction_vector(direction: [f64; 3], angle: f64) -> [f64; 3] {
+    rotate_from_forward(direction, angle)
 }
 
 /// Returns the angle of a palm that faces `palm` on a hand that points to `direction`, both unit vectors.
-/// For this angle, [`palm`] returns the part of `palm` at a right angle to the direction.
+/// For this angle, [`palm_direction_vector`] returns the part of `palm_direction_vector` at a right angle to the direction.
 #[must_use]
 pub fn palm_angle(direction: [f64; 3], palm: [f64; 3]) -> f64 {
     angle_about(direction, palm)
 }
 
-/// Inverts [`about`]: returns the angle of the part of `vector` at a right angle to `direction`, a unit vector.
+/// Inverts [`rotate_from_forward`]: returns the angle of the part of `vector` at a right angle to `direction`, a unit vector.
 #[must_use]
 pub fn angle_about(direction: [f64; 3], vector: [f64; 3]) -> f64 {
-    let dot = |a: Vector, b: Vector| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let down = dot(vector, about(direction, 0.0));
-    let right = dot(vector, about(direction, std::f64::consts::FRAC_PI_2));
+    let dot = |a: SignerVector, b: SignerVector| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let down = dot(vector, rotate_from_forward(direction, 0.0));
+    let right = dot(vector, rotate_from_forward(direction, std::f64::consts::FRAC_PI_2));
     right.atan2(down)
 }
 
 /// Applies the shortest rotation from forward to `direction` to the direction at `angle` from down over
 /// right; mirrored for directions towards the signer.
 #[must_use]
-pub fn about(direction: [f64; 3], angle: f64) -> [f64; 3] {
+pub fn rotate_from_forward(direction: [f64; 3], angle: f64) -> [f64; 3] {
     let [x, y, z] = direction;
     let towards = z < -1e-9;
     let z = z.abs();
     let (across, down) = (-angle.sin(), -angle.cos());
     // The shortest turn from forward to (x, y, z) applied to (across, down, 0).
     let along = across * x + down * y;
-    let turned = [
-        across - x * along / (1.0 + z),
-        down - y * along / (1.0 + z),
-        -along,
-    ];
+    let turned = [across - x * along / (1.0 + z), down - y * along / (1.0 + z), -along];
     if towards {
         [turned[0], turned[1], -turned[2]]
     } else {
@@ -64,7 +60,7 @@ pub fn about(direction: [f64; 3], angle: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hamnosys::{Compass, Direction};
+    use crate::hamnosys::{CompassDirection, SpatialDirection};
 
     #[test]
     fn palm_symbols_face_as_transcribers_use_them() {
@@ -84,9 +80,9 @@ mod tests {
             ("ui", "d", [0.0, -half, -half]),
             ("ul", "dl", [half, -half, 0.0]),
         ] {
-            let pointing: Direction = direction.parse().expect("a direction");
-            let angle = letter.parse::<Compass>().expect("a palm").angle();
-            let is = palm(pointing.vector(), angle);
+            let pointing: SpatialDirection = direction.parse().expect("a direction");
+            let angle = letter.parse::<CompassDirection>().expect("a palm").compass_angle();
+            let is = palm_direction_vector(pointing.spatial_direction_vector(), angle);
             let far: f64 = is.iter().zip(faces).map(|(a, b)| (a - b).abs()).sum();
             assert!(far < 1e-9, "{direction} {letter}: {is:?}");
         }
@@ -94,15 +90,15 @@ mod tests {
 
     #[test]
     fn palms_are_perpendicular_to_the_hand_and_angles_convert_back() {
-        for direction in Direction::all() {
-            let pointing = direction.vector();
-            for letter in Compass::ALL {
-                let is = palm(pointing, letter.angle());
+        for direction in SpatialDirection::all_spatial_directions() {
+            let pointing = direction.spatial_direction_vector();
+            for letter in CompassDirection::ALL_COMPASS_DIRECTIONS {
+                let is = palm_direction_vector(pointing, letter.compass_angle());
                 let along: f64 = is.iter().zip(pointing).map(|(a, b)| a * b).sum();
                 let length: f64 = is.iter().map(|a| a * a).sum();
                 assert!(along.abs() < 1e-9 && (length - 1.0).abs() < 1e-9);
                 assert_eq!(
-                    Compass::nearest(palm_angle(pointing, is)),
+                    CompassDirection::nearest_compass_direction(palm_angle(pointing, is)),
                     letter,
                     "{direction}"
                 );

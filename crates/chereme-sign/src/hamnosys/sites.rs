@@ -1,22 +1,22 @@
 //! Locations of notation as places on a body: a landmark with an offset, and an outward normal.
 //!
 //! Offsets and directions are to the signer's left, up and forward; offsets in shoulder widths. The
-//! landmarks' names are those of `chereme_motion::Anatomy::landmark`.
+//! landmarks' names are those of `chereme_motion::BodyAnatomy::landmark_place_position`.
 
-use chereme_motion::Side as Half;
+use chereme_motion::BodySide as Half;
 
-use super::language::BodyLanguage;
-use super::tree::{BodyLocation, Contact, Side, Site};
+use super::hamnosys_language::BodyLanguage;
+use super::tree::{BodyLocation, LocationSide, PlaceContact, SidedLocation};
 
-mod points;
+mod sites_points;
 
-pub use points::{
-    Face, HandPoint, coming_first, digit_joint, finger_point, from_bone, hand_points, on_palm,
+pub use sites_points::{
+    DigitFace, NotatedHandPoint, coming_first, digit_joint, finger_point, from_bone, hand_points, on_palm,
 };
 
 /// The part of the body that a place belongs to; it determines distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Region {
+pub enum BodyRegion {
     /// The trunk and the space before it.
     Trunk,
     /// The head.
@@ -35,7 +35,7 @@ pub struct BodySite {
     /// The outward unit normal there (left, up, forward).
     pub out: [f64; 3],
     /// The part of the body that it belongs to.
-    pub region: Region,
+    pub region: BodyRegion,
     /// Distance to the left of the middle for a hand that is before the body rather than at it, in
     /// shoulder widths.
     pub lateral: f64,
@@ -50,7 +50,7 @@ pub struct BodySite {
 impl BodySite {
     /// Returns the part of the body that determines the distance of a hand with this contact.
     #[must_use]
-    pub fn region_for(&self, contact: Option<Contact>) -> Region {
+    pub fn region_for(&self, contact: Option<PlaceContact>) -> BodyRegion {
         region_for((self.region, self.level), contact)
     }
 }
@@ -58,29 +58,29 @@ impl BodySite {
 /// Returns the part of the body that determines the distance of a hand with a contact, from a place's region and
 /// whether it is a height of the space before the body.
 #[must_use]
-pub fn region_for((region, level): (Region, bool), contact: Option<Contact>) -> Region {
+pub fn region_for((region, level): (BodyRegion, bool), contact: Option<PlaceContact>) -> BodyRegion {
     match contact {
-        None | Some(Contact::Close | Contact::ArmExtended) if level => Region::Trunk,
+        None | Some(PlaceContact::Close | PlaceContact::ArmExtended) if level => BodyRegion::Trunk,
         _ => region,
     }
 }
 
 /// Distance from the middle of the `at` side of the trunk, in shoulder widths.
-const AT: f64 = 0.30;
+const AT_SIDE_SHOULDER_WIDTHS: f64 = 0.30;
 /// Distance from the middle of a hand before a place at the `at` side, in shoulder widths.
-const BEFORE: f64 = 0.45;
+const BEFORE_SIDE_SHOULDER_WIDTHS: f64 = 0.45;
 /// Distance from the middle of a hand next to the body, in shoulder widths.
-const BESIDE: f64 = 0.80;
+const BESIDE_BODY_SHOULDER_WIDTHS: f64 = 0.80;
 
 /// Inward distance from a place next to the head to the point that a hand touches there, in shoulder
 /// widths: at the temple, the cheek, the jaw.
 const TOUCHED_BESIDE: f64 = 0.22;
 /// Distance from the middle of the body to the front of the trunk, in shoulder widths.
-pub const FRONT: f64 = 0.33;
+pub const TRUNK_FRONT_SHOULDER_WIDTHS: f64 = 0.33;
 /// Distance from the bone of an arm to its skin, in lengths of the arm.
-pub const FLESH: f64 = 0.08;
+pub const FLESH_DEPTH_ARM_LENGTHS: f64 = 0.08;
 /// Sideways shift of a hand before a place of head or arm, as a share of the place's own distance from the middle.
-const ASIDE: f64 = 0.5;
+const SIDEWAYS_SHIFT_SHARE: f64 = 0.5;
 /// Share of the usual distance that a hand next to the trunk is in front of it.
 const BESIDE_NEARER: f64 = 0.5;
 
@@ -113,20 +113,20 @@ impl HandAt {
     /// points away from the signer is farther by that: the forearm decides how far hands are, and an elbow that would
     /// have to go behind the back for a nearer place stays beside the trunk.
     #[must_use]
-    pub fn of(
-        (region, lateral, beside): (Region, f64, bool),
-        contact: Option<Contact>,
+    pub fn hand_at_place(
+        (region, lateral, beside): (BodyRegion, f64, bool),
+        contact: Option<PlaceContact>,
         language: &BodyLanguage,
         [arm, shoulders]: [f64; 2],
         ahead: f64,
     ) -> Self {
-        let trunk = region == Region::Trunk;
+        let trunk = region == BodyRegion::Trunk;
         let far = match contact {
-            Some(Contact::ArmExtended) => language.far,
-            Some(Contact::Close) if trunk => language.near_trunk,
-            Some(Contact::Close) => language.near_face,
+            Some(PlaceContact::ArmExtended) => language.far,
+            Some(PlaceContact::Close) if trunk => language.near_trunk,
+            Some(PlaceContact::Close) => language.near_face,
             Some(_) if !beside => return Self::Place,
-            Some(Contact::Touch) if region == Region::Face => {
+            Some(PlaceContact::Touch) if region == BodyRegion::Face => {
                 let out = -TOUCHED_BESIDE * shoulders;
                 return Self::Off { out, left: 0.0 };
             }
@@ -137,19 +137,19 @@ impl HandAt {
             let share = if beside { BESIDE_NEARER } else { 1.0 };
             // An extended arm is extended beside the trunk too, and reaches no farther for a hand that points away.
             let (share, ahead) = match contact {
-                Some(Contact::ArmExtended) => (1.0, 0.0),
+                Some(PlaceContact::ArmExtended) => (1.0, 0.0),
                 _ => (share, ahead.max(0.0)),
             };
             return Self::Front {
                 left: lateral * shoulders,
-                forward: FRONT * shoulders + far * share + ahead,
+                forward: TRUNK_FRONT_SHOULDER_WIDTHS * shoulders + far * share + ahead,
             };
         }
-        let near = contact == Some(Contact::Close) || beside;
+        let near = contact == Some(PlaceContact::Close) || beside;
         let left = if near {
             0.0
         } else {
-            ASIDE * lateral * shoulders
+            SIDEWAYS_SHIFT_SHARE * lateral * shoulders
         };
         Self::Off { out: far, left }
     }
@@ -160,40 +160,53 @@ impl HandAt {
 /// `acting` is the hand that decides the side of paired places without a notated side; places on arms are
 /// then on the other arm. With `mirrored`, left and right in the notation are exchanged.
 #[must_use]
-pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> BodySite {
-    let half = said(site.side, mirrored);
-    let beside = matches!(site.side, Some(Side::LeftBeside | Side::RightBeside));
-    let sign = half.map_or(0.0, Half::sign);
-    let own = half.unwrap_or(acting);
+pub fn resolve_body_site(site: &SidedLocation<BodyLocation>, acting: Half, mirrored: bool) -> BodySite {
+    let half = half_of_side(site.side, mirrored);
+    let is_beside = matches!(site.side, Some(LocationSide::LeftBeside | LocationSide::RightBeside));
+    let sign = half.map_or(0.0, Half::side_sign);
+    let acting_half = half.unwrap_or(acting);
     let trunk = |landmark: &str, up: f64| {
-        let far = if beside { BESIDE } else { AT };
+        let far = if is_beside {
+            BESIDE_BODY_SHOULDER_WIDTHS
+        } else {
+            AT_SIDE_SHOULDER_WIDTHS
+        };
         let back = if half.is_some() { -0.04 } else { 0.0 };
         BodySite {
             landmark: landmark.to_owned(),
             offset: [sign * far, up, back],
             out: [0.0, 0.0, 1.0],
-            region: Region::Trunk,
-            lateral: sign * if beside { BESIDE } else { BEFORE },
-            beside,
+            region: BodyRegion::Trunk,
+            lateral: sign
+                * if is_beside {
+                    BESIDE_BODY_SHOULDER_WIDTHS
+                } else {
+                    BEFORE_SIDE_SHOULDER_WIDTHS
+                },
+            beside: is_beside,
             level: false,
         }
     };
     let face = |landmark: String, offset: [f64; 3], out: [f64; 3]| BodySite {
         landmark,
         offset: [
-            offset[0] + if beside { sign * 0.30 } else { 0.0 },
+            offset[0] + if is_beside { sign * 0.30 } else { 0.0 },
             offset[1],
             offset[2],
         ],
-        out: if beside { [sign, 0.0, 0.0] } else { unit(out) },
-        region: Region::Face,
-        lateral: sign * if beside { 0.62 } else { 0.30 },
-        beside,
+        out: if is_beside {
+            [sign, 0.0, 0.0]
+        } else {
+            unit_vector_of(out)
+        },
+        region: BodyRegion::Face,
+        lateral: sign * if is_beside { 0.62 } else { 0.30 },
+        beside: is_beside,
         level: false,
     };
-    let sided = |name: &str| format!("{}-{name}", own.name());
+    let sided = |name: &str| format!("{}-{name}", acting_half.body_side_name());
     let or = |middle: &str, side: &str| match half {
-        Some(half) => format!("{}-{side}", half.name()),
+        Some(half) => format!("{}-{side}", half.body_side_name()),
         None => middle.to_owned(),
     };
     let front = [0.35 * sign, 0.0, 1.0];
@@ -205,28 +218,33 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         BodyLocation::Stomach => trunk("stomach", 0.0),
         BodyLocation::BelowStomach => trunk("abdomen", 0.0),
         BodyLocation::ShoulderTop => match half {
-            Some(_) if !beside => BodySite {
+            Some(_) if !is_beside => BodySite {
                 landmark: sided("shoulder"),
                 offset: [-0.08 * sign, 0.20, 0.06],
                 out: [0.0, 1.0, 0.0],
-                lateral: sign * BEFORE,
+                lateral: sign * BEFORE_SIDE_SHOULDER_WIDTHS,
                 ..trunk("throat", 0.0)
             },
             _ => trunk("throat", -0.06),
         },
         BodyLocation::Neck => match half {
-            Some(_) if !beside => BodySite {
-                out: unit([0.6 * sign, 0.0, 1.0]),
+            Some(_) if !is_beside => BodySite {
+                out: unit_vector_of([0.6 * sign, 0.0, 1.0]),
                 landmark: sided("neck-side"),
                 offset: [0.0, -0.02, 0.10],
-                lateral: sign * BEFORE,
+                lateral: sign * BEFORE_SIDE_SHOULDER_WIDTHS,
                 ..trunk("throat", 0.0)
             },
             _ => trunk("throat", 0.02),
         },
         BodyLocation::Head => BodySite {
             level: true,
-            lateral: sign * if beside { BESIDE } else { BEFORE },
+            lateral: sign
+                * if is_beside {
+                    BESIDE_BODY_SHOULDER_WIDTHS
+                } else {
+                    BEFORE_SIDE_SHOULDER_WIDTHS
+                },
             ..match half {
                 Some(_) => face(sided("temple"), [0.0, 0.0, 0.0], [sign, 0.0, 0.3]),
                 None => face("eyebrows".into(), [0.0; 3], front),
@@ -235,11 +253,7 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         BodyLocation::HeadTop => face("head-top".into(), shifted(0.16), [0.25 * sign, 1.0, 0.0]),
         BodyLocation::Forehead => match half {
             // The curve of the skull towards the temple.
-            Some(_) => face(
-                "forehead".into(),
-                [sign * 0.16, 0.0, -0.10],
-                [0.8 * sign, 0.0, 0.6],
-            ),
+            Some(_) => face("forehead".into(), [sign * 0.16, 0.0, -0.10], [0.8 * sign, 0.0, 0.6]),
             None => face("forehead".into(), [0.0; 3], front),
         },
         BodyLocation::Eyebrows => face(or("eyebrows", "eyebrow"), [0.0; 3], front),
@@ -248,9 +262,7 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         BodyLocation::LowerEyelid => face(or("eyes", "eye"), [0.0, -0.03, 0.01], front),
         BodyLocation::Nose => face("nose".into(), shifted(0.04), front),
         BodyLocation::Nostrils => face(or("nose", "nostril"), [0.0, -0.03, 0.0], [0.0, -0.5, 1.0]),
-        BodyLocation::Lips | BodyLocation::Teeth => {
-            face(or("mouth", "mouth-corner"), [0.0; 3], front)
-        }
+        BodyLocation::Lips | BodyLocation::Teeth => face(or("mouth", "mouth-corner"), [0.0; 3], front),
         BodyLocation::Tongue => face(or("mouth", "mouth-corner"), [0.0, -0.01, 0.03], front),
         BodyLocation::UpperLip | BodyLocation::UpperTeeth => {
             face(or("mouth", "mouth-corner"), [0.0, 0.025, 0.0], front)
@@ -260,37 +272,37 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         }
         BodyLocation::Chin => face("chin".into(), shifted(0.10), front),
         BodyLocation::UnderChin => face("under-chin".into(), shifted(0.08), [0.0, -1.0, 0.35]),
-        BodyLocation::Ear => face(sided("ear"), [0.0; 3], [own.sign(), 0.0, 0.1]),
-        BodyLocation::EarLobe => face(sided("earlobe"), [0.0; 3], [own.sign(), -0.2, 0.1]),
-        BodyLocation::Cheek => face(sided("cheek"), [0.0; 3], [0.7 * own.sign(), 0.0, 0.7]),
-        BodyLocation::UpperArm => arm(site.side, acting, "upper-arm"),
-        BodyLocation::Elbow => arm(site.side, acting, "elbow"),
-        BodyLocation::ElbowInside => arm(Some(site.side.unwrap_or(Side::Front)), acting, "elbow"),
-        BodyLocation::LowerArm => arm(site.side, acting, "forearm"),
+        BodyLocation::Ear => face(sided("ear"), [0.0; 3], [acting_half.side_sign(), 0.0, 0.1]),
+        BodyLocation::EarLobe => face(sided("earlobe"), [0.0; 3], [acting_half.side_sign(), -0.2, 0.1]),
+        BodyLocation::Cheek => face(sided("cheek"), [0.0; 3], [0.7 * acting_half.side_sign(), 0.0, 0.7]),
+        BodyLocation::UpperArm => arm_body_site(site.side, acting, "upper-arm"),
+        BodyLocation::Elbow => arm_body_site(site.side, acting, "elbow"),
+        BodyLocation::ElbowInside => arm_body_site(Some(site.side.unwrap_or(LocationSide::Front)), acting, "elbow"),
+        BodyLocation::LowerArm => arm_body_site(site.side, acting, "forearm"),
     }
 }
 
 /// Returns a place on the arm that an acting hand reaches for: the other arm, whatever side is notated, as no hand
 /// reaches its own.
-fn arm(side: Option<Side>, acting: Half, part: &str) -> BodySite {
-    let half = acting.other();
-    let outside = half.sign();
+fn arm_body_site(side: Option<LocationSide>, acting: Half, part: &str) -> BodySite {
+    let half = acting.opposite_side();
+    let outside = half.side_sign();
     let out = match side {
-        Some(Side::Palmar | Side::Front) => [-0.3 * outside, 0.2, 1.0],
-        Some(Side::Back) => [0.3 * outside, 0.0, -1.0],
-        Some(Side::Ulnar) => [0.0, -1.0, 0.2],
-        Some(Side::Radial | Side::Dorsal) => [0.2 * outside, 1.0, 0.4],
+        Some(LocationSide::Palmar | LocationSide::Front) => [-0.3 * outside, 0.2, 1.0],
+        Some(LocationSide::Back) => [0.3 * outside, 0.0, -1.0],
+        Some(LocationSide::Ulnar) => [0.0, -1.0, 0.2],
+        Some(LocationSide::Radial | LocationSide::Dorsal) => [0.2 * outside, 1.0, 0.4],
         _ => match part {
             "forearm" | "elbow" => [0.2 * outside, 1.0, 0.4],
             _ => [0.8 * outside, 0.0, 0.7],
         },
     };
     BodySite {
-        landmark: format!("{}-{part}", half.name()),
+        landmark: format!("{}-{part}", half.body_side_name()),
         offset: [0.0; 3],
-        out: unit(out),
-        region: Region::Arm(half),
-        lateral: half.sign() * BEFORE,
+        out: unit_vector_of(out),
+        region: BodyRegion::Arm(half),
+        lateral: half.side_sign() * BEFORE_SIDE_SHOULDER_WIDTHS,
         beside: false,
         level: false,
     }
@@ -298,16 +310,16 @@ fn arm(side: Option<Side>, acting: Half, part: &str) -> BodySite {
 
 /// Returns the half of the body that a side means.
 #[must_use]
-pub fn said(side: Option<Side>, mirrored: bool) -> Option<Half> {
+pub fn half_of_side(side: Option<LocationSide>, mirrored: bool) -> Option<Half> {
     let half = match side? {
-        Side::LeftAt | Side::LeftBeside => Half::Left,
-        Side::RightAt | Side::RightBeside => Half::Right,
+        LocationSide::LeftAt | LocationSide::LeftBeside => Half::Left,
+        LocationSide::RightAt | LocationSide::RightBeside => Half::Right,
         _ => return None,
     };
-    Some(if mirrored { half.other() } else { half })
+    Some(if mirrored { half.opposite_side() } else { half })
 }
 
-fn unit(v: [f64; 3]) -> [f64; 3] {
+fn unit_vector_of(v: [f64; 3]) -> [f64; 3] {
     let length = v.iter().map(|part| part * part).sum::<f64>().sqrt();
     v.map(|part| part / length)
 }
@@ -315,7 +327,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_motion::Anatomy;
+    use chereme_motion::BodyAnatomy;
 
     const ALL: [BodyLocation; 32] = [
         BodyLocation::Head,
@@ -354,96 +366,92 @@ mod tests {
 
     #[test]
     fn the_head_is_a_height_of_the_space_before_the_body_unless_it_is_touched() {
-        let site = |at| Site {
+        let site = |at| SidedLocation {
             at,
-            side: Some(Side::RightAt),
+            side: Some(LocationSide::RightAt),
             approx: false,
         };
-        let head = body_site(&site(BodyLocation::Head), Half::Right, false);
+        let head = resolve_body_site(&site(BodyLocation::Head), Half::Right, false);
         for (contact, region) in [
-            (None, Region::Trunk),
-            (Some(Contact::Close), Region::Trunk),
-            (Some(Contact::ArmExtended), Region::Trunk),
-            (Some(Contact::Touch), Region::Face),
-            (Some(Contact::Brushing), Region::Face),
+            (None, BodyRegion::Trunk),
+            (Some(PlaceContact::Close), BodyRegion::Trunk),
+            (Some(PlaceContact::ArmExtended), BodyRegion::Trunk),
+            (Some(PlaceContact::Touch), BodyRegion::Face),
+            (Some(PlaceContact::Brushing), BodyRegion::Face),
         ] {
             assert_eq!(head.region_for(contact), region, "{contact:?}");
         }
         for at in [BodyLocation::Forehead, BodyLocation::Chest] {
-            let found = body_site(&site(at), Half::Right, false);
+            let found = resolve_body_site(&site(at), Half::Right, false);
             assert_eq!(found.region_for(None), found.region);
         }
     }
 
     #[test]
     fn a_hand_that_points_away_is_farther_before_the_trunk() {
-        let language = BodyLanguage::usual();
+        let language = BodyLanguage::default_body_language();
         let forward = |contact, ahead| {
-            let place = (Region::Trunk, 0.0, false);
-            match HandAt::of(place, contact, language, [0.5, 0.4], ahead) {
+            let place = (BodyRegion::Trunk, 0.0, false);
+            match HandAt::hand_at_place(place, contact, language, [0.5, 0.4], ahead) {
                 HandAt::Front { forward, .. } => forward,
                 other => panic!("{other:?}"),
             }
         };
         for (contact, far) in [
             (None, language.medium_trunk),
-            (Some(Contact::Close), language.near_trunk),
+            (Some(PlaceContact::Close), language.near_trunk),
         ] {
-            let still = FRONT * 0.4 + far * 0.5;
+            let still = TRUNK_FRONT_SHOULDER_WIDTHS * 0.4 + far * 0.5;
             for (ahead, more) in [(0.0, 0.0), (0.08, 0.08), (-0.08, 0.0)] {
                 assert!((forward(contact, ahead) - still - more).abs() < 1e-12);
             }
         }
-        let stretched = Some(Contact::ArmExtended);
+        let stretched = Some(PlaceContact::ArmExtended);
         assert_eq!(forward(stretched, 0.08), forward(stretched, 0.0));
     }
 
     #[test]
     fn an_arm_is_extended_beside_the_trunk_as_far_as_before_it() {
-        let language = BodyLanguage::usual();
+        let language = BodyLanguage::default_body_language();
         let forward = |beside, contact| {
-            let place = (Region::Trunk, 0.8, beside);
-            match HandAt::of(place, contact, language, [0.5, 0.4], 0.0) {
+            let place = (BodyRegion::Trunk, 0.8, beside);
+            match HandAt::hand_at_place(place, contact, language, [0.5, 0.4], 0.0) {
                 HandAt::Front { forward, .. } => forward,
                 other => panic!("{other:?}"),
             }
         };
-        let stretched = Some(Contact::ArmExtended);
+        let stretched = Some(PlaceContact::ArmExtended);
         assert_eq!(forward(true, stretched), forward(false, stretched));
         assert!(forward(true, None) < forward(false, None));
     }
 
     #[test]
     fn every_location_has_a_landmark_and_mirrors_to_the_other_side() {
-        let landmarks = Anatomy::landmarks();
+        let landmarks = BodyAnatomy::landmark_names();
         let sides = [
             None,
-            Some(Side::LeftAt),
-            Some(Side::RightAt),
-            Some(Side::LeftBeside),
-            Some(Side::RightBeside),
-            Some(Side::Front),
+            Some(LocationSide::LeftAt),
+            Some(LocationSide::RightAt),
+            Some(LocationSide::LeftBeside),
+            Some(LocationSide::RightBeside),
+            Some(LocationSide::Front),
         ];
         for at in ALL {
             for side in sides {
-                let site = Site {
+                let site = SidedLocation {
                     at,
                     side,
                     approx: false,
                 };
-                let right = body_site(&site, Half::Right, false);
-                let left = body_site(&site, Half::Left, true);
+                let right = resolve_body_site(&site, Half::Right, false);
+                let left = resolve_body_site(&site, Half::Left, true);
                 assert!(landmarks.contains(&right.landmark), "{}", right.landmark);
                 assert_eq!(
                     right.offset,
                     [-left.offset[0], left.offset[1], left.offset[2]],
                     "{at:?}"
                 );
-                assert_eq!(
-                    right.out,
-                    [-left.out[0], left.out[1], left.out[2]],
-                    "{at:?}"
-                );
+                assert_eq!(right.out, [-left.out[0], left.out[1], left.out[2]], "{at:?}");
                 assert_eq!(right.lateral, -left.lateral);
                 let length = right.out.iter().map(|x| x * x).sum::<f64>();
                 assert!((length - 1.0).abs() < 1e-9);

@@ -6,21 +6,21 @@
 
 use std::fmt;
 
-use super::direction::{Compass, Direction};
+use super::direction::{CompassDirection, SpatialDirection};
 use super::tree::{
-    Bend, BodyLocation, Contact, Digit, Ellipse, FingerPart, HandClass, HandLocation, Repeat, Side,
-    Size, ThumbPosition, WristMotion,
+    BodyLocation, EllipseAxis, FingerBend, FingerPart, HandClass, HandDigit, HandLocation, LocationSide, MotionSize,
+    PlaceContact, RepeatKind, ThumbPosition, WristMotion,
 };
-use Kind as K;
+use SymbolKind as K;
 
 /// One of the 209 symbols.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Symbol(u8);
+pub struct HamnosysSymbol(u8);
 
-impl Symbol {
+impl HamnosysSymbol {
     /// Returns every symbol, by code point.
-    pub fn all() -> impl ExactSizeIterator<Item = Self> {
-        (0..TABLE.len()).map(|index| Self(index as u8))
+    pub fn all_symbols() -> impl ExactSizeIterator<Item = Self> {
+        (0..SYMBOL_TABLE.len()).map(|index| Self(index as u8))
     }
 
     /// Returns the symbol of a character, or of its second code in older tables.
@@ -33,22 +33,22 @@ impl Symbol {
             0x2B => return Self::from_char('\u{e0e7}'),
             0xE000..=0xE0FF => BY_CODE[128 + (code - 0xE000)],
             0..=0x7F => BY_CODE[code],
-            _ => NONE,
+            _ => NO_SYMBOL_INDEX,
         };
-        (slot != NONE).then_some(Self(slot))
+        (slot != NO_SYMBOL_INDEX).then_some(Self(slot))
     }
 
     /// Returns the symbol of a name: `hamflathand`, or `flathand`, in any case, and other names in use in
     /// files (`hamcee12open`, `hampinchopen`, `clockplus` ...).
     #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
+    pub fn from_symbol_name(name: &str) -> Option<Self> {
         let lower = name.to_ascii_lowercase();
         let short = lower.strip_prefix("ham").unwrap_or(&lower);
-        let plain = ALIASES
+        let plain = SYMBOL_ALIASES
             .iter()
             .find(|(alias, _)| *alias == short)
             .map_or(short, |(_, plain)| plain);
-        let index = TABLE
+        let index = SYMBOL_TABLE
             .iter()
             .position(|row| row.name["ham".len()..].eq_ignore_ascii_case(plain))?;
         Some(Self(index as u8))
@@ -56,65 +56,65 @@ impl Symbol {
 
     /// Returns the character.
     #[must_use]
-    pub fn char(self) -> char {
-        self.row().character
+    pub fn symbol_char(self) -> char {
+        self.symbol_row().character
     }
 
     /// Returns the name.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        self.row().name
+    pub fn symbol_name(self) -> &'static str {
+        self.symbol_row().name
     }
 
     /// Returns its meaning.
     #[must_use]
-    pub fn kind(self) -> Kind {
-        self.row().kind
+    pub fn symbol_kind(self) -> SymbolKind {
+        self.symbol_row().kind
     }
 
     /// Returns its group.
     #[must_use]
-    pub fn class(self) -> Class {
-        self.kind().class()
+    pub fn symbol_class(self) -> SymbolClass {
+        self.symbol_kind().kind_class()
     }
 
     /// Returns the symbol with a meaning, if one exists.
     #[must_use]
-    pub fn of(kind: Kind) -> Option<Self> {
-        let (from, to) = kind.codes();
+    pub fn from_symbol_kind(kind: SymbolKind) -> Option<Self> {
+        let (from, to) = kind.code_point_range();
         BY_CODE[128 + from..128 + to]
             .iter()
             .copied()
-            .filter(|slot| *slot != NONE)
+            .filter(|slot| *slot != NO_SYMBOL_INDEX)
             .map(Self)
-            .find(|symbol| symbol.kind() == kind)
+            .find(|symbol| symbol.symbol_kind() == kind)
     }
 
-    fn row(self) -> &'static SymbolRow {
-        &TABLE[self.0 as usize]
-    }
-}
-
-impl fmt::Debug for Symbol {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+    fn symbol_row(self) -> &'static SymbolRow {
+        &SYMBOL_TABLE[self.0 as usize]
     }
 }
 
-impl fmt::Display for Symbol {
+impl fmt::Debug for HamnosysSymbol {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.symbol_name())
+    }
+}
+
+impl fmt::Display for HamnosysSymbol {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol_name())
     }
 }
 
 /// The meaning of a symbol, unless its position in a transcription decides.
 ///
 /// Five marks mean one thing after a symmetry sign and another elsewhere; they are listed here under
-/// the second: [`Bend::Bent`] (out and in exchanged), [`Size::Big`] (up and down exchanged),
-/// [`Kind::Alternating`] (half a period behind). [`Kind::Between`] joins two of a kind, and
-/// [`Bracket::Seq`] opens a sequence, a contact, a brushing contact or a moving repetition.
+/// the second: [`FingerBend::Bent`] (out and in exchanged), [`MotionSize::Big`] (up and down exchanged),
+/// [`SymbolKind::Alternating`] (half a period behind). [`SymbolKind::Between`] joins two of a kind, and
+/// [`BracketKind::Seq`] opens a sequence, a contact, a brushing contact or a moving repetition.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kind {
+pub enum SymbolKind {
     /// A blank.
     Space,
     /// A comma, full stop, question or exclamation mark.
@@ -134,11 +134,11 @@ pub enum Kind {
     /// The position of the thumb.
     Thumb(ThumbPosition),
     /// A bend of fingers.
-    Bend(Bend),
+    Bend(FingerBend),
     /// The direction of the hand's axis.
-    Extended(Direction),
+    Extended(SpatialDirection),
     /// The direction of the palm.
-    Palm(Compass),
+    Palm(CompassDirection),
     /// A place on body or arm, or neutral space.
     Body(BodyLocation),
     /// Next to a place: before it to its left, after it to its right.
@@ -152,15 +152,15 @@ pub enum Kind {
     /// A part of the hand.
     Hand(HandLocation),
     /// A side of the wrist.
-    WristSide(Side),
+    WristSide(LocationSide),
     /// A digit.
-    Digit(Digit),
+    Digit(HandDigit),
     /// A part of a digit.
     Part(FingerPart),
     /// A straight movement.
-    Move(Direction),
+    Move(SpatialDirection),
     /// A circle about an axis.
-    Circle(Direction),
+    Circle(SpatialDirection),
     /// The fingers play.
     FingerPlay,
     /// A movement of the wrist.
@@ -175,39 +175,39 @@ pub enum Kind {
     /// No movement.
     Still,
     /// A point on the rim of a circle.
-    Clock(Compass),
+    Clock(CompassDirection),
     /// One more turn.
     ClockFull,
     /// A curve.
-    Arc(Compass),
+    Arc(CompassDirection),
     /// To and fro.
     Zigzag {
         /// In waves.
         wavy: bool,
     },
     /// An ellipse.
-    Ellipse(Ellipse),
+    Ellipse(EllipseAxis),
     /// Growing or shrinking.
     Growth {
         /// Growing.
         increasing: bool,
     },
     /// A size.
-    Size(Size),
+    Size(MotionSize),
     /// A manner of movement.
-    Manner(Mark),
+    Manner(MannerMark),
     /// The nearness of the hand.
-    Contact(Contact),
+    Contact(PlaceContact),
     /// Behind a place.
     Behind,
     /// A repetition.
-    Repeat(Repeat),
+    Repeat(RepeatKind),
     /// The hands alternate.
     Alternating,
     /// An opening bracket.
-    Open(Bracket),
+    Open(BracketKind),
     /// A closing bracket.
-    Close(Bracket),
+    Close(BracketKind),
     /// Between the two neighbours.
     Between,
     /// Between the parts of the two hands, or between two signs.
@@ -229,7 +229,7 @@ pub enum Kind {
 
 /// The marks of manner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mark {
+pub enum MannerMark {
     /// Fast.
     Fast,
     /// Slow.
@@ -244,7 +244,7 @@ pub enum Mark {
 
 /// The kinds of brackets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bracket {
+pub enum BracketKind {
     /// Successive motions; also contacts.
     Seq,
     /// Simultaneous motions; also one part per hand.
@@ -256,7 +256,7 @@ pub enum Bracket {
 /// The groups of symbols.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each is what its name says")]
-pub enum Class {
+pub enum SymbolClass {
     Punctuation,
     Handshape,
     HandshapeMark,
@@ -276,38 +276,36 @@ pub enum Class {
     Operator,
 }
 
-impl Kind {
+impl SymbolKind {
     /// Returns the group.
     #[must_use]
-    pub fn class(self) -> Class {
+    pub fn kind_class(self) -> SymbolClass {
         match self {
-            K::Space | K::Punctuation | K::AltBegin | K::AltOr | K::AltEnd | K::Version => {
-                Class::Punctuation
-            }
-            K::Base(_) => Class::Handshape,
-            K::Thumb(_) | K::Bend(_) => Class::HandshapeMark,
-            K::Extended(_) => Class::ExtendedFinger,
-            K::Palm(_) => Class::Palm,
-            K::Body(_) => Class::Location,
-            K::Beside | K::At | K::Define | K::Refer | K::Behind => Class::LocationMark,
-            K::Hand(_) | K::WristSide(_) => Class::HandPart,
-            K::Digit(_) => Class::Digit,
-            K::Part(_) => Class::FingerPart,
-            K::Move(_) | K::Circle(_) | K::FingerPlay | K::Wrist(_) | K::Replace => Class::Movement,
-            K::Cross { .. } | K::Still | K::Mime => Class::Movement,
-            K::Clock(_) | K::ClockFull | K::Arc(_) | K::Zigzag { .. } => Class::MovementMark,
-            K::Ellipse(_) | K::Growth { .. } | K::Size(_) => Class::MovementMark,
-            K::Manner(_) => Class::Manner,
-            K::Contact(_) => Class::Contact,
-            K::Repeat(_) | K::Alternating => Class::Repetition,
-            K::Open(_) | K::Close(_) => Class::Bracket,
-            K::Between | K::Plus | K::Symmetry { .. } | K::Nondominant => Class::Operator,
-            K::RealSpace | K::Approx | K::Relative => Class::Operator,
+            K::Space | K::Punctuation | K::AltBegin | K::AltOr | K::AltEnd | K::Version => SymbolClass::Punctuation,
+            K::Base(_) => SymbolClass::Handshape,
+            K::Thumb(_) | K::Bend(_) => SymbolClass::HandshapeMark,
+            K::Extended(_) => SymbolClass::ExtendedFinger,
+            K::Palm(_) => SymbolClass::Palm,
+            K::Body(_) => SymbolClass::Location,
+            K::Beside | K::At | K::Define | K::Refer | K::Behind => SymbolClass::LocationMark,
+            K::Hand(_) | K::WristSide(_) => SymbolClass::HandPart,
+            K::Digit(_) => SymbolClass::Digit,
+            K::Part(_) => SymbolClass::FingerPart,
+            K::Move(_) | K::Circle(_) | K::FingerPlay | K::Wrist(_) | K::Replace => SymbolClass::Movement,
+            K::Cross { .. } | K::Still | K::Mime => SymbolClass::Movement,
+            K::Clock(_) | K::ClockFull | K::Arc(_) | K::Zigzag { .. } => SymbolClass::MovementMark,
+            K::Ellipse(_) | K::Growth { .. } | K::Size(_) => SymbolClass::MovementMark,
+            K::Manner(_) => SymbolClass::Manner,
+            K::Contact(_) => SymbolClass::Contact,
+            K::Repeat(_) | K::Alternating => SymbolClass::Repetition,
+            K::Open(_) | K::Close(_) => SymbolClass::Bracket,
+            K::Between | K::Plus | K::Symmetry { .. } | K::Nondominant => SymbolClass::Operator,
+            K::RealSpace | K::Approx | K::Relative => SymbolClass::Operator,
         }
     }
 
     /// The range of code points, relative to E000, of a symbol of this kind.
-    fn codes(self) -> (usize, usize) {
+    fn code_point_range(self) -> (usize, usize) {
         match self {
             K::Base(_) => (0x00, 0x0C),
             K::Thumb(_) => (0x0C, 0x0F),
@@ -337,41 +335,33 @@ impl Kind {
 struct SymbolRow {
     character: char,
     name: &'static str,
-    kind: Kind,
+    kind: SymbolKind,
 }
 
-const fn row(character: char, name: &'static str, kind: Kind) -> SymbolRow {
-    SymbolRow {
-        character,
-        name,
-        kind,
-    }
+const fn new_symbol_row(character: char, name: &'static str, kind: SymbolKind) -> SymbolRow {
+    SymbolRow { character, name, kind }
 }
 
-const fn dir(up: i8, out: i8, left: i8) -> Direction {
-    Direction::of(up, out, left)
+const fn dir(up: i8, out: i8, left: i8) -> SpatialDirection {
+    SpatialDirection::from_direction_steps(up, out, left)
 }
 
-const NONE: u8 = u8::MAX;
+const NO_SYMBOL_INDEX: u8 = u8::MAX;
 
-/// The index into [`TABLE`] by code: the ASCII marks, then the private use area from E000 on.
+/// The index into [`SYMBOL_TABLE`] by code: the ASCII marks, then the private use area from E000 on.
 static BY_CODE: [u8; 384] = {
-    let mut slots = [NONE; 384];
+    let mut slots = [NO_SYMBOL_INDEX; 384];
     let mut index = 0;
-    while index < TABLE.len() {
-        let code = TABLE[index].character as usize;
-        slots[if code < 128 {
-            code
-        } else {
-            128 + code - 0xE000
-        }] = index as u8;
+    while index < SYMBOL_TABLE.len() {
+        let code = SYMBOL_TABLE[index].character as usize;
+        slots[if code < 128 { code } else { 128 + code - 0xE000 }] = index as u8;
         index += 1;
     }
     slots
 };
 
 /// Other names in use, without `ham`: of older converters, of other tables, and slips found in many files.
-const ALIASES: [(&str, &str); 19] = [
+const SYMBOL_ALIASES: [(&str, &str); 19] = [
     ("asciispace", "space"),
     ("tab", "space"),
     ("linefeed", "space"),
@@ -395,214 +385,214 @@ const ALIASES: [(&str, &str); 19] = [
 
 /// The symbols by code point.
 #[rustfmt::skip]
-static TABLE: [SymbolRow; 209] = [
-    row(' ', "hamspace", K::Space),
-    row('!', "hamexclaim", K::Punctuation),
-    row(',', "hamcomma", K::Punctuation),
-    row('.', "hamfullstop", K::Punctuation),
-    row('?', "hamquery", K::Punctuation),
-    row('{', "hamaltbegin", K::AltBegin),
-    row('|', "hammetaalt", K::AltOr),
-    row('}', "hamaltend", K::AltEnd),
-    row('\u{e000}', "hamfist", K::Base(HandClass::Fist)),
-    row('\u{e001}', "hamflathand", K::Base(HandClass::Flat)),
-    row('\u{e002}', "hamfinger2", K::Base(HandClass::Finger2)),
-    row('\u{e003}', "hamfinger23", K::Base(HandClass::Finger23)),
-    row('\u{e004}', "hamfinger23spread", K::Base(HandClass::Finger23Spread)),
-    row('\u{e005}', "hamfinger2345", K::Base(HandClass::Finger2345)),
-    row('\u{e006}', "hampinch12", K::Base(HandClass::Pinch12)),
-    row('\u{e007}', "hampinchall", K::Base(HandClass::PinchAll)),
-    row('\u{e008}', "hampinch12open", K::Base(HandClass::Pinch12Open)),
-    row('\u{e009}', "hamcee12", K::Base(HandClass::Cee12)),
-    row('\u{e00a}', "hamceeall", K::Base(HandClass::CeeAll)),
-    row('\u{e00b}', "hamceeopen", K::Base(HandClass::Cee12Open)),
-    row('\u{e00c}', "hamthumboutmod", K::Thumb(ThumbPosition::Out)),
-    row('\u{e00d}', "hamthumbacrossmod", K::Thumb(ThumbPosition::Across)),
-    row('\u{e00e}', "hamthumbopenmod", K::Thumb(ThumbPosition::Opposed)),
-    row('\u{e010}', "hamfingerstraightmod", K::Bend(Bend::Bent)),
-    row('\u{e011}', "hamfingerbendmod", K::Bend(Bend::Round)),
-    row('\u{e012}', "hamfingerhookmod", K::Bend(Bend::Hooked)),
-    row('\u{e013}', "hamdoublebent", K::Bend(Bend::DoubleBent)),
-    row('\u{e014}', "hamdoublehooked", K::Bend(Bend::DoubleHooked)),
-    row('\u{e020}', "hamextfingeru", K::Extended(dir(1, 0, 0))),
-    row('\u{e021}', "hamextfingerur", K::Extended(dir(1, 0, -1))),
-    row('\u{e022}', "hamextfingerr", K::Extended(dir(0, 0, -1))),
-    row('\u{e023}', "hamextfingerdr", K::Extended(dir(-1, 0, -1))),
-    row('\u{e024}', "hamextfingerd", K::Extended(dir(-1, 0, 0))),
-    row('\u{e025}', "hamextfingerdl", K::Extended(dir(-1, 0, 1))),
-    row('\u{e026}', "hamextfingerl", K::Extended(dir(0, 0, 1))),
-    row('\u{e027}', "hamextfingerul", K::Extended(dir(1, 0, 1))),
-    row('\u{e028}', "hamextfingerol", K::Extended(dir(0, 1, 1))),
-    row('\u{e029}', "hamextfingero", K::Extended(dir(0, 1, 0))),
-    row('\u{e02a}', "hamextfingeror", K::Extended(dir(0, 1, -1))),
-    row('\u{e02b}', "hamextfingeril", K::Extended(dir(0, -1, 1))),
-    row('\u{e02c}', "hamextfingeri", K::Extended(dir(0, -1, 0))),
-    row('\u{e02d}', "hamextfingerir", K::Extended(dir(0, -1, -1))),
-    row('\u{e02e}', "hamextfingerui", K::Extended(dir(1, -1, 0))),
-    row('\u{e02f}', "hamextfingerdi", K::Extended(dir(-1, -1, 0))),
-    row('\u{e030}', "hamextfingerdo", K::Extended(dir(-1, 1, 0))),
-    row('\u{e031}', "hamextfingeruo", K::Extended(dir(1, 1, 0))),
-    row('\u{e038}', "hampalmu", K::Palm(Compass::U)),
-    row('\u{e039}', "hampalmur", K::Palm(Compass::Ur)),
-    row('\u{e03a}', "hampalmr", K::Palm(Compass::R)),
-    row('\u{e03b}', "hampalmdr", K::Palm(Compass::Dr)),
-    row('\u{e03c}', "hampalmd", K::Palm(Compass::D)),
-    row('\u{e03d}', "hampalmdl", K::Palm(Compass::Dl)),
-    row('\u{e03e}', "hampalml", K::Palm(Compass::L)),
-    row('\u{e03f}', "hampalmul", K::Palm(Compass::Ul)),
-    row('\u{e040}', "hamhead", K::Body(BodyLocation::Head)),
-    row('\u{e041}', "hamheadtop", K::Body(BodyLocation::HeadTop)),
-    row('\u{e042}', "hamforehead", K::Body(BodyLocation::Forehead)),
-    row('\u{e043}', "hameyebrows", K::Body(BodyLocation::Eyebrows)),
-    row('\u{e044}', "hameyes", K::Body(BodyLocation::Eyes)),
-    row('\u{e045}', "hamnose", K::Body(BodyLocation::Nose)),
-    row('\u{e046}', "hamnostrils", K::Body(BodyLocation::Nostrils)),
-    row('\u{e047}', "hamear", K::Body(BodyLocation::Ear)),
-    row('\u{e048}', "hamearlobe", K::Body(BodyLocation::EarLobe)),
-    row('\u{e049}', "hamcheek", K::Body(BodyLocation::Cheek)),
-    row('\u{e04a}', "hamlips", K::Body(BodyLocation::Lips)),
-    row('\u{e04b}', "hamtongue", K::Body(BodyLocation::Tongue)),
-    row('\u{e04c}', "hamteeth", K::Body(BodyLocation::Teeth)),
-    row('\u{e04d}', "hamchin", K::Body(BodyLocation::Chin)),
-    row('\u{e04e}', "hamunderchin", K::Body(BodyLocation::UnderChin)),
-    row('\u{e04f}', "hamneck", K::Body(BodyLocation::Neck)),
-    row('\u{e050}', "hamshouldertop", K::Body(BodyLocation::ShoulderTop)),
-    row('\u{e051}', "hamshoulders", K::Body(BodyLocation::Shoulders)),
-    row('\u{e052}', "hamchest", K::Body(BodyLocation::Chest)),
-    row('\u{e053}', "hamstomach", K::Body(BodyLocation::Stomach)),
-    row('\u{e054}', "hambelowstomach", K::Body(BodyLocation::BelowStomach)),
-    row('\u{e058}', "hamlrbeside", K::Beside),
-    row('\u{e059}', "hamlrat", K::At),
-    row('\u{e05a}', "hamcoreftag", K::Define),
-    row('\u{e05b}', "hamcorefref", K::Refer),
-    row('\u{e05f}', "hamneutralspace", K::Body(BodyLocation::NeutralSpace)),
-    row('\u{e060}', "hamupperarm", K::Body(BodyLocation::UpperArm)),
-    row('\u{e061}', "hamelbow", K::Body(BodyLocation::Elbow)),
-    row('\u{e062}', "hamelbowinside", K::Body(BodyLocation::ElbowInside)),
-    row('\u{e063}', "hamlowerarm", K::Body(BodyLocation::LowerArm)),
-    row('\u{e064}', "hamwristback", K::Hand(HandLocation::WristBack)),
-    row('\u{e065}', "hamwristpulse", K::WristSide(Side::Palmar)),
-    row('\u{e066}', "hamthumbball", K::Hand(HandLocation::ThumbBall)),
-    row('\u{e067}', "hampalm", K::Hand(HandLocation::Palm)),
-    row('\u{e068}', "hamhandback", K::Hand(HandLocation::HandBack)),
-    row('\u{e069}', "hamthumbside", K::Hand(HandLocation::ThumbSide)),
-    row('\u{e06a}', "hampinkyside", K::Hand(HandLocation::PinkySide)),
-    row('\u{e070}', "hamthumb", K::Digit(Digit::Thumb)),
-    row('\u{e071}', "hamindexfinger", K::Digit(Digit::Index)),
-    row('\u{e072}', "hammiddlefinger", K::Digit(Digit::Middle)),
-    row('\u{e073}', "hamringfinger", K::Digit(Digit::Ring)),
-    row('\u{e074}', "hampinky", K::Digit(Digit::Little)),
-    row('\u{e075}', "hamfingertip", K::Part(FingerPart::Tip)),
-    row('\u{e076}', "hamfingernail", K::Part(FingerPart::Nail)),
-    row('\u{e077}', "hamfingerpad", K::Part(FingerPart::Pad)),
-    row('\u{e078}', "hamfingermidjoint", K::Part(FingerPart::MidJoint)),
-    row('\u{e079}', "hamfingerbase", K::Part(FingerPart::Base)),
-    row('\u{e07a}', "hamfingerside", K::Part(FingerPart::Side)),
-    row('\u{e07c}', "hamwristtopulse", K::WristSide(Side::Palmar)),
-    row('\u{e07d}', "hamwristtoback", K::WristSide(Side::Dorsal)),
-    row('\u{e07e}', "hamwristtothumb", K::WristSide(Side::Radial)),
-    row('\u{e07f}', "hamwristtopinky", K::WristSide(Side::Ulnar)),
-    row('\u{e080}', "hammoveu", K::Move(dir(1, 0, 0))),
-    row('\u{e081}', "hammoveur", K::Move(dir(1, 0, -1))),
-    row('\u{e082}', "hammover", K::Move(dir(0, 0, -1))),
-    row('\u{e083}', "hammovedr", K::Move(dir(-1, 0, -1))),
-    row('\u{e084}', "hammoved", K::Move(dir(-1, 0, 0))),
-    row('\u{e085}', "hammovedl", K::Move(dir(-1, 0, 1))),
-    row('\u{e086}', "hammovel", K::Move(dir(0, 0, 1))),
-    row('\u{e087}', "hammoveul", K::Move(dir(1, 0, 1))),
-    row('\u{e088}', "hammoveol", K::Move(dir(0, 1, 1))),
-    row('\u{e089}', "hammoveo", K::Move(dir(0, 1, 0))),
-    row('\u{e08a}', "hammoveor", K::Move(dir(0, 1, -1))),
-    row('\u{e08b}', "hammoveil", K::Move(dir(0, -1, 1))),
-    row('\u{e08c}', "hammovei", K::Move(dir(0, -1, 0))),
-    row('\u{e08d}', "hammoveir", K::Move(dir(0, -1, -1))),
-    row('\u{e08e}', "hammoveui", K::Move(dir(1, -1, 0))),
-    row('\u{e08f}', "hammovedi", K::Move(dir(-1, -1, 0))),
-    row('\u{e090}', "hammovedo", K::Move(dir(-1, 1, 0))),
-    row('\u{e091}', "hammoveuo", K::Move(dir(1, 1, 0))),
-    row('\u{e092}', "hamcircleo", K::Circle(dir(0, 1, 0))),
-    row('\u{e093}', "hamcirclei", K::Circle(dir(0, -1, 0))),
-    row('\u{e094}', "hamcircled", K::Circle(dir(-1, 0, 0))),
-    row('\u{e095}', "hamcircleu", K::Circle(dir(1, 0, 0))),
-    row('\u{e096}', "hamcirclel", K::Circle(dir(0, 0, 1))),
-    row('\u{e097}', "hamcircler", K::Circle(dir(0, 0, -1))),
-    row('\u{e098}', "hamcircleul", K::Circle(dir(1, 0, 1))),
-    row('\u{e099}', "hamcircledr", K::Circle(dir(-1, 0, -1))),
-    row('\u{e09a}', "hamcircleur", K::Circle(dir(1, 0, -1))),
-    row('\u{e09b}', "hamcircledl", K::Circle(dir(-1, 0, 1))),
-    row('\u{e09c}', "hamcircleol", K::Circle(dir(0, 1, 1))),
-    row('\u{e09d}', "hamcircleir", K::Circle(dir(0, -1, -1))),
-    row('\u{e09e}', "hamcircleor", K::Circle(dir(0, 1, -1))),
-    row('\u{e09f}', "hamcircleil", K::Circle(dir(0, -1, 1))),
-    row('\u{e0a0}', "hamcircleui", K::Circle(dir(1, -1, 0))),
-    row('\u{e0a1}', "hamcircledo", K::Circle(dir(-1, 1, 0))),
-    row('\u{e0a2}', "hamcircleuo", K::Circle(dir(1, 1, 0))),
-    row('\u{e0a3}', "hamcircledi", K::Circle(dir(-1, -1, 0))),
-    row('\u{e0a4}', "hamfingerplay", K::FingerPlay),
-    row('\u{e0a5}', "hamnodding", K::Wrist(WristMotion::Nodding)),
-    row('\u{e0a6}', "hamswinging", K::Wrist(WristMotion::Swinging)),
-    row('\u{e0a7}', "hamtwisting", K::Wrist(WristMotion::Twisting)),
-    row('\u{e0a8}', "hamstircw", K::Wrist(WristMotion::StirCw)),
-    row('\u{e0a9}', "hamstirccw", K::Wrist(WristMotion::StirCcw)),
-    row('\u{e0aa}', "hamreplace", K::Replace),
-    row('\u{e0ad}', "hammovecross", K::Cross { diagonal: false }),
-    row('\u{e0ae}', "hammoveX", K::Cross { diagonal: true }),
-    row('\u{e0af}', "hamnomotion", K::Still),
-    row('\u{e0b0}', "hamclocku", K::Clock(Compass::U)),
-    row('\u{e0b1}', "hamclockul", K::Clock(Compass::Ul)),
-    row('\u{e0b2}', "hamclockl", K::Clock(Compass::L)),
-    row('\u{e0b3}', "hamclockdl", K::Clock(Compass::Dl)),
-    row('\u{e0b4}', "hamclockd", K::Clock(Compass::D)),
-    row('\u{e0b5}', "hamclockdr", K::Clock(Compass::Dr)),
-    row('\u{e0b6}', "hamclockr", K::Clock(Compass::R)),
-    row('\u{e0b7}', "hamclockur", K::Clock(Compass::Ur)),
-    row('\u{e0b8}', "hamclockfull", K::ClockFull),
-    row('\u{e0b9}', "hamarcl", K::Arc(Compass::L)),
-    row('\u{e0ba}', "hamarcu", K::Arc(Compass::U)),
-    row('\u{e0bb}', "hamarcr", K::Arc(Compass::R)),
-    row('\u{e0bc}', "hamarcd", K::Arc(Compass::D)),
-    row('\u{e0bd}', "hamwavy", K::Zigzag { wavy: true }),
-    row('\u{e0be}', "hamzigzag", K::Zigzag { wavy: false }),
-    row('\u{e0c0}', "hamellipseh", K::Ellipse(Ellipse::Horizontal)),
-    row('\u{e0c1}', "hamellipseur", K::Ellipse(Ellipse::UpRight)),
-    row('\u{e0c2}', "hamellipsev", K::Ellipse(Ellipse::Vertical)),
-    row('\u{e0c3}', "hamellipseul", K::Ellipse(Ellipse::UpLeft)),
-    row('\u{e0c4}', "hamincreasing", K::Growth { increasing: true }),
-    row('\u{e0c5}', "hamdecreasing", K::Growth { increasing: false }),
-    row('\u{e0c6}', "hamsmallmod", K::Size(Size::Small)),
-    row('\u{e0c7}', "hamlargemod", K::Size(Size::Big)),
-    row('\u{e0c8}', "hamfast", K::Manner(Mark::Fast)),
-    row('\u{e0c9}', "hamslow", K::Manner(Mark::Slow)),
-    row('\u{e0ca}', "hamtense", K::Manner(Mark::Tense)),
-    row('\u{e0cb}', "hamrest", K::Manner(Mark::Rest)),
-    row('\u{e0cc}', "hamhalt", K::Manner(Mark::Halt)),
-    row('\u{e0d0}', "hamclose", K::Contact(Contact::Close)),
-    row('\u{e0d1}', "hamtouch", K::Contact(Contact::Touch)),
-    row('\u{e0d2}', "haminterlock", K::Contact(Contact::Interlock)),
-    row('\u{e0d3}', "hamcross", K::Contact(Contact::Cross)),
-    row('\u{e0d4}', "hamarmextended", K::Contact(Contact::ArmExtended)),
-    row('\u{e0d5}', "hambehind", K::Behind),
-    row('\u{e0d6}', "hambrushing", K::Contact(Contact::Brushing)),
-    row('\u{e0d8}', "hamrepeatfromstart", K::Repeat(Repeat::FromStart)),
-    row('\u{e0d9}', "hamrepeatfromstartseveral", K::Repeat(Repeat::FromStartSeveral)),
-    row('\u{e0da}', "hamrepeatcontinue", K::Repeat(Repeat::Continue)),
-    row('\u{e0db}', "hamrepeatcontinueseveral", K::Repeat(Repeat::ContinueSeveral)),
-    row('\u{e0dc}', "hamrepeatreverse", K::Repeat(Repeat::Reverse)),
-    row('\u{e0dd}', "hamalternatingmotion", K::Alternating),
-    row('\u{e0e0}', "hamseqbegin", K::Open(Bracket::Seq)),
-    row('\u{e0e1}', "hamseqend", K::Close(Bracket::Seq)),
-    row('\u{e0e2}', "hamparbegin", K::Open(Bracket::Par)),
-    row('\u{e0e3}', "hamparend", K::Close(Bracket::Par)),
-    row('\u{e0e4}', "hamfusionbegin", K::Open(Bracket::Fusion)),
-    row('\u{e0e5}', "hamfusionend", K::Close(Bracket::Fusion)),
-    row('\u{e0e6}', "hambetween", K::Between),
-    row('\u{e0e7}', "hamplus", K::Plus),
-    row('\u{e0e8}', "hamsymmpar", K::Symmetry { left_right: false }),
-    row('\u{e0e9}', "hamsymmlr", K::Symmetry { left_right: true }),
-    row('\u{e0ea}', "hamnondominant", K::Nondominant),
-    row('\u{e0eb}', "hamnonipsi", K::RealSpace),
-    row('\u{e0ec}', "hametc", K::Approx),
-    row('\u{e0ed}', "hamorirelative", K::Relative),
-    row('\u{e0f0}', "hammime", K::Mime),
-    row('\u{e0f1}', "hamversion40", K::Version),
+static SYMBOL_TABLE: [SymbolRow; 209] = [
+    new_symbol_row(' ', "hamspace", K::Space),
+    new_symbol_row('!', "hamexclaim", K::Punctuation),
+    new_symbol_row(',', "hamcomma", K::Punctuation),
+    new_symbol_row('.', "hamfullstop", K::Punctuation),
+    new_symbol_row('?', "hamquery", K::Punctuation),
+    new_symbol_row('{', "hamaltbegin", K::AltBegin),
+    new_symbol_row('|', "hammetaalt", K::AltOr),
+    new_symbol_row('}', "hamaltend", K::AltEnd),
+    new_symbol_row('\u{e000}', "hamfist", K::Base(HandClass::Fist)),
+    new_symbol_row('\u{e001}', "hamflathand", K::Base(HandClass::Flat)),
+    new_symbol_row('\u{e002}', "hamfinger2", K::Base(HandClass::Finger2)),
+    new_symbol_row('\u{e003}', "hamfinger23", K::Base(HandClass::Finger23)),
+    new_symbol_row('\u{e004}', "hamfinger23spread", K::Base(HandClass::Finger23Spread)),
+    new_symbol_row('\u{e005}', "hamfinger2345", K::Base(HandClass::Finger2345)),
+    new_symbol_row('\u{e006}', "hampinch12", K::Base(HandClass::Pinch12)),
+    new_symbol_row('\u{e007}', "hampinchall", K::Base(HandClass::PinchAll)),
+    new_symbol_row('\u{e008}', "hampinch12open", K::Base(HandClass::Pinch12Open)),
+    new_symbol_row('\u{e009}', "hamcee12", K::Base(HandClass::Cee12)),
+    new_symbol_row('\u{e00a}', "hamceeall", K::Base(HandClass::CeeAll)),
+    new_symbol_row('\u{e00b}', "hamceeopen", K::Base(HandClass::Cee12Open)),
+    new_symbol_row('\u{e00c}', "hamthumboutmod", K::Thumb(ThumbPosition::Out)),
+    new_symbol_row('\u{e00d}', "hamthumbacrossmod", K::Thumb(ThumbPosition::Across)),
+    new_symbol_row('\u{e00e}', "hamthumbopenmod", K::Thumb(ThumbPosition::Opposed)),
+    new_symbol_row('\u{e010}', "hamfingerstraightmod", K::Bend(FingerBend::Bent)),
+    new_symbol_row('\u{e011}', "hamfingerbendmod", K::Bend(FingerBend::Round)),
+    new_symbol_row('\u{e012}', "hamfingerhookmod", K::Bend(FingerBend::Hooked)),
+    new_symbol_row('\u{e013}', "hamdoublebent", K::Bend(FingerBend::DoubleBent)),
+    new_symbol_row('\u{e014}', "hamdoublehooked", K::Bend(FingerBend::DoubleHooked)),
+    new_symbol_row('\u{e020}', "hamextfingeru", K::Extended(dir(1, 0, 0))),
+    new_symbol_row('\u{e021}', "hamextfingerur", K::Extended(dir(1, 0, -1))),
+    new_symbol_row('\u{e022}', "hamextfingerr", K::Extended(dir(0, 0, -1))),
+    new_symbol_row('\u{e023}', "hamextfingerdr", K::Extended(dir(-1, 0, -1))),
+    new_symbol_row('\u{e024}', "hamextfingerd", K::Extended(dir(-1, 0, 0))),
+    new_symbol_row('\u{e025}', "hamextfingerdl", K::Extended(dir(-1, 0, 1))),
+    new_symbol_row('\u{e026}', "hamextfingerl", K::Extended(dir(0, 0, 1))),
+    new_symbol_row('\u{e027}', "hamextfingerul", K::Extended(dir(1, 0, 1))),
+    new_symbol_row('\u{e028}', "hamextfingerol", K::Extended(dir(0, 1, 1))),
+    new_symbol_row('\u{e029}', "hamextfingero", K::Extended(dir(0, 1, 0))),
+    new_symbol_row('\u{e02a}', "hamextfingeror", K::Extended(dir(0, 1, -1))),
+    new_symbol_row('\u{e02b}', "hamextfingeril", K::Extended(dir(0, -1, 1))),
+    new_symbol_row('\u{e02c}', "hamextfingeri", K::Extended(dir(0, -1, 0))),
+    new_symbol_row('\u{e02d}', "hamextfingerir", K::Extended(dir(0, -1, -1))),
+    new_symbol_row('\u{e02e}', "hamextfingerui", K::Extended(dir(1, -1, 0))),
+    new_symbol_row('\u{e02f}', "hamextfingerdi", K::Extended(dir(-1, -1, 0))),
+    new_symbol_row('\u{e030}', "hamextfingerdo", K::Extended(dir(-1, 1, 0))),
+    new_symbol_row('\u{e031}', "hamextfingeruo", K::Extended(dir(1, 1, 0))),
+    new_symbol_row('\u{e038}', "hampalmu", K::Palm(CompassDirection::U)),
+    new_symbol_row('\u{e039}', "hampalmur", K::Palm(CompassDirection::Ur)),
+    new_symbol_row('\u{e03a}', "hampalmr", K::Palm(CompassDirection::R)),
+    new_symbol_row('\u{e03b}', "hampalmdr", K::Palm(CompassDirection::Dr)),
+    new_symbol_row('\u{e03c}', "hampalmd", K::Palm(CompassDirection::D)),
+    new_symbol_row('\u{e03d}', "hampalmdl", K::Palm(CompassDirection::Dl)),
+    new_symbol_row('\u{e03e}', "hampalml", K::Palm(CompassDirection::L)),
+    new_symbol_row('\u{e03f}', "hampalmul", K::Palm(CompassDirection::Ul)),
+    new_symbol_row('\u{e040}', "hamhead", K::Body(BodyLocation::Head)),
+    new_symbol_row('\u{e041}', "hamheadtop", K::Body(BodyLocation::HeadTop)),
+    new_symbol_row('\u{e042}', "hamforehead", K::Body(BodyLocation::Forehead)),
+    new_symbol_row('\u{e043}', "hameyebrows", K::Body(BodyLocation::Eyebrows)),
+    new_symbol_row('\u{e044}', "hameyes", K::Body(BodyLocation::Eyes)),
+    new_symbol_row('\u{e045}', "hamnose", K::Body(BodyLocation::Nose)),
+    new_symbol_row('\u{e046}', "hamnostrils", K::Body(BodyLocation::Nostrils)),
+    new_symbol_row('\u{e047}', "hamear", K::Body(BodyLocation::Ear)),
+    new_symbol_row('\u{e048}', "hamearlobe", K::Body(BodyLocation::EarLobe)),
+    new_symbol_row('\u{e049}', "hamcheek", K::Body(BodyLocation::Cheek)),
+    new_symbol_row('\u{e04a}', "hamlips", K::Body(BodyLocation::Lips)),
+    new_symbol_row('\u{e04b}', "hamtongue", K::Body(BodyLocation::Tongue)),
+    new_symbol_row('\u{e04c}', "hamteeth", K::Body(BodyLocation::Teeth)),
+    new_symbol_row('\u{e04d}', "hamchin", K::Body(BodyLocation::Chin)),
+    new_symbol_row('\u{e04e}', "hamunderchin", K::Body(BodyLocation::UnderChin)),
+    new_symbol_row('\u{e04f}', "hamneck", K::Body(BodyLocation::Neck)),
+    new_symbol_row('\u{e050}', "hamshouldertop", K::Body(BodyLocation::ShoulderTop)),
+    new_symbol_row('\u{e051}', "hamshoulders", K::Body(BodyLocation::Shoulders)),
+    new_symbol_row('\u{e052}', "hamchest", K::Body(BodyLocation::Chest)),
+    new_symbol_row('\u{e053}', "hamstomach", K::Body(BodyLocation::Stomach)),
+    new_symbol_row('\u{e054}', "hambelowstomach", K::Body(BodyLocation::BelowStomach)),
+    new_symbol_row('\u{e058}', "hamlrbeside", K::Beside),
+    new_symbol_row('\u{e059}', "hamlrat", K::At),
+    new_symbol_row('\u{e05a}', "hamcoreftag", K::Define),
+    new_symbol_row('\u{e05b}', "hamcorefref", K::Refer),
+    new_symbol_row('\u{e05f}', "hamneutralspace", K::Body(BodyLocation::NeutralSpace)),
+    new_symbol_row('\u{e060}', "hamupperarm", K::Body(BodyLocation::UpperArm)),
+    new_symbol_row('\u{e061}', "hamelbow", K::Body(BodyLocation::Elbow)),
+    new_symbol_row('\u{e062}', "hamelbowinside", K::Body(BodyLocation::ElbowInside)),
+    new_symbol_row('\u{e063}', "hamlowerarm", K::Body(BodyLocation::LowerArm)),
+    new_symbol_row('\u{e064}', "hamwristback", K::Hand(HandLocation::WristBack)),
+    new_symbol_row('\u{e065}', "hamwristpulse", K::WristSide(LocationSide::Palmar)),
+    new_symbol_row('\u{e066}', "hamthumbball", K::Hand(HandLocation::ThumbBall)),
+    new_symbol_row('\u{e067}', "hampalm", K::Hand(HandLocation::Palm)),
+    new_symbol_row('\u{e068}', "hamhandback", K::Hand(HandLocation::HandBack)),
+    new_symbol_row('\u{e069}', "hamthumbside", K::Hand(HandLocation::ThumbSide)),
+    new_symbol_row('\u{e06a}', "hampinkyside", K::Hand(HandLocation::PinkySide)),
+    new_symbol_row('\u{e070}', "hamthumb", K::Digit(HandDigit::Thumb)),
+    new_symbol_row('\u{e071}', "hamindexfinger", K::Digit(HandDigit::Index)),
+    new_symbol_row('\u{e072}', "hammiddlefinger", K::Digit(HandDigit::Middle)),
+    new_symbol_row('\u{e073}', "hamringfinger", K::Digit(HandDigit::Ring)),
+    new_symbol_row('\u{e074}', "hampinky", K::Digit(HandDigit::Little)),
+    new_symbol_row('\u{e075}', "hamfingertip", K::Part(FingerPart::Tip)),
+    new_symbol_row('\u{e076}', "hamfingernail", K::Part(FingerPart::Nail)),
+    new_symbol_row('\u{e077}', "hamfingerpad", K::Part(FingerPart::Pad)),
+    new_symbol_row('\u{e078}', "hamfingermidjoint", K::Part(FingerPart::MidJoint)),
+    new_symbol_row('\u{e079}', "hamfingerbase", K::Part(FingerPart::Base)),
+    new_symbol_row('\u{e07a}', "hamfingerside", K::Part(FingerPart::Side)),
+    new_symbol_row('\u{e07c}', "hamwristtopulse", K::WristSide(LocationSide::Palmar)),
+    new_symbol_row('\u{e07d}', "hamwristtoback", K::WristSide(LocationSide::Dorsal)),
+    new_symbol_row('\u{e07e}', "hamwristtothumb", K::WristSide(LocationSide::Radial)),
+    new_symbol_row('\u{e07f}', "hamwristtopinky", K::WristSide(LocationSide::Ulnar)),
+    new_symbol_row('\u{e080}', "hammoveu", K::Move(dir(1, 0, 0))),
+    new_symbol_row('\u{e081}', "hammoveur", K::Move(dir(1, 0, -1))),
+    new_symbol_row('\u{e082}', "hammover", K::Move(dir(0, 0, -1))),
+    new_symbol_row('\u{e083}', "hammovedr", K::Move(dir(-1, 0, -1))),
+    new_symbol_row('\u{e084}', "hammoved", K::Move(dir(-1, 0, 0))),
+    new_symbol_row('\u{e085}', "hammovedl", K::Move(dir(-1, 0, 1))),
+    new_symbol_row('\u{e086}', "hammovel", K::Move(dir(0, 0, 1))),
+    new_symbol_row('\u{e087}', "hammoveul", K::Move(dir(1, 0, 1))),
+    new_symbol_row('\u{e088}', "hammoveol", K::Move(dir(0, 1, 1))),
+    new_symbol_row('\u{e089}', "hammoveo", K::Move(dir(0, 1, 0))),
+    new_symbol_row('\u{e08a}', "hammoveor", K::Move(dir(0, 1, -1))),
+    new_symbol_row('\u{e08b}', "hammoveil", K::Move(dir(0, -1, 1))),
+    new_symbol_row('\u{e08c}', "hammovei", K::Move(dir(0, -1, 0))),
+    new_symbol_row('\u{e08d}', "hammoveir", K::Move(dir(0, -1, -1))),
+    new_symbol_row('\u{e08e}', "hammoveui", K::Move(dir(1, -1, 0))),
+    new_symbol_row('\u{e08f}', "hammovedi", K::Move(dir(-1, -1, 0))),
+    new_symbol_row('\u{e090}', "hammovedo", K::Move(dir(-1, 1, 0))),
+    new_symbol_row('\u{e091}', "hammoveuo", K::Move(dir(1, 1, 0))),
+    new_symbol_row('\u{e092}', "hamcircleo", K::Circle(dir(0, 1, 0))),
+    new_symbol_row('\u{e093}', "hamcirclei", K::Circle(dir(0, -1, 0))),
+    new_symbol_row('\u{e094}', "hamcircled", K::Circle(dir(-1, 0, 0))),
+    new_symbol_row('\u{e095}', "hamcircleu", K::Circle(dir(1, 0, 0))),
+    new_symbol_row('\u{e096}', "hamcirclel", K::Circle(dir(0, 0, 1))),
+    new_symbol_row('\u{e097}', "hamcircler", K::Circle(dir(0, 0, -1))),
+    new_symbol_row('\u{e098}', "hamcircleul", K::Circle(dir(1, 0, 1))),
+    new_symbol_row('\u{e099}', "hamcircledr", K::Circle(dir(-1, 0, -1))),
+    new_symbol_row('\u{e09a}', "hamcircleur", K::Circle(dir(1, 0, -1))),
+    new_symbol_row('\u{e09b}', "hamcircledl", K::Circle(dir(-1, 0, 1))),
+    new_symbol_row('\u{e09c}', "hamcircleol", K::Circle(dir(0, 1, 1))),
+    new_symbol_row('\u{e09d}', "hamcircleir", K::Circle(dir(0, -1, -1))),
+    new_symbol_row('\u{e09e}', "hamcircleor", K::Circle(dir(0, 1, -1))),
+    new_symbol_row('\u{e09f}', "hamcircleil", K::Circle(dir(0, -1, 1))),
+    new_symbol_row('\u{e0a0}', "hamcircleui", K::Circle(dir(1, -1, 0))),
+    new_symbol_row('\u{e0a1}', "hamcircledo", K::Circle(dir(-1, 1, 0))),
+    new_symbol_row('\u{e0a2}', "hamcircleuo", K::Circle(dir(1, 1, 0))),
+    new_symbol_row('\u{e0a3}', "hamcircledi", K::Circle(dir(-1, -1, 0))),
+    new_symbol_row('\u{e0a4}', "hamfingerplay", K::FingerPlay),
+    new_symbol_row('\u{e0a5}', "hamnodding", K::Wrist(WristMotion::Nodding)),
+    new_symbol_row('\u{e0a6}', "hamswinging", K::Wrist(WristMotion::Swinging)),
+    new_symbol_row('\u{e0a7}', "hamtwisting", K::Wrist(WristMotion::Twisting)),
+    new_symbol_row('\u{e0a8}', "hamstircw", K::Wrist(WristMotion::StirCw)),
+    new_symbol_row('\u{e0a9}', "hamstirccw", K::Wrist(WristMotion::StirCcw)),
+    new_symbol_row('\u{e0aa}', "hamreplace", K::Replace),
+    new_symbol_row('\u{e0ad}', "hammovecross", K::Cross { diagonal: false }),
+    new_symbol_row('\u{e0ae}', "hammoveX", K::Cross { diagonal: true }),
+    new_symbol_row('\u{e0af}', "hamnomotion", K::Still),
+    new_symbol_row('\u{e0b0}', "hamclocku", K::Clock(CompassDirection::U)),
+    new_symbol_row('\u{e0b1}', "hamclockul", K::Clock(CompassDirection::Ul)),
+    new_symbol_row('\u{e0b2}', "hamclockl", K::Clock(CompassDirection::L)),
+    new_symbol_row('\u{e0b3}', "hamclockdl", K::Clock(CompassDirection::Dl)),
+    new_symbol_row('\u{e0b4}', "hamclockd", K::Clock(CompassDirection::D)),
+    new_symbol_row('\u{e0b5}', "hamclockdr", K::Clock(CompassDirection::Dr)),
+    new_symbol_row('\u{e0b6}', "hamclockr", K::Clock(CompassDirection::R)),
+    new_symbol_row('\u{e0b7}', "hamclockur", K::Clock(CompassDirection::Ur)),
+    new_symbol_row('\u{e0b8}', "hamclockfull", K::ClockFull),
+    new_symbol_row('\u{e0b9}', "hamarcl", K::Arc(CompassDirection::L)),
+    new_symbol_row('\u{e0ba}', "hamarcu", K::Arc(CompassDirection::U)),
+    new_symbol_row('\u{e0bb}', "hamarcr", K::Arc(CompassDirection::R)),
+    new_symbol_row('\u{e0bc}', "hamarcd", K::Arc(CompassDirection::D)),
+    new_symbol_row('\u{e0bd}', "hamwavy", K::Zigzag { wavy: true }),
+    new_symbol_row('\u{e0be}', "hamzigzag", K::Zigzag { wavy: false }),
+    new_symbol_row('\u{e0c0}', "hamellipseh", K::Ellipse(EllipseAxis::Horizontal)),
+    new_symbol_row('\u{e0c1}', "hamellipseur", K::Ellipse(EllipseAxis::UpRight)),
+    new_symbol_row('\u{e0c2}', "hamellipsev", K::Ellipse(EllipseAxis::Vertical)),
+    new_symbol_row('\u{e0c3}', "hamellipseul", K::Ellipse(EllipseAxis::UpLeft)),
+    new_symbol_row('\u{e0c4}', "hamincreasing", K::Growth { increasing: true }),
+    new_symbol_row('\u{e0c5}', "hamdecreasing", K::Growth { increasing: false }),
+    new_symbol_row('\u{e0c6}', "hamsmallmod", K::Size(MotionSize::Small)),
+    new_symbol_row('\u{e0c7}', "hamlargemod", K::Size(MotionSize::Big)),
+    new_symbol_row('\u{e0c8}', "hamfast", K::Manner(MannerMark::Fast)),
+    new_symbol_row('\u{e0c9}', "hamslow", K::Manner(MannerMark::Slow)),
+    new_symbol_row('\u{e0ca}', "hamtense", K::Manner(MannerMark::Tense)),
+    new_symbol_row('\u{e0cb}', "hamrest", K::Manner(MannerMark::Rest)),
+    new_symbol_row('\u{e0cc}', "hamhalt", K::Manner(MannerMark::Halt)),
+    new_symbol_row('\u{e0d0}', "hamclose", K::Contact(PlaceContact::Close)),
+    new_symbol_row('\u{e0d1}', "hamtouch", K::Contact(PlaceContact::Touch)),
+    new_symbol_row('\u{e0d2}', "haminterlock", K::Contact(PlaceContact::Interlock)),
+    new_symbol_row('\u{e0d3}', "hamcross", K::Contact(PlaceContact::Cross)),
+    new_symbol_row('\u{e0d4}', "hamarmextended", K::Contact(PlaceContact::ArmExtended)),
+    new_symbol_row('\u{e0d5}', "hambehind", K::Behind),
+    new_symbol_row('\u{e0d6}', "hambrushing", K::Contact(PlaceContact::Brushing)),
+    new_symbol_row('\u{e0d8}', "hamrepeatfromstart", K::Repeat(RepeatKind::FromStart)),
+    new_symbol_row('\u{e0d9}', "hamrepeatfromstartseveral", K::Repeat(RepeatKind::FromStartSeveral)),
+    new_symbol_row('\u{e0da}', "hamrepeatcontinue", K::Repeat(RepeatKind::Continue)),
+    new_symbol_row('\u{e0db}', "hamrepeatcontinueseveral", K::Repeat(RepeatKind::ContinueSeveral)),
+    new_symbol_row('\u{e0dc}', "hamrepeatreverse", K::Repeat(RepeatKind::Reverse)),
+    new_symbol_row('\u{e0dd}', "hamalternatingmotion", K::Alternating),
+    new_symbol_row('\u{e0e0}', "hamseqbegin", K::Open(BracketKind::Seq)),
+    new_symbol_row('\u{e0e1}', "hamseqend", K::Close(BracketKind::Seq)),
+    new_symbol_row('\u{e0e2}', "hamparbegin", K::Open(BracketKind::Par)),
+    new_symbol_row('\u{e0e3}', "hamparend", K::Close(BracketKind::Par)),
+    new_symbol_row('\u{e0e4}', "hamfusionbegin", K::Open(BracketKind::Fusion)),
+    new_symbol_row('\u{e0e5}', "hamfusionend", K::Close(BracketKind::Fusion)),
+    new_symbol_row('\u{e0e6}', "hambetween", K::Between),
+    new_symbol_row('\u{e0e7}', "hamplus", K::Plus),
+    new_symbol_row('\u{e0e8}', "hamsymmpar", K::Symmetry { left_right: false }),
+    new_symbol_row('\u{e0e9}', "hamsymmlr", K::Symmetry { left_right: true }),
+    new_symbol_row('\u{e0ea}', "hamnondominant", K::Nondominant),
+    new_symbol_row('\u{e0eb}', "hamnonipsi", K::RealSpace),
+    new_symbol_row('\u{e0ec}', "hametc", K::Approx),
+    new_symbol_row('\u{e0ed}', "hamorirelative", K::Relative),
+    new_symbol_row('\u{e0f0}', "hammime", K::Mime),
+    new_symbol_row('\u{e0f1}', "hamversion40", K::Version),
 ];

@@ -1,7 +1,7 @@
 //! Reading, finding, and the inventories that come with the program.
 
 use super::*;
-use chereme_motion::Finger;
+use chereme_motion::HandFinger;
 
 const SMALL: &str = r#"{
   "id": "small", "component": "handshape", "version": 1, "names": {"en": "small"},
@@ -13,8 +13,8 @@ const SMALL: &str = r#"{
   ]
 }"#;
 
-fn small() -> Inventory {
-    Inventory::from_json(SMALL).expect("a good inventory")
+fn small() -> ComponentInventory {
+    ComponentInventory::from_json(SMALL).expect("a good inventory")
 }
 
 #[test]
@@ -31,23 +31,23 @@ fn values_are_found_by_any_spelling() {
         ("", None),
     ] {
         assert_eq!(
-            inventory.find(text).map(|value| value.id.as_str()),
+            inventory.find_inventory_value(text).map(|value| value.id.as_str()),
             id,
             "{text:?}"
         );
     }
-    assert_eq!(inventory.suggest("chinn"), ["chin"]);
-    assert_eq!(inventory.suggest("victroy"), ["V"]);
-    assert!(inventory.suggest("elephant").is_empty());
-    assert!(inventory.is_within("lip", "head"));
-    assert!(!inventory.is_within("head", "lip"));
-    assert_eq!(inventory.field().to_string(), "configuration");
+    assert_eq!(inventory.suggest_value_ids("chinn"), ["chin"]);
+    assert_eq!(inventory.suggest_value_ids("victroy"), ["V"]);
+    assert!(inventory.suggest_value_ids("elephant").is_empty());
+    assert!(inventory.is_within_value("lip", "head"));
+    assert!(!inventory.is_within_value("head", "lip"));
+    assert_eq!(inventory.inventory_field().to_string(), "configuration");
 }
 
 #[test]
 fn values_match_required_and_excluded_features() {
     let inventory = small();
-    let value = inventory.get("V").expect("V");
+    let value = inventory.value_by_id("V").expect("V");
     for (wanted, matches) in [
         (&["index"][..], true),
         (&["Index", "spread"], true),
@@ -64,42 +64,39 @@ fn values_match_required_and_excluded_features() {
 fn side_relative_landmarks_follow_the_hand() {
     let inventory = small();
     let landmark = inventory
-        .get("chin")
+        .value_by_id("chin")
         .and_then(|chin| chin.landmark.clone())
         .expect("one");
     assert_eq!(
-        landmark.resolve(Side::Left),
+        landmark.resolve_landmark(BodySide::Left),
         ("left-chin".to_owned(), [0.5, 0.0, 1.0])
     );
     assert_eq!(
-        landmark.resolve(Side::Right),
+        landmark.resolve_landmark(BodySide::Right),
         ("right-chin".to_owned(), [-0.5, 0.0, 1.0])
     );
-    let contra = Landmark {
+    let contra = BodyLandmark {
         name: "contra-chin".to_owned(),
         ..landmark
     };
     assert_eq!(
-        contra.resolve(Side::Right),
+        contra.resolve_landmark(BodySide::Right),
         ("left-chin".to_owned(), [0.5, 0.0, 1.0])
     );
-    let middle = Landmark {
+    let middle = BodyLandmark {
         name: "head-top".to_owned(),
         offset: [0.1, 0.2, 0.3],
     };
     assert_eq!(
-        middle.resolve(Side::Right),
+        middle.resolve_landmark(BodySide::Right),
         ("head-top".to_owned(), [0.1, 0.2, 0.3])
     );
 }
 
 #[test]
 fn faults_name_the_value_and_the_field() {
-    let with = |values: &str| {
-        format!(
-            r#"{{"id":"x","component":"placement","version":1,"names":{{}},"values":[{values}]}}"#
-        )
-    };
+    let with =
+        |values: &str| format!(r#"{{"id":"x","component":"placement","version":1,"names":{{}},"values":[{values}]}}"#);
     for (text, message) in [
         (
             "{".to_owned(),
@@ -178,30 +175,27 @@ fn faults_name_the_value_and_the_field() {
             r#"inventory "x", value "a", field "broader": the value lies within itself; give it a broader one that is not part of it"#,
         ),
     ] {
-        let error = Inventory::from_json(&text).expect_err(message);
+        let error = ComponentInventory::from_json(&text).expect_err(message);
         assert_eq!(error.to_string(), message, "{text}");
     }
 }
 
 #[test]
 fn nesting_and_truncation_are_errors() {
-    assert!(Inventory::from_json(&"[".repeat(100_000)).is_err());
+    assert!(ComponentInventory::from_json(&"[".repeat(100_000)).is_err());
     for end in 0..SMALL.len() {
-        assert!(Inventory::from_json(&SMALL[..SMALL.floor_char_boundary(end)]).is_err());
+        assert!(ComponentInventory::from_json(&SMALL[..SMALL.floor_char_boundary(end)]).is_err());
     }
 }
 
 #[test]
 fn writing_and_reading_gives_the_inventory_back() {
-    for inventory in builtin().iter().chain([&small()]) {
-        let again = Inventory::from_json(&inventory.to_json()).expect(&inventory.id);
+    for inventory in builtin_inventories().iter().chain([&small()]) {
+        let again = ComponentInventory::from_json(&inventory.to_json()).expect(&inventory.id);
         assert_eq!(again.to_json(), inventory.to_json());
         for (a, b) in inventory.values.iter().zip(&again.values) {
             let near = |a: &HandAngles, b: &HandAngles| {
-                a.to_array()
-                    .iter()
-                    .zip(b.to_array())
-                    .all(|(a, b)| (a - b).abs() < 1e-9)
+                a.to_array().iter().zip(b.to_array()).all(|(a, b)| (a - b).abs() < 1e-9)
             };
             match (&a.pose, &b.pose) {
                 (Some(a), Some(b)) => assert!(near(a, b)),
@@ -222,32 +216,20 @@ fn writing_and_reading_gives_the_inventory_back() {
 #[test]
 fn the_built_in_inventories_are_complete() {
     let mut ids = BTreeSet::new();
-    for inventory in builtin() {
+    for inventory in builtin_inventories() {
         assert!(ids.insert(&inventory.id), "{}", inventory.id);
         assert!(!inventory.description.is_empty(), "{}", inventory.id);
         assert!(!inventory.values.is_empty(), "{}", inventory.id);
         for language in ["en", "fr"] {
             assert!(inventory.names.contains_key(language), "{}", inventory.id);
             for value in &inventory.values {
-                let name = value
-                    .names
-                    .get(language)
-                    .map(String::as_str)
-                    .unwrap_or_default();
-                assert!(
-                    !name.trim().is_empty(),
-                    "{} {} {language}",
-                    inventory.id,
-                    value.id
-                );
+                let name = value.names.get(language).map(String::as_str).unwrap_or_default();
+                assert!(!name.trim().is_empty(), "{} {} {language}", inventory.id, value.id);
             }
         }
     }
     assert_eq!(builtin_by_id("palm").map(|palm| palm.values.len()), Some(8));
-    assert_eq!(
-        builtin_by_id("fingers").map(|fingers| fingers.values.len()),
-        Some(26)
-    );
+    assert_eq!(builtin_by_id("fingers").map(|fingers| fingers.values.len()), Some(26));
     for field in [
         "configuration",
         "placement",
@@ -258,12 +240,12 @@ fn the_built_in_inventories_are_complete() {
         "nonmanual.brows",
         "nonmanual.mouth",
     ] {
-        let field: Field = field.parse().expect(field);
+        let field: ComponentField = field.parse().expect(field);
         assert!(builtin_for(&field).is_some(), "{field}");
     }
 }
 
-fn configurations() -> &'static Inventory {
+fn configurations() -> &'static ComponentInventory {
     builtin_by_id("configurations").expect("the configurations")
 }
 
@@ -309,7 +291,7 @@ fn the_named_handshapes_are_there() {
         "K",
         "R",
     ] {
-        let found = configurations().find(&id.replace(' ', "-"));
+        let found = configurations().find_inventory_value(&id.replace(' ', "-"));
         assert!(found.is_some(), "{id}");
     }
     for (id, wanted) in [
@@ -319,14 +301,11 @@ fn the_named_handshapes_are_there() {
         ("Y", &["thumb", "little", "-index"]),
         ("S", &["closed", "thumb-across"]),
         ("3", &["thumb", "index", "middle", "spread"]),
-        (
-            "5_folded",
-            &["index", "middle", "ring", "little", "spread", "curved"],
-        ),
+        ("5_folded", &["index", "middle", "ring", "little", "spread", "curved"]),
         ("F", &["index", "thumb", "aperture-closed"]),
         ("C", &["curved", "aperture-open"]),
     ] {
-        let value = configurations().get(id).expect(id);
+        let value = configurations().value_by_id(id).expect(id);
         assert!(value.matches_features(wanted), "{id}: {:?}", value.features);
     }
 }
@@ -342,7 +321,7 @@ fn limits() -> Vec<(f64, f64)> {
         (-15.0, 70.0),
         (-15.0, 85.0),
     ];
-    for _ in Finger::ALL {
+    for _ in HandFinger::ALL_FINGERS {
         all.extend([(-25.0, 25.0), (-20.0, 95.0), (-5.0, 112.0), (-10.0, 85.0)]);
     }
     all
@@ -352,23 +331,17 @@ fn limits() -> Vec<(f64, f64)> {
 fn every_configuration_is_one_plausible_hand() {
     let values = &configurations().values;
     for (n, value) in values.iter().enumerate() {
-        let pose = value
-            .pose
-            .unwrap_or_else(|| panic!("{} has no pose", value.id));
-        let degrees = pose.map(f64::to_degrees).to_array();
+        let pose = value.pose.unwrap_or_else(|| panic!("{} has no pose", value.id));
+        let degrees = pose.map_hand_angles(f64::to_degrees).to_array();
         for (k, (angle, (least, most))) in degrees.iter().zip(limits()).enumerate() {
-            assert!(
-                (least..=most).contains(angle),
-                "{} angle {k}: {angle}",
-                value.id
-            );
+            assert!((least..=most).contains(angle), "{} angle {k}: {angle}", value.id);
         }
         assert!(!value.features.is_empty(), "{}", value.id);
         for other in &values[..n] {
             let theirs = other
                 .pose
                 .unwrap_or_default()
-                .map(f64::to_degrees)
+                .map_hand_angles(f64::to_degrees)
                 .to_array();
             let apart = degrees
                 .iter()
@@ -384,17 +357,17 @@ fn every_configuration_is_one_plausible_hand() {
 fn stretched_fingers_are_the_selected_ones() {
     for value in &configurations().values {
         let pose = value.pose.expect("a pose");
-        for finger in Finger::ALL {
+        for finger in HandFinger::ALL_FINGERS {
             let bend: f64 = pose.fingers[finger.index()].flexion.iter().sum();
             let bend = bend.to_degrees();
-            let good = if value.features.contains(finger.name()) {
+            let good = if value.features.contains(finger.finger_name()) {
                 bend < 235.0
             } else {
                 let open = ["pinch12open", "cee12open"];
                 let open = open.iter().any(|class| value.features.contains(*class));
                 open || bend > 150.0
             };
-            assert!(good, "{} {}: {bend}", value.id, finger.name());
+            assert!(good, "{} {}: {bend}", value.id, finger.finger_name());
         }
     }
 }
@@ -409,19 +382,14 @@ fn the_alphabet_spells_every_letter_with_known_shapes_and_directions() {
         .collect();
     assert_eq!(letters, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
     let known = |inventory: &str, id: &str| {
-        builtin_by_id(inventory).is_some_and(|inventory| inventory.get(id).is_some())
+        builtin_by_id(inventory).is_some_and(|inventory| inventory.value_by_id(id).is_some())
     };
     for value in &alphabet.values {
         assert!(value.hand_pose(configurations()).is_some(), "{}", value.id);
         let orientation = value.orientation.as_ref().expect(&value.id);
         assert!(known("palm", &orientation.palm) && known("fingers", &orientation.fingers));
         for stroke in &value.strokes {
-            assert!(
-                stroke
-                    .direction
-                    .iter()
-                    .all(|direction| known("directions", direction))
-            );
+            assert!(stroke.direction.iter().all(|direction| known("directions", direction)));
             assert!(stroke.size > 0.0);
         }
         let moves = ["J", "Z"].contains(&value.id.as_str());
@@ -432,15 +400,11 @@ fn the_alphabet_spells_every_letter_with_known_shapes_and_directions() {
 #[test]
 fn every_place_has_a_landmark_within_reach() {
     let placements = builtin_by_id("placements").expect("the placements");
-    let known = chereme_motion::Anatomy::landmarks();
+    let known = chereme_motion::BodyAnatomy::landmark_names();
     for value in &placements.values {
         let landmark = value.landmark.as_ref().expect(&value.id);
-        assert!(
-            landmark.offset.iter().all(|part| part.abs() <= 0.8),
-            "{}",
-            value.id
-        );
-        let (name, _) = landmark.resolve(Side::Left);
+        assert!(landmark.offset.iter().all(|part| part.abs() <= 0.8), "{}", value.id);
+        let (name, _) = landmark.resolve_landmark(BodySide::Left);
         assert!(known.contains(&name), "{}: {name}", value.id);
     }
     for (place, broader) in [
@@ -452,7 +416,7 @@ fn every_place_has_a_landmark_within_reach() {
         ("palm", "weak-hand"),
         ("chest", "trunk"),
     ] {
-        assert!(placements.is_within(place, broader), "{place} in {broader}");
+        assert!(placements.is_within_value(place, broader), "{place} in {broader}");
     }
     for (text, id) in [
         ("neutral space", "neutral"),
@@ -462,7 +426,7 @@ fn every_place_has_a_landmark_within_reach() {
         ("espace neutre", "neutral"),
         ("épaule", "shoulder"),
     ] {
-        let found = placements.find(&text.replace("weak hand", "main dominée"));
+        let found = placements.find_inventory_value(&text.replace("weak hand", "main dominée"));
         assert_eq!(found.map_or("", |value| &value.id), id, "{text}");
     }
 }
@@ -502,7 +466,7 @@ fn hamnosys_symbols_are_known_ones() {
     if known.is_none() {
         eprintln!("no table of symbols: only the prefix is checked");
     }
-    for inventory in builtin() {
+    for inventory in builtin_inventories() {
         for value in &inventory.values {
             for symbol in value.hamnosys.iter().flat_map(|text| text.split(' ')) {
                 let good = match &known {
@@ -523,17 +487,21 @@ fn the_json_schema_knows_the_fields_that_are_read() {
         let object = schema.pointer(path).and_then(serde_json::Value::as_object);
         object.expect(path).keys().cloned().collect()
     };
-    let known = |names: &[&str]| -> BTreeSet<String> {
-        names.iter().map(|name| (*name).to_owned()).collect()
-    };
+    let known = |names: &[&str]| -> BTreeSet<String> { names.iter().map(|name| (*name).to_owned()).collect() };
     assert_eq!(
         fields("/$defs/inventory/properties"),
-        known(json::INVENTORY)
+        known(inventory_json::INVENTORY_FIELDS)
     );
-    assert_eq!(fields("/$defs/value/properties"), known(json::VALUE));
+    assert_eq!(
+        fields("/$defs/value/properties"),
+        known(inventory_json::INVENTORY_VALUE_FIELDS)
+    );
     assert_eq!(
         fields("/$defs/value/properties/pose/properties"),
-        known(json::POSE)
+        known(inventory_json::HAND_POSE_FIELDS)
     );
-    assert_eq!(fields("/$defs/finger/properties"), known(json::FINGER));
+    assert_eq!(
+        fields("/$defs/finger/properties"),
+        known(inventory_json::FINGER_POSE_FIELDS)
+    );
 }

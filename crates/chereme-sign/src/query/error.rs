@@ -1,16 +1,16 @@
 //! The error of a query, with its position.
 
-use super::print::write_value;
-use super::tree::At;
-use crate::remedy::Remedy;
-use crate::text::nearest;
+use super::query_print::write_value;
+use super::query_tree::QueryPlace;
+use crate::remedy::ErrorRemedy;
+use crate::text::nearest_candidate;
 use std::fmt;
 use std::ops::Range;
 
 /// The most characters of a long query that are shown before the place of the error.
-const LEAD: usize = 50;
+const MAX_LEADING_CHARS: usize = 50;
 /// The most characters of a query that are shown.
-const WIDTH: usize = 100;
+const MAX_SHOWN_CHARS: usize = 100;
 
 /// An error in a query that cannot be understood or answered, with its place and a correction.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -20,41 +20,41 @@ pub struct QueryError {
     /// The error, in one sentence without a full stop.
     pub message: String,
     /// A correction; may be empty if the suggestion is sufficient.
-    pub remedy: Remedy,
+    pub remedy: ErrorRemedy,
     /// The text to write in place of [`at`](Self::at), if one meaning is most likely.
     pub suggestion: Option<String>,
 }
 
 impl QueryError {
-    pub(super) fn new(at: At, message: impl Into<String>, remedy: impl Into<Remedy>) -> Self {
+    pub(super) fn new(at: QueryPlace, message: impl Into<String>, remedy: impl Into<ErrorRemedy>) -> Self {
         let (message, remedy) = (message.into(), remedy.into());
         Self {
-            at: at.range(),
+            at: at.char_range(),
             message,
             remedy,
             suggestion: None,
         }
     }
 
-    pub(super) fn suggest(mut self, replacement: Option<impl Into<String>>) -> Self {
+    pub(super) fn with_suggestion(mut self, replacement: Option<impl Into<String>>) -> Self {
         self.suggestion = replacement.map(Into::into);
         self
     }
 
-    /// Returns the error as lines of text: those of [`QueryError::drawn`], and the remedy.
+    /// Returns the error as lines of text: those of [`QueryError::draw_query_error`], and the remedy.
     #[must_use]
-    pub fn render(&self, query: &str) -> String {
-        let mut text = self.drawn(query);
+    pub fn render_query_error(&self, query: &str) -> String {
+        let mut text = self.draw_query_error(query);
         if !self.remedy.is_empty() {
             text.push('\n');
-            text.push_str(self.remedy.text());
+            text.push_str(self.remedy.remedy_text());
         }
         text
     }
 
     /// Returns the message with the suggestion.
     #[must_use]
-    pub fn fault(&self) -> String {
+    pub fn fault_message(&self) -> String {
         match &self.suggestion {
             Some(suggestion) => format!("{}; did you mean {suggestion}?", self.message),
             None => self.message.clone(),
@@ -66,23 +66,19 @@ impl QueryError {
     ///
     /// `query` is the text that was parsed.
     #[must_use]
-    pub fn drawn(&self, query: &str) -> String {
+    pub fn draw_query_error(&self, query: &str) -> String {
         let chars: Vec<char> = query.chars().collect();
-        let from = if self.at.start > LEAD + 10 {
-            self.at.start.min(chars.len()) - LEAD
+        let from = if self.at.start > MAX_LEADING_CHARS + 10 {
+            self.at.start.min(chars.len()) - MAX_LEADING_CHARS
         } else {
             0
         };
-        let to = chars.len().min(from + WIDTH);
+        let to = chars.len().min(from + MAX_SHOWN_CHARS);
         let mut line = String::new();
         if from > 0 {
             line.push('…');
         }
-        line.extend(
-            chars[from..to]
-                .iter()
-                .map(|c| if c.is_control() { ' ' } else { *c }),
-        );
+        line.extend(chars[from..to].iter().map(|c| if c.is_control() { ' ' } else { *c }));
         if to < chars.len() {
             line.push('…');
         }
@@ -95,13 +91,13 @@ impl QueryError {
             "{line}\n{}{}\n{}",
             " ".repeat(indent),
             "^".repeat(carets),
-            self.fault()
+            self.fault_message()
         )
     }
 
     /// Returns the query with the suggestion in place of the wrong characters; `None` without a suggestion.
     #[must_use]
-    pub fn corrected(&self, query: &str) -> Option<String> {
+    pub fn corrected_query(&self, query: &str) -> Option<String> {
         let suggestion = self.suggestion.as_deref()?;
         let before = query.chars().take(self.at.start);
         let after = query.chars().skip(self.at.end);
@@ -111,7 +107,7 @@ impl QueryError {
 
 impl fmt::Display for QueryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "character {}: {}", self.at.start + 1, self.fault())?;
+        write!(f, "character {}: {}", self.at.start + 1, self.fault_message())?;
         if !self.remedy.is_empty() {
             write!(f, " ({})", self.remedy)?;
         }
@@ -124,37 +120,28 @@ impl fmt::Display for QueryError {
 /// `candidates` are the valid names, in the order of offering; the nearest becomes the suggestion, and the message
 /// names the first few.
 #[must_use]
-pub fn unknown_value<'a>(
-    at: At,
-    value: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> QueryError {
-    const NAMED: usize = 8;
+pub fn unknown_value<'a>(at: QueryPlace, value: &str, candidates: impl IntoIterator<Item = &'a str>) -> QueryError {
+    const MAX_NAMED_VALUES: usize = 8;
     let candidates: Vec<&str> = candidates.into_iter().collect();
     let shown = candidates
         .iter()
-        .take(NAMED)
-        .map(|name| written(name))
+        .take(MAX_NAMED_VALUES)
+        .map(|name| written_query_value(name))
         .collect::<Vec<_>>()
         .join(", ");
     let remedy = match candidates.len() {
         0 => "no values are known for this field".to_owned(),
-        1..=NAMED => format!("known values: {shown}"),
-        count => format!("known values: {shown} and {} more", count - NAMED),
+        1..=MAX_NAMED_VALUES => format!("known values: {shown}"),
+        count => format!("known values: {shown} and {} more", count - MAX_NAMED_VALUES),
     };
-    let near = nearest(value, candidates).map(written);
-    QueryError::new(
-        at,
-        format!("the value {value:?} is in no inventory"),
-        remedy,
-    )
-    .suggest(near)
+    let near = nearest_candidate(value, candidates).map(written_query_value);
+    QueryError::new(at, format!("the value {value:?} is in no inventory"), remedy).with_suggestion(near)
 }
 
 /// Returns a value as a query spells it, in quotes if it needs them.
-fn written(value: &str) -> String {
+fn written_query_value(value: &str) -> String {
     let mut text = String::new();
-    match write_value(&mut text, &super::Pattern::literal(value)) {
+    match write_value(&mut text, &super::TextPattern::literal_pattern(value)) {
         Ok(()) => text,
         Err(_) => value.to_owned(),
     }

@@ -1,7 +1,7 @@
 //! The query language, which describes tokens.
 //!
-//! A query is parsed into a tree ([`Query`]). Every part of it holds its place in the text, so that an error can point
-//! at an unknown value ([`unknown_value`]). Printing a query gives its canonical text. [`complete`] lists the texts
+//! A query is parsed into a tree ([`TokenQuery`]). Every part of it holds its place in the text, so that an error can point
+//! at an unknown value ([`unknown_value`]). Printing a query gives its canonical text. [`complete_query`] lists the texts
 //! that may follow at a cursor.
 //!
 //! ```
@@ -29,13 +29,13 @@
 //! | attribute | `attribute.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
-//! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
+//! | property | `origin_from_word` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
 //! | textfield | `gloss` `translation` `comment` `text` |
 //! | timefield | `duration` `start` `end` |
 //! | values | *value* { `,` *value* } |
 //! | value | *text*, `/`*regular expression*`/`, `*`, `unset`, `n/a`, `unclear`, `[` { \[`-`\] *feature* } `]`; of a component also *step* `>` *step* { `>` *step* } |
 //! | step | *text*, `*`, `[` { \[`-`\] *feature* } `]` |
-//! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `equals` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
+//! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `is_single_number_comparison` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
 //! | example | `like` (`token:`*text*, `sign:`*text*, *text*) \[`on` *component*\[`:`*weight*\] { `,` *component*\[`:`*weight*\] }\] \[`above` *number*\] |
 //! | saved | `@`*text* |
 //! | time | *number* (`s` `ms` `min`) |
@@ -49,40 +49,41 @@
 //! In lower case `et`, `ou` and `non` are joints, too, and French words stand for relations if a comparison
 //! follows: `chevauche`, `avant`, `après`, `dans`, `couvre`.
 
-mod attributes;
-mod compare;
-mod complete;
-mod cue;
-mod curves;
 mod error;
-mod everyday;
-mod expression;
-mod lex;
 mod narrow;
 mod numerals;
-mod parse;
-mod pattern;
-mod print;
-mod saved;
+mod query_attributes;
+mod query_compare;
+mod query_complete;
+mod query_cue;
+mod query_curves;
+mod query_everyday;
+mod query_expression;
+mod query_lex;
+mod query_parse;
+mod query_pattern;
+mod query_print;
+mod query_saved;
+mod query_times;
+mod query_tree;
+mod query_values;
+mod query_words;
 #[cfg(test)]
 mod tests;
-mod times;
-mod tree;
-mod values;
-mod words;
 
-pub use attributes::{AttributeTest, number};
-pub use complete::{Completion, Expected, complete};
 pub use error::{QueryError, unknown_value};
-pub use everyday::{guessed, meant};
-pub use expression::Expression;
-pub use narrow::{facet_condition, narrow, wants, without};
-pub use numerals::Numerals;
-pub use pattern::Pattern;
-pub use saved::Saved;
-pub use tree::{
-    At, Comparison, CurveTest, Example, Expr, Feature, Like, Missing, Operator, Property, Query,
-    Related, Test, TextField, TimeField, TimeTest, Value, Wanted, Weighted, What,
+pub use narrow::{add_query_condition, facet_condition, has_query_condition, remove_query_condition};
+pub use numerals::NumberSpelling;
+pub use query_attributes::{AttributeTest, parse_plain_number};
+pub use query_complete::{CursorCompletion, ExpectedText, complete_query};
+pub use query_everyday::{guess_everyday_query, query_from_everyday_words};
+pub use query_expression::RegularExpression;
+pub use query_pattern::TextPattern;
+pub use query_saved::NamedSearch;
+pub use query_tree::{
+    ComparisonOperator, CurveTest, ExampleToken, LikeSearch, MissingReason, QueryExpression, QueryPlace, QueryTest,
+    QueryValue, RelatedAnnotation, TestSubject, TextField, TimeField, TimeTest, TokenQuery, ValueComparison,
+    ValueFeature, WantedValue, WeightedComponent, WholeTokenProperty,
 };
 
 use std::str::FromStr;
@@ -91,10 +92,10 @@ use std::str::FromStr;
 pub const MAX_CHARS: usize = 10_000;
 
 /// The deepest nesting of parentheses and negations.
-pub const MAX_DEPTH: usize = 64;
+pub const MAX_QUERY_DEPTH: usize = 64;
 
 /// A guide to writing queries, in plain text of at most 80 columns.
-pub const HELP: &str = r#"A query is a list of conditions; a token must meet all of them:
+pub const QUERY_HELP: &str = r#"A query is a list of conditions; a token must meet all of them:
 
   right.configuration=U placement=chin    U on the right hand, near the chin
   gloss:BO* not weak.configuration=S      a gloss in BO..., weak hand without S
@@ -167,19 +168,19 @@ Everyday words that find nothing, such as handshape U placement chin,
 lead to a suggested query.
 "#;
 
-impl Query {
+impl TokenQuery {
     /// Reads a query as people write it; nothing but blanks asks for every token.
     ///
     /// # Errors
     /// [`QueryError`] with the place of the first thing that cannot be understood.
-    pub fn parse(text: &str) -> Result<Self, QueryError> {
-        parse::query(text)
+    pub fn parse_query(text: &str) -> Result<Self, QueryError> {
+        query_parse::parse_whole_query(text)
     }
 }
 
-impl FromStr for Query {
+impl FromStr for TokenQuery {
     type Err = QueryError;
     fn from_str(text: &str) -> Result<Self, QueryError> {
-        Self::parse(text)
+        Self::parse_query(text)
     }
 }

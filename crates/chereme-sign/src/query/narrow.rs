@@ -1,9 +1,9 @@
 //! Adds conditions to the text of a query and removes them.
 
-use super::print::write_value;
-use super::tree::{Expr, Query};
-use super::{Pattern, Property, TextField};
-use crate::component::Field;
+use super::query_print::write_value;
+use super::query_tree::{QueryExpression, TokenQuery};
+use super::{TextField, TextPattern, WholeTokenProperty};
+use crate::component::ComponentField;
 
 /// Returns the query with a condition added: its text, in parentheses if it is an `or`, then the condition.
 ///
@@ -18,49 +18,49 @@ use crate::component::Field;
 /// assert_eq!(without(&narrowed, "placement==chin"), "gloss=A or gloss=B");
 /// ```
 #[must_use]
-pub fn narrow(query: &str, condition: &str) -> String {
+pub fn add_query_condition(query: &str, condition: &str) -> String {
     let (query, condition) = (query.trim(), condition.trim());
-    let (Ok(whole), Ok(added)) = (Query::parse(query), Query::parse(condition)) else {
+    let (Ok(whole), Ok(added)) = (TokenQuery::parse_query(query), TokenQuery::parse_query(condition)) else {
         return format!("{query} {condition}").trim().to_owned();
     };
     if includes(&whole.root, &added.root) {
         return query.to_owned();
     }
-    let wanted = Query {
-        root: Expr::all([whole.root.clone(), added.root.clone()]),
+    let wanted = TokenQuery {
+        root: QueryExpression::all_of_terms([whole.root.clone(), added.root.clone()]),
     };
     let text = format!(
         "{} {}",
         bracketed(query, &whole.root),
         bracketed(condition, &added.root)
     );
-    kept(text.trim(), &wanted)
+    keep_equal_spelling(text.trim(), &wanted)
 }
 
 /// Returns the query without a condition; unchanged if it does not have the condition.
 ///
 /// Only terms that must hold are removed: the condition inside an `or` or after `not` stays.
 #[must_use]
-pub fn without(query: &str, condition: &str) -> String {
+pub fn remove_query_condition(query: &str, condition: &str) -> String {
     let query = query.trim();
-    let (Ok(whole), Ok(removed)) = (Query::parse(query), Query::parse(condition)) else {
+    let (Ok(whole), Ok(removed)) = (TokenQuery::parse_query(query), TokenQuery::parse_query(condition)) else {
         return query.to_owned();
     };
-    let removed = joined(&removed.root);
-    if removed.is_empty() || !includes(&whole.root, &Expr::And(removed.to_vec())) {
+    let removed = joined_terms(&removed.root);
+    if removed.is_empty() || !includes(&whole.root, &QueryExpression::And(removed.to_vec())) {
         return query.to_owned();
     }
     let chars: Vec<char> = query.chars().collect();
     let (mut left, mut gaps) = (Vec::new(), Vec::new());
-    for term in joined(&whole.root) {
+    for term in joined_terms(&whole.root) {
         if removed.contains(term) {
-            gaps.push(term.at());
+            gaps.push(term.expression_place());
         } else {
             left.push(term.clone());
         }
     }
-    let wanted = Query {
-        root: Expr::all(left),
+    let wanted = TokenQuery {
+        root: QueryExpression::all_of_terms(left),
     };
     let mut text = String::new();
     let mut from = 0;
@@ -74,21 +74,19 @@ pub fn without(query: &str, condition: &str) -> String {
     let rest: String = chars[from..].iter().collect();
     text.push_str(rest.trim_start());
     let text = text.trim();
-    let opened = text
-        .strip_prefix('(')
-        .and_then(|text| text.strip_suffix(')'));
-    match opened.map(|text| (text.trim(), Query::parse(text))) {
+    let opened = text.strip_prefix('(').and_then(|text| text.strip_suffix(')'));
+    match opened.map(|text| (text.trim(), TokenQuery::parse_query(text))) {
         Some((inner, Ok(query))) if query == wanted => inner.to_owned(),
-        _ => kept(text, &wanted),
+        _ => keep_equal_spelling(text, &wanted),
     }
 }
 
 /// Returns whether a query has a condition: whether each of the condition's terms is one of its terms that must hold.
 #[must_use]
-pub fn wants(query: &str, condition: &str) -> bool {
-    match (Query::parse(query), Query::parse(condition)) {
+pub fn has_query_condition(query: &str, condition: &str) -> bool {
+    match (TokenQuery::parse_query(query), TokenQuery::parse_query(condition)) {
         (Ok(whole), Ok(condition)) => {
-            !joined(&condition.root).is_empty() && includes(&whole.root, &condition.root)
+            !joined_terms(&condition.root).is_empty() && includes(&whole.root, &condition.root)
         }
         _ => false,
     }
@@ -101,57 +99,54 @@ pub fn wants(query: &str, condition: &str) -> bool {
 #[must_use]
 pub fn facet_condition(field: &str, value: &str) -> Option<String> {
     let mut written = String::new();
-    write_value(&mut written, &Pattern::literal(value)).ok()?;
+    write_value(&mut written, &TextPattern::literal_pattern(value)).ok()?;
     let (before, hand_and_after) = match field.split_once("both.") {
-        Some((before, after)) if before.is_empty() || before.ends_with('.') => {
-            (before, Some(after))
-        }
+        Some((before, after)) if before.is_empty() || before.ends_with('.') => (before, Some(after)),
         _ => (field, None),
     };
     let fields = match hand_and_after {
-        Some(after) => ["right", "left"]
-            .map(|hand| format!("{before}{hand}.{after}"))
-            .to_vec(),
+        Some(after) => ["right", "left"].map(|hand| format!("{before}{hand}.{after}")).to_vec(),
         None => vec![field.to_owned()],
     };
-    let terms: Vec<String> = fields
-        .iter()
-        .map(|field| format!("{field}=={written}"))
-        .collect();
+    let terms: Vec<String> = fields.iter().map(|field| format!("{field}=={written}")).collect();
     let text = terms.join(" ");
     let simple = |name: &str| {
-        Property::ALL.iter().any(|it| it.name() == name)
-            || TextField::ALL.iter().any(|it| it.name() == name)
+        WholeTokenProperty::ALL_TOKEN_PROPERTIES
+            .iter()
+            .any(|property| property.property_name() == name)
+            || TextField::ALL_TEXT_FIELDS
+                .iter()
+                .any(|text_field| text_field.text_field_name() == name)
     };
-    let known = fields
+    let are_known = fields
         .iter()
-        .all(|field| simple(field) || field.parse::<Field>().is_ok());
-    (known && Query::parse(&text).is_ok()).then_some(text)
+        .all(|field| simple(field) || field.parse::<ComponentField>().is_ok());
+    (are_known && TokenQuery::parse_query(&text).is_ok()).then_some(text)
 }
 
 /// Returns the terms that must all hold.
-fn joined(root: &Expr) -> &[Expr] {
+fn joined_terms(root: &QueryExpression) -> &[QueryExpression] {
     match root {
-        Expr::And(terms) => terms,
+        QueryExpression::And(terms) => terms,
         one => std::slice::from_ref(one),
     }
 }
 
-fn includes(whole: &Expr, part: &Expr) -> bool {
-    let whole = joined(whole);
-    joined(part).iter().all(|term| whole.contains(term))
+fn includes(whole: &QueryExpression, part: &QueryExpression) -> bool {
+    let whole_terms = joined_terms(whole);
+    joined_terms(part).iter().all(|term| whole_terms.contains(term))
 }
 
-fn bracketed(text: &str, root: &Expr) -> String {
+fn bracketed(text: &str, root: &QueryExpression) -> String {
     match root {
-        Expr::Or(_) => format!("({text})"),
+        QueryExpression::Or(_) => format!("({text})"),
         _ => text.to_owned(),
     }
 }
 
 /// Returns the text if it means `wanted`, else the canonical text of `wanted`.
-fn kept(text: &str, wanted: &Query) -> String {
-    match Query::parse(text) {
+fn keep_equal_spelling(text: &str, wanted: &TokenQuery) -> String {
+    match TokenQuery::parse_query(text) {
         Ok(query) if query == *wanted => text.to_owned(),
         _ => wanted.to_string(),
     }
@@ -166,11 +161,7 @@ mod tests {
     fn an_added_condition_narrows_the_whole_query_and_is_removed_again() {
         for (query, condition, narrowed) in [
             ("", "placement==chin", "placement==chin"),
-            (
-                "handshape=U",
-                "placement==chin",
-                "handshape=U placement==chin",
-            ),
+            ("handshape=U", "placement==chin", "handshape=U placement==chin"),
             (
                 "gloss=A or gloss=B",
                 "placement==chin",
@@ -189,12 +180,12 @@ mod tests {
             ),
             ("snail", "gloss=A or gloss=B", "snail (gloss=A or gloss=B)"),
         ] {
-            assert_eq!(narrow(query, condition), narrowed, "{query}");
-            assert!(wants(narrowed, condition), "{narrowed}");
+            assert_eq!(add_query_condition(query, condition), narrowed, "{query}");
+            assert!(has_query_condition(narrowed, condition), "{narrowed}");
             // A condition is added only once.
-            assert_eq!(narrow(narrowed, condition), narrowed);
+            assert_eq!(add_query_condition(narrowed, condition), narrowed);
             if !condition.contains(" or ") {
-                assert_eq!(without(narrowed, condition), query, "{narrowed}");
+                assert_eq!(remove_query_condition(narrowed, condition), query, "{narrowed}");
             }
         }
     }
@@ -205,11 +196,7 @@ mod tests {
             ("a placement=chin b", "placement=chin", "a b"),
             ("a and placement=chin and b", "placement=chin", "a b"),
             ("placement=chin", "placement=chin", ""),
-            (
-                "placement=chin or a",
-                "placement=chin",
-                "placement=chin or a",
-            ),
+            ("placement=chin or a", "placement=chin", "placement=chin or a"),
             ("not placement=chin", "placement=chin", "not placement=chin"),
             ("a not placement=chin b", "not placement=chin", "a b"),
             ("a b", "placement=chin", "a b"),
@@ -217,29 +204,23 @@ mod tests {
             ("gloss=(", "a", "gloss=("),
             ("é placement=chin", "placement=chin", "é"),
         ] {
-            let text = without(query, condition);
-            let same = match (Query::parse(&text), Query::parse(left)) {
+            let text = remove_query_condition(query, condition);
+            let same = match (TokenQuery::parse_query(&text), TokenQuery::parse_query(left)) {
                 (Ok(found), Ok(wanted)) => found == wanted,
                 _ => text == left,
             };
             assert!(same, "{query} without {condition}: {text}");
         }
-        assert!(!wants("a or b", "a") && !wants("a", "") && wants("a b", "b"));
+        assert!(
+            !has_query_condition("a or b", "a") && !has_query_condition("a", "") && has_query_condition("a b", "b")
+        );
     }
 
     #[test]
     fn a_facet_is_a_condition() {
         for (field, value, condition) in [
-            (
-                "placement",
-                "neutral space",
-                r#"placement=="neutral space""#,
-            ),
-            (
-                "initial.right.placement",
-                "chin",
-                "initial.right.placement==chin",
-            ),
+            ("placement", "neutral space", r#"placement=="neutral space""#),
+            ("initial.right.placement", "chin", "initial.right.placement==chin"),
             (
                 "both.configuration",
                 "B",
@@ -288,20 +269,20 @@ mod tests {
     proptest! {
         #[test]
         fn an_added_condition_can_be_removed(query in query()) {
-            let narrowed = narrow(&query, "hand==weak");
-            let parsed = Query::parse(&narrowed).expect("a query");
-            let own = Query::parse(&query).expect("a query");
-            let added = Query::parse("hand==weak").expect("a query");
-            prop_assert_eq!(parsed.root, Expr::all([own.root.clone(), added.root]));
-            let again = without(&narrowed, "hand==weak");
-            prop_assert_eq!(Query::parse(&again).expect("a query"), own, "{}", narrowed);
+            let narrowed = add_query_condition(&query, "hand==weak");
+            let parsed = TokenQuery::parse_query(&narrowed).expect("a query");
+            let own = TokenQuery::parse_query(&query).expect("a query");
+            let added = TokenQuery::parse_query("hand==weak").expect("a query");
+            prop_assert_eq!(parsed.root, QueryExpression::all_of_terms([own.root.clone(), added.root]));
+            let again = remove_query_condition(&narrowed, "hand==weak");
+            prop_assert_eq!(TokenQuery::parse_query(&again).expect("a query"), own, "{}", narrowed);
         }
 
         #[test]
         fn any_text_is_accepted(query in ".{0,40}", condition in ".{0,20}") {
-            let narrowed = narrow(&query, &condition);
-            let _ = without(&narrowed, &condition);
-            let _ = wants(&query, &condition);
+            let narrowed = add_query_condition(&query, &condition);
+            let _ = remove_query_condition(&narrowed, &condition);
+            let _ = has_query_condition(&query, &condition);
             let _ = facet_condition(&query, &condition);
         }
     }

@@ -2,7 +2,7 @@
 
 /// The meaning of a mark in the numbers of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mark {
+enum NumberMark {
     /// It stands before decimals, or nothing shows its meaning.
     Decimals,
     /// It parts thousands.
@@ -20,20 +20,20 @@ enum Mark {
 /// assert_eq!(Numerals::of(["12 %"]).number("12 %"), Some(12.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Numerals {
-    comma: Mark,
-    point: Mark,
+pub struct NumberSpelling {
+    comma: NumberMark,
+    point: NumberMark,
     /// Whether a cell shows the meaning of the comma.
     is_comma_known: bool,
 }
 
-impl Numerals {
+impl NumberSpelling {
     /// Returns the spelling that the cells of a column show.
     #[must_use]
-    pub fn of<'t>(cells: impl IntoIterator<Item = &'t str>) -> Self {
+    pub fn from_column_cells<'t>(cells: impl IntoIterator<Item = &'t str>) -> Self {
         let (mut comma, mut point) = ((false, false), (false, false));
         for cell in cells {
-            let text = bare(cell);
+            let text = strip_cell_signs(cell);
             if !is_numeral(&text) {
                 continue;
             }
@@ -53,53 +53,50 @@ impl Numerals {
             }
         }
         let mark = |(decimals, thousands): (bool, bool)| match thousands && !decimals {
-            true => Mark::Thousands,
-            false => Mark::Decimals,
+            true => NumberMark::Thousands,
+            false => NumberMark::Decimals,
         };
         Self {
             comma: mark(comma),
             point: mark(point),
-            is_comma_known: comma.0 || comma.1 || mark(point) == Mark::Thousands,
+            is_comma_known: comma.0 || comma.1 || mark(point) == NumberMark::Thousands,
         }
     }
 
     /// Returns the number that a cell of the column holds, a percentage without its sign.
     #[must_use]
-    pub fn number(&self, cell: &str) -> Option<f64> {
-        let mut text = bare(cell);
+    pub fn parse_cell_number(&self, cell: &str) -> Option<f64> {
+        let mut text = strip_cell_signs(cell);
         for (mark, meaning) in [(',', self.comma), ('.', self.point)] {
-            if meaning == Mark::Thousands && parts_thousands(&text, mark) {
+            if meaning == NumberMark::Thousands && parts_thousands(&text, mark) {
                 text.retain(|c| c != mark);
             }
         }
-        super::number(&text)
+        super::parse_plain_number(&text)
     }
 
-    /// Returns whether a cell may as well hold a thousand times the [`number`](Self::number): `1,234`, if no cell of the
+    /// Returns whether a cell may as well hold a thousand times the [`parse_cell_number`](Self::parse_cell_number): `1,234`, if no cell of the
     /// column shows the meaning of the comma.
     #[must_use]
     pub fn is_ambiguous(&self, cell: &str) -> bool {
-        let text = bare(cell);
-        !self.is_comma_known
-            && is_numeral(&text)
-            && text.contains(',')
-            && parts_thousands(&text, ',')
+        let text = strip_cell_signs(cell);
+        !self.is_comma_known && is_numeral(&text) && text.contains(',') && parts_thousands(&text, ',')
     }
 }
 
 /// Returns a cell without a sign of percent at its end, and without blanks and apostrophes between groups of three digits.
-fn bare(cell: &str) -> String {
+fn strip_cell_signs(cell: &str) -> String {
     let is_blank = |c: char| matches!(c, ' ' | '\u{a0}' | '\u{2009}' | '\u{202f}' | '\'' | '’');
-    let cell = cell.trim();
-    let cell = cell.strip_suffix('%').map_or(cell, str::trim_end);
-    let whole = cell.split([',', '.']).next().unwrap_or(cell);
-    let mut groups = whole.split(is_blank);
-    let first = groups.next().unwrap_or_default();
-    let first = first.trim_start_matches(['-', '+']);
+    let trimmed_cell = cell.trim();
+    let cell = trimmed_cell.strip_suffix('%').map_or(trimmed_cell, str::trim_end);
+    let integer_part = cell.split([',', '.']).next().unwrap_or(cell);
+    let mut groups = integer_part.split(is_blank);
+    let first_group = groups.next().unwrap_or_default();
+    let first = first_group.trim_start_matches(['-', '+']);
     let is_first = (1..=3).contains(&first.len()) && first.bytes().all(|b| b.is_ascii_digit());
     if is_first && groups.all(is_group) {
-        let rest = &cell[whole.len()..];
-        return whole
+        let rest = &cell[integer_part.len()..];
+        return integer_part
             .chars()
             .filter(|c| !is_blank(*c))
             .chain(rest.chars())
@@ -115,10 +112,7 @@ fn is_group(text: &str) -> bool {
 /// Returns whether a text is of digits, commas and points, after a sign, and begins with a digit.
 fn is_numeral(text: &str) -> bool {
     let text = text.strip_prefix(['-', '+']).unwrap_or(text);
-    text.starts_with(|c: char| c.is_ascii_digit())
-        && text
-            .chars()
-            .all(|c| c.is_ascii_digit() || matches!(c, ',' | '.'))
+    text.starts_with(|c: char| c.is_ascii_digit()) && text.chars().all(|c| c.is_ascii_digit() || matches!(c, ',' | '.'))
 }
 
 /// Returns whether a mark stands before each group of three digits of a whole number that does not begin with 0; the
@@ -161,28 +155,22 @@ mod tests {
                 &[12.0, 3.5, 1234.0, 1234567.5],
                 0,
             ),
-            (
-                &["1e3", "-4", "+5", "1'234"],
-                &[1000.0, -4.0, 5.0, 1234.0],
-                0,
-            ),
+            (&["1e3", "-4", "+5", "1'234"], &[1000.0, -4.0, 5.0, 1234.0], 0),
         ] {
-            let column = Numerals::of(cells.iter().copied());
-            let found: Vec<f64> = cells
-                .iter()
-                .filter_map(|cell| column.number(cell))
-                .collect();
+            let column = NumberSpelling::from_column_cells(cells.iter().copied());
+            let found: Vec<f64> = cells.iter().filter_map(|cell| column.parse_cell_number(cell)).collect();
             assert_eq!(found, numbers, "{cells:?}");
-            let unsure = cells
-                .iter()
-                .filter(|cell| column.is_ambiguous(cell))
-                .count();
+            let unsure = cells.iter().filter(|cell| column.is_ambiguous(cell)).count();
             assert_eq!(unsure, ambiguous, "{cells:?}");
         }
         for text in [
             "", "%", "12 kg", "1 2", "12 34", "a", "1,2,3", "1.2.3", "É 123", "nan", "-",
         ] {
-            assert_eq!(Numerals::of([text]).number(text), None, "{text:?}");
+            assert_eq!(
+                NumberSpelling::from_column_cells([text]).parse_cell_number(text),
+                None,
+                "{text:?}"
+            );
         }
     }
 }

@@ -5,7 +5,7 @@ mod laws;
 mod refusals;
 
 use super::*;
-use crate::component::Reading;
+use crate::component::ComponentReading;
 
 /// Queries that print as they are written.
 const CANONICAL: &[&str] = &[
@@ -102,16 +102,10 @@ const REWRITTEN: &[(&str, &str)] = &[
     ("right.final.location=chest", "final.right.placement=chest"),
     ("like CHAT", "like sign:CHAT"),
     ("like INDEX:1", "like sign:INDEX:1"),
-    (
-        r#"like sign:"A B" on handshape"#,
-        r#"like sign:"A B" on configuration"#,
-    ),
+    (r#"like sign:"A B" on handshape"#, r#"like sign:"A B" on configuration"#),
     ("like CHAT duration<1s", "like sign:CHAT duration<1s"),
     ("placement=“neutral space”", r#"placement="neutral space""#),
-    (
-        "placement=« neutral space »",
-        r#"placement="neutral space""#,
-    ),
+    ("placement=« neutral space »", r#"placement="neutral space""#),
     ("placement≠chest,chin", "placement!=chest,chin"),
     ("configuration=U, V , W", "configuration=U,V,W"),
     ("placement=N/A", "placement=n/a"),
@@ -132,14 +126,8 @@ const REWRITTEN: &[(&str, &str)] = &[
     ("hand=strong", "hand=dominant"),
     ("tier(Mouthing)=ma*", r#"tier("Mouthing")=ma*"#),
     (r#"tier ("Gaze *") = *"#, r#"tier("Gaze *")=*"#),
-    (
-        "within 500ms of begin gloss:CHAT",
-        "within 0.5s of-begin gloss:CHAT",
-    ),
-    (
-        "within 0 s of-end gloss:CHAT",
-        "within 0s of-end gloss:CHAT",
-    ),
+    ("within 500ms of begin gloss:CHAT", "within 0.5s of-begin gloss:CHAT"),
+    ("within 0 s of-end gloss:CHAT", "within 0s of-end gloss:CHAT"),
     ("not overlaps tier(X)=*", r#"not overlaps tier("X")=*"#),
     ("((a b)) (c d)", "a b c d"),
     ("(a or b) or c", "a or b or c"),
@@ -153,18 +141,12 @@ const REWRITTEN: &[(&str, &str)] = &[
     ("nondominant.configuration=S", "weak.configuration=S"),
     ("overlap", r#""overlap""#),
     ("placement=head>chest", "placement=head > chest"),
-    (
-        "placement = head >\n chest,chin",
-        "placement=head > chest,chin",
-    ),
+    ("placement = head >\n chest,chin", "placement=head > chest,chin"),
     ("gloss~/^BO/", "gloss=/^BO/"),
     ("gloss:/^BO/", "gloss=/^BO/"),
     ("texte=/a b/", "text=/a b/"),
     ("like token:41 above 60%", "like token:41 above 0.6"),
-    (
-        "comme token:41 sur configuration",
-        "like token:41 on configuration",
-    ),
+    ("comme token:41 sur configuration", "like token:41 on configuration"),
     ("comme un chat", r#""comme" un chat"#),
     (
         "placement=menton ou non placement=joue et gloss=A",
@@ -181,25 +163,20 @@ const REWRITTEN: &[(&str, &str)] = &[
 fn queries_print_canonically() {
     let same = CANONICAL.iter().map(|query| (*query, *query));
     for (text, printed) in same.chain(REWRITTEN.iter().copied()) {
-        let query = Query::parse(text).unwrap_or_else(|error| panic!("{}", error.render(text)));
+        let query = TokenQuery::parse_query(text).unwrap_or_else(|error| panic!("{}", error.render_query_error(text)));
         assert_eq!(query.to_string(), printed, "{text}");
-        assert_eq!(Query::parse(printed), Ok(query), "{text}");
+        assert_eq!(TokenQuery::parse_query(printed), Ok(query), "{text}");
     }
 }
 
 #[test]
 fn every_part_of_a_query_has_its_text_position() {
     let text = r#"é not (right.configuration=U,[index -thumb]) overlaps tier("Gaze")=left like token:4 on placement:2"#;
-    let cut = |at: At| {
-        text.chars()
-            .skip(at.start)
-            .take(at.end - at.start)
-            .collect::<String>()
-    };
-    let Expr::And(terms) = Query::parse(text).expect("a query").root else {
+    let cut = |at: QueryPlace| text.chars().skip(at.start).take(at.end - at.start).collect::<String>();
+    let QueryExpression::And(terms) = TokenQuery::parse_query(text).expect("a query").root else {
         panic!("terms")
     };
-    let places: Vec<String> = terms.iter().map(|term| cut(term.at())).collect();
+    let places: Vec<String> = terms.iter().map(|term| cut(term.expression_place())).collect();
     assert_eq!(
         places,
         [
@@ -209,12 +186,12 @@ fn every_part_of_a_query_has_its_text_position() {
             "like token:4 on placement:2",
         ]
     );
-    let Expr::Not(inner) = &terms[1] else {
+    let QueryExpression::Not(inner) = &terms[1] else {
         panic!("a negation")
     };
-    let Expr::Test(Test {
+    let QueryExpression::Test(QueryTest {
         subject_at,
-        what: What::Component(_, comparison),
+        what: TestSubject::Component(_, comparison),
         ..
     }) = &**inner
     else {
@@ -222,11 +199,11 @@ fn every_part_of_a_query_has_its_text_position() {
     };
     assert_eq!(cut(*subject_at), "right.configuration");
     assert_eq!(cut(comparison.values[1].at), "[index -thumb]");
-    let Wanted::Features(features) = &comparison.values[1].wanted else {
+    let WantedValue::Features(features) = &comparison.values[1].wanted else {
         panic!("features")
     };
     assert_eq!(cut(features[1].at), "-thumb");
-    let Expr::Like(like) = &terms[3] else {
+    let QueryExpression::Like(like) = &terms[3] else {
         panic!("an example")
     };
     assert_eq!(
@@ -238,11 +215,11 @@ fn every_part_of_a_query_has_its_text_position() {
 #[test]
 fn comparisons_accept_or_reject_each_kind_of_reading() {
     let readings = [
-        Reading::from("U"),
-        Reading::from("S"),
-        Reading::Unset,
-        Reading::NotApplicable,
-        Reading::Unclear,
+        ComponentReading::from("U"),
+        ComponentReading::from("S"),
+        ComponentReading::Unset,
+        ComponentReading::NotApplicable,
+        ComponentReading::Unclear,
     ];
     // One mark per reading, in their order.
     for (text, passes) in [
@@ -261,19 +238,19 @@ fn comparisons_accept_or_reject_each_kind_of_reading() {
         ("configuration=[x]", "-----"),
         ("configuration!=[x]", "++---"),
     ] {
-        let query = Query::parse(text).expect(text);
-        let [test] = &query.tests()[..] else {
+        let query = TokenQuery::parse_query(text).expect(text);
+        let [test] = &query.query_tests()[..] else {
             panic!("one comparison")
         };
-        let What::Component(_, comparison) = &test.what else {
+        let TestSubject::Component(_, comparison) = &test.what else {
             panic!("a component")
         };
-        let fits = |value: &str, wanted: &Wanted| match wanted {
-            Wanted::Named(pattern) => pattern.matches(value),
+        let fits = |value: &str, wanted: &WantedValue| match wanted {
+            WantedValue::Named(pattern) => pattern.matches_text(value),
             _ => false,
         };
         let mark = |reading| {
-            if comparison.accepts(reading, fits) {
+            if comparison.comparison_accepts_reading(reading, fits) {
                 '+'
             } else {
                 '-'
@@ -290,14 +267,14 @@ fn comparisons_accept_or_reject_each_kind_of_reading() {
         ("end=1s", "-+-"),
         ("end=0s..1s", "++-"),
     ] {
-        let query = Query::parse(text).expect(text);
-        let What::Time(_, test) = &query.tests()[0].what else {
+        let query = TokenQuery::parse_query(text).expect(text);
+        let TestSubject::Time(_, test) = &query.query_tests()[0].what else {
             panic!("a time")
         };
         let times = [999_999, 1_000_000, 1_000_001];
         let found: String = times
             .iter()
-            .map(|t| if test.accepts(*t) { '+' } else { '-' })
+            .map(|t| if test.accepts_time(*t) { '+' } else { '-' })
             .collect();
         assert_eq!(found, passes, "{text}");
     }
@@ -306,19 +283,16 @@ fn comparisons_accept_or_reject_each_kind_of_reading() {
 #[test]
 fn every_comparison_of_a_query_is_listed() {
     let text = "a not (gloss=A or overlaps gloss=B) like CHAT on placement duration<1s";
-    let query = Query::parse(text).expect(text);
-    let found: Vec<String> = query.tests().iter().map(|test| test.to_string()).collect();
+    let query = TokenQuery::parse_query(text).expect(text);
+    let found: Vec<String> = query.query_tests().iter().map(|test| test.to_string()).collect();
     assert_eq!(found, ["a", "gloss=A", "gloss=B", "duration<1s"]);
 }
 
 #[test]
 fn long_and_deep_queries_are_refused() {
-    assert!(Query::parse(&"a ".repeat(MAX_CHARS / 2)).is_ok());
+    assert!(TokenQuery::parse_query(&"a ".repeat(MAX_CHARS / 2)).is_ok());
     for (text, message) in [
-        (
-            "a".repeat(MAX_CHARS + 1),
-            "the query is longer than 10000 characters",
-        ),
+        ("a".repeat(MAX_CHARS + 1), "the query is longer than 10000 characters"),
         (
             "(".repeat(MAX_CHARS),
             "more than 64 parentheses and negations inside each other",
@@ -332,19 +306,19 @@ fn long_and_deep_queries_are_refused() {
             "more than 64 parentheses and negations inside each other",
         ),
     ] {
-        assert_eq!(Query::parse(&text).expect_err("too much").message, message);
+        assert_eq!(TokenQuery::parse_query(&text).expect_err("too much").message, message);
     }
     let deep = format!(
         "{}a{}",
-        "(".repeat(MAX_DEPTH - 1),
-        ")".repeat(MAX_DEPTH - 1)
+        "(".repeat(MAX_QUERY_DEPTH - 1),
+        ")".repeat(MAX_QUERY_DEPTH - 1)
     );
-    assert!(Query::parse(&deep).is_ok());
+    assert!(TokenQuery::parse_query(&deep).is_ok());
 }
 
 #[test]
 fn every_query_in_the_help_parses() {
-    let examples = HELP
+    let examples = QUERY_HELP
         .lines()
         .filter(|line| line.starts_with("  ") && line.contains(['=', ':', '~', '<']));
     let mut count = 0;
@@ -361,14 +335,11 @@ fn every_query_in_the_help_parses() {
             } else {
                 example.to_owned()
             };
-            if example.contains("captured,")
-                || example.starts_with("signer=")
-                || example.contains(": ")
-            {
+            if example.contains("captured,") || example.starts_with("signer=") || example.contains(": ") {
                 continue;
             }
-            if let Err(error) = Query::parse(&whole) {
-                panic!("{}", error.render(&whole));
+            if let Err(error) = TokenQuery::parse_query(&whole) {
+                panic!("{}", error.render_query_error(&whole));
             }
             count += 1;
         }

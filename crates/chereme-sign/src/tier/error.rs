@@ -1,16 +1,16 @@
 //! The reasons why a change cannot be made.
 
-use super::check::{Named, Violation};
-use super::{AnnotationId, Stereotype, TierId};
-use crate::component::Reading;
-use chereme_motion::{Instant, Span};
+use super::tier_check::{NamedAnnotation, TierViolation};
+use super::{AnnotationId, TierId, TierStereotype};
+use crate::component::ComponentReading;
+use chereme_motion::{RecordingInstant, TimeSpan};
 
 /// A change that cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {
     /// It would break a rule.
     #[error(transparent)]
-    Breaks(#[from] Violation),
+    Breaks(#[from] TierViolation),
     /// The change names a tier that does not exist.
     #[error("{0} does not exist")]
     UnknownTier(TierId),
@@ -18,14 +18,12 @@ pub enum EditError {
     #[error("{0} does not exist")]
     UnknownAnnotation(AnnotationId),
     /// The change needs a tier with times of its own.
-    #[error(
-        "{tier} is a {stereotype}: its annotations have no times of their own; change the one above"
-    )]
+    #[error("{tier} is a {stereotype}: its annotations have no times of their own; change the one above")]
     NoTime {
         /// The tier.
         tier: TierId,
         /// Its stereotype.
-        stereotype: Stereotype,
+        stereotype: TierStereotype,
     },
     /// The change needs a tier without times of its own.
     #[error("{tier} has times of its own; give the new annotation a time instead of a parent")]
@@ -40,16 +38,16 @@ pub enum EditError {
         tier: TierId,
     },
     /// No annotation of the tier above holds the wanted time.
-    #[error("{annotation} from {} to {} must lie inside one annotation of {parent_tier}{}", span.start(), span.end(), reach(nearest))]
+    #[error("{annotation} from {} to {} must lie inside one annotation of {parent_tier}{}", span.span_start_instant(), span.span_end_instant(), nearest_reach_text(nearest))]
     NoParent {
         /// The annotation; `None` for one that was to be added.
-        annotation: Named,
+        annotation: NamedAnnotation,
         /// The wanted time.
-        span: Span,
+        span: TimeSpan,
         /// The tier above.
         parent_tier: TierId,
         /// An annotation there that holds some of the time, and its time.
-        nearest: Option<(AnnotationId, Span)>,
+        nearest: Option<(AnnotationId, TimeSpan)>,
     },
     /// The annotation given as parent is not on the tier above.
     #[error("{parent} is not on {parent_tier}, the tier above {tier}")]
@@ -62,14 +60,14 @@ pub enum EditError {
         parent: AnnotationId,
     },
     /// The first child on a Time_Subdivision must fill its parent.
-    #[error("the first annotation of {tier} below {parent} must last from {} to {} as that does; split it afterwards", parent_span.start(), parent_span.end())]
+    #[error("the first annotation of {tier} below {parent} must last from {} to {} as that does; split it afterwards", parent_span.span_start_instant(), parent_span.span_end_instant())]
     FillParent {
         /// The tier.
         tier: TierId,
         /// The annotation above.
         parent: AnnotationId,
         /// The time of that one.
-        parent_span: Span,
+        parent_span: TimeSpan,
     },
     /// A new annotation of a Time_Subdivision must be the head or tail of one sibling.
     #[error(
@@ -87,26 +85,24 @@ pub enum EditError {
         /// The annotation.
         annotation: AnnotationId,
         /// The wanted boundary.
-        at: Instant,
+        at: RecordingInstant,
         /// The earliest allowed boundary.
-        from: Instant,
+        from: RecordingInstant,
         /// The latest allowed boundary.
-        to: Instant,
+        to: RecordingInstant,
     },
     /// A cut does not lie inside the annotation.
-    #[error("{annotation} cannot be cut at {at}; it lasts from {} to {}", span.start(), span.end())]
+    #[error("{annotation} cannot be cut at {at}; it lasts from {} to {}", span.span_start_instant(), span.span_end_instant())]
     CutOutside {
         /// The annotation.
         annotation: AnnotationId,
         /// The wanted cut.
-        at: Instant,
+        at: RecordingInstant,
         /// The annotation's time.
-        span: Span,
+        span: TimeSpan,
     },
     /// Two annotations to merge are not neighbours below one parent, the first before the second.
-    #[error(
-        "{first} and {second} are not neighbours in this order on one tier below one parent; merge only such"
-    )]
+    #[error("{first} and {second} are not neighbours in this order on one tier below one parent; merge only such")]
     NotNeighbours {
         /// The first.
         first: AnnotationId,
@@ -121,19 +117,23 @@ pub enum EditError {
         /// The second.
         second: AnnotationId,
         /// Their values.
-        values: Box<(Reading, Reading)>,
+        values: Box<(ComponentReading, ComponentReading)>,
     },
     /// A time lies further than 2^62 microseconds from the start of the recording.
     #[error("{at} is too far from the start of the recording")]
     TooFar {
         /// The time.
-        at: Instant,
+        at: RecordingInstant,
     },
 }
 
-fn reach(nearest: &Option<(AnnotationId, Span)>) -> String {
-    let text = |(id, span): &(AnnotationId, Span)| {
-        format!("; {id} there lasts from {} to {}", span.start(), span.end())
+fn nearest_reach_text(nearest: &Option<(AnnotationId, TimeSpan)>) -> String {
+    let text = |(id, span): &(AnnotationId, TimeSpan)| {
+        format!(
+            "; {id} there lasts from {} to {}",
+            span.span_start_instant(),
+            span.span_end_instant()
+        )
     };
     nearest.as_ref().map(text).unwrap_or_default()
 }

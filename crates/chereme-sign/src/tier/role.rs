@@ -1,8 +1,8 @@
 //! The subject of a tier's annotations, and their hand: one reader and one writer for every file, command and row.
 
-use crate::component::{Component, Field, HandRef, Phase};
-use crate::text::{did_you_mean, fold, nearest};
-use crate::words::Text;
+use crate::component::{ComponentField, HandRef, SignComponent, SignPhase};
+use crate::text::{did_you_mean, fold_text, nearest_candidate};
+use crate::words::InterfaceText;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -16,7 +16,7 @@ pub enum TierRole {
     /// One component of the sign, or one feature of it.
     Component {
         /// The component.
-        component: Component,
+        component: SignComponent,
         /// The feature, such as `brows` or `palm`; `None` for the whole.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         feature: Option<String>,
@@ -32,12 +32,12 @@ pub enum TierRole {
 
 impl TierRole {
     /// The roles without a component, in the order in which lists offer them.
-    pub const PLAIN: [Self; 4] = [Self::Gloss, Self::Translation, Self::Comment, Self::Free];
+    pub const PLAIN_TIER_ROLES: [Self; 4] = [Self::Gloss, Self::Translation, Self::Comment, Self::Free];
 
     /// Returns the rank by which the tiers of a recording are ordered: signs, what they mean, their components, remarks,
     /// the rest.
     #[must_use]
-    pub const fn rank(&self) -> usize {
+    pub const fn role_rank(&self) -> usize {
         match self {
             Self::Gloss => 0,
             Self::Translation => 1,
@@ -55,35 +55,35 @@ impl TierRole {
 
     /// Returns the words for its kind, in files and commands and for people.
     #[must_use]
-    pub const fn words(&self) -> RoleWords {
+    pub const fn role_words(&self) -> RoleWords {
         match self {
             Self::Gloss => RoleWords {
                 names: &["gloss"],
-                name: Text::new("gloss", "glose"),
+                name: InterfaceText::new("gloss", "glose"),
                 counted: ["de gloses", "de gloses"],
                 note: "signs; each value is a token",
             },
             Self::Component { .. } => RoleWords {
                 names: &["component"],
-                name: Text::new("component", "composant"),
+                name: InterfaceText::new("component", "composant"),
                 counted: ["de composants", "de composants"],
                 note: "values of a component of signs, or of a feature of it",
             },
             Self::Translation => RoleWords {
                 names: &["translation"],
-                name: Text::new("translation", "traduction"),
+                name: InterfaceText::new("translation", "traduction"),
                 counted: ["de traduction", "de traduction"],
                 note: "the meaning in a spoken language",
             },
             Self::Comment => RoleWords {
                 names: &["comment", "note"],
-                name: Text::new("comment", "commentaire"),
+                name: InterfaceText::new("comment", "commentaire"),
                 counted: ["de remarques", "de remarques"],
                 note: "remarks of the annotators",
             },
             Self::Free => RoleWords {
                 names: &["free", "ignore"],
-                name: Text::new("anything", "autre"),
+                name: InterfaceText::new("anything", "autre"),
                 counted: ["libre", "libres"],
                 note: "anything else",
             },
@@ -93,22 +93,25 @@ impl TierRole {
     /// Returns the words for every kind of role: those without a component, and the one of components.
     pub fn all_words() -> impl Iterator<Item = RoleWords> {
         let coded = Self::Component {
-            component: Component::Configuration,
+            component: SignComponent::Configuration,
             feature: None,
         };
-        Self::PLAIN.iter().map(Self::words).chain([coded.words()])
+        Self::PLAIN_TIER_ROLES
+            .iter()
+            .map(Self::role_words)
+            .chain([coded.role_words()])
     }
 
     /// Lists the kinds of roles without a component: `gloss, translation, comment, free`.
     #[must_use]
     pub fn plain_kinds() -> String {
-        Self::PLAIN.each_ref().map(Self::kind).join(", ")
+        Self::PLAIN_TIER_ROLES.each_ref().map(Self::role_kind_name).join(", ")
     }
 
     /// Returns the kind of role without its component, such as `gloss` or `component`.
     #[must_use]
-    pub fn kind(&self) -> &'static str {
-        self.words().kind()
+    pub fn role_kind_name(&self) -> &'static str {
+        self.role_words().usual_kind_name()
     }
 
     /// Returns whether its annotations code signs: glosses and components, whose values may be missing in three ways.
@@ -119,14 +122,14 @@ impl TierRole {
 
     /// Returns the component that is coded, and the feature of it.
     #[must_use]
-    pub fn component(&self) -> Option<(Component, Option<&str>)> {
+    pub fn role_component(&self) -> Option<(SignComponent, Option<&str>)> {
         match self {
             Self::Component { component, feature } => Some((*component, feature.as_deref())),
             _ => None,
         }
     }
 
-    /// Returns the role of a [`kind`](Self::kind) with the component and feature that belong to it; a kind that is
+    /// Returns the role of a [`kind`](Self::role_kind_name) with the component and feature that belong to it; a kind that is
     /// not known, or a component that is missing, gives [`Free`](Self::Free).
     #[must_use]
     pub fn of_parts(kind: &str, component: Option<&str>, feature: Option<&str>) -> Self {
@@ -136,23 +139,23 @@ impl TierRole {
                 component,
                 feature: feature.map(str::to_owned),
             },
-            _ => word(kind).unwrap_or_default(),
+            _ => role_from_word(kind).unwrap_or_default(),
         }
     }
 
     /// Returns the role as text: its kind, or the component as a query spells it, such as `configuration` or
     /// `nonmanual.brows`.
     #[must_use]
-    pub fn name(&self) -> String {
-        match self.component() {
+    pub fn role_name(&self) -> String {
+        match self.role_component() {
             Some((component, feature)) => {
-                let field = Field::new(component);
+                let field = ComponentField::new(component);
                 feature
                     .into_iter()
-                    .fold(field, |field, feature| field.of(feature))
+                    .fold(field, |field, feature| field.with_field_feature(feature))
                     .to_string()
             }
-            None => self.kind().to_owned(),
+            None => self.role_kind_name().to_owned(),
         }
     }
 }
@@ -163,7 +166,7 @@ pub struct RoleWords {
     /// The names in files, commands and the database; the first is the usual one.
     pub names: &'static [&'static str],
     /// The name for people.
-    pub name: Text,
+    pub name: InterfaceText,
     /// The French words after a number of such tiers: one, and several.
     pub counted: [&'static str; 2],
     /// The content of such tiers, for readers of the database.
@@ -173,21 +176,21 @@ pub struct RoleWords {
 impl RoleWords {
     /// Returns the usual name in files, commands and the database.
     #[must_use]
-    pub fn kind(&self) -> &'static str {
+    pub fn usual_kind_name(&self) -> &'static str {
         self.names.first().copied().unwrap_or_default()
     }
 }
 
 /// Returns the role that one word names, besides components.
-fn word(text: &str) -> Option<TierRole> {
-    let named = |role: &&TierRole| role.words().names.contains(&text);
-    TierRole::PLAIN.iter().find(named).cloned()
+fn role_from_word(text: &str) -> Option<TierRole> {
+    let named = |role: &&TierRole| role.role_words().names.contains(&text);
+    TierRole::PLAIN_TIER_ROLES.iter().find(named).cloned()
 }
 
 impl FromStr for TierRole {
     type Err = RoleError;
 
-    /// Reads the text that [`name`](Self::name) returns. Refuses a hand, which belongs to a [`TierTopic`] instead.
+    /// Reads the text that [`name`](Self::role_name) returns. Refuses a hand, which belongs to a [`TierTopic`] instead.
     fn from_str(text: &str) -> Result<Self, RoleError> {
         let topic: TierTopic = text.parse()?;
         match topic.hand {
@@ -203,16 +206,16 @@ impl FromStr for TierRole {
 /// The hand or hands that something is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(into = "&'static str")]
-pub enum Hands {
+pub enum AnnotatedHands {
     /// One hand.
     One(HandRef),
     /// Both hands at once.
     Both,
 }
 
-impl Hands {
+impl AnnotatedHands {
     /// Every choice: each hand alone, and both.
-    pub const ALL: [Self; 5] = [
+    pub const ALL_ANNOTATED_HANDS: [Self; 5] = [
         Self::One(HandRef::Right),
         Self::One(HandRef::Left),
         Self::One(HandRef::Dominant),
@@ -222,16 +225,16 @@ impl Hands {
 
     /// Returns `right`, `left`, `dominant`, `weak` or `both`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn annotated_hands_name(self) -> &'static str {
         match self {
-            Self::One(hand) => hand.name(),
+            Self::One(hand) => hand.hand_ref_name(),
             Self::Both => "both",
         }
     }
 
     /// Returns the hands of that name.
     #[must_use]
-    pub fn of(name: &str) -> Option<Self> {
+    pub fn from_hand_name(name: &str) -> Option<Self> {
         match name {
             "both" => Some(Self::Both),
             one => one.parse().ok().map(Self::One),
@@ -240,7 +243,7 @@ impl Hands {
 
     /// Returns the hand, if it is a single one.
     #[must_use]
-    pub fn one(self) -> Option<HandRef> {
+    pub fn single_hand(self) -> Option<HandRef> {
         match self {
             Self::One(hand) => Some(hand),
             Self::Both => None,
@@ -248,15 +251,15 @@ impl Hands {
     }
 }
 
-impl From<Hands> for &'static str {
-    fn from(hands: Hands) -> Self {
-        hands.name()
+impl From<AnnotatedHands> for &'static str {
+    fn from(hands: AnnotatedHands) -> Self {
+        hands.annotated_hands_name()
     }
 }
 
-impl fmt::Display for Hands {
+impl fmt::Display for AnnotatedHands {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.annotated_hands_name())
     }
 }
 
@@ -269,7 +272,7 @@ pub struct TierTopic {
     /// The subject of the annotations.
     pub role: TierRole,
     /// The hand that they describe, if they describe one.
-    pub hand: Option<Hands>,
+    pub hand: Option<AnnotatedHands>,
 }
 
 impl TierTopic {
@@ -277,29 +280,29 @@ impl TierTopic {
     ///
     /// # Errors
     /// [`RoleError`] if the text is not a role.
-    pub fn with_phase(text: &str) -> Result<(Self, Option<Phase>), RoleError> {
+    pub fn with_phase(text: &str) -> Result<(Self, Option<SignPhase>), RoleError> {
         let lower = text.trim().to_lowercase();
         let (first, rest) = lower.split_once('.').unwrap_or((&lower, ""));
-        let hand = Hands::of(first).filter(|_| !rest.is_empty());
-        let named = word(&lower).map(|role| (None, role));
-        let handed = || Some((Some(hand?), word(rest)?));
+        let hand = AnnotatedHands::from_hand_name(first).filter(|_| !rest.is_empty());
+        let named = role_from_word(&lower).map(|role| (None, role));
+        let handed = || Some((Some(hand?), role_from_word(rest)?));
         if let Some((hand, role)) = named.or_else(handed) {
             return Ok((Self { role, hand }, None));
         }
         let (both, field) = match hand {
-            Some(Hands::Both) => (hand, rest),
+            Some(AnnotatedHands::Both) => (hand, rest),
             _ => (None, &*lower),
         };
-        let field: Field = field.parse().map_err(|_| unknown(text))?;
+        let field: ComponentField = field.parse().map_err(|_| unknown_role_error(text))?;
         if both.is_some() && (field.hand.is_some() || !field.component.is_manual()) {
-            return Err(unknown(text));
+            return Err(unknown_role_error(text));
         }
         let topic = Self {
             role: TierRole::Component {
                 component: field.component,
                 feature: field.feature,
             },
-            hand: both.or(field.hand.map(Hands::One)),
+            hand: both.or(field.hand.map(AnnotatedHands::One)),
         };
         Ok((topic, field.phase))
     }
@@ -324,7 +327,7 @@ impl fmt::Display for TierTopic {
         if let Some(hand) = self.hand {
             write!(f, "{hand}.")?;
         }
-        f.write_str(&self.role.name())
+        f.write_str(&self.role.role_name())
     }
 }
 
@@ -345,7 +348,7 @@ pub enum RoleError {
         /// The text.
         text: String,
         /// The hand.
-        hand: Hands,
+        hand: AnnotatedHands,
     },
     /// It names a phase, but a tier has none.
     #[error("{text:?} names a phase, {phase}; a tier holds successive values one after another")]
@@ -353,24 +356,32 @@ pub enum RoleError {
         /// The text.
         text: String,
         /// The phase.
-        phase: Phase,
+        phase: SignPhase,
     },
 }
 
-fn unknown(text: &str) -> RoleError {
-    let known = Component::ALL.iter().flat_map(|it| it.names()).copied();
-    let hands = HandRef::ALL.iter().flat_map(|it| it.names()).copied();
-    let roles = TierRole::PLAIN.iter().flat_map(|role| role.words().names);
+fn unknown_role_error(text: &str) -> RoleError {
+    let component_names = SignComponent::ALL_COMPONENTS
+        .iter()
+        .flat_map(|component| component.component_spellings())
+        .copied();
+    let hands = HandRef::ALL_HAND_REFS
+        .iter()
+        .flat_map(|hand| hand.hand_ref_spellings())
+        .copied();
+    let roles = TierRole::PLAIN_TIER_ROLES
+        .iter()
+        .flat_map(|role| role.role_words().names);
     let others = roles.copied().chain(["both"]);
-    let words: Vec<&str> = known.chain(hands).chain(others).collect();
-    let folded = fold(text);
+    let words: Vec<&str> = component_names.chain(hands).chain(others).collect();
+    let folded = fold_text(text);
     let wrong = folded
         .split(|c: char| !c.is_alphanumeric())
         .find(|word| !word.is_empty() && !words.contains(word))
         .unwrap_or_default();
     RoleError::Unknown {
         text: text.to_owned(),
-        nearest: nearest(wrong, words.iter().copied()).map(str::to_owned),
+        nearest: nearest_candidate(wrong, words.iter().copied()).map(str::to_owned),
     }
 }
 
@@ -387,33 +398,29 @@ mod tests {
             ("right.handshape", "right.configuration", Some("right")),
             (" RH.Location ", "right.placement", Some("right")),
             ("both.movement", "both.movement", Some("both")),
-            (
-                "weak.orientation.palm",
-                "weak.orientation.palm",
-                Some("weak"),
-            ),
+            ("weak.orientation.palm", "weak.orientation.palm", Some("weak")),
             ("nonmanual.brows", "nonmanual.brows", None),
             ("note", "comment", None),
             ("right.translation", "right.translation", Some("right")),
         ] {
             let topic: TierTopic = text.parse().expect(text);
             assert_eq!(topic.to_string(), printed, "{text}");
-            assert_eq!(topic.hand.map(Hands::name), hand, "{text}");
+            assert_eq!(topic.hand.map(AnnotatedHands::annotated_hands_name), hand, "{text}");
             assert_eq!(printed.parse(), Ok(topic.clone()), "{text}");
             let role = &topic.role;
-            let parts = role.component();
+            let parts = role.role_component();
             let again = TierRole::of_parts(
-                role.kind(),
-                parts.map(|(component, _)| component.name()),
+                role.role_kind_name(),
+                parts.map(|(component, _)| component.component_name()),
                 parts.and_then(|(_, feature)| feature),
             );
             assert_eq!(again, topic.role, "{text}");
-            assert_eq!(role.name().parse(), Ok(topic.role), "{text}");
+            assert_eq!(role.role_name().parse(), Ok(topic.role), "{text}");
         }
         let (topic, phase) = TierTopic::with_phase("final.weak.configuration").expect("a column");
         assert_eq!(
             (topic.to_string().as_str(), phase),
-            ("weak.configuration", Some(Phase::Final))
+            ("weak.configuration", Some(SignPhase::Final))
         );
     }
 
@@ -424,7 +431,7 @@ mod tests {
         let many = names.len();
         names.sort_unstable();
         names.dedup();
-        assert!(names.len() == many && all.len() > TierRole::PLAIN.len());
+        assert!(names.len() == many && all.len() > TierRole::PLAIN_TIER_ROLES.len());
         for words in all {
             let texts = [
                 words.name.en,

@@ -3,33 +3,33 @@
 mod laws;
 
 use super::*;
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use std::fmt::Write as _;
 
-fn at(millis: i64) -> Instant {
-    Instant::from_millis(millis)
+fn at(millis: i64) -> RecordingInstant {
+    RecordingInstant::from_millis(millis)
 }
 
-fn span(start: i64, end: i64) -> Span {
-    Span::between(at(start), at(end))
+fn span(start: i64, end: i64) -> TimeSpan {
+    TimeSpan::span_between(at(start), at(end))
 }
 
-fn tier(id: u64, parent: Option<(u64, Stereotype)>) -> Tier {
+fn tier(id: u64, parent: Option<(u64, TierStereotype)>) -> Tier {
     let parent = parent.map(|(parent, stereotype)| (TierId(parent), stereotype));
     Tier {
         parent,
-        ..Tier::root(TierId(id), format!("tier {id}"))
+        ..Tier::root_tier(TierId(id), format!("tier {id}"))
     }
 }
 
-fn note(id: u64, tier: u64, parent: u64, order: u32, (start, end): (i64, i64)) -> Annotation {
-    Annotation {
+fn note(id: u64, tier: u64, parent: u64, order: u32, (start, end): (i64, i64)) -> TierAnnotation {
+    TierAnnotation {
         id: AnnotationId(id),
         tier: TierId(tier),
         parent: (parent > 0).then_some(AnnotationId(parent)),
         order,
         span: span(start, end),
-        value: Reading::Value(format!("v{id}")),
+        value: ComponentReading::Value(format!("v{id}")),
     }
 }
 
@@ -43,7 +43,7 @@ const BELOW_TIME: u64 = 7;
 const BELOW_LIST: u64 = 8;
 
 fn tiers() -> Vec<Tier> {
-    use Stereotype::*;
+    use TierStereotype::*;
     vec![
         tier(GLOSS, None),
         tier(TIME, Some((GLOSS, TimeSubdivision))),
@@ -77,19 +77,19 @@ fn example() -> TierSet {
         note(80, BELOW_LIST, 41, 0, (5, 10)),
     ];
     let set = TierSet::new(tiers(), notes);
-    assert_eq!(check(&set), []);
+    assert_eq!(check_tier_set(&set), []);
     set
 }
 
-fn show(set: &TierSet, edits: &[Edit]) -> String {
+fn show(set: &TierSet, edits: &[TierEdit]) -> String {
     let mut text = String::new();
     for edit in edits {
         match edit {
-            Edit::Put(note) => {
-                let (id, start, end) = (note.id.0, note.span.start(), note.span.end());
-                let millis = |at: Instant| at.micros() as f64 / 1000.0;
+            TierEdit::Put(note) => {
+                let (id, start, end) = (note.id.0, note.span.span_start_instant(), note.span.span_end_instant());
+                let millis = |at: RecordingInstant| at.instant_micros() as f64 / 1000.0;
                 let _ = write!(text, "{id}[{},{})", millis(start), millis(end));
-                if let Some(old) = set.annotation(note.id) {
+                if let Some(old) = set.annotation_by_id(note.id) {
                     if old.parent != note.parent {
                         let _ = write!(text, "^{}", note.parent.map_or(0, |parent| parent.0));
                     }
@@ -104,10 +104,10 @@ fn show(set: &TierSet, edits: &[Edit]) -> String {
                     let _ = write!(text, "^{parent}#{}={}", note.order, note.value);
                 }
             }
-            Edit::Remove(id) => {
+            TierEdit::Remove(id) => {
                 let _ = write!(text, "-{}", id.0);
             }
-            Edit::Vocabulary { tier, vocabulary } => {
+            TierEdit::Vocabulary { tier, vocabulary } => {
                 let _ = write!(text, "{tier}:{vocabulary:?}");
             }
         }
@@ -116,25 +116,25 @@ fn show(set: &TierSet, edits: &[Edit]) -> String {
     text.trim_end().to_owned()
 }
 
-fn planned(set: &TierSet, change: &Change) -> Result<Vec<Edit>, EditError> {
+fn planned(set: &TierSet, change: &AskedTierChange) -> Result<Vec<TierEdit>, EditError> {
     let mut next = 100;
-    plan(set, change, &mut || {
+    plan_tier_change(set, change, &mut || {
         next += 1;
         AnnotationId(next)
     })
 }
 
-fn add(tier: u64, start: i64, end: i64) -> Change {
-    Change::Add {
+fn add(tier: u64, start: i64, end: i64) -> AskedTierChange {
+    AskedTierChange::Add {
         tier: TierId(tier),
         span: span(start, end),
         value: "new".into(),
     }
 }
 
-fn add_below(tier: u64, parent: u64, order: Option<u32>) -> Change {
+fn add_below(tier: u64, parent: u64, order: Option<u32>) -> AskedTierChange {
     let (tier, parent) = (TierId(tier), AnnotationId(parent));
-    Change::AddBelow {
+    AskedTierChange::AddBelow {
         tier,
         parent,
         order,
@@ -142,43 +142,43 @@ fn add_below(tier: u64, parent: u64, order: Option<u32>) -> Change {
     }
 }
 
-fn shift(id: u64, start: i64, end: i64) -> Change {
-    Change::Move {
+fn shift(id: u64, start: i64, end: i64) -> AskedTierChange {
+    AskedTierChange::Move {
         annotation: AnnotationId(id),
         span: span(start, end),
     }
 }
 
-fn split(id: u64, cut: i64) -> Change {
-    Change::Split {
+fn split(id: u64, cut: i64) -> AskedTierChange {
+    AskedTierChange::Split {
         annotation: AnnotationId(id),
         at: at(cut),
     }
 }
 
-fn merge(first: u64, second: u64, value: Option<&str>) -> Change {
+fn merge(first: u64, second: u64, value: Option<&str>) -> AskedTierChange {
     let (first, second) = (AnnotationId(first), AnnotationId(second));
-    Change::Merge {
+    AskedTierChange::Merge {
         first,
         second,
-        value: value.map(Reading::from),
-        seam: Seam::Keep,
+        value: value.map(ComponentReading::from),
+        seam: MergeSeam::Keep,
     }
 }
 
-fn remove(id: u64) -> Change {
-    Change::Remove {
+fn remove(id: u64) -> AskedTierChange {
+    AskedTierChange::Remove {
         annotation: AnnotationId(id),
     }
 }
 
 #[test]
 fn changes_bring_their_consequences() {
-    let reorder = Change::Reorder {
+    let reorder = AskedTierChange::Reorder {
         annotation: AnnotationId(41),
         order: 0,
     };
-    let same = Change::SetValue {
+    let same = AskedTierChange::SetValue {
         annotation: AnnotationId(10),
         value: "v10".into(),
     };
@@ -227,14 +227,14 @@ fn changes_bring_their_consequences() {
         let planned = planned(&set, &change).unwrap_or_else(|e| panic!("{change:?}: {e}"));
         assert_eq!(show(&set, &planned), edits, "{change:?}");
         let mut after = set;
-        after.apply(planned);
-        assert_eq!(check(&after), [], "{change:?}");
+        after.apply_edits(planned);
+        assert_eq!(check_tier_set(&after), [], "{change:?}");
     }
 }
 
 #[test]
 fn refusals_name_the_rule_and_the_remedy() {
-    let reorder = Change::Reorder {
+    let reorder = AskedTierChange::Reorder {
         annotation: AnnotationId(10),
         order: 0,
     };
@@ -335,10 +335,7 @@ fn refusals_name_the_rule_and_the_remedy() {
     }
     let far = planned(&example(), &shift(12, i64::MAX - 9, i64::MAX));
     assert!(
-        matches!(
-            far,
-            Err(EditError::TooFar { .. }) | Err(EditError::Breaks(_))
-        ),
+        matches!(far, Err(EditError::TooFar { .. }) | Err(EditError::Breaks(_))),
         "{far:?}"
     );
 }
@@ -346,7 +343,7 @@ fn refusals_name_the_rule_and_the_remedy() {
 #[test]
 fn values_stay_in_the_vocabulary() {
     let set = example().with_vocabulary("signs", ["BOL".to_owned(), "CHAT".to_owned()]);
-    let vocabulary = |id: &str| Change::SetVocabulary {
+    let vocabulary = |id: &str| AskedTierChange::SetVocabulary {
         tier: TierId(GLOSS),
         vocabulary: Some(id.to_owned()),
     };
@@ -355,14 +352,13 @@ fn values_stay_in_the_vocabulary() {
         error.to_string(),
         r#"annotation:10 on tier:1 says "v10", which is not in "signs""#
     );
-    let edits =
-        planned(&set, &vocabulary("unknown")).expect("unknown vocabularies are not checked");
+    let edits = planned(&set, &vocabulary("unknown")).expect("unknown vocabularies are not checked");
     assert_eq!(show(&set, &edits), r#"tier:1:Some("unknown")"#);
 
     let mut set = TierSet::new([tier(GLOSS, None)], [note(10, GLOSS, 0, 0, (0, 9))])
         .with_vocabulary("signs", ["BOL".to_owned(), "v10".to_owned()]);
-    set.apply(planned(&set, &vocabulary("signs")).expect("all values are known"));
-    let say = |value: Reading| Change::SetValue {
+    set.apply_edits(planned(&set, &vocabulary("signs")).expect("all values are known"));
+    let say = |value: ComponentReading| AskedTierChange::SetValue {
         annotation: AnnotationId(10),
         value,
     };
@@ -372,25 +368,25 @@ fn values_stay_in_the_vocabulary() {
         r#"annotation:10 on tier:1 says "BLO", which is not in "signs"; did you mean "BOL"?"#
     );
     for value in [
-        Reading::Unset,
-        Reading::Unclear,
-        Reading::NotApplicable,
+        ComponentReading::Unset,
+        ComponentReading::Unclear,
+        ComponentReading::NotApplicable,
         "BOL".into(),
     ] {
-        set.apply(planned(&set, &say(value)).expect("missing values belong to no vocabulary"));
-        assert_eq!(check(&set), []);
+        set.apply_edits(planned(&set, &say(value)).expect("missing values belong to no vocabulary"));
+        assert_eq!(check_tier_set(&set), []);
     }
 }
 
 #[test]
 fn check_names_every_broken_rule() {
-    use Stereotype::*;
+    use TierStereotype::*;
     let mut tiers = tiers();
     tiers.push(tier(9, Some((LIST, IncludedIn))));
     tiers.push(tier(10, Some((11, IncludedIn))));
     tiers.push(tier(11, Some((10, IncludedIn))));
     tiers.push(tier(12, Some((99, SymbolicAssociation))));
-    tiers.push(Tier::root(TierId(13), "tier 1"));
+    tiers.push(Tier::root_tier(TierId(13), "tier 1"));
     let notes = [
         note(1, 77, 0, 0, (0, 1)),
         note(2, GLOSS, 0, 0, (0, 10)),
@@ -403,14 +399,11 @@ fn check_names_every_broken_rule() {
         note(9, ASSOCIATED, 2, 0, (0, 9)),
         note(10, ASSOCIATED, 2, 0, (0, 10)),
     ];
-    let found: Vec<String> = check(&TierSet::new(tiers, notes))
+    let found: Vec<String> = check_tier_set(&TierSet::new(tiers, notes))
         .iter()
         .map(|v| format!("{v:?}"))
         .collect();
-    let kinds: Vec<&str> = found
-        .iter()
-        .map(|v| v.split(' ').next().unwrap_or_default())
-        .collect();
+    let kinds: Vec<&str> = found.iter().map(|v| v.split(' ').next().unwrap_or_default()).collect();
     assert_eq!(
         kinds,
         [
@@ -437,40 +430,34 @@ fn check_names_every_broken_rule() {
 
 #[test]
 fn a_long_chain_of_tiers_is_refused() {
-    let chain = |id| tier(id, (id > 1).then_some((id - 1, Stereotype::IncludedIn)));
+    let chain = |id| tier(id, (id > 1).then_some((id - 1, TierStereotype::IncludedIn)));
     let set = TierSet::new((1..=10_000).map(chain), []);
     let first = check_tiers(&set).into_iter().next();
     assert_eq!(
         first,
-        Some(Violation::TooDeep {
-            tier: TierId(MAX_DEPTH as u64 + 2)
+        Some(TierViolation::TooDeep {
+            tier: TierId(MAX_TIER_DEPTH as u64 + 2)
         })
     );
-    assert!(matches!(
-        planned(&set, &add(1, 0, 1)),
-        Err(EditError::Breaks(_))
-    ));
+    assert!(matches!(planned(&set, &add(1, 0, 1)), Err(EditError::Breaks(_))));
 }
 
 #[test]
 fn stereotypes_have_the_names_of_elan() {
-    for stereotype in Stereotype::ALL {
-        assert_eq!(
-            Stereotype::from_elan_name(stereotype.elan_name()),
-            Some(stereotype)
-        );
+    for stereotype in TierStereotype::ALL_TIER_STEREOTYPES {
+        assert_eq!(TierStereotype::from_elan_name(stereotype.elan_name()), Some(stereotype));
     }
     assert_eq!(
-        Stereotype::from_elan_name("time subdivision"),
-        Some(Stereotype::TimeSubdivision)
+        TierStereotype::from_elan_name("time subdivision"),
+        Some(TierStereotype::TimeSubdivision)
     );
-    assert_eq!(Stereotype::from_elan_name("Sub"), None);
+    assert_eq!(TierStereotype::from_elan_name("Sub"), None);
 }
 
 #[test]
 fn settling_gives_symbolic_annotations_times_and_orders() {
     let example = example();
-    let broken = example.annotations().cloned().map(|mut note| {
+    let broken = example.all_annotations().cloned().map(|mut note| {
         if [LIST, ASSOCIATED, BELOW_TIME, BELOW_LIST].contains(&note.tier.0) {
             note.span = span(0, 0);
             note.order = note.order * 3 + 1;
@@ -478,7 +465,7 @@ fn settling_gives_symbolic_annotations_times_and_orders() {
         note
     });
     assert_eq!(
-        TierSet::new(tiers(), broken.collect::<Vec<_>>()).settled(),
+        TierSet::new(tiers(), broken.collect::<Vec<_>>()).with_settled_tiers(),
         example
     );
 }

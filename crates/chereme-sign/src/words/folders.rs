@@ -1,7 +1,7 @@
 //! Folders of words: one for each language, named by its code, with files in Fluent's syntax.
 //!
 //! `schema/words/LANGUAGE/ROOM.ftl` holds the phrases of a room. A phrase has the same id in all languages; the id begins with
-//! its kind: `message`, `line`, `help`, `title`, `guide`, `menu`, `page`, `history` or `noun`; the last two may choose among
+//! its kind: `message`, `line`, `help`, `title`, `guide`, `menu`, `svg_page`, `history` or `noun`; the last two may choose among
 //! variants. Comments in the files are for translators.
 //! [`add_word_files`] adds a folder of the user's own, whose phrases come before those of the program.
 
@@ -12,7 +12,7 @@ use std::sync::{LazyLock, OnceLock};
 use fluent_syntax::ast::{Entry, Expression, InlineExpression, Pattern, PatternElement};
 use fluent_syntax::parser;
 
-use super::Language;
+use super::InterfaceLanguage;
 
 /// A file of words.
 #[derive(Debug, Clone)]
@@ -171,20 +171,16 @@ fn own_files() -> impl Iterator<Item = WordFile> {
 #[must_use]
 pub fn own_english() -> &'static WordBook {
     static ENGLISH_BOOK: LazyLock<WordBook> = LazyLock::new(|| {
-        let files: Vec<WordFile> = own_files()
-            .filter(|file| file.path.starts_with("en/"))
-            .collect();
+        let files: Vec<WordFile> = own_files().filter(|file| file.path.starts_with("en/")).collect();
         read_word_book(&files).0
     });
     &ENGLISH_BOOK
 }
 
 /// Returns the form of a phrase in `language`, otherwise in English.
-pub fn phrase_text(id: &str, language: Language) -> Option<&'static str> {
-    let codes = [language.code(), Language::English.code()];
-    let mut books = codes
-        .into_iter()
-        .filter_map(|code| language_files().get(code));
+pub fn phrase_text(id: &str, language: InterfaceLanguage) -> Option<&'static str> {
+    let codes = [language.language_code(), InterfaceLanguage::English.language_code()];
+    let mut books = codes.into_iter().filter_map(|code| language_files().get(code));
     let phrase = books.find_map(|files| files.word_book().get(id))?;
     Some(&phrase.text)
 }
@@ -224,8 +220,7 @@ pub fn read_word_book(files: &[WordFile]) -> (WordBook, Vec<WordFileError>) {
             continue;
         }
         let numbered = file.text.lines().zip(1..);
-        let lines =
-            numbered.filter_map(|(text, line)| Some((text.split_once('=')?.0.trim(), line)));
+        let lines = numbered.filter_map(|(text, line)| Some((text.split_once('=')?.0.trim(), line)));
         let lines: BTreeMap<&str, usize> = lines.collect();
         let (resource, errors) = match parser::parse(&*file.text) {
             Ok(resource) => (resource, Vec::new()),
@@ -248,10 +243,7 @@ pub fn read_word_book(files: &[WordFile]) -> (WordBook, Vec<WordFileError>) {
                         let phrase = StoredPhrase { parts, text, place };
                         book.insert(id.to_owned(), phrase);
                     }
-                    None => report(
-                        line,
-                        format!("{id} may hold words and {{ $variables }} only"),
-                    ),
+                    None => report(line, format!("{id} may hold words and {{ $variables }} only")),
                 }
             }
         }
@@ -343,16 +335,8 @@ mod tests {
     fn a_damaged_file_is_refused_with_its_line() {
         for (text, line, part) in [
             ("menu-a = A\nmenu-b\n", 2, ""),
-            (
-                "menu-a = A\nmenu-b = { menu-a }\n",
-                2,
-                "words and { $variables }",
-            ),
-            (
-                "menu-b = B\nmenu-a = {{{\n{{{{\n{{{ $a }}}}}}}}}}\n",
-                4,
-                "braces",
-            ),
+            ("menu-a = A\nmenu-b = { menu-a }\n", 2, "words and { $variables }"),
+            ("menu-b = B\nmenu-a = {{{\n{{{{\n{{{ $a }}}}}}}}}}\n", 4, "braces"),
         ] {
             let (_, faults) = read_word_book(&[word_file("de/x.ftl", text)]);
             let [fault] = &faults[..] else {

@@ -6,31 +6,31 @@
 //! | `screen` | a film on the screen: its current frame, and its place on the recording's clock |
 //! | `ui` | the widgets |
 
+mod film_ui;
 mod projector;
 mod screen;
-mod ui;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::MediaTrackRow;
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use eframe::egui::{Context, Id, Rect, Ui};
 
-use crate::context::{Outbox, PaneInput};
-use crate::model::Snapshot;
-use screen::Screen;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::model::CorpusSnapshot;
+use screen::FilmScreen;
 
 /// The films of the displayed recording.
 #[derive(Default)]
-pub(crate) struct Films {
+pub(crate) struct RecordingFilms {
     corpus: PathBuf,
-    screens: RefCell<Vec<Screen>>,
+    screens: RefCell<Vec<FilmScreen>>,
 }
 
-impl Films {
+impl RecordingFilms {
     /// Returns an empty set of films for the corpus in that file.
-    pub(crate) fn of(corpus: &Path) -> Self {
+    pub(crate) fn films_of_corpus(corpus: &Path) -> Self {
         Self {
             corpus: corpus.to_owned(),
             screens: RefCell::default(),
@@ -38,13 +38,12 @@ impl Films {
     }
 
     /// Switches to the films of a recording; films that are shown already stay.
-    pub(crate) fn follow(&self, snapshot: &Snapshot, recording: Option<i64>, ctx: &Context) {
-        let contents = recording.and_then(|id| snapshot.contents(id));
-        let media = contents.map_or(&[][..], |it| &it.media);
-        let wanted: Vec<&MediaTrackRow> = media.iter().filter(|it| it.is_film()).collect();
+    pub(crate) fn follow_recording(&self, snapshot: &CorpusSnapshot, recording: Option<i64>, ctx: &Context) {
+        let contents = recording.and_then(|id| snapshot.recording_contents(id));
+        let media = contents.map_or(&[][..], |contents| &contents.media);
+        let wanted: Vec<&MediaTrackRow> = media.iter().filter(|track| track.is_film()).collect();
         let mut screens = self.screens.borrow_mut();
-        let same = screens.len() == wanted.len()
-            && screens.iter().zip(&wanted).all(|(a, b)| a.track == **b);
+        let same = screens.len() == wanted.len() && screens.iter().zip(&wanted).all(|(a, b)| a.track == **b);
         if contents.is_none() && recording.is_some() || same {
             // Nothing changed, or the recording is still being read.
             return;
@@ -53,14 +52,14 @@ impl Films {
         *screens = wanted
             .into_iter()
             .map(|track| {
-                let own = |it: &Screen| {
-                    it.track.id == track.id
-                        && it.track.url == track.url
-                        && it.track.imported == track.imported
+                let is_same_film = |screen: &FilmScreen| {
+                    screen.track.id == track.id
+                        && screen.track.url == track.url
+                        && screen.track.imported == track.imported
                 };
-                match before.iter().position(own) {
-                    Some(at) => before.swap_remove(at).moved(track),
-                    None => Screen::new(track.clone(), &self.corpus, ctx),
+                match before.iter().position(is_same_film) {
+                    Some(at) => before.swap_remove(at).with_moved_track(track),
+                    None => FilmScreen::new(track.clone(), &self.corpus, ctx),
                 }
             })
             .collect();
@@ -72,44 +71,42 @@ impl Films {
     }
 
     /// Returns the end of a recording's last film on its clock, as far as it is known.
-    pub(crate) fn end(&self, recording: i64) -> Instant {
+    pub(crate) fn last_film_end(&self, recording: i64) -> RecordingInstant {
         let screens = self.screens.borrow();
         // The films of the recording before stay until the next one has been read.
-        let own = screens
-            .iter()
-            .filter(|it| it.track.recording_id == recording);
-        let ends = own.filter_map(Screen::end);
-        Instant::from_micros(ends.max().unwrap_or_default())
+        let recording_screens = screens.iter().filter(|screen| screen.track.recording_id == recording);
+        let ends = recording_screens.filter_map(FilmScreen::film_end_micros);
+        RecordingInstant::from_micros(ends.max().unwrap_or_default())
     }
 
     /// Returns the start of the frame that lies `frames` frames after the one at `at`, in the first opened film.
-    pub(crate) fn step(&self, at: Instant, frames: i64) -> Option<Instant> {
+    pub(crate) fn step_first_film(&self, at: RecordingInstant, frames: i64) -> Option<RecordingInstant> {
         let screens = self.screens.borrow();
-        screens.iter().find_map(|it| it.step(at, frames))
+        screens.iter().find_map(|screen| screen.step_film_frame(at, frames))
     }
 
     /// Returns whether every film shows exactly the picture of the playhead, or has none there.
     pub(crate) fn are_pictured(&self) -> bool {
-        self.screens.borrow().iter().all(Screen::is_pictured)
+        self.screens.borrow().iter().all(FilmScreen::is_pictured)
     }
 
     /// Shows the films next to each other.
-    pub(crate) fn show(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, rect: Rect) {
-        ui::show(&mut self.screens.borrow_mut(), ui, seen, out, rect);
+    pub(crate) fn show_films(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, rect: Rect) {
+        film_ui::show_film_screens(&mut self.screens.borrow_mut(), ui, seen, out, rect);
     }
 
     /// Notes that the film pane is in sight, so that the stage does not show the films too.
     pub(crate) fn pane_is_seen(ctx: &Context) {
         let pass = ctx.cumulative_pass_nr();
-        ctx.data_mut(|data| data.insert_temp(Id::unique(PANE), pass));
+        ctx.data_mut(|data| data.insert_temp(Id::unique(FILM_PANE_ID), pass));
     }
 
     /// Returns whether the film pane is in sight.
     pub(crate) fn is_pane_seen(ctx: &Context) -> bool {
         let pass = ctx.cumulative_pass_nr();
-        let last: Option<u64> = ctx.data(|data| data.get_temp(Id::unique(PANE)));
+        let last: Option<u64> = ctx.data(|data| data.get_temp(Id::unique(FILM_PANE_ID)));
         last.is_some_and(|last| last + 1 >= pass)
     }
 }
 
-const PANE: &str = "film pane";
+const FILM_PANE_ID: &str = "film pane";

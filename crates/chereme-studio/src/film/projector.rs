@@ -7,20 +7,20 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-use chereme_corpus::remedy::Remedy;
-use chereme_corpus::{Film, FilmFacts, FilmTimes, MediaTrackRow, find_media};
+use chereme_corpus::remedy::ErrorRemedy;
+use chereme_corpus::{FilmFacts, FilmFile, FilmTimes, MediaTrackRow, find_media};
 use eframe::egui::{Color32, ColorImage};
 
 /// How many pictures are kept, so that a frame seen before is shown at once.
-const KEPT: usize = 48;
+const MAX_KEPT_PICTURES: usize = 48;
 /// How many pictures are decoded ahead during playback.
-const AHEAD: usize = 3;
+const DECODED_AHEAD_PICTURES: usize = 3;
 /// A frame farther than this from the start of decoding, in frames, gets a quick picture of an earlier frame first.
-const FAR: usize = 10;
+const FAR_DECODE_FRAMES: usize = 10;
 /// A newer request for a frame within this many frames ahead does not stop the present decoding.
-const NEAR: usize = 60;
+const NEAR_REQUEST_FRAMES: usize = 60;
 /// Stack size of the thread in bytes; decoders need more than other work.
-const STACK: usize = 16 << 20;
+const PROJECTOR_STACK_BYTES: usize = 16 << 20;
 
 /// A request for a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub(super) struct FilmRequest {
 
 /// The state of the file.
 #[derive(Debug, Clone, Default)]
-pub(super) enum Known {
+pub(super) enum FilmFileState {
     /// The file is being searched and opened.
     #[default]
     Coming,
@@ -43,12 +43,12 @@ pub(super) enum Known {
     /// The file is missing; the first path that was tried.
     Gone(Option<PathBuf>),
     /// The film cannot be played: the reason, and a remedy.
-    Refused(String, Option<Remedy>),
+    Refused(String, Option<ErrorRemedy>),
 }
 
 /// A decoded picture.
 #[derive(Clone)]
-pub(super) struct Shot {
+pub(super) struct DecodedPicture {
     pub(super) frame: usize,
     pub(super) image: Arc<ColorImage>,
     /// Serial number, counting up from picture to picture.
@@ -57,90 +57,86 @@ pub(super) struct Shot {
 
 /// The latest state of a film.
 #[derive(Clone, Default)]
-pub(super) struct News {
-    pub(super) known: Known,
-    pub(super) shot: Option<Shot>,
+pub(super) struct FilmNews {
+    pub(super) known: FilmFileState,
+    pub(super) shot: Option<DecodedPicture>,
     /// The latest frame that could not be decoded, and the reason.
     pub(super) damaged: Option<(usize, String)>,
 }
 
 #[derive(Default)]
-struct Wished {
+struct WishedPicture {
     next: Option<FilmRequest>,
     over: bool,
 }
 
 #[derive(Default)]
-struct Shared {
-    wish: Mutex<Wished>,
+struct ProjectorShared {
+    wish: Mutex<WishedPicture>,
     wished: Condvar,
-    news: Mutex<News>,
+    news: Mutex<FilmNews>,
 }
 
 /// The handle of a film's thread.
-pub(super) struct Projector {
-    shared: Arc<Shared>,
+pub(super) struct FilmProjector {
+    shared: Arc<ProjectorShared>,
 }
 
-impl Projector {
+impl FilmProjector {
     /// Starts the thread for the film of a track; the thread calls `wake` when there is something new.
-    pub(super) fn new(
-        track: MediaTrackRow,
-        corpus: &Path,
-        wake: impl Fn() + Send + 'static,
-    ) -> Self {
-        let shared = Arc::<Shared>::default();
-        let own = shared.clone();
+    pub(super) fn new(track: MediaTrackRow, corpus: &Path, wake: impl Fn() + Send + 'static) -> Self {
+        let shared = Arc::<ProjectorShared>::default();
+        let thread_shared = shared.clone();
         let corpus = corpus.to_owned();
-        let thread = std::thread::Builder::new().stack_size(STACK);
+        let thread = std::thread::Builder::new().stack_size(PROJECTOR_STACK_BYTES);
         let begun = thread.spawn(move || {
-            if let Some(film) = open(&own, track, &corpus) {
+            if let Some(film) = open_film_track(&thread_shared, track, &corpus) {
                 wake();
-                project(&own, film, &wake);
+                project_film(&thread_shared, film, &wake);
             }
             wake();
         });
         if let Err(error) = begun {
-            held(&shared.news).known = Known::Refused(error.to_string(), None);
+            lock_held_mutex(&shared.news).known = FilmFileState::Refused(error.to_string(), None);
         }
         Self { shared }
     }
 
     /// Requests a picture; an earlier request that has not been started is dropped.
-    pub(super) fn wish(&self, wish: FilmRequest) {
-        held(&self.shared.wish).next = Some(wish);
+    pub(super) fn wish_picture(&self, wish: FilmRequest) {
+        lock_held_mutex(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
 
     /// Returns the latest state of the film.
-    pub(super) fn news(&self) -> News {
-        held(&self.shared.news).clone()
+    pub(super) fn latest_film_news(&self) -> FilmNews {
+        lock_held_mutex(&self.shared.news).clone()
     }
 }
 
-impl Drop for Projector {
+impl Drop for FilmProjector {
     fn drop(&mut self) {
         // The thread ends after the picture that it is decoding; the window does not wait for that.
-        held(&self.shared.wish).over = true;
+        lock_held_mutex(&self.shared.wish).over = true;
         self.shared.wished.notify_one();
     }
 }
 
-fn open(shared: &Shared, track: MediaTrackRow, corpus: &Path) -> Option<Film> {
+fn open_film_track(shared: &ProjectorShared, track: MediaTrackRow, corpus: &Path) -> Option<FilmFile> {
     let place = find_media(track, corpus);
-    let known = |known: Known| held(&shared.news).known = known;
+    let known_setter = |known: FilmFileState| lock_held_mutex(&shared.news).known = known;
     let Some(path) = place.path.filter(|_| place.is_there) else {
-        known(Known::Gone(find_media(place.track, corpus).path));
+        known_setter(FilmFileState::Gone(find_media(place.track, corpus).path));
         return None;
     };
-    match Film::open(&path) {
+    match FilmFile::open_film(&path) {
         Ok(film) => {
-            let facts = Arc::new(film.facts().clone());
-            known(Known::Open(facts, film.times().clone()));
+            let facts = Arc::new(film.film_facts().clone());
+            known_setter(FilmFileState::Open(facts, film.film_times().clone()));
             Some(film)
         }
         Err(error) => {
-            known(Known::Refused(error.to_string(), error.remedy()));
+            known_setter(FilmFileState::Refused(error.to_string(), error.error_remedy()));
             None
         }
     }
@@ -148,61 +144,57 @@ fn open(shared: &Shared, track: MediaTrackRow, corpus: &Path) -> Option<Film> {
 
 /// Recently decoded pictures of a film.
 #[derive(Default)]
-struct Album(VecDeque<(FilmRequest, Arc<ColorImage>)>);
+struct PictureAlbum(VecDeque<(FilmRequest, Arc<ColorImage>)>);
 
-impl Album {
-    fn find(&self, wish: FilmRequest) -> Option<Arc<ColorImage>> {
-        let same = |it: &FilmRequest| it.frame == wish.frame && it.within == wish.within;
-        let found = self.0.iter().find(|(it, _)| same(it));
-        found.map(|(_, image)| image.clone())
+impl PictureAlbum {
+    fn find_kept_picture(&self, wish: FilmRequest) -> Option<Arc<ColorImage>> {
+        let same = |request: &FilmRequest| request.frame == wish.frame && request.within == wish.within;
+        let entry = self.0.iter().find(|(request, _)| same(request));
+        entry.map(|(_, image)| image.clone())
     }
 
     /// Returns the requested picture, decoding it if necessary; `None` if `stop` interrupts the decoding.
-    fn picture(
+    fn decode_picture(
         &mut self,
-        film: &mut Film,
+        film: &mut FilmFile,
         wish: FilmRequest,
         stop: &dyn Fn() -> bool,
-    ) -> chereme_corpus::Result<Option<Arc<ColorImage>>> {
-        if let Some(image) = self.find(wish) {
+    ) -> chereme_corpus::CorpusResult<Option<Arc<ColorImage>>> {
+        if let Some(image) = self.find_kept_picture(wish) {
             return Ok(Some(image));
         }
-        let picture = match film.picture(wish.frame, wish.within, stop) {
+        let picture = match film.screen_frame_picture(wish.frame, wish.within, stop) {
             Ok(picture) => picture,
-            Err(chereme_corpus::Error::Stopped) => return Ok(None),
+            Err(chereme_corpus::CorpusError::Stopped) => return Ok(None),
             Err(error) => return Err(error),
         };
-        let pixels = picture.rgba.chunks_exact(4);
-        let pixels = pixels.map(|it| Color32::from_rgb(it[0], it[1], it[2]));
+        let rgba_chunks = picture.rgba.chunks_exact(4);
+        let pixels = rgba_chunks.map(|rgba| Color32::from_rgb(rgba[0], rgba[1], rgba[2]));
         let size = [picture.width, picture.height];
         let image = Arc::new(ColorImage::new(size, pixels.collect()));
         self.0.push_back((wish, image.clone()));
-        if self.0.len() > KEPT {
+        if self.0.len() > MAX_KEPT_PICTURES {
             self.0.pop_front();
         }
         Ok(Some(image))
     }
 }
 
-fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
-    let times = film.times().clone();
-    let mut album = Album::default();
+fn project_film(shared: &ProjectorShared, mut film: FilmFile, wake: &dyn Fn()) {
+    let times = film.film_times().clone();
+    let mut album = PictureAlbum::default();
     let mut number = 0;
     let mut last = 0_usize;
     while let Some(wish) = shared.next() {
         let overtaken = || {
-            let wished = held(&shared.wish);
-            let other = |next: &FilmRequest| !(wish.frame..wish.frame + NEAR).contains(&next.frame);
+            let wished = lock_held_mutex(&shared.wish);
+            let other = |next: &FilmRequest| !(wish.frame..wish.frame + NEAR_REQUEST_FRAMES).contains(&next.frame);
             wished.over || wished.next.as_ref().is_some_and(other)
         };
         let mut publish = |frame: usize, image: Arc<ColorImage>| {
             number += 1;
-            let mut news = held(&shared.news);
-            news.shot = Some(Shot {
-                frame,
-                image,
-                number,
-            });
+            let mut news = lock_held_mutex(&shared.news);
+            news.shot = Some(DecodedPicture { frame, image, number });
             news.damaged = None;
             drop(news);
             wake();
@@ -210,32 +202,29 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
         let begin = times.sync_before(wish.frame);
         let is_ahead = (begin..=wish.frame).contains(&last);
         let from = if is_ahead { last } else { begin };
-        if wish.frame - from > FAR && album.find(wish).is_none() {
-            let quick = FilmRequest {
-                frame: begin,
-                ..wish
-            };
-            if let Ok(Some(image)) = album.picture(&mut film, quick, &overtaken) {
+        if wish.frame - from > FAR_DECODE_FRAMES && album.find_kept_picture(wish).is_none() {
+            let quick = FilmRequest { frame: begin, ..wish };
+            if let Ok(Some(image)) = album.decode_picture(&mut film, quick, &overtaken) {
                 publish(begin, image);
                 last = begin;
             }
         }
-        match album.picture(&mut film, wish, &overtaken) {
+        match album.decode_picture(&mut film, wish, &overtaken) {
             Ok(Some(image)) => {
                 publish(wish.frame, image);
                 last = wish.frame;
             }
             Ok(None) => {}
             Err(error) => {
-                held(&shared.news).damaged = Some((wish.frame, error.to_string()));
+                lock_held_mutex(&shared.news).damaged = Some((wish.frame, error.to_string()));
                 wake();
             }
         }
         if wish.playing {
-            let busy = || held(&shared.wish).next.is_some() || held(&shared.wish).over;
-            for frame in (wish.frame + 1..times.frames()).take(AHEAD) {
+            let busy = || lock_held_mutex(&shared.wish).next.is_some() || lock_held_mutex(&shared.wish).over;
+            for frame in (wish.frame + 1..times.film_frame_count()).take(DECODED_AHEAD_PICTURES) {
                 let ahead = FilmRequest { frame, ..wish };
-                if busy() || !matches!(album.picture(&mut film, ahead, &busy), Ok(Some(_))) {
+                if busy() || !matches!(album.decode_picture(&mut film, ahead, &busy), Ok(Some(_))) {
                     break;
                 }
                 last = frame;
@@ -244,9 +233,9 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
     }
 }
 
-impl Shared {
+impl ProjectorShared {
     fn next(&self) -> Option<FilmRequest> {
-        let mut wish = held(&self.wish);
+        let mut wish = lock_held_mutex(&self.wish);
         loop {
             if wish.over {
                 return None;
@@ -260,6 +249,6 @@ impl Shared {
     }
 }
 
-fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+fn lock_held_mutex<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

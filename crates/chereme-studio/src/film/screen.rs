@@ -4,16 +4,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use chereme_corpus::{FilmTimes, MediaTrackRow};
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use eframe::egui::{Context, TextureHandle, TextureOptions};
 
-use super::projector::{FilmRequest, Known, News, Projector};
+use super::projector::{FilmFileState, FilmNews, FilmProjector, FilmRequest};
 
 /// A film with its current picture.
-pub(super) struct Screen {
+pub(super) struct FilmScreen {
     pub(super) track: MediaTrackRow,
-    projector: Projector,
-    pub(super) news: News,
+    projector: FilmProjector,
+    pub(super) news: FilmNews,
     pub(super) texture: Option<TextureHandle>,
     /// The serial number of the picture in the texture.
     held: u64,
@@ -24,13 +24,13 @@ pub(super) struct Screen {
     pub(super) dragged: Option<i64>,
 }
 
-impl Screen {
+impl FilmScreen {
     pub(super) fn new(track: MediaTrackRow, corpus: &Path, ctx: &Context) -> Self {
         let wake = ctx.clone();
         Self {
-            projector: Projector::new(track.clone(), corpus, move || wake.request_repaint()),
+            projector: FilmProjector::new(track.clone(), corpus, move || wake.request_repaint()),
             track,
-            news: News::default(),
+            news: FilmNews::default(),
             texture: None,
             held: 0,
             wished: None,
@@ -40,7 +40,7 @@ impl Screen {
     }
 
     /// Returns the screen with the track's newest entry in the corpus.
-    pub(super) fn moved(self, track: &MediaTrackRow) -> Self {
+    pub(super) fn with_moved_track(self, track: &MediaTrackRow) -> Self {
         Self {
             track: track.clone(),
             dragged: None,
@@ -49,65 +49,69 @@ impl Screen {
     }
 
     /// Returns the times of the frames, once the film is open.
-    pub(super) fn times(&self) -> Option<&Arc<FilmTimes>> {
+    pub(super) fn frame_times(&self) -> Option<&Arc<FilmTimes>> {
         match &self.news.known {
-            Known::Open(_, times) => Some(times),
+            FilmFileState::Open(_, times) => Some(times),
             _ => None,
         }
     }
 
     /// Returns whether the film was not found, or cannot be played.
     pub(super) fn is_missing(&self) -> bool {
-        matches!(self.news.known, Known::Gone(_) | Known::Refused(..))
+        matches!(self.news.known, FilmFileState::Gone(_) | FilmFileState::Refused(..))
     }
 
     /// Returns the place of the film's time 0 on the recording's clock, in microseconds.
-    pub(super) fn offset(&self) -> i64 {
+    pub(super) fn film_offset_micros(&self) -> i64 {
         self.dragged.unwrap_or(self.track.offset_us)
     }
 
     /// Returns the end of the film on the recording's clock, in microseconds.
-    pub(super) fn end(&self) -> Option<i64> {
-        Some(self.times()?.end() + self.track.offset_us)
+    pub(super) fn film_end_micros(&self) -> Option<i64> {
+        Some(self.frame_times()?.film_end() + self.track.offset_us)
     }
 
     /// Returns the frame at a moment of the recording.
-    pub(super) fn frame_at(&self, at: Instant) -> Option<usize> {
+    pub(super) fn screen_frame_at(&self, at: RecordingInstant) -> Option<usize> {
         match self.loose {
             Some(frame) => Some(frame),
-            None => self.times()?.frame_at(at.micros() - self.offset()),
+            None => self
+                .frame_times()?
+                .displayed_frame_at(at.instant_micros() - self.film_offset_micros()),
         }
     }
 
     /// Returns the start of the frame that lies `frames` frames after the one at `at`. Outside of the film, the first
     /// or the last frame counts.
-    pub(super) fn step(&self, at: Instant, frames: i64) -> Option<Instant> {
-        let times = self.times()?;
-        let own = at.micros() - self.offset();
-        let last = times.frames().checked_sub(1)?;
-        let next = match times.frame_at(own) {
+    pub(super) fn step_film_frame(&self, at: RecordingInstant, frames: i64) -> Option<RecordingInstant> {
+        let times = self.frame_times()?;
+        let film_time = at.instant_micros() - self.film_offset_micros();
+        let last = times.film_frame_count().checked_sub(1)?;
+        let next = match times.displayed_frame_at(film_time) {
             Some(frame) => frame.saturating_add_signed(frames as isize).min(last),
-            None if own < times.start(0) => 0,
+            None if film_time < times.film_frame_start(0) => 0,
             None => last,
         };
-        Some(Instant::from_micros(times.start(next) + self.offset()))
+        Some(RecordingInstant::from_micros(
+            times.film_frame_start(next) + self.film_offset_micros(),
+        ))
     }
 
     /// Returns the offset at which `frame` begins at the moment `at` of the recording, in microseconds.
-    pub(super) fn laid(&self, frame: usize, at: Instant) -> Option<i64> {
-        Some(at.micros() - self.times()?.start(frame))
+    pub(super) fn offset_for_frame(&self, frame: usize, at: RecordingInstant) -> Option<i64> {
+        Some(at.instant_micros() - self.frame_times()?.film_frame_start(frame))
     }
 
     /// Fetches the latest picture from the projector, and requests the picture of a frame.
-    pub(super) fn follow(
+    pub(super) fn fetch_projected_picture(
         &mut self,
         frame: Option<usize>,
         within: [usize; 2],
         playing: bool,
         ctx: &Context,
     ) {
-        self.news = self.projector.news();
-        if let Some(shot) = self.news.shot.as_ref().filter(|it| it.number != self.held) {
+        self.news = self.projector.latest_film_news();
+        if let Some(shot) = self.news.shot.as_ref().filter(|shot| shot.number != self.held) {
             self.held = shot.number;
             match &mut self.texture {
                 Some(texture) => texture.set(shot.image.clone(), TextureOptions::LINEAR),
@@ -118,15 +122,11 @@ impl Screen {
                 }
             }
         }
-        let wish = frame.map(|frame| FilmRequest {
-            frame,
-            within,
-            playing,
-        });
-        if self.times().is_some() && wish != self.wished {
+        let wish = frame.map(|frame| FilmRequest { frame, within, playing });
+        if self.frame_times().is_some() && wish != self.wished {
             self.wished = wish;
             if let Some(wish) = wish {
-                self.projector.wish(wish);
+                self.projector.wish_picture(wish);
             }
         }
     }
@@ -134,14 +134,10 @@ impl Screen {
     /// Returns whether the picture is the latest requested one, or that one cannot be decoded.
     pub(super) fn is_pictured(&self) -> bool {
         let Some(wish) = self.wished else {
-            return !matches!(self.news.known, Known::Coming);
+            return !matches!(self.news.known, FilmFileState::Coming);
         };
         let shot = self.news.shot.as_ref();
-        shot.is_some_and(|it| it.frame == wish.frame)
-            || self
-                .news
-                .damaged
-                .as_ref()
-                .is_some_and(|it| it.0 == wish.frame)
+        shot.is_some_and(|shot| shot.frame == wish.frame)
+            || self.news.damaged.as_ref().is_some_and(|damage| damage.0 == wish.frame)
     }
 }

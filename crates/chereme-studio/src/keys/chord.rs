@@ -6,24 +6,24 @@ use std::str::FromStr;
 use eframe::egui::{Key, Modifiers};
 use serde::{Deserialize, Serialize};
 
-use crate::words::{Language, key_names as words};
+use crate::words::{InterfaceLanguage, key_names as words};
 
 /// A key with its modifiers: `Ctrl+Shift+Space`. Ctrl is the command key on a Mac.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub(crate) struct Chord {
+pub(crate) struct KeyChord {
     pub(crate) ctrl: bool,
     pub(crate) alt: bool,
     pub(crate) shift: bool,
     pub(crate) key: Key,
 }
 
-/// The error for a text that is not a [`Chord`].
+/// The error for a text that is not a [`KeyChord`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is no key: write one like Ctrl+Shift+Space")]
 pub(crate) struct NoChord(String);
 
-impl Chord {
+impl KeyChord {
     pub(crate) fn new(key: Key, modifiers: Modifiers) -> Self {
         Self {
             ctrl: modifiers.command || modifiers.ctrl,
@@ -36,7 +36,7 @@ impl Chord {
 
     /// Returns whether a text field uses the chord itself.
     pub(crate) fn is_for_text(self) -> bool {
-        const EDITING: [Key; 15] = [
+        const TEXT_EDITING_KEYS: [Key; 15] = [
             Key::A,
             Key::C,
             Key::V,
@@ -55,22 +55,22 @@ impl Chord {
         ];
         let function = self.key >= Key::F1 && self.key <= Key::F35;
         if self.ctrl {
-            return EDITING.contains(&self.key) && !self.alt;
+            return TEXT_EDITING_KEYS.contains(&self.key) && !self.alt;
         }
         !function && !self.alt
     }
 
     /// Returns the chord as people read it, with the printed sign of the key if it has one, and the names that are
     /// printed on keyboards of the language.
-    pub(crate) fn label(self, language: Language) -> String {
+    pub(crate) fn chord_label(self, language: InterfaceLanguage) -> String {
         let name = self.key.name();
         let sign = match self.key {
             Key::Plus => "+",
             key => key.symbol_or_name(),
         };
         // Arrows and the like are easier to read as words.
-        let key = match words::KEYS.iter().find(|(key, _)| *key == self.key) {
-            Some((_, text)) => text.of(language),
+        let key = match words::KEY_NAME_TEXTS.iter().find(|(key, _)| *key == self.key) {
+            Some((_, text)) => text.text_in_language(language),
             None if sign.is_ascii() => sign,
             None => name,
         };
@@ -81,7 +81,7 @@ impl Chord {
             (self.alt, words::ALT),
         ] {
             if held {
-                label.push_str(name.of(language));
+                label.push_str(name.text_in_language(language));
                 label.push('+');
             }
         }
@@ -98,13 +98,13 @@ impl Chord {
 
     /// Returns whether a focused handle on the stage uses the chord itself.
     pub(crate) fn is_for_handles(self) -> bool {
-        const MOVING: [Key; 3] = [Key::PageUp, Key::PageDown, Key::Escape];
-        !self.ctrl && !self.alt && MOVING.contains(&self.key)
+        const HANDLE_MOVING_KEYS: [Key; 3] = [Key::PageUp, Key::PageDown, Key::Escape];
+        !self.ctrl && !self.alt && HANDLE_MOVING_KEYS.contains(&self.key)
     }
 
     /// Returns whether a focused button, list or slider uses the chord itself.
     pub(crate) fn is_for_widgets(self) -> bool {
-        const MOVING: [Key; 11] = [
+        const WIDGET_MOVING_KEYS: [Key; 11] = [
             Key::Space,
             Key::Enter,
             Key::Tab,
@@ -117,17 +117,13 @@ impl Chord {
             Key::Home,
             Key::End,
         ];
-        !self.ctrl && !self.alt && MOVING.contains(&self.key)
+        !self.ctrl && !self.alt && WIDGET_MOVING_KEYS.contains(&self.key)
     }
 }
 
-impl fmt::Display for Chord {
+impl fmt::Display for KeyChord {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (held, name) in [
-            (self.ctrl, "Ctrl+"),
-            (self.shift, "Shift+"),
-            (self.alt, "Alt+"),
-        ] {
+        for (held, name) in [(self.ctrl, "Ctrl+"), (self.shift, "Shift+"), (self.alt, "Alt+")] {
             if held {
                 f.write_str(name)?;
             }
@@ -136,15 +132,14 @@ impl fmt::Display for Chord {
     }
 }
 
-impl FromStr for Chord {
+impl FromStr for KeyChord {
     type Err = NoChord;
 
     fn from_str(text: &str) -> Result<Self, NoChord> {
         let wrong = || NoChord(text.to_owned());
         let mut modifiers = Modifiers::NONE;
         let mut rest = text.trim();
-        while let Some((word, after)) = rest.split_once('+').filter(|(_, after)| !after.is_empty())
-        {
+        while let Some((word, after)) = rest.split_once('+').filter(|(_, after)| !after.is_empty()) {
             match word {
                 "Ctrl" => modifiers.ctrl = true,
                 "Shift" => modifiers.shift = true,
@@ -158,7 +153,7 @@ impl FromStr for Chord {
     }
 }
 
-impl TryFrom<String> for Chord {
+impl TryFrom<String> for KeyChord {
     type Error = NoChord;
 
     fn try_from(text: String) -> Result<Self, NoChord> {
@@ -166,8 +161,8 @@ impl TryFrom<String> for Chord {
     }
 }
 
-impl From<Chord> for String {
-    fn from(chord: Chord) -> Self {
+impl From<KeyChord> for String {
+    fn from(chord: KeyChord) -> Self {
         chord.to_string()
     }
 }
@@ -187,7 +182,7 @@ mod tests {
             "Ctrl+Plus",
             "Comma",
         ] {
-            assert_eq!(text.parse::<Chord>().expect("a chord").to_string(), text);
+            assert_eq!(text.parse::<KeyChord>().expect("a chord").to_string(), text);
         }
         for (text, label) in [
             ("Ctrl+Comma", ["Ctrl+,", "Ctrl+,"]),
@@ -198,13 +193,13 @@ mod tests {
             ("Shift+Enter", ["Shift+Enter", "Maj+Entrée"]),
             ("Delete", ["Delete", "Suppr"]),
         ] {
-            let chord = text.parse::<Chord>().expect("a chord");
-            let labels = [Language::English, Language::French].map(|it| chord.label(it));
+            let chord = text.parse::<KeyChord>().expect("a chord");
+            let labels = [InterfaceLanguage::English, InterfaceLanguage::French].map(|it| chord.chord_label(it));
             assert_eq!(labels, label);
         }
-        assert_eq!("Ctrl++".parse::<Chord>().map(|it| it.key), Ok(Key::Plus));
+        assert_eq!("Ctrl++".parse::<KeyChord>().map(|it| it.key), Ok(Key::Plus));
         for bad in ["", "Ctrl+", "Hyper+A", "NoKey"] {
-            assert!(bad.parse::<Chord>().is_err(), "{bad}");
+            assert!(bad.parse::<KeyChord>().is_err(), "{bad}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Keys and their actions: default keymaps as a table, the user's changes, and matching.
 
 pub(crate) mod chord;
-pub(crate) mod gestures;
+pub(crate) mod keys_gestures;
 pub(crate) mod queue;
 
 use std::collections::BTreeMap;
@@ -9,15 +9,15 @@ use std::collections::BTreeMap;
 use eframe::egui::{Event, Key, Modifiers};
 use serde::{Deserialize, Serialize};
 
-use crate::action::{ACTIONS, Action, ActionRow, Context, Owner};
+use crate::action::{ACTIONS, Action, ActionContext, ActionOwner, ActionRow};
 use crate::panes::PaneKind;
-use crate::words::{Language, Text, shell};
-use chord::Chord;
+use crate::words::{InterfaceLanguage, InterfaceText, shell};
+use chord::KeyChord;
 
 /// A set of default keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Keymap {
+pub(crate) enum DefaultKeymap {
     /// Those of ELAN.
     #[default]
     Elan,
@@ -27,8 +27,8 @@ pub(crate) enum Keymap {
     Editor,
 }
 
-impl Keymap {
-    pub(crate) const ALL: [(Self, Text); 3] = [
+impl DefaultKeymap {
+    pub(crate) const ALL_KEYMAPS: [(Self, InterfaceText); 3] = [
         (Self::Elan, shell::KEYMAP_ELAN),
         (Self::Praat, shell::KEYMAP_PRAAT),
         (Self::Editor, shell::KEYMAP_EDITOR),
@@ -37,14 +37,14 @@ impl Keymap {
 
 /// The keys of every action: a keymap with the user's own changes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Keys {
-    bound: BTreeMap<Action, Vec<Chord>>,
+pub(crate) struct ActionKeys {
+    bound: BTreeMap<Action, Vec<KeyChord>>,
     /// The language of the keys' names.
-    language: Language,
+    language: InterfaceLanguage,
 }
 
 /// Keys that the user gave to actions, by action id; an empty list removes all keys of the action.
-pub(crate) type Rebound = BTreeMap<String, Vec<Chord>>;
+pub(crate) type ReboundKeys = BTreeMap<String, Vec<KeyChord>>;
 
 /// The state of the window when a key is pressed.
 #[derive(Debug, Clone, Copy)]
@@ -67,14 +67,14 @@ pub(crate) struct KeyContext {
     pub(crate) menu: bool,
 }
 
-impl Keys {
+impl ActionKeys {
     /// Returns the keys of a keymap with the user's changes; a key that the user gave to one action is taken from the
     /// other actions of the same context.
-    pub(crate) fn new(keymap: Keymap, rebound: &Rebound, language: Language) -> Self {
+    pub(crate) fn new(keymap: DefaultKeymap, rebound: &ReboundKeys, language: InterfaceLanguage) -> Self {
         let mut bound = BTreeMap::new();
         for row in ACTIONS {
-            let own = rebound.get(row.id).cloned();
-            bound.insert(row.action, own.unwrap_or_else(|| row.defaults(keymap)));
+            let rebound_chords = rebound.get(row.id).cloned();
+            bound.insert(row.action, rebound_chords.unwrap_or_else(|| row.default_chords(keymap)));
         }
         for (id, chords) in rebound {
             let Some(row) = ACTIONS.iter().find(|row| row.id == id) else {
@@ -82,7 +82,7 @@ impl Keys {
             };
             for other in ACTIONS
                 .iter()
-                .filter(|it| it.id != id && it.context == row.context)
+                .filter(|action_row| action_row.id != id && action_row.context == row.context)
             {
                 if let Some(all) = bound.get_mut(&other.action)
                     && !rebound.contains_key(other.id)
@@ -95,31 +95,31 @@ impl Keys {
     }
 
     /// Returns the keys of an action.
-    pub(crate) fn of(&self, action: Action) -> &[Chord] {
+    pub(crate) fn chords_of_action(&self, action: Action) -> &[KeyChord] {
         self.bound.get(&action).map_or(&[], Vec::as_slice)
     }
 
     /// Returns the keys of an action as people read them, such as `Ctrl+Z`; empty if it has no keys.
-    pub(crate) fn text(&self, action: Action) -> String {
+    pub(crate) fn action_keys_text(&self, action: Action) -> String {
         let all: Vec<String> = self
-            .of(action)
+            .chords_of_action(action)
             .iter()
-            .map(|it| it.label(self.language))
+            .map(|chord| chord.chord_label(self.language))
             .collect();
         all.join(", ")
     }
 
     /// Returns a text with each action id between braces replaced by the first keys of that action; an action without
     /// keys keeps its id, without the braces.
-    pub(crate) fn named(&self, text: &str) -> String {
+    pub(crate) fn name_keys_in_text(&self, text: &str) -> String {
         let mut replaced = text.to_owned();
         for row in ACTIONS {
             let place = format!("{{{}}}", row.id);
             if replaced.contains(&place) {
                 let keys = self
-                    .of(row.action)
+                    .chords_of_action(row.action)
                     .first()
-                    .map(|it| it.label(self.language));
+                    .map(|chord| chord.chord_label(self.language));
                 replaced = replaced.replace(&place, &keys.unwrap_or_else(|| row.id.to_owned()));
             }
         }
@@ -127,7 +127,7 @@ impl Keys {
     }
 
     /// Returns the action of `chord` in the state `place`: an action of the pane takes precedence.
-    pub(crate) fn action(&self, chord: Chord, place: KeyContext) -> Option<Action> {
+    pub(crate) fn action_of_chord(&self, chord: KeyChord, place: KeyContext) -> Option<Action> {
         let taken = (place.typing && chord.is_for_text())
             || (place.menu && !chord.ctrl && !chord.alt)
             || (place.focused && chord.is_for_widgets())
@@ -136,24 +136,24 @@ impl Keys {
             return None;
         }
         let counts = |row: &ActionRow| match row.context {
-            Context::Everywhere => true,
-            Context::Corpus => place.corpus && place.may_act(chord, row),
-            Context::Pane(pane) => place.corpus && place.pane == Some(pane),
+            ActionContext::Everywhere => true,
+            ActionContext::Corpus => place.corpus && place.may_act(chord, row),
+            ActionContext::Pane(pane) => place.corpus && place.pane == Some(pane),
         };
-        let mut found = ACTIONS
+        let mut matching_rows = ACTIONS
             .iter()
-            .filter(|row| counts(row) && self.of(row.action).contains(&chord));
-        found
+            .filter(|row| counts(row) && self.chords_of_action(row.action).contains(&chord));
+        matching_rows
             .clone()
-            .find(|row| matches!(row.context, Context::Pane(_)))
-            .or_else(|| found.next())
+            .find(|row| matches!(row.context, ActionContext::Pane(_)))
+            .or_else(|| matching_rows.next())
             .map(|row| row.action)
     }
 
     /// Returns the action of an event, if it is a key with one, and whether the key only repeats as it is held.
     pub(crate) fn action_of(&self, event: &Event, place: KeyContext) -> Option<(Action, bool)> {
         // egui reports these keys as copy, cut and paste events.
-        let clipboard = |key| self.action(Chord::new(key, Modifiers::COMMAND), place);
+        let clipboard = |key| self.action_of_chord(KeyChord::new(key, Modifiers::COMMAND), place);
         match event {
             Event::Copy if !place.marked => Some((clipboard(Key::C)?, false)),
             Event::Cut if !place.marked => Some((clipboard(Key::X)?, false)),
@@ -164,7 +164,7 @@ impl Keys {
                 repeat,
                 modifiers,
                 ..
-            } => Some((self.action(Chord::new(*key, *modifiers), place)?, *repeat)),
+            } => Some((self.action_of_chord(KeyChord::new(*key, *modifiers), place)?, *repeat)),
             _ => None,
         }
     }
@@ -177,7 +177,7 @@ impl Keys {
             ..place
         };
         let action = self.action_of(event, timeline);
-        !place.focused && action.is_some_and(|(action, _)| action.row().edits)
+        !place.focused && action.is_some_and(|(action, _)| action.action_row().edits)
     }
 }
 
@@ -185,7 +185,7 @@ impl KeyContext {
     /// Returns whether a chord may carry out an action here. One that codes does so only in the rows of the timeline, and
     /// plays also where the movement is looked at; another one edits annotations only while
     /// a pane that shows them has the focus.
-    fn may_act(self, chord: Chord, row: &ActionRow) -> bool {
+    fn may_act(self, chord: KeyChord, row: &ActionRow) -> bool {
         use PaneKind::{Film, Inspector, Stage, Timeline};
         if !chord.is_for_coding() {
             let in_sight = [Timeline, Stage, Film, Inspector];
@@ -193,8 +193,8 @@ impl KeyContext {
         }
         let looking = [None, Some(Stage), Some(Film)].contains(&self.pane) && !self.focused;
         match row.owner {
-            Owner::Player => self.coding || looking,
-            Owner::In(Timeline) => self.coding,
+            ActionOwner::Player => self.coding || looking,
+            ActionOwner::In(Timeline) => self.coding,
             _ => self.coding || !row.changes,
         }
     }
@@ -215,23 +215,23 @@ mod tests {
         menu: false,
     };
 
-    fn chord(text: &str) -> Chord {
+    fn chord(text: &str) -> KeyChord {
         text.parse().expect("a chord")
     }
 
     #[test]
     fn no_key_means_two_things_in_one_context() {
-        for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
+        for (keymap, _) in DefaultKeymap::ALL_KEYMAPS {
+            let keys = ActionKeys::new(keymap, &ReboundKeys::new(), InterfaceLanguage::English);
             for (at, row) in ACTIONS.iter().enumerate() {
                 for other in &ACTIONS[at + 1..] {
                     let both = keys
-                        .of(row.action)
+                        .chords_of_action(row.action)
                         .iter()
-                        .find(|it| keys.of(other.action).contains(it));
+                        .find(|it| keys.chords_of_action(other.action).contains(it));
                     // Keys of a pane take precedence over those of the whole window.
                     let pane = |context| match context {
-                        Context::Pane(pane) => Some(pane),
+                        ActionContext::Pane(pane) => Some(pane),
                         _ => None,
                     };
                     let apart = pane(row.context) != pane(other.context);
@@ -248,34 +248,34 @@ mod tests {
 
     #[test]
     fn keys_of_the_user_take_precedence_over_the_keymap() {
-        let rebound = Rebound::from([("play.toggle".to_owned(), vec![chord("Ctrl+Z")])]);
-        let keys = Keys::new(Keymap::Elan, &rebound, Language::English);
-        assert_eq!(keys.action(chord("Ctrl+Z"), AT), Some(Action::Play));
-        assert_eq!(keys.action(chord("Ctrl+Space"), AT), None);
-        assert!(keys.of(Action::Undo).is_empty());
+        let rebound = ReboundKeys::from([("play.toggle".to_owned(), vec![chord("Ctrl+Z")])]);
+        let keys = ActionKeys::new(DefaultKeymap::Elan, &rebound, InterfaceLanguage::English);
+        assert_eq!(keys.action_of_chord(chord("Ctrl+Z"), AT), Some(Action::Play));
+        assert_eq!(keys.action_of_chord(chord("Ctrl+Space"), AT), None);
+        assert!(keys.chords_of_action(Action::Undo).is_empty());
     }
 
     #[test]
     fn keys_typed_over_an_open_menu_reach_nothing_below_it() {
         let menu = KeyContext { menu: true, ..AT };
-        for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
+        for (keymap, _) in DefaultKeymap::ALL_KEYMAPS {
+            let keys = ActionKeys::new(keymap, &ReboundKeys::new(), InterfaceLanguage::English);
             for row in ACTIONS {
                 let place = match row.context {
-                    Context::Pane(pane) => KeyContext {
+                    ActionContext::Pane(pane) => KeyContext {
                         pane: Some(pane),
                         ..menu
                     },
                     _ => menu,
                 };
-                for chord in keys.of(row.action) {
+                for chord in keys.chords_of_action(row.action) {
                     let plain = !chord.ctrl && !chord.alt;
-                    assert!(!plain || keys.action(*chord, place).is_none(), "{}", row.id);
+                    assert!(!plain || keys.action_of_chord(*chord, place).is_none(), "{}", row.id);
                 }
             }
         }
-        let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
-        assert_eq!(keys.action(chord("Ctrl+Z"), menu), Some(Action::Undo));
+        let keys = ActionKeys::new(DefaultKeymap::Elan, &ReboundKeys::new(), InterfaceLanguage::English);
+        assert_eq!(keys.action_of_chord(chord("Ctrl+Z"), menu), Some(Action::Undo));
     }
 
     #[test]
@@ -287,28 +287,28 @@ mod tests {
             ..AT
         };
         let rows = place(Some(PaneKind::Timeline), true, false);
-        let mut others: Vec<KeyContext> = PaneKind::ALL
+        let mut others: Vec<KeyContext> = PaneKind::ALL_PANE_KINDS
             .into_iter()
             .map(|pane| place(Some(pane), false, false))
             .collect();
         others.extend([AT, place(Some(PaneKind::Timeline), false, true)]);
-        for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
-            for row in ACTIONS.iter().filter(|row| row.context == Context::Corpus) {
-                let coding = keys.of(row.action).iter().filter(|it| it.is_for_coding());
+        for (keymap, _) in DefaultKeymap::ALL_KEYMAPS {
+            let keys = ActionKeys::new(keymap, &ReboundKeys::new(), InterfaceLanguage::English);
+            for row in ACTIONS.iter().filter(|row| row.context == ActionContext::Corpus) {
+                let coding = keys.chords_of_action(row.action).iter().filter(|it| it.is_for_coding());
                 for chord in coding {
                     let action = Some(row.action);
-                    assert_eq!(keys.action(*chord, rows), action, "{}", row.id);
-                    let acting = others.iter().any(|it| keys.action(*chord, *it) == action);
-                    let plays = matches!(row.owner, Owner::Player);
+                    assert_eq!(keys.action_of_chord(*chord, rows), action, "{}", row.id);
+                    let acting = others.iter().any(|it| keys.action_of_chord(*chord, *it) == action);
+                    let plays = matches!(row.owner, ActionOwner::Player);
                     assert_eq!(acting, plays, "{keymap:?} {}", row.id);
                 }
             }
             let search = place(Some(PaneKind::Search), false, false);
-            assert_eq!(keys.action(chord("3"), search), None);
-            assert_eq!(keys.action(chord("L"), search), None);
+            assert_eq!(keys.action_of_chord(chord("3"), search), None);
+            assert_eq!(keys.action_of_chord(chord("L"), search), None);
             let library = place(Some(PaneKind::Library), false, false);
-            let delete = keys.action(chord("Delete"), library);
+            let delete = keys.action_of_chord(chord("Delete"), library);
             assert_eq!(delete, Some(Action::DeleteListed));
         }
     }
@@ -316,23 +316,23 @@ mod tests {
     #[test]
     fn keys_that_edit_annotations_act_only_in_panes_that_show_them() {
         use PaneKind::{Film, Inspector, Stage, Timeline};
-        for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
+        for (keymap, _) in DefaultKeymap::ALL_KEYMAPS {
+            let keys = ActionKeys::new(keymap, &ReboundKeys::new(), InterfaceLanguage::English);
             let editing = ACTIONS.iter().filter(|row| row.edits);
-            let chords = editing.flat_map(|row| keys.of(row.action));
+            let chords = editing.flat_map(|row| keys.chords_of_action(row.action));
             for chord in chords.filter(|it| !it.is_for_coding()) {
                 // After a change of layout no pane may have the focus.
-                for pane in PaneKind::ALL.map(Some).into_iter().chain([None]) {
+                for pane in PaneKind::ALL_PANE_KINDS.map(Some).into_iter().chain([None]) {
                     let place = KeyContext { pane, ..AT };
-                    let action = keys.action(*chord, place);
-                    let edits = action.is_some_and(|it| it.row().edits);
+                    let action = keys.action_of_chord(*chord, place);
+                    let edits = action.is_some_and(|it| it.action_row().edits);
                     let in_sight = [Timeline, Stage, Film, Inspector].map(Some);
                     let wanted = in_sight.contains(&pane);
                     assert_eq!(edits, wanted, "{keymap:?} {pane:?} {chord}");
                 }
             }
         }
-        let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
+        let keys = ActionKeys::new(DefaultKeymap::Elan, &ReboundKeys::new(), InterfaceLanguage::English);
         let search = KeyContext {
             pane: Some(PaneKind::Search),
             ..AT
@@ -349,9 +349,7 @@ mod tests {
             ("Ctrl+F12", search, false),
             ("Enter", button, false),
         ] {
-            let Chord {
-                key, ctrl, shift, ..
-            } = chord(text);
+            let KeyChord { key, ctrl, shift, .. } = chord(text);
             let event = Event::Key {
                 key,
                 physical_key: None,
@@ -370,33 +368,21 @@ mod tests {
 
     #[test]
     fn a_text_field_keeps_its_own_keys() {
-        let keys = Keys::new(Keymap::Editor, &Rebound::new(), Language::English);
+        let keys = ActionKeys::new(DefaultKeymap::Editor, &ReboundKeys::new(), InterfaceLanguage::English);
         let typing = KeyContext { typing: true, ..AT };
-        assert_eq!(keys.action(chord("L"), AT), Some(Action::ShuttleForward));
-        assert_eq!(keys.action(chord("L"), typing), None);
-        assert_eq!(keys.action(chord("Ctrl+Z"), typing), None);
+        assert_eq!(keys.action_of_chord(chord("L"), AT), Some(Action::ShuttleForward));
+        assert_eq!(keys.action_of_chord(chord("L"), typing), None);
+        assert_eq!(keys.action_of_chord(chord("Ctrl+Z"), typing), None);
         assert_eq!(
-            keys.action(chord("Ctrl+Shift+P"), typing),
+            keys.action_of_chord(chord("Ctrl+Shift+P"), typing),
             Some(Action::Palette)
         );
         assert_eq!(
-            keys.action(
-                chord("Space"),
-                KeyContext {
-                    focused: true,
-                    ..AT
-                }
-            ),
+            keys.action_of_chord(chord("Space"), KeyContext { focused: true, ..AT }),
             None
         );
         assert_eq!(
-            keys.action(
-                chord("L"),
-                KeyContext {
-                    corpus: false,
-                    ..AT
-                }
-            ),
+            keys.action_of_chord(chord("L"), KeyContext { corpus: false, ..AT }),
             None
         );
     }

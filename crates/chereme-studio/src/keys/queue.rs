@@ -6,12 +6,12 @@ use std::time::Duration;
 use eframe::egui::{Context, Event, InputState, Key, Popup};
 
 use super::KeyContext;
-use crate::action::{Action, Menu, Owner};
+use crate::action::{Action, ActionMenu, ActionOwner};
 use crate::app::Studio;
-use crate::command::Command;
+use crate::command::WindowCommand;
 use crate::panes::{PaneKind, timeline};
-use crate::words::{fill, timeline as words};
-use crate::work::Lane;
+use crate::words::{fill_text_braces, timeline as words};
+use crate::work::WorkLane;
 use crate::{clipboard, layout};
 
 /// The keys that wait.
@@ -25,7 +25,7 @@ pub(crate) struct KeyQueue {
 impl KeyQueue {
     /// Moves the keys and the text of a frame to the end of the queue. While other keys wait there, the repeats of a key
     /// that is held are left out, so that it does not go on after it was released.
-    pub(crate) fn collect(&mut self, input: &mut InputState) {
+    pub(crate) fn collect_frame_keys(&mut self, input: &mut InputState) {
         let waiting = !self.events.is_empty();
         let mut left_out = false;
         for event in std::mem::take(&mut input.events) {
@@ -89,7 +89,7 @@ impl Studio {
     /// that may close a field, so that each key meets what the keys before it made; keys that depend on a running change
     /// wait for its end.
     pub(crate) fn take_keys(&mut self, ctx: &Context) {
-        ctx.input_mut(|input| self.waiting.collect(input));
+        ctx.input_mut(|input| self.waiting.collect_frame_keys(input));
         if std::mem::take(&mut self.waiting.rests) {
             ctx.request_repaint();
             return;
@@ -100,9 +100,7 @@ impl Studio {
             let place = self.key_context(ctx);
             let action = self.keys.action_of(event, place).filter(|_| !listens);
             let begins = !listens && self.begins_value(event, place, ctx);
-            let next = action
-                .map(|it| it.0)
-                .or(begins.then_some(Action::EditValue));
+            let next = action.map(|entry| entry.0).or(begins.then_some(Action::EditValue));
             if !listens && self.must_wait(next, place) {
                 ctx.request_repaint_after(Duration::from_millis(100));
                 break;
@@ -116,7 +114,7 @@ impl Studio {
                     break;
                 };
                 if !listens && self.keys.edits_elsewhere(&event, place) {
-                    self.out.send(Command::Cannot(words::EDITS_ELSEWHERE));
+                    self.out.send_command(WindowCommand::Cannot(words::EDITS_ELSEWHERE));
                 }
                 let closes = may_close_field(&event);
                 self.overlays.notices.may_close = closes && !place.menu && !place.typing;
@@ -131,12 +129,12 @@ impl Studio {
             acted = true;
             if !begins {
                 let text = self.waiting.take_shortcut();
-                self.clipboard.give(text);
+                self.clipboard.store_pasted_text(text);
             }
-            if action.is_none_or(|(action, repeat)| !repeat || action.row().repeats) {
+            if action.is_none_or(|(action, repeat)| !repeat || action.action_row().repeats) {
                 self.focus_timeline(next, place);
-                self.out.send(Command::Do(next));
-                self.carry_out(ctx);
+                self.out.send_command(WindowCommand::Do(next));
+                self.carry_out_commands(ctx);
             }
             if begins && !self.panes.timeline.is_typing() {
                 // No field takes the letter.
@@ -148,7 +146,7 @@ impl Studio {
 
     /// Returns the state of the window that the meaning of keys depends on.
     fn key_context(&self, ctx: &Context) -> KeyContext {
-        let pane = self.pane.filter(|pane| layout::shows(&self.tree, *pane));
+        let pane = self.pane.filter(|pane| layout::is_pane_in_sight(&self.tree, *pane));
         let focused = ctx.memory(|memory| memory.focused());
         let in_rows = focused.is_none_or(|id| self.panes.timeline.has_row_widget(ctx, id));
         KeyContext {
@@ -168,37 +166,38 @@ impl Studio {
         let letter = matches!(event, Event::Text(text) if text.starts_with(char::is_alphabetic));
         let free = place.coding && !place.typing && !place.menu;
         let plain = ctx.input(|input| !input.modifiers.alt && !input.modifiers.command);
-        letter
-            && free
-            && plain
-            && self
-                .seen(ctx)
-                .is_some_and(|seen| timeline::is_on_gloss(&seen))
+        letter && free && plain && self.pane_input(ctx).is_some_and(|seen| timeline::is_on_gloss(&seen))
     }
 
     /// Returns whether a key waits, since its effect depends on a change that is being carried out. What was typed waits
     /// in the timeline only, and the time of the playhead is not awaited.
     fn must_wait(&self, action: Option<Action>, place: KeyContext) -> bool {
         let mut running = self.desk.iter().flat_map(|desk| desk.running.values());
-        let changing = running.any(|it| it.about.lane == Lane::Edit && !it.about.may_stop);
+        let changing = running.any(|work| work.about.lane == WorkLane::Edit && !work.about.may_stop);
         if place.typing || !(changing || self.panes.timeline.awaits_selection()) {
             return false;
         }
         let Some(action) = action else {
             return place.coding;
         };
-        let row = action.row();
-        let looks = [Menu::Stage, Menu::View, Menu::Play].contains(&row.menu);
-        let selects = !looks && matches!(row.owner, Owner::In(_) | Owner::WithCorpus);
+        let row = action.action_row();
+        let looks = [ActionMenu::Stage, ActionMenu::View, ActionMenu::Play].contains(&row.menu);
+        let selects = !looks && matches!(row.owner, ActionOwner::In(_) | ActionOwner::WithCorpus);
         (row.changes || selects) && !timeline::is_timed(action, &self.shown.player)
     }
 
     /// Gives the timeline the focus after a key that selects or changes something in it.
     fn focus_timeline(&mut self, action: Action, place: KeyContext) {
-        let row = action.row();
-        let coding = [Menu::Annotation, Menu::Value, Menu::Timing, Menu::Tier].contains(&row.menu);
-        let timeline = matches!(row.owner, Owner::In(PaneKind::Timeline));
-        if coding && timeline && !place.typing && layout::shows(&self.tree, PaneKind::Timeline) {
+        let row = action.action_row();
+        let coding = [
+            ActionMenu::Annotation,
+            ActionMenu::Value,
+            ActionMenu::Timing,
+            ActionMenu::Tier,
+        ]
+        .contains(&row.menu);
+        let timeline = matches!(row.owner, ActionOwner::In(PaneKind::Timeline));
+        if coding && timeline && !place.typing && layout::is_pane_in_sight(&self.tree, PaneKind::Timeline) {
             self.pane = Some(PaneKind::Timeline);
         }
     }
@@ -208,9 +207,9 @@ impl Studio {
         let text = self.waiting.forget_text();
         if !text.is_empty() {
             let language = self.settings.language;
-            let text = fill(words::KEYS_FORGOTTEN.of(language), &[("text", &text)]);
-            let remedy = words::KEYS_FORGOTTEN_REMEDY.of(language);
-            self.overlays.notices.say(&text, Some(remedy));
+            let text = fill_text_braces(words::KEYS_FORGOTTEN.text_in_language(language), &[("text", &text)]);
+            let remedy = words::KEYS_FORGOTTEN_REMEDY.text_in_language(language);
+            self.overlays.notices.add_lasting_notice(&text, Some(remedy));
         }
     }
 }
@@ -232,14 +231,14 @@ mod tests {
     use std::sync::Arc;
 
     use chereme_corpus::{
-        AnnotationColumns, Corpus, ImportOptions, Name, NewTier, Progress, TierRole, requests,
-        unheard,
+        AnnotationColumns, Corpus, ImportOptions, NewTier, ProgressReceiver, RowName, TierRole, ignore_progress_step,
+        requests,
     };
     use eframe::egui::Modifiers;
     use egui_kittest::Harness;
 
     use super::*;
-    use crate::Options;
+    use crate::StudioOptions;
 
     const CTRL: Modifiers = Modifiers::COMMAND;
     const SHIFT: Modifiers = Modifiers::SHIFT;
@@ -259,20 +258,20 @@ mod tests {
             </ANNOTATION_DOCUMENT>"#;
         std::fs::write(&file, text).expect("written");
         let path = folder.join("glosses.chereme");
-        let mut corpus = Corpus::create(&path, "A").expect("made");
-        let mut hear = unheard;
-        let mut progress = Progress::new(&mut hear);
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
         let options = ImportOptions::default();
-        let imported = corpus.import(&[file], &options, &mut progress);
+        let imported = corpus.import_paths(&[file], &options, &mut progress);
         imported.expect("imported");
-        let gloss = NewTier::new(Name::Text("take".into()), "Gloss", TierRole::Gloss);
+        let gloss = NewTier::new(RowName::Text("take".into()), "Gloss", TierRole::Gloss);
         let tier = corpus.add_tier(&gloss).expect("a tier").id;
         let span = |at: i64| (at * 100_000, at * 100_000 + 80_000);
         let all: Vec<_> = (0..count)
-            .map(|at| requests::add(tier, span(at), "AIMER"))
+            .map(|at| requests::add_annotation_change(tier, span(at), "AIMER"))
             .collect();
         if !all.is_empty() {
-            let added = corpus.annotate(&all, &Default::default(), &mut progress);
+            let added = corpus.annotate_corpus(&all, &Default::default(), &mut progress);
             added.expect("annotated");
         }
         path
@@ -280,18 +279,12 @@ mod tests {
 
     /// Returns the spans and values of the glosses.
     fn glosses(path: &Path) -> Vec<(i64, i64, String)> {
-        let corpus = Corpus::open(path, "reader").expect("opened");
-        let recording = corpus.overview(1).expect("read").recordings[0].row.id;
-        let contents = corpus.contents(recording).expect("read");
+        let corpus = Corpus::open_corpus(path, "reader").expect("opened");
+        let recording = corpus.load_corpus_overview(1).expect("read").recordings[0].row.id;
+        let contents = corpus.load_recording_contents(recording).expect("read");
         let tier = contents.tiers.iter().find(|it| it.row.name == "Gloss");
         let columns: &AnnotationColumns = &tier.expect("a tier").annotations;
-        let row = |at: usize| {
-            (
-                columns.starts[at],
-                columns.ends[at],
-                columns.values[at].to_string(),
-            )
-        };
+        let row = |at: usize| (columns.starts[at], columns.ends[at], columns.values[at].to_string());
         (0..columns.len()).map(row).collect()
     }
 
@@ -317,9 +310,9 @@ mod tests {
 
     /// Returns a window with a corpus; its threads rest that long after each message.
     fn opened<'a>(corpus: &Path, rest: Duration) -> Harness<'a, Studio> {
-        let mut studio = Studio::new(Options {
+        let mut studio = Studio::new(StudioOptions {
             corpus: Some(corpus.to_owned()),
-            ..Options::default()
+            ..StudioOptions::default()
         });
         studio.wake = Arc::new(move || std::thread::sleep(rest));
         let mut window = Harness::builder()
@@ -404,11 +397,7 @@ mod tests {
             let found = glosses(&path);
             for (at, (row, gloss)) in found.iter().zip(&wanted).enumerate() {
                 let start = 80_000 * at as i64;
-                assert_eq!(
-                    row,
-                    &(start, start + 80_000, gloss.clone()),
-                    "{pace} {rest}"
-                );
+                assert_eq!(row, &(start, start + 80_000, gloss.clone()), "{pace} {rest}");
             }
             assert_eq!(found.len(), wanted.len());
         }
@@ -427,7 +416,7 @@ mod tests {
             pressed(SHIFT, Key::F2)[0].clone(),
             text("y"),
         ];
-        queue.collect(&mut input);
+        queue.collect_frame_keys(&mut input);
         assert_eq!(input.events, [up]);
         assert_eq!(queue.take_shortcut(), None);
         assert_eq!(queue.take_shortcut(), None);
@@ -445,10 +434,10 @@ mod tests {
                 *repeat = repeats;
             }
             input.events = vec![held.clone(), text.clone()];
-            queue.collect(&mut input);
+            queue.collect_frame_keys(&mut input);
         }
         assert_eq!(queue.forget_text(), "a");
-        queue.collect(&mut InputState::default());
+        queue.collect_frame_keys(&mut InputState::default());
         assert_eq!(queue.next_event(), None);
     }
 }

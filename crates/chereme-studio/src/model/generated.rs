@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::{MadePart, Recombination};
-use chereme_motion::{Anatomy, Clip, Face};
-use chereme_sign::Handedness;
+use chereme_corpus::{MadePart, RecombinationResult};
+use chereme_motion::{BodyAnatomy, Clip, FacePosture};
+use chereme_sign::SignerHandedness;
 
 /// A generated clip, with its name and its source.
 #[derive(Debug, Clone)]
@@ -15,25 +15,25 @@ pub(crate) struct GeneratedClip {
     pub(crate) token: Option<i64>,
     pub(crate) clip: Clip,
     /// The face in each frame; empty if the face is at rest throughout.
-    pub(crate) faces: Vec<Face>,
-    pub(crate) anatomy: Arc<Anatomy>,
+    pub(crate) faces: Vec<FacePosture>,
+    pub(crate) anatomy: Arc<BodyAnatomy>,
     /// The dominant hand of the signer.
-    pub(crate) handedness: Handedness,
+    pub(crate) handedness: SignerHandedness,
     /// The pieces it was built from, with the time of each.
     pub(crate) parts: Vec<MadePart>,
 }
 
 impl GeneratedClip {
     /// Returns the movement generated from the notation of a token, named after its sign.
-    pub(crate) fn notated(made: &Recombination, token: i64) -> Self {
+    pub(crate) fn from_notated_token(made: &RecombinationResult, token: i64) -> Self {
         Self {
             token: Some(token),
-            ..Self::of(made)
+            ..Self::clip_from_recipe_result(made)
         }
     }
 
     /// Returns the movement generated from a recipe.
-    pub(crate) fn of(made: &Recombination) -> Self {
+    pub(crate) fn clip_from_recipe_result(made: &RecombinationResult) -> Self {
         let name = match made.parts.as_slice() {
             _ if !made.gloss.is_empty() => &made.gloss,
             // A sign without changes is named by its gloss, whatever its address.

@@ -1,32 +1,32 @@
 //! The window's data about the corpus: an immutable snapshot, and the movement on the stage.
 
 pub(crate) mod generated;
-pub(crate) mod handle;
+pub(crate) mod model_handle;
 pub(crate) mod reel;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use chereme_corpus::{Contents, Overview, RecordingGlance, TierContents};
-use chereme_motion::{Instant, Span};
+use chereme_corpus::{CorpusOverview, RecordingContents, RecordingGlance, TierContents};
+use chereme_motion::{RecordingInstant, TimeSpan};
 
 /// The corpus at one moment, with the annotations of the open recording.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Snapshot {
-    pub(crate) overview: Arc<Overview>,
-    pub(crate) open: Option<Arc<Opened>>,
+pub(crate) struct CorpusSnapshot {
+    pub(crate) overview: Arc<CorpusOverview>,
+    pub(crate) open: Option<Arc<OpenedRecording>>,
 }
 
 /// The annotations of a recording, with an index.
 #[derive(Debug)]
-pub(crate) struct Opened {
-    pub(crate) contents: Contents,
+pub(crate) struct OpenedRecording {
+    pub(crate) contents: RecordingContents,
     /// For every annotation id, the index of its tier and its index in the tier's columns.
     places: HashMap<i64, (usize, usize)>,
 }
 
-impl Opened {
-    pub(crate) fn new(contents: Contents) -> Self {
+impl OpenedRecording {
+    pub(crate) fn new(contents: RecordingContents) -> Self {
         let mut places = HashMap::new();
         for (tier, it) in contents.tiers.iter().enumerate() {
             let ids = it.annotations.ids.iter().enumerate();
@@ -38,7 +38,7 @@ impl Opened {
 
 /// An annotation in a snapshot.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Found<'a> {
+pub(crate) struct FoundAnnotation<'a> {
     pub(crate) tier: &'a TierContents,
     /// Index in the tier's columns.
     pub(crate) at: usize,
@@ -46,62 +46,59 @@ pub(crate) struct Found<'a> {
 
 /// The sign of a token.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Known {
+pub(crate) struct TokenSign {
     pub(crate) gloss: String,
     /// The recording with its movement, and the span there.
-    pub(crate) place: Option<(i64, Span)>,
+    pub(crate) place: Option<(i64, TimeSpan)>,
 }
 
-impl Snapshot {
+impl CorpusSnapshot {
     /// Returns whether the corpus is read-only.
     pub(crate) fn is_read_only(&self) -> bool {
         self.overview.read_only
     }
 
     /// Returns the recording with that row id.
-    pub(crate) fn recording(&self, id: i64) -> Option<&RecordingGlance> {
-        self.overview.recordings.iter().find(|it| it.row.id == id)
+    pub(crate) fn recording_glance(&self, id: i64) -> Option<&RecordingGlance> {
+        self.overview.recordings.iter().find(|glance| glance.row.id == id)
     }
 
     /// Returns the recording of that name.
     pub(crate) fn recording_named(&self, name: &str) -> Option<&RecordingGlance> {
-        self.overview
-            .recordings
-            .iter()
-            .find(|it| it.row.name == name)
+        self.overview.recordings.iter().find(|glance| glance.row.name == name)
     }
 
     /// Returns the sign of a token, if the token is a citation form or in the open recording.
-    pub(crate) fn token(&self, id: i64) -> Option<Known> {
+    pub(crate) fn known_token_sign(&self, id: i64) -> Option<TokenSign> {
         let signs = self.overview.signs.iter();
-        if let Some(sign) = signs.into_iter().find(|it| it.citation == Some(id)) {
-            return Some(Known {
+        if let Some(sign) = signs.into_iter().find(|sign| sign.citation == Some(id)) {
+            return Some(TokenSign {
                 gloss: sign.gloss.clone(),
                 place: sign.place,
             });
         }
         let tokens = &self.open.as_deref()?.contents.tokens;
-        let token = tokens.iter().find(|it| it.id == id)?;
+        let token = tokens.iter().find(|token| token.id == id)?;
         let (start, end) = token.start_us.zip(token.end_us)?;
-        let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
-        Some(Known {
+        let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+        Some(TokenSign {
             gloss: token.gloss.clone(),
             place: token.recording_id.map(|recording| (recording, span)),
         })
     }
 
     /// Returns a text with the glosses of known tokens in place of their numbers.
-    pub(crate) fn named(&self, text: &str) -> String {
-        const TOKEN: &str = "token:";
+    pub(crate) fn name_tokens_in_text(&self, text: &str) -> String {
+        const TOKEN_NUMBER_PREFIX: &str = "token:";
         let mut named = String::with_capacity(text.len());
         let mut rest = text;
-        while let Some((before, after)) = rest.split_once(TOKEN) {
+        while let Some((before, after)) = rest.split_once(TOKEN_NUMBER_PREFIX) {
             named.push_str(before);
             let digits = after.len() - after.trim_start_matches(|c: char| c.is_ascii_digit()).len();
             let (number, after) = after.split_at(digits);
-            match number.parse().ok().and_then(|id| self.token(id)) {
+            match number.parse().ok().and_then(|id| self.known_token_sign(id)) {
                 Some(known) => named.push_str(&known.gloss),
-                None => named.extend([TOKEN, number]),
+                None => named.extend([TOKEN_NUMBER_PREFIX, number]),
             }
             rest = after;
         }
@@ -110,34 +107,34 @@ impl Snapshot {
 
     /// Returns the recipe and the name of a recording that was made from a recipe.
     pub(crate) fn recipe_of(&self, recording: i64) -> Option<(String, String)> {
-        let it = self.recording(recording)?;
+        let it = self.recording_glance(recording)?;
         Some((it.recipe.clone()?, it.row.name.clone()))
     }
 
     /// Returns whether the sign of that gloss has a notation.
     pub(crate) fn is_notated(&self, gloss: &str) -> bool {
         let signs = &self.overview.signs;
-        let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
-        at.is_ok_and(|at| signs[at].notated)
+        let position = signs.binary_search_by(|sign| sign.gloss.as_str().cmp(gloss));
+        position.is_ok_and(|at| signs[at].notated)
     }
 
     /// Returns the annotations of a recording, if it is the open one.
-    pub(crate) fn contents(&self, recording: i64) -> Option<&Contents> {
+    pub(crate) fn recording_contents(&self, recording: i64) -> Option<&RecordingContents> {
         let contents = &self.open.as_deref()?.contents;
         (contents.recording.id == recording).then_some(contents)
     }
 
     /// Returns the annotations of a recording, or those of its predecessor while it is read, so that what shows them
     /// keeps its place.
-    pub(crate) fn contents_or_before(&self, recording: Option<i64>) -> Option<&Contents> {
-        recording.and(self.open.as_deref()).map(|it| &it.contents)
+    pub(crate) fn contents_or_before(&self, recording: Option<i64>) -> Option<&RecordingContents> {
+        recording.and(self.open.as_deref()).map(|opened| &opened.contents)
     }
 
     /// Returns the annotation with that row id, if it is in the open recording.
-    pub(crate) fn annotation(&self, id: i64) -> Option<Found<'_>> {
+    pub(crate) fn find_open_annotation(&self, id: i64) -> Option<FoundAnnotation<'_>> {
         let open = self.open.as_deref()?;
         let (tier, at) = *open.places.get(&id)?;
-        Some(Found {
+        Some(FoundAnnotation {
             tier: &open.contents.tiers[tier],
             at,
         })
@@ -147,7 +144,7 @@ impl Snapshot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_corpus::{Overview, SignGlance};
+    use chereme_corpus::{CorpusOverview, SignGlance};
 
     #[test]
     fn texts_name_tokens_by_their_glosses() {
@@ -156,10 +153,10 @@ mod tests {
             citation: Some(15),
             ..SignGlance::default()
         };
-        let snapshot = Snapshot {
-            overview: Arc::new(Overview {
+        let snapshot = CorpusSnapshot {
+            overview: Arc::new(CorpusOverview {
                 signs: vec![sign],
-                ..Overview::default()
+                ..CorpusOverview::default()
             }),
             open: None,
         };
@@ -169,7 +166,7 @@ mod tests {
             ("token: nothing", "token: nothing"),
             ("", ""),
         ] {
-            assert_eq!(snapshot.named(text), wanted);
+            assert_eq!(snapshot.name_tokens_in_text(text), wanted);
         }
     }
 
@@ -177,15 +174,15 @@ mod tests {
     fn the_recording_before_stays_while_another_one_is_read() {
         let contents = crate::panes::timeline::contents_of(&[(1, 0, 10)]);
         let own = contents.recording.id;
-        let snapshot = Snapshot {
-            open: Some(Arc::new(Opened::new(contents))),
-            ..Snapshot::default()
+        let snapshot = CorpusSnapshot {
+            open: Some(Arc::new(OpenedRecording::new(contents))),
+            ..CorpusSnapshot::default()
         };
         let kept = |recording| {
             let kept = snapshot.contents_or_before(recording);
             kept.map(|it| it.recording.id)
         };
-        assert!(snapshot.contents(own + 1).is_none());
+        assert!(snapshot.recording_contents(own + 1).is_none());
         assert_eq!(kept(Some(own + 1)), Some(own));
         assert_eq!(kept(Some(own)), Some(own));
         assert_eq!(kept(None), None, "no recording is shown");

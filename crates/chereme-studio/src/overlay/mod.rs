@@ -1,13 +1,13 @@
 //! The windows above the panes: notices, the command palette, the keys, the settings.
 
-pub(crate) mod export;
-pub(crate) mod keys;
 pub(crate) mod notices;
-pub(crate) mod palette;
-pub(crate) mod remedy;
-pub(crate) mod settings;
-pub(crate) mod steps;
-pub(crate) mod trouble;
+pub(crate) mod overlay_export;
+pub(crate) mod overlay_keys;
+pub(crate) mod overlay_palette;
+pub(crate) mod overlay_remedy;
+pub(crate) mod overlay_settings;
+pub(crate) mod overlay_steps;
+pub(crate) mod overlay_trouble;
 pub(crate) mod typed_path;
 
 use eframe::egui::{Context, Key, Modifiers};
@@ -16,20 +16,20 @@ use crate::app::Studio;
 
 /// All windows above the panes.
 #[derive(Default)]
-pub(crate) struct Overlays {
-    pub(crate) notices: notices::Notices,
-    pub(crate) palette: palette::Palette,
-    pub(crate) keys: keys::KeysHelp,
-    pub(crate) settings: settings::SettingsWindow,
-    pub(crate) steps: steps::FirstSteps,
-    pub(crate) export: export::Export,
+pub(crate) struct WindowOverlays {
+    pub(crate) notices: notices::NoticeBoard,
+    pub(crate) palette: overlay_palette::ActionPalette,
+    pub(crate) keys: overlay_keys::KeysHelp,
+    pub(crate) settings: overlay_settings::SettingsWindow,
+    pub(crate) steps: overlay_steps::FirstSteps,
+    pub(crate) export: overlay_export::ExportWindow,
     pub(crate) typed_path: typed_path::TypedPath,
 }
 
-impl Overlays {
+impl WindowOverlays {
     /// Returns whether one of them takes all keys now.
     pub(crate) fn takes_keys(&self) -> bool {
-        self.palette.is_open() || self.keys.is_listening()
+        self.palette.is_palette_open() || self.keys.is_listening()
     }
 }
 
@@ -37,14 +37,14 @@ impl Studio {
     fn exporting(&mut self, ctx: &Context) {
         let mut export = std::mem::take(&mut self.overlays.export);
         let mut out = std::mem::take(&mut self.out);
-        if let (Some(seen), Some(desk)) = (self.seen(ctx), &self.desk) {
+        if let (Some(seen), Some(desk)) = (self.pane_input(ctx), &self.desk) {
             export.ui(ctx, &seen, &self.settings, &desk.path, &mut out);
         }
         (self.overlays.export, self.out) = (export, out);
     }
 
     /// Draws the open ones.
-    pub(crate) fn overlays(&mut self, ctx: &Context) {
+    pub(crate) fn draw_open_overlays(&mut self, ctx: &Context) {
         let place = self.snapshot.is_some();
         let Self {
             overlays,
@@ -55,9 +55,7 @@ impl Studio {
             ..
         } = self;
         overlays.notices.ui(ctx, settings.language, out);
-        overlays
-            .palette
-            .ui(ctx, keys, settings.language, place, out);
+        overlays.palette.ui(ctx, keys, settings.language, place, out);
         overlays.keys.ui(ctx, keys, settings, out);
         overlays.settings.ui(ctx, settings, out);
         overlays.steps.ui(ctx, keys, little, settings.language);
@@ -68,6 +66,6 @@ impl Studio {
 }
 
 /// Returns whether Escape was pressed, and removes it from the input.
-fn escaped(ctx: &Context) -> bool {
+fn take_escape_key(ctx: &Context) -> bool {
     ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
 }

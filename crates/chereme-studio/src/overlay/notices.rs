@@ -4,29 +4,31 @@ use std::fmt::Display;
 use std::path::PathBuf;
 
 use chereme_corpus::words::effect::OperationEffect;
-use chereme_corpus::{Cause, CheckReport, Deleted, Error, FitReport, Proposed};
+use chereme_corpus::{CheckReport, CorpusError, DatabaseFailureCause, DeletionReport, FitReport, ProposalResult};
 use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
 use eframe::egui::{
-    Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, RichText, Role,
-    ScrollArea, Sense, Shape, Stroke, Style, TextStyle, Ui, Vec2, WidgetInfo, vec2,
+    Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, RichText, Role, ScrollArea, Sense, Shape,
+    Stroke, Style, TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::{remedy, trouble};
+use super::{overlay_remedy, overlay_trouble};
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::Outbox;
-use crate::file_dialogs::Choose;
+use crate::command::WindowCommand;
+use crate::context::CommandOutbox;
+use crate::file_dialogs::ChooserPurpose;
 use crate::theme;
-use crate::theme::Colours;
-use crate::words::{Language, Text, fill, history, shell as words, spoken};
-use crate::work::Outcome;
+use crate::theme::ThemeColours;
+use crate::words::{
+    InterfaceLanguage, InterfaceText, fill_text_braces, history_words, shell as words, translate_library_message,
+};
+use crate::work::WorkOutcome;
 
 /// How long a hint is shown, in seconds.
-const SHORT: f64 = 5.0;
+const HINT_SECONDS: f64 = 5.0;
 /// How long a hint with a command is shown, in seconds.
-const LONG: f64 = 15.0;
+const COMMAND_HINT_SECONDS: f64 = 15.0;
 /// How many notices are shown at once.
-const MOST: usize = 4;
+const MAX_SHOWN_NOTICES: usize = 4;
 
 /// The kind of a notice: each has a colour, and a shape that can be recognised without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +42,7 @@ pub(crate) enum NoticeKind {
 }
 
 impl NoticeKind {
-    fn colour(self, colours: &Colours) -> Color32 {
+    fn notice_kind_colour(self, colours: &ThemeColours) -> Color32 {
         match self {
             Self::Done => colours.good,
             Self::Warning => colours.warning,
@@ -48,7 +50,7 @@ impl NoticeKind {
         }
     }
 
-    fn name(self) -> Text {
+    fn notice_kind_name(self) -> InterfaceText {
         match self {
             Self::Done => words::KIND_DONE,
             Self::Warning => words::KIND_WARNING,
@@ -63,30 +65,30 @@ pub(crate) enum NoticeOffer {
     /// Carry out an action.
     Do(Action),
     /// Let the user choose a file or a folder.
-    Choose(Choose),
+    Choose(ChooserPurpose),
     /// Save a copy of the corpus there and continue in it.
     SaveCopy(PathBuf),
 }
 
 impl NoticeOffer {
-    fn command(&self) -> Command {
+    fn offered_command(&self) -> WindowCommand {
         match self {
-            Self::Do(action) => Command::Do(*action),
-            Self::Choose(what) => Command::Choose(*what),
-            Self::SaveCopy(path) => Command::SaveCopy(path.clone()),
+            Self::Do(action) => WindowCommand::Do(*action),
+            Self::Choose(what) => WindowCommand::Choose(*what),
+            Self::SaveCopy(path) => WindowCommand::SaveCopy(path.clone()),
         }
     }
 }
 
 /// A notice.
 #[derive(Debug, Clone)]
-pub(crate) struct Notice {
+pub(crate) struct WindowNotice {
     id: u64,
     pub(crate) kind: NoticeKind,
     /// Whether it appears in the status line only, as it reports the user's own action.
     quiet: bool,
     /// The remedies that the notice offers, with their labels.
-    offers: Vec<(Text, NoticeOffer)>,
+    offers: Vec<(InterfaceText, NoticeOffer)>,
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
     /// The original message of the corpus.
@@ -101,209 +103,227 @@ pub(crate) struct Notice {
 
 /// The notices on display.
 #[derive(Debug, Default)]
-pub(crate) struct Notices {
+pub(crate) struct NoticeBoard {
     /// The id of the notice in the status line, where it covers nothing.
     in_line: Option<u64>,
-    pub(crate) all: Vec<Notice>,
+    pub(crate) all: Vec<WindowNotice>,
     next: u64,
     /// Whether Escape was pressed with no menu and no field open, so that it may close a notice.
     pub(crate) may_close: bool,
 }
 
-impl Notices {
+impl NoticeBoard {
     /// Reports something done; the notice disappears by itself.
-    pub(crate) fn hint(&mut self, text: impl Into<String>) {
-        self.add(NoticeKind::Done, text.into(), None, false);
+    pub(crate) fn add_hint(&mut self, text: impl Into<String>) {
+        self.add_notice(NoticeKind::Done, text.into(), None, false);
     }
 
     /// Reports the user's own action, at the end of the status line only.
-    pub(crate) fn did(&mut self, text: impl Into<String>) {
-        self.hint(text);
+    pub(crate) fn report_own_action(&mut self, text: impl Into<String>) {
+        self.add_hint(text);
         if let Some(notice) = self.all.last_mut() {
             notice.quiet = true;
         }
     }
 
     /// Shows a warning, such as why something cannot be done; it disappears by itself.
-    pub(crate) fn warn(&mut self, text: impl Into<String>) {
-        self.add(NoticeKind::Warning, text.into(), None, false);
+    pub(crate) fn add_warning(&mut self, text: impl Into<String>) {
+        self.add_notice(NoticeKind::Warning, text.into(), None, false);
     }
 
     /// Shows a notice that stays.
-    pub(crate) fn say(&mut self, text: &str, remedy: Option<&str>) {
+    pub(crate) fn add_lasting_notice(&mut self, text: &str, remedy: Option<&str>) {
         let remedy = remedy.map(str::to_owned);
-        self.add(NoticeKind::Warning, text.to_owned(), remedy, true);
+        self.add_notice(NoticeKind::Warning, text.to_owned(), remedy, true);
     }
 
     /// Shows a failure that stays, with commands that can help at once.
-    pub(crate) fn offer(&mut self, text: String, remedy: &str, offers: Vec<(Text, NoticeOffer)>) {
-        self.add(NoticeKind::Error, text, Some(remedy.to_owned()), true);
+    pub(crate) fn offer_failure_remedies(
+        &mut self,
+        text: String,
+        remedy: &str,
+        offers: Vec<(InterfaceText, NoticeOffer)>,
+    ) {
+        self.add_notice(NoticeKind::Error, text, Some(remedy.to_owned()), true);
         if let Some(notice) = self.all.last_mut() {
             notice.offers = offers;
         }
     }
 
     /// Removes the notices that offer commands.
-    pub(crate) fn withdraw(&mut self) {
+    pub(crate) fn withdraw_offers(&mut self) {
         self.all.retain(|notice| notice.offers.is_empty());
     }
 
     /// Reports a failure, and the remedy.
-    pub(crate) fn trouble(&mut self, error: &Error, task: Option<Text>, language: Language) {
-        if matches!(error, Error::Stopped) {
-            self.hint(words::STOPPED.of(language));
+    pub(crate) fn report_work_failure(
+        &mut self,
+        error: &CorpusError,
+        task: Option<InterfaceText>,
+        language: InterfaceLanguage,
+    ) {
+        if matches!(error, CorpusError::Stopped) {
+            self.add_hint(words::STOPPED.text_in_language(language));
             return;
         }
-        let report = trouble::failure_report(error, task, language);
+        let report = overlay_trouble::failure_report(error, task, language);
         self.all
             .retain(|notice| notice.detail != report.detail || report.detail.is_none());
-        self.add(NoticeKind::Error, report.text, report.remedy, true);
+        self.add_notice(NoticeKind::Error, report.text, report.remedy, true);
         if let Some(notice) = self.all.last_mut() {
             notice.detail = report.detail;
-            notice.passes = matches!(error.cause(), Some(Cause::Full | Cause::Busy));
+            notice.passes = matches!(
+                error.database_failure_cause(),
+                Some(DatabaseFailureCause::Full | DatabaseFailureCause::Busy)
+            );
         }
     }
 
     /// Reports that the settings could not be written.
-    pub(crate) fn unsaved(&mut self, error: &dyn Display, language: Language) {
-        self.add(
+    pub(crate) fn report_unsaved_settings(&mut self, error: &dyn Display, language: InterfaceLanguage) {
+        self.add_notice(
             NoticeKind::Error,
-            words::SETTINGS_UNSAVED.of(language).to_owned(),
+            words::SETTINGS_UNSAVED.text_in_language(language).to_owned(),
             Some(error.to_string()),
             true,
         );
     }
 
     /// Reports the outcome of work, if it is worth a notice.
-    pub(crate) fn of(&mut self, outcome: &Outcome, language: Language) {
+    pub(crate) fn report_work_outcome(&mut self, outcome: &WorkOutcome, language: InterfaceLanguage) {
         let written = matches!(
             outcome,
-            Outcome::Annotated(_)
-                | Outcome::Changed
-                | Outcome::Imported(_)
-                | Outcome::Merged(_)
-                | Outcome::Adjudicated(_)
-                | Outcome::Planned(_)
-                | Outcome::AnswersImported(_)
-                | Outcome::Recombined(_)
-                | Outcome::Deleted(_)
-                | Outcome::Undone(_)
-                | Outcome::Redone(_)
+            WorkOutcome::Annotated(_)
+                | WorkOutcome::Changed
+                | WorkOutcome::Imported(_)
+                | WorkOutcome::Merged(_)
+                | WorkOutcome::Adjudicated(_)
+                | WorkOutcome::Planned(_)
+                | WorkOutcome::AnswersImported(_)
+                | WorkOutcome::Recombined(_)
+                | WorkOutcome::Deleted(_)
+                | WorkOutcome::Undone(_)
+                | WorkOutcome::Redone(_)
         );
         self.all.retain(|notice| !(written && notice.passes));
         let text = match outcome {
-            Outcome::Said(text) => text.clone(),
-            Outcome::Recombined(made) => {
-                fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
-            }
-            Outcome::Deleted(done) => return self.deleted(done, language),
-            Outcome::Undone(row) => history::undo_sentence(&row.effect, language),
-            Outcome::Walked { back, steps } => {
+            WorkOutcome::Said(text) => text.clone(),
+            WorkOutcome::Recombined(made) => fill_text_braces(
+                words::NOTICE_STORED.text_in_language(language),
+                &[("gloss", &made.gloss)],
+            ),
+            WorkOutcome::Deleted(done) => return self.deleted(done, language),
+            WorkOutcome::Undone(row) => history_words::undo_sentence(&row.effect, language),
+            WorkOutcome::Walked { back, steps } => {
                 let text = if *back {
-                    history::WALKED_BACK
+                    history_words::WALKED_BACK
                 } else {
-                    history::WALKED_FORWARD
+                    history_words::WALKED_FORWARD
                 };
-                fill(text.of(language), &[("n", steps)])
+                fill_text_braces(text.text_in_language(language), &[("n", steps)])
             }
-            Outcome::Proposed(done) => return self.proposed(done, language),
-            Outcome::Fitted(report) => return self.fitted(report, language),
-            Outcome::Checked(report) => return self.checked(report, language),
-            Outcome::Redone(row) => {
-                let what = history::operation_sentence(&row.effect, language);
-                fill(history::DONE_AGAIN.of(language), &[("what", &what)])
+            WorkOutcome::Proposed(done) => return self.proposed(done, language),
+            WorkOutcome::Fitted(report) => return self.report_fitted_body(report, language),
+            WorkOutcome::Checked(report) => return self.report_corpus_check(report, language),
+            WorkOutcome::Redone(row) => {
+                let what = history_words::operation_sentence(&row.effect, language);
+                fill_text_braces(history_words::DONE_AGAIN.text_in_language(language), &[("what", &what)])
             }
-            Outcome::Exported(report) => super::export::written_text(report, language),
-            Outcome::Shared(picture) => {
+            WorkOutcome::Exported(report) => super::overlay_export::written_text(report, language),
+            WorkOutcome::Shared(picture) => {
                 let values: [(&str, &dyn std::fmt::Display); 2] =
                     [("title", &picture.title), ("path", &picture.path.display())];
-                fill(crate::words::stage::SHARED.of(language), &values)
+                fill_text_braces(crate::words::stage_words::SHARED.text_in_language(language), &values)
             }
             _ => return,
         };
-        self.hint(text);
+        self.add_hint(text);
     }
 
     /// Reports what was proposed, with the corpus's notes on what was not.
-    fn proposed(&mut self, done: &Proposed, language: Language) {
-        let values: [(&str, &dyn Display); 2] =
-            [("tokens", &done.tokens), ("unread", &done.unread)];
+    fn proposed(&mut self, done: &ProposalResult, language: InterfaceLanguage) {
+        let values: [(&str, &dyn Display); 2] = [("tokens", &done.tokens), ("unread", &done.unread)];
         match (done.tokens, done.unread) {
             (0, 0) => {
-                let remedy = words::NOTICE_NO_SIGNS_REMEDY.of(language);
-                self.say(words::NOTICE_NO_SIGNS.of(language), Some(remedy));
+                let remedy = words::NOTICE_NO_SIGNS_REMEDY.text_in_language(language);
+                self.add_lasting_notice(words::NOTICE_NO_SIGNS.text_in_language(language), Some(remedy));
             }
-            (0, _) => self.say(
-                &fill(words::NOTICE_NOT_PROPOSED.of(language), &values),
+            (0, _) => self.add_lasting_notice(
+                &fill_text_braces(words::NOTICE_NOT_PROPOSED.text_in_language(language), &values),
                 None,
             ),
-            _ => self.hint(fill(words::NOTICE_PROPOSED.of(language), &values)),
+            _ => self.add_hint(fill_text_braces(
+                words::NOTICE_PROPOSED.text_in_language(language),
+                &values,
+            )),
         }
         for finding in &done.findings {
-            self.say(&spoken(finding, language), None);
+            self.add_lasting_notice(&translate_library_message(finding, language), None);
         }
     }
 
     /// Reports a body that was fitted to markers, with the corpus's warnings about it.
-    fn fitted(&mut self, report: &FitReport, language: Language) {
+    fn report_fitted_body(&mut self, report: &FitReport, language: InterfaceLanguage) {
         let markers = match &report.subject {
             Some(subject) => format!("{} ({subject})", report.markers),
             None => report.markers.clone(),
         };
         let mm = format!("{:.0}", report.median_mm);
-        let values: [(&str, &dyn Display); 3] =
-            [("markers", &markers), ("n", &report.frames), ("mm", &mm)];
-        self.hint(fill(words::NOTICE_FITTED.of(language), &values));
+        let values: [(&str, &dyn Display); 3] = [("markers", &markers), ("n", &report.frames), ("mm", &mm)];
+        self.add_hint(fill_text_braces(
+            words::NOTICE_FITTED.text_in_language(language),
+            &values,
+        ));
         for finding in &report.findings {
-            self.say(&spoken(finding, language), None);
+            self.add_lasting_notice(&translate_library_message(finding, language), None);
         }
     }
 
     /// Reports a deletion, and offers to undo it.
-    fn deleted(&mut self, done: &Deleted, language: Language) {
+    fn deleted(&mut self, done: &DeletionReport, language: InterfaceLanguage) {
         if done.dry_run {
             return;
         }
         let names = vec![done.summary.clone()];
-        self.hint(history::operation_sentence(
+        self.add_hint(history_words::operation_sentence(
             &OperationEffect::Delete { names },
             language,
         ));
         if let Some(notice) = self.all.last_mut() {
-            notice.offers = vec![(Action::Undo.row().name, NoticeOffer::Do(Action::Undo))];
+            notice.offers = vec![(Action::Undo.action_row().name, NoticeOffer::Do(Action::Undo))];
         }
     }
 
     /// Reports the results of a check: faults with their places and remedies, which stay until they are dismissed.
-    fn checked(&mut self, report: &CheckReport, language: Language) {
+    fn report_corpus_check(&mut self, report: &CheckReport, language: InterfaceLanguage) {
         if report.ok && report.mended.is_empty() && report.questions.is_empty() {
-            return self.hint(words::CHECKED_WELL.of(language));
+            return self.add_hint(words::CHECKED_WELL.text_in_language(language));
         }
         let (text, n) = match (report.ok, report.mended.len()) {
             (false, _) => (words::CHECKED_FAULTS, report.faults.len()),
             (true, 0) => (words::CHECKED_WELL, 0),
             (true, mended) => (words::CHECKED_MENDED, mended),
         };
-        self.say(&fill(text.of(language), &[("n", &n)]), None);
+        self.add_lasting_notice(&fill_text_braces(text.text_in_language(language), &[("n", &n)]), None);
         if let (false, Some(notice)) = (report.ok, self.all.last_mut()) {
             notice.kind = NoticeKind::Error;
         }
-        let faults = report.findings();
-        let said = |text: &String| spoken(text, language);
-        let faults = faults.map(|it| {
-            let message = said(&it.message);
-            match remedy::here(&it.remedy, language) {
-                Some(remedy) => format!("{}: {message} ({remedy})", it.place),
-                None => format!("{}: {message}", it.place),
+        let faults = report.all_findings();
+        let spoken_text = |text: &String| translate_library_message(text, language);
+        let faults = faults.map(|fault| {
+            let message = spoken_text(&fault.message);
+            match overlay_remedy::window_remedy_text(&fault.remedy, language) {
+                Some(remedy) => format!("{}: {message} ({remedy})", fault.place),
+                None => format!("{}: {message}", fault.place),
             }
         });
-        let lines: Vec<String> = report.mended.iter().map(said).chain(faults).collect();
+        let lines: Vec<String> = report.mended.iter().map(spoken_text).chain(faults).collect();
         if let Some(notice) = self.all.last_mut() {
             notice.detail = Some(lines.join("\n"));
         }
     }
 
-    pub(crate) fn dismiss(&mut self, id: u64) {
+    pub(crate) fn dismiss_notice(&mut self, id: u64) {
         self.all.retain(|notice| notice.id != id);
     }
 
@@ -311,18 +331,18 @@ impl Notices {
     pub(crate) fn take_escape(&mut self, ctx: &Context) {
         let may_close = std::mem::take(&mut self.may_close);
         let newest = self.all.iter().rposition(|notice| notice.stays);
-        if let Some(newest) = newest.filter(|_| may_close && super::escaped(ctx)) {
+        if let Some(newest) = newest.filter(|_| may_close && super::take_escape_key(ctx)) {
             self.all.remove(newest);
         }
     }
 
-    fn add(&mut self, kind: NoticeKind, text: String, remedy: Option<String>, stays: bool) {
+    fn add_notice(&mut self, kind: NoticeKind, text: String, remedy: Option<String>, stays: bool) {
         self.all.retain(|notice| {
             // A hint replaces the hint before it; a notice that must be dismissed stays.
             notice.text != text && (stays || notice.stays || notice.since.is_none())
         });
         self.next += 1;
-        self.all.push(Notice {
+        self.all.push(WindowNotice {
             id: self.next,
             kind,
             quiet: false,
@@ -334,20 +354,20 @@ impl Notices {
             passes: false,
             since: None,
         });
-        while self.all.len() > MOST {
+        while self.all.len() > MAX_SHOWN_NOTICES {
             self.all.remove(0);
         }
     }
 
     /// Shows the newest hint at the end of the status line, if there is room for it; a report of the user's own
     /// action is cut short.
-    pub(crate) fn line(&mut self, ui: &mut Ui, language: Language) {
+    pub(crate) fn show_status_hint(&mut self, ui: &mut Ui, language: InterfaceLanguage) {
         self.in_line = None;
         let Some(notice) = self
             .all
             .iter()
             .rev()
-            .find(|it| !it.stays && it.offers.is_empty())
+            .find(|notice| !notice.stays && notice.offers.is_empty())
         else {
             return;
         };
@@ -355,7 +375,7 @@ impl Notices {
         let strong = ui.visuals().strong_text_color();
         let text = notice.text.replace('`', "");
         let mut job = LayoutJob::simple_singleline(text, font, strong);
-        let room = ui.available_width() - MARK - 24.0;
+        let room = ui.available_width() - NOTICE_MARK_SIDE - 24.0;
         if notice.quiet {
             job.wrap = TextWrapping::truncate_at_width(room.max(0.0));
         }
@@ -366,23 +386,23 @@ impl Notices {
         self.in_line = Some(notice.id);
         let (label, kind) = (notice.text.clone(), notice.kind);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let said = ui.add(Label::new(galley));
-            said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
-            said.on_hover_text(&label);
-            mark(ui, kind, language);
+            let label_response = ui.add(Label::new(galley));
+            label_response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+            label_response.on_hover_text(&label);
+            paint_notice_mark(ui, kind, language);
         });
     }
 
-    pub(crate) fn ui(&mut self, ctx: &Context, language: Language, out: &mut Outbox) {
+    pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &mut CommandOutbox) {
         let now = ctx.input(|input| input.time);
         for notice in &mut self.all {
             notice.since.get_or_insert(now);
         }
-        let old = |notice: &Notice| {
+        let old = |notice: &WindowNotice| {
             let shown = if notice.offers.is_empty() {
-                SHORT
+                HINT_SECONDS
             } else {
-                LONG
+                COMMAND_HINT_SECONDS
             };
             !notice.stays && notice.since.is_some_and(|since| now - since > shown)
         };
@@ -392,19 +412,19 @@ impl Notices {
         }
         ctx.request_repaint_after(std::time::Duration::from_millis(500));
         let in_line = self.in_line;
-        let elsewhere = |notice: &&Notice| Some(notice.id) != in_line && !notice.quiet;
-        if !self.all.iter().any(|it| elsewhere(&it)) {
+        let elsewhere = |notice: &&WindowNotice| Some(notice.id) != in_line && !notice.quiet;
+        if !self.all.iter().any(|notice| elsewhere(&notice)) {
             return;
         }
         let area = Area::new(Id::unique("notices"))
             .order(Order::Foreground)
             .anchor(Align2::RIGHT_BOTTOM, vec2(-16.0, -44.0));
         area.show(ctx, |ui| {
-            ui.set_max_width(WIDEST);
+            ui.set_max_width(MAX_NOTICE_WIDTH);
             for notice in self.all.iter().filter(elsewhere) {
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.horizontal(|ui| {
-                        mark(ui, notice.kind, language);
+                        paint_notice_mark(ui, notice.kind, language);
                         ui.add(Label::new(with_code(ui.style(), &notice.text, false)).wrap());
                     });
                     if let Some(remedy) = &notice.remedy {
@@ -418,12 +438,12 @@ impl Notices {
                     }
                     ui.horizontal_wrapped(|ui| {
                         for (text, offer) in &notice.offers {
-                            if ui.button(text.of(language)).clicked() {
-                                out.send(offer.command());
+                            if ui.button(text.text_in_language(language)).clicked() {
+                                out.send_command(offer.offered_command());
                             }
                         }
-                        if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
-                            out.send(Command::Dismiss(notice.id));
+                        if notice.stays && ui.button(words::CLOSE.text_in_language(language)).clicked() {
+                            out.send_command(WindowCommand::Dismiss(notice.id));
                         }
                     });
                 });
@@ -433,36 +453,36 @@ impl Notices {
 }
 
 /// The largest width of a notice, in points.
-const WIDEST: f32 = 420.0;
+const MAX_NOTICE_WIDTH: f32 = 420.0;
 /// The side of a notice's mark, in points.
-const MARK: f32 = 14.0;
+const NOTICE_MARK_SIDE: f32 = 14.0;
 
 /// Paints the mark of a notice's kind: a tick in a disc, an exclamation mark in a triangle, or a cross in a square.
-fn mark(ui: &mut Ui, kind: NoticeKind, language: Language) {
-    let colours = Colours::of(theme::is_dark(ui.ctx()));
-    let (rect, response) = ui.allocate_exact_size(Vec2::splat(MARK), Sense::hover());
-    let name = kind.name().of(language);
+fn paint_notice_mark(ui: &mut Ui, kind: NoticeKind, language: InterfaceLanguage) {
+    let colours = ThemeColours::colours_for_theme(theme::is_dark(ui.ctx()));
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(NOTICE_MARK_SIDE), Sense::hover());
+    let name = kind.notice_kind_name().text_in_language(language);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
-    let (centre, colour) = (rect.center(), kind.colour(colours));
+    let (centre, colour) = (rect.center(), kind.notice_kind_colour(colours));
     let ink = Stroke::new(1.8, ui.visuals().panel_fill);
     let painter = ui.painter();
-    let at = |x: f32, y: f32| centre + vec2(x, y);
+    let point = |x: f32, y: f32| centre + vec2(x, y);
     match kind {
         NoticeKind::Done => {
             painter.circle_filled(centre, 6.5, colour);
-            painter.line_segment([at(-3.0, 0.2), at(-0.8, 2.6)], ink);
-            painter.line_segment([at(-0.8, 2.6), at(3.2, -2.4)], ink);
+            painter.line_segment([point(-3.0, 0.2), point(-0.8, 2.6)], ink);
+            painter.line_segment([point(-0.8, 2.6), point(3.2, -2.4)], ink);
         }
         NoticeKind::Warning => {
-            let points = vec![at(0.0, -6.5), at(7.0, 6.0), at(-7.0, 6.0)];
+            let points = vec![point(0.0, -6.5), point(7.0, 6.0), point(-7.0, 6.0)];
             painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
-            painter.line_segment([at(0.0, -2.6), at(0.0, 1.8)], ink);
-            painter.line_segment([at(0.0, 3.2), at(0.0, 4.8)], ink);
+            painter.line_segment([point(0.0, -2.6), point(0.0, 1.8)], ink);
+            painter.line_segment([point(0.0, 3.2), point(0.0, 4.8)], ink);
         }
         NoticeKind::Error => {
             painter.rect_filled(rect.shrink(0.5), 2.0, colour);
-            painter.line_segment([at(-3.0, -3.0), at(3.0, 3.0)], ink);
-            painter.line_segment([at(-3.0, 3.0), at(3.0, -3.0)], ink);
+            painter.line_segment([point(-3.0, -3.0), point(3.0, 3.0)], ink);
+            painter.line_segment([point(-3.0, 3.0), point(3.0, -3.0)], ink);
         }
     }
     response.on_hover_text(name);
@@ -477,7 +497,7 @@ fn with_code(style: &Style, text: &str, weak: bool) -> LayoutJob {
     } else {
         visuals.text_color()
     };
-    let fonts = [TextStyle::Body, TextStyle::Monospace].map(|it| it.resolve(style));
+    let fonts = [TextStyle::Body, TextStyle::Monospace].map(|text_style| text_style.resolve(style));
     for (at, part) in text.split('`').enumerate() {
         let format = TextFormat::simple(fonts[at % 2].clone(), colour);
         job.append(part, 0.0, format);
@@ -493,18 +513,14 @@ mod tests {
 
     #[test]
     fn a_long_notice_is_broken_into_lines_that_stay_in_the_window() {
-        let mut notices = Notices::default();
-        notices.offer(
-            "long words ".repeat(60),
-            &"and more ".repeat(60),
-            Vec::new(),
-        );
+        let mut notices = NoticeBoard::default();
+        notices.offer_failure_remedies("long words ".repeat(60), &"and more ".repeat(60), Vec::new());
         let mut window = egui_kittest::Harness::builder()
             .with_size(vec2(640.0, 420.0))
             .build_ui_state(
-                |ui, notices: &mut Notices| {
-                    let mut out = Outbox::default();
-                    notices.ui(ui.ctx(), Language::English, &mut out);
+                |ui, notices: &mut NoticeBoard| {
+                    let mut out = CommandOutbox::default();
+                    notices.ui(ui.ctx(), InterfaceLanguage::English, &mut out);
                 },
                 notices,
             );
@@ -513,7 +529,7 @@ mod tests {
         for label in ["long words", "and more"] {
             let found = window.get_by_label_contains(label).rect();
             assert!(
-                found.left() >= 0.0 && found.width() < WIDEST,
+                found.left() >= 0.0 && found.width() < MAX_NOTICE_WIDTH,
                 "{label}: {found}"
             );
         }
@@ -522,9 +538,9 @@ mod tests {
     #[test]
     fn escape_closes_one_notice_that_stays_if_nothing_else_takes_it() {
         use eframe::egui::{Event, Key, Modifiers, RawInput};
-        let mut notices = Notices::default();
-        notices.say("one", None);
-        notices.say("two", None);
+        let mut notices = NoticeBoard::default();
+        notices.add_lasting_notice("one", None);
+        notices.add_lasting_notice("two", None);
         let ctx = Context::default();
         for (may_close, left) in [(false, 2), (true, 1), (false, 1), (true, 0)] {
             notices.may_close = may_close;
@@ -547,16 +563,16 @@ mod tests {
 
     #[test]
     fn faults_found_by_a_check_stay_visible_with_their_locations() {
-        let mut notices = Notices::default();
+        let mut notices = NoticeBoard::default();
         let well = CheckReport {
             ok: true,
             ..CheckReport::default()
         };
-        notices.of(&Outcome::Checked(well.clone()), Language::English);
+        notices.report_work_outcome(&WorkOutcome::Checked(well.clone()), InterfaceLanguage::English);
         assert!(!notices.all[0].stays);
         let faulty = CheckReport {
             ok: false,
-            faults: vec![chereme_corpus::Fault {
+            faults: vec![chereme_corpus::CorpusFault {
                 kind: "block",
                 place: "block 7".into(),
                 message: "it is another".into(),
@@ -564,7 +580,7 @@ mod tests {
             }],
             ..well
         };
-        notices.of(&Outcome::Checked(faulty), Language::English);
+        notices.report_work_outcome(&WorkOutcome::Checked(faulty), InterfaceLanguage::English);
         let notice = notices.all.last().expect("a notice");
         assert!(notice.stays && notice.text == "Checked, and faults found: 1");
         let detail = notice.detail.as_deref();
@@ -574,18 +590,18 @@ mod tests {
     #[test]
     fn proposals_without_signs_and_signs_that_cannot_be_read_are_reported_apart() {
         for (unread, want) in [(0, words::NOTICE_NO_SIGNS), (3, words::NOTICE_NOT_PROPOSED)] {
-            let mut notices = Notices::default();
-            let proposed = Proposed {
+            let mut notices = NoticeBoard::default();
+            let proposed = ProposalResult {
                 unread,
-                ..Proposed::default()
+                ..ProposalResult::default()
             };
-            notices.of(&Outcome::Proposed(proposed), Language::English);
+            notices.report_work_outcome(&WorkOutcome::Proposed(proposed), InterfaceLanguage::English);
             let notice = notices.all.last().expect("a notice");
-            let want = fill(want.of(Language::English), &[("unread", &unread)]);
-            assert_eq!(
-                (&notice.text, notice.remedy.is_some()),
-                (&want, unread == 0)
+            let want = fill_text_braces(
+                want.text_in_language(InterfaceLanguage::English),
+                &[("unread", &unread)],
             );
+            assert_eq!((&notice.text, notice.remedy.is_some()), (&want, unread == 0));
         }
     }
 
@@ -593,52 +609,44 @@ mod tests {
     fn notes_on_what_was_not_proposed_stay_in_both_languages() {
         let finding = "handshapes are not proposed where fingers rest throughout, as nobody captured them: chat";
         for (tokens, language, start) in [
-            (1, Language::English, "handshapes are not proposed"),
-            (
-                1,
-                Language::French,
-                "les configurations ne sont pas proposées",
-            ),
-            (0, Language::English, "handshapes are not proposed"),
+            (1, InterfaceLanguage::English, "handshapes are not proposed"),
+            (1, InterfaceLanguage::French, "les configurations ne sont pas proposées"),
+            (0, InterfaceLanguage::English, "handshapes are not proposed"),
         ] {
-            let mut notices = Notices::default();
-            let proposed = Proposed {
+            let mut notices = NoticeBoard::default();
+            let proposed = ProposalResult {
                 tokens,
                 unread: 1 - tokens,
                 findings: vec![finding.to_owned()],
-                ..Proposed::default()
+                ..ProposalResult::default()
             };
-            notices.of(&Outcome::Proposed(proposed), language);
+            notices.report_work_outcome(&WorkOutcome::Proposed(proposed), language);
             assert_eq!(notices.all.len(), 2, "{tokens}");
             let notice = &notices.all[1];
-            assert!(
-                notice.stays && notice.text.starts_with(start),
-                "{}",
-                notice.text
-            );
+            assert!(notice.stays && notice.text.starts_with(start), "{}", notice.text);
             assert!(notice.text.ends_with(": chat"), "{}", notice.text);
         }
     }
 
     #[test]
     fn an_error_is_shown_once_with_its_remedy() {
-        let mut notices = Notices::default();
-        let error = || Error::wrong("no").advise("yes");
-        notices.trouble(&error(), None, Language::French);
-        notices.trouble(&error(), None, Language::French);
+        let mut notices = NoticeBoard::default();
+        let error = || CorpusError::from_wrong_message("no").with_advice("yes");
+        notices.report_work_failure(&error(), None, InterfaceLanguage::French);
+        notices.report_work_failure(&error(), None, InterfaceLanguage::French);
         assert_eq!(notices.all.len(), 1);
         assert_eq!(notices.all[0].detail.as_deref(), Some("no\n(yes)"));
-        notices.trouble(&Error::Stopped, None, Language::English);
+        notices.report_work_failure(&CorpusError::Stopped, None, InterfaceLanguage::English);
         assert!(!notices.all[1].stays);
         for at in 0..9 {
-            notices.hint(at.to_string());
+            notices.add_hint(at.to_string());
         }
-        assert_eq!(notices.all.len(), MOST);
+        assert_eq!(notices.all.len(), MAX_SHOWN_NOTICES);
     }
 
     #[test]
     fn notices_name_the_operation_and_differ_by_kind() {
-        let mut notices = Notices::default();
+        let mut notices = NoticeBoard::default();
         let row = |deed: AnnotationDeed| chereme_corpus::OperationRow {
             id: 2,
             at: "2026-01-02T03:04:05Z".into(),
@@ -657,11 +665,11 @@ mod tests {
         };
         for (outcome, want) in [
             (
-                Outcome::Undone(row(AnnotationDeed::AnnotationsRemoved { count: 3 })),
+                WorkOutcome::Undone(row(AnnotationDeed::AnnotationsRemoved { count: 3 })),
                 "3 annotations restored in Un",
             ),
             (
-                Outcome::Redone(row(AnnotationDeed::AnnotationsValued {
+                WorkOutcome::Redone(row(AnnotationDeed::AnnotationsValued {
                     count: 3,
                     of: ValuedThing::Handshape,
                     value: "U".into(),
@@ -669,32 +677,26 @@ mod tests {
                 "Done again: 3 handshapes changed to U in Un",
             ),
         ] {
-            notices.of(&outcome, Language::English);
+            notices.report_work_outcome(&outcome, InterfaceLanguage::English);
             let last = notices.all.last().expect("a notice");
             assert_eq!((last.text.as_str(), last.kind), (want, NoticeKind::Done));
         }
-        notices.warn("no");
-        assert_eq!(
-            notices.all.last().map(|it| it.kind),
-            Some(NoticeKind::Warning)
-        );
-        notices.trouble(&Error::wrong("no"), None, Language::English);
-        assert_eq!(
-            notices.all.last().map(|it| it.kind),
-            Some(NoticeKind::Error)
-        );
+        notices.add_warning("no");
+        assert_eq!(notices.all.last().map(|it| it.kind), Some(NoticeKind::Warning));
+        notices.report_work_failure(&CorpusError::from_wrong_message("no"), None, InterfaceLanguage::English);
+        assert_eq!(notices.all.last().map(|it| it.kind), Some(NoticeKind::Error));
         for dark in [false, true] {
-            let colours = Colours::of(dark);
-            let all = [NoticeKind::Done, NoticeKind::Warning, NoticeKind::Error]
-                .map(|it| it.colour(colours));
+            let colours = ThemeColours::colours_for_theme(dark);
+            let all =
+                [NoticeKind::Done, NoticeKind::Warning, NoticeKind::Error].map(|it| it.notice_kind_colour(colours));
             assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
         }
-        notices.offer(
+        notices.offer_failure_remedies(
             "gone".into(),
             "copy",
             vec![(words::SAVE_COPY, NoticeOffer::Do(Action::Undo))],
         );
-        notices.withdraw();
+        notices.withdraw_offers();
         assert!(notices.all.iter().all(|it| it.text != "gone"));
     }
 }

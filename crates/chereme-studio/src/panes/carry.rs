@@ -1,26 +1,26 @@
 //! Signs carried from lists to recipes: dragged with a little figure under the pointer, or by a menu.
 
 use eframe::egui::{
-    Align2, Area, Context, CursorIcon, DragAndDrop, Frame, Id, LayerId, Order, Rect, Response,
-    Stroke, StrokeKind, Ui, Vec2, vec2,
+    Align2, Area, Context, CursorIcon, DragAndDrop, Frame, Id, LayerId, Order, Rect, Response, Stroke, StrokeKind, Ui,
+    Vec2, vec2,
 };
 
-use super::inspector::Thing;
-use super::{Carried, PaneKind};
+use super::inspector::InspectedThing;
+use super::{DraggedToken, PaneKind};
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::miniatures::{self, Cell, Motion};
-use crate::words::{library as words, search};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
+use crate::words::{library as words, search_words};
 
 /// Side of the figure under the pointer, in points.
-const FIGURE: f32 = 96.0;
+const CARRIED_FIGURE_SIDE: f32 = 96.0;
 
 /// The picture that follows the pointer while a sign is carried.
 #[derive(Clone)]
-struct Picture {
+struct CarriedPicture {
     gloss: String,
-    motion: Option<Motion>,
+    motion: Option<MiniatureMotion>,
 }
 
 fn picture_id() -> Id {
@@ -28,44 +28,44 @@ fn picture_id() -> Id {
 }
 
 /// Makes a row or figure of a list draggable; it must sense drags.
-pub(crate) fn drag(response: &Response, carried: Carried, motion: Option<Motion>) {
+pub(crate) fn make_sign_draggable(response: &Response, carried: DraggedToken, motion: Option<MiniatureMotion>) {
     if !response.drag_started() {
         return;
     }
     let gloss = carried.gloss.clone();
     response.dnd_set_drag_payload(carried);
     let ctx = &response.ctx;
-    let picture = Picture { gloss, motion };
+    let picture = CarriedPicture { gloss, motion };
     ctx.data_mut(|data| data.insert_temp(picture_id(), picture));
 }
 
 /// Returns whether a sign is being carried.
 pub(crate) fn is_carrying(ctx: &Context) -> bool {
-    DragAndDrop::has_payload_of_type::<Carried>(ctx)
+    DragAndDrop::has_payload_of_type::<DraggedToken>(ctx)
 }
 
 /// Returns the sign that is dropped over `rect`, if no widget there took it; marks the area meanwhile.
-pub(crate) fn let_go(ui: &Ui, seen: &PaneInput<'_>, rect: Rect) -> Option<Carried> {
+pub(crate) fn take_dropped_sign(ui: &Ui, seen: &PaneInput<'_>, rect: Rect) -> Option<DraggedToken> {
     let ctx = ui.ctx();
     let over = ctx.pointer_latest_pos().is_some_and(|at| rect.contains(at));
     if !over || !is_carrying(ctx) {
         return None;
     }
-    let stroke = Stroke::new(2.0, seen.colours().accent);
+    let stroke = Stroke::new(2.0, seen.pane_colours().accent);
     let painter = ui.painter();
     painter.rect_stroke(rect.expand(6.0), 4.0, stroke, StrokeKind::Inside);
     if !ui.input(|input| input.pointer.any_released()) {
         return None;
     }
-    DragAndDrop::take_payload::<Carried>(ctx).map(|it| (*it).clone())
+    DragAndDrop::take_payload::<DraggedToken>(ctx).map(|payload| (*payload).clone())
 }
 
 /// Draws the dragged sign under the pointer, above the panes.
-pub(crate) fn show(ctx: &Context, seen: &PaneInput<'_>, out: &mut Outbox) {
+pub(crate) fn show_carried_sign(ctx: &Context, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
     if !is_carrying(ctx) {
         return;
     }
-    let picture: Option<Picture> = ctx.data(|data| data.get_temp(picture_id()));
+    let picture: Option<CarriedPicture> = ctx.data(|data| data.get_temp(picture_id()));
     let (Some(picture), Some(at)) = (picture, ctx.pointer_latest_pos()) else {
         return;
     };
@@ -80,9 +80,10 @@ pub(crate) fn show(ctx: &Context, seen: &PaneInput<'_>, out: &mut Outbox) {
         Frame::popup(ui.style()).inner_margin(4).show(ui, |ui| {
             if let Some(motion) = picture.motion {
                 let (rect, _): (Rect, _) =
-                    ui.allocate_exact_size(Vec2::splat(FIGURE), eframe::egui::Sense::hover());
-                let cell = Cell::new(motion, rect.size()).playing(miniatures::clock(ui));
-                seen.little.paint(ui, seen, out, &cell, rect);
+                    ui.allocate_exact_size(Vec2::splat(CARRIED_FIGURE_SIDE), eframe::egui::Sense::hover());
+                let cell =
+                    MiniatureCell::new(motion, rect.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
+                seen.little.paint_figure(ui, seen, out, &cell, rect);
             }
             ui.label(picture.gloss);
         });
@@ -93,20 +94,20 @@ pub(crate) fn show(ctx: &Context, seen: &PaneInput<'_>, out: &mut Outbox) {
 
 /// Opens a tab when something is held over it for a while.
 #[derive(Debug, Default)]
-pub(crate) struct Sprung(Option<(PaneKind, f64)>);
+pub(crate) struct TabSpring(Option<(PaneKind, f64)>);
 
-impl Sprung {
+impl TabSpring {
     /// How long it must be held, in seconds.
-    const HELD: f64 = 0.35;
+    const TAB_HOLD_SECONDS: f64 = 0.35;
 
     /// Returns the pane whose tab opens now.
-    pub(crate) fn follow(&mut self, under: Option<PaneKind>, now: f64) -> Option<PaneKind> {
+    pub(crate) fn pane_to_open(&mut self, under: Option<PaneKind>, now: f64) -> Option<PaneKind> {
         let since = match (self.0, under) {
             (Some((before, since)), Some(under)) if before == under => since,
             _ => now,
         };
         self.0 = under.map(|under| (under, since));
-        under.filter(|_| now - since >= Self::HELD)
+        under.filter(|_| now - since >= Self::TAB_HOLD_SECONDS)
     }
 }
 
@@ -114,39 +115,43 @@ impl Sprung {
 ///
 /// `recording` is the recording that contains the sign; if it was made from a recipe, the menu can open that recipe
 /// again.
-pub(crate) fn menu(
+pub(crate) fn show_sign_menu(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     (token, gloss, recording): (i64, &str, Option<i64>),
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
-    let mut entry = |name: &str, command: Command, keys: String| {
+    let mut entry = |name: &str, command: WindowCommand, keys: String| {
         let button = eframe::egui::Button::new(name).shortcut_text(keys);
         if ui.add(button).clicked() {
-            out.send(command);
+            out.send_command(command);
             ui.close();
         }
     };
-    let carried = Carried {
+    let carried = DraggedToken {
         token,
         gloss: gloss.to_owned(),
     };
-    if let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it)) {
+    if let Some((recipe, name)) = recording.and_then(|id| seen.snapshot.recipe_of(id)) {
         let open = Action::OpenRecipe;
-        let command = Command::Recipe(recipe, Some(name));
-        entry(seen.say(open.row().name), command, seen.keys.text(open));
+        let command = WindowCommand::Recipe(recipe, Some(name));
+        entry(
+            seen.say_text(open.action_row().name),
+            command,
+            seen.keys.action_keys_text(open),
+        );
     }
     let (used, like) = (Action::UseInRecipe, Action::SearchLike);
-    let name = seen.say(used.row().name);
-    entry(name, Command::Use(carried), seen.keys.text(used));
+    let name = seen.say_text(used.action_row().name);
+    entry(name, WindowCommand::Use(carried), seen.keys.action_keys_text(used));
     let query = crate::panes::search::like_query(&seen.snapshot.overview, token, gloss);
     entry(
-        seen.say(search::MORE_LIKE),
-        Command::Find(query),
-        seen.keys.text(like),
+        seen.say_text(search_words::MORE_LIKE),
+        WindowCommand::Find(query),
+        seen.keys.action_keys_text(like),
     );
-    let thing = Command::Inspect(Thing::Token(token));
-    entry(seen.say(words::INSPECT), thing, String::new());
+    let thing = WindowCommand::Inspect(InspectedThing::Token(token));
+    entry(seen.say_text(words::INSPECT), thing, String::new());
 }
 
 #[cfg(test)]
@@ -155,13 +160,13 @@ mod tests {
 
     #[test]
     fn a_tab_opens_after_hovering_and_not_in_passing() {
-        let mut sprung = Sprung::default();
+        let mut sprung = TabSpring::default();
         let pane = Some(PaneKind::Recombine);
-        assert_eq!(sprung.follow(pane, 1.0), None);
-        assert_eq!(sprung.follow(Some(PaneKind::Search), 1.3), None);
-        assert_eq!(sprung.follow(pane, 1.5), None);
-        assert_eq!(sprung.follow(None, 1.7), None);
-        assert_eq!(sprung.follow(pane, 1.9), None);
-        assert_eq!(sprung.follow(pane, 2.3), pane);
+        assert_eq!(sprung.pane_to_open(pane, 1.0), None);
+        assert_eq!(sprung.pane_to_open(Some(PaneKind::Search), 1.3), None);
+        assert_eq!(sprung.pane_to_open(pane, 1.5), None);
+        assert_eq!(sprung.pane_to_open(None, 1.7), None);
+        assert_eq!(sprung.pane_to_open(pane, 1.9), None);
+        assert_eq!(sprung.pane_to_open(pane, 2.3), pane);
     }
 }

@@ -1,27 +1,17 @@
 //! Keyboard use of drop-down lists, open or closed: arrows go through the list, and a letter goes to the next
 //! entry that begins with it.
 
-use eframe::egui::{
-    ComboBox, Event, EventFilter, InnerResponse, Key, Modifiers, Role, TextStyle, Ui, WidgetInfo,
-};
+use eframe::egui::{ComboBox, Event, EventFilter, InnerResponse, Key, Modifiers, Role, TextStyle, Ui, WidgetInfo};
 
 /// Shows a drop-down list with its name before it.
-pub(super) fn named<T: PartialEq + Clone>(
-    ui: &mut Ui,
-    name: &str,
-    value: &mut T,
-    all: &[(T, String)],
-) {
-    let shown = all.iter().find(|(it, _)| it == value);
-    let shown = shown.map_or("", |(_, text)| text.as_str()).to_owned();
+pub(super) fn show_named_combo<T: PartialEq + Clone>(ui: &mut Ui, name: &str, value: &mut T, all: &[(T, String)]) {
+    let entry = all.iter().find(|(other, _)| other == value);
+    let shown = entry.map_or("", |(_, text)| text.as_str()).to_owned();
     // A list does not break: one that has no room left begins the next row, and is shortened in a narrow pane.
     let wide = |text: &str| {
         let font = TextStyle::Button.resolve(ui.style());
         let colour = ui.visuals().text_color();
-        ui.painter()
-            .layout_no_wrap(text.to_owned(), font, colour)
-            .size()
-            .x
+        ui.painter().layout_no_wrap(text.to_owned(), font, colour).size().x
     };
     let spacing = ui.spacing();
     let around = 2.0 * spacing.button_padding.x + spacing.icon_width + 2.0 * spacing.item_spacing.x;
@@ -42,8 +32,8 @@ pub(super) fn named<T: PartialEq + Clone>(
             }
         });
         let names: Vec<&str> = all.iter().map(|(_, text)| text.as_str()).collect();
-        let now = all.iter().position(|(it, _)| it == value);
-        if let Some(at) = step(ui, &inner, &names, now) {
+        let now = all.iter().position(|(other, _)| other == value);
+        if let Some(at) = step_combo_choice(ui, &inner, &names, now) {
             *value = all[at].0.clone();
         }
         inner
@@ -53,7 +43,7 @@ pub(super) fn named<T: PartialEq + Clone>(
 }
 
 /// Returns the index in `names` that a key chose, if the list has the focus.
-pub(crate) fn step<R>(
+pub(crate) fn step_combo_choice<R>(
     ui: &Ui,
     list: &InnerResponse<Option<R>>,
     names: &[&str],
@@ -72,20 +62,16 @@ pub(crate) fn step<R>(
     });
     let (by, typed) = ui.input_mut(|input| {
         let mut key = |key, by| {
-            if input.consume_key(Modifiers::NONE, key) {
-                by
-            } else {
-                0
-            }
+            if input.consume_key(Modifiers::NONE, key) { by } else { 0 }
         };
         let by: isize = key(Key::ArrowDown, 1) + key(Key::ArrowUp, -1);
         let letter = input.events.iter().find_map(|event| match event {
-            Event::Text(text) => text.chars().find(|it| it.is_alphanumeric()),
+            Event::Text(text) => text.chars().find(|character| character.is_alphanumeric()),
             _ => None,
         });
         (by, letter)
     });
-    let at = match typed {
+    let index = match typed {
         Some(letter) => next_with(names, now, letter)?,
         None if by == 0 => return None,
         None => match now {
@@ -93,18 +79,12 @@ pub(crate) fn step<R>(
             None => 0,
         },
     };
-    (Some(at) != now).then_some(at)
+    (Some(index) != now).then_some(index)
 }
 
 /// Returns the index of the next name after `now`, cyclically, that begins with a letter.
 fn next_with(names: &[&str], now: Option<usize>, letter: char) -> Option<usize> {
-    let first = |name: &str| {
-        name.chars()
-            .next()
-            .into_iter()
-            .flat_map(char::to_lowercase)
-            .next()
-    };
+    let first = |name: &str| name.chars().next().into_iter().flat_map(char::to_lowercase).next();
     let wanted = letter.to_lowercase().next();
     let from = now.map_or(0, |now| now + 1);
     let places = (0..names.len()).map(|by| (from + by) % names.len());

@@ -1,23 +1,23 @@
 //! The panes: each a module with rows computed by plain functions (`data`) and widgets (`ui`).
 //!
-//! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place in
+//! To add one: a variant of [`PaneKind`] with its title, a field of [`PaneSet`] with its arms, a place in
 //! [`layout::of`](crate::layout::of), and an action that shows it.
 
 pub(crate) mod agreement;
 pub(crate) mod carry;
 pub(crate) mod combo;
-pub(crate) mod complete;
+pub(crate) mod complete_pane;
 pub(crate) mod cue;
 pub(crate) mod faces;
-pub(crate) mod film;
+pub(crate) mod film_pane;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
 pub(crate) mod map;
-mod notated;
+mod notated_pane;
 pub(crate) mod recombine;
-mod saved;
+mod saved_pane;
 pub(crate) mod search;
 pub(crate) mod stage;
 pub(crate) mod studies;
@@ -25,15 +25,15 @@ pub(crate) mod timeline;
 pub(crate) mod without_movement;
 
 use eframe::egui::{
-    Align2, Color32, Id, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui,
-    WidgetInfo, WidgetText, pos2, vec2,
+    Align2, Color32, Id, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui, WidgetInfo,
+    WidgetText, pos2, vec2,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::context::{Outbox, PaneInput};
-use crate::words::{self, Text};
-use crate::work::{Ended, WorkId};
+use crate::context::{CommandOutbox, PaneInput};
+use crate::words::{self, InterfaceText};
+use crate::work::{WorkId, WorkResult};
 
 /// One of the panes; its name is part of stored layouts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -56,7 +56,7 @@ pub(crate) enum PaneKind {
 }
 
 impl PaneKind {
-    pub(crate) const ALL: [Self; 14] = [
+    pub(crate) const ALL_PANE_KINDS: [Self; 14] = [
         Self::Library,
         Self::Map,
         Self::Cue,
@@ -73,85 +73,90 @@ impl PaneKind {
         Self::Film,
     ];
 
-    pub(crate) fn title(self) -> Text {
+    pub(crate) fn pane_title(self) -> InterfaceText {
         match self {
             Self::Library => words::library::TITLE,
-            Self::Map => words::map::TITLE,
-            Self::Cue => words::cue::TITLE,
-            Self::Faces => words::faces::TITLE,
+            Self::Map => words::map_words::TITLE,
+            Self::Cue => words::cue_words::TITLE,
+            Self::Faces => words::faces_words::TITLE,
             Self::Agreement => words::agreement::TITLE,
-            Self::Studies => words::studies::TITLE,
-            Self::Stage => words::stage::TITLE,
+            Self::Studies => words::studies_words::TITLE,
+            Self::Stage => words::stage_words::TITLE,
             Self::Timeline => words::timeline::TITLE,
-            Self::Search => words::search::TITLE,
-            Self::Recombine => words::recombine::TITLE,
+            Self::Search => words::search_words::TITLE,
+            Self::Recombine => words::recombine_words::TITLE,
             Self::Inspector => words::inspector::TITLE,
-            Self::History => words::history::TITLE,
-            Self::Import => words::import::TITLE,
-            Self::Film => words::film::TITLE,
+            Self::History => words::history_words::TITLE,
+            Self::Import => words::import_words::TITLE,
+            Self::Film => words::film_words::TITLE,
         }
     }
 }
 
 /// A token that is dragged from one pane to another: the payload of egui's drag and drop.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Carried {
+pub(crate) struct DraggedToken {
     pub(crate) token: i64,
     pub(crate) gloss: String,
 }
 
 /// The outcome of an action that was offered to a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Acted {
+pub(crate) enum ActionOutcome {
     /// The action does not belong to this pane.
     No,
     /// The action was carried out.
     Yes,
     /// The action is not possible now, for this reason.
-    Cannot(Text),
+    Cannot(InterfaceText),
 }
 
 /// The interface of every pane.
-pub(crate) trait Pane {
+pub(crate) trait PaneInterface {
     /// Draws the pane, and sends requests for the user's input in it.
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox);
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox);
 
     /// Carries out an action of this pane.
-    fn act(&mut self, _action: Action, _seen: &PaneInput<'_>, _out: &mut Outbox) -> Acted {
-        Acted::No
+    fn carry_out_pane_action(
+        &mut self,
+        _action: Action,
+        _seen: &PaneInput<'_>,
+        _out: &mut CommandOutbox,
+    ) -> ActionOutcome {
+        ActionOutcome::No
     }
 
     /// Handles the result of work, whether this pane or another requested it.
-    fn hear(&mut self, _id: WorkId, _ended: &Ended) {}
+    fn receive_work_result(&mut self, _id: WorkId, _ended: &WorkResult) {}
 
     /// Called when an action brings the pane to the front: it should take the keyboard.
     fn come(&mut self) {}
 
     /// Called when an action brings another pane to the front: this one should release the keyboard.
-    fn leave(&mut self) {}
+    fn release_pane_keyboard(&mut self) {}
 }
 
 /// Every pane.
 #[derive(Default)]
-pub(crate) struct Panes {
-    pub(crate) library: library::Library,
-    pub(crate) map: map::Map,
+pub(crate) struct PaneSet {
+    pub(crate) library: library::LibraryPane,
+    pub(crate) map: map::MapPane,
     pub(crate) cue: cue::CuePane,
-    pub(crate) faces: faces::Faces,
+    pub(crate) faces: faces::FacesPane,
     pub(crate) agreement: agreement::AgreementPane,
-    pub(crate) studies: studies::Studies,
-    pub(crate) stage: stage::Stage,
-    pub(crate) timeline: timeline::Timeline,
-    pub(crate) search: search::Search,
-    pub(crate) recombine: recombine::Recombine,
-    pub(crate) inspector: inspector::Inspector,
-    pub(crate) history: history::History,
-    pub(crate) import: import::Import,
-    pub(crate) film: film::FilmPane,
+    pub(crate) studies: studies::StudiesPane,
+    pub(crate) stage: stage::StagePane,
+    pub(crate) timeline: timeline::TimelinePane,
+    pub(crate) search: search::SearchPane,
+    pub(crate) recombine: recombine::RecombinePane,
+    pub(crate) inspector: inspector::InspectorPane,
+    pub(crate) history: history::HistoryPane,
+    pub(crate) import: import::ImportPane,
+    pub(crate) film: film_pane::FilmPane,
 }
 
-impl Panes {
-    pub(crate) fn get_mut(&mut self, kind: PaneKind) -> &mut dyn Pane {
+impl PaneSet {
+    pub(crate) fn get_mut(&mut self, kind: PaneKind) -> &mut dyn PaneInterface {
         match kind {
             PaneKind::Library => &mut self.library,
             PaneKind::Map => &mut self.map,
@@ -170,9 +175,9 @@ impl Panes {
         }
     }
 
-    pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
-        for kind in PaneKind::ALL {
-            self.get_mut(kind).hear(id, ended);
+    pub(crate) fn forward_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        for kind in PaneKind::ALL_PANE_KINDS {
+            self.get_mut(kind).receive_work_result(id, ended);
         }
     }
 }
@@ -180,19 +185,20 @@ impl Panes {
 /// Returns the width of the longest word in `texts`; a column of that width breaks lines only between words.
 pub(crate) fn longest_word<'a>(ui: &Ui, texts: impl Iterator<Item = &'a str>) -> f32 {
     let words = texts.flat_map(str::split_whitespace);
-    words.map(|it| wide(ui, it)).fold(0.0, f32::max).ceil()
+    words
+        .map(|word| measure_text_width(ui, word))
+        .fold(0.0, f32::max)
+        .ceil()
 }
 
 /// Returns the width of a button with that text.
 pub(crate) fn button_width(ui: &Ui, text: &str) -> f32 {
-    wide(ui, text) + 2.0 * ui.spacing().button_padding.x + 2.0
+    measure_text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + 2.0
 }
 
-fn wide(ui: &Ui, text: &str) -> f32 {
+fn measure_text_width(ui: &Ui, text: &str) -> f32 {
     let font = TextStyle::Body.resolve(ui.style());
-    let galley = ui
-        .painter()
-        .layout_no_wrap(text.to_owned(), font, Color32::WHITE);
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE);
     galley.size().x
 }
 
@@ -204,13 +210,7 @@ pub(crate) fn scrolled_to(at: usize, height: f32, now: f32, room: f32) -> f32 {
 }
 
 /// Shows a row of a list: a name, with a text below; it reacts to a click, or to Enter with the focus.
-pub(crate) fn list_row(
-    ui: &mut Ui,
-    height: f32,
-    chosen: bool,
-    name: &str,
-    about: &str,
-) -> Response {
+pub(crate) fn list_row(ui: &mut Ui, height: f32, chosen: bool, name: &str, about: &str) -> Response {
     list_row_after(ui, (height, 0.0), chosen, name, about)
 }
 
@@ -231,8 +231,7 @@ pub(crate) fn reach_focus(ui: &Ui) {
         return;
     };
     // Visible widgets of other parts may lie where hidden widgets of this part would be.
-    let is_elsewhere =
-        it.interact_rect.is_positive() && !ui.clip_rect().intersects(it.interact_rect);
+    let is_elsewhere = it.interact_rect.is_positive() && !ui.clip_rect().intersects(it.interact_rect);
     if it.gained_focus() && ui.min_rect().contains_rect(it.rect) && !is_elsewhere {
         ui.scroll_to_rect(it.rect, None);
     }
@@ -267,13 +266,8 @@ pub(crate) fn list_row_at(
     }
     let visuals = ui.style().interact_selectable(&response, chosen);
     if chosen || response.hovered() || response.has_focus() {
-        ui.painter().rect(
-            rect,
-            5.0,
-            visuals.weak_bg_fill,
-            visuals.bg_stroke,
-            StrokeKind::Inside,
-        );
+        ui.painter()
+            .rect(rect, 5.0, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let left = rect.left() + 8.0 + lead;
@@ -282,20 +276,15 @@ pub(crate) fn list_row_at(
         let text = RichText::new(text).color(colour);
         let cut = Some(TextWrapMode::Truncate);
         let galley = WidgetText::from(text).into_galley(ui, cut, width, style);
-        let at = y.anchor_size(pos2(left, rect.center().y), galley.size());
-        painter.galley(at.min, galley, colour);
+        let text_rect = y.anchor_size(pos2(left, rect.center().y), galley.size());
+        painter.galley(text_rect.min, galley, colour);
     };
     let colour = visuals.text_color();
     if about.is_empty() {
         put(name, TextStyle::Body, colour, Align2::LEFT_CENTER);
     } else {
         put(name, TextStyle::Body, colour, Align2::LEFT_BOTTOM);
-        put(
-            about,
-            TextStyle::Small,
-            colour.gamma_multiply(0.75),
-            Align2::LEFT_TOP,
-        );
+        put(about, TextStyle::Small, colour.gamma_multiply(0.75), Align2::LEFT_TOP);
     }
     response
 }

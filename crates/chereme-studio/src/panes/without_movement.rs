@@ -2,14 +2,14 @@
 
 use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
 use crate::panes::recombine::recipe_of;
-use crate::words::{fill, library as words};
+use crate::words::{fill_text_braces, library as words};
 
 /// The reason why a sign has no recorded movement.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Bare {
+pub(crate) enum MovementAbsence {
     /// It is coded, or only named.
     Coded,
     /// It is notated and is being animated.
@@ -21,38 +21,37 @@ pub(crate) enum Bare {
 }
 
 /// In a list lower than this, in points, the panel has only one line.
-const LOW: f32 = 300.0;
+const LOW_LIST_HEIGHT_POINTS: f32 = 300.0;
 
 /// Shows the state of a sign's movement, and the possible actions.
-pub(crate) fn show(
+pub(crate) fn show_movement_absence(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
     (token, gloss): (i64, &str),
-    bare: &Bare,
+    bare: &MovementAbsence,
 ) {
     // The panel is below the list, so that the list does not move.
     let frame = Frame::new().inner_margin(Margin::symmetric(0, 6));
     let id = ui.scope_id().with("bare");
-    let low = ui.available_height() < LOW;
+    let low = ui.available_height() < LOW_LIST_HEIGHT_POINTS;
     Panel::bottom(id).frame(frame).show(ui, |ui| {
-        let text = match bare {
-            Bare::Coded => words::ONLY_CODED,
-            Bare::Making => words::ANIMATING,
-            Bare::Failed(_) => words::NOT_ANIMATED,
-            Bare::Animated => words::ANIMATED,
+        let bare_text = match bare {
+            MovementAbsence::Coded => words::ONLY_CODED,
+            MovementAbsence::Making => words::ANIMATING,
+            MovementAbsence::Failed(_) => words::NOT_ANIMATED,
+            MovementAbsence::Animated => words::ANIMATED,
         };
-        let text = fill(seen.say(text), &[("gloss", &gloss)]);
+        let text = fill_text_braces(seen.say_text(bare_text), &[("gloss", &gloss)]);
         let why = match bare {
-            Bare::Failed(why) => why.as_str(),
+            MovementAbsence::Failed(why) => why.as_str(),
             _ => "",
         };
         if low {
             ui.horizontal(|ui| {
-                offers(ui, seen, out, (token, gloss), bare);
-                let whole = format!("{text}\n{why}");
-                ui.add(Label::new(&text).truncate())
-                    .on_hover_text(whole.trim_end());
+                show_absence_actions(ui, seen, out, (token, gloss), bare);
+                let full_text = format!("{text}\n{why}");
+                ui.add(Label::new(&text).truncate()).on_hover_text(full_text.trim_end());
             });
             return;
         }
@@ -60,32 +59,32 @@ pub(crate) fn show(
         if !why.is_empty() {
             ui.label(RichText::new(why).small().weak());
         }
-        ui.horizontal_wrapped(|ui| offers(ui, seen, out, (token, gloss), bare));
+        ui.horizontal_wrapped(|ui| show_absence_actions(ui, seen, out, (token, gloss), bare));
     });
 }
 
 /// Shows the possible actions.
-fn offers(
+fn show_absence_actions(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
     (token, gloss): (i64, &str),
-    bare: &Bare,
+    bare: &MovementAbsence,
 ) {
     let (name, recipe) = match bare {
-        Bare::Making => return,
-        Bare::Animated => {
+        MovementAbsence::Making => return,
+        MovementAbsence::Animated => {
             let recipe = recipe_of(&seen.snapshot.overview, token, gloss);
             (words::TO_RECIPE, recipe)
         }
-        Bare::Coded | Bare::Failed(_) => (words::MAKE, String::new()),
+        MovementAbsence::Coded | MovementAbsence::Failed(_) => (words::MAKE, String::new()),
     };
-    if ui.button(seen.say(name)).clicked() {
+    if ui.button(seen.say_text(name)).clicked() {
         let gloss = gloss.to_owned();
-        out.send(Command::Make { recipe, gloss });
+        out.send_command(WindowCommand::Make { recipe, gloss });
     }
-    if *bare != Bare::Animated && ui.button(seen.say(words::ALIKE)).clicked() {
+    if *bare != MovementAbsence::Animated && ui.button(seen.say_text(words::ALIKE)).clicked() {
         let query = format!("like token:{token} not origin=lexicon");
-        out.send(Command::Find(query));
+        out.send_command(WindowCommand::Find(query));
     }
 }

@@ -6,32 +6,31 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use chereme_corpus::value_pictures::Panel;
-use chereme_figure::Theme;
-use chereme_sign::Inventory;
+use chereme_corpus::value_pictures::PlacePanel;
+use chereme_figure::PaperTheme;
+use chereme_sign::ComponentInventory;
 use eframe::egui::{
-    Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions, Vec2,
-    pos2, vec2,
+    Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2, vec2,
 };
 
-use super::places::{self, Zone};
+use super::pickers_places::{self, PanelZone};
 
 /// Half of the least distance between the middles of two areas, in points.
-const RADIUS: f32 = 9.0;
+const MIN_AREA_RADIUS_POINTS: f32 = 9.0;
 /// How far an area extends on the body, on the head and its surroundings, and off the body, as a share of the picture's height.
-const REACH: f32 = 0.2;
+const BODY_AREA_REACH_SHARE: f32 = 0.2;
 const ON_HEAD: f32 = 0.11;
-const OFF: f32 = 0.05;
+const OFF_BODY_REACH_SHARE: f32 = 0.05;
 /// The same in the picture of the space, which has no body to fill.
 const IN_SPACE: f32 = 0.1;
 /// Width of a pixel of the area grid, in points.
-const GRAIN: f32 = 1.5;
+const AREA_GRAIN_POINTS: f32 = 1.5;
 
 /// The areas of a picture.
 #[derive(Debug)]
-pub(super) struct Areas {
+pub(super) struct PictureAreas {
     /// The places; number `n` in `ids` is the place at index `n - 1`.
-    pub(super) zones: Vec<Zone>,
+    pub(super) zones: Vec<PanelZone>,
     size: [usize; 2],
     /// For each pixel, the number of its area; 0 for none.
     ids: Vec<u8>,
@@ -41,49 +40,50 @@ pub(super) struct Areas {
 
 /// The request for areas: the panel and its direction of view, the places, and the size in points.
 #[derive(Debug, Clone)]
-pub(super) struct Wanted {
-    pub(super) view: (Panel, bool),
+pub(super) struct WantedAreas {
+    pub(super) view: (PlacePanel, bool),
     pub(super) values: Vec<usize>,
     pub(super) size: Vec2,
 }
 
-impl Areas {
+impl PictureAreas {
     /// Computes the areas; too slow for the window's thread. `None` if there is no picture.
-    fn find(inventory: &Inventory, wanted: &Wanted) -> Option<Self> {
-        let scene = places::scene()?;
+    fn compute_picture_areas(inventory: &ComponentInventory, wanted: &WantedAreas) -> Option<Self> {
+        let scene = pickers_places::load_body_scene()?;
         let rect = Rect::from_min_size(Pos2::ZERO, wanted.size);
         let values = scene.in_sight(inventory, &wanted.values, wanted.view);
-        let zones = places::zones(scene, inventory, &values, wanted.view, rect, RADIUS);
-        let size = [wanted.size.x, wanted.size.y].map(|side| ((side / GRAIN) as usize).max(1));
-        let picture = scene.draw(wanted.view.0, wanted.view.1, size, Theme::Light)?;
-        let paper = Theme::Light.background();
-        let body: Vec<bool> = picture.pixels().iter().map(|it| *it != paper).collect();
-        Some(Self::of(zones, &body, size, wanted))
+        let zones =
+            pickers_places::place_panel_zones(scene, inventory, &values, wanted.view, rect, MIN_AREA_RADIUS_POINTS);
+        let size = [wanted.size.x, wanted.size.y].map(|side| ((side / AREA_GRAIN_POINTS) as usize).max(1));
+        let picture = scene.draw_body_panel(wanted.view.0, wanted.view.1, size, PaperTheme::Light)?;
+        let paper = PaperTheme::Light.theme_paper_colour();
+        let body: Vec<bool> = picture.image_pixels().iter().map(|pixel| *pixel != paper).collect();
+        Some(Self::areas_from_zones(zones, &body, size, wanted))
     }
 
     /// Returns the areas around the middles of `zones`; `body` marks the pixels that show the body.
-    fn of(mut zones: Vec<Zone>, body: &[bool], size: [usize; 2], wanted: &Wanted) -> Self {
+    fn areas_from_zones(mut zones: Vec<PanelZone>, body: &[bool], size: [usize; 2], wanted: &WantedAreas) -> Self {
         zones.truncate(usize::from(u8::MAX));
         let high = wanted.size.y;
-        let off = (OFF * high).max(RADIUS);
+        let off = (OFF_BODY_REACH_SHARE * high).max(MIN_AREA_RADIUS_POINTS);
         let (on, off) = match wanted.view.0 {
-            Panel::Space => (IN_SPACE * high, IN_SPACE * high),
+            PlacePanel::Space => (IN_SPACE * high, IN_SPACE * high),
             // Below the chin the body goes on, which the picture of the trunk shows.
-            Panel::Head => (ON_HEAD * high, off),
-            Panel::Trunk | Panel::Hand => (REACH * high, off),
+            PlacePanel::Head => (ON_HEAD * high, off),
+            PlacePanel::Trunk | PlacePanel::Hand => (BODY_AREA_REACH_SHARE * high, off),
         };
         let mut ids = vec![0; body.len()];
         let mut bounds = vec![[usize::MAX, usize::MAX, 0, 0]; zones.len()];
         for (at, (id, shown)) in ids.iter_mut().zip(body).enumerate() {
             let (column, row) = (at % size[0], at / size[0]);
-            let point = pos2(column as f32 + 0.5, row as f32 + 0.5) * GRAIN;
+            let point = pos2(column as f32 + 0.5, row as f32 + 0.5) * AREA_GRAIN_POINTS;
             let nearest = zones
                 .iter()
                 .enumerate()
                 .map(|(nth, zone)| (zone.centre.distance_sq(point), nth))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             let reach = if *shown { on } else { off };
-            let Some((_, nth)) = nearest.filter(|it| it.0 <= reach * reach) else {
+            let Some((_, nth)) = nearest.filter(|candidate| candidate.0 <= reach * reach) else {
                 continue;
             };
             *id = nth as u8 + 1;
@@ -104,7 +104,7 @@ impl Areas {
     }
 
     /// Returns the index of the zone at a point of the picture, which fills `rect`.
-    pub(super) fn at(&self, rect: Rect, point: Pos2) -> Option<usize> {
+    pub(super) fn zone_index_at(&self, rect: Rect, point: Pos2) -> Option<usize> {
         let share = (point - rect.min) / rect.size();
         let column = (share.x * self.size[0] as f32).floor();
         let row = (share.y * self.size[1] as f32).floor();
@@ -117,16 +117,16 @@ impl Areas {
     }
 
     /// Returns a picture of all areas: faint fillings, and lines between them.
-    fn all(&self, colour: Color32) -> ColorImage {
+    fn draw_all_areas(&self, colour: Color32) -> ColorImage {
         let [wide, high] = self.size;
         let id = |column: usize, row: usize| self.ids[row * wide + column];
         let pixel = |at: usize| {
             let (column, row) = (at % wide, at / wide);
-            let own = id(column, row);
+            let own_id = id(column, row);
             let right = id((column + 1).min(wide - 1), row);
             let below = id(column, (row + 1).min(high - 1));
-            let line = own != right || own != below;
-            match (line, own) {
+            let line = own_id != right || own_id != below;
+            match (line, own_id) {
                 (true, _) => colour.gamma_multiply(0.55),
                 (false, 0) => Color32::TRANSPARENT,
                 (false, _) => colour.gamma_multiply(0.1),
@@ -136,26 +136,26 @@ impl Areas {
     }
 
     /// Returns a picture of one area, and its rectangle as shares of the whole picture.
-    fn one(&self, zone: usize, colour: Color32) -> Option<(ColorImage, Rect)> {
+    fn draw_one_area(&self, zone: usize, colour: Color32) -> Option<(ColorImage, Rect)> {
         let [left, top, right, bottom] = *self.bounds.get(zone)?;
         if left > right || top > bottom {
             return None;
         }
         let size = [right - left + 1, bottom - top + 1];
-        let own = zone as u8 + 1;
+        let zone_id = zone as u8 + 1;
         let pixel = |at: usize| {
             let place = (top + at / size[0]) * self.size[0] + left + at % size[0];
-            if self.ids[place] == own {
+            if self.ids[place] == zone_id {
                 colour
             } else {
                 Color32::TRANSPARENT
             }
         };
         let image = ColorImage::new(size, (0..size[0] * size[1]).map(pixel).collect());
-        let whole = vec2(self.size[0] as f32, self.size[1] as f32);
+        let full_size = vec2(self.size[0] as f32, self.size[1] as f32);
         let part = Rect::from_min_size(
-            (vec2(left as f32, top as f32) / whole).to_pos2(),
-            vec2(size[0] as f32, size[1] as f32) / whole,
+            (vec2(left as f32, top as f32) / full_size).to_pos2(),
+            vec2(size[0] as f32, size[1] as f32) / full_size,
         );
         Some((image, part))
     }
@@ -163,32 +163,29 @@ impl Areas {
 
 /// The computed areas, and their pictures.
 #[derive(Default)]
-struct Atlas {
+struct AreaAtlas {
     /// `None` while the areas are being computed.
-    areas: BTreeMap<u64, Option<Arc<Areas>>>,
-    textures: BTreeMap<(u64, usize, Rgba), (TextureHandle, Rect)>,
+    areas: BTreeMap<u64, Option<Arc<PictureAreas>>>,
+    textures: BTreeMap<(u64, usize, RgbaKey), (TextureHandle, Rect)>,
 }
 
 /// A colour as a map key: red, green, blue and opacity.
-type Rgba = [u8; 4];
+type RgbaKey = [u8; 4];
 
-fn atlas(ctx: &Context) -> Arc<Mutex<Atlas>> {
+fn atlas(ctx: &Context) -> Arc<Mutex<AreaAtlas>> {
     ctx.data_mut(|data| {
-        data.get_temp_mut_or_insert_with(
-            Id::unique("atlas of places"),
-            Arc::<Mutex<Atlas>>::default,
-        )
-        .clone()
+        data.get_temp_mut_or_insert_with(Id::unique("atlas of places"), Arc::<Mutex<AreaAtlas>>::default)
+            .clone()
     })
 }
 
 /// Returns the areas of that key once they are computed; the first call starts the computation.
-pub(super) fn find(
+pub(super) fn find_computed_areas(
     ctx: &Context,
     key: u64,
-    inventory: &Inventory,
-    wanted: &Wanted,
-) -> Option<Arc<Areas>> {
+    inventory: &ComponentInventory,
+    wanted: &WantedAreas,
+) -> Option<Arc<PictureAreas>> {
     let shared = atlas(ctx);
     let mut atlas = shared.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = atlas.areas.get(&key) {
@@ -198,7 +195,7 @@ pub(super) fn find(
     drop(atlas);
     let (ctx, inventory, wanted) = (ctx.clone(), inventory.clone(), wanted.clone());
     std::thread::spawn(move || {
-        if let Some(areas) = Areas::find(&inventory, &wanted) {
+        if let Some(areas) = PictureAreas::compute_picture_areas(&inventory, &wanted) {
             let mut atlas = shared.lock().unwrap_or_else(PoisonError::into_inner);
             atlas.areas.insert(key, Some(Arc::new(areas)));
             drop(atlas);
@@ -209,9 +206,9 @@ pub(super) fn find(
 }
 
 /// Paints all areas, or one of them, over the picture in `rect`.
-pub(super) fn paint(
+pub(super) fn paint_picture_areas(
     painter: &Painter,
-    (key, areas): (u64, &Areas),
+    (key, areas): (u64, &PictureAreas),
     zone: Option<usize>,
     colour: Color32,
     rect: Rect,
@@ -222,10 +219,10 @@ pub(super) fn paint(
     let (texture, part) = match atlas.textures.entry(name) {
         Entry::Occupied(known) => known.into_mut(),
         Entry::Vacant(free) => {
-            let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+            let full_uv = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
             let drawn = match zone {
-                None => Some((areas.all(colour), whole)),
-                Some(zone) => areas.one(zone, colour),
+                None => Some((areas.draw_all_areas(colour), full_uv)),
+                Some(zone) => areas.draw_one_area(zone, colour),
             };
             let Some((image, part)) = drawn else { return };
             let ctx = painter.ctx();
@@ -237,8 +234,8 @@ pub(super) fn paint(
         rect.min + part.min.to_vec2() * rect.size(),
         rect.min + part.max.to_vec2() * rect.size(),
     );
-    let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-    painter.image(texture.id(), place, whole, Color32::WHITE);
+    let full_uv = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+    painter.image(texture.id(), place, full_uv, Color32::WHITE);
 }
 
 #[cfg(test)]
@@ -250,37 +247,38 @@ mod tests {
     fn every_visible_place_has_its_own_area_under_the_pointer() {
         let inventory = builtin_by_id("placements").expect("of the house");
         for (panel, turned) in [
-            (Panel::Head, false),
-            (Panel::Head, true),
-            (Panel::Trunk, false),
-            (Panel::Hand, false),
+            (PlacePanel::Head, false),
+            (PlacePanel::Head, true),
+            (PlacePanel::Trunk, false),
+            (PlacePanel::Hand, false),
         ] {
             let values: Vec<usize> = (0..inventory.values.len())
                 .filter(|at| {
                     let value = &inventory.values[*at];
                     let landmark = value.landmark.as_ref();
-                    landmark.map(Panel::of) == Some(panel) && !places::is_part(inventory, &value.id)
+                    landmark.map(PlacePanel::panel_of_landmark) == Some(panel)
+                        && !pickers_places::is_part(inventory, &value.id)
                 })
                 .collect();
             let high = 330.0;
-            let size = vec2(high * panel.aspect(), high);
-            let wanted = Wanted {
+            let size = vec2(high * panel.panel_aspect_ratio(), high);
+            let wanted = WantedAreas {
                 view: (panel, turned),
                 values,
                 size,
             };
-            let areas = Areas::find(inventory, &wanted).expect("areas");
+            let areas = PictureAreas::compute_picture_areas(inventory, &wanted).expect("areas");
             assert!(areas.zones.len() > 3, "{panel:?} {turned}");
             let rect = Rect::from_min_size(pos2(30.0, 20.0), size);
             for (nth, zone) in areas.zones.iter().enumerate() {
                 let id = &inventory.values[zone.value].id;
                 let at = rect.min + zone.centre.to_vec2();
-                assert_eq!(areas.at(rect, at), Some(nth), "{panel:?} {turned} {id}");
+                assert_eq!(areas.zone_index_at(rect, at), Some(nth), "{panel:?} {turned} {id}");
                 let own = nth as u8 + 1;
                 let pixels = areas.ids.iter().filter(|it| **it == own).count();
                 assert!(pixels > 80, "{panel:?} {turned} {id}: {pixels} pixels");
             }
-            assert_eq!(areas.at(rect, pos2(0.0, 0.0)), None);
+            assert_eq!(areas.zone_index_at(rect, pos2(0.0, 0.0)), None);
         }
     }
 }

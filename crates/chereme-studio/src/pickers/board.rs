@@ -1,86 +1,85 @@
 //! The board of all HamNoSys symbols, to write a notation by picking.
 
-use chereme_sign::hamnosys::{Class, Symbol};
+use chereme_sign::hamnosys::{HamnosysSymbol, SymbolClass};
 use eframe::egui::{
-    Id, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Sense, StrokeKind, TextEdit, Ui,
-    WidgetInfo, vec2,
+    Id, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Sense, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
 };
 
-use super::hamnosys::{drawings, explain, paint, short};
+use super::pickers_hamnosys::{all_symbol_drawings, explain_hamnosys_symbol, paint_hamnosys_symbol, short_symbol_name};
 use crate::context::PaneInput;
-use crate::script::edit;
-use crate::words::{Language, hamnosys as words};
+use crate::script::script_edit;
+use crate::words::{InterfaceLanguage, hamnosys_words as words};
 
 /// The side of a symbol's cell, and the height of the symbol in it, in points.
-const CELL: f32 = 36.0;
-const EM: f32 = 24.0;
+const SYMBOL_CELL_SIZE_POINTS: f32 = 36.0;
+const SYMBOL_CELL_EM_POINTS: f32 = 24.0;
 
 /// Draws the button that opens the board; returns whether a symbol was added to `text` or removed from it.
-pub(crate) fn button(ui: &mut Ui, seen: &PaneInput<'_>, text: &mut String) -> bool {
-    let response = ui.button(seen.say(words::BOARD));
+pub(crate) fn draw_symbol_board_button(ui: &mut Ui, seen: &PaneInput<'_>, text: &mut String) -> bool {
+    let response = ui.button(seen.say_text(words::BOARD));
     let screen = ui.ctx().content_rect().size();
     let filter = response.id.with("filter");
     let popup = Popup::from_toggle_button_response(&response)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
-        .accessible_name(seen.say(words::BOARD));
+        .accessible_name(seen.say_text(words::BOARD));
     let shown = popup.show(|ui| {
-        ui.set_width((13.0 * (CELL + 4.0) + 12.0).min(screen.x - 48.0));
+        ui.set_width((13.0 * (SYMBOL_CELL_SIZE_POINTS + 4.0) + 12.0).min(screen.x - 48.0));
         ui.set_max_height((screen.y - 120.0).min(440.0));
         board(ui, seen, filter, response.clicked(), text)
     });
-    shown.is_some_and(|it| it.inner)
+    shown.is_some_and(|popup| popup.inner)
 }
 
 fn board(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, fresh: bool, text: &mut String) -> bool {
     let mut typed: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    let hint = seen.say(words::FIND);
+    let hint = seen.say_text(words::FIND);
     let mut changed = false;
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
-        let field = TextEdit::singleline(&mut typed)
+        let text_edit = TextEdit::singleline(&mut typed)
             .id(id.with("field"))
             .hint_text(hint)
             .desired_width(width);
-        let field = edit::edged(ui, |ui| ui.add(field));
+        let field = script_edit::draw_with_text_edge(ui, |ui| ui.add(text_edit));
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, hint));
         if fresh {
             field.request_focus();
         }
-        changed = ui.button(seen.say(words::TAKE_BACK)).clicked() && take_back(text);
+        changed = ui.button(seen.say_text(words::TAKE_BACK)).clicked() && take_back(text);
         let enter = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        if let Some(symbol) = fitting(&typed, seen.language)
+        if let Some(symbol) = find_matching_symbols(&typed, seen.language)
             .first()
             .filter(|_| enter && !typed.is_empty())
         {
-            add(text, *symbol);
+            append_symbol_text(text, *symbol);
             typed.clear();
             changed = true;
             field.request_focus();
         }
     });
-    let all = fitting(&typed, seen.language);
+    let all = find_matching_symbols(&typed, seen.language);
     if all.is_empty() {
-        ui.label(seen.say(words::NO_SYMBOL));
+        ui.label(seen.say_text(words::NO_SYMBOL));
     }
     ScrollArea::vertical()
         .id_salt("symbols")
         .auto_shrink([false, true])
         .show(ui, |ui| {
-            for (class, title) in words::CLASSES {
-                let symbols: Vec<Symbol> = all
+            for (class, title) in words::SYMBOL_CLASS_TITLES {
+                let symbols: Vec<HamnosysSymbol> = all
                     .iter()
                     .copied()
-                    .filter(|it| it.class() == class)
+                    .filter(|symbol| symbol.symbol_class() == class)
                     .collect();
                 if symbols.is_empty() {
                     continue;
                 }
-                ui.weak(seen.say(title));
+                ui.weak(seen.say_text(title));
                 ui.horizontal_wrapped(|ui| {
                     ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
                     for symbol in symbols {
-                        if cell(ui, seen, symbol) {
-                            add(text, symbol);
+                        if draw_symbol_cell(ui, seen, symbol) {
+                            append_symbol_text(text, symbol);
                             changed = true;
                         }
                     }
@@ -91,46 +90,44 @@ fn board(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, fresh: bool, text: &mut Stri
     changed
 }
 
-fn cell(ui: &mut Ui, seen: &PaneInput<'_>, symbol: Symbol) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(CELL, CELL), Sense::click());
-    let meaning = words::meaning(short(symbol), seen.language).unwrap_or_default();
-    response.widget_info(|| {
-        WidgetInfo::labeled(Role::Button, true, format!("{}: {meaning}", short(symbol)))
-    });
-    let visuals = ui.style().interact(&response);
-    ui.painter().rect(
-        rect,
-        4.0,
-        visuals.weak_bg_fill,
-        visuals.bg_stroke,
-        StrokeKind::Inside,
-    );
-    let wide = drawings().get(&symbol).map_or(0.0, |it| it.width * EM);
-    paint(ui, rect.center() - vec2(wide, EM) / 2.0, EM, symbol);
+fn draw_symbol_cell(ui: &mut Ui, seen: &PaneInput<'_>, symbol: HamnosysSymbol) -> bool {
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(SYMBOL_CELL_SIZE_POINTS, SYMBOL_CELL_SIZE_POINTS), Sense::click());
+    let meaning = words::symbol_meaning(short_symbol_name(symbol), seen.language).unwrap_or_default();
     response
-        .on_hover_ui(|ui| explain(ui, seen, symbol))
+        .widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{}: {meaning}", short_symbol_name(symbol))));
+    let visuals = ui.style().interact(&response);
+    ui.painter()
+        .rect(rect, 4.0, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
+    let wide = all_symbol_drawings()
+        .get(&symbol)
+        .map_or(0.0, |drawing| drawing.width * SYMBOL_CELL_EM_POINTS);
+    paint_hamnosys_symbol(
+        ui,
+        rect.center() - vec2(wide, SYMBOL_CELL_EM_POINTS) / 2.0,
+        SYMBOL_CELL_EM_POINTS,
+        symbol,
+    );
+    response
+        .on_hover_ui(|ui| explain_hamnosys_symbol(ui, seen, symbol))
         .clicked()
 }
 
 /// Returns the symbols whose name or meaning contains the typed text; names that begin with it come first.
-fn fitting(typed: &str, language: Language) -> Vec<Symbol> {
-    let typed = typed.trim().to_lowercase();
-    let typed = typed.strip_prefix("ham").unwrap_or(&typed);
-    let rank = |symbol: &Symbol| {
-        let name = short(*symbol);
-        let meaning = || {
-            words::meaning(name, language)
-                .unwrap_or_default()
-                .to_lowercase()
-        };
+fn find_matching_symbols(typed: &str, language: InterfaceLanguage) -> Vec<HamnosysSymbol> {
+    let lower_text = typed.trim().to_lowercase();
+    let typed = lower_text.strip_prefix("ham").unwrap_or(&lower_text);
+    let rank = |symbol: &HamnosysSymbol| {
+        let name = short_symbol_name(*symbol);
+        let meaning = || words::symbol_meaning(name, language).unwrap_or_default().to_lowercase();
         match name.find(typed) {
             Some(0) => Some(0),
             Some(_) => Some(1),
             None => meaning().contains(typed).then_some(2),
         }
     };
-    let mut all: Vec<(u8, Symbol)> = Symbol::all()
-        .filter(|symbol| symbol.class() != Class::Punctuation)
+    let mut all: Vec<(u8, HamnosysSymbol)> = HamnosysSymbol::all_symbols()
+        .filter(|symbol| symbol.symbol_class() != SymbolClass::Punctuation)
         .filter_map(|symbol| Some((rank(&symbol)?, symbol)))
         .collect();
     all.sort_by_key(|(rank, _)| *rank);
@@ -138,15 +135,15 @@ fn fitting(typed: &str, language: Language) -> Vec<Symbol> {
 }
 
 /// Appends a symbol: as a character if the text contains symbol characters, else by its name.
-fn add(text: &mut String, symbol: Symbol) {
+fn append_symbol_text(text: &mut String, symbol: HamnosysSymbol) {
     if text.chars().any(is_symbol) {
-        text.push(symbol.char());
+        text.push(symbol.symbol_char());
         return;
     }
     if !text.is_empty() && !text.ends_with(' ') {
         text.push(' ');
     }
-    text.push_str(symbol.name());
+    text.push_str(symbol.symbol_name());
 }
 
 /// Removes the last symbol; returns whether there was one.
@@ -172,8 +169,7 @@ mod tests {
 
     #[test]
     fn symbols_are_added_to_the_text_and_removed_again() {
-        let [fist, up] =
-            ["fist", "extfingeru"].map(|name| Symbol::from_name(name).expect("a symbol"));
+        let [fist, up] = ["fist", "extfingeru"].map(|name| HamnosysSymbol::from_symbol_name(name).expect("a symbol"));
         for (before, after) in [
             ("", "hamfist"),
             ("hamextfingeru", "hamextfingeru hamfist"),
@@ -181,37 +177,43 @@ mod tests {
             ("\u{e020}", "\u{e020}\u{e000}"),
         ] {
             let mut text = before.to_owned();
-            add(&mut text, fist);
+            append_symbol_text(&mut text, fist);
             assert_eq!(text, after);
             assert!(take_back(&mut text));
             assert_eq!(text, before.trim_end());
         }
         let mut none = String::new();
         assert!(!take_back(&mut none));
-        add(&mut none, up);
+        append_symbol_text(&mut none, up);
         assert_eq!(none, "hamextfingeru");
     }
 
     #[test]
     fn symbols_are_found_by_name_and_by_meaning() {
-        assert_eq!(fitting("chin", Language::English)[0].name(), "hamchin");
-        assert_eq!(fitting("hamchin", Language::English)[0].name(), "hamchin");
-        let french: Vec<_> = fitting("menton", Language::French)
+        assert_eq!(
+            find_matching_symbols("chin", InterfaceLanguage::English)[0].symbol_name(),
+            "hamchin"
+        );
+        assert_eq!(
+            find_matching_symbols("hamchin", InterfaceLanguage::English)[0].symbol_name(),
+            "hamchin"
+        );
+        let french: Vec<_> = find_matching_symbols("menton", InterfaceLanguage::French)
             .iter()
-            .map(|it| it.name())
+            .map(|it| it.symbol_name())
             .collect();
         assert!(french.contains(&"hamchin"), "{french:?}");
-        assert_eq!(fitting("", Language::English).len(), 209 - 9);
-        assert!(fitting("nothing such", Language::English).is_empty());
+        assert_eq!(find_matching_symbols("", InterfaceLanguage::English).len(), 209 - 9);
+        assert!(find_matching_symbols("nothing such", InterfaceLanguage::English).is_empty());
     }
 
     #[test]
     fn every_symbol_has_a_class_with_a_title() {
-        for symbol in Symbol::all().filter(|it| it.class() != Class::Punctuation) {
+        for symbol in HamnosysSymbol::all_symbols().filter(|it| it.symbol_class() != SymbolClass::Punctuation) {
             assert!(
-                words::CLASSES
+                words::SYMBOL_CLASS_TITLES
                     .iter()
-                    .any(|(class, _)| *class == symbol.class()),
+                    .any(|(class, _)| *class == symbol.symbol_class()),
                 "{symbol}"
             );
         }

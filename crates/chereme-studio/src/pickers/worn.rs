@@ -2,52 +2,52 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use chereme_figure::raster::Style;
+use chereme_figure::raster::FigureStyle;
 use chereme_figure::{HandshapeOptions, handshape_picture};
 use chereme_motion::HandAngles;
 use eframe::egui::{Color32, Id, Pos2, Rect, TextureHandle, TextureOptions, Ui, pos2};
 
-use super::paint;
+use super::pickers_paint;
 
 /// The share of the difference to a handshape that is left after a second.
-const LEFT: f64 = 1e-9;
+const ANGLE_LEFT_PER_SECOND: f64 = 1e-9;
 /// Largest angle difference to the handshape at which the hand stops moving, in radians.
-const NEAR: f64 = 0.02;
+const HAND_STOP_ANGLE_RADIANS: f64 = 0.02;
 /// The largest side of the picture, in pixels.
-const MOST: f32 = 220.0;
+const MAX_PREVIEW_HAND_PIXELS: f32 = 220.0;
 
 /// The present state of the preview hand.
 #[derive(Default)]
-struct Worn {
-    angles: Option<[f64; HandAngles::LEN]>,
+struct PreviewHandState {
+    angles: Option<[f64; HandAngles::HAND_ANGLE_COUNT]>,
     drawn: Option<(bool, usize)>,
     texture: Option<TextureHandle>,
 }
 
 /// Shows the hand on its way to the posture `target`.
-pub(super) fn show(ui: &Ui, rect: Rect, dark: bool, target: &HandAngles) {
+pub(super) fn show_preview_hand(ui: &Ui, rect: Rect, dark: bool, target: &HandAngles) {
     let shared = ui.ctx().data_mut(|data| {
-        data.get_temp_mut_or_insert_with(Id::unique("worn hand"), Arc::<Mutex<Worn>>::default)
+        data.get_temp_mut_or_insert_with(Id::unique("worn hand"), Arc::<Mutex<PreviewHandState>>::default)
             .clone()
     });
     let mut worn = shared.lock().unwrap_or_else(PoisonError::into_inner);
     let target = target.to_array();
     let step = f64::from(ui.input(|input| input.stable_dt)).min(0.1);
-    let (angles, moved) = turned(worn.angles, target, step);
+    let (angles, moved) = turn_hand_angles(worn.angles, target, step);
     let pixels = rect.size().min_elem() * ui.ctx().pixels_per_point();
-    let wanted = (dark, pixels.clamp(48.0, MOST) as usize);
+    let wanted = (dark, pixels.clamp(48.0, MAX_PREVIEW_HAND_PIXELS) as usize);
     if moved || worn.drawn != Some(wanted) || worn.texture.is_none() {
-        let usual = HandshapeOptions::small(wanted.1);
+        let usual = HandshapeOptions::with_small_size(wanted.1);
         let options = HandshapeOptions {
-            style: Style {
-                theme: paint::theme(dark),
+            style: FigureStyle {
+                theme: pickers_paint::picture_theme(dark),
                 samples: 3,
                 ..usual.style
             },
             ..usual
         };
         if let Ok(image) = handshape_picture(&HandAngles::from_array(angles), &options) {
-            let image = paint::colour_image(&image);
+            let image = pickers_paint::colour_image(&image);
             match &mut worn.texture {
                 Some(texture) => texture.set(image, TextureOptions::LINEAR),
                 none => {
@@ -63,29 +63,28 @@ pub(super) fn show(ui: &Ui, rect: Rect, dark: bool, target: &HandAngles) {
         ui.ctx().request_repaint();
     }
     if let Some(texture) = &worn.texture {
-        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        ui.painter()
-            .image(texture.id(), rect, whole, Color32::WHITE);
+        let full_uv = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+        ui.painter().image(texture.id(), rect, full_uv, Color32::WHITE);
     }
 }
 
 /// Returns the angles `step` seconds later, and whether they differ from those before.
-fn turned(
-    now: Option<[f64; HandAngles::LEN]>,
-    target: [f64; HandAngles::LEN],
+fn turn_hand_angles(
+    now: Option<[f64; HandAngles::HAND_ANGLE_COUNT]>,
+    target: [f64; HandAngles::HAND_ANGLE_COUNT],
     step: f64,
-) -> ([f64; HandAngles::LEN], bool) {
+) -> ([f64; HandAngles::HAND_ANGLE_COUNT], bool) {
     let Some(mut angles) = now else {
         return (target, true);
     };
     if angles == target {
         return (angles, false);
     }
-    let share = 1.0 - LEFT.powf(step);
+    let share = 1.0 - ANGLE_LEFT_PER_SECOND.powf(step);
     let mut near = true;
     for (angle, target) in angles.iter_mut().zip(target) {
         *angle += (target - *angle) * share;
-        near &= (target - *angle).abs() < NEAR;
+        near &= (target - *angle).abs() < HAND_STOP_ANGLE_RADIANS;
     }
     (if near { target } else { angles }, true)
 }
@@ -96,11 +95,11 @@ mod tests {
 
     #[test]
     fn a_hand_reaches_its_shape_in_a_fifth_of_a_second_and_stays() {
-        let fist = [1.5; HandAngles::LEN];
-        let mut now = Some([0.0; HandAngles::LEN]);
+        let fist = [1.5; HandAngles::HAND_ANGLE_COUNT];
+        let mut now = Some([0.0; HandAngles::HAND_ANGLE_COUNT]);
         let mut frames = 0;
         loop {
-            let (angles, moved) = turned(now, fist, 1.0 / 60.0);
+            let (angles, moved) = turn_hand_angles(now, fist, 1.0 / 60.0);
             now = Some(angles);
             if !moved {
                 break;
@@ -110,6 +109,6 @@ mod tests {
         }
         assert_eq!(now, Some(fist));
         assert!(frames > 3, "it turns, and does not jump");
-        assert_eq!(turned(None, fist, 0.0), (fist, true));
+        assert_eq!(turn_hand_angles(None, fist, 0.0), (fist, true));
     }
 }

@@ -14,34 +14,33 @@ use std::sync::Arc;
 use eframe::egui::emath::GuiRounding;
 use eframe::egui::epaint::{ClippedShape, CornerRadiusF32, PathShape, RectShape, Vertex, WHITE_UV};
 use eframe::egui::{
-    Color32, Context, FullOutput, Mesh, Plugin, Pos2, Rect, Shape, Stroke, StrokeKind, TextureId,
-    pos2,
+    Color32, Context, FullOutput, Mesh, Plugin, Pos2, Rect, Shape, Stroke, StrokeKind, TextureId, pos2,
 };
 
-use surface::{Runs, Surface};
+use surface::{ColourRuns, PixelSurface};
 
 /// The most triangles of a batch: in larger batches, the software renderer checks only parts for rectangles.
-const AT_ONCE: usize = 340;
+const MAX_BATCH_TRIANGLES: usize = 340;
 /// How much egui enlarges the radius of rounded corners, in points.
-const ROUNDER: f32 = 0.4;
+const CORNER_ENLARGEMENT_POINTS: f32 = 0.4;
 
 /// The plugin that simplifies the shapes of a frame after all of it was painted.
-pub(crate) struct Plain;
+pub(crate) struct ShapeSimplifier;
 
-impl Plugin for Plain {
+impl Plugin for ShapeSimplifier {
     fn debug_name(&self) -> &'static str {
         "plain shapes"
     }
 
     fn output_hook(&mut self, _ctx: &Context, output: &mut FullOutput) {
         let shapes = std::mem::take(&mut output.shapes);
-        output.shapes = plain(shapes, output.pixels_per_point);
+        output.shapes = simplify_clipped_shapes(shapes, output.pixels_per_point);
     }
 }
 
 /// Returns the same picture with rectangles in place of shapes, as far as possible; `scale` is in pixels per point.
-fn plain(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
-    let mut sheet = Sheet {
+fn simplify_clipped_shapes(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
+    let mut sheet = RectangleSheet {
         scale,
         done: Vec::with_capacity(shapes.len()),
         mesh: Mesh::default(),
@@ -52,7 +51,7 @@ fn plain(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
     };
     for clipped in shapes {
         if clipped.transform_after_tessellation == Default::default() {
-            sheet.add(clipped.clip_rect, clipped.shape);
+            sheet.add_clipped_shape(clipped.clip_rect, clipped.shape);
         } else {
             sheet.flush();
             sheet.done.push(clipped);
@@ -62,7 +61,7 @@ fn plain(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
     sheet.done
 }
 
-struct Sheet {
+struct RectangleSheet {
     scale: f32,
     done: Vec<ClippedShape>,
     /// Collected rectangles that are not yet in `done`.
@@ -76,71 +75,71 @@ struct Sheet {
     aside: bool,
 }
 
-impl Sheet {
-    fn add(&mut self, clip: Rect, shape: Shape) {
+impl RectangleSheet {
+    fn add_clipped_shape(&mut self, clip: Rect, shape: Shape) {
         match shape {
             Shape::Noop => {}
             Shape::Vec(shapes) => {
                 for shape in shapes {
-                    self.add(clip, shape);
+                    self.add_clipped_shape(clip, shape);
                 }
             }
             Shape::Rect(rect) => match self.rectangle(clip, &rect) {
                 true => {}
-                false => self.keep(clip, Shape::Rect(rect), 150),
+                false => self.add_unchanged_shape(clip, Shape::Rect(rect), 150),
             },
-            Shape::LineSegment { points, stroke } => match self.line(clip, points, stroke) {
+            Shape::LineSegment { points, stroke } => match self.add_straight_line(clip, points, stroke) {
                 true => {}
-                false => self.keep(clip, Shape::LineSegment { points, stroke }, 20),
+                false => self.add_unchanged_shape(clip, Shape::LineSegment { points, stroke }, 20),
             },
-            Shape::Mesh(mesh) if mesh.indices.len() <= AT_ONCE * 3 => {
+            Shape::Mesh(mesh) if mesh.indices.len() <= MAX_BATCH_TRIANGLES * 3 => {
                 let count = mesh.indices.len() / 3;
-                self.keep(clip, Shape::Mesh(mesh), count);
-                self.pair(clip, count);
+                self.add_unchanged_shape(clip, Shape::Mesh(mesh), count);
+                self.pair_odd_triangles(clip, count);
             }
             Shape::Mesh(mesh) => {
-                for indices in mesh.indices.chunks(AT_ONCE * 3) {
-                    let part = part(&mesh, indices);
-                    self.keep(clip, Shape::mesh(part), indices.len() / 3);
+                for indices in mesh.indices.chunks(MAX_BATCH_TRIANGLES * 3) {
+                    let part = extract_partial_mesh(&mesh, indices);
+                    self.add_unchanged_shape(clip, Shape::mesh(part), indices.len() / 3);
                 }
-                self.pair(clip, mesh.indices.len() / 3);
+                self.pair_odd_triangles(clip, mesh.indices.len() / 3);
             }
             Shape::Text(text) => {
                 let count = text.galley.num_indices / 3;
-                self.keep(clip, Shape::Text(text), count);
+                self.add_unchanged_shape(clip, Shape::Text(text), count);
             }
             Shape::Path(path) => {
-                let odd = odd(&path);
+                let odd = has_odd_triangles(&path);
                 let count = path.points.len() * 7;
-                self.keep(clip, Shape::Path(path), count);
-                self.pair(clip, usize::from(odd));
+                self.add_unchanged_shape(clip, Shape::Path(path), count);
+                self.pair_odd_triangles(clip, usize::from(odd));
             }
-            shape => self.keep(clip, shape, 100),
+            shape => self.add_unchanged_shape(clip, shape, 100),
         }
     }
 
     /// Adds a shape unchanged.
-    fn keep(&mut self, clip: Rect, shape: Shape, count: usize) {
-        self.turn_to(clip, shape.texture_id(), count);
+    fn add_unchanged_shape(&mut self, clip: Rect, shape: Shape, count: usize) {
+        self.turn_to_batch(clip, shape.texture_id(), count);
         self.flush();
-        self.done.push(ClippedShape::new(self.place(), shape));
+        self.done.push(ClippedShape::new(self.batch_clip_rect(), shape));
     }
 
     /// Adds a triangle of no size after an odd number of triangles, so that the two of a rectangle stay a pair.
-    fn pair(&mut self, clip: Rect, count: usize) {
+    fn pair_odd_triangles(&mut self, clip: Rect, count: usize) {
         if count % 2 == 1 {
             let texture = self.texture;
-            let mesh = self.on(clip, texture, 1);
-            let at = mesh.vertices.len() as u32;
+            let mesh = self.rectangle_batch_mesh(clip, texture, 1);
+            let vertex_index = mesh.vertices.len() as u32;
             mesh.vertices.push(Vertex::default());
-            mesh.indices.extend([at; 3]);
+            mesh.indices.extend([vertex_index; 3]);
         }
     }
 
     /// Starts a batch, unless the shape can join the last one.
-    fn turn_to(&mut self, clip: Rect, texture: TextureId, count: usize) {
+    fn turn_to_batch(&mut self, clip: Rect, texture: TextureId, count: usize) {
         let same = clip == self.clip && texture == self.texture;
-        if !same || self.count + count > AT_ONCE {
+        if !same || self.count + count > MAX_BATCH_TRIANGLES {
             self.flush();
             self.aside = same && !self.aside;
             (self.clip, self.texture, self.count) = (clip, texture, 0);
@@ -148,33 +147,29 @@ impl Sheet {
         self.count += count;
     }
 
-    fn place(&self) -> Rect {
-        if self.aside {
-            self.clip.expand(1e-3)
-        } else {
-            self.clip
-        }
+    fn batch_clip_rect(&self) -> Rect {
+        if self.aside { self.clip.expand(1e-3) } else { self.clip }
     }
 
     fn flush(&mut self) {
         if !self.mesh.indices.is_empty() {
             let mesh = std::mem::take(&mut self.mesh);
             let shape = Shape::Mesh(Arc::new(mesh));
-            self.done.push(ClippedShape::new(self.place(), shape));
+            self.done.push(ClippedShape::new(self.batch_clip_rect(), shape));
         }
     }
 
     /// Returns the mesh that collects rectangles, with `count` triangles reserved in its batch.
-    fn on(&mut self, clip: Rect, texture: TextureId, count: usize) -> &mut Mesh {
-        self.turn_to(clip, texture, count);
+    fn rectangle_batch_mesh(&mut self, clip: Rect, texture: TextureId, count: usize) -> &mut Mesh {
+        self.turn_to_batch(clip, texture, count);
         self.mesh.texture_id = texture;
         &mut self.mesh
     }
 }
 
-impl Sheet {
+impl RectangleSheet {
     /// Adds a line if it is horizontal or vertical; returns whether it is.
-    fn line(&mut self, clip: Rect, [from, to]: [Pos2; 2], stroke: Stroke) -> bool {
+    fn add_straight_line(&mut self, clip: Rect, [from, to]: [Pos2; 2], stroke: Stroke) -> bool {
         let upright = from.x == to.x;
         let width = stroke.width * self.scale;
         if upright == (from.y == to.y) || width < 0.95 {
@@ -190,19 +185,15 @@ impl Sheet {
         let quarter = 0.25 / self.scale;
         let (low, high) = (end(low + quarter) - 0.5, end(high - quarter) + 0.5);
         let reach = (width + 1.0) / 2.0;
-        let mut runs = Runs::default();
+        let mut runs = ColourRuns::default();
         for at in (middle - reach).floor() as i32..(middle + reach).ceil() as i32 {
             let share = reach - (at as f32 + 0.5 - middle).abs();
-            runs.add(
-                at,
-                at + 1,
-                stroke.color.gamma_multiply(share.clamp(0.0, 1.0)),
-            );
+            runs.add_colour_run(at, at + 1, stroke.color.gamma_multiply(share.clamp(0.0, 1.0)));
         }
         for (left, right, colour) in runs.0 {
             let corners = [(left, low), (right, high)];
             let [min, max] = corners.map(|(x, y)| turned(pos2(x as f32, y) / self.scale));
-            let mesh = self.on(clip, TextureId::default(), 2);
+            let mesh = self.rectangle_batch_mesh(clip, TextureId::default(), 2);
             mesh.add_colored_rect(Rect::from_min_max(min, max), colour);
         }
         true
@@ -219,13 +210,13 @@ impl Sheet {
         }
         let pixel = 1.0 / self.scale;
         if !stroke.is_empty() {
-            let whole = match shape.stroke_kind {
+            let stroked_rect = match shape.stroke_kind {
                 StrokeKind::Inside => rect,
                 StrokeKind::Middle => rect.expand(stroke.width / 2.0),
                 StrokeKind::Outside => rect.expand(stroke.width),
             };
-            if whole.size().min_elem() <= 2.0 * stroke.width + 0.5 * pixel {
-                (rect, fill, stroke) = (whole, stroke.color, Stroke::NONE);
+            if stroked_rect.size().min_elem() <= 2.0 * stroke.width + 0.5 * pixel {
+                (rect, fill, stroke) = (stroked_rect, stroke.color, Stroke::NONE);
             }
         }
         if stroke.is_empty() && stroke.width > 0.0 || shape.brush.is_some() && !stroke.is_empty() {
@@ -237,12 +228,10 @@ impl Sheet {
             } else {
                 ([rect.left_center(), rect.right_center()], rect.height())
             };
-            return self.line(clip, ends, Stroke::new(width, fill));
+            return self.add_straight_line(clip, ends, Stroke::new(width, fill));
         }
         let rounded = match shape.stroke_kind {
-            StrokeKind::Middle if is_odd(stroke.width * self.scale) => {
-                rect.round_to_pixel_center(self.scale)
-            }
+            StrokeKind::Middle if is_odd(stroke.width * self.scale) => rect.round_to_pixel_center(self.scale),
             _ => rect.round_to_pixels(self.scale),
         };
         let beyond = match shape.stroke_kind {
@@ -251,36 +240,36 @@ impl Sheet {
             StrokeKind::Outside => stroke.width,
         };
         let outer = rounded.expand(beyond) * self.scale;
-        let whole = outer.round();
-        if (outer.min - whole.min).abs().max_elem() > 0.01 || !whole.is_positive() {
+        let pixel_rect = outer.round();
+        if (outer.min - pixel_rect.min).abs().max_elem() > 0.01 || !pixel_rect.is_positive() {
             return false;
         }
         let least = stroke.width + 0.1;
-        let radius = CornerRadiusF32::from(shape.corner_radius);
-        let radius = [radius.nw, radius.ne, radius.sw, radius.se].map(|it| match it {
+        let corner_radii = CornerRadiusF32::from(shape.corner_radius);
+        let radius = [corner_radii.nw, corner_radii.ne, corner_radii.sw, corner_radii.se].map(|corner| match corner {
             0.0 => 0.0,
-            it => (it + beyond + ROUNDER).max(least) * self.scale,
+            it => (it + beyond + CORNER_ENLARGEMENT_POINTS).max(least) * self.scale,
         });
-        let surface = Surface {
-            size: [whole.width(), whole.height()],
-            radius: radius.map(|it| it.min(whole.size().min_elem() / 2.0)),
+        let surface = PixelSurface {
+            size: [pixel_rect.width(), pixel_rect.height()],
+            radius: radius.map(|corner| corner.min(pixel_rect.size().min_elem() / 2.0)),
             width: stroke.width * self.scale,
             fill,
             edge: stroke.color,
         };
-        let texture = shape.brush.as_ref().map(|it| (it.fill_texture_id, it.uv));
+        let texture = shape.brush.as_ref().map(|brush| (brush.fill_texture_id, brush.uv));
         let area = rounded.expand(beyond);
-        for (place, colour) in surface.pieces() {
-            let place = place.translate(whole.min.to_vec2()) / self.scale;
+        for (place, colour) in surface.surface_pieces() {
+            let place = place.translate(pixel_rect.min.to_vec2()) / self.scale;
             let (texture, uv) = match texture {
                 None => (TextureId::default(), Rect::from_min_max(WHITE_UV, WHITE_UV)),
                 Some((texture, uv)) => {
-                    let at = |at: Pos2| uv.lerp_inside((at - area.min) / area.size());
-                    let uv = Rect::from_min_max(at(place.min), at(place.max));
+                    let uv_at = |at: Pos2| uv.lerp_inside((at - area.min) / area.size());
+                    let uv = Rect::from_min_max(uv_at(place.min), uv_at(place.max));
                     (texture, uv)
                 }
             };
-            let mesh = self.on(clip, texture, 2);
+            let mesh = self.rectangle_batch_mesh(clip, texture, 2);
             mesh.add_rect_with_uv(place, uv, colour);
         }
         true
@@ -293,12 +282,12 @@ fn is_odd(pixels: f32) -> bool {
 
 /// Returns whether egui makes an odd number of triangles of a path: it does for a filled surface with an odd number of
 /// corners; all other triangles come in pairs.
-fn odd(path: &PathShape) -> bool {
+fn has_odd_triangles(path: &PathShape) -> bool {
     path.fill != Color32::TRANSPARENT && path.points.len() % 2 == 1
 }
 
 /// Returns a separate mesh of some triangles of `mesh`.
-fn part(mesh: &Mesh, indices: &[u32]) -> Mesh {
+fn extract_partial_mesh(mesh: &Mesh, indices: &[u32]) -> Mesh {
     let first = indices.iter().copied().min().unwrap_or_default();
     let last = indices.iter().copied().max().unwrap_or_default();
     let vertices = mesh.vertices.get(first as usize..=last as usize);

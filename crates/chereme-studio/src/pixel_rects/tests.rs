@@ -57,10 +57,8 @@ fn fill(pixels: &mut [[f32; 4]], [a, mut b, mut c]: [Vertex; 3], scale: f32) {
         }
         let part = |which: usize| {
             let all = [a, b, c].into_iter().zip(&shares);
-            all.map(|(corner, share)| {
-                f32::from(corner.color.to_array()[which]) * share.0 as f32 / area as f32
-            })
-            .sum::<f32>()
+            all.map(|(corner, share)| f32::from(corner.color.to_array()[which]) * share.0 as f32 / area as f32)
+                .sum::<f32>()
         };
         let below = 1.0 - part(3) / 255.0;
         *pixel = [0, 1, 2, 3].map(|which| part(which) + pixel[which] * below);
@@ -70,7 +68,10 @@ fn fill(pixels: &mut [[f32; 4]], [a, mut b, mut c]: [Vertex; 3], scale: f32) {
 /// Returns by how much the two pictures of a shape differ in any pixel, in 255ths: in `corners`, and elsewhere.
 fn apart(shape: &Shape, scale: f32, corners: impl Fn(Pos2) -> bool) -> [f32; 2] {
     let all = || vec![ClippedShape::new(Rect::EVERYTHING, shape.clone())];
-    let (usual, own) = (picture(all(), scale), picture(plain(all(), scale), scale));
+    let (usual, own) = (
+        picture(all(), scale),
+        picture(simplify_clipped_shapes(all(), scale), scale),
+    );
     let mut most = [0.0_f32; 2];
     for (number, (a, b)) in usual.iter().zip(&own).enumerate() {
         let at = pos2((number % SIDE) as f32 + 0.5, (number / SIDE) as f32 + 0.5) / scale;
@@ -139,16 +140,14 @@ fn only_bounded_runs_of_triangle_pairs_are_drawn_as_rectangles() {
         let place = Rect::from_min_size(pos2(at as f32, 0.0), vec2(1.0, 2.0));
         long.add_colored_rect(place, Color32::RED);
     }
-    let odd = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0]]
-        .map(Pos2::from)
-        .to_vec();
+    let odd = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0]].map(Pos2::from).to_vec();
     let odd = Shape::convex_polygon(odd, Color32::RED, Stroke::NONE);
     let square = Rect::from_min_size(pos2(1.0, 1.0), vec2(8.0, 8.0));
     let square = Shape::rect_filled(square, 0.0, Color32::RED);
     let all = [Shape::mesh(long), odd, Shape::Noop, square];
     let seen = Rect::from_min_size(Pos2::ZERO, vec2(1000.0, 100.0));
     let clipped = |shape| ClippedShape::new(seen, shape);
-    let made = plain(all.map(clipped).to_vec(), 1.0);
+    let made = simplify_clipped_shapes(all.map(clipped).to_vec(), 1.0);
     assert_eq!(triangles(&made), [340, 340, 320, 0, 3]);
     // A shape with another clip rectangle begins a new batch.
     let begins = made.windows(2).map(|it| it[0].clip_rect != it[1].clip_rect);

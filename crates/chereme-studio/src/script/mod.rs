@@ -6,8 +6,8 @@
 //! | `visual` | visual order of lines with right-to-left text |
 //! | `edit` | the same while the text is edited: the place of the cursor |
 
-pub(crate) mod edit;
-pub(crate) mod fonts;
+pub(crate) mod script_edit;
+pub(crate) mod script_fonts;
 mod visual;
 
 use std::sync::Arc;
@@ -17,8 +17,8 @@ use eframe::egui::layers::ShapeIdx;
 use eframe::egui::{Context, Galley, LayerId, Plugin, Shape, Ui};
 
 /// Gives a context fonts for all scripts, and makes it draw text in visual order.
-pub(crate) fn install(ctx: &Context) {
-    fonts::install(ctx);
+pub(crate) fn install_script_support(ctx: &Context) {
+    script_fonts::install_system_fonts(ctx);
     ctx.add_plugin(InOrder);
 }
 
@@ -38,26 +38,26 @@ impl Plugin for InOrder {
         layers.sort_by_key(|layer| (layer.order, layer.id.value()));
         layers.dedup();
         for layer in layers {
-            let found: Vec<(usize, Vec<Arc<Galley>>)> = ctx.graphics(|graphics| {
+            let layer_galleys: Vec<(usize, Vec<Arc<Galley>>)> = ctx.graphics(|graphics| {
                 let Some(list) = graphics.get(layer) else {
                     return Vec::new();
                 };
                 let texts = list.all_entries().enumerate().map(|(at, entry)| {
                     let mut texts = Vec::new();
-                    gather(&entry.shape, &mut texts);
+                    gather_shape_texts(&entry.shape, &mut texts);
                     (at, texts)
                 });
                 texts.filter(|(_, texts)| !texts.is_empty()).collect()
             });
-            for (at, texts) in found {
+            for (at, texts) in layer_galleys {
                 let turned: Vec<Arc<Galley>> = texts
                     .iter()
-                    .map(|text| visual::in_order(ctx, text))
+                    .map(|text| visual::text_in_visual_order(ctx, text))
                     .collect();
                 ctx.graphics_mut(|graphics| {
                     let list = graphics.entry(layer);
                     list.mutate_shape(ShapeIdx(at), |entry| {
-                        put(&mut entry.shape, &mut turned.into_iter());
+                        put_turned_texts(&mut entry.shape, &mut turned.into_iter());
                     });
                 });
             }
@@ -67,25 +67,25 @@ impl Plugin for InOrder {
 
 /// Returns whether a text must be put in visual order.
 fn is_turned(galley: &Galley) -> bool {
-    any_from_right(&galley.job.text) && !edit::is_in_order(galley)
+    any_from_right(&galley.job.text) && !script_edit::is_in_order(galley)
 }
 
-fn gather(shape: &Shape, texts: &mut Vec<Arc<Galley>>) {
+fn gather_shape_texts(shape: &Shape, texts: &mut Vec<Arc<Galley>>) {
     match shape {
         Shape::Text(text) if is_turned(&text.galley) => texts.push(text.galley.clone()),
-        Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, texts)),
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather_shape_texts(shape, texts)),
         _ => {}
     }
 }
 
-fn put(shape: &mut Shape, turned: &mut std::vec::IntoIter<Arc<Galley>>) {
+fn put_turned_texts(shape: &mut Shape, turned: &mut std::vec::IntoIter<Arc<Galley>>) {
     match shape {
         Shape::Text(text) if is_turned(&text.galley) => {
             if let Some(galley) = turned.next() {
                 text.galley = galley;
             }
         }
-        Shape::Vec(shapes) => shapes.iter_mut().for_each(|shape| put(shape, turned)),
+        Shape::Vec(shapes) => shapes.iter_mut().for_each(|shape| put_turned_texts(shape, turned)),
         _ => {}
     }
 }

@@ -6,13 +6,13 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use chereme_figure::letters::{hangs_on, mirrored, reads_from_right, runs};
+use chereme_figure::letters::{hangs_on, mirror_bracket, reads_from_right, visual_text_runs};
 use eframe::egui::text::{ByteIndex, LayoutJob, LayoutSection, TextWrapping};
 use eframe::egui::{Context, Galley};
 
 /// A part of a line, in visual order.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Piece {
+pub(super) struct VisualPiece {
     /// Its bytes in the text.
     pub(super) range: Range<usize>,
     pub(super) text: String,
@@ -20,7 +20,7 @@ pub(super) struct Piece {
 }
 
 /// Returns the layout of the same text in visual order, with the same line breaks.
-pub(super) fn in_order(ctx: &Context, galley: &Galley) -> Arc<Galley> {
+pub(super) fn text_in_visual_order(ctx: &Context, galley: &Galley) -> Arc<Galley> {
     in_order_by_line(ctx, galley).0
 }
 
@@ -28,8 +28,8 @@ pub(super) fn in_order(ctx: &Context, galley: &Galley) -> Arc<Galley> {
 pub(super) fn in_order_by_line(ctx: &Context, galley: &Galley) -> (Arc<Galley>, Vec<Range<usize>>) {
     let words = in_words(&galley.job);
     ctx.fonts_mut(|fonts| {
-        let lines = lines(&fonts.layout_job(words));
-        let turned = fonts.layout_job(turned(&galley.job, &lines));
+        let lines = galley_text_lines(&fonts.layout_job(words));
+        let turned = fonts.layout_job(turned_layout_job(&galley.job, &lines));
         (turned, lines.into_iter().map(|(range, _)| range).collect())
     })
 }
@@ -40,7 +40,7 @@ fn in_words(job: &LayoutJob) -> LayoutJob {
     cut.sections.clear();
     for section in &job.sections {
         let range = section.byte_range.start.0..section.byte_range.end.0;
-        let pieces = words(&job.text[range.clone()]);
+        let pieces = split_script_words(&job.text[range.clone()]);
         for (nth, (piece, _)) in pieces.into_iter().enumerate() {
             let leading_space = if nth == 0 { section.leading_space } else { 0.0 };
             let (start, end) = (range.start + piece.start, range.start + piece.end);
@@ -55,7 +55,7 @@ fn in_words(job: &LayoutJob) -> LayoutJob {
 }
 
 /// Cuts a text into right-to-left words and the parts between them; the flag marks the words.
-fn words(text: &str) -> Vec<(Range<usize>, bool)> {
+fn split_script_words(text: &str) -> Vec<(Range<usize>, bool)> {
     let mut words: Vec<(Range<usize>, bool)> = Vec::new();
     for (at, letter) in text.char_indices() {
         let end = at + letter.len_utf8();
@@ -70,12 +70,12 @@ fn words(text: &str) -> Vec<(Range<usize>, bool)> {
 }
 
 /// A line: its byte range in the text, and whether its end is elided.
-type Line = (Range<usize>, bool);
+type TextLineRange = (Range<usize>, bool);
 
 /// Returns the lines of a text that was laid out word by word.
 ///
 /// The layout of a right-to-left word does not have a glyph for each character, but every blank has one.
-fn lines(galley: &Galley) -> Vec<Line> {
+fn galley_text_lines(galley: &Galley) -> Vec<TextLineRange> {
     let text = galley.job.text.as_str();
     let mut lines = Vec::new();
     let mut start = 0;
@@ -87,19 +87,13 @@ fn lines(galley: &Galley) -> Vec<Line> {
         let end = if row.ends_with_newline || (last && !cut) {
             rest.find('\n').filter(|_| galley.job.break_on_newline)
         } else {
-            let blanks = glyphs
-                .iter()
-                .filter(|glyph| glyph.chr.is_whitespace())
-                .count();
+            let blanks = glyphs.iter().filter(|glyph| glyph.chr.is_whitespace()).count();
             let after = match glyphs.iter().rposition(|glyph| glyph.chr.is_whitespace()) {
                 Some(at) => &glyphs[at + 1..],
                 None => &glyphs[..],
             };
-            let seen = after
-                .iter()
-                .filter(|glyph| glyph.advance_width > 0.0)
-                .count();
-            Some(beginning(rest, blanks, seen - usize::from(cut && seen > 0)))
+            let seen = after.iter().filter(|glyph| glyph.advance_width > 0.0).count();
+            Some(count_beginning_bytes(rest, blanks, seen - usize::from(cut && seen > 0)))
         };
         let end = start + end.unwrap_or(rest.len());
         lines.push((start..end, cut));
@@ -112,10 +106,8 @@ fn lines(galley: &Galley) -> Vec<Line> {
 }
 
 /// Returns the number of bytes up to the given number of blanks, plus that number of letters after the last of them.
-fn beginning(text: &str, blanks: usize, letters: usize) -> usize {
-    let mut all = text
-        .char_indices()
-        .filter(|(_, letter)| letter.is_whitespace());
+fn count_beginning_bytes(text: &str, blanks: usize, letters: usize) -> usize {
+    let mut all = text.char_indices().filter(|(_, letter)| letter.is_whitespace());
     let after = match blanks.checked_sub(1).map(|nth| all.nth(nth)) {
         Some(Some((at, blank))) => at + blank.len_utf8(),
         Some(None) => return text.len(),
@@ -127,7 +119,7 @@ fn beginning(text: &str, blanks: usize, letters: usize) -> usize {
 }
 
 /// Returns the job that draws `lines` in visual order.
-fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
+fn turned_layout_job(job: &LayoutJob, lines: &[TextLineRange]) -> LayoutJob {
     let mut turned = LayoutJob {
         text: String::with_capacity(job.text.len()),
         sections: Vec::new(),
@@ -152,8 +144,8 @@ fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
         if nth > 0 {
             add("\n", range.start.saturating_sub(1), false);
         }
-        let pieces = pieces(&job.text[range.clone()], &|at| {
-            boundary(job, range.start + at).saturating_sub(range.start)
+        let pieces = visual_line_pieces(&job.text[range.clone()], &|at| {
+            format_section_end(job, range.start + at).saturating_sub(range.start)
         });
         for (nth, piece) in pieces.iter().enumerate() {
             add(&piece.text, range.start + piece.range.start, nth == 0);
@@ -167,38 +159,36 @@ fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
 
 /// Returns the section that contains a byte, or the last one before it.
 fn section_at(job: &LayoutJob, at: usize) -> Option<&LayoutSection> {
-    let after = job
-        .sections
-        .partition_point(|it| it.byte_range.start.0 <= at);
+    let after = job.sections.partition_point(|section| section.byte_range.start.0 <= at);
     job.sections.get(after.saturating_sub(1))
 }
 
 /// Returns the end of the section that contains a byte.
-fn boundary(job: &LayoutJob, at: usize) -> usize {
-    section_at(job, at).map_or(usize::MAX, |it| it.byte_range.end.0)
+fn format_section_end(job: &LayoutJob, at: usize) -> usize {
+    section_at(job, at).map_or(usize::MAX, |section| section.byte_range.end.0)
 }
 
 /// Returns the pieces of a line in visual order, from left to right; `end` returns where the format at a byte ends. The
 /// byte is counted from the beginning of the line.
-pub(super) fn pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<Piece> {
+pub(super) fn visual_line_pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<VisualPiece> {
     let mut pieces = Vec::new();
-    for run in runs(line) {
+    for run in visual_text_runs(line) {
         let text = &line[run.range.clone()];
-        let mut of_run: Vec<Piece> = Vec::new();
+        let mut of_run: Vec<VisualPiece> = Vec::new();
         let cut = if run.from_right {
-            words(text)
+            split_script_words(text)
         } else {
             vec![(0..text.len(), false)]
         };
         for (range, word) in cut {
             let range = run.range.start + range.start..run.range.start + range.end;
-            for range in looks(line, range, end) {
+            for range in split_at_format_changes(line, range, end) {
                 let part = &line[range.clone()];
                 let text = match run.from_right && !word {
-                    true => part.chars().rev().map(mirrored).collect(),
+                    true => part.chars().rev().map(mirror_bracket).collect(),
                     false => part.to_owned(),
                 };
-                of_run.push(Piece {
+                of_run.push(VisualPiece {
                     range,
                     text,
                     from_right: run.from_right,
@@ -214,17 +204,17 @@ pub(super) fn pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<Piece> {
 }
 
 /// Cuts a range where the format changes.
-fn looks(line: &str, range: Range<usize>, end: &dyn Fn(usize) -> usize) -> Vec<Range<usize>> {
+fn split_at_format_changes(line: &str, range: Range<usize>, end: &dyn Fn(usize) -> usize) -> Vec<Range<usize>> {
     let mut parts: Vec<Range<usize>> = Vec::new();
     let mut limit = 0;
     for (at, letter) in line[range.clone()].char_indices() {
-        let at = range.start + at;
-        let next = at + letter.len_utf8();
+        let letter_start = range.start + at;
+        let next = letter_start + letter.len_utf8();
         match parts.last_mut() {
-            Some(part) if at < limit => part.end = next,
+            Some(part) if letter_start < limit => part.end = next,
             _ => {
-                limit = end(at);
-                parts.push(at..next);
+                limit = end(letter_start);
+                parts.push(letter_start..next);
             }
         }
     }
@@ -238,8 +228,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn shown(line: &str) -> String {
-        let pieces = pieces(line, &|_| usize::MAX);
-        let part = |piece: &Piece| match words(&piece.text).iter().any(|(_, it)| *it) {
+        let pieces = visual_line_pieces(line, &|_| usize::MAX);
+        let part = |piece: &VisualPiece| match split_script_words(&piece.text).iter().any(|(_, it)| *it) {
             true => format!("<{}>", piece.text),
             false => piece.text.clone(),
         };
@@ -263,7 +253,7 @@ mod tests {
 
     fn context() -> Context {
         let ctx = Context::default();
-        crate::theme::install(&ctx);
+        crate::theme::install_studio_theme(&ctx);
         for _ in 0..2 {
             let mut output = ctx.run_ui(RawInput::default(), |_| {});
             output.textures_delta.clear();
@@ -284,14 +274,9 @@ mod tests {
     fn a_sentence_that_begins_with_an_arabic_gloss_is_drawn_forwards_and_as_wide() {
         let ctx = context();
         let before = laid_out(&ctx, job("كتاب is notated, not stored.", f32::INFINITY));
-        let after = in_order(&ctx, &before);
+        let after = text_in_visual_order(&ctx, &before);
         assert_eq!(after.job.text, "كتاب is notated, not stored.");
-        let drawn: String = after.rows[0]
-            .row
-            .glyphs
-            .iter()
-            .map(|glyph| glyph.chr)
-            .collect();
+        let drawn: String = after.rows[0].row.glyphs.iter().map(|glyph| glyph.chr).collect();
         assert!(drawn.ends_with(" is notated, not stored."), "{drawn}");
         let x = |letter| {
             let glyphs = &after.rows[0].row.glyphs;
@@ -308,17 +293,13 @@ mod tests {
         let text = "كتاب كبير is a sign that was notated كتاب كبير and is not stored yet";
         for width in [60.0, 120.0, 180.0, 400.0] {
             let before = laid_out(&ctx, job(text, width));
-            let after = in_order(&ctx, &before);
+            let after = text_in_visual_order(&ctx, &before);
             let mut letters: Vec<char> = after.job.text.chars().filter(|c| *c != '\n').collect();
             let mut wanted: Vec<char> = text.chars().collect();
             letters.sort_unstable();
             wanted.sort_unstable();
             assert_eq!(letters, wanted, "{width}");
-            assert!(
-                after.rect.width() <= width + 1.0,
-                "{width}: {}",
-                after.rect.width()
-            );
+            assert!(after.rect.width() <= width + 1.0, "{width}: {}", after.rect.width());
         }
     }
 
@@ -330,10 +311,8 @@ mod tests {
             let format = TextFormat::simple(FontId::proportional(14.0), *colour);
             job.append(text, 0.0, format);
         }
-        let turned = in_order(&ctx, &laid_out(&ctx, job));
-        let text = |it: &LayoutSection| {
-            turned.job.text[it.byte_range.start.0..it.byte_range.end.0].to_owned()
-        };
+        let turned = text_in_visual_order(&ctx, &laid_out(&ctx, job));
+        let text = |it: &LayoutSection| turned.job.text[it.byte_range.start.0..it.byte_range.end.0].to_owned();
         let sections = turned.job.sections.iter();
         sections.map(|it| (text(it), it.format.color)).collect()
     }
@@ -362,7 +341,7 @@ mod tests {
                 job.wrap.break_anywhere = true;
             }
             let before = laid_out(&ctx, job);
-            let after = in_order(&ctx, &before);
+            let after = text_in_visual_order(&ctx, &before);
             prop_assert!(rows > 0 || after.job.text.chars().filter(|c| *c != '\n').count() == text.chars().filter(|c| *c != '\n').count());
         }
     }

@@ -1,123 +1,120 @@
 //! The page without a corpus: the starter corpus, recent ones, a path, a folder to import, and a wall of signs.
 
-pub(crate) mod wall;
+pub(crate) mod start_wall;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::epaint::RectShape;
 use eframe::egui::{
-    Button, Key, ProgressBar, Rect, Response, RichText, Role, ScrollArea, Sense, Shape, StrokeKind,
-    Ui, UiBuilder, WidgetInfo, vec2,
+    Button, Key, ProgressBar, Rect, Response, RichText, Role, ScrollArea, Sense, Shape, StrokeKind, Ui, UiBuilder,
+    WidgetInfo, vec2,
 };
 
-use chereme_motion::Span;
+use chereme_motion::TimeSpan;
 
 use crate::action::Action;
 use crate::app::Studio;
-use crate::command::Command;
-use crate::file_dialogs::Choose;
+use crate::command::WindowCommand;
+use crate::file_dialogs::ChooserPurpose;
 use crate::panes::list_row;
-use crate::script::edit;
-use crate::words::{Language, Text, fill, shell as words};
-use crate::work::begin::Begin;
+use crate::script::script_edit;
+use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, shell as words};
+use crate::work::begin::CorpusOpening;
 
 /// The text typed on the page.
 #[derive(Debug, Default)]
-pub(crate) struct Start {
+pub(crate) struct StartPage {
     path: String,
     /// Whether the likeliest button has been given the keyboard.
     come: bool,
 }
 
-impl Start {
+impl StartPage {
     /// Resets the state, for the next time that the page is shown.
-    pub(crate) fn leave(&mut self) {
+    pub(crate) fn reset_start_page(&mut self) {
         *self = Self::default();
     }
 }
 
 /// Returns the possible uses of a typed path: open it, create it, or import it.
-pub(crate) fn uses(path: &str, is_file: bool, is_folder: bool) -> [bool; 3] {
+pub(crate) fn typed_path_uses(path: &str, is_file: bool, is_folder: bool) -> [bool; 3] {
     let typed = !path.trim().is_empty();
-    [
-        typed && is_file,
-        typed && !is_file && !is_folder,
-        typed && is_folder,
-    ]
+    [typed && is_file, typed && !is_file && !is_folder, typed && is_folder]
 }
 
 /// An offer on the page: its name, a hint, and its command.
-type Offer = (Text, Text, Command);
+type StartOffer = (InterfaceText, InterfaceText, WindowCommand);
 
 /// A button for the typed path: its name, and its use of the path.
-type Typed = (Text, fn(PathBuf) -> Begin);
+type TypedPathButton = (InterfaceText, fn(PathBuf) -> CorpusOpening);
 
 /// The keys that give the keyboard to the page if nothing has it.
-const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
+const START_PAGE_KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
 /// The greatest width of the column, in points.
-const WIDE: f32 = 620.0;
+const MAX_START_COLUMN_POINTS: f32 = 620.0;
 /// The least width of the column beside the wall, in points.
-const LEAST: f32 = 400.0;
+const MIN_START_COLUMN_POINTS: f32 = 400.0;
 /// The margin at the sides of the column, in points.
-const EDGE: f32 = 20.0;
+const START_COLUMN_EDGE_POINTS: f32 = 20.0;
 /// A window narrower than this, in points, has the wall below the column.
-const WALLED: f32 = 860.0;
+const WALL_BESIDE_WIDTH_POINTS: f32 = 860.0;
 /// The height of a wall below the column, in points.
-const STRIP: f32 = 190.0;
+const WALL_STRIP_HEIGHT_POINTS: f32 = 190.0;
 /// How many recent corpora the page shows; the menu lists all.
-const RECENT: usize = 4;
+const MAX_START_RECENT_CORPORA: usize = 4;
 /// The width of the button that removes a recent corpus from the list, in points.
-const FORGET: f32 = 36.0;
+const FORGET_BUTTON_WIDTH_POINTS: f32 = 36.0;
 /// A window lower than this has no room to spare, in points.
-const LOW: f32 = 680.0;
+const LOW_WINDOW_HEIGHT_POINTS: f32 = 680.0;
 
 impl Studio {
     pub(crate) fn start_page(&mut self, ui: &mut Ui) {
         // A key that would have no effect gives the keyboard to the likeliest button.
         let lost = ui.memory(|memory| memory.focused().is_none());
-        if lost && ui.input(|input| KEYS.into_iter().any(|key| input.key_pressed(key))) {
+        if lost && ui.input(|input| START_PAGE_KEYS.into_iter().any(|key| input.key_pressed(key))) {
             self.start.come = false;
         }
-        let whole = ui.available_rect_before_wrap();
-        let walled = whole.width() >= WALLED;
-        let mut column = whole;
+        let page_rect = ui.available_rect_before_wrap();
+        let walled = page_rect.width() >= WALL_BESIDE_WIDTH_POINTS;
+        let mut column = page_rect;
         if walled {
-            let share = (whole.width() * 0.42).clamp(LEAST, WIDE);
+            let share = (page_rect.width() * 0.42).clamp(MIN_START_COLUMN_POINTS, MAX_START_COLUMN_POINTS);
             column.set_width(share);
-            let room = whole.with_min_x(column.right()).shrink2(vec2(20.0, 28.0));
-            self.wall(ui, room);
+            let room = page_rect.with_min_x(column.right()).shrink2(vec2(20.0, 28.0));
+            self.show_starter_wall(ui, room);
         }
         let builder = UiBuilder::new().max_rect(column).id_salt("start");
         ui.scope_builder(builder, |ui| self.start_column(ui, walled));
     }
 
     /// Shows the wall; a click on a sign opens the starter corpus with that sign.
-    fn wall(&mut self, ui: &mut Ui, room: Rect) {
+    fn show_starter_wall(&mut self, ui: &mut Ui, room: Rect) {
         let language = self.settings.language;
-        if let Some(gloss) = wall::show(ui, &self.little, language, room) {
+        if let Some(gloss) = start_wall::show_sign_wall(ui, &self.little, language, room) {
             self.greets = Some(gloss);
-            self.out.send(Command::Do(Action::OpenStarter));
+            self.out.send_command(WindowCommand::Do(Action::OpenStarter));
         }
     }
 
     fn start_column(&mut self, ui: &mut Ui, walled: bool) {
         let language = self.settings.language;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let width = (ui.available_width() - 2.0 * EDGE).min(WIDE - 2.0 * EDGE);
+            let width = (ui.available_width() - 2.0 * START_COLUMN_EDGE_POINTS)
+                .min(MAX_START_COLUMN_POINTS - 2.0 * START_COLUMN_EDGE_POINTS);
             let left = (ui.available_width() - width) / 2.0;
             ui.horizontal(|ui| {
                 ui.add_space(left.max(0.0));
                 ui.vertical(|ui| {
                     ui.set_width(width);
-                    let low = ui.ctx().content_rect().height() < LOW;
+                    let low = ui.ctx().content_rect().height() < LOW_WINDOW_HEIGHT_POINTS;
                     ui.add_space(if low { 12.0 } else { 56.0 });
                     ui.label(
-                        RichText::new(words::START_TITLE.of(language))
+                        RichText::new(words::START_TITLE.text_in_language(language))
                             .size(34.0)
                             .strong(),
                     );
-                    ui.label(RichText::new(words::START_LEAD.of(language)).size(16.0));
+                    ui.label(RichText::new(words::START_LEAD.text_in_language(language)).size(16.0));
                     let gap = if low { 10.0 } else { 24.0 };
                     ui.add_space(gap);
                     if self.beginning.is_some() {
@@ -134,9 +131,9 @@ impl Studio {
                     self.path_part(ui);
                     if !walled {
                         ui.add_space(gap);
-                        let size = vec2(width, STRIP);
+                        let size = vec2(width, WALL_STRIP_HEIGHT_POINTS);
                         let (room, _) = ui.allocate_exact_size(size, Sense::hover());
-                        self.wall(ui, room);
+                        self.show_starter_wall(ui, room);
                     }
                 });
             });
@@ -144,13 +141,13 @@ impl Studio {
     }
 
     /// Returns the place of the sign to show first to a new user, once.
-    pub(crate) fn greeting(&mut self) -> Option<(i64, Span)> {
+    pub(crate) fn take_greeting_sign(&mut self) -> Option<(i64, TimeSpan)> {
         let gloss = self.greets.take()?;
         let signs = &self.snapshot.as_ref()?.overview.signs;
-        let wanted = signs.iter().find(|it| it.gloss == gloss);
+        let wanted = signs.iter().find(|sign| sign.gloss == gloss);
         wanted
-            .and_then(|it| it.place)
-            .or_else(|| signs.iter().find_map(|it| it.place))
+            .and_then(|sign| sign.place)
+            .or_else(|| signs.iter().find_map(|sign| sign.place))
     }
 
     fn beginning_page(&mut self, ui: &mut Ui) {
@@ -160,106 +157,106 @@ impl Studio {
         };
         ui.horizontal(|ui| {
             ui.spinner();
-            ui.label(words::TASK_OPENING.of(language));
+            ui.label(words::TASK_OPENING.text_in_language(language));
             ui.weak(&beginning.far.task);
         });
-        if let Some(share) = beginning.far.share() {
+        if let Some(share) = beginning.far.finished_share() {
             ui.add(ProgressBar::new(share));
         }
-        if ui.button(words::CANCEL.of(language)).clicked() {
-            self.out.send(Command::StopBeginning);
+        if ui.button(words::CANCEL.text_in_language(language)).clicked() {
+            self.out.send_command(WindowCommand::StopBeginning);
         }
     }
 
     fn offers_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        let offers: [Offer; 4] = [
+        let offers: [StartOffer; 4] = [
             (
                 words::START_STARTER,
                 words::START_STARTER_HINT,
-                Command::Do(Action::OpenStarter),
+                WindowCommand::Do(Action::OpenStarter),
             ),
             (
                 words::START_OPEN,
                 words::START_OPEN_HINT,
-                Command::Do(Action::Open),
+                WindowCommand::Do(Action::Open),
             ),
             (
                 words::START_IMPORT,
                 words::START_IMPORT_HINT,
-                Command::Choose(Choose::CorpusOfFolder),
+                WindowCommand::Choose(ChooserPurpose::CorpusOfFolder),
             ),
-            (
-                words::START_NEW,
-                words::START_NEW_HINT,
-                Command::Do(Action::New),
-            ),
+            (words::START_NEW, words::START_NEW_HINT, WindowCommand::Do(Action::New)),
         ];
         for (name, hint, command) in offers {
-            let row = offer(ui, 46.0, name.of(language), hint.of(language));
+            let row = show_start_offer(
+                ui,
+                46.0,
+                name.text_in_language(language),
+                hint.text_in_language(language),
+            );
             if !std::mem::replace(&mut self.start.come, true) {
                 row.request_focus();
             }
             if row.clicked() {
-                self.out.send(command);
+                self.out.send_command(command);
             }
         }
     }
 
     fn path_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        let label = ui.strong(words::START_TYPED.of(language));
-        let field = edit::line(ui, &mut self.start.path, |field| {
-            field.desired_width(f32::INFINITY)
-        });
-        let field = field.response.response.labelled_by(label.id);
+        let label = ui.strong(words::START_TYPED.text_in_language(language));
+        let edited_line =
+            script_edit::draw_text_line(ui, &mut self.start.path, |field| field.desired_width(f32::INFINITY));
+        let field = edited_line.response.response.labelled_by(label.id);
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let path = PathBuf::from(self.start.path.trim());
-        let can = uses(&self.start.path, path.is_file(), path.is_dir());
-        let offers: [Typed; 3] = [
-            (words::START_TYPED_OPEN, Begin::Open),
-            (words::START_TYPED_NEW, Begin::New),
-            (words::START_TYPED_IMPORT, Begin::Folder),
+        let can = typed_path_uses(&self.start.path, path.is_file(), path.is_dir());
+        let offers: [TypedPathButton; 3] = [
+            (words::START_TYPED_OPEN, CorpusOpening::Open),
+            (words::START_TYPED_NEW, CorpusOpening::New),
+            (words::START_TYPED_IMPORT, CorpusOpening::Folder),
         ];
         ui.horizontal(|ui| {
             for (can, (text, begin)) in can.into_iter().zip(offers) {
-                let button = ui.add_enabled(can, Button::new(text.of(language)));
+                let button = ui.add_enabled(can, Button::new(text.text_in_language(language)));
                 if button.clicked() || (can && entered) {
-                    self.out.send(Command::Begin(begin(path.clone())));
+                    self.out.send_command(WindowCommand::Begin(begin(path.clone())));
                 }
             }
         });
-        ui.weak(words::START_DROP.of(language));
+        ui.weak(words::START_DROP.text_in_language(language));
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            for (it, name) in Language::all_listed() {
+            for (it, name) in InterfaceLanguage::all_listed() {
                 ui.selectable_value(&mut self.settings.language, it, name);
             }
-            let steps = ui.button(Action::FirstSteps.row().name.of(language));
+            let steps = ui.button(Action::FirstSteps.action_row().name.text_in_language(language));
             if steps.clicked() {
-                self.out.send(Command::Do(Action::FirstSteps));
+                self.out.send_command(WindowCommand::Do(Action::FirstSteps));
             }
         });
     }
 
     fn recent_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        ui.strong(Text::from_id("menu-bar-recent").of(language));
-        for path in self.settings.recent.iter().take(RECENT) {
+        ui.strong(InterfaceText::from_id("menu-bar-recent").text_in_language(language));
+        for path in self.settings.recent.iter().take(MAX_START_RECENT_CORPORA) {
             let there = path.is_file();
-            let (name, folder) = parts(path);
+            let (name, folder) = split_file_path(path);
             let about = if there {
                 folder
             } else {
-                format!("{folder} · {}", words::START_GONE.of(language))
+                format!("{folder} · {}", words::START_GONE.text_in_language(language))
             };
-            let label = fill(words::START_FORGET.of(language), &[("name", &name)]);
+            let label = fill_text_braces(words::START_FORGET.text_in_language(language), &[("name", &name)]);
             let (row, forget) = ui
                 .horizontal(|ui| {
-                    let wide = (ui.available_width() - FORGET).max(0.0);
+                    let wide = (ui.available_width() - FORGET_BUTTON_WIDTH_POINTS).max(0.0);
                     let size = vec2(wide, 40.0);
                     let row = ui.allocate_ui(size, |ui| {
-                        ui.add_enabled_ui(there, |ui| offer(ui, 40.0, &name, &about))
+                        ui.add_enabled_ui(there, |ui| show_start_offer(ui, 40.0, &name, &about))
                     });
                     let button = ui.button("×");
                     button.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
@@ -270,19 +267,20 @@ impl Studio {
                 row.request_focus();
             }
             if row.clicked() {
-                self.out.send(Command::Begin(Begin::Open(path.clone())));
+                self.out
+                    .send_command(WindowCommand::Begin(CorpusOpening::Open(path.clone())));
             }
             if forget {
                 let mut settings = self.settings.clone();
-                settings.recent.retain(|it| it != path);
-                self.out.send(Command::Settings(Box::new(settings)));
+                settings.recent.retain(|recent_path| recent_path != path);
+                self.out.send_command(WindowCommand::Settings(Box::new(settings)));
             }
         }
     }
 }
 
 /// Shows an offer in a frame.
-fn offer(ui: &mut Ui, height: f32, name: &str, about: &str) -> Response {
+fn show_start_offer(ui: &mut Ui, height: f32, name: &str, about: &str) -> Response {
     let frame = ui.painter().add(Shape::Noop);
     let row = list_row(ui, height, false, name, about);
     let visuals = ui.visuals();
@@ -294,12 +292,9 @@ fn offer(ui: &mut Ui, height: f32, name: &str, about: &str) -> Response {
 }
 
 /// Returns the name of a file without its extension, and its folder.
-fn parts(path: &Path) -> (String, String) {
+fn split_file_path(path: &Path) -> (String, String) {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
-    (
-        text(path.file_stem()),
-        text(path.parent().map(Path::as_os_str)),
-    )
+    (text(path.file_stem()), text(path.parent().map(Path::as_os_str)))
 }
 
 #[cfg(test)]
@@ -308,13 +303,13 @@ mod tests {
 
     #[test]
     fn a_path_offers_its_possible_actions() {
-        assert_eq!(uses("", false, true), [false; 3]);
-        assert_eq!(uses("a.chereme", true, false), [true, false, false]);
-        assert_eq!(uses("new", false, false), [false, true, false]);
+        assert_eq!(typed_path_uses("", false, true), [false; 3]);
+        assert_eq!(typed_path_uses("a.chereme", true, false), [true, false, false]);
+        assert_eq!(typed_path_uses("new", false, false), [false, true, false]);
         assert_eq!(
-            parts(Path::new("/a/b.chereme")),
+            split_file_path(Path::new("/a/b.chereme")),
             ("b".to_owned(), "/a".to_owned())
         );
-        assert_eq!(uses("folder", false, true), [false, false, true]);
+        assert_eq!(typed_path_uses("folder", false, true), [false, false, true]);
     }
 }

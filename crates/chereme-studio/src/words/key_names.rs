@@ -2,7 +2,7 @@
 
 use eframe::egui::Key;
 
-use super::Text;
+use super::InterfaceText;
 
 texts! {
     CTRL: "Ctrl", "Ctrl";
@@ -26,7 +26,7 @@ texts! {
 }
 
 /// The keys whose names are words.
-pub(crate) const KEYS: [(Key, Text); 15] = [
+pub(crate) const KEY_NAME_TEXTS: [(Key, InterfaceText); 15] = [
     (Key::Space, SPACE),
     (Key::Enter, ENTER),
     (Key::Tab, TAB),

@@ -4,73 +4,73 @@
 //! [`fill`] fills `{name}` in it. To add one, write a line into the table of its part; to add a table, name it in
 //! `TABLES` of the tests below.
 
-pub use chereme_corpus::words::Language;
-pub(crate) use chereme_corpus::words::{Text, fill, history, merge, trouble};
+pub use chereme_corpus::words::InterfaceLanguage;
+pub(crate) use chereme_corpus::words::{InterfaceText, fill_text_braces, history_words, merge_words, trouble_words};
 
 /// Returns a message of the library in a language; unchanged if there is no translation.
-pub(crate) fn spoken(text: &str, language: Language) -> String {
-    chereme_corpus::words::message(text, language).unwrap_or_else(|| text.to_owned())
+pub(crate) fn translate_library_message(text: &str, language: InterfaceLanguage) -> String {
+    chereme_corpus::words::localized_message(text, language).unwrap_or_else(|| text.to_owned())
 }
 
 /// Declares the texts of one part of the window.
 macro_rules! texts {
     ($($name:ident: $en:literal, $fr:literal;)*) => {
-        $(pub(crate) const $name: crate::words::Text = crate::words::Text::new($en, $fr);)*
+        $(pub(crate) const $name: crate::words::InterfaceText = crate::words::InterfaceText::new($en, $fr);)*
         #[cfg(test)]
-        pub(super) const ALL: &[(&str, crate::words::Text)] = &[$((stringify!($name), $name)),*];
+        pub(super) const ALL: &[(&str, crate::words::InterfaceText)] = &[$((stringify!($name), $name)),*];
     };
 }
 
-pub(crate) mod actions;
+pub(crate) mod actions_words;
 pub(crate) mod agreement;
-pub(crate) mod cue;
-pub(crate) mod export;
-pub(crate) mod faces;
-pub(crate) mod film;
-pub(crate) mod gestures;
-pub(crate) mod hamnosys;
-pub(crate) mod import;
+pub(crate) mod cue_words;
+pub(crate) mod export_words;
+pub(crate) mod faces_words;
+pub(crate) mod film_words;
+pub(crate) mod gestures_words;
+pub(crate) mod hamnosys_words;
+pub(crate) mod import_words;
 pub(crate) mod inspector;
 pub(crate) mod key_names;
 pub(crate) mod library;
-pub(crate) mod map;
+pub(crate) mod map_words;
 pub(crate) mod pickers;
-pub(crate) mod recombine;
+pub(crate) mod recombine_words;
 pub(crate) mod scripts;
-pub(crate) mod search;
+pub(crate) mod search_words;
 pub(crate) mod shell;
-pub(crate) mod stage;
-pub(crate) mod steps;
-pub(crate) mod studies;
+pub(crate) mod stage_words;
+pub(crate) mod steps_words;
+pub(crate) mod studies_words;
 pub(crate) mod timeline;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 22] = [
-        actions::ALL,
+    const TABLES: [&[(&str, InterfaceText)]; 22] = [
+        actions_words::ALL,
         agreement::ALL,
-        cue::ALL,
-        export::ALL,
-        faces::ALL,
-        film::ALL,
-        hamnosys::ALL,
-        import::ALL,
+        cue_words::ALL,
+        export_words::ALL,
+        faces_words::ALL,
+        film_words::ALL,
+        hamnosys_words::ALL,
+        import_words::ALL,
         inspector::ALL,
         key_names::ALL,
         library::ALL,
-        map::ALL,
+        map_words::ALL,
         pickers::ALL,
-        recombine::ALL,
+        recombine_words::ALL,
         scripts::ALL,
-        search::ALL,
+        search_words::ALL,
         shell::ALL,
-        stage::ALL,
-        steps::ALL,
-        studies::ALL,
+        stage_words::ALL,
+        steps_words::ALL,
+        studies_words::ALL,
         timeline::ALL,
-        gestures::ALL,
+        gestures_words::ALL,
     ];
 
     fn blanks(text: &str) -> Vec<&str> {
@@ -86,10 +86,7 @@ mod tests {
     #[test]
     fn every_text_exists_in_both_languages_with_the_same_blanks() {
         for (name, text) in TABLES.into_iter().flatten() {
-            assert!(
-                !text.en.trim().is_empty() && !text.fr.trim().is_empty(),
-                "{name}"
-            );
+            assert!(!text.en.trim().is_empty() && !text.fr.trim().is_empty(), "{name}");
             assert_eq!(blanks(text.en), blanks(text.fr), "{name}");
         }
     }

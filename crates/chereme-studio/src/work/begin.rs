@@ -6,14 +6,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 
-use chereme_corpus::{Corpus, Error, ImportOptions, Progress, Result, Step, unpack_starter};
+use chereme_corpus::{
+    Corpus, CorpusError, CorpusResult, ImportOptions, ProgressReceiver, ProgressStep, unpack_starter,
+};
 
-use super::Far;
-use super::desk::Wake;
+use super::WorkProgress;
+use super::desk::WindowWaker;
 
 /// The corpus to open.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Begin {
+pub(crate) enum CorpusOpening {
     /// An existing corpus.
     Open(PathBuf),
     /// A new, empty one.
@@ -28,9 +30,9 @@ pub(crate) enum Begin {
 }
 
 /// An opening in progress.
-pub(crate) struct Beginning {
+pub(crate) struct OpeningInProgress {
     news: Receiver<OpeningNews>,
-    pub(crate) far: Far,
+    pub(crate) far: WorkProgress,
     stop: Arc<AtomicBool>,
     /// The files to show in the import pane after the opening.
     pub(crate) look: Vec<PathBuf>,
@@ -39,21 +41,21 @@ pub(crate) struct Beginning {
 }
 
 enum OpeningNews {
-    Far(Far),
-    Ended(Result<PathBuf>),
+    Far(WorkProgress),
+    Ended(CorpusResult<PathBuf>),
 }
 
-impl Beginning {
+impl OpeningInProgress {
     /// Starts the opening on a separate thread.
-    pub(crate) fn start(begin: Begin, author: &str, wake: &Wake) -> Self {
-        let (look, made) = begin.look();
+    pub(crate) fn start_corpus_opening(begin: CorpusOpening, author: &str, wake: &WindowWaker) -> Self {
+        let (look, made) = begin.opening_import_files();
         let (sender, news) = channel();
         let (author, wake) = (author.to_owned(), wake.clone());
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = stop.clone();
         std::thread::spawn(move || {
-            let mut hear = |step: Step<'_>| {
-                let _ = sender.send(OpeningNews::Far(Far::of(&step)));
+            let mut hear = |step: ProgressStep<'_>| {
+                let _ = sender.send(OpeningNews::Far(WorkProgress::progress_from_step(&step)));
                 wake();
                 if stopped.load(Ordering::Relaxed) {
                     ControlFlow::Break(())
@@ -61,25 +63,25 @@ impl Beginning {
                     ControlFlow::Continue(())
                 }
             };
-            let ended = begin.carry_out(&author, &mut Progress::new(&mut hear));
+            let ended = begin.carry_out_opening(&author, &mut ProgressReceiver::new(&mut hear));
             let _ = sender.send(OpeningNews::Ended(ended));
             wake();
         });
         Self {
             news,
-            far: Far::default(),
+            far: WorkProgress::default(),
             stop,
             look,
             made,
         }
     }
 
-    pub(crate) fn stop(&self) {
+    pub(crate) fn stop_corpus_opening(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }
 
     /// Returns the path of the corpus or the error, once the opening has ended.
-    pub(crate) fn ended(&mut self) -> Option<Result<PathBuf>> {
+    pub(crate) fn finished_opening_path(&mut self) -> Option<CorpusResult<PathBuf>> {
         while let Ok(step) = self.news.try_recv() {
             match step {
                 OpeningNews::Far(far) => self.far = far,
@@ -90,28 +92,29 @@ impl Beginning {
     }
 }
 
-impl Begin {
-    fn carry_out(self, author: &str, progress: &mut Progress<'_>) -> Result<PathBuf> {
+impl CorpusOpening {
+    fn carry_out_opening(self, author: &str, progress: &mut ProgressReceiver<'_>) -> CorpusResult<PathBuf> {
         match self {
             Self::Open(path) => {
                 // A path below the working folder names no folder that the file could be put back into.
                 let path = std::path::absolute(&path).unwrap_or(path);
-                Corpus::open(&path, author).map(|_| path)
+                Corpus::open_corpus(&path, author).map(|_| path)
             }
             Self::New(path) => {
                 let path = with_extension(path);
-                Corpus::create(&path, author).map(|_| path)
+                Corpus::create_corpus(&path, author).map(|_| path)
             }
             Self::Starter(folder) => starter(&folder, author, progress),
-            Self::Folder(ref folder) if !folder.is_dir() => {
-                Err(Error::file(folder, std::io::ErrorKind::NotFound.into()))
-            }
+            Self::Folder(ref folder) if !folder.is_dir() => Err(CorpusError::from_file_failure(
+                folder,
+                std::io::ErrorKind::NotFound.into(),
+            )),
             Self::Folder(_) | Self::Files(_) => {
-                let path = self.target();
+                let path = self.opening_corpus_path();
                 let open = if path.is_file() {
-                    Corpus::open(&path, author)
+                    Corpus::open_corpus(&path, author)
                 } else {
-                    Corpus::create(&path, author)
+                    Corpus::create_corpus(&path, author)
                 };
                 open.map(|_| path)
             }
@@ -119,24 +122,24 @@ impl Begin {
     }
 
     /// Returns the files to show in the import pane, and the path of the corpus if it is created only for them.
-    fn look(&self) -> (Vec<PathBuf>, Option<PathBuf>) {
+    fn opening_import_files(&self) -> (Vec<PathBuf>, Option<PathBuf>) {
         let look = match self {
             Self::Folder(folder) => vec![folder.clone()],
             Self::Files(files) => files.clone(),
             _ => return (Vec::new(), None),
         };
-        let path = self.target();
+        let path = self.opening_corpus_path();
         let made = (!path.exists()).then(|| std::path::absolute(&path).unwrap_or(path));
         (look, made)
     }
 
     /// Returns the path of the corpus for the files.
-    fn target(&self) -> PathBuf {
+    fn opening_corpus_path(&self) -> PathBuf {
         let path = match self {
             Self::Folder(folder) => folder.clone(),
             Self::Files(files) => {
-                let folder = files.first().and_then(|it| it.parent());
-                let folder = folder.unwrap_or(Path::new(""));
+                let parent_folder = files.first().and_then(|file| file.parent());
+                let folder = parent_folder.unwrap_or(Path::new(""));
                 folder.join(folder.file_name().unwrap_or_default())
             }
             Self::Open(path) | Self::New(path) | Self::Starter(path) => path.clone(),
@@ -146,24 +149,32 @@ impl Begin {
 }
 
 /// Opens the starter corpus in `folder`, built first if missing.
-fn starter(folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<PathBuf> {
+fn starter(folder: &Path, author: &str, progress: &mut ProgressReceiver<'_>) -> CorpusResult<PathBuf> {
     let path = folder.join("starter.chereme");
     if path.is_file() {
-        return Corpus::open(&path, author).map(|_| path);
+        return Corpus::open_corpus(&path, author).map(|_| path);
     }
     let files = folder.join("starter");
     unpack_starter(&files)?;
-    filled(&path, &files, author, progress)?;
+    create_filled_corpus(&path, &files, author, progress)?;
     Ok(path)
 }
 
 /// Creates a corpus and imports all files of `folder`; deletes the corpus again if the import fails.
-fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<()> {
+fn create_filled_corpus(
+    path: &Path,
+    folder: &Path,
+    author: &str,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
     if !folder.is_dir() {
-        return Err(Error::file(folder, std::io::ErrorKind::NotFound.into()));
+        return Err(CorpusError::from_file_failure(
+            folder,
+            std::io::ErrorKind::NotFound.into(),
+        ));
     }
-    let mut corpus = Corpus::create(path, author)?;
-    let done = corpus.import(&[folder.to_owned()], &ImportOptions::default(), progress);
+    let mut corpus = Corpus::create_corpus(path, author)?;
+    let done = corpus.import_paths(&[folder.to_owned()], &ImportOptions::default(), progress);
     drop(corpus);
     if done.is_err() {
         // The failed import leaves an empty corpus that nobody has seen.
@@ -174,10 +185,7 @@ fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>)
 
 /// Returns the path with the extension of a corpus.
 pub(crate) fn with_extension(path: PathBuf) -> PathBuf {
-    if path
-        .extension()
-        .is_some_and(|extension| extension == "chereme")
-    {
+    if path.extension().is_some_and(|extension| extension == "chereme") {
         return path;
     }
     let mut name = path.into_os_string();
@@ -188,22 +196,22 @@ pub(crate) fn with_extension(path: PathBuf) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_corpus::unheard;
+    use chereme_corpus::ignore_progress_step;
 
-    fn begin(what: Begin) -> Result<PathBuf> {
-        let mut hear = unheard;
-        what.carry_out("A", &mut Progress::new(&mut hear))
+    fn begin(what: CorpusOpening) -> CorpusResult<PathBuf> {
+        let mut hear = ignore_progress_step;
+        what.carry_out_opening("A", &mut ProgressReceiver::new(&mut hear))
     }
 
     #[test]
     fn a_new_corpus_gets_its_extension_and_is_never_overwritten() {
         let folder = tempfile::tempdir().expect("a folder");
-        let path = begin(Begin::New(folder.path().join("v1.2"))).expect("made");
+        let path = begin(CorpusOpening::New(folder.path().join("v1.2"))).expect("made");
         assert_eq!(path, folder.path().join("v1.2.chereme"));
-        assert!(begin(Begin::New(path.clone())).is_err());
-        assert_eq!(begin(Begin::Open(path.clone())).expect("opened"), path);
-        assert!(begin(Begin::Open(folder.path().join("gone"))).is_err());
-        let gone = begin(Begin::Open("gone.chereme".into())).expect_err("not there");
+        assert!(begin(CorpusOpening::New(path.clone())).is_err());
+        assert_eq!(begin(CorpusOpening::Open(path.clone())).expect("opened"), path);
+        assert!(begin(CorpusOpening::Open(folder.path().join("gone"))).is_err());
+        let gone = begin(CorpusOpening::Open("gone.chereme".into())).expect_err("not there");
         let here = std::env::current_dir().expect("a folder");
         assert!(
             gone.to_string()
@@ -215,10 +223,10 @@ mod tests {
     #[test]
     fn a_stopped_import_leaves_no_corpus_behind() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut stop = |_: Step<'_>| ControlFlow::Break(());
-        let starter = Begin::Starter(folder.path().to_owned());
-        let done = starter.carry_out("A", &mut Progress::new(&mut stop));
-        assert!(matches!(done, Err(Error::Stopped)));
+        let mut stop = |_: ProgressStep<'_>| ControlFlow::Break(());
+        let starter = CorpusOpening::Starter(folder.path().to_owned());
+        let done = starter.carry_out_opening("A", &mut ProgressReceiver::new(&mut stop));
+        assert!(matches!(done, Err(CorpusError::Stopped)));
         assert!(!folder.path().join("starter.chereme").exists());
     }
 
@@ -229,19 +237,19 @@ mod tests {
         unpack_starter(&files).expect("unpacked");
         let file = files.join("escargot.bvh");
         for (what, look, name) in [
-            (Begin::Folder(files.clone()), &files, "mine.chereme"),
-            (Begin::Files(vec![file.clone()]), &file, "mine/mine.chereme"),
+            (CorpusOpening::Folder(files.clone()), &files, "mine.chereme"),
+            (CorpusOpening::Files(vec![file.clone()]), &file, "mine/mine.chereme"),
         ] {
             let want = folder.path().join(name);
-            assert_eq!(what.look(), (vec![look.clone()], Some(want.clone())));
+            assert_eq!(what.opening_import_files(), (vec![look.clone()], Some(want.clone())));
             assert_eq!(begin(what.clone()).expect("made"), want);
-            let corpus = Corpus::open(&want, "A").expect("opened");
-            let overview = corpus.overview(10).expect("read");
+            let corpus = Corpus::open_corpus(&want, "A").expect("opened");
+            let overview = corpus.load_corpus_overview(10).expect("read");
             assert!(overview.recordings.is_empty() && overview.operations.is_empty());
             // The opened corpus exists, so it is not created only for the files.
-            assert_eq!(what.look().1, None);
+            assert_eq!(what.opening_import_files().1, None);
             assert_eq!(begin(what).expect("opened"), want);
         }
-        assert!(begin(Begin::Folder(folder.path().join("gone"))).is_err());
+        assert!(begin(CorpusOpening::Folder(folder.path().join("gone"))).is_err());
     }
 }

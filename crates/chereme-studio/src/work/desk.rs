@@ -9,53 +9,53 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SendError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use chereme_corpus::{Corpus, Error, FileIdentity, Progress, Step};
+use chereme_corpus::{Corpus, CorpusError, FileIdentity, ProgressReceiver, ProgressStep};
 
-use super::{About, Ended, Far, Job, Lane, WorkId};
-use crate::model::{Opened, Snapshot};
+use super::{CorpusJob, JobAbout, WorkId, WorkLane, WorkProgress, WorkResult};
+use crate::model::{CorpusSnapshot, OpenedRecording};
 
 /// Interval between checks for changes by other programs.
-const LOOK: Duration = Duration::from_millis(300);
+const CHANGE_CHECK_INTERVAL: Duration = Duration::from_millis(300);
 /// How many operations the history shows.
-const OPERATIONS: usize = 2000;
+const MAX_SHOWN_OPERATIONS: usize = 2000;
 
 /// Wakes the window; called from any thread.
-pub(crate) type Wake = Arc<dyn Fn() + Send + Sync>;
+pub(crate) type WindowWaker = Arc<dyn Fn() + Send + Sync>;
 
 /// The threads' messages to the window.
 #[derive(Debug)]
-pub(crate) enum News {
+pub(crate) enum DeskNews {
     /// A new snapshot, and whether this window's own work changed the corpus.
-    Read(Snapshot, bool),
+    Read(CorpusSnapshot, bool),
     /// The corpus could not be read.
-    Unread(Error),
+    Unread(CorpusError),
     /// Whether the corpus file is in its place; sent when that changes.
     Stands(bool),
     /// The path of the saved copy, or the error.
-    Copied(Result<PathBuf, Error>),
+    Copied(Result<PathBuf, CorpusError>),
     /// The progress of a piece of work.
-    Far(WorkId, Far),
+    Far(WorkId, WorkProgress),
     /// The result of a piece of work; that of an edit comes after the snapshot that shows it.
-    Ended(WorkId, Ended, About),
+    Ended(WorkId, WorkResult, JobAbout),
 }
 
 /// Work that has been started and has not ended.
 #[derive(Debug)]
-pub(crate) struct Running {
-    pub(crate) about: About,
-    pub(crate) far: Far,
+pub(crate) struct RunningWork {
+    pub(crate) about: JobAbout,
+    pub(crate) far: WorkProgress,
     stop: Arc<AtomicBool>,
 }
 
-struct Order {
+struct WorkOrder {
     id: WorkId,
-    job: Job,
+    job: CorpusJob,
     stop: Arc<AtomicBool>,
 }
 
 enum SnapshotRequest {
     /// Read again after work of this window, and pass on its end once the snapshot shows its result.
-    After(Box<News>),
+    After(Box<DeskNews>),
     /// Include the tiers of this recording in the snapshots.
     Recording(Option<i64>),
     /// Save a copy there.
@@ -63,39 +63,39 @@ enum SnapshotRequest {
 }
 
 /// An open corpus with its threads; dropping it waits until the user's edits are stored.
-pub(crate) struct Desk {
+pub(crate) struct CorpusDesk {
     pub(crate) path: PathBuf,
-    lanes: BTreeMap<Lane, Sender<Order>>,
+    lanes: BTreeMap<WorkLane, Sender<WorkOrder>>,
     reader: Option<Sender<SnapshotRequest>>,
-    news: Receiver<News>,
-    pub(crate) running: BTreeMap<WorkId, Running>,
+    news: Receiver<DeskNews>,
+    pub(crate) running: BTreeMap<WorkId, RunningWork>,
     threads: Vec<JoinHandle<()>>,
 }
 
-impl Desk {
+impl CorpusDesk {
     /// Opens the corpus at `path` on every thread; failures arrive as news.
-    pub(crate) fn open(path: &Path, author: &str, wake: &Wake) -> Self {
+    pub(crate) fn open_corpus_desk(path: &Path, author: &str, wake: &WindowWaker) -> Self {
         let (sender, news) = channel();
-        let station = Station {
+        let station = WorkStation {
             path: path.to_owned(),
             author: author.to_owned(),
             sender,
             wake: wake.clone(),
-            place: FileIdentity::of(path),
+            place: FileIdentity::from_file_path(path),
             edits: Arc::default(),
         };
         let (reader, wishes) = channel();
         let mut threads = Vec::new();
         let mut lanes = BTreeMap::new();
-        for lane in Lane::ALL {
+        for lane in WorkLane::ALL_WORK_LANES {
             let (give, orders) = channel();
             let (station, reader) = (station.clone(), reader.clone());
             threads.push(std::thread::spawn(move || {
-                station.work(&orders, lane, &reader)
+                station.work_on_orders(&orders, lane, &reader)
             }));
             lanes.insert(lane, give);
         }
-        threads.push(std::thread::spawn(move || station.read(&wishes)));
+        threads.push(std::thread::spawn(move || station.read_snapshot_requests(&wishes)));
         Self {
             path: path.to_owned(),
             lanes,
@@ -107,15 +107,15 @@ impl Desk {
     }
 
     /// Starts a job on its lane.
-    pub(crate) fn give(&mut self, id: WorkId, job: Job) {
+    pub(crate) fn give_desk_job(&mut self, id: WorkId, job: CorpusJob) {
         let about = job.about;
         let stop = Arc::new(AtomicBool::new(false));
-        let running = Running {
+        let running = RunningWork {
             about,
-            far: Far::default(),
+            far: WorkProgress::default(),
             stop: stop.clone(),
         };
-        let order = Order { id, job, stop };
+        let order = WorkOrder { id, job, stop };
         let lane = self.lanes.get(&about.lane);
         if lane.is_some_and(|lane| lane.send(order).is_ok()) {
             self.running.insert(id, running);
@@ -123,14 +123,14 @@ impl Desk {
     }
 
     /// Stops a piece of work, whether it has begun or not.
-    pub(crate) fn stop(&self, id: WorkId) {
+    pub(crate) fn stop_desk_work(&self, id: WorkId) {
         if let Some(running) = self.running.get(&id) {
             running.stop.store(true, Ordering::Relaxed);
         }
     }
 
     /// Makes the snapshots include the tiers of that recording.
-    pub(crate) fn watch(&self, recording: Option<i64>) {
+    pub(crate) fn watch_recording_tiers(&self, recording: Option<i64>) {
         if let Some(reader) = &self.reader {
             // A reader thread that has ended has reported the reason.
             let _ = reader.send(SnapshotRequest::Recording(recording));
@@ -146,16 +146,16 @@ impl Desk {
     }
 
     /// Returns the messages since the last call.
-    pub(crate) fn news(&mut self) -> Vec<News> {
+    pub(crate) fn take_desk_news(&mut self) -> Vec<DeskNews> {
         let mut all = Vec::new();
         while let Ok(news) = self.news.try_recv() {
             match &news {
-                News::Far(id, far) => {
+                DeskNews::Far(id, far) => {
                     if let Some(running) = self.running.get_mut(id) {
                         running.far = far.clone();
                     }
                 }
-                News::Ended(id, ..) => {
+                DeskNews::Ended(id, ..) => {
                     self.running.remove(id);
                 }
                 _ => {}
@@ -166,9 +166,9 @@ impl Desk {
     }
 }
 
-impl Drop for Desk {
+impl Drop for CorpusDesk {
     fn drop(&mut self) {
-        let stoppable = |running: &&Running| running.about.may_stop;
+        let stoppable = |running: &&RunningWork| running.about.may_stop;
         for running in self.running.values().filter(stoppable) {
             running.stop.store(true, Ordering::Relaxed);
         }
@@ -183,71 +183,73 @@ impl Drop for Desk {
 
 /// The shared data of the threads.
 #[derive(Clone)]
-struct Station {
+struct WorkStation {
     path: PathBuf,
     author: String,
-    sender: Sender<News>,
-    wake: Wake,
+    sender: Sender<DeskNews>,
+    wake: WindowWaker,
     /// The identity of the corpus file when it was opened.
     place: FileIdentity,
     /// How often work of this window began or ended to change the corpus; odd while such work runs.
     edits: Arc<AtomicU64>,
 }
 
-impl Station {
-    fn say(&self, news: News) {
+impl WorkStation {
+    fn send_station_news(&self, news: DeskNews) {
         // The window does not listen any more when it is closing.
         let _ = self.sender.send(news);
         (self.wake)();
     }
 
-    fn work(&self, orders: &Receiver<Order>, lane: Lane, reader: &Sender<SnapshotRequest>) {
+    fn work_on_orders(&self, orders: &Receiver<WorkOrder>, lane: WorkLane, reader: &Sender<SnapshotRequest>) {
         let mut corpus = None;
         while let Ok(order) = orders.recv() {
-            let Order { id, job, stop } = order;
+            let WorkOrder { id, job, stop } = order;
             let about = job.about;
-            let edits = lane == Lane::Edit;
+            let edits = lane == WorkLane::Edit;
             // Only one lane edits, so begins and ends alternate.
             if edits {
                 self.edits.fetch_add(1, Ordering::SeqCst);
             }
-            let ended = self.carry_out(&mut corpus, id, job, &stop);
-            let ended = News::Ended(id, ended, about);
+            let outcome = self.carry_out_order(&mut corpus, id, job, &stop);
+            let ended = DeskNews::Ended(id, outcome, about);
             if !edits {
-                self.say(ended);
+                self.send_station_news(ended);
                 continue;
             }
             self.edits.fetch_add(1, Ordering::SeqCst);
-            if let Err(SendError(SnapshotRequest::After(ended))) =
-                reader.send(SnapshotRequest::After(Box::new(ended)))
+            if let Err(SendError(SnapshotRequest::After(ended))) = reader.send(SnapshotRequest::After(Box::new(ended)))
             {
-                self.say(*ended);
+                self.send_station_news(*ended);
             }
         }
     }
 
-    fn carry_out(
+    fn carry_out_order(
         &self,
         corpus: &mut Option<Corpus>,
         id: WorkId,
-        job: Job,
+        job: CorpusJob,
         stop: &AtomicBool,
-    ) -> Ended {
+    ) -> WorkResult {
         if stop.load(Ordering::Relaxed) {
-            return Err(Error::Stopped);
+            return Err(CorpusError::Stopped);
         }
-        if (job.about.lane == Lane::Edit || corpus.is_none()) && !self.place.stands() {
-            return Err(Error::file(&self.path, std::io::ErrorKind::NotFound.into()));
+        if (job.about.lane == WorkLane::Edit || corpus.is_none()) && !self.place.is_same_file_present() {
+            return Err(CorpusError::from_file_failure(
+                &self.path,
+                std::io::ErrorKind::NotFound.into(),
+            ));
         }
         let corpus = match corpus {
             Some(corpus) => corpus,
-            None => corpus.insert(Corpus::open(&self.path, &self.author)?),
+            None => corpus.insert(Corpus::open_corpus(&self.path, &self.author)?),
         };
         let mut last = std::time::Instant::now();
-        let mut hear = |step: Step<'_>| {
+        let mut hear = |step: ProgressStep<'_>| {
             if last.elapsed() > Duration::from_millis(50) {
                 last = std::time::Instant::now();
-                self.say(News::Far(id, Far::of(&step)));
+                self.send_station_news(DeskNews::Far(id, WorkProgress::progress_from_step(&step)));
             }
             if stop.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
@@ -255,47 +257,47 @@ impl Station {
                 ControlFlow::Continue(())
             }
         };
-        job.carry_out(corpus, &mut Progress::new(&mut hear))
+        job.carry_out_job(corpus, &mut ProgressReceiver::new(&mut hear))
     }
 
-    fn read(&self, wishes: &Receiver<SnapshotRequest>) {
-        let corpus = match Corpus::open(&self.path, &self.author) {
+    fn read_snapshot_requests(&self, wishes: &Receiver<SnapshotRequest>) {
+        let corpus = match Corpus::open_corpus(&self.path, &self.author) {
             Ok(corpus) => corpus,
-            Err(error) => return self.say(News::Unread(error)),
+            Err(error) => return self.send_station_news(DeskNews::Unread(error)),
         };
-        let mut reading = Reading {
+        let mut reading = SnapshotReading {
             corpus,
             recording: None,
             seen: None,
-            snapshot: Snapshot::default(),
+            snapshot: CorpusSnapshot::default(),
         };
         let (mut stood, mut before) = (true, 0);
         let mut ended = Vec::new();
         loop {
-            let stands = self.place.stands();
+            let stands = self.place.is_same_file_present();
             if std::mem::replace(&mut stood, stands) != stands {
-                self.say(News::Stands(stands));
+                self.send_station_news(DeskNews::Stands(stands));
             }
             let begun = self.edits.load(Ordering::SeqCst);
-            match reading.again() {
+            match reading.read_snapshot_again() {
                 Ok(true) => {
-                    let own = is_own(before, self.edits.load(Ordering::SeqCst));
-                    self.say(News::Read(reading.snapshot.clone(), own));
+                    let is_own_edit = is_own(before, self.edits.load(Ordering::SeqCst));
+                    self.send_station_news(DeskNews::Read(reading.snapshot.clone(), is_own_edit));
                 }
                 Ok(false) => {}
-                Err(error) => self.say(News::Unread(error)),
+                Err(error) => self.send_station_news(DeskNews::Unread(error)),
             }
-            ended.drain(..).for_each(|news| self.say(news));
+            ended.drain(..).for_each(|news| self.send_station_news(news));
             // Work that is running has not ended: count it again at the next reading.
             before = begun & !1;
-            let mut next = wishes.recv_timeout(LOOK);
+            let mut next = wishes.recv_timeout(CHANGE_CHECK_INTERVAL);
             while let Ok(wish) = next {
                 match wish {
                     SnapshotRequest::After(news) => ended.push(*news),
                     SnapshotRequest::Recording(recording) => reading.recording = recording,
                     SnapshotRequest::Copy(to) => {
                         let saved = reading.corpus.save_copy(&to).map(|()| to);
-                        self.say(News::Copied(saved));
+                        self.send_station_news(DeskNews::Copied(saved));
                     }
                 }
                 next = wishes.try_recv().map_err(|error| match error {
@@ -317,31 +319,33 @@ fn is_own(before: u64, now: u64) -> bool {
 }
 
 /// The data of the reading thread.
-struct Reading {
+struct SnapshotReading {
     corpus: Corpus,
     /// The recording whose tiers the snapshots include.
     recording: Option<i64>,
     /// The generation and recording of the last snapshot.
     seen: Option<(i64, Option<i64>)>,
-    snapshot: Snapshot,
+    snapshot: CorpusSnapshot,
 }
 
-impl Reading {
+impl SnapshotReading {
     /// Reads what changed since the last snapshot; returns whether anything did.
-    fn again(&mut self) -> Result<bool, Error> {
-        let now = (self.corpus.generation()?, self.recording);
+    fn read_snapshot_again(&mut self) -> Result<bool, CorpusError> {
+        let now = (self.corpus.corpus_generation()?, self.recording);
         if self.seen == Some(now) {
             return Ok(false);
         }
         if self.seen.is_none_or(|(generation, _)| generation != now.0) {
-            self.snapshot.overview = Arc::new(self.corpus.overview(OPERATIONS)?);
+            self.snapshot.overview = Arc::new(self.corpus.load_corpus_overview(MAX_SHOWN_OPERATIONS)?);
         }
         let there = |id: &i64| {
             let recordings = &self.snapshot.overview.recordings;
             recordings.iter().any(|recording| recording.row.id == *id)
         };
         self.snapshot.open = match self.recording.filter(there) {
-            Some(recording) => Some(Arc::new(Opened::new(self.corpus.contents(recording)?))),
+            Some(recording) => Some(Arc::new(OpenedRecording::new(
+                self.corpus.load_recording_contents(recording)?,
+            ))),
             None => None,
         };
         self.seen = Some(now);
@@ -351,16 +355,16 @@ impl Reading {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Outcome;
+    use super::super::WorkOutcome;
     use super::*;
 
     /// Reports progress; returns the error if the job has been stopped.
-    fn step(progress: &mut Progress<'_>) -> Result<(), Error> {
-        progress.report(Step {
+    fn step(progress: &mut ProgressReceiver<'_>) -> Result<(), CorpusError> {
+        progress.report_step(ProgressStep {
             task: "",
             done: 0,
             total: None,
-            unit: chereme_corpus::Unit::Items,
+            unit: chereme_corpus::ProgressUnit::Items,
         })
     }
 
@@ -368,28 +372,28 @@ mod tests {
     fn closing_stops_queries_and_lets_edits_finish() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a.chereme");
-        drop(Corpus::create(&path, "A").expect("created"));
-        let wake: Wake = Arc::new(|| {});
-        let mut desk = Desk::open(&path, "A", &wake);
+        drop(Corpus::create_corpus(&path, "A").expect("created"));
+        let wake: WindowWaker = Arc::new(|| {});
+        let mut desk = CorpusDesk::open_corpus_desk(&path, "A", &wake);
         let (asking, asked) = channel();
         let (stop, stopped) = channel();
         let (edit, edited) = channel();
-        let query = Job::new(About::ASK, move |_, progress| {
+        let query = CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |_, progress| {
             // The desk has closed already if nobody listens.
             let _ = asking.send(());
             let ended = (0..u32::MAX).find_map(|_| step(progress).err());
             let _ = stop.send(());
-            Err(ended.unwrap_or(Error::wrong("never stopped")))
+            Err(ended.unwrap_or(CorpusError::from_wrong_message("never stopped")))
         });
-        let change = Job::new(About::EDIT, move |_, progress| {
+        let change = CorpusJob::new(JobAbout::EDIT_JOB_ABOUT, move |_, progress| {
             // The query ends when the desk closes, so the rest of the edit happens afterwards.
             let _ = stopped.recv();
             let ended = step(progress);
             let _ = edit.send(ended.is_ok());
-            ended.map(|()| Outcome::Changed)
+            ended.map(|()| WorkOutcome::Changed)
         });
-        desk.give(WorkId(1), change);
-        desk.give(WorkId(2), query);
+        desk.give_desk_job(WorkId(1), change);
+        desk.give_desk_job(WorkId(2), query);
         asked.recv().expect("the query runs");
         drop(desk);
         assert_eq!(edited.recv(), Ok(true));

@@ -4,79 +4,79 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, ExportOptions, ExportWhat, ImportOptions, Performance, PictureOptions, SearchOptions,
+    CorpusAddress, DrawablePerformance, ExportOptions, ExportWhat, ImportOptions, PictureOptions, SearchOptions,
     draw_clip,
 };
 
-use super::{About, Job, Outcome};
+use super::{CorpusJob, JobAbout, WorkOutcome};
 use crate::model::generated::GeneratedClip;
 use crate::words::shell;
 
 /// Movement that the user shares as a file: stored in the corpus, or only generated.
 #[derive(Debug, Clone)]
-pub(crate) enum Shared {
+pub(crate) enum SharedMovement {
     /// Something stored in the corpus.
-    Stored(Address),
+    Stored(CorpusAddress),
     /// Generated movement that is not stored.
     Made(Arc<GeneratedClip>),
 }
 
 /// Exports show their errors in their box.
-const EXPORT: About = About {
+const EXPORT_JOB_ABOUT: JobAbout = JobAbout {
     quiet: true,
-    ..About::WRITE
+    ..JobAbout::WRITE_JOB_ABOUT
 };
 
 /// Imports files, or only reports what an import would do.
-pub(crate) fn import(paths: Vec<PathBuf>, options: ImportOptions) -> Job {
+pub(crate) fn import_files_job(paths: Vec<PathBuf>, options: ImportOptions) -> CorpusJob {
     let task = if options.dry_run {
         shell::TASK_LOOKING
     } else {
         shell::TASK_IMPORT
     };
-    let about = About {
+    let about = JobAbout {
         task,
         quiet: true,
         may_stop: true,
-        ..About::EDIT
+        ..JobAbout::EDIT_JOB_ABOUT
     };
-    Job::new(about, move |corpus, progress| {
-        let report = corpus.import(&paths, &options, progress);
-        report.map(Outcome::Imported)
+    CorpusJob::new(about, move |corpus, progress| {
+        let report = corpus.import_paths(&paths, &options, progress);
+        report.map(WorkOutcome::Imported)
     })
 }
 
 /// Writes something stored in the corpus to files.
-pub(crate) fn export(what: ExportWhat, to: PathBuf, options: ExportOptions) -> Job {
-    Job::new(EXPORT, move |corpus, progress| {
-        let report = corpus.export(&what, &to, &options, progress);
-        report.map(Outcome::Exported)
+pub(crate) fn export_files_job(what: ExportWhat, to: PathBuf, options: ExportOptions) -> CorpusJob {
+    CorpusJob::new(EXPORT_JOB_ABOUT, move |corpus, progress| {
+        let report = corpus.export_corpus(&what, &to, &options, progress);
+        report.map(WorkOutcome::Exported)
     })
 }
 
 /// Writes the tokens that a query finds to files.
-pub(crate) fn export_found(query: String, to: PathBuf, options: ExportOptions) -> Job {
-    Job::new(EXPORT, move |corpus, progress| {
+pub(crate) fn export_found(query: String, to: PathBuf, options: ExportOptions) -> CorpusJob {
+    CorpusJob::new(EXPORT_JOB_ABOUT, move |corpus, progress| {
         let all = SearchOptions {
             limit: None,
             facets: false,
             ..SearchOptions::default()
         };
-        let found = corpus.search_until(&query, &all, progress)?;
-        let tokens = found.hits.iter().map(|hit| hit.token).collect();
+        let answer = corpus.search_until(&query, &all, progress)?;
+        let tokens = answer.hits.iter().map(|hit| hit.token).collect();
         let what = ExportWhat::Tokens(tokens);
-        let report = corpus.export(&what, &to, &options, progress);
-        report.map(Outcome::Exported)
+        let report = corpus.export_corpus(&what, &to, &options, progress);
+        report.map(WorkOutcome::Exported)
     })
 }
 
 /// Draws the contents of the stage to a film, an animation or a picture.
-pub(crate) fn share(what: Shared, to: PathBuf, options: PictureOptions) -> Job {
-    Job::new(About::WRITE, move |corpus, progress| {
+pub(crate) fn share_movement_job(what: SharedMovement, to: PathBuf, options: PictureOptions) -> CorpusJob {
+    CorpusJob::new(JobAbout::WRITE_JOB_ABOUT, move |corpus, progress| {
         let picture = match what {
-            Shared::Stored(address) => corpus.draw(&address, &to, &options, progress),
-            Shared::Made(made) => {
-                let performance = Performance {
+            SharedMovement::Stored(address) => corpus.draw_movement_file(&address, &to, &options, progress),
+            SharedMovement::Made(made) => {
+                let performance = DrawablePerformance {
                     clip: &made.clip,
                     anatomy: &made.anatomy,
                     faces: &made.faces,
@@ -84,6 +84,6 @@ pub(crate) fn share(what: Shared, to: PathBuf, options: PictureOptions) -> Job {
                 draw_clip(performance, &made.name, &to, &options, progress)
             }
         };
-        picture.map(Outcome::Shared)
+        picture.map(WorkOutcome::Shared)
     })
 }

@@ -1,12 +1,12 @@
-//! Work on other threads: each use case of the corpus is a [`Job`], a value that a thread carries out.
+//! Work on other threads: each use case of the corpus is a [`CorpusJob`], a value that a thread carries out.
 //!
-//! Each use case is one function in a module by theme, which states its [`About`] and the call of the corpus; one that
+//! Each use case is one function in a module by theme, which states its [`JobAbout`] and the call of the corpus; one that
 //! needs only the selection is a closure in its row of the table of actions. The call is a
 //! boxed closure, as a closure owns its arguments without naming them again; a trait would need a struct, its fields and
 //! an `impl` for each use case. Nothing can look into a job: a pane that needs its request later remembers it beside the
 //! [`WorkId`].
 //!
-//! [`Outcome`] is an enum, as it has many readers: the notices match on a dozen of its variants, and each pane takes its own.
+//! [`WorkOutcome`] is an enum, as it has many readers: the notices match on a dozen of its variants, and each pane takes its own.
 
 pub(crate) mod analysis;
 pub(crate) mod begin;
@@ -14,123 +14,123 @@ pub(crate) mod comparing;
 pub(crate) mod desk;
 pub(crate) mod editing;
 pub(crate) mod exchange;
-pub(crate) mod faces;
-pub(crate) mod movement;
-mod outcome;
+pub(crate) mod faces_jobs;
+pub(crate) mod movement_jobs;
+mod outcome_jobs;
 pub(crate) mod recombining;
-pub(crate) mod recordings;
+pub(crate) mod recordings_jobs;
 pub(crate) mod searching;
 pub(crate) mod studying;
 pub(crate) mod whole_corpus;
 
 use std::fmt;
 
-use chereme_corpus::{Corpus, Progress, Result, Unit};
+use chereme_corpus::{Corpus, CorpusResult, ProgressReceiver, ProgressUnit};
 
-pub(crate) use outcome::Outcome;
+pub(crate) use outcome_jobs::WorkOutcome;
 
-use crate::words::{Text, shell};
+use crate::words::{InterfaceText, shell};
 
 /// Serial number of a piece of work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct WorkId(pub(crate) u64);
 
 /// A use case of the corpus with its arguments, to be carried out once.
-pub(crate) struct Job {
-    about: About,
-    call: Box<Call>,
+pub(crate) struct CorpusJob {
+    about: JobAbout,
+    call: Box<JobCall>,
 }
 
-type Call = dyn FnOnce(&mut Corpus, &mut Progress<'_>) -> Result<Outcome> + Send;
+type JobCall = dyn FnOnce(&mut Corpus, &mut ProgressReceiver<'_>) -> CorpusResult<WorkOutcome> + Send;
 
 /// The properties of a job that the window needs while it waits, runs and ends.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct About {
-    pub(crate) lane: Lane,
+pub(crate) struct JobAbout {
+    pub(crate) lane: WorkLane,
     /// The title of the job while it runs.
-    pub(crate) task: Text,
+    pub(crate) task: InterfaceText,
     /// Whether the pane that requested it shows errors itself.
     pub(crate) quiet: bool,
     /// Whether the job may be stopped when the window closes; edits must be stored.
     pub(crate) may_stop: bool,
 }
 
-impl About {
+impl JobAbout {
     /// A change of the corpus.
-    const EDIT: Self = Self {
-        lane: Lane::Edit,
+    const EDIT_JOB_ABOUT: Self = Self {
+        lane: WorkLane::Edit,
         task: shell::TASK_EDIT,
         quiet: false,
         may_stop: false,
     };
     /// A query that the user waits for.
-    const ASK: Self = Self {
-        lane: Lane::Ask,
+    const ASK_JOB_ABOUT: Self = Self {
+        lane: WorkLane::Ask,
         task: shell::TASK_SEARCH,
         quiet: true,
         may_stop: true,
     };
     /// The evaluation of a recipe that stores nothing.
-    const PREVIEW: Self = Self {
-        lane: Lane::Make,
+    const PREVIEW_JOB_ABOUT: Self = Self {
+        lane: WorkLane::Make,
         task: shell::TASK_RECOMBINE,
         quiet: true,
         may_stop: true,
     };
     /// Movement for little figures.
-    const LITTLE: Self = Self {
-        lane: Lane::Little,
+    const LITTLE_FIGURE_JOB_ABOUT: Self = Self {
+        lane: WorkLane::Little,
         task: shell::TASK_MOVEMENT,
         quiet: false,
         may_stop: true,
     };
     /// The writing of files.
-    const WRITE: Self = Self {
-        lane: Lane::Export,
+    const WRITE_JOB_ABOUT: Self = Self {
+        lane: WorkLane::Export,
         task: shell::TASK_EXPORT,
         quiet: false,
         may_stop: true,
     };
 }
 
-impl Job {
+impl CorpusJob {
     fn new(
-        about: About,
-        call: impl FnOnce(&mut Corpus, &mut Progress<'_>) -> Result<Outcome> + Send + 'static,
+        about: JobAbout,
+        call: impl FnOnce(&mut Corpus, &mut ProgressReceiver<'_>) -> CorpusResult<WorkOutcome> + Send + 'static,
     ) -> Self {
         let call = Box::new(call);
         Self { about, call }
     }
 
     /// Returns an edit whose whole result is in the next snapshot.
-    pub(crate) fn change<T>(
-        call: impl FnOnce(&mut Corpus, &mut Progress<'_>) -> Result<T> + Send + 'static,
+    pub(crate) fn new_change_job<T>(
+        call: impl FnOnce(&mut Corpus, &mut ProgressReceiver<'_>) -> CorpusResult<T> + Send + 'static,
     ) -> Self {
-        Self::new(About::EDIT, |corpus, progress| {
-            call(corpus, progress).map(|_| Outcome::Changed)
+        Self::new(JobAbout::EDIT_JOB_ABOUT, |corpus, progress| {
+            call(corpus, progress).map(|_| WorkOutcome::Changed)
         })
     }
 
     /// Returns an edit that may take long: its title is shown while it runs, and it may be stopped.
-    pub(crate) fn long(
-        task: Text,
-        call: impl FnOnce(&mut Corpus, &mut Progress<'_>) -> Result<Outcome> + Send + 'static,
+    pub(crate) fn new_long_job(
+        task: InterfaceText,
+        call: impl FnOnce(&mut Corpus, &mut ProgressReceiver<'_>) -> CorpusResult<WorkOutcome> + Send + 'static,
     ) -> Self {
-        let about = About {
+        let about = JobAbout {
             task,
             may_stop: true,
-            ..About::EDIT
+            ..JobAbout::EDIT_JOB_ABOUT
         };
         Self::new(about, call)
     }
 
     /// Carries out the job.
-    pub(crate) fn carry_out(self, corpus: &mut Corpus, progress: &mut Progress<'_>) -> Ended {
+    pub(crate) fn carry_out_job(self, corpus: &mut Corpus, progress: &mut ProgressReceiver<'_>) -> WorkResult {
         (self.call)(corpus, progress)
     }
 }
 
-impl fmt::Debug for Job {
+impl fmt::Debug for CorpusJob {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Job")
             .field("about", &self.about)
@@ -140,7 +140,7 @@ impl fmt::Debug for Job {
 
 /// A thread with its own connection to the corpus; the work of one lane is done in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Lane {
+pub(crate) enum WorkLane {
     /// Changes of the corpus.
     Edit,
     /// Queries that the user waits for.
@@ -161,8 +161,8 @@ pub(crate) enum Lane {
     Export,
 }
 
-impl Lane {
-    pub(crate) const ALL: [Self; 9] = [
+impl WorkLane {
+    pub(crate) const ALL_WORK_LANES: [Self; 9] = [
         Self::Edit,
         Self::Ask,
         Self::Make,
@@ -177,16 +177,16 @@ impl Lane {
 
 /// The progress of a piece of work.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Far {
+pub(crate) struct WorkProgress {
     /// The current task, such as a file's name.
     pub(crate) task: String,
     pub(crate) done: u64,
     pub(crate) total: Option<u64>,
 }
 
-impl Far {
-    fn of(step: &chereme_corpus::Step<'_>) -> Self {
-        let scale = if step.unit == Unit::Bytes { 1024 } else { 1 };
+impl WorkProgress {
+    fn progress_from_step(step: &chereme_corpus::ProgressStep<'_>) -> Self {
+        let scale = if step.unit == ProgressUnit::Bytes { 1024 } else { 1 };
         Self {
             task: step.task.to_owned(),
             done: step.done / scale,
@@ -195,11 +195,11 @@ impl Far {
     }
 
     /// Returns the share that is done, if the total is known.
-    pub(crate) fn share(&self) -> Option<f32> {
+    pub(crate) fn finished_share(&self) -> Option<f32> {
         let total = self.total.filter(|total| *total > 0)?;
         Some((self.done as f64 / total as f64).min(1.0) as f32)
     }
 }
 
 /// The result of a piece of work.
-pub(crate) type Ended = Result<Outcome>;
+pub(crate) type WorkResult = CorpusResult<WorkOutcome>;

@@ -6,133 +6,133 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use chereme_corpus::Corpus;
-use chereme_corpus::study::plan::Plan;
-use chereme_corpus::study::report::Report;
+use chereme_corpus::study::report::StudyReport;
+use chereme_corpus::study::study_plan::StudyPlan;
 use chereme_corpus::study::{AnswersOptions, QuestionnaireOptions};
 
-use super::{About, Job, Lane, Outcome};
-use crate::words::{Language, studies as words};
+use super::{CorpusJob, JobAbout, WorkLane, WorkOutcome};
+use crate::words::{InterfaceLanguage, studies_words as words};
 
-const REPORT: About = About {
-    lane: Lane::Compare,
+const STUDY_REPORT_JOB_ABOUT: JobAbout = JobAbout {
+    lane: WorkLane::Compare,
     task: words::TASK_REPORT,
     quiet: true,
     may_stop: true,
 };
 
 /// Writes of files, whose errors the pane shows.
-const WRITE: About = About {
+const STUDY_WRITE_JOB_ABOUT: JobAbout = JobAbout {
     quiet: true,
-    ..About::WRITE
+    ..JobAbout::WRITE_JOB_ABOUT
 };
 
 /// Changes of the corpus that may take long, whose errors the pane shows.
-const CHANGE: About = About {
+const STUDY_CHANGE_JOB_ABOUT: JobAbout = JobAbout {
     quiet: true,
     may_stop: true,
-    ..About::EDIT
+    ..JobAbout::EDIT_JOB_ABOUT
 };
 
 /// Lists the studies.
-pub(crate) fn list() -> Job {
-    Job::new(REPORT, |corpus, _| {
-        let found = corpus.studies()?;
-        Ok(Outcome::Studies(Arc::new(found)))
+pub(crate) fn list_studies_job() -> CorpusJob {
+    CorpusJob::new(STUDY_REPORT_JOB_ABOUT, |corpus, _| {
+        let study_list = corpus.study_overviews()?;
+        Ok(WorkOutcome::Studies(Arc::new(study_list)))
     })
 }
 
 /// Makes the clip of a trial.
-pub(crate) fn clip(text: String) -> Job {
-    Job::new(About::PREVIEW, move |corpus, _| {
+pub(crate) fn make_trial_clip_job(text: String) -> CorpusJob {
+    CorpusJob::new(JobAbout::PREVIEW_JOB_ABOUT, move |corpus, _| {
         let made = corpus.trial_clip(&text)?;
-        Ok(Outcome::TrialClip(Arc::new(made)))
+        Ok(WorkOutcome::TrialClip(Arc::new(made)))
     })
 }
 
 /// Reads a file for the form of a study.
-pub(crate) fn read(path: PathBuf) -> Job {
-    Job::new(REPORT, move |_, _| {
+pub(crate) fn read_study_file_job(path: PathBuf) -> CorpusJob {
+    CorpusJob::new(STUDY_REPORT_JOB_ABOUT, move |_, _| {
         let text = Corpus::read_study_text(&path)?;
-        Ok(Outcome::StudyText(text))
+        Ok(WorkOutcome::StudyText(text))
     })
 }
 
 /// Stores a plan, after each of its clips was made once, with the distances from a condition if one is given.
-pub(crate) fn plan(plan: Plan, distance_from: Option<String>) -> Job {
-    let about = About {
+pub(crate) fn store_study_plan_job(plan: StudyPlan, distance_from: Option<String>) -> CorpusJob {
+    let about = JobAbout {
         task: words::TASK_PLAN,
-        ..CHANGE
+        ..STUDY_CHANGE_JOB_ABOUT
     };
-    Job::new(about, move |corpus, progress| {
+    CorpusJob::new(about, move |corpus, progress| {
         let mut plan = plan;
         if let Some(condition) = &distance_from {
             corpus.measure_distances(&mut plan, condition, progress)?;
         }
         let done = corpus.plan_study(&plan, progress)?;
-        Ok(Outcome::Planned(done.plan.name))
+        Ok(WorkOutcome::Planned(done.plan.name))
     })
 }
 
 /// Builds the questionnaire of a study in a folder.
-pub(crate) fn build(name: String, to: PathBuf, options: QuestionnaireOptions) -> Job {
-    let about = About {
+pub(crate) fn build_questionnaire_job(name: String, to: PathBuf, options: QuestionnaireOptions) -> CorpusJob {
+    let about = JobAbout {
         task: words::TASK_BUILD,
-        ..WRITE
+        ..STUDY_WRITE_JOB_ABOUT
     };
-    Job::new(about, move |corpus, progress| {
+    CorpusJob::new(about, move |corpus, progress| {
         let done = corpus.build_study(&name, &to, options, progress)?;
-        Ok(Outcome::QuestionnaireBuilt(Box::new(done)))
+        Ok(WorkOutcome::QuestionnaireBuilt(Box::new(done)))
     })
 }
 
 /// Writes the plan of a study as a file.
-pub(crate) fn write_plan(name: String, to: PathBuf, force: bool) -> Job {
-    Job::new(WRITE, move |corpus, _| {
+pub(crate) fn write_plan(name: String, to: PathBuf, force: bool) -> CorpusJob {
+    CorpusJob::new(STUDY_WRITE_JOB_ABOUT, move |corpus, _| {
         corpus.export_plan(&name, &to, force)?;
-        Ok(Outcome::PlanWritten)
+        Ok(WorkOutcome::PlanWritten)
     })
 }
 
 /// Lists the answers to a study.
-pub(crate) fn answers(name: String) -> Job {
-    Job::new(REPORT, move |corpus, _| {
-        let found = corpus.study_answers(&name)?;
-        Ok(Outcome::AnswersListed(Arc::new(found)))
+pub(crate) fn list_answers_job(name: String) -> CorpusJob {
+    CorpusJob::new(STUDY_REPORT_JOB_ABOUT, move |corpus, _| {
+        let answer_list = corpus.study_answers(&name)?;
+        Ok(WorkOutcome::AnswersListed(Arc::new(answer_list)))
     })
 }
 
 /// Writes the answers to a study as a table.
-pub(crate) fn write_answers(name: String, to: PathBuf, force: bool) -> Job {
-    Job::new(WRITE, move |corpus, _| {
+pub(crate) fn write_answers(name: String, to: PathBuf, force: bool) -> CorpusJob {
+    CorpusJob::new(STUDY_WRITE_JOB_ABOUT, move |corpus, _| {
         corpus.export_answers(&name, &to, force)?;
-        Ok(Outcome::AnswersWritten)
+        Ok(WorkOutcome::AnswersWritten)
     })
 }
 
 /// Deletes a participant of a study with all answers.
-pub(crate) fn forget(name: String, code: String) -> Job {
-    Job::change(move |corpus, _| corpus.forget_participant(&name, &code))
+pub(crate) fn forget_participant_job(name: String, code: String) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.forget_participant(&name, &code))
 }
 
 /// Imports answers to a study, or tries it.
-pub(crate) fn import(name: String, paths: Vec<PathBuf>, options: AnswersOptions) -> Job {
-    let about = About {
+pub(crate) fn import_answers_job(name: String, paths: Vec<PathBuf>, options: AnswersOptions) -> CorpusJob {
+    let about = JobAbout {
         task: words::TASK_ANSWERS,
-        ..CHANGE
+        ..STUDY_CHANGE_JOB_ABOUT
     };
-    Job::new(about, move |corpus, progress| {
+    CorpusJob::new(about, move |corpus, progress| {
         let done = corpus.import_answers_by(&name, &paths, &options, progress)?;
-        Ok(Outcome::AnswersImported(Box::new(done)))
+        Ok(WorkOutcome::AnswersImported(Box::new(done)))
     })
 }
 
 /// Opens a page in the program that the desktop has for it.
-pub(crate) fn open(path: PathBuf) -> Job {
-    let about = About {
+pub(crate) fn open_page_job(path: PathBuf) -> CorpusJob {
+    let about = JobAbout {
         task: words::TASK_OPEN,
-        ..WRITE
+        ..STUDY_WRITE_JOB_ABOUT
     };
-    Job::new(about, move |_, _| Ok(Outcome::Opened(open_page(&path))))
+    CorpusJob::new(about, move |_, _| Ok(WorkOutcome::Opened(open_page(&path))))
 }
 
 /// Opens a page with the program of the desktop for such files; returns whether there is one.
@@ -161,31 +161,31 @@ fn open_page(path: &Path) -> bool {
 }
 
 /// Deletes a study with all answers.
-pub(crate) fn delete(name: String) -> Job {
-    Job::change(move |corpus, _| corpus.delete_study(&name))
+pub(crate) fn delete_study_job(name: String) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.delete_study(&name))
 }
 
 /// Makes the report of a study.
-pub(crate) fn report(name: String) -> Job {
-    Job::new(REPORT, move |corpus, _| {
-        let found = corpus.report_study(&name)?;
-        Ok(Outcome::Reported(Arc::new(found)))
+pub(crate) fn study_report_job(name: String) -> CorpusJob {
+    CorpusJob::new(STUDY_REPORT_JOB_ABOUT, move |corpus, _| {
+        let study_report = corpus.report_study(&name)?;
+        Ok(WorkOutcome::Reported(Arc::new(study_report)))
     })
 }
 
 /// Writes a report to a file.
 pub(crate) fn write_report(
-    report: Arc<Report>,
+    report: Arc<StudyReport>,
     to: PathBuf,
     force: bool,
-    language: Language,
-) -> Job {
-    let about = About {
+    language: InterfaceLanguage,
+) -> CorpusJob {
+    let about = JobAbout {
         task: words::TASK_SAVE,
-        ..WRITE
+        ..STUDY_WRITE_JOB_ABOUT
     };
-    Job::new(about, move |_, _| {
-        let written = report.write(&to, force, language)?;
-        Ok(Outcome::ReportWritten(written))
+    CorpusJob::new(about, move |_, _| {
+        let written = report.write_study_report(&to, force, language)?;
+        Ok(WorkOutcome::ReportWritten(written))
     })
 }

@@ -2,56 +2,56 @@
 
 use std::path::PathBuf;
 
-use chereme_corpus::{Decision, Step, Unit};
+use chereme_corpus::{ConflictDecision, ProgressStep, ProgressUnit};
 
-use super::{About, Job, Outcome};
+use super::{CorpusJob, JobAbout, WorkOutcome};
 use crate::words::shell;
 
 /// Undoes the newest operation (`back`), or redoes the last undone one.
-pub(crate) fn undo_or_redo(back: bool) -> Job {
-    Job::new(About::EDIT, move |corpus, _| {
+pub(crate) fn undo_or_redo(back: bool) -> CorpusJob {
+    CorpusJob::new(JobAbout::EDIT_JOB_ABOUT, move |corpus, _| {
         if back {
-            corpus.undo().map(Outcome::Undone)
+            corpus.undo_operation().map(WorkOutcome::Undone)
         } else {
-            corpus.redo().map(Outcome::Redone)
+            corpus.redo_operation().map(WorkOutcome::Redone)
         }
     })
 }
 
 /// Undoes (`back`) or redoes several operations one after the other; if it is stopped, the finished ones stay.
-pub(crate) fn walk(back: bool, steps: usize) -> Job {
-    Job::new(About::EDIT, move |corpus, progress| {
+pub(crate) fn walk_operations_job(back: bool, steps: usize) -> CorpusJob {
+    CorpusJob::new(JobAbout::EDIT_JOB_ABOUT, move |corpus, progress| {
         for done in 0..steps {
-            progress.report(Step {
+            progress.report_step(ProgressStep {
                 task: "",
                 done: done as u64,
                 total: Some(steps as u64),
-                unit: Unit::Items,
+                unit: ProgressUnit::Items,
             })?;
             if back {
-                corpus.undo()?;
+                corpus.undo_operation()?;
             } else {
-                corpus.redo()?;
+                corpus.redo_operation()?;
             }
         }
-        Ok(Outcome::Walked { back, steps })
+        Ok(WorkOutcome::Walked { back, steps })
     })
 }
 
 /// Merges another corpus into this one.
-pub(crate) fn merge(other: PathBuf) -> Job {
-    let about = About {
+pub(crate) fn merge_corpus_job(other: PathBuf) -> CorpusJob {
+    let about = JobAbout {
         task: shell::TASK_MERGE,
         quiet: true,
         may_stop: true,
-        ..About::EDIT
+        ..JobAbout::EDIT_JOB_ABOUT
     };
-    Job::new(about, move |corpus, progress| {
-        corpus.merge(&other, None, progress).map(Outcome::Merged)
+    CorpusJob::new(about, move |corpus, progress| {
+        corpus.merge_corpus(&other, None, progress).map(WorkOutcome::Merged)
     })
 }
 
 /// Decides the conflict of a merge with that number.
-pub(crate) fn decide(number: usize, decision: Decision) -> Job {
-    Job::change(move |corpus, _| corpus.decide(&[number], decision))
+pub(crate) fn decide_conflict_job(number: usize, decision: ConflictDecision) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.decide_conflicts(&[number], decision))
 }

@@ -7,34 +7,31 @@ pub mod tiers;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
-use chereme_studio::{Folders, Language, Options, Studio};
+use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
+use chereme_studio::{InterfaceLanguage, Studio, StudioFolders, StudioOptions};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 pub type Window<'a> = Harness<'a, Studio>;
 
-pub fn options(folder: &Path) -> Options {
-    Options {
+pub fn options(folder: &Path) -> StudioOptions {
+    StudioOptions {
         corpus: None,
         author: "Zoé".into(),
-        folders: Folders {
+        folders: StudioFolders {
             config: Some(folder.join("config")),
             data: Some(folder.join("data")),
         },
-        language: Language::English,
+        language: InterfaceLanguage::English,
         asked_language: None,
     }
 }
 
-pub fn window<'a>(options: Options) -> Window<'a> {
+pub fn window<'a>(options: StudioOptions) -> Window<'a> {
     Harness::builder()
         .with_size([1280.0, 1040.0])
         .with_step_dt(1.0 / 60.0)
-        .build_ui_state(
-            |ui, studio: &mut Studio| studio.ui(ui),
-            Studio::new(options),
-        )
+        .build_ui_state(|ui, studio: &mut Studio| studio.ui(ui), Studio::new(options))
 }
 
 /// Draws frames until `done`, for at most a minute.
@@ -72,9 +69,7 @@ pub fn open_starter<'a>(folder: &Path) -> Window<'a> {
     let mut window = window(options(folder));
     window.step();
     click(&mut window, "Open the starter corpus");
-    until(&mut window, "the starter corpus", |window| {
-        has(window, "aimer")
-    });
+    until(&mut window, "the starter corpus", |window| has(window, "aimer"));
     idle(&mut window);
     window
 }
@@ -85,19 +80,17 @@ pub fn small_corpus(folder: &Path) -> PathBuf {
     let wanted = |path: &PathBuf| path.file_stem().is_some_and(|stem| stem == "escargot");
     let files: Vec<PathBuf> = files.into_iter().filter(wanted).collect();
     let path = folder.join("small.chereme");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     let options = ImportOptions::default();
-    corpus
-        .import(&files, &options, &mut progress)
-        .expect("imported");
+    corpus.import_paths(&files, &options, &mut progress).expect("imported");
     path
 }
 
 pub fn open_small<'a>(folder: &Path) -> Window<'a> {
     let corpus = Some(small_corpus(folder));
-    let mut window = window(Options {
+    let mut window = window(StudioOptions {
         corpus,
         ..options(folder)
     });

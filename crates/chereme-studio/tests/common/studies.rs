@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_corpus::study::StudyRequest;
-use chereme_corpus::study::answers::{
-    ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant,
+use chereme_corpus::study::study_answers::{
+    ANSWERS_FORMAT, ANSWERS_VERSION, ParticipantDevice, StudyAnswer, StudyParticipant,
 };
-use chereme_corpus::study::plan::Role as TrialRole;
-use chereme_corpus::{Corpus, Progress, unheard};
-use chereme_studio::Language;
+use chereme_corpus::study::study_plan::TrialRole;
+use chereme_corpus::{Corpus, ProgressReceiver, ignore_progress_step};
+use chereme_studio::InterfaceLanguage;
 use eframe::egui::{DroppedFile, DroppedFileHandle, Key};
 use egui_kittest::kittest::Queryable;
 
@@ -17,14 +17,10 @@ use super::tiers::{ALT, CTRL};
 use super::{Window, click, contains, idle, options, small_corpus, until, window};
 
 /// Opens a window whose corpus is made first by `prepare`, with the pane of studies large.
-pub fn opened_with<'a>(
-    folder: &Path,
-    language: Language,
-    prepare: impl FnOnce(&mut Corpus),
-) -> Window<'a> {
+pub fn opened_with<'a>(folder: &Path, language: InterfaceLanguage, prepare: impl FnOnce(&mut Corpus)) -> Window<'a> {
     let path = small_corpus(folder);
-    prepare(&mut Corpus::open(&path, "A").expect("opened"));
-    let mut window = window(chereme_studio::Options {
+    prepare(&mut Corpus::open_corpus(&path, "A").expect("opened"));
+    let mut window = window(chereme_studio::StudioOptions {
         corpus: Some(path),
         language,
         ..options(folder)
@@ -39,14 +35,14 @@ pub fn opened_with<'a>(
     window
 }
 
-pub fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
+pub fn opened<'a>(folder: &Path, language: InterfaceLanguage) -> Window<'a> {
     opened_with(folder, language, |_| {})
 }
 
 /// Returns the corpus of a window.
 pub fn corpus(window: &Window<'_>) -> Corpus {
-    let path = window.state().corpus().expect("open").clone();
-    Corpus::open(&path, "reader").expect("opened")
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    Corpus::open_corpus(&path, "reader").expect("opened")
 }
 
 pub fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
@@ -80,15 +76,15 @@ pub fn places(name: &str) -> StudyRequest {
 
 /// Stores a study.
 pub fn plan(corpus: &mut Corpus, request: &StudyRequest) {
-    let plan = request.plan().expect("a plan");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let plan = request.make_study_plan().expect("a plan");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     corpus.plan_study(&plan, progress).expect("stored");
 }
 
 /// Writes the answers of a participant who saw some trials: the condition and the number of each.
 pub fn write_answers(folder: &Path, sha256: &str, code: &str, values: &[(&str, i64)]) -> PathBuf {
-    let answer = |(n, (condition, value)): (u32, &(&str, i64))| Answer {
+    let answer = |(n, (condition, value)): (u32, &(&str, i64))| StudyAnswer {
         n,
         block: 1,
         part: String::new(),
@@ -105,7 +101,7 @@ pub fn write_answers(folder: &Path, sha256: &str, code: &str, values: &[(&str, i
         hidden: 0,
         slow: 0,
     };
-    let participant = Participant {
+    let participant = StudyParticipant {
         format: ANSWERS_FORMAT.into(),
         version: ANSWERS_VERSION,
         study: "places".into(),
@@ -114,7 +110,7 @@ pub fn write_answers(folder: &Path, sha256: &str, code: &str, values: &[(&str, i
         seed: 1,
         started_day: "2026-11-27".into(),
         language: "en".into(),
-        device: Device::default(),
+        device: ParticipantDevice::default(),
         consent: [("analysis".to_owned(), true)].into(),
         profile: [].into(),
         finished: true,
@@ -130,14 +126,14 @@ pub fn write_answers(folder: &Path, sha256: &str, code: &str, values: &[(&str, i
 /// Stores the study `places` with the answers of two participants; the second one passed over a trial.
 pub fn answered(corpus: &mut Corpus, folder: &Path) {
     plan(corpus, &places("places"));
-    let sha256 = corpus.study("places").expect("stored").plan_sha256;
+    let sha256 = corpus.study_with_answers("places").expect("stored").plan_sha256;
     let both = [("captured", 5), ("higher", 2)];
     let files = [
         write_answers(folder, &sha256, "p1", &both),
         write_answers(folder, &sha256, "p2", &both[..1]),
     ];
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let report = corpus.import_answers("places", &files, progress);
     assert_eq!(report.expect("imported").added, 2);
 }

@@ -21,10 +21,10 @@ pub fn opened<'a>(folder: &std::path::Path) -> Window<'a> {
 
 /// Returns the annotations of a tier, as `(start in milliseconds, end, value)`.
 pub fn says(window: &Window<'_>, tier: &str) -> Vec<(i64, i64, String)> {
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = Corpus::open(&path, "reader").expect("opened");
-    let recording = corpus.overview(1).expect("read").recordings[0].row.id;
-    let contents = corpus.contents(recording).expect("read");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = Corpus::open_corpus(&path, "reader").expect("opened");
+    let recording = corpus.load_corpus_overview(1).expect("read").recordings[0].row.id;
+    let contents = corpus.load_recording_contents(recording).expect("read");
     let tier = contents.tiers.iter().find(|it| it.row.name == tier);
     let columns: AnnotationColumns = tier.expect("a tier").annotations.clone();
     (0..columns.len())
@@ -45,10 +45,10 @@ pub fn values(window: &Window<'_>, tier: &str) -> Vec<String> {
 }
 
 pub fn operations(window: &Window<'_>) -> usize {
-    let path = window.state().corpus().expect("open").clone();
-    Corpus::open(&path, "reader")
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    Corpus::open_corpus(&path, "reader")
         .expect("opened")
-        .log(999)
+        .operation_log(999)
         .expect("read")
         .len()
 }
@@ -63,11 +63,11 @@ pub fn stored(window: &mut Window<'_>, operations_before: usize) {
     until(window, "the edit", |it| {
         it.state().is_idle() && operations(it) > operations_before
     });
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = Corpus::open(&path, "reader").expect("opened");
-    let stored = corpus.generation().expect("read");
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = Corpus::open_corpus(&path, "reader").expect("opened");
+    let stored = corpus.corpus_generation().expect("read");
     until(window, "what was stored", |it| {
-        it.state().generation() >= Some(stored)
+        it.state().shown_generation() >= Some(stored)
     });
     window.run_steps(2);
 }
@@ -142,6 +142,5 @@ pub fn three<'a>(folder: &std::path::Path) -> Window<'a> {
 
 pub fn spans(window: &Window<'_>) -> BTreeMap<String, (i64, i64)> {
     let all = says(window, "Gloss").into_iter();
-    all.map(|(start, end, value)| (value, (start, end)))
-        .collect()
+    all.map(|(start, end, value)| (value, (start, end))).collect()
 }

@@ -1,6 +1,6 @@
 //! Faults of arms: elbows that go where the place does not ask for it, wrists at their limit, detours.
 
-use chereme_motion::{Anatomy, ModelPose, Side};
+use chereme_motion::{BodyAnatomy, BodySide, ModelPose};
 
 use super::Seen;
 use crate::checks::worst;
@@ -18,9 +18,9 @@ const KNOWN: [f64; 2] = [-0.30 / 0.36, 0.10 / 0.36];
 
 pub(super) fn pumping(seen: &Seen<'_>) -> Option<bool> {
     let span = seen.sign()?;
-    let arms = Side::BOTH
+    let arms = BodySide::BOTH_SIDES
         .into_iter()
-        .filter_map(|side| seen.made.anatomy.arm(side));
+        .filter_map(|side| seen.made.anatomy.arm_chain(side));
     let paths = arms.map(|arm| [arm.forearm, arm.hand].map(|joint| seen.path(joint, span)));
     Some(
         paths
@@ -46,16 +46,15 @@ fn stands_out(seen: &Seen<'_>, models: &[ModelPose], most: f64) -> bool {
     let Some(frame) = seen.made.anatomy.body_frame(&seen.models[0]) else {
         return false;
     };
-    let arms = Side::BOTH
+    let arms = BodySide::BOTH_SIDES
         .into_iter()
-        .filter_map(|side| Some((side, seen.made.anatomy.arm(side)?)));
+        .filter_map(|side| Some((side, seen.made.anatomy.arm_chain(side)?)));
     arms.into_iter().any(|(side, arm)| {
         models.iter().any(|model| {
-            let [shoulder, elbow, wrist] =
-                [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
+            let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| model.model_joint_position(j));
             let upper = elbow - shoulder;
             let low = shoulder.y - wrist.y > 0.4 * upper.length();
-            let aside = upper.dot(frame.left) * side.sign();
+            let aside = upper.dot(frame.left) * side.side_sign();
             low && aside.atan2(-upper.y) > most.to_radians()
         })
     })
@@ -74,13 +73,13 @@ pub(super) fn lifted(seen: &Seen<'_>) -> Option<bool> {
         let share = (wrist - a[0]) / (b[0] - a[0]).max(1e-9);
         a[1] + (b[1] - a[1]) * share.clamp(0.0, 1.0)
     };
-    let arms = Side::BOTH
+    let arms = BodySide::BOTH_SIDES
         .into_iter()
-        .filter_map(|side| seen.made.anatomy.arm(side));
+        .filter_map(|side| seen.made.anatomy.arm_chain(side));
     let high = arms.into_iter().any(|arm| {
         seen.models[from..=to].iter().any(|model| {
             let [shoulder, elbow, wrist] =
-                [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j).y / wide);
+                [arm.upper, arm.forearm, arm.hand].map(|j| model.model_joint_position(j).y / wide);
             let known = (KNOWN[0]..KNOWN[1]).contains(&(wrist - shoulder));
             known && elbow - shoulder > usual(wrist - shoulder) + 0.10 / wide
         })
@@ -93,17 +92,13 @@ const BEHIND: f64 = 0.10;
 
 pub(super) fn behind(seen: &Seen<'_>) -> Option<bool> {
     let (from, to) = seen.sign()?;
-    let arms = Side::BOTH
+    let arms = BodySide::BOTH_SIDES
         .into_iter()
-        .filter_map(|side| seen.made.anatomy.arm(side));
+        .filter_map(|side| seen.made.anatomy.arm_chain(side));
     let back = arms.into_iter().any(|arm| {
         seen.models[from..=to].iter().any(|model| {
-            let forward = seen
-                .made
-                .anatomy
-                .body_frame(model)
-                .map(|frame| frame.forward);
-            let [shoulder, elbow] = [arm.upper, arm.forearm].map(|joint| model.position(joint));
+            let forward = seen.made.anatomy.body_frame(model).map(|frame| frame.forward);
+            let [shoulder, elbow] = [arm.upper, arm.forearm].map(|joint| model.model_joint_position(joint));
             forward.is_some_and(|forward| (shoulder - elbow).dot(forward) > BEHIND)
         })
     });
@@ -114,21 +109,21 @@ pub(super) fn behind(seen: &Seen<'_>) -> Option<bool> {
 const FOLDED: f64 = 65.0;
 
 /// Returns the angle (degrees) between a hand and its forearm towards the palm or the back of the hand.
-fn flexed(anatomy: &Anatomy, model: &ModelPose, side: Side) -> Option<f64> {
-    let arm = anatomy.arm(side)?;
+fn flexed(anatomy: &BodyAnatomy, model: &ModelPose, side: BodySide) -> Option<f64> {
+    let arm = anatomy.arm_chain(side)?;
     let along = anatomy.hand_direction(side, model)?;
     let palm = anatomy.palm_normal(side, model)?;
-    let forearm = (model.position(arm.hand) - model.position(arm.forearm)).normalize();
+    let forearm = (model.model_joint_position(arm.hand) - model.model_joint_position(arm.forearm)).normalize();
     Some((-forearm.dot(palm)).atan2(forearm.dot(along)).to_degrees())
 }
 
 pub(super) fn folded(seen: &Seen<'_>) -> Option<bool> {
     let (from, to) = seen.sign()?;
     let least = (0.2 * seen.rate) as usize;
-    let long = Side::BOTH.into_iter().any(|side| {
-        let bent = seen.models[from..=to].iter().map(|model| {
-            flexed(&seen.made.anatomy, model, side).is_some_and(|angle| angle.abs() > FOLDED)
-        });
+    let long = BodySide::BOTH_SIDES.into_iter().any(|side| {
+        let bent = seen.models[from..=to]
+            .iter()
+            .map(|model| flexed(&seen.made.anatomy, model, side).is_some_and(|angle| angle.abs() > FOLDED));
         let run = bent.scan(0, |run, bent| {
             *run = if bent { *run + 1 } else { 0 };
             Some(*run)
@@ -139,8 +134,8 @@ pub(super) fn folded(seen: &Seen<'_>) -> Option<bool> {
 }
 
 pub(super) fn wandering(seen: &Seen<'_>) -> Option<bool> {
-    let arm = seen.made.anatomy.arm(seen.dominant())?;
+    let arm = seen.made.anatomy.arm_chain(seen.dominant())?;
     let (from, to) = seen.approach()?;
-    let [start, end] = [from, to].map(|frame| seen.models[frame].position(arm.hand));
+    let [start, end] = [from, to].map(|frame| seen.models[frame].model_joint_position(arm.hand));
     Some(seen.path(arm.hand, (from, to)) > 1.25 * start.distance(end))
 }

@@ -27,19 +27,12 @@ fn cases(kind: &str) -> Vec<Value> {
 }
 
 /// Compares a figure with the vector's; a vector without a number wants an undefined figure.
-fn check(at: &str, found: Measure, wanted: &Value, tolerance: f64) {
+fn check(at: &str, found: AgreementMeasure, wanted: &Value, tolerance: f64) {
     match (found, wanted.as_f64()) {
         (Ok(found), Some(wanted)) => {
-            assert!(
-                (found - wanted).abs() <= tolerance,
-                "{at}: {found}, wanted {wanted}"
-            );
+            assert!((found - wanted).abs() <= tolerance, "{at}: {found}, wanted {wanted}");
         }
-        (found, wanted) => assert_eq!(
-            found.is_err(),
-            wanted.is_none(),
-            "{at}: {found:?} {wanted:?}"
-        ),
+        (found, wanted) => assert_eq!(found.is_err(), wanted.is_none(), "{at}: {found:?} {wanted:?}"),
     }
 }
 
@@ -51,10 +44,10 @@ fn figures_of_items() {
         let place = |value: &Value| order.iter().position(|it| it == value && !it.is_null());
         let coders = case["coders"].as_array().expect("coders");
         let count = coders[0].as_array().expect("values").len();
-        let all: Vec<Item> = (0..count)
+        let all: Vec<AnnotatedItem> = (0..count)
             .map(|at| coders.iter().map(|values| place(&values[at])).collect())
             .collect();
-        let pairs = Counts::of(&items::pairs(&all));
+        let pairs = AgreementCounts::from_value_pairs(&items::annotator_value_pairs(&all));
         let two = coders.len() == 2;
         // Some programs give 1 for one value; here it is undefined.
         let one_value = order.len() < 2;
@@ -62,16 +55,16 @@ fn figures_of_items() {
             let at = format!("{id} {name}");
             let wanted = &result["value"];
             let found = match name.as_str() {
-                "raw" => items::raw(&all),
-                "cohen_kappa" => pairs.cohen(),
-                "cohen_kappa_linear" => items::weighted_kappa(&all, Weight::Linear),
-                "cohen_kappa_quadratic" => items::weighted_kappa(&all, Weight::Quadratic),
-                "scott_pi" => pairs.scott(),
-                "fleiss_kappa" => items::fleiss(&all),
-                "alpha_nominal" => items::alpha(&all, Scale::Nominal),
-                "alpha_ordinal" => items::alpha(&all, Scale::Ordinal),
-                "alpha_interval" => items::alpha(&all, Scale::Interval),
-                "gwet_ac1" => items::gwet(&all),
+                "raw" => items::item_raw_agreement(&all),
+                "cohen_kappa" => pairs.cohen_kappa(),
+                "cohen_kappa_linear" => items::weighted_kappa(&all, DisagreementWeight::Linear),
+                "cohen_kappa_quadratic" => items::weighted_kappa(&all, DisagreementWeight::Quadratic),
+                "scott_pi" => pairs.scott_pi(),
+                "fleiss_kappa" => items::fleiss_kappa(&all),
+                "alpha_nominal" => items::krippendorff_alpha(&all, AlphaScale::Nominal),
+                "alpha_ordinal" => items::krippendorff_alpha(&all, AlphaScale::Ordinal),
+                "alpha_interval" => items::krippendorff_alpha(&all, AlphaScale::Interval),
+                "gwet_ac1" => items::item_gwet_ac1(&all),
                 "alpha_nominal_other" => continue,
                 other => panic!("{other} is not compared"),
             };
@@ -87,11 +80,11 @@ fn figures_of_items() {
             let tolerance = if name == "gwet_ac1" { 5e-6 } else { TOLERANCE };
             check(&at, found, wanted, tolerance);
             if two && name == "alpha_nominal" {
-                check(&at, pairs.alpha(), wanted, TOLERANCE);
+                check(&at, pairs.counted_nominal_alpha(), wanted, TOLERANCE);
             }
             let complete = all.iter().all(|item| item.iter().all(Option::is_some));
             if two && complete && name == "gwet_ac1" {
-                check(&at, pairs.gwet(), wanted, 5e-6);
+                check(&at, pairs.counted_gwet_ac1(), wanted, 5e-6);
             }
         }
     }
@@ -109,21 +102,17 @@ fn alpha_with_distances_of_features() {
             let weight = |name: &String| weights[name].as_f64().unwrap_or(0.0);
             weights.keys().filter(differ).map(weight).sum::<f64>() / sum
         };
-        let place = |value: &Value| {
-            values
-                .iter()
-                .position(|it| Some(it.as_str()) == value.as_str())
-        };
+        let place = |value: &Value| values.iter().position(|it| Some(it.as_str()) == value.as_str());
         let coders = case["coders"].as_array().expect("coders");
         let count = coders[0].as_array().expect("values").len();
-        let all: Vec<Item> = (0..count)
+        let all: Vec<AnnotatedItem> = (0..count)
             .map(|at| coders.iter().map(|values| place(&values[at])).collect())
             .collect();
         let at = case["id"].as_str().expect("an id");
         let results = &case["results"];
-        let found = items::alpha(&all, Scale::Distance(&distance));
+        let found = items::krippendorff_alpha(&all, AlphaScale::Distance(&distance));
         check(at, found, &results["alpha_feature"]["value"], TOLERANCE);
-        let nominal = items::alpha(&all, Scale::Nominal);
+        let nominal = items::krippendorff_alpha(&all, AlphaScale::Nominal);
         check(
             at,
             nominal,
@@ -137,14 +126,12 @@ fn alpha_with_distances_of_features() {
 struct Tiers {
     names: Vec<String>,
     values: Vec<String>,
-    continuum: Continuum,
+    continuum: AnnotationContinuum,
 }
 
 fn tiers_of(case: &Value) -> Tiers {
     let tiers = case["tiers"].as_object().expect("tiers");
-    let units = |tier: &Value| -> Vec<(i64, i64, String)> {
-        serde_json::from_value(tier.clone()).expect("units")
-    };
+    let units = |tier: &Value| -> Vec<(i64, i64, String)> { serde_json::from_value(tier.clone()).expect("units") };
     let mut values: Vec<String> = tiers.values().flat_map(units).map(|it| it.2).collect();
     values.sort();
     values.dedup();
@@ -152,11 +139,11 @@ fn tiers_of(case: &Value) -> Tiers {
     let all = tiers.values().map(|tier| {
         units(tier)
             .iter()
-            .map(|(start, end, value)| Unit::new(*start, *end, place(value)))
+            .map(|(start, end, value)| AnnotatedUnit::new(*start, *end, place(value)))
             .collect()
     });
     let extent: (i64, i64) = serde_json::from_value(case["extent_ms"].clone()).expect("an extent");
-    let continuum = Continuum::new(extent, all.collect());
+    let continuum = AnnotationContinuum::new(extent, all.collect());
     Tiers {
         names: tiers.keys().cloned().collect(),
         values,
@@ -174,8 +161,8 @@ fn tiers_as_in_elan() {
         let sides = |key: &str| {
             let (a, b) = key.split_once(',')?;
             Some((
-                &all.continuum.tiers()[place(a)],
-                &all.continuum.tiers()[place(b)],
+                &all.continuum.annotator_tiers()[place(a)],
+                &all.continuum.annotator_tiers()[place(b)],
             ))
         };
         let ratios = results["elan_overlap_extent"].as_object();
@@ -184,13 +171,8 @@ fn tiers_as_in_elan() {
                 let found = matching::overlap_ratio(a, b);
                 match wanted["count"].as_u64() {
                     // ELAN drops such a pair; its class gives 0.
-                    Some(0) => assert_eq!(found, Err(Undefined::BothEmpty), "{id}"),
-                    _ => check(
-                        &format!("{id} {key} ratio"),
-                        found,
-                        &wanted["value"],
-                        TOLERANCE,
-                    ),
+                    Some(0) => assert_eq!(found, Err(UndefinedAgreement::BothEmpty), "{id}"),
+                    _ => check(&format!("{id} {key} ratio"), found, &wanted["value"], TOLERANCE),
                 }
             }
         }
@@ -198,38 +180,33 @@ fn tiers_as_in_elan() {
         for (key, wanted) in tables.into_iter().flatten() {
             let Some((a, b)) = sides(key) else { continue };
             let at = |name: &str| format!("{id} {key} {name}");
-            let pairs = matching::matched(a, b, matching::SHARE);
-            let expected: Vec<(usize, usize)> =
-                serde_json::from_value(wanted["matched_pairs"].clone()).expect("pairs");
+            let pairs = matching::match_overlapping_units(a, b, matching::DEFAULT_OVERLAP_SHARE);
+            let expected: Vec<(usize, usize)> = serde_json::from_value(wanted["matched_pairs"].clone()).expect("pairs");
             assert_eq!(pairs, expected, "{}", at("pairs"));
-            let table = Table::of(matching::rows(a, b, &pairs), all.values.len());
-            assert_eq!(Some(table.total()), wanted["N"].as_f64(), "{}", at("N"));
-            let inner = table.matched();
-            let raw_of_matched = inner.raw();
+            let table =
+                HolleReinTable::from_matching_rows(matching::build_matching_rows(a, b, &pairs), all.values.len());
+            assert_eq!(Some(table.annotation_total()), wanted["N"].as_f64(), "{}", at("N"));
+            let inner = table.matched_pair_counts();
+            let raw_of_matched = inner.counted_raw_agreement();
             for (name, found) in [
-                ("raw", table.raw()),
-                ("kappa_incl_unmatched_plain", table.kappa()),
+                ("raw", table.raw_agreement_with_unmatched()),
+                ("kappa_incl_unmatched_plain", table.kappa_with_unmatched()),
                 ("kappa_max", table.kappa_max()),
                 ("chance_ipf", table.chance_ipf()),
                 ("kappa_ipf", table.kappa_ipf()),
                 ("raw_excl", raw_of_matched),
-                ("kappa_excl", inner.cohen()),
+                ("kappa_excl", inner.cohen_kappa()),
             ] {
                 check(&at(name), found, &wanted[name], TOLERANCE);
             }
             for (value, wanted) in wanted["per_value"].as_object().into_iter().flatten() {
-                let nth = all
-                    .values
-                    .iter()
-                    .position(|it| it == value)
-                    .expect("a value");
-                let found = table.value(nth);
+                let nth = all.values.iter().position(|it| it == value).expect("a value");
+                let found = table.value_two_by_two(nth);
                 let cells = [[found.both, found.second], [found.first, found.neither]];
-                let cells_wanted: [[f64; 2]; 2] =
-                    serde_json::from_value(wanted["table"].clone()).expect("a table");
+                let cells_wanted: [[f64; 2]; 2] = serde_json::from_value(wanted["table"].clone()).expect("a table");
                 assert_eq!(cells, cells_wanted, "{} {value}", at("table"));
-                check(&at(value), found.raw(), &wanted["raw"], TOLERANCE);
-                check(&at(value), found.kappa(), &wanted["kappa"], TOLERANCE);
+                check(&at(value), found.two_by_two_agreement(), &wanted["raw"], TOLERANCE);
+                check(&at(value), found.two_by_two_kappa(), &wanted["kappa"], TOLERANCE);
             }
         }
     }
@@ -249,19 +226,15 @@ fn agreement_over_time() {
                 &wanted["value"],
                 TOLERANCE,
             );
-            let found = unitizing::disagreements(&all.continuum);
+            let found = unitizing::unitizing_disagreements(&all.continuum);
             for (value, wanted) in wanted["per_value"].as_object().into_iter().flatten() {
-                let nth = all
-                    .values
-                    .iter()
-                    .position(|it| it == value)
-                    .expect("a value");
+                let nth = all.values.iter().position(|it| it == value).expect("a value");
                 let own = found[&nth];
                 check(&at("D_o"), Ok(own.observed), &wanted["D_o"], TOLERANCE);
                 check(&at("D_e"), Ok(own.expected), &wanted["D_e"], TOLERANCE);
                 check(
                     &at("alpha_U of a value"),
-                    own.alpha(),
+                    own.unitizing_alpha(),
                     &wanted["alpha_U"],
                     TOLERANCE,
                 );
@@ -277,7 +250,7 @@ fn agreement_over_time() {
                 check(&at(name), found, &wanted["value"], TOLERANCE);
             }
         }
-        let frames = unitizing::frames(&all.continuum, 10);
+        let frames = unitizing::measure_frame_agreement(&all.continuum, 10);
         for (name, found) in [
             ("raw", frames.raw),
             ("cohen_kappa", frames.kappa),
@@ -292,15 +265,15 @@ fn agreement_over_time() {
 
 #[test]
 fn alignments_of_least_disorder() {
-    let costs = Costs::default();
+    let costs = AlignmentCosts::default();
     for case in cases("tiers") {
         let id = case["id"].as_str().expect("an id");
         let all = tiers_of(&case);
         let wanted = &case["results"]["gamma"];
-        let found = align(&all.continuum, &costs);
+        let found = align_continuum(&all.continuum, &costs);
         check(
             id,
-            found.clone().map(|it| it.disorder()),
+            found.clone().map(|it| it.alignment_disorder()),
             &wanted["disorder_exact"],
             TOLERANCE,
         );
@@ -308,8 +281,8 @@ fn alignments_of_least_disorder() {
             continue;
         };
         let shown = |group: &Vec<Option<usize>>| -> Vec<Value> {
-            let units = group.iter().zip(all.continuum.tiers());
-            let unit = |(at, tier): (&Option<usize>, &Vec<Unit>)| match at {
+            let units = group.iter().zip(all.continuum.annotator_tiers());
+            let unit = |(at, tier): (&Option<usize>, &Vec<AnnotatedUnit>)| match at {
                 Some(at) => {
                     serde_json::json!([tier[*at].start, tier[*at].end, all.values[tier[*at].value]])
                 }
@@ -329,22 +302,18 @@ fn alignments_of_least_disorder() {
         if shown != groups {
             eprintln!("{id}: another alignment of the same disorder");
         }
-        let seeds: Vec<f64> =
-            serde_json::from_value(wanted["gamma_three_seeds_60_samples"].clone()).expect("three");
+        let seeds: Vec<f64> = serde_json::from_value(wanted["gamma_three_seeds_60_samples"].clone()).expect("three");
         if id == "tiers_signs_like" {
-            let sampling = Sampling {
+            let sampling = GammaSampling {
                 samples: 200,
-                ..Sampling::default()
+                ..GammaSampling::default()
             };
-            let found =
-                gamma::<Undefined>(&[all.continuum], &costs, &sampling, |_| Ok(())).expect("gamma");
+            let found = measure_gamma_agreement::<UndefinedAgreement>(&[all.continuum], &costs, &sampling, |_| Ok(()))
+                .expect("gamma");
             let gamma = found.gamma.expect("defined");
             let low = seeds.iter().copied().fold(f64::INFINITY, f64::min);
             let high = seeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            assert!(
-                low - 0.05 < gamma && gamma < high + 0.05,
-                "{gamma} {seeds:?}"
-            );
+            assert!(low - 0.05 < gamma && gamma < high + 0.05, "{gamma} {seeds:?}");
         }
     }
 }
@@ -363,25 +332,19 @@ fn segmentations() {
                 "segmentation_similarity" => segments::segmentation_similarity(&first, &second, 2),
                 "window_diff" | "pk" if first.iter().sum::<usize>() < 2 => {
                     assert!(
-                        segments::pk(&first, &second).is_err(),
+                        segments::segmentation_pk(&first, &second).is_err(),
                         "{at}: no window fits"
                     );
                     continue;
                 }
                 "window_diff" => segments::window_diff(&first, &second),
-                "pk" => segments::pk(&first, &second),
+                "pk" => segments::segmentation_pk(&first, &second),
                 "edits" => {
-                    let found = segments::edits(&first, &second, 2);
+                    let found = segments::count_segmentation_edits(&first, &second, 2);
                     if wanted.get("raises").is_none() {
-                        let counts = [
-                            found.additions,
-                            found.transpositions,
-                            found.matches,
-                            found.places,
-                        ];
+                        let counts = [found.additions, found.transpositions, found.matches, found.places];
                         let names = ["additions", "transpositions", "matches", "pbs"];
-                        let expected =
-                            names.map(|it| wanted[it].as_u64().expect("a count") as usize);
+                        let expected = names.map(|it| wanted[it].as_u64().expect("a count") as usize);
                         assert_eq!(counts, expected, "{at}");
                     }
                     continue;

@@ -28,9 +28,7 @@ fn counted_p(first: &[f64], second: &[f64]) -> f64 {
     let u = |members: u32| {
         let inside = |at: &usize| members >> at & 1 == 1;
         let (own, other): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(inside);
-        let pairs = own
-            .iter()
-            .flat_map(|i| other.iter().map(|j| (all[*i], all[*j])));
+        let pairs = own.iter().flat_map(|i| other.iter().map(|j| (all[*i], all[*j])));
         let wins = pairs.map(|(x, y)| if x > y { 2 } else { usize::from(x == y) });
         wins.sum::<usize>()
     };
@@ -38,10 +36,7 @@ fn counted_p(first: &[f64], second: &[f64]) -> f64 {
     let observed = u((1 << first.len()) - 1).abs_diff(mean);
     let of_size = (0..1_u32 << all.len()).filter(|it| it.count_ones() as usize == first.len());
     let (extreme, count) = of_size.fold((0, 0), |(extreme, count), members| {
-        (
-            extreme + usize::from(u(members).abs_diff(mean) >= observed),
-            count + 1,
-        )
+        (extreme + usize::from(u(members).abs_diff(mean) >= observed), count + 1)
     });
     extreme as f64 / count as f64
 }
@@ -49,24 +44,24 @@ fn counted_p(first: &[f64], second: &[f64]) -> f64 {
 proptest! {
     #[test]
     fn swapped_groups_mirror_each_other(x in answers(), y in answers()) {
-        let (there, back) = (Effect::of(&x, &y).unwrap(), Effect::of(&y, &x).unwrap());
+        let (there, back) = (GroupEffect::measure_group_effect(&x, &y).unwrap(), GroupEffect::measure_group_effect(&y, &x).unwrap());
         prop_assert!(near(there.delta, -back.delta));
         prop_assert_eq!(there.shift.map(|it| -it), back.shift);
-        for method in [Method::Exact, Method::Continuity] {
+        for method in [PValueMethod::Exact, PValueMethod::Continuity] {
             let p = |a: &[f64], b: &[f64], side| mann_whitney(a, b, side, Some(method)).unwrap().p;
-            prop_assert!(near(p(&x, &y, Alternative::TwoSided), p(&y, &x, Alternative::TwoSided)));
-            prop_assert!(near(p(&x, &y, Alternative::Less), p(&y, &x, Alternative::Greater)));
+            prop_assert!(near(p(&x, &y, TestAlternative::TwoSided), p(&y, &x, TestAlternative::TwoSided)));
+            prop_assert!(near(p(&x, &y, TestAlternative::Less), p(&y, &x, TestAlternative::Greater)));
         }
     }
 
     #[test]
     fn only_the_order_of_values_counts(x in answers(), y in answers()) {
-        let test = |a: &[f64], b: &[f64]| mann_whitney(a, b, Alternative::TwoSided, None).unwrap();
+        let test = |a: &[f64], b: &[f64]| mann_whitney(a, b, TestAlternative::TwoSided, None).unwrap();
         prop_assert_eq!(test(&x, &y), test(&stretched(&x), &stretched(&y)));
         let groups = |a: &[f64], b: &[f64]| kruskal_wallis(&[a, b]);
         prop_assert_eq!(groups(&x, &y), groups(&stretched(&x), &stretched(&y)));
         let n = x.len().min(y.len());
-        let correlations = |a: &[f64], b: &[f64]| [spearman(a, b), kendall(a, b)];
+        let correlations = |a: &[f64], b: &[f64]| [spearman_correlation(a, b), kendall_tau(a, b)];
         prop_assert_eq!(
             correlations(&x[..n], &y[..n]),
             correlations(&stretched(&x[..n]), &stretched(&y[..n]))
@@ -78,15 +73,15 @@ proptest! {
         let mut turned = rows.clone();
         let length = turned.len();
         turned.rotate_left(turn % length);
-        match (friedman(&rows), friedman(&turned)) {
+        match (friedman_test(&rows), friedman_test(&turned)) {
             (Ok(a), Ok(b)) => prop_assert!(near(a.chi_squared, b.chi_squared) && near(a.p, b.p)),
             (a, b) => prop_assert_eq!(a, b),
         }
         let column = |rows: &[Vec<f64>], n: usize| -> Vec<f64> { rows.iter().map(|row| row[n]).collect() };
         let pairs = |rows: &[Vec<f64>], zeros| {
-            wilcoxon(&column(rows, 0), &column(rows, 1), zeros, Alternative::TwoSided, None)
+            wilcoxon_test(&column(rows, 0), &column(rows, 1), zeros, TestAlternative::TwoSided, None)
         };
-        for zeros in [Zeros::Wilcox, Zeros::Pratt] {
+        for zeros in [ZeroTreatment::Wilcox, ZeroTreatment::Pratt] {
             match (pairs(&rows, zeros), pairs(&turned, zeros)) {
                 (Ok(a), Ok(b)) => prop_assert!(near(a.p, b.p) && near(a.plus, b.plus)),
                 (a, b) => prop_assert_eq!(a, b),
@@ -99,7 +94,7 @@ proptest! {
         x in prop::collection::vec((1_i32..=4).prop_map(f64::from), 1..6),
         y in prop::collection::vec((1_i32..=4).prop_map(f64::from), 1..6),
     ) {
-        let own = mann_whitney(&x, &y, Alternative::TwoSided, Some(Method::Exact)).unwrap();
+        let own = mann_whitney(&x, &y, TestAlternative::TwoSided, Some(PValueMethod::Exact)).unwrap();
         prop_assert!(near(own.p, counted_p(&x, &y)), "{} {}", own.p, counted_p(&x, &y));
     }
 
@@ -107,12 +102,12 @@ proptest! {
     fn the_delta_counts_pairs(x in answers(), y in answers()) {
         let pairs = x.iter().flat_map(|a| y.iter().map(move |b| (a - b).signum() * f64::from(u8::from(a != b))));
         let mean = pairs.sum::<f64>() / (x.len() * y.len()) as f64;
-        prop_assert!(near(Effect::of(&x, &y).unwrap().delta, mean));
+        prop_assert!(near(GroupEffect::measure_group_effect(&x, &y).unwrap().delta, mean));
     }
 
     #[test]
     fn corrected_p_are_at_least_the_p_and_keep_their_order(p in prop::collection::vec(0.0_f64..=1.0, 0..9)) {
-        let corrected = holm(&p);
+        let corrected = holm_p_values(&p);
         for (i, own) in corrected.iter().enumerate() {
             prop_assert!(*own >= p[i] && *own <= 1.0);
             prop_assert!(p.iter().zip(&corrected).all(|(x, it)| *x > p[i] || it <= own));
@@ -122,20 +117,20 @@ proptest! {
     #[test]
     fn a_share_lies_in_its_interval(hits in 0_u64..40, misses in 0_u64..40) {
         prop_assume!(hits + misses > 0);
-        let [low, high] = wilson(hits, hits + misses, 0.95).unwrap();
+        let [low, high] = wilson_interval(hits, hits + misses, 0.95).unwrap();
         let share = hits as f64 / (hits + misses) as f64;
         prop_assert!(0.0 <= low && low <= share && share <= high && high <= 1.0);
-        let mirrored = wilson(misses, hits + misses, 0.95).unwrap();
+        let mirrored = wilson_interval(misses, hits + misses, 0.95).unwrap();
         prop_assert!(near(low, 1.0 - mirrored[1]) && near(high, 1.0 - mirrored[0]));
     }
 
     #[test]
     fn no_values_at_all_and_odd_ones_are_refused(at in 0_usize..3) {
         let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][at];
-        prop_assert_eq!(mid_ranks(&[1.0, odd]), Err(Undefined::NotANumber));
-        prop_assert_eq!(Description::of(&[]), Err(Undefined::Empty));
-        prop_assert_eq!(spearman(&[1.0, 2.0], &[odd, 1.0]), Err(Undefined::NotANumber));
-        prop_assert_eq!(ordinal::fit(&[1, 2], &[vec![odd], vec![0.0]]), Err(Undefined::NotANumber));
+        prop_assert_eq!(mid_ranks(&[1.0, odd]), Err(UndefinedStatistic::NotANumber));
+        prop_assert_eq!(GroupDescription::describe_values(&[]), Err(UndefinedStatistic::Empty));
+        prop_assert_eq!(spearman_correlation(&[1.0, 2.0], &[odd, 1.0]), Err(UndefinedStatistic::NotANumber));
+        prop_assert_eq!(ordinal::fit_ordinal_model(&[1, 2], &[vec![odd], vec![0.0]]), Err(UndefinedStatistic::NotANumber));
     }
 }
 
@@ -143,18 +138,18 @@ proptest! {
 fn small_tests_are_counted_by_hand() {
     let p = |x: &[f64], y: &[f64], side| mann_whitney(x, y, side, None).unwrap().p;
     assert!(near(
-        p(&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0], Alternative::Less),
+        p(&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0], TestAlternative::Less),
         1.0 / 20.0
     ));
     assert!(near(
-        p(&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0], Alternative::TwoSided),
+        p(&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0], TestAlternative::TwoSided),
         2.0 / 20.0
     ));
-    let five = wilcoxon(
+    let five = wilcoxon_test(
         &[2.0; 5],
         &[1.0; 5],
-        Zeros::Wilcox,
-        Alternative::Greater,
+        ZeroTreatment::Wilcox,
+        TestAlternative::Greater,
         None,
     );
     assert!(
@@ -162,14 +157,11 @@ fn small_tests_are_counted_by_hand() {
         "every one of five differs, all in one direction"
     );
     assert!(near(
-        kendall(&[1.0, 2.0, 3.0], &[1.0, 2.0, 3.0])
-            .unwrap()
-            .p
-            .unwrap(),
+        kendall_tau(&[1.0, 2.0, 3.0], &[1.0, 2.0, 3.0]).unwrap().p.unwrap(),
         2.0 / 6.0
     ));
-    assert!(near(fisher([[2, 0], [0, 2]]).unwrap().p, 2.0 / 6.0));
-    assert!(near(mcnemar(0, 4).unwrap(), 2.0 / 16.0));
+    assert!(near(fisher_exact_test([[2, 0], [0, 2]]).unwrap().p, 2.0 / 6.0));
+    assert!(near(mcnemar_exact_test(0, 4).unwrap(), 2.0 / 16.0));
 }
 
 #[test]
@@ -179,31 +171,28 @@ fn a_model_of_two_groups_and_two_answers_is_the_odds_ratio() {
         answers.extend(vec![answer; count]);
         rows.extend(vec![vec![group]; count]);
     }
-    let model = ordinal::fit(&answers, &rows).unwrap();
+    let model = ordinal::fit_ordinal_model(&answers, &rows).unwrap();
     let [slope] = model.coefficients[..] else {
         panic!("one column")
     };
     assert!(near(slope.estimate, (25.0_f64 * 30.0 / (15.0 * 10.0)).ln()));
     let variance = 1.0 / 30.0 + 1.0 / 10.0 + 1.0 / 15.0 + 1.0 / 25.0;
-    assert!(
-        near(slope.se, f64::sqrt(variance)),
-        "Woolf's standard error"
-    );
+    assert!(near(slope.se, f64::sqrt(variance)), "Woolf's standard error");
     assert!(near(model.thresholds[0], 3.0_f64.ln()));
 }
 
 #[test]
 fn models_without_one_answer_are_refused() {
-    let constant = ordinal::fit(&[1, 2, 3, 1], &vec![vec![1.0]; 4]);
-    assert_eq!(constant, Err(Undefined::Dependent));
+    let constant = ordinal::fit_ordinal_model(&[1, 2, 3, 1], &vec![vec![1.0]; 4]);
+    assert_eq!(constant, Err(UndefinedStatistic::Dependent));
     let twice: Vec<Vec<f64>> = [0.0, 1.0, 0.0, 1.0, 1.0].map(|x| vec![x, 2.0 * x]).to_vec();
     assert_eq!(
-        ordinal::fit(&[1, 2, 2, 1, 3], &twice),
-        Err(Undefined::Dependent)
+        ordinal::fit_ordinal_model(&[1, 2, 2, 1, 3], &twice),
+        Err(UndefinedStatistic::Dependent)
     );
     assert_eq!(
-        ordinal::fit(&[2, 2], &[vec![0.0], vec![1.0]]),
-        Err(Undefined::NoSpread)
+        ordinal::fit_ordinal_model(&[2, 2], &[vec![0.0], vec![1.0]]),
+        Err(UndefinedStatistic::NoSpread)
     );
     // Items 0 and 1 belong to one condition, items 2 to 4 to the other: their columns add up to the condition's.
     let nested: Vec<Vec<f64>> = (0..200)
@@ -215,34 +204,41 @@ fn models_without_one_answer_are_refused() {
         })
         .collect();
     let answers: Vec<i64> = (0..200).map(|n| 1 + (n * n + 3 * n / 7) % 5).collect();
-    assert_eq!(ordinal::fit(&answers, &nested), Err(Undefined::Dependent));
+    assert_eq!(
+        ordinal::fit_ordinal_model(&answers, &nested),
+        Err(UndefinedStatistic::Dependent)
+    );
     let apart: Vec<Vec<f64>> = (0..40).map(|n| vec![f64::from(n / 20)]).collect();
     let answers: Vec<i64> = (0..40).map(|n| 1 + n % 2 + 2 * (n / 20)).collect();
-    assert_eq!(ordinal::fit(&answers, &apart), Err(Undefined::Separated));
+    assert_eq!(
+        ordinal::fit_ordinal_model(&answers, &apart),
+        Err(UndefinedStatistic::Separated)
+    );
 }
 
 #[test]
 fn the_same_seed_gives_the_same_resamples() {
     let values = [1.0, 2.0, 2.0, 3.0, 5.0, 5.0, 4.0];
-    let mean = |drawn: &[usize]| -> Result<f64, Undefined> {
+    let mean = |drawn: &[usize]| -> Result<f64, UndefinedStatistic> {
         Ok(drawn.iter().map(|at| values[*at]).sum::<f64>() / drawn.len() as f64)
     };
-    let draw = |seed| Resamples::draw(values.len(), 2_000, seed, mean).unwrap();
+    let draw = |seed| ParticipantResamples::draw_participants(values.len(), 2_000, seed, mean).unwrap();
     assert_eq!(draw(7), draw(7));
     assert_ne!(draw(7).values, draw(8).values);
     let own = draw(7);
     // The spread of resampled means is the deviation over n, divided by the root of n.
-    let sd = Description::of(&own.values).unwrap().sd.unwrap();
+    let sd = GroupDescription::describe_values(&own.values).unwrap().sd.unwrap();
     let squares: f64 = values.iter().map(|x| (x - own.estimate).powi(2)).sum();
     assert!((sd / (squares / 49.0).sqrt() - 1.0).abs() < 0.05, "{sd}");
-    for kind in [Interval::Percentile, Interval::Basic, Interval::Bca] {
-        let [low, high] = own.interval(kind, 0.95).unwrap();
+    for kind in [
+        ResampleIntervalRule::Percentile,
+        ResampleIntervalRule::Basic,
+        ResampleIntervalRule::Bca,
+    ] {
+        let [low, high] = own.resample_interval(kind, 0.95).unwrap();
         assert!(low < own.estimate && own.estimate < high);
-        let [narrow, less] = own.interval(kind, 0.8).unwrap();
-        assert!(
-            low <= narrow && less <= high,
-            "a lower level has a narrower interval"
-        );
+        let [narrow, less] = own.resample_interval(kind, 0.8).unwrap();
+        assert!(low <= narrow && less <= high, "a lower level has a narrower interval");
     }
 }
 
@@ -250,43 +246,60 @@ fn the_same_seed_gives_the_same_resamples() {
 fn resamples_without_a_value_are_counted_and_many_of_them_refused() {
     let rare = |drawn: &[usize]| {
         let found = drawn.contains(&0);
-        found.then_some(1.0).ok_or(Undefined::Empty)
+        found.then_some(1.0).ok_or(UndefinedStatistic::Empty)
     };
-    let own = Resamples::draw(3, 1_000, 1, rare).unwrap();
+    let own = ParticipantResamples::draw_participants(3, 1_000, 1, rare).unwrap();
     assert!(own.undefined > 200, "{}", own.undefined);
     assert_eq!(
-        own.interval(Interval::Percentile, 0.9),
-        Err(Undefined::TooFew)
+        own.resample_interval(ResampleIntervalRule::Percentile, 0.9),
+        Err(UndefinedStatistic::TooFew)
     );
-    assert_eq!(Resamples::draw(1, 10, 1, rare), Err(Undefined::TooFew));
-    let same = Resamples::draw(5, 100, 1, |_| Ok(0.5)).unwrap();
-    assert_eq!(same.interval(Interval::Bca, 0.9), Err(Undefined::NoSpread));
-    assert_eq!(same.interval(Interval::Percentile, 0.9), Ok([0.5, 0.5]));
+    assert_eq!(
+        ParticipantResamples::draw_participants(1, 10, 1, rare),
+        Err(UndefinedStatistic::TooFew)
+    );
+    let same = ParticipantResamples::draw_participants(5, 100, 1, |_| Ok(0.5)).unwrap();
+    assert_eq!(
+        same.resample_interval(ResampleIntervalRule::Bca, 0.9),
+        Err(UndefinedStatistic::NoSpread)
+    );
+    assert_eq!(
+        same.resample_interval(ResampleIntervalRule::Percentile, 0.9),
+        Ok([0.5, 0.5])
+    );
 }
 
 #[test]
 fn sameness_needs_a_narrow_interval() {
     assert_eq!(
-        equivalence([-0.1, 0.12], 0.147),
-        Ok(Equivalence::Equivalent)
+        conclude_equivalence([-0.1, 0.12], 0.147),
+        Ok(EquivalenceConclusion::Equivalent)
     );
-    assert_eq!(equivalence([-0.1, 0.2], 0.147), Ok(Equivalence::Undecided));
-    assert_eq!(equivalence([0.2, 0.4], 0.147), Ok(Equivalence::Relevant));
-    assert_eq!(equivalence([-0.4, -0.2], 0.147), Ok(Equivalence::Relevant));
-    assert_eq!(equivalence([0.0, 0.1], 0.0), Err(Undefined::OutOfRange));
+    assert_eq!(
+        conclude_equivalence([-0.1, 0.2], 0.147),
+        Ok(EquivalenceConclusion::Undecided)
+    );
+    assert_eq!(
+        conclude_equivalence([0.2, 0.4], 0.147),
+        Ok(EquivalenceConclusion::Relevant)
+    );
+    assert_eq!(
+        conclude_equivalence([-0.4, -0.2], 0.147),
+        Ok(EquivalenceConclusion::Relevant)
+    );
+    assert_eq!(
+        conclude_equivalence([0.0, 0.1], 0.0),
+        Err(UndefinedStatistic::OutOfRange)
+    );
 }
 
 #[test]
 fn the_largest_exact_test_is_close_to_the_approximate_one() {
     let x: Vec<f64> = (0..100).map(|n| f64::from(n % 7)).collect();
     let y: Vec<f64> = (0..100).map(|n| f64::from((n * n + 3) % 8)).collect();
-    let p = |method| {
-        mann_whitney(&x, &y, Alternative::TwoSided, method)
-            .unwrap()
-            .p
-    };
-    assert!((p(None) - p(Some(Method::Continuity))).abs() < 2e-3);
+    let p = |method| mann_whitney(&x, &y, TestAlternative::TwoSided, method).unwrap().p;
+    assert!((p(None) - p(Some(PValueMethod::Continuity))).abs() < 2e-3);
     let longer = [x.as_slice(), &[1.0]].concat();
-    let refused = mann_whitney(&longer, &y, Alternative::TwoSided, Some(Method::Exact));
-    assert_eq!(refused, Err(Undefined::TooMany));
+    let refused = mann_whitney(&longer, &y, TestAlternative::TwoSided, Some(PValueMethod::Exact));
+    assert_eq!(refused, Err(UndefinedStatistic::TooMany));
 }

@@ -42,11 +42,11 @@ fn entropy_is_the_number_of_questions() {
         (vec![1, 2, 3, 4, 5, 6, 7, 8], 3.0),
         (vec![1, 1, 2, 3], 1.5),
     ] {
-        assert_eq!(Classes::by(keys).entropy(), Ok(bits));
+        assert_eq!(EqualityClasses::sort_by_keys(keys).class_entropy(), Ok(bits));
     }
     assert_eq!(
-        Classes::by(Vec::<u8>::new()).entropy(),
-        Err(Undefined::Empty)
+        EqualityClasses::sort_by_keys(Vec::<u8>::new()).class_entropy(),
+        Err(UndefinedStatistic::Empty)
     );
 }
 
@@ -60,17 +60,23 @@ fn the_jackknife_of_a_mean_is_its_standard_error() {
             mean(&others.map(|it| *it.1).collect::<Vec<_>>())
         })
         .collect();
-    let sd = Description::of(&values).unwrap().sd.unwrap();
+    let sd = GroupDescription::describe_values(&values).unwrap().sd.unwrap();
     let half = 1.959_963_984_540_054 * sd / 5_f64.sqrt();
-    let [low, high] = jackknife(mean(&values), &without, 0.95).unwrap();
+    let [low, high] = jackknife_interval(mean(&values), &without, 0.95).unwrap();
     assert!(near(low, 5.0 - half) && near(high, 5.0 + half));
-    assert_eq!(jackknife(1.0, &[1.0], 0.95), Err(Undefined::TooFew));
-    assert_eq!(jackknife(1.0, &[1.0, 1.0], 0.95), Err(Undefined::NoSpread));
+    assert_eq!(jackknife_interval(1.0, &[1.0], 0.95), Err(UndefinedStatistic::TooFew));
     assert_eq!(
-        jackknife(1.0, &[1.0, f64::NAN], 0.95),
-        Err(Undefined::NotANumber)
+        jackknife_interval(1.0, &[1.0, 1.0], 0.95),
+        Err(UndefinedStatistic::NoSpread)
     );
-    assert_eq!(jackknife(1.0, &[1.0, 2.0], 1.0), Err(Undefined::OutOfRange));
+    assert_eq!(
+        jackknife_interval(1.0, &[1.0, f64::NAN], 0.95),
+        Err(UndefinedStatistic::NotANumber)
+    );
+    assert_eq!(
+        jackknife_interval(1.0, &[1.0, 2.0], 1.0),
+        Err(UndefinedStatistic::OutOfRange)
+    );
 }
 
 #[test]
@@ -81,24 +87,24 @@ fn an_association_of_two_by_two_has_a_closed_form() {
         let cells = cells.iter();
         cells.flat_map(|it| vec![pick(it); it.2]).collect()
     };
-    let found = Association::of(&of(|it| it.0), &of(|it| it.1)).unwrap();
+    let found = ValueAssociation::from_field_values(&of(|it| it.0), &of(|it| it.1)).unwrap();
     let [a, b, c, d] = [a, b, c, d].map(|it| it as f64);
     let n = a + b + c + d;
     let chi_square = n * (a * d - b * c).powi(2) / ((a + b) * (c + d) * (a + c) * (b + d));
     assert!(near(found.chi_square, chi_square));
     assert!(near(found.cramers_v().unwrap(), (chi_square / n).sqrt()));
+    assert_eq!((found.n, found.rows, found.columns, found.df), (28, 2, 2, 1));
+    let one_value = ValueAssociation::from_field_values(&[1, 1, 1], &[1, 2, 3]).unwrap();
+    assert_eq!((one_value.bits, one_value.chi_square, one_value.df), (0.0, 0.0, 0));
+    assert_eq!(one_value.cramers_v(), Err(UndefinedStatistic::NoSpread));
     assert_eq!(
-        (found.n, found.rows, found.columns, found.df),
-        (28, 2, 2, 1)
+        ValueAssociation::from_field_values(&[], &[]),
+        Err(UndefinedStatistic::Empty)
     );
-    let one_value = Association::of(&[1, 1, 1], &[1, 2, 3]).unwrap();
     assert_eq!(
-        (one_value.bits, one_value.chi_square, one_value.df),
-        (0.0, 0.0, 0)
+        ValueAssociation::from_field_values(&[1], &[]),
+        Err(UndefinedStatistic::Unequal)
     );
-    assert_eq!(one_value.cramers_v(), Err(Undefined::NoSpread));
-    assert_eq!(Association::of(&[], &[]), Err(Undefined::Empty));
-    assert_eq!(Association::of(&[1], &[]), Err(Undefined::Unequal));
 }
 
 #[test]
@@ -107,66 +113,69 @@ fn shuffled_values_of_equal_margins_give_the_p_of_an_exact_test() {
     let first: Vec<u32> = (0..20).map(|at| u32::from(at < 10)).collect();
     let second: Vec<u32> = (0..20).map(|at| u32::from(at < 7 || at == 19)).collect();
     let table = [[7, 3], [1, 9]];
-    let exact = fisher(table).unwrap().p;
-    let going = |_| Ok::<(), Undefined>(());
-    let found = Shuffled::of(&first, &second, 20_000, 3, going).unwrap();
+    let exact = fisher_exact_test(table).unwrap().p;
+    let going = |_| Ok::<(), UndefinedStatistic>(());
+    let found = ShuffledAssociation::from_shuffled_values(&first, &second, 20_000, 3, going).unwrap();
     // Three standard errors of a share of 20,000 draws.
     let room = 3.0 * (exact * (1.0 - exact) / 20_000.0).sqrt();
-    assert!(
-        (found.p_chi_square - exact).abs() < room,
-        "{found:?} {exact}"
-    );
+    assert!((found.p_chi_square - exact).abs() < room, "{found:?} {exact}");
     assert!((found.p_bits - exact).abs() < room, "{found:?} {exact}");
     // The expectation of chi-square over all arrangements is n df / (n - 1).
     assert!((found.chi_square - 20.0 / 19.0).abs() < 0.05, "{found:?}");
-    assert_eq!(Shuffled::of(&first, &second, 20_000, 3, going), Ok(found));
-    assert_ne!(Shuffled::of(&first, &second, 20_000, 4, going), Ok(found));
-    let refused = |a: &[u32], samples| Shuffled::of(a, &second, samples, 1, going);
-    assert_eq!(refused(&first, 0), Err(Undefined::TooFew));
-    assert_eq!(refused(&[1; 20], 9), Err(Undefined::NoSpread));
-    let stopped = Shuffled::of(&first, &second, 9, 1, |done| match done {
-        4 => Err(Undefined::TooMany),
+    assert_eq!(
+        ShuffledAssociation::from_shuffled_values(&first, &second, 20_000, 3, going),
+        Ok(found)
+    );
+    assert_ne!(
+        ShuffledAssociation::from_shuffled_values(&first, &second, 20_000, 4, going),
+        Ok(found)
+    );
+    let refused = |a: &[u32], samples| ShuffledAssociation::from_shuffled_values(a, &second, samples, 1, going);
+    assert_eq!(refused(&first, 0), Err(UndefinedStatistic::TooFew));
+    assert_eq!(refused(&[1; 20], 9), Err(UndefinedStatistic::NoSpread));
+    let stopped = ShuffledAssociation::from_shuffled_values(&first, &second, 9, 1, |done| match done {
+        4 => Err(UndefinedStatistic::TooMany),
         _ => Ok(()),
     });
-    assert_eq!(stopped, Err(Undefined::TooMany));
+    assert_eq!(stopped, Err(UndefinedStatistic::TooMany));
 }
 
 #[test]
 fn a_table_too_large_for_one_piece_is_counted_all_the_same() {
     let many: Vec<u32> = (0..2_100).collect();
     let pairs: Vec<u32> = (0..2_100).map(|at| at / 2).collect();
-    let found = Association::of(&many, &many).unwrap();
+    let found = ValueAssociation::from_field_values(&many, &many).unwrap();
     assert!(near(found.bits, 2_100_f64.log2()) && near(found.cramers_v().unwrap(), 1.0));
-    let found = Association::of(&many, &pairs).unwrap();
+    let found = ValueAssociation::from_field_values(&many, &pairs).unwrap();
     assert!(near(found.bits, 1_050_f64.log2()));
 }
 
 #[test]
 fn too_many_contrasts_are_refused() {
     let values: Vec<u32> = (0..4_000).collect();
-    let rest = Classes::by(values.iter().map(|_| 0));
-    assert_eq!(contrasts(&rest, &values), Err(Undefined::TooMany));
-    let same = Classes::by([0, 0]);
-    assert_eq!(contrasts(&same, &[1, 1]), Err(Undefined::NoSpread));
-    assert_eq!(contrasts(&same, &[1]), Err(Undefined::Unequal));
-    assert_eq!(functional_load(&same, &same), Err(Undefined::NoSpread));
+    let rest = EqualityClasses::sort_by_keys(values.iter().map(|_| 0));
+    assert_eq!(find_value_contrasts(&rest, &values), Err(UndefinedStatistic::TooMany));
+    let same = EqualityClasses::sort_by_keys([0, 0]);
+    assert_eq!(find_value_contrasts(&same, &[1, 1]), Err(UndefinedStatistic::NoSpread));
+    assert_eq!(find_value_contrasts(&same, &[1]), Err(UndefinedStatistic::Unequal));
+    assert_eq!(functional_load(&same, &same), Err(UndefinedStatistic::NoSpread));
 }
 
 proptest! {
     #[test]
     fn entropy_and_load_are_those_of_the_definitions(rows in lexicon()) {
-        let forms = Classes::by(rows.iter());
+        let forms = EqualityClasses::sort_by_keys(rows.iter());
         let whole = by_definition(rows.iter());
-        prop_assert!(near(forms.entropy().unwrap(), whole));
+        prop_assert!(near(forms.class_entropy().unwrap(), whole));
         for field in 0..3 {
-            let without = Classes::by(rows.iter().map(|row| rest(row, field)));
+            let without = EqualityClasses::sort_by_keys(rows.iter().map(|row| rest(row, field)));
             let less = by_definition(rows.iter().map(|row| rest(row, field)));
             match functional_load(&forms, &without) {
                 Ok(load) => {
                     prop_assert!(near(load, (whole - less) / whole));
                     prop_assert!((0.0..=1.0 + 1e-12).contains(&load));
                 }
-                Err(reason) => prop_assert!(whole < 1e-12 && reason == Undefined::NoSpread),
+                Err(reason) => prop_assert!(whole < 1e-12 && reason == UndefinedStatistic::NoSpread),
             }
         }
     }
@@ -178,21 +187,21 @@ proptest! {
             others.map(|(_, row)| *row).collect()
         };
         let load = |rows: &[[u32; 3]]| {
-            let without = Classes::by(rows.iter().map(|row| rest(row, 1)));
-            functional_load(&Classes::by(rows.iter()), &without)
+            let without = EqualityClasses::sort_by_keys(rows.iter().map(|row| rest(row, 1)));
+            functional_load(&EqualityClasses::sort_by_keys(rows.iter()), &without)
         };
         let entropies: Vec<f64> = (0..rows.len()).map(|it| by_definition(less_one(it))).collect();
         let loads: Result<Vec<f64>, _> = (0..rows.len()).map(|it| load(&less_one(it))).collect();
-        let forms = Classes::by(rows.iter());
-        let without = Classes::by(rows.iter().map(|row| rest(row, 1)));
+        let forms = EqualityClasses::sort_by_keys(rows.iter());
+        let without = EqualityClasses::sort_by_keys(rows.iter().map(|row| rest(row, 1)));
         let own = forms.entropy_interval(0.9);
-        if let (Ok(own), Ok([low, high])) = (own, jackknife(by_definition(&rows), &entropies, 0.9)) {
+        if let (Ok(own), Ok([low, high])) = (own, jackknife_interval(by_definition(&rows), &entropies, 0.9)) {
             // The half width of a jackknife is a difference of nearly equal numbers.
             prop_assert!((own[0] - low.max(0.0)).abs() < 1e-6 && (own[1] - high).abs() < 1e-6);
         }
         let own = functional_load_interval(&forms, &without, 0.9);
         if let (Ok(own), Ok(loads)) = (own, loads) {
-            let [low, high] = jackknife(load(&rows).unwrap(), &loads, 0.9).unwrap();
+            let [low, high] = jackknife_interval(load(&rows).unwrap(), &loads, 0.9).unwrap();
             prop_assert!((own[0] - low.max(0.0)).abs() < 1e-6 && (own[1] - high.min(1.0)).abs() < 1e-6);
         }
     }
@@ -200,9 +209,9 @@ proptest! {
     #[test]
     fn a_contrast_is_the_loss_of_joining_two_values(rows in lexicon()) {
         let values = column(&rows, 0);
-        let others = Classes::by(rows.iter().map(|row| rest(row, 0)));
+        let others = EqualityClasses::sort_by_keys(rows.iter().map(|row| rest(row, 0)));
         let whole = by_definition(rows.iter());
-        let Ok(found) = contrasts(&others, &values) else {
+        let Ok(found) = find_value_contrasts(&others, &values) else {
             prop_assert!(whole < 1e-12);
             return Ok(());
         };
@@ -234,7 +243,7 @@ proptest! {
     #[test]
     fn association_has_no_direction_and_information_is_a_sum_of_entropies(rows in lexicon()) {
         let (x, y) = (column(&rows, 0), column(&rows, 1));
-        let (there, back) = (Association::of(&x, &y).unwrap(), Association::of(&y, &x).unwrap());
+        let (there, back) = (ValueAssociation::from_field_values(&x, &y).unwrap(), ValueAssociation::from_field_values(&y, &x).unwrap());
         prop_assert!(near(there.bits, back.bits) && near(there.chi_square, back.chi_square));
         let joint = by_definition(x.iter().zip(&y));
         prop_assert!(near(there.bits, by_definition(&x) + by_definition(&y) - joint));
@@ -251,7 +260,7 @@ proptest! {
             }
         }
         prop_assert!(near(there.chi_square, squares));
-        if let Ok(v) = Association::of(&x, &x).unwrap().cramers_v() {
+        if let Ok(v) = ValueAssociation::from_field_values(&x, &x).unwrap().cramers_v() {
             prop_assert!(near(v, 1.0));
         }
     }

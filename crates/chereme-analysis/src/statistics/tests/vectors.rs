@@ -48,10 +48,10 @@ fn near_by(own: f64, want: &Value, tolerance: f64, what: &str) {
     assert!(off <= tolerance, "{what}: {own} instead of {want}");
 }
 
-const SIDES: [(Alternative, &str); 3] = [
-    (Alternative::TwoSided, "two_sided"),
-    (Alternative::Less, "less"),
-    (Alternative::Greater, "greater"),
+const SIDES: [(TestAlternative, &str); 3] = [
+    (TestAlternative::TwoSided, "two_sided"),
+    (TestAlternative::Less, "less"),
+    (TestAlternative::Greater, "greater"),
 ];
 
 #[test]
@@ -59,39 +59,35 @@ fn two_groups() {
     for case in cases("mann_whitney") {
         let name = case["name"].as_str().expect("a name");
         let (x, y) = (numbers(&case["x"]), numbers(&case["y"]));
-        let effect = Effect::of(&x, &y).expect(name);
+        let effect = GroupEffect::measure_group_effect(&x, &y).expect(name);
         near(effect.a12, &case["A12"], name);
         near(effect.delta, &case["cliffs_delta"], name);
-        near(
-            effect.shift.expect(name),
-            &case["hodges_lehmann_shift"],
-            name,
-        );
+        near(effect.shift.expect(name), &case["hodges_lehmann_shift"], name);
         for (side, ending) in SIDES {
             let p = |method| mann_whitney(&x, &y, side, Some(method)).map(|it| it.p);
-            let continuity = mann_whitney(&x, &y, side, Some(Method::Continuity)).expect(name);
+            let continuity = mann_whitney(&x, &y, side, Some(PValueMethod::Continuity)).expect(name);
             near(continuity.u, &case["U1"], name);
             near(continuity.sd, &case["sd_U_tie_corrected"], name);
             let key = |start: &str| case[format!("p_{start}_{ending}")].clone();
             near(continuity.p, &key("asymptotic_continuity"), name);
             match key("asymptotic_plain") {
-                Value::Number(want) => near(p(Method::Normal).expect(name), &want.into(), name),
-                _ => assert_eq!(p(Method::Normal), Err(Undefined::NoSpread), "{name}"),
+                Value::Number(want) => near(p(PValueMethod::Normal).expect(name), &want.into(), name),
+                _ => assert_eq!(p(PValueMethod::Normal), Err(UndefinedStatistic::NoSpread), "{name}"),
             }
             for exact in ["exact", "permutation", "exact_conditional"] {
                 let want = key(exact);
                 if !want.is_null() {
                     near(
-                        p(Method::Exact).expect(name),
+                        p(PValueMethod::Exact).expect(name),
                         &want,
                         &format!("{name} {exact} {ending}"),
                     );
                 }
             }
         }
-        let usual = mann_whitney(&x, &y, Alternative::TwoSided, None).expect(name);
+        let usual = mann_whitney(&x, &y, TestAlternative::TwoSided, None).expect(name);
         let small = x.len() <= 100 && y.len() <= 100;
-        assert_eq!(usual.method == Method::Exact, small, "{name}");
+        assert_eq!(usual.method == PValueMethod::Exact, small, "{name}");
     }
 }
 
@@ -111,18 +107,18 @@ fn published_comparisons_with_counts_of_the_same_means() {
             })
             .collect();
         for (n, group) in groups.iter().enumerate() {
-            let own = Description::of(group).expect(what);
+            let own = GroupDescription::describe_values(group).expect(what);
             near(own.mean, &case["mean"][n], what);
             near(own.sd.expect(what), &case["sd_sample"][n], what);
         }
-        let p = |side| mann_whitney(&groups[0], &groups[1], side, Some(Method::Continuity));
-        let two = p(Alternative::TwoSided).expect(what);
+        let p = |side| mann_whitney(&groups[0], &groups[1], side, Some(PValueMethod::Continuity));
+        let two = p(TestAlternative::TwoSided).expect(what);
         near(two.u, &case["U1"], what);
         near(two.p, &case["p_two_sided_continuity"], what);
-        let one = [Alternative::Less, Alternative::Greater].map(|side| p(side).expect(what).p);
+        let one = [TestAlternative::Less, TestAlternative::Greater].map(|side| p(side).expect(what).p);
         near(one[0].min(one[1]), &case["p_one_sided_continuity"], what);
         if let Some(want) = case.get("p_exact_conditional_two_sided") {
-            let exact = mann_whitney(&groups[0], &groups[1], Alternative::TwoSided, None);
+            let exact = mann_whitney(&groups[0], &groups[1], TestAlternative::TwoSided, None);
             near(exact.expect(what).p, want, what);
         }
     }
@@ -136,7 +132,7 @@ fn several_groups() {
         let groups: Vec<&[f64]> = groups.iter().map(Vec::as_slice).collect();
         let found = kruskal_wallis(&groups);
         if case["H"].as_f64().is_none() {
-            assert_eq!(found, Err(Undefined::NoSpread), "{name}");
+            assert_eq!(found, Err(UndefinedStatistic::NoSpread), "{name}");
             continue;
         }
         let found = found.expect(name);
@@ -166,27 +162,27 @@ fn pairs_of_values() {
     for case in cases("wilcoxon_signed_rank") {
         let name = case["name"].as_str().expect("a name");
         let (x, y) = (numbers(&case["x"]), numbers(&case["y"]));
-        let test = |zeros, side, method| wilcoxon(&x, &y, zeros, side, Some(method));
+        let test = |zeros, side, method| wilcoxon_test(&x, &y, zeros, side, Some(method));
         if case["n_nonzero"] == 0 {
-            let found = test(Zeros::Wilcox, Alternative::TwoSided, Method::Exact);
-            assert_eq!(found, Err(Undefined::NoDifference), "{name}");
+            let found = test(ZeroTreatment::Wilcox, TestAlternative::TwoSided, PValueMethod::Exact);
+            assert_eq!(found, Err(UndefinedStatistic::NoDifference), "{name}");
             continue;
         }
         for (side, ending) in SIDES {
             let own = |zeros, method| test(zeros, side, method).expect(name);
-            let found = own(Zeros::Wilcox, Method::Continuity);
+            let found = own(ZeroTreatment::Wilcox, PValueMethod::Continuity);
             near(found.plus, &case["W_plus"], name);
             near(found.minus, &case["W_minus"], name);
             near(found.rank_biserial, &case["rank_biserial"], name);
             let key = |start: &str| case[format!("p_{start}_{ending}")].clone();
             near(found.p, &key("asymptotic_continuity"), name);
             near(
-                own(Zeros::Wilcox, Method::Normal).p,
+                own(ZeroTreatment::Wilcox, PValueMethod::Normal).p,
                 &key("asymptotic_plain"),
                 name,
             );
             near(
-                own(Zeros::Pratt, Method::Normal).p,
+                own(ZeroTreatment::Pratt, PValueMethod::Normal).p,
                 &key("pratt_asymptotic_plain"),
                 name,
             );
@@ -194,7 +190,7 @@ fn pairs_of_values() {
                 let want = key(exact);
                 if !want.is_null() {
                     near(
-                        own(Zeros::Wilcox, Method::Exact).p,
+                        own(ZeroTreatment::Wilcox, PValueMethod::Exact).p,
                         &want,
                         &format!("{name} {exact}"),
                     );
@@ -208,9 +204,9 @@ fn pairs_of_values() {
 fn several_conditions_of_the_same_people() {
     for case in cases("friedman") {
         let name = case["name"].as_str().expect("a name");
-        let found = friedman(&lists(&case["rows"]));
+        let found = friedman_test(&lists(&case["rows"]));
         if case["chi2"].as_f64().is_none() {
-            assert_eq!(found, Err(Undefined::NoSpread), "{name}");
+            assert_eq!(found, Err(UndefinedStatistic::NoSpread), "{name}");
             continue;
         }
         let found = found.expect(name);
@@ -237,7 +233,7 @@ fn several_conditions_of_the_same_people() {
 #[test]
 fn corrections_for_the_number_of_tests() {
     for case in cases("multiple_comparisons") {
-        let own = holm(&numbers(&case["p"]));
+        let own = holm_p_values(&numbers(&case["p"]));
         for (own, want) in own.iter().zip(case["holm"].as_array().expect("a list")) {
             near(*own, want, "Holm");
         }
@@ -250,12 +246,12 @@ fn correlations_of_ranks() {
         let name = case["name"].as_str().expect("a name");
         let (x, y) = (numbers(&case["x"]), numbers(&case["y"]));
         let both = [
-            (spearman(&x, &y), "spearman_rho", "spearman_p_t"),
-            (kendall(&x, &y), "kendall_tau_b", "kendall_p"),
+            (spearman_correlation(&x, &y), "spearman_rho", "spearman_p_t"),
+            (kendall_tau(&x, &y), "kendall_tau_b", "kendall_p"),
         ];
         for (found, coefficient, p) in both {
             if case[coefficient].as_f64().is_none() {
-                assert_eq!(found, Err(Undefined::NoSpread), "{name}");
+                assert_eq!(found, Err(UndefinedStatistic::NoSpread), "{name}");
                 continue;
             }
             let found = found.expect(name);
@@ -271,20 +267,14 @@ fn correlations_of_ranks() {
 #[test]
 fn descriptions_of_groups() {
     for case in cases("descriptives") {
-        let own = Description::of(&numbers(&case["values"])).expect("values");
+        let own = GroupDescription::describe_values(&numbers(&case["values"])).expect("values");
         let name = case["values"].to_string();
         near(own.mean, &case["mean"], &name);
         match own.sd {
             Some(sd) => near(sd, &case["sd_sample"], &name),
             None => assert_eq!(case["sd_sample"], "nan", "{name}"),
         }
-        let found = [
-            own.q1,
-            own.median,
-            own.q3,
-            own.whisker_low,
-            own.whisker_high,
-        ];
+        let found = [own.q1, own.median, own.q3, own.whisker_low, own.whisker_high];
         let keys = ["q1", "median", "q3", "whisker_low", "whisker_high"];
         for (own, key) in found.into_iter().zip(keys) {
             near(own, &case[key], &format!("{key} of {name}"));
@@ -301,32 +291,32 @@ fn intervals_of_given_resamples() {
     let given = &all["given_resamples"];
     let mut values = numbers(&given["boot"]);
     values.sort_by(f64::total_cmp);
-    let resamples = Resamples {
+    let resamples = ParticipantResamples {
         estimate: given["theta"].as_f64().expect("a number"),
         values,
         jackknife: numbers(&given["jackknife"]),
         undefined: 0,
     };
     let kinds = [
-        (Interval::Percentile, &given["percentile_95_type7"]),
-        (Interval::Basic, &given["basic_95"]),
-        (Interval::Bca, &given["bca_95"]["interval"]),
+        (ResampleIntervalRule::Percentile, &given["percentile_95_type7"]),
+        (ResampleIntervalRule::Basic, &given["basic_95"]),
+        (ResampleIntervalRule::Bca, &given["bca_95"]["interval"]),
     ];
     for (kind, want) in kinds {
-        let own = resamples.interval(kind, 0.95).expect("an interval");
+        let own = resamples.resample_interval(kind, 0.95).expect("an interval");
         for (own, want) in own.into_iter().zip(want.as_array().expect("two ends")) {
             near(own, want, &format!("{kind:?}"));
         }
     }
     let every = &all["exhaustive_means_of_1_2_4"];
-    let resamples = Resamples {
+    let resamples = ParticipantResamples {
         estimate: 7.0 / 3.0,
         values: numbers(&every["all_27_means_sorted"]),
         jackknife: vec![],
         undefined: 0,
     };
     let own = resamples
-        .interval(Interval::Percentile, 0.95)
+        .resample_interval(ResampleIntervalRule::Percentile, 0.95)
         .expect("an interval");
     for (own, want) in own
         .into_iter()
@@ -340,17 +330,14 @@ fn intervals_of_given_resamples() {
 fn shares_and_their_tests() {
     for case in cases("proportions") {
         let count = |key: &str| case[key].as_u64().expect("a count");
-        let own = wilson(count("k"), count("n"), 0.95).expect("an interval");
-        for (own, want) in own
-            .into_iter()
-            .zip(case["wilson_95"].as_array().expect("two ends"))
-        {
+        let own = wilson_interval(count("k"), count("n"), 0.95).expect("an interval");
+        for (own, want) in own.into_iter().zip(case["wilson_95"].as_array().expect("two ends")) {
             near(own, want, &case.to_string());
         }
     }
     for case in cases("fisher_2x2") {
         let table: [[u64; 2]; 2] = serde_json::from_value(case["table"].clone()).expect("a table");
-        let own = fisher(table).expect("a test");
+        let own = fisher_exact_test(table).expect("a test");
         let want = case["p_two_sided"].as_f64().expect("a number");
         assert!((own.p / want - 1.0).abs() < 1e-9, "{case}: {}", own.p);
         match own.odds_ratio {
@@ -360,7 +347,7 @@ fn shares_and_their_tests() {
     }
     for case in cases("mcnemar_exact") {
         let count = |key: &str| case[key].as_u64().expect("a count");
-        let own = mcnemar(count("b"), count("c")).expect("a test");
+        let own = mcnemar_exact_test(count("b"), count("c")).expect("a test");
         near(own, &case["p"], &case.to_string());
     }
 }
@@ -370,9 +357,9 @@ fn models_of_answers() {
     for case in cases("cumulative_link") {
         let name = case["name"].as_str().expect("a name");
         let answers: Vec<i64> = serde_json::from_value(case["y"].clone()).expect("answers");
-        let found = ordinal::fit(&answers, &lists(&case["X"]));
+        let found = ordinal::fit_ordinal_model(&answers, &lists(&case["X"]));
         if case.get("beta").is_none() {
-            assert_eq!(found, Err(Undefined::Separated), "{name}");
+            assert_eq!(found, Err(UndefinedStatistic::Separated), "{name}");
             continue;
         }
         let found = found.expect(name);

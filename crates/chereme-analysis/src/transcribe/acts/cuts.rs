@@ -4,29 +4,28 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
-use super::super::path::PathForm;
-use super::super::scene::{HandTrajectory, Scene};
-use super::{Mover, Seeing};
-use crate::strokes::{between_minima, smoothed};
-use crate::transcribe::tuned::tuned;
+use super::super::transcribe_path::PathForm;
+use super::super::transcribe_scene::{HandTrajectory, SignerScene};
+use super::{HandPartQueries, MovingHand};
+use crate::strokes::{between_minima, gaussian_smoothed_speeds};
+use crate::transcribe::transcribe_tuned::tuned;
 
 /// Returns the frames in which a hand signs, without its paths from and to rest.
-pub(in crate::transcribe) fn signing(
-    scene: &Scene<'_>,
+pub(in crate::transcribe) fn find_signing_frames(
+    scene: &SignerScene<'_>,
     track: &HandTrajectory,
 ) -> RangeInclusive<usize> {
     let last = track.palm.len() - 1;
-    let nothing = Seeing {
+    let nothing = HandPartQueries {
         parts: &|_, _| Vec::new(),
         others: &|_, _| Vec::new(),
         lets_go: 1,
         loose: scene.loose,
     };
-    let mover = Mover::new(track, [0, last], nothing, &[]);
-    let (stretches, speeds) = stretches(scene, &mover, 0, last);
+    let mover = MovingHand::new(track, [0, last], nothing, &[]);
+    let (stretches, speeds) = find_moving_stretches(scene, &mover, 0, last);
     let on = |a: &RangeInclusive<usize>, b: &RangeInclusive<usize>| {
-        slows(scene, [a, b], |n| speeds[n], tuned().cuts.slows)
-            && turn(track, [a, b]) < tuned().cuts.turns
+        slows(scene, [a, b], |n| speeds[n], tuned().cuts.slows) && path_turn_angle(track, [a, b]) < tuned().cuts.turns
     };
     let mut first = 0;
     let mut end = last;
@@ -44,7 +43,7 @@ pub(in crate::transcribe) fn signing(
     let rises = |n: &usize| {
         stretches
             .get(*n)
-            .is_some_and(|it| rests(*it.start(), *it.end()))
+            .is_some_and(|range| rests(*range.start(), *range.end()))
     };
     let stirring = stretches.iter().take_while(stirs).count();
     if let Some(mut n) = [stirring, 0].into_iter().find(rises) {
@@ -55,7 +54,7 @@ pub(in crate::transcribe) fn signing(
     }
     let sinks = |n: &usize| {
         let stretch = stretches.get(*n);
-        stretch.is_some_and(|it| rests(*it.end(), *it.start()) && *it.start() >= first)
+        stretch.is_some_and(|range| rests(*range.end(), *range.start()) && *range.start() >= first)
     };
     let stirring = stretches.iter().rev().take_while(stirs).count();
     let from = |stirring: usize| stretches.len().wrapping_sub(stirring + 1);
@@ -70,70 +69,65 @@ pub(in crate::transcribe) fn signing(
 
 /// Returns the frame in which the hand is slowest, near a minimum of its smoothed speed: smoothing moves the minimum
 /// away from the faster of the two paths that meet there.
-fn stillest(scene: &Scene<'_>, speeds: &[f64], at: usize) -> usize {
-    let reach = scene.frames(tuned().cuts.near);
+fn stillest(scene: &SignerScene<'_>, speeds: &[f64], at: usize) -> usize {
+    let reach = scene.seconds_to_frames(tuned().cuts.near);
     let near = at.saturating_sub(reach)..(at + reach + 1).min(speeds.len());
-    near.min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))
-        .unwrap_or(at)
+    near.min_by(|&a, &b| speeds[a].total_cmp(&speeds[b])).unwrap_or(at)
 }
 
 /// Returns the stretches in which the hand moves, cut at minima of its speed, and the speed (m/s) in each
 /// frame.
-pub(super) fn stretches(
-    scene: &Scene<'_>,
-    mover: &Mover<'_>,
+pub(super) fn find_moving_stretches(
+    scene: &SignerScene<'_>,
+    mover: &MovingHand<'_>,
     first: usize,
     last: usize,
 ) -> (Vec<RangeInclusive<usize>>, Vec<f64>) {
     let speed = |points: &[DVec3], n: usize| {
         let (a, b) = (n.saturating_sub(1).max(first), (n + 1).min(last));
-        points[a].distance(points[b]) / scene.seconds((b - a).max(1))
+        points[a].distance(points[b]) / scene.frames_to_seconds((b - a).max(1))
     };
     let slowest = |n: usize| {
         let speeds = mover.points.iter().map(|points| speed(points, n));
         speeds.fold(f64::MAX, f64::min)
     };
     let speeds: Vec<f64> = (first..=last).map(slowest).collect();
-    let mut found = cut(scene, &speeds, tuned().cuts.least.0 * scene.arm, first);
-    found.retain(|stretch| {
-        mover.shortest(*stretch.start(), *stretch.end()) > tuned().cuts.short * scene.arm
-    });
-    (found, speeds)
+    let mut kept_stretches = cut_at_minima(scene, &speeds, tuned().cuts.least.0 * scene.arm, first);
+    kept_stretches.retain(|stretch| mover.shortest(*stretch.start(), *stretch.end()) > tuned().cuts.short * scene.arm);
+    (kept_stretches, speeds)
 }
 
 /// Cuts at minima of speed; before the first and after the last frame the speed is taken as zero.
-pub(super) fn cut(
-    scene: &Scene<'_>,
+pub(super) fn cut_at_minima(
+    scene: &SignerScene<'_>,
     speeds: &[f64],
     least: f64,
     first: usize,
 ) -> Vec<RangeInclusive<usize>> {
-    const PAD: usize = 2;
-    let mut padded = vec![0.0; PAD];
-    padded.extend(smoothed(speeds, scene.clip));
-    padded.extend([0.0; PAD]);
+    const CUT_PADDING_FRAMES: usize = 2;
+    let mut padded = vec![0.0; CUT_PADDING_FRAMES];
+    padded.extend(gaussian_smoothed_speeds(speeds, scene.clip));
+    padded.extend([0.0; CUT_PADDING_FRAMES]);
     let most = speeds.len() - 1;
     between_minima(&padded, least)
         .into_iter()
         .map(|range| {
-            let at = |n: usize| first + n.saturating_sub(PAD).min(most);
-            at(range.start)..=at(range.end - 1)
+            let clip_frame = |n: usize| first + n.saturating_sub(CUT_PADDING_FRAMES).min(most);
+            clip_frame(range.start)..=clip_frame(range.end - 1)
         })
         .filter(|range| range.end() > range.start())
         .collect()
 }
 
 /// Returns the paths that are long enough to be intended, and shorter ones that alternate back and forth. The least length
-/// of an intended path grows with how loosely the hands move ([`Scene`]).
-pub(super) fn sure(
-    scene: &Scene<'_>,
-    mover: &Mover<'_>,
+/// of an intended path grows with how loosely the hands move ([`SignerScene`]).
+pub(super) fn select_intended_paths(
+    scene: &SignerScene<'_>,
+    mover: &MovingHand<'_>,
     stretches: Vec<RangeInclusive<usize>>,
 ) -> Vec<RangeInclusive<usize>> {
     let arm = scene.arm;
-    let least = (tuned().cuts.short * scene.loose)
-        .min(tuned().cuts.faint * scene.language.move_small)
-        * arm;
+    let least = (tuned().cuts.short * scene.loose).min(tuned().cuts.faint * scene.language.move_small) * arm;
     let palm = &mover.track.palm;
     let chord = |stretch: &RangeInclusive<usize>| palm[*stretch.end()] - palm[*stretch.start()];
     let back = |a: &RangeInclusive<usize>, b: &RangeInclusive<usize>| {
@@ -143,14 +137,10 @@ pub(super) fn sure(
             && (1.0 / tuned().cuts.back.1..tuned().cuts.back.1).contains(&ratio)
     };
     let is_sure = |n: usize| {
-        let beside = |m: usize| {
-            stretches
-                .get(m)
-                .is_some_and(|other| back(&stretches[n], other))
-        };
+        let is_returned = |m: usize| stretches.get(m).is_some_and(|other| back(&stretches[n], other));
         mover.shortest(*stretches[n].start(), *stretches[n].end()) >= least
-            || beside(n + 1)
-            || n.checked_sub(1).is_some_and(beside)
+            || is_returned(n + 1)
+            || n.checked_sub(1).is_some_and(is_returned)
     };
     let kept: Vec<usize> = (0..stretches.len()).filter(|&n| is_sure(n)).collect();
     kept.into_iter().map(|n| stretches[n].clone()).collect()
@@ -158,21 +148,21 @@ pub(super) fn sure(
 
 /// Returns whether a path is too brief and short to be meant: the hand only settles into its posture, or
 /// leaves it.
-pub(super) fn is_brief(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> bool {
-    scene.seconds(last - first) < tuned().cuts.brief
+pub(super) fn is_brief(scene: &SignerScene<'_>, mover: &MovingHand<'_>, first: usize, last: usize) -> bool {
+    scene.frames_to_seconds(last - first) < tuned().cuts.brief
         && mover.shortest(first, last) < scene.language.move_small * scene.arm
 }
 
 /// Joins stretches that together form a circle, a wave or one continued path, and between which the hand
 /// does not stop.
-pub(super) fn joined(
-    scene: &Scene<'_>,
-    mover: &Mover<'_>,
+pub(super) fn join_continued_stretches(
+    scene: &SignerScene<'_>,
+    mover: &MovingHand<'_>,
     stretches: &[RangeInclusive<usize>],
     speed: impl Fn(usize) -> f64,
 ) -> Vec<RangeInclusive<usize>> {
     let mut left = stretches;
-    let mut found = Vec::new();
+    let mut joined_stretches = Vec::new();
     while let Some((first, rest)) = left.split_first() {
         let follow = |stops: f64| {
             let pairs = rest.iter().zip(left);
@@ -180,24 +170,19 @@ pub(super) fn joined(
             goes_on.count()
         };
         let (on, round) = (follow(tuned().cuts.stops), follow(tuned().cuts.corners));
-        let whole = (1..=round).rev().find(|&more| {
-            let path = mover.fit(*first.start(), *left[more].end());
+        let run_length = (1..=round).rev().find(|&more| {
+            let path = mover.fit_hand_path(*first.start(), *left[more].end());
             match path.path {
                 PathForm::Circle {
-                    turns,
-                    long,
-                    narrow,
-                    ..
+                    turns, long, narrow, ..
                 } => {
-                    let whole = turns.round().max(1.0);
+                    let whole_turns = turns.round().max(1.0);
                     let corner = *first.end();
-                    let closed = (turns - whole).abs() < tuned().cuts.closed
+                    let closed = (turns - whole_turns).abs() < tuned().cuts.closed
                         && narrow > tuned().cuts.roundish
-                        && mover.track.turn(*first.start(), corner).length() < tuned().acts.turned;
+                        && mover.track.hand_turn_vector(*first.start(), corner).length() < tuned().acts.turned;
                     let most = if closed { tuned().cuts.flattened } else { 0.15 };
-                    (more <= on || closed)
-                        && turns / ((more + 1) as f64) < 1.2
-                        && path.residual < most * long.length()
+                    (more <= on || closed) && turns / ((more + 1) as f64) < 1.2 && path.residual < most * long.length()
                 }
                 PathForm::Wave { .. } => more >= 2 && more <= on,
                 _ => false,
@@ -205,34 +190,32 @@ pub(super) fn joined(
         });
         let onward = || {
             let pairs = rest.iter().zip(left).take(follow(tuned().cuts.slows));
-            let goes_on =
-                pairs.take_while(|(next, it)| turn(mover.track, [it, next]) < tuned().cuts.onward);
+            let goes_on = pairs.take_while(|(next, it)| path_turn_angle(mover.track, [it, next]) < tuned().cuts.onward);
             goes_on.count()
         };
-        let joined = whole.unwrap_or_else(onward);
-        found.push(*first.start()..=*left[joined].end());
+        let joined = run_length.unwrap_or_else(onward);
+        joined_stretches.push(*first.start()..=*left[joined].end());
         left = &left[joined + 1..];
     }
-    found
+    joined_stretches
 }
 
 /// Returns whether a hand keeps moving from one path to the next: its speed between them stays above
 /// `share` of its top speed on both.
 fn slows(
-    scene: &Scene<'_>,
+    scene: &SignerScene<'_>,
     [before, next]: [&RangeInclusive<usize>; 2],
     speed: impl Fn(usize) -> f64,
     share: f64,
 ) -> bool {
     let fastest = |stretch: &RangeInclusive<usize>| stretch.clone().map(&speed).fold(0.0, f64::max);
     let slowest = speed(*before.end()).min(speed(*next.start()));
-    next.start() <= &(before.end() + scene.frames(tuned().acts.gap))
+    next.start() <= &(before.end() + scene.seconds_to_frames(tuned().acts.gap))
         && slowest > share * fastest(before).min(fastest(next))
 }
 
 /// Returns the angle (rad) between the directions of two successive paths.
-fn turn(track: &HandTrajectory, stretches: [&RangeInclusive<usize>; 2]) -> f64 {
-    let [before, next] =
-        stretches.map(|stretch| track.palm[*stretch.end()] - track.palm[*stretch.start()]);
+fn path_turn_angle(track: &HandTrajectory, stretches: [&RangeInclusive<usize>; 2]) -> f64 {
+    let [before, next] = stretches.map(|stretch| track.palm[*stretch.end()] - track.palm[*stretch.start()]);
     before.angle_between(next)
 }

@@ -1,14 +1,14 @@
 //! Finds hands that turn to and fro about the wrist, and fingers that play.
 
-use chereme_sign::hamnosys::{Digit, Digits, WristMotion};
+use chereme_sign::hamnosys::{DigitList, HandDigit, WristMotion};
 use glam::DVec3;
 
-use super::super::scene::{HandTrajectory, Scene, scaled};
-use crate::transcribe::tuned::tuned;
+use super::super::transcribe_scene::{HandTrajectory, SignerScene, to_rotation_vector};
+use crate::transcribe::transcribe_tuned::tuned;
 
 /// A movement to and fro of wrist or fingers.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::transcribe) enum Sway {
+pub(in crate::transcribe) enum HandSway {
     /// About the wrist: by `angle` radians to either side, `cycles` times.
     Wrist {
         motion: WristMotion,
@@ -17,11 +17,11 @@ pub(in crate::transcribe) enum Sway {
         runner_up: Option<(WristMotion, f64)>,
     },
     /// Fingers play, each `cycles` times.
-    Play { digits: Digits, cycles: f64 },
+    Play { digits: DigitList, cycles: f64 },
 }
 
-impl Sway {
-    pub(in crate::transcribe) fn name(&self) -> &'static str {
+impl HandSway {
+    pub(in crate::transcribe) fn sway_name(&self) -> &'static str {
         match self {
             Self::Play { .. } => "fingerplay",
             Self::Wrist { motion, .. } => wrist_name(*motion),
@@ -42,21 +42,21 @@ pub(in crate::transcribe) fn wrist_name(motion: WristMotion) -> &'static str {
 
 /// Returns the movement of the hand to and fro about the wrist, measured from the middle of its range;
 /// `None` if there is no such movement.
-pub(super) fn wrist(
-    scene: &Scene<'_>,
+pub(super) fn find_wrist_sway(
+    scene: &SignerScene<'_>,
     track: &HandTrajectory,
     first: usize,
     last: usize,
-) -> Option<Sway> {
+) -> Option<HandSway> {
     let start = track.turned[first].inverse();
     let turns: Vec<DVec3> = (first..=last)
-        .map(|n| scaled(start * track.turned[n]))
+        .map(|n| to_rotation_vector(start * track.turned[n]))
         .collect();
     let parts: [Vec<f64>; 3] = std::array::from_fn(|axis| turns.iter().map(|t| t[axis]).collect());
-    let swings = parts.each_ref().map(|part| Swing::of(part));
+    let swings = parts.each_ref().map(|part| SwingStatistics::from_swing_values(part));
     let widest = swings.iter().map(|swing| swing.range).fold(0.0, f64::max);
     // A hand may turn to another orientation about one axis while it moves to and fro about another.
-    let sways = |swing: &Swing| {
+    let sways = |swing: &SwingStatistics| {
         swing.range >= (tuned().sway.sway * scene.loose).max(tuned().sway.besides * widest)
             && swing.turning >= 2
             && swing.net < 0.45 * swing.range
@@ -65,11 +65,7 @@ pub(super) fn wrist(
         .filter(|&axis| sways(&swings[axis]))
         .max_by(|&a, &b| swings[a].range.total_cmp(&swings[b].range))?;
     let swing = swings[most];
-    let motions = [
-        WristMotion::Twisting,
-        WristMotion::Swinging,
-        WristMotion::Nodding,
-    ];
+    let motions = [WristMotion::Twisting, WristMotion::Swinging, WristMotion::Nodding];
     let (y, z) = (&swings[1], &swings[2]);
     let round: f64 = (1..turns.len())
         .map(|n| turns[n - 1].y * turns[n].z - turns[n - 1].z * turns[n].y)
@@ -84,7 +80,7 @@ pub(super) fn wrist(
         } else {
             WristMotion::StirCcw
         };
-        return Some(Sway::Wrist {
+        return Some(HandSway::Wrist {
             motion,
             angle: (y.range + z.range) / 4.0,
             cycles: (round.abs() / full).max(1.0),
@@ -97,7 +93,7 @@ pub(super) fn wrist(
     let next = (0..3)
         .filter(|&axis| axis != most)
         .max_by(|&a, &b| swings[a].range.total_cmp(&swings[b].range));
-    Some(Sway::Wrist {
+    Some(HandSway::Wrist {
         motion: motions[most],
         angle: swing.range / 2.0,
         cycles: swing.turning as f64 / 2.0,
@@ -106,46 +102,46 @@ pub(super) fn wrist(
 }
 
 /// Returns the fingers that play over the whole of a stretch, if any.
-pub(super) fn play(
-    scene: &Scene<'_>,
+pub(super) fn find_finger_play(
+    scene: &SignerScene<'_>,
     track: &HandTrajectory,
     first: usize,
     last: usize,
-) -> Option<Sway> {
+) -> Option<HandSway> {
     let column = |digit: usize| -> Vec<f64> {
-        let at = |n: usize| match digit {
+        let digit_angle = |n: usize| match digit {
             0 => track.angles[n].thumb.radial,
             _ => track.angles[n].fingers[digit - 1].flexion[0],
         };
-        (first..=last).map(at).collect()
+        (first..=last).map(digit_angle).collect()
     };
     let columns: [Vec<f64>; 5] = std::array::from_fn(column);
-    let swings = columns.each_ref().map(|column| Swing::of(column));
+    let swings = columns
+        .each_ref()
+        .map(|column| SwingStatistics::from_swing_values(column));
     let playing: Vec<usize> = (0..5)
-        .filter(|&digit| {
-            swings[digit].turning >= 3 && swings[digit].range > tuned().sway.sway * scene.loose
-        })
+        .filter(|&digit| swings[digit].turning >= 3 && swings[digit].range > tuned().sway.sway * scene.loose)
         .collect();
     if playing.len() < 2 {
         return None;
     }
     let apart = playing
         .windows(2)
-        .any(|pair| correlation(&columns[pair[0]], &columns[pair[1]]).abs() < 0.75);
+        .any(|pair| swing_correlation(&columns[pair[0]], &columns[pair[1]]).abs() < 0.75);
     let often = playing
         .iter()
-        .any(|&digit| swings[digit].turning as f64 / scene.seconds(last - first) > 4.0);
-    let digits = playing.iter().map(|&digit| Digit::ALL[digit]).collect();
+        .any(|&digit| swings[digit].turning as f64 / scene.frames_to_seconds(last - first) > 4.0);
+    let digits = playing.iter().map(|&digit| HandDigit::ALL_HAND_DIGITS[digit]).collect();
     let turning: usize = playing.iter().map(|&digit| swings[digit].turning).sum();
-    (apart && often).then_some(Sway::Play {
-        digits: Digits(digits),
+    (apart && often).then_some(HandSway::Play {
+        digits: DigitList(digits),
         cycles: turning as f64 / (2 * playing.len()) as f64,
     })
 }
 
 /// The statistics of a number that moves to and fro.
 #[derive(Debug, Clone, Copy)]
-struct Swing {
+struct SwingStatistics {
     range: f64,
     /// The number of reversals.
     turning: usize,
@@ -155,8 +151,8 @@ struct Swing {
     net: f64,
 }
 
-impl Swing {
-    fn of(values: &[f64]) -> Self {
+impl SwingStatistics {
+    fn from_swing_values(values: &[f64]) -> Self {
         let (low, high) = values
             .iter()
             .fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
@@ -192,7 +188,7 @@ impl Swing {
     }
 }
 
-fn correlation(a: &[f64], b: &[f64]) -> f64 {
+fn swing_correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let (ma, mb) = (mean(a), mean(b));
     let [ab, aa, bb] = a.iter().zip(b).fold([0.0; 3], |[ab, aa, bb], (x, y)| {
@@ -219,7 +215,7 @@ mod tests {
             (&[0.0, 2.0, 1.3, 2.0, 0.0], 2.0, 3, 0.0, 0.0),
             (&[-1.0, -3.0, -1.0, -3.0], 2.0, 2, 1.0, 2.0),
         ] {
-            let is = Swing::of(values);
+            let is = SwingStatistics::from_swing_values(values);
             assert_eq!((is.range, is.turning), (range, turning), "{values:?}");
             assert!((is.start - start).abs() < 1e-9, "{values:?}: {}", is.start);
             assert!((is.net - net).abs() < 1e-9, "{values:?}: {}", is.net);
@@ -237,7 +233,7 @@ mod tests {
             ([0.0, 2.0, 0.0, 2.0], 2.0 / 20f64.sqrt()),
             ([5.0; 4], 0.0),
         ] {
-            let found = correlation(&one, &other);
+            let found = swing_correlation(&one, &other);
             assert!((found - is).abs() < 1e-9, "{other:?}: {found}");
         }
     }

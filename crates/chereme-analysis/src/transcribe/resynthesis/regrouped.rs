@@ -3,26 +3,26 @@
 //! If the first reading cuts a movement at a wrong frame, it has an action too many, or writes each turn of a repeated
 //! movement as an action of its own.
 
-use chereme_sign::hamnosys::{Motion, MotionKind, Repeat};
+use chereme_sign::hamnosys::{MotionKind, NotatedMotion, RepeatKind};
 
-use super::actions::repeated;
+use super::resynthesis_actions::with_motion_repeat;
 
 /// The repetitions that are tried for several actions.
-const REPEATS: [Repeat; 4] = [
-    Repeat::FromStart,
-    Repeat::FromStartSeveral,
-    Repeat::Continue,
-    Repeat::Reverse,
+const GROUPED_ACTION_REPEATS: [RepeatKind; 4] = [
+    RepeatKind::FromStart,
+    RepeatKind::FromStartSeveral,
+    RepeatKind::Continue,
+    RepeatKind::Reverse,
 ];
 
 /// The most actions in a row for which one repeated action is tried.
-const MOST: usize = 8;
+const MAX_GROUPED_ACTIONS: usize = 8;
 
 /// Returns lists of fewer actions: each lacks one of `actions`, or has a repeated one instead of several in a row.
-pub(super) fn regrouped(actions: &[Motion]) -> Vec<Vec<Motion>> {
+pub(super) fn regroup_action_lists(actions: &[NotatedMotion]) -> Vec<Vec<NotatedMotion>> {
     let mut all = Vec::new();
     if let [only] = actions {
-        let inner = inner(only).into_iter();
+        let inner = regroup_inner_parts(only).into_iter();
         return inner.map(|other| vec![other]).collect();
     }
     for k in 0..actions.len() {
@@ -31,12 +31,12 @@ pub(super) fn regrouped(actions: &[Motion]) -> Vec<Vec<Motion>> {
         all.push(other);
     }
     for first in 0..actions.len() {
-        for last in first + 1..actions.len().min(first + MOST) {
+        for last in first + 1..actions.len().min(first + MAX_GROUPED_ACTIONS) {
             // The second one is right if the first is cut wrongly.
             for action in &actions[first..=first + 1] {
-                let once = once(action);
-                all.extend(REPEATS.map(|repeat| {
-                    let instead = [repeated(once, repeat)];
+                let once = unrepeated_motion(action);
+                all.extend(GROUPED_ACTION_REPEATS.map(|repeat| {
+                    let instead = [with_motion_repeat(once, repeat)];
                     let rest = [&actions[..first], &instead, &actions[last + 1..]];
                     rest.concat()
                 }));
@@ -47,32 +47,26 @@ pub(super) fn regrouped(actions: &[Motion]) -> Vec<Vec<Motion>> {
 }
 
 /// Returns readings of an action whose parts are regrouped.
-fn inner(action: &Motion) -> Vec<Motion> {
-    let with = |kind| Motion {
-        kind,
-        ..action.clone()
-    };
+fn regroup_inner_parts(action: &NotatedMotion) -> Vec<NotatedMotion> {
+    let with = |kind| NotatedMotion { kind, ..action.clone() };
     match &action.kind {
         MotionKind::Sequence { motions, fused } => {
-            let all = regrouped(motions).into_iter();
+            let all = regroup_action_lists(motions).into_iter();
             all.map(|mut motions| match motions.len() {
                 1 => motions.remove(0),
-                _ => with(MotionKind::Sequence {
-                    motions,
-                    fused: *fused,
-                }),
+                _ => with(MotionKind::Sequence { motions, fused: *fused }),
             })
             .collect()
         }
         MotionKind::Split(own, other) => {
-            let of_hand = |hand: &Option<Box<Motion>>| match hand.as_deref() {
-                Some(motion) => inner(motion).into_iter().map(Box::new).collect(),
+            let of_hand = |hand: &Option<Box<NotatedMotion>>| match hand.as_deref() {
+                Some(motion) => regroup_inner_parts(motion).into_iter().map(Box::new).collect(),
                 None => Vec::new(),
             };
             let owns = of_hand(own).into_iter();
             let others = of_hand(other).into_iter();
-            owns.map(|it| MotionKind::Split(Some(it), other.clone()))
-                .chain(others.map(|it| MotionKind::Split(own.clone(), Some(it))))
+            owns.map(|motion| MotionKind::Split(Some(motion), other.clone()))
+                .chain(others.map(|motion| MotionKind::Split(own.clone(), Some(motion))))
                 .map(with)
                 .collect()
         }
@@ -81,7 +75,7 @@ fn inner(action: &Motion) -> Vec<Motion> {
 }
 
 /// Returns the motion that is repeated; another motion is returned as it is.
-fn once(motion: &Motion) -> &Motion {
+fn unrepeated_motion(motion: &NotatedMotion) -> &NotatedMotion {
     match &motion.kind {
         MotionKind::Repeated { motion, .. } => motion,
         _ => motion,
@@ -90,7 +84,7 @@ fn once(motion: &Motion) -> &Motion {
 
 #[cfg(test)]
 mod tests {
-    use super::super::actions::tests::{named, sign};
+    use super::super::resynthesis_actions::tests::{named, sign};
     use super::*;
 
     #[test]
@@ -120,12 +114,9 @@ mod tests {
         ];
         for (movement, expected) in cases {
             let of = sign(movement).parts.swap_remove(0).actions;
-            let all: Vec<String> = regrouped(&of).into_iter().map(named).collect();
+            let all: Vec<String> = regroup_action_lists(&of).into_iter().map(named).collect();
             for other in expected {
-                assert!(
-                    all.iter().any(|it| it == other),
-                    "{movement}: no {other} in {all:?}"
-                );
+                assert!(all.iter().any(|it| it == other), "{movement}: no {other} in {all:?}");
             }
             assert_eq!(expected.is_empty(), all.is_empty(), "{movement}: {all:?}");
         }

@@ -1,30 +1,30 @@
 //! Replaces inferred actions in a transcription by those that re-synthesis found, with their features.
 
 use chereme_sign::hamnosys::{
-    Aim, Circular, Directed, Manner, MotionKind, Place, Posture, Repeat, to_names,
+    CircularPath, DirectedPath, DirectionAim, HandPlace, MotionKind, MotionManner, NotatedPosture, RepeatKind, to_names,
 };
 
 use super::super::acts::wrist_name;
-use super::super::words::{self, WordsAndSymbols};
-use super::super::{Feature, FeatureKind, RunnerUp, Unit};
+use super::super::transcribe_words::{self, WordsAndSymbols};
+use super::super::{FeatureKind, NotationFeature, ResidualUnit, RunnerUp};
 use super::*;
 
 /// A value that notation states about an act.
-pub(in crate::transcribe) type Stated = (FeatureKind, WordsAndSymbols);
+pub(in crate::transcribe) type StatedValue = (FeatureKind, WordsAndSymbols);
 
 /// Replaces the features and stages of actions in a transcription, `from` the inferred actions `to` others. `before` and
 /// `after` are the deviations (m) of both from the observed movement: they become the residuals of the features that
 /// change. A finding names both movements. `several` is the number of times that "several times" adds to the first one.
-pub(in crate::transcribe) fn replace(
-    found: &mut Transcription,
-    [from, to]: [&[Motion]; 2],
+pub(in crate::transcribe) fn replace_transcribed_actions(
+    found: &mut TokenTranscription,
+    [from, to]: [&[NotatedMotion]; 2],
     [before, after]: [f64; 2],
     several: f64,
 ) {
-    let (old, new) = (acts(from), acts(to));
+    let (old, new) = (list_single_acts(from), list_single_acts(to));
     let mut features = Vec::new();
     for (stage, (old, new)) in found.stages.iter_mut().skip(1).zip(old.iter().zip(new)) {
-        let mut own: Vec<Feature> = found
+        let mut stage_features: Vec<NotationFeature> = found
             .features
             .extract_if(.., |feature| {
                 let other = |side| stage.hand.is_some_and(|hand| hand != side);
@@ -32,19 +32,19 @@ pub(in crate::transcribe) fn replace(
             })
             .collect();
         if **old != *new {
-            stage.text = words::motion(new);
+            stage.text = transcribe_words::motion_hamnosys(new);
             restate(
-                &mut own,
+                &mut stage_features,
                 stage,
-                (stated(old, several), stated(new, several)),
+                (stated_act_values(old, several), stated_act_values(new, several)),
                 [before, after],
             );
         }
-        features.extend(own);
+        features.extend(stage_features);
     }
     found.features.extend(features);
-    let names = |actions: &[Motion]| {
-        let text: String = actions.iter().map(words::motion).collect();
+    let names = |actions: &[NotatedMotion]| {
+        let text: String = actions.iter().map(transcribe_words::motion_hamnosys).collect();
         to_names(&text).map_or(text, |names| names.join(" "))
     };
     found.findings.push(format!(
@@ -57,11 +57,11 @@ pub(in crate::transcribe) fn replace(
 }
 
 /// Returns the single acts of actions, in the order of the stages: those of the dominant hand first.
-pub(in crate::transcribe) fn acts(actions: &[Motion]) -> Vec<&Motion> {
+pub(in crate::transcribe) fn list_single_acts(actions: &[NotatedMotion]) -> Vec<&NotatedMotion> {
     let of = |hand: usize| {
         actions.iter().flat_map(move |action| match &action.kind {
             MotionKind::Split(a, b) => match [a, b][hand].as_deref() {
-                Some(Motion {
+                Some(NotatedMotion {
                     kind: MotionKind::Sequence { motions, .. },
                     ..
                 }) => motions.iter().collect(),
@@ -76,17 +76,17 @@ pub(in crate::transcribe) fn acts(actions: &[Motion]) -> Vec<&Motion> {
 
 /// Changes the features of an act from the `old` values to the `new` ones.
 fn restate(
-    own: &mut Vec<Feature>,
-    stage: &Stage,
-    (old, new): (Vec<Stated>, Vec<Stated>),
+    own: &mut Vec<NotationFeature>,
+    stage: &TranscriptionStage,
+    (old, new): (Vec<StatedValue>, Vec<StatedValue>),
     [before, after]: [f64; 2],
 ) {
-    let of = |all: &[Stated], kind: FeatureKind| -> Vec<WordsAndSymbols> {
-        let all = all.iter().filter(|it| it.0 == kind);
-        all.map(|it| it.1.clone()).collect()
+    let of = |all: &[StatedValue], kind: FeatureKind| -> Vec<WordsAndSymbols> {
+        let all = all.iter().filter(|statement| statement.0 == kind);
+        all.map(|statement| statement.1.clone()).collect()
     };
-    let hand = stage.hand.or(own.iter().find_map(|it| it.hand));
-    let mut kinds: Vec<FeatureKind> = old.iter().chain(&new).map(|it| it.0).collect();
+    let hand = stage.hand.or(own.iter().find_map(|feature| feature.hand));
+    let mut kinds: Vec<FeatureKind> = old.iter().chain(&new).map(|statement| statement.0).collect();
     kinds.sort();
     kinds.dedup();
     for kind in kinds {
@@ -111,12 +111,12 @@ fn restate(
                     residual: 100.0 * before,
                 });
                 feature.residual = 100.0 * after;
-                feature.unit = Unit::Centimetres;
+                feature.unit = ResidualUnit::Centimetres;
             }
             (feature.value, feature.text) = (is.words.clone(), is.text.clone());
             true
         });
-        own.extend(new.into_iter().skip(nth.max(old.len())).map(|is| Feature {
+        own.extend(new.into_iter().skip(nth.max(old.len())).map(|is| NotationFeature {
             kind,
             hand,
             frame: stage.frames.0,
@@ -125,7 +125,7 @@ fn restate(
             value: is.words,
             text: is.text,
             residual: 100.0 * after,
-            unit: Unit::Centimetres,
+            unit: ResidualUnit::Centimetres,
             runner_up: None,
         }));
     }
@@ -133,99 +133,101 @@ fn restate(
 
 /// Returns the values that the notation of an act states; `several` is the number of times that "several times" adds to
 /// the first one.
-pub(in crate::transcribe) fn stated(act: &Motion, several: f64) -> Vec<Stated> {
+pub(in crate::transcribe) fn stated_act_values(act: &NotatedMotion, several: f64) -> Vec<StatedValue> {
     let mut all = Vec::new();
-    let mut manner = Manner::default();
-    state(act, &mut all, &mut manner, several);
-    if !all.iter().any(|it| it.0 == FeatureKind::Movement) {
+    let mut manner = MotionManner::default();
+    collect_stated_values(act, &mut all, &mut manner, several);
+    if !all.iter().any(|statement| statement.0 == FeatureKind::Movement) {
         let replacement = WordsAndSymbols::new("replacement", "");
         all.insert(0, (FeatureKind::Movement, replacement));
     }
-    all.push((FeatureKind::Manner, words::manner(&manner)));
+    all.push((FeatureKind::Manner, transcribe_words::describe_manner(&manner)));
     all
 }
 
-fn state(motion: &Motion, all: &mut Vec<Stated>, manner: &mut Manner, several: f64) {
-    let own = &motion.manner;
-    manner.fast |= own.fast;
-    manner.slow |= own.slow;
-    manner.tense |= own.tense;
-    manner.halt |= own.halt;
-    manner.rest |= own.rest;
+fn collect_stated_values(motion: &NotatedMotion, all: &mut Vec<StatedValue>, manner: &mut MotionManner, several: f64) {
+    let motion_manner = &motion.manner;
+    manner.fast |= motion_manner.fast;
+    manner.slow |= motion_manner.slow;
+    manner.tense |= motion_manner.tense;
+    manner.halt |= motion_manner.halt;
+    manner.rest |= motion_manner.rest;
     let mut say = |name: &str| {
-        let text = words::motion(&Motion::new(motion.kind.clone()));
+        let text = transcribe_words::motion_hamnosys(&NotatedMotion::new(motion.kind.clone()));
         all.push((FeatureKind::Movement, WordsAndSymbols::new(name, text)));
     };
     match &motion.kind {
         MotionKind::Directed(path) => {
-            say(name(path));
-            let course = words::course(&Aim::at(path.direction), false);
+            say(directed_path_name(path));
+            let course = transcribe_words::describe_movement_course(&DirectionAim::aim_at(path.direction), false);
             all.push((FeatureKind::Course, course));
-            all.push((FeatureKind::Size, words::size(path.size.first)));
+            all.push((FeatureKind::Size, transcribe_words::describe_path_size(path.size.first)));
         }
-        MotionKind::Circular(Circular { axis, size, .. }) => {
+        MotionKind::Circular(CircularPath { axis, size, .. }) => {
             say("circle");
-            all.push((FeatureKind::Course, words::course(&Aim::at(*axis), true)));
-            all.push((FeatureKind::Size, words::size(size.first)));
+            all.push((
+                FeatureKind::Course,
+                transcribe_words::describe_movement_course(&DirectionAim::aim_at(*axis), true),
+            ));
+            all.push((FeatureKind::Size, transcribe_words::describe_path_size(size.first)));
         }
         MotionKind::Wrist { motion, size } => {
             say(wrist_name(*motion));
-            all.push((FeatureKind::Size, words::size(*size)));
+            all.push((FeatureKind::Size, transcribe_words::describe_path_size(*size)));
         }
         MotionKind::FingerPlay(_) => say("fingerplay"),
         MotionKind::Parallel(motions) | MotionKind::Sequence { motions, .. } => {
             for motion in motions {
-                state(motion, all, manner, several);
+                collect_stated_values(motion, all, manner, several);
             }
         }
         MotionKind::Target { motion, posture } => {
             if let Some(motion) = motion {
-                state(motion, all, manner, several);
+                collect_stated_values(motion, all, manner, several);
             }
             state_end(posture, all);
         }
         MotionKind::Repeated { motion, repetition } => {
-            state(motion, all, manner, several);
-            let more = |repeat: Repeat| match repeat {
-                Repeat::FromStartSeveral | Repeat::ContinueSeveral => several as usize,
+            collect_stated_values(motion, all, manner, several);
+            let more = |repeat: RepeatKind| match repeat {
+                RepeatKind::FromStartSeveral | RepeatKind::ContinueSeveral => several as usize,
                 _ => 1,
             };
             let times = 1 + more(repetition.repeat) + repetition.second.map_or(0, more);
-            let mut stated = words::repetition(times, repetition.repeat);
+            let mut stated = transcribe_words::describe_repetition(times, repetition.repeat);
             if let Some(second) = repetition.second {
-                stated.text += &words::repetition(times, second).text;
+                stated.text += &transcribe_words::describe_repetition(times, second).text;
             }
             all.push((FeatureKind::Repetition, stated));
         }
-        MotionKind::Split(..)
-        | MotionKind::Cross { .. }
-        | MotionKind::Still
-        | MotionKind::Body(_) => {}
+        MotionKind::Split(..) | MotionKind::Cross { .. } | MotionKind::Still | MotionKind::Body(_) => {}
     }
 }
 
 /// States the posture at the end of an act.
-fn state_end(posture: &Posture, all: &mut Vec<Stated>) {
-    if let Each::Shared(shape) = &posture.shape {
-        all.push((FeatureKind::Handshape, words::shape(shape)));
+fn state_end(posture: &NotatedPosture, all: &mut Vec<StatedValue>) {
+    if let EachHand::Shared(shape) = &posture.shape {
+        all.push((FeatureKind::Handshape, transcribe_words::describe_handshape(shape)));
     }
-    if let Each::Shared(aim) = &posture.extended {
-        all.push((FeatureKind::Direction, words::direction(aim)));
+    if let EachHand::Shared(aim) = &posture.extended {
+        all.push((FeatureKind::Direction, transcribe_words::describe_aim_direction(aim)));
     }
-    if let Each::Shared(aim) = &posture.palm {
-        all.push((FeatureKind::Palm, words::palm(aim)));
+    if let EachHand::Shared(aim) = &posture.palm {
+        all.push((FeatureKind::Palm, transcribe_words::describe_palm(aim)));
     }
     match &posture.place {
-        Some(Place::Body(place)) => {
-            all.push((FeatureKind::Location, words::place(place)));
-            all.push((FeatureKind::Contact, words::nearness(place)));
+        Some(HandPlace::Body(place)) => {
+            all.push((FeatureKind::Location, transcribe_words::describe_body_place(place)));
+            all.push((FeatureKind::Contact, transcribe_words::describe_place_contact(place)));
         }
-        Some(Place::Hands(hands)) => all.push((FeatureKind::Contact, words::together(hands))),
+        Some(HandPlace::Hands(hands)) => {
+            all.push((FeatureKind::Contact, transcribe_words::describe_hands_together(hands)))
+        }
         _ => {}
     }
 }
 
-fn name(path: &Directed) -> &'static str {
+fn directed_path_name(path: &DirectedPath) -> &'static str {
     match (&path.zigzag, &path.curve) {
         (Some(zigzag), _) if zigzag.wavy => "waves",
         (Some(_), _) => "zigzag",

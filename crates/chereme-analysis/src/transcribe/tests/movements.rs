@@ -1,6 +1,6 @@
 //! Generated movements for golden cases.
 
-use chereme_sign::hamnosys::Bend;
+use chereme_sign::hamnosys::FingerBend;
 
 use super::*;
 
@@ -8,8 +8,8 @@ use super::*;
 pub(crate) struct Case {
     pub(crate) name: &'static str,
     pub(crate) clip: Clip,
-    pub(crate) anatomy: Anatomy,
-    pub(crate) options: Options,
+    pub(crate) anatomy: BodyAnatomy,
+    pub(crate) options: TranscribeOptions,
 }
 
 type Hands = [Option<Held>; 2];
@@ -28,7 +28,7 @@ fn case(name: &'static str, seconds: f64, at: impl Fn(f64) -> Hands) -> Case {
         name,
         clip,
         anatomy,
-        options: Options::made(),
+        options: TranscribeOptions::synthesised_options(),
     }
 }
 
@@ -46,9 +46,7 @@ fn usual(class: HandClass) -> Held {
 
 /// Returns the movement of the right hand alone, whose path is given in lengths of the arm.
 fn moved(name: &'static str, seconds: f64, own: &Held, by: impl Fn(f64) -> DVec3) -> Case {
-    case(name, seconds, |time| {
-        [Some(own.moved(by(time) * ARM)), None]
-    })
+    case(name, seconds, |time| [Some(own.moved(by(time) * ARM)), None])
 }
 
 fn turned(name: &'static str, seconds: f64, own: &Held, by: impl Fn(f64) -> DVec3) -> Case {
@@ -61,11 +59,7 @@ fn turned(name: &'static str, seconds: f64, own: &Held, by: impl Fn(f64) -> DVec
 fn strokes(count: usize, time: f64) -> f64 {
     let at = (time * count as f64).min(count as f64 - 1e-3);
     let share = ease(at.fract());
-    if at as usize % 2 == 1 {
-        1.0 - share
-    } else {
-        share
-    }
+    if at as usize % 2 == 1 { 1.0 - share } else { share }
 }
 
 /// Returns an offset along a circle that starts at `spoke`.
@@ -93,25 +87,17 @@ pub(crate) fn one_hand() -> Vec<Case> {
     let played = |time: f64| {
         let bend = |n: usize| {
             let angle = 0.4 + 0.35 * (TAU * (3.0 * time + n as f64 / 4.0)).sin();
-            Some(Bend::Joints([angle, angle * 0.6, angle * 0.4]))
+            Some(FingerBend::Joints([angle, angle * 0.6, angle * 0.4]))
         };
         let mut own = spread.clone();
         own.shape.bends = [None, bend(0), bend(1), bend(2), bend(3)];
         own
     };
     vec![
-        moved("small, away, fist", 0.25, &fist, |t| {
-            v(0.01, 0.012, 0.13) * ease(t)
-        }),
-        moved("down, flat", 0.3, &flat, |t| {
-            v(0.012, -0.26, 0.01) * ease(t)
-        }),
-        moved("far, up and left, pinch", 0.5, &pinch, |t| {
-            v(0.3, 0.31, 0.02) * ease(t)
-        }),
-        moved("between two directions", 0.4, &index, |t| {
-            v(0.24, 0.02, 0.1) * ease(t)
-        }),
+        moved("small, away, fist", 0.25, &fist, |t| v(0.01, 0.012, 0.13) * ease(t)),
+        moved("down, flat", 0.3, &flat, |t| v(0.012, -0.26, 0.01) * ease(t)),
+        moved("far, up and left, pinch", 0.5, &pinch, |t| v(0.3, 0.31, 0.02) * ease(t)),
+        moved("between two directions", 0.4, &index, |t| v(0.24, 0.02, 0.1) * ease(t)),
         moved("arc to the left, upwards", 0.5, &fist, |t| {
             arc(v(0.3, 0.01, 0.0), v(0.0, 0.07, 0.01), t)
         }),
@@ -137,43 +123,27 @@ pub(crate) fn one_hand() -> Vec<Case> {
         moved("wave", 1.0, &flat, |t| {
             v(0.4 * t, 0.05 * (TAU * 2.5 * t).sin(), 0.01 * t)
         }),
-        moved("to and fro", 0.6, &fist, |t| {
-            v(0.18, 0.02, 0.03) * strokes(2, t)
-        }),
+        moved("to and fro", 0.6, &fist, |t| v(0.18, 0.02, 0.03) * strokes(2, t)),
         moved("three small strokes", 0.9, &fist, |t| {
             v(0.01, -0.02, 0.13) * strokes(3, t)
         }),
         moved("strokes that grow", 1.5, &flat, |t| {
             let stroke = ((t * 5.0) as usize).min(4);
-            v(0.01, -0.02, 0.12)
-                * (strokes(5, t) * 1.35_f64.powi(stroke.div_ceil(2) as i32 - stroke as i32 % 2))
+            v(0.01, -0.02, 0.12) * (strokes(5, t) * 1.35_f64.powi(stroke.div_ceil(2) as i32 - stroke as i32 % 2))
         }),
         moved("down, then to the left", 0.9, &index, |t| {
-            v(0.0, -0.22, 0.02) * ease((2.0 * t).min(1.0))
-                + v(0.25, 0.01, 0.0) * ease((2.0 * t - 1.0).max(0.0))
+            v(0.0, -0.22, 0.02) * ease((2.0 * t).min(1.0)) + v(0.25, 0.01, 0.0) * ease((2.0 * t - 1.0).max(0.0))
         }),
-        moved("fast", 0.15, &fist, |t| {
-            v(0.01, -0.25, 0.02) * ease(t.powf(1.25))
-        }),
-        moved("slow", 0.8, &fist, |t| {
-            v(0.01, -0.25, 0.02) * ease(t.powf(1.25))
-        }),
+        moved("fast", 0.15, &fist, |t| v(0.01, -0.25, 0.02) * ease(t.powf(1.25))),
+        moved("slow", 0.8, &fist, |t| v(0.01, -0.25, 0.02) * ease(t.powf(1.25))),
         moved("tense", 0.56, &fist, |t| v(0.01, -0.25, 0.02) * t),
-        moved("sudden stop", 0.25, &fist, |t| {
-            v(0.01, -0.25, 0.02) * t.powi(3)
-        }),
+        moved("sudden stop", 0.25, &fist, |t| v(0.01, -0.25, 0.02) * t.powi(3)),
         moved("after a rest", 0.7, &fist, |t| {
             v(0.01, -0.25, 0.02) * ease(((t - 0.5) / 0.5).max(0.0).powf(1.25))
         }),
-        turned("nodding", 0.56, &fist, |t| {
-            v(0.02, 0.01, 0.5) * (TAU * 2.0 * t).sin()
-        }),
-        turned("swinging", 0.56, &flat, |t| {
-            v(0.4, 0.02, 0.01) * (TAU * 2.0 * t).sin()
-        }),
-        turned("twisting", 0.7, &index, |t| {
-            v(0.4, 0.01, 0.42) * (TAU * 2.5 * t).sin()
-        }),
+        turned("nodding", 0.56, &fist, |t| v(0.02, 0.01, 0.5) * (TAU * 2.0 * t).sin()),
+        turned("swinging", 0.56, &flat, |t| v(0.4, 0.02, 0.01) * (TAU * 2.0 * t).sin()),
+        turned("twisting", 0.7, &index, |t| v(0.4, 0.01, 0.42) * (TAU * 2.5 * t).sin()),
         turned("stirring", 0.8, &fist, |t| {
             let (sin, cos) = (TAU * 2.0 * t).sin_cos();
             v(0.4 * sin, 0.0, 0.4 * cos)
@@ -182,14 +152,7 @@ pub(crate) fn one_hand() -> Vec<Case> {
             v(0.1, 1.4, 0.05) * ease(t)
         }),
         case("changes its shape", 0.3, |t| {
-            [
-                Some(if t < 0.5 {
-                    fist.clone()
-                } else {
-                    spread.clone()
-                }),
-                None,
-            ]
+            [Some(if t < 0.5 { fist.clone() } else { spread.clone() }), None]
         }),
         case("turns and moves along an arc", 0.5, |t| {
             let by = DQuat::from_scaled_axis(v(-0.8, 0.1, 0.3) * ease(t));
@@ -212,7 +175,7 @@ pub(crate) fn one_hand() -> Vec<Case> {
 fn landmark(name: &str) -> DVec3 {
     let (clip, anatomy) = clip(0.1, |_| [None, None]);
     let model = clip.model_pose(0);
-    let at = anatomy.landmark(clip.skeleton(), &model, name);
+    let at = anatomy.landmark_place_position(clip.clip_skeleton(), &model, name);
     at.expect("a landmark") - anatomy.body_frame(&model).expect("a trunk").origin
 }
 
@@ -225,30 +188,18 @@ pub(crate) fn places() -> Vec<Case> {
     let flat = held([0.0; 3], "ul", "dl", HandClass::Flat);
     let at = |own: &Held, name: &str, off: DVec3| own.moved(landmark(name) + off);
     let still = |name: &'static str, own: Held| case(name, 0.3, move |_| [Some(own.clone()), None]);
-    let (chin, chest) = (
-        at(&index, "chin", -tip),
-        at(&flat, "chest", v(-0.02, -0.03, 0.02)),
-    );
+    let (chin, chest) = (at(&index, "chin", -tip), at(&flat, "chest", v(-0.02, -0.03, 0.02)));
     let brow = at(&index, "forehead", -tip);
     vec![
         still("a fingertip at the chin", chin.clone()),
-        still(
-            "a fingertip near the nose",
-            at(&index, "nose", v(0.0, 0.0, 0.04) - tip),
-        ),
+        still("a fingertip near the nose", at(&index, "nose", v(0.0, 0.0, 0.04) - tip)),
         still(
             "a fingertip at the forehead, beside",
             at(&index, "forehead", v(-0.05, 0.0, 0.0) - tip),
         ),
         still("a flat hand at the chest", chest.clone()),
-        still(
-            "a flat hand before the chest",
-            chest.moved(v(0.0, 0.0, 0.09)),
-        ),
-        still(
-            "a flat hand at the belly",
-            at(&flat, "belly", v(0.0, -0.04, 0.03)),
-        ),
+        still("a flat hand before the chest", chest.moved(v(0.0, 0.0, 0.09))),
+        still("a flat hand at the belly", at(&flat, "belly", v(0.0, -0.04, 0.03))),
         still("a hand above the head", flat.moved(v(-0.1, 0.5, 0.15))),
         still("an arm stretched out", index.moved(v(-0.2, 0.0, 0.55))),
         still("a hand far to the left", flat.moved(v(0.3, -0.1, 0.25))),
@@ -267,10 +218,7 @@ pub(crate) fn places() -> Vec<Case> {
             [Some(chin.moved(v(0.01, -0.05, 0.2) * ease(t))), None]
         }),
         case("from before the chest to it, twice", 0.9, |t| {
-            [
-                Some(chest.moved(v(0.0, 0.01, 0.12) * (1.0 - strokes(3, t)))),
-                None,
-            ]
+            [Some(chest.moved(v(0.0, 0.01, 0.12) * (1.0 - strokes(3, t)))), None]
         }),
         case("from the forehead to the chin", 0.5, |t| {
             let by = (chin.at - brow.at) * ease(t) + v(0.0, 0.0, 0.2) * (ease(t) * (1.0 - ease(t)));
@@ -286,12 +234,9 @@ pub(crate) fn two_hands() -> Vec<Case> {
     let level = held([-0.06, -0.16, 0.3], "l", "u", HandClass::Flat);
     let base = held([-0.03, -0.2, 0.3], "ol", "u", HandClass::Flat).mirrored();
     let mut left = case("the left-handed signer", 0.3, |t| {
-        [
-            None,
-            Some(index.moved(v(0.1, 0.02, 0.03) * ease(t)).mirrored()),
-        ]
+        [None, Some(index.moved(v(0.1, 0.02, 0.03) * ease(t)).mirrored())]
     });
-    left.options.dominant = Side::Left;
+    left.options.dominant = BodySide::Left;
     vec![
         case("mirrored, outwards", 0.3, |t| {
             let now = flat.moved(v(-0.1, 0.08, 0.01) * ease(t));
@@ -338,10 +283,7 @@ pub(crate) fn two_hands() -> Vec<Case> {
             [Some(near.moved(by)), Some(near.mirrored().moved(by))]
         }),
         case("another shape for each hand, the other held", 0.4, |t| {
-            [
-                Some(index.moved(v(0.02, -0.1, 0.03) * ease(t))),
-                Some(flat.mirrored()),
-            ]
+            [Some(index.moved(v(0.02, -0.1, 0.03) * ease(t))), Some(flat.mirrored())]
         }),
         case("each for itself", 0.5, |t| {
             [
@@ -353,10 +295,7 @@ pub(crate) fn two_hands() -> Vec<Case> {
             ]
         }),
         case("the other hand alone", 0.4, |t| {
-            [
-                None,
-                Some(index.mirrored().moved(v(0.12, 0.05, 0.0) * ease(t))),
-            ]
+            [None, Some(index.mirrored().moved(v(0.12, 0.05, 0.0) * ease(t)))]
         }),
         left,
     ]
@@ -364,28 +303,25 @@ pub(crate) fn two_hands() -> Vec<Case> {
 
 /// Adds noise of a millimetre and half a degree to every joint; a tremble from frame to frame, or slow.
 fn noisy(case: Case, name: &'static str, slow: bool) -> Case {
-    let mut random = crate::cue::generate::Random::new(5);
+    let mut random = crate::cue::generate::RandomNumbers::new(5);
     let clip = &case.clip;
-    let channels = clip.channels().iter().map(|channel| {
+    let channels = clip.joint_channels().iter().map(|channel| {
         let mut curve = || -> Vec<f64> {
-            let (size, phase) = (random.normal(), random.share());
-            let tempo = 1.0 + random.share();
+            let (size, phase) = (random.random_normal(), random.random_share());
+            let tempo = 1.0 + random.random_share();
             let wave = |n: usize| size * (TAU * (phase + tempo * n as f64 / 60.0)).sin();
-            (0..clip.frames())
-                .map(|n| if slow { wave(n) } else { random.normal() })
+            (0..clip.clip_frame_count())
+                .map(|n| if slow { wave(n) } else { random.random_normal() })
                 .collect()
         };
         let turns = [curve(), curve(), curve()];
         let moves = [curve(), curve(), curve()];
-        let of =
-            |curves: &[Vec<f64>; 3], n: usize| DVec3::new(curves[0][n], curves[1][n], curves[2][n]);
+        let of = |curves: &[Vec<f64>; 3], n: usize| DVec3::new(curves[0][n], curves[1][n], curves[2][n]);
         let turned = channel.rotations.iter().enumerate();
         let moved = channel.translations.as_ref();
-        Channel {
+        JointChannel {
             rotations: turned
-                .map(|(n, own)| {
-                    *own * DQuat::from_scaled_axis(of(&turns, n) * 0.5_f64.to_radians())
-                })
+                .map(|(n, own)| *own * DQuat::from_scaled_axis(of(&turns, n) * 0.5_f64.to_radians()))
                 .map(DQuat::normalize)
                 .collect(),
             translations: moved.map(|all| {
@@ -397,21 +333,21 @@ fn noisy(case: Case, name: &'static str, slow: bool) -> Case {
         }
     });
     let channels = channels.collect();
-    let clip = Clip::new(Arc::clone(clip.skeleton()), clip.rate(), channels).expect("a clip");
+    let clip = Clip::new(Arc::clone(clip.clip_skeleton()), clip.clip_frame_rate(), channels).expect("a clip");
     Case {
         name,
         clip,
-        options: Options::default(),
+        options: TranscribeOptions::default(),
         ..case
     }
 }
 
 /// Returns a case at another rate.
 fn at_rate(case: Case, name: &'static str, rate: u32) -> Case {
-    let rate = Rate::new(rate, 1).expect("a rate");
+    let rate = FrameRate::new(rate, 1).expect("a rate");
     Case {
         name,
-        clip: case.clip.resampled(rate),
+        clip: case.clip.resample_clip(rate),
         ..case
     }
 }
@@ -419,24 +355,21 @@ fn at_rate(case: Case, name: &'static str, rate: u32) -> Case {
 /// Returns a case of a signer who faces another way.
 fn facing(case: Case, name: &'static str, angle: f64) -> Case {
     let turn = DQuat::from_rotation_y(angle);
-    let channels = case
-        .clip
-        .channels()
-        .iter()
-        .enumerate()
-        .map(|(joint, channel)| {
-            let rotations = channel.rotations.iter();
-            let root = joint == 0;
-            Channel {
-                rotations: rotations
-                    .map(|own| if root { turn * *own } else { *own })
-                    .collect(),
-                translations: channel.translations.clone(),
-            }
-        });
+    let channels = case.clip.joint_channels().iter().enumerate().map(|(joint, channel)| {
+        let rotations = channel.rotations.iter();
+        let root = joint == 0;
+        JointChannel {
+            rotations: rotations.map(|own| if root { turn * *own } else { *own }).collect(),
+            translations: channel.translations.clone(),
+        }
+    });
     let channels = channels.collect();
-    let clip =
-        Clip::new(Arc::clone(case.clip.skeleton()), case.clip.rate(), channels).expect("a clip");
+    let clip = Clip::new(
+        Arc::clone(case.clip.clip_skeleton()),
+        case.clip.clip_frame_rate(),
+        channels,
+    )
+    .expect("a clip");
     Case { name, clip, ..case }
 }
 
@@ -449,37 +382,17 @@ pub(crate) fn captured() -> Vec<Case> {
         noisy(pick(one_hand(), "down, flat"), "down, with drift", true),
         noisy(pick(one_hand(), "down, flat"), "down, with tremble", false),
         noisy(pick(one_hand(), "ellipse"), "ellipse, with drift", true),
-        noisy(
-            pick(one_hand(), "three small strokes"),
-            "strokes, with drift",
-            true,
-        ),
+        noisy(pick(one_hand(), "three small strokes"), "strokes, with drift", true),
         noisy(pick(one_hand(), "twisting"), "twisting, with drift", true),
-        noisy(
-            pick(places(), "from the chin away"),
-            "from the chin, with drift",
-            true,
-        ),
-        noisy(
-            pick(two_hands(), "mirrored, outwards"),
-            "mirrored, with drift",
-            true,
-        ),
+        noisy(pick(places(), "from the chin away"), "from the chin, with drift", true),
+        noisy(pick(two_hands(), "mirrored, outwards"), "mirrored, with drift", true),
         noisy(
             pick(two_hands(), "one hand strikes the other"),
             "one hand strikes the other, with drift",
             true,
         ),
-        at_rate(
-            pick(one_hand(), "to and fro"),
-            "to and fro, 30 frames a second",
-            30,
-        ),
-        at_rate(
-            pick(one_hand(), "zigzag"),
-            "zigzag, 100 frames a second",
-            100,
-        ),
+        at_rate(pick(one_hand(), "to and fro"), "to and fro, 30 frames a second", 30),
+        at_rate(pick(one_hand(), "zigzag"), "zigzag, 100 frames a second", 100),
         facing(
             pick(places(), "brushes the chin in passing"),
             "brushes the chin, facing aside",

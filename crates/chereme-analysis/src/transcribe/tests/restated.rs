@@ -1,23 +1,22 @@
 //! Compares the values that notation states about an act with its recorded features.
 
-use chereme_sign::hamnosys::{Motion, Nonmanual, Sign, from_names, parse};
+use chereme_sign::hamnosys::{HamnosysSign, NonmanualActs, NotatedMotion, from_names, parse_hamnosys};
 
 use super::movements::{captured, one_hand, places, two_hands};
 use super::*;
-use crate::transcribe::resynthesis::replaced::{acts, replace, stated};
+use crate::transcribe::resynthesis::replaced::{list_single_acts, replace_transcribed_actions, stated_act_values};
 
 #[test]
 fn notation_states_the_features_that_are_recorded() {
     let cases = [one_hand(), places(), two_hands(), captured()];
     let mut compared = 0;
     for case in cases.iter().flatten() {
-        let found = transcribe(&case.clip, &case.anatomy, &case.options).expect("a sign");
-        let acts = acts(&found.sign.parts[0].actions);
+        let found = transcribe_clip(&case.clip, &case.anatomy, &case.options).expect("a sign");
+        let acts = list_single_acts(&found.sign.parts[0].actions);
         assert_eq!(acts.len(), found.stages.len() - 1, "{}", case.name);
         for (act, stage) in acts.into_iter().zip(&found.stages[1..]) {
-            let own = |it: &&Feature| {
-                it.action == stage.action && (stage.hand.is_none() || it.hand == stage.hand)
-            };
+            let own =
+                |it: &&NotationFeature| it.action == stage.action && (stage.hand.is_none() || it.hand == stage.hand);
             // The number of times is not in the notation.
             let value = |kind: FeatureKind, words: &str| match kind {
                 FeatureKind::Repetition => String::new(),
@@ -28,7 +27,7 @@ fn notation_states_the_features_that_are_recorded() {
                 .map(|it| (it.kind, value(it.kind, &it.value), it.text.clone()))
                 .collect();
             let has_manner = recorded.iter().any(|it| it.0 == FeatureKind::Manner);
-            let stated = stated(act, 2.0)
+            let stated = stated_act_values(act, 2.0)
                 .into_iter()
                 .filter(|it| has_manner || it.0 != FeatureKind::Manner);
             let mut stated: Vec<_> = stated
@@ -44,11 +43,11 @@ fn notation_states_the_features_that_are_recorded() {
 }
 
 /// Returns the actions that symbols without their first three letters mean.
-fn actions(names: &str) -> Vec<Motion> {
+fn actions(names: &str) -> Vec<NotatedMotion> {
     let names = names.split(' ').map(|it| format!("ham{it}"));
     let names: Vec<String> = names.collect();
     let text = from_names(names.iter().map(String::as_str)).expect("symbols");
-    let mut sign = parse(&text).expect("a movement").sign;
+    let mut sign = parse_hamnosys(&text).expect("a movement").sign;
     sign.parts.swap_remove(0).actions
 }
 
@@ -58,13 +57,9 @@ fn every_mark_of_a_repetition_adds_to_its_times() {
         ("moveo repeatfromstart", "2 times", 1),
         ("moveo repeatfromstartseveral", "3 times", 1),
         ("moveo repeatfromstart repeatfromstart", "3 times", 2),
-        (
-            "moveo repeatfromstartseveral repeatfromstartseveral",
-            "5 times",
-            2,
-        ),
+        ("moveo repeatfromstartseveral repeatfromstartseveral", "5 times", 2),
     ] {
-        let stated = stated(&actions(movement)[0], 2.0);
+        let stated = stated_act_values(&actions(movement)[0], 2.0);
         let repetition = stated.iter().find(|it| it.0 == FeatureKind::Repetition);
         let (_, repetition) = repetition.expect("a repetition");
         assert_eq!(repetition.words, times, "{movement}");
@@ -79,7 +74,7 @@ fn features_follow_actions_that_are_replaced() {
         "moveo fast moved repeatfromstartseveral",
     ]
     .map(actions);
-    let feature = |(action, kind, value): (usize, FeatureKind, &str)| Feature {
+    let feature = |(action, kind, value): (usize, FeatureKind, &str)| NotationFeature {
         kind,
         hand: None,
         frame: 7 * action,
@@ -88,17 +83,17 @@ fn features_follow_actions_that_are_replaced() {
         value: value.to_owned(),
         text: String::new(),
         residual: 0.25,
-        unit: Unit::Share,
+        unit: ResidualUnit::Share,
         runner_up: None,
     };
-    let stage = |action: usize| Stage {
+    let stage = |action: usize| TranscriptionStage {
         action: Some(action).filter(|action| *action > 0),
         hand: None,
         frames: (7 * action, 7 * action + 7),
         text: String::new(),
     };
-    let mut found = Transcription {
-        sign: Sign::default(),
+    let mut found = TokenTranscription {
+        sign: HamnosysSign::default(),
         features: [
             (1, FeatureKind::Movement, "straight"),
             (1, FeatureKind::Course, "o"),
@@ -115,10 +110,10 @@ fn features_follow_actions_that_are_replaced() {
         .to_vec(),
         stages: [0, 1, 2].map(stage).to_vec(),
         frames: (0, 21),
-        nonmanual: Nonmanual::default(),
+        nonmanual: NonmanualActs::default(),
         findings: Vec::new(),
     };
-    replace(&mut found, [&from, &to], [0.021, 0.0004], 2.0);
+    replace_transcribed_actions(&mut found, [&from, &to], [0.021, 0.0004], 2.0);
     let words: Vec<String> = found
         .features
         .iter()
@@ -127,8 +122,8 @@ fn features_follow_actions_that_are_replaced() {
             let next = next.map_or(String::new(), |it| {
                 format!(" rather than {} {:.2}", it.value, it.residual)
             });
-            let (value, residual, unit) = (&it.value, it.residual, it.unit.sign());
-            format!("{} {value} {residual:.2}{unit}{next}", it.kind.name())
+            let (value, residual, unit) = (&it.value, it.residual, it.unit.residual_unit_symbol());
+            format!("{} {value} {residual:.2}{unit}{next}", it.kind.feature_kind_name())
         })
         .collect();
     assert_eq!(
@@ -146,10 +141,7 @@ fn features_follow_actions_that_are_replaced() {
     );
     let stages = found.stages[1..].iter().map(|it| to_names(&it.text));
     let stages: Vec<String> = stages.map(|it| it.expect("symbols").join(" ")).collect();
-    assert_eq!(
-        stages,
-        ["hammoveo hamfast", "hammoved hamrepeatfromstartseveral"]
-    );
+    assert_eq!(stages, ["hammoveo hamfast", "hammoved hamrepeatfromstartseveral"]);
     assert_eq!(
         found.findings,
         [

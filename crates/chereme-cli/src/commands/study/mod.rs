@@ -1,30 +1,30 @@
 //! `chereme study`: perceptual studies, from the plan to the answers.
 
-mod answers;
-mod report;
+mod commands_study_answers;
+mod study_report;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use chereme_corpus::study::plan::{
-    Design, Order, Plan, Question, QuestionKind, Texts, Viewing, text_in,
+use chereme_corpus::study::study_plan::{
+    ConditionOrder, LocalizedTexts, QuestionKind, QuestionViewing, StudyPlan, StudyQuestion, TrialDesign, text_in,
 };
 use chereme_corpus::study::{
-    AnswersFile, AnswersOptions, ColumnUse, QuestionnaireOptions, StudyRequest, words,
+    AnswersFile, AnswersOptions, ColumnUse, QuestionnaireOptions, StudyRequest, split_quoted_words,
 };
-use chereme_corpus::{Corpus, FileStatus, Progress, Step};
+use chereme_corpus::{Corpus, FileStatus, ProgressReceiver, ProgressStep};
 use clap::{Subcommand, ValueEnum};
 
-use super::import::print_finding;
-use crate::args::{Cli, read_text};
-use crate::output::{Bar, Output};
+use super::import_command::print_finding;
+use crate::args::{CommandLine, read_named_text};
+use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Run a perceptual study: plan it, build its questionnaire, import the answers, report on them
 ///
 /// A study shows clips of the corpus to people and asks about them. `new` stores a plan, `build` makes a folder with one
 /// page and its films. The page works in a browser without a network, in English and French, by mouse or keyboard;
-/// people answer it and send back the file that it saves. `import` brings the files into the corpus, and `report`
+/// people answer it and send back the file that it saves. `import_study_answers` brings the files into the corpus, and `report`
 /// says what the answers show.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -37,13 +37,13 @@ Examples:
   chereme study answers lsf.chereme places --participant p7 --missing
   chereme study answers lsf.chereme places --to answers.csv
   chereme study report lsf.chereme places --to report.html")]
-pub(crate) struct Args {
+pub(crate) struct StudyArgs {
     #[command(subcommand)]
-    action: Action,
+    action: StudyCommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum Action {
+enum StudyCommand {
     /// Plan a study: items in conditions, or a table of trials, and questions
     ///
     /// A plan that nobody has answered is replaced. For texts, labels, pictures, hypotheses and exclusions, edit the JSON
@@ -105,8 +105,8 @@ enum Action {
         #[arg(long)]
         dry_run: bool,
     },
-    Answers(answers::Args),
-    Report(report::Args),
+    Answers(commands_study_answers::StudyAnswersArgs),
+    Report(study_report::StudyReportArgs),
     /// Delete a participant with all answers, because the person asks for it
     ///
     /// The answers leave the study and every export, but not the file: the history keeps them, so that undo can restore
@@ -145,7 +145,7 @@ struct NewArgs {
     #[arg(long, value_name = "ITEMS", requires = "conditions")]
     items: Option<String>,
     /// A condition: its name, and a recipe with {} for the item; may be repeated
-    #[arg(long = "condition", value_name = "NAME=RECIPE", value_parser = condition, requires = "items")]
+    #[arg(long = "condition", value_name = "NAME=RECIPE", value_parser = parse_study_condition, requires = "items")]
     conditions: Vec<(String, String)>,
     /// A table of trials with the columns item, condition, clip, and if wished role (training, main, check), part,
     /// answer; other columns are measures of the clip
@@ -159,8 +159,8 @@ struct NewArgs {
     #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(i64).range(2..=9))]
     scale: i64,
     /// The order of conditions
-    #[arg(long, value_enum, default_value_t = OrderWord::Latin)]
-    order: OrderWord,
+    #[arg(long, value_enum, default_value_t = ConditionOrderWord::Latin)]
+    order: ConditionOrderWord,
     /// The seed of all shuffles
     #[arg(long, default_value_t = 1, value_name = "N")]
     seed: u64,
@@ -178,7 +178,7 @@ struct NewArgs {
 
 /// The order of conditions.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum OrderWord {
+enum ConditionOrderWord {
     /// Balanced Latin square: each condition follows each other equally often
     Latin,
     /// Shuffled
@@ -186,7 +186,7 @@ enum OrderWord {
 }
 
 /// Parses a condition.
-fn condition(text: &str) -> Result<(String, String), String> {
+fn parse_study_condition(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, recipe)) if !name.trim().is_empty() && !recipe.trim().is_empty() => {
             Ok((name.trim().to_owned(), recipe.trim().to_owned()))
@@ -195,9 +195,9 @@ fn condition(text: &str) -> Result<(String, String), String> {
     }
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
+pub(super) fn run(cli: &CommandLine, args: &StudyArgs, output: &mut CommandOutput) -> Result<ExitCode> {
     match &args.action {
-        Action::Import {
+        StudyCommand::Import {
             corpus,
             name,
             files,
@@ -209,28 +209,28 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
                 columns: columns.transpose()?,
                 dry_run: *dry_run,
             };
-            import(cli, (corpus, name), (files, &options), output)
+            import_study_answers(cli, (corpus, name), (files, &options), output)
         }
-        other => act(cli, other, output).map(|()| ExitCode::SUCCESS),
+        other => run_study_action(cli, other, output).map(|()| ExitCode::SUCCESS),
     }
 }
 
-fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
-    let mut bar = Bar::new();
-    let mut hear = |step: Step<'_>| bar.show(step);
-    let mut progress = Progress::new(&mut hear);
+fn run_study_action(cli: &CommandLine, action: &StudyCommand, output: &mut CommandOutput) -> Result<()> {
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let mut progress = ProgressReceiver::new(&mut hear);
     match action {
-        Action::New(new) => plan(cli, new, &mut progress, output),
-        Action::Show { corpus, name } => {
-            let study = cli.open(corpus)?.study(name)?;
-            show(&study.plan, output)?;
+        StudyCommand::New(new) => plan_new_study(cli, new, &mut progress, output),
+        StudyCommand::Show { corpus, name } => {
+            let study = cli.open_cli_corpus(corpus)?.study_with_answers(name)?;
+            print_study_plan(&study.plan, output)?;
             if !study.participants.is_empty() {
-                let count = output.counted(study.participants.len() as u64, "participants");
+                let count = output.format_counted_noun(study.participants.len() as u64, "participants");
                 output.filled_line("answered by {count}", &[&count])?;
             }
-            output.document(study.plan)
+            output.set_json_document(study.plan)
         }
-        Action::Build {
+        StudyCommand::Build {
             corpus,
             name,
             to,
@@ -244,7 +244,7 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
                 force: *force,
             };
             let done = cli
-                .open(corpus)?
+                .open_cli_corpus(corpus)?
                 .build_study(name, to, options, &mut progress)?;
             drop(bar);
             output.filled_line(
@@ -257,51 +257,51 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
                 ],
             )?;
             for picture in &done.missing {
-                output.warn(&format!(
+                output.write_warning(&format!(
                     "the plan names a picture that is missing: {}",
                     picture.display()
                 ))?;
             }
             for [one, other] in &done.alike {
-                output.warn(&format!("these clips give the same film: {one}; {other}"))?;
+                output.write_warning(&format!("these clips give the same film: {one}; {other}"))?;
             }
-            output.document(done)
+            output.set_json_document(done)
         }
         // Its exit code is its own.
-        Action::Import { .. } => Ok(()),
-        Action::Answers(args) => answers::run(cli, args, output),
-        Action::Report(args) => report::run(cli, args, output),
-        Action::Forget { corpus, name, code } => {
-            cli.open(corpus)?.forget_participant(name, code)?;
+        StudyCommand::Import { .. } => Ok(()),
+        StudyCommand::Answers(args) => commands_study_answers::run(cli, args, output),
+        StudyCommand::Report(args) => study_report::run(cli, args, output),
+        StudyCommand::Forget { corpus, name, code } => {
+            cli.open_cli_corpus(corpus)?.forget_participant(name, code)?;
             output.filled_line(
                 "deleted {code}; undo restores the answers, so the file still holds them",
                 &[&code],
             )?;
-            output.document(serde_json::json!({ "study": name, "participant": code }))
+            output.set_json_document(serde_json::json!({ "study": name, "participant": code }))
         }
-        Action::Delete { corpus, name } => {
-            cli.open(corpus)?.delete_study(name)?;
+        StudyCommand::Delete { corpus, name } => {
+            cli.open_cli_corpus(corpus)?.delete_study(name)?;
             output.filled_line("deleted the study {name}", &[&name])?;
-            output.document(serde_json::json!({ "study": name }))
+            output.set_json_document(serde_json::json!({ "study": name }))
         }
     }
 }
 
 /// Imports answers; nothing but refused files is a failure.
-fn import(
-    cli: &Cli,
+fn import_study_answers(
+    cli: &CommandLine,
     (corpus, name): (&PathBuf, &str),
     (files, options): (&[PathBuf], &AnswersOptions),
-    output: &mut Output,
+    output: &mut CommandOutput,
 ) -> Result<ExitCode> {
-    let mut bar = Bar::new();
-    let mut hear = |step: Step<'_>| bar.show(step);
-    let progress = &mut Progress::new(&mut hear);
-    let mut corpus = cli.open(corpus)?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let mut corpus = cli.open_cli_corpus(corpus)?;
     let report = corpus.import_answers_by(name, files, options, progress)?;
     drop(bar);
     for file in &report.files {
-        columns(&file.columns, output)?;
+        print_column_uses(&file.columns, output)?;
         if file.findings.is_empty() && file.status != FileStatus::Refused {
             continue;
         }
@@ -309,7 +309,7 @@ fn import(
             FileStatus::Refused => ": REFUSED",
             _ => "",
         };
-        output.line(format!("{}{refused}", file.path))?;
+        output.write_output_line(format!("{}{refused}", file.path))?;
         for finding in &file.findings {
             print_finding(finding, output)?;
         }
@@ -317,47 +317,48 @@ fn import(
     output.filled_line(
         "{files}: {n} new, {more} replaced, {same} unchanged; {count} answers stored",
         &[
-            &output.counted(report.files.len() as u64, "files"),
+            &output.format_counted_noun(report.files.len() as u64, "files"),
             &report.added,
             &report.replaced,
             &report.unchanged,
             &report.answers,
         ],
     )?;
-    let refused = |it: &AnswersFile| it.status == FileStatus::Refused;
+    let refused = |file: &AnswersFile| file.status == FileStatus::Refused;
     if options.dry_run {
-        output.line("nothing was stored: this was a dry run")?;
+        output.write_output_line("nothing was stored: this was a dry run")?;
     }
     let code = match report.files.iter().all(refused) {
         true => ExitCode::FAILURE,
         false => ExitCode::SUCCESS,
     };
-    output.document(report)?;
+    output.set_json_document(report)?;
     Ok(code)
 }
 
 /// Prints the use of the columns of a table.
-fn columns(uses: &[ColumnUse], output: &mut Output) -> Result<()> {
+fn print_column_uses(uses: &[ColumnUse], output: &mut CommandOutput) -> Result<()> {
     if uses.is_empty() {
         return Ok(());
     }
-    let row = |it: &ColumnUse| {
-        let cells = [it.column.clone(), it.means.clone(), it.cells.to_string()];
-        let tail = [it.example.clone(), it.stands_for.clone()];
+    let row = |column: &ColumnUse| {
+        let cells = [column.column.clone(), column.means.clone(), column.cells.to_string()];
+        let tail = [column.example.clone(), column.stands_for.clone()];
         cells.into_iter().chain(tail).collect()
     };
     let rows: Vec<Vec<String>> = uses.iter().map(row).collect();
-    output.table(
-        &["column", "means", "cells", "example", "stands for"],
-        &rows,
-    )
+    output.write_titled_table(&["column", "means", "cells", "example", "stands for"], &rows)
 }
 
-fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Output) -> Result<()> {
-    let named = |path: &PathBuf| -> Result<(String, String)> {
-        Ok((read_text(path)?, path.display().to_string()))
-    };
-    let mut corpus = cli.open(&args.corpus)?;
+fn plan_new_study(
+    cli: &CommandLine,
+    args: &NewArgs,
+    progress: &mut ProgressReceiver<'_>,
+    output: &mut CommandOutput,
+) -> Result<()> {
+    let named =
+        |path: &PathBuf| -> Result<(String, String)> { Ok((read_named_text(path)?, path.display().to_string())) };
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut plan = match &args.plan {
         Some(path) => {
             let (text, place) = named(path)?;
@@ -369,15 +370,15 @@ fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Out
             let request = StudyRequest {
                 name: args.name.clone(),
                 title: args.title.clone(),
-                items: args.items.as_deref().map(words).unwrap_or_default(),
+                items: args.items.as_deref().map(split_quoted_words).unwrap_or_default(),
                 conditions: args.conditions.clone(),
                 trials: args.trials.as_ref().map(named).transpose()?,
                 questions: args.asks.clone(),
                 scale: args.scale,
-                design: Design {
+                design: TrialDesign {
                     order: match args.order {
-                        OrderWord::Latin => Order::Latin,
-                        OrderWord::Random => Order::Random,
+                        ConditionOrderWord::Latin => ConditionOrder::Latin,
+                        ConditionOrderWord::Random => ConditionOrder::Random,
                     },
                     seed: args.seed,
                     blocks: args.blocks,
@@ -385,70 +386,67 @@ fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Out
                 },
                 ..StudyRequest::default()
             };
-            request.plan()?
+            request.make_study_plan()?
         }
     };
     if let Some(condition) = &args.distance_from {
         corpus.measure_distances(&mut plan, condition, progress)?;
     }
     let done = corpus.plan_study(&plan, progress)?;
-    show(&done.plan, output)?;
-    output.line(match done.replaced {
+    print_study_plan(&done.plan, output)?;
+    output.write_output_line(match done.replaced {
         true => "replaced the plan, which nobody had answered",
         false => "stored the plan",
     })?;
-    output.document(done)
+    output.set_json_document(done)
 }
 
-fn show(plan: &Plan, output: &mut Output) -> Result<()> {
-    let language = output.language().code();
-    let said = |texts: &Texts| text_in(texts, language).unwrap_or_default().to_owned();
-    output.line_as_is(&format!("{}: {}", plan.name, said(&plan.title)))?;
+fn print_study_plan(plan: &StudyPlan, output: &mut CommandOutput) -> Result<()> {
+    let language = output.output_language().language_code();
+    let local_text = |texts: &LocalizedTexts| text_in(texts, language).unwrap_or_default().to_owned();
+    output.line_as_is(&format!("{}: {}", plan.name, local_text(&plan.title)))?;
     let rows: Vec<Vec<String>> = plan
         .trials
         .iter()
-        .map(|it| {
-            let right: Vec<&str> = it.right.values().map(String::as_str).collect();
+        .map(|item| {
+            let right: Vec<&str> = item.right.values().map(String::as_str).collect();
             vec![
-                it.part.clone(),
-                it.role.name().to_owned(),
-                it.item.clone(),
-                it.condition.clone(),
+                item.part.clone(),
+                item.role.trial_role_name().to_owned(),
+                item.item.clone(),
+                item.condition.clone(),
                 right.join(" "),
-                it.clip.clone(),
+                item.clip.clone(),
             ]
         })
         .collect();
-    output.table(
-        &["part", "role", "item", "condition", "right answer", "clip"],
-        &rows,
-    )?;
+    output.write_titled_table(&["part", "role", "item", "condition", "right answer", "clip"], &rows)?;
     let rows: Vec<Vec<String>> = plan
         .questions
         .iter()
-        .map(|it| {
+        .map(|entry| {
             vec![
-                it.name.clone(),
-                answers(it),
-                it.parts.join(" "),
-                said(&it.text),
+                entry.name.clone(),
+                format_possible_answers(entry),
+                entry.parts.join(" "),
+                local_text(&entry.text),
             ]
         })
         .collect();
-    output.table(&["question", "answers", "parts", "text"], &rows)
+    output.write_titled_table(&["question", "answers", "parts", "text"], &rows)
 }
 
 /// Returns the possible answers to a question in short.
-fn answers(question: &Question) -> String {
+fn format_possible_answers(question: &StudyQuestion) -> String {
     let answers = match &question.kind {
         QuestionKind::Scale { low, high, .. } => format!("{low}-{high}"),
         QuestionKind::Choice { options } => {
-            let names: Vec<&str> = options.iter().map(|it| it.name.as_str()).collect();
+            let names: Vec<&str> = options.iter().map(|option| option.name.as_str()).collect();
             names.join(" ")
         }
     };
     match question.after {
-        Viewing::First => answers,
-        Viewing::Second => format!("{answers} (2)"),
+        QuestionViewing::First => answers,
+        QuestionViewing::Second => format!("{answers} (2)"),
     }
 }

@@ -7,10 +7,10 @@ fn an_annotation_named_by_its_id_must_be_where_its_row_says() {
     let (_folder, mut corpus) = corpus();
     annotate(&mut corpus, "add G 0-100 BOL; add H 0-100 CHAT").expect("added");
     let options = AnnotateOptions::default();
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
     let there = "annotation:1 is on the tier \"G\" of recording:1 (\"Take 1\")";
-    let before = rows(corpus.store.read());
+    let before = rows(corpus.store.read_connection());
     for (row, named) in [
         ("set,recording:99,Nope,WRONG,annotation:1", "recording:99"),
         ("remove,recording:99,,,annotation:1", "recording:99"),
@@ -27,15 +27,12 @@ fn an_annotation_named_by_its_id_must_be_where_its_row_says() {
             .expect_err(row);
         let want = format!("t.csv, line 3: the row names {named}, but {there}");
         assert!(error.to_string().contains(&want), "{want} in\n{error}");
-        let Error::Several { errors } = error else {
+        let CorpusError::Several { errors } = error else {
             panic!("one error of one row: {row}");
         };
-        let remedy = errors[0].remedy().map(|it| it.to_string());
-        assert!(
-            remedy.is_some_and(|it| it.contains("correct the row")),
-            "{row}"
-        );
-        assert_eq!(rows(corpus.store.read()), before, "{row}");
+        let remedy = errors[0].error_remedy().map(|it| it.to_string());
+        assert!(remedy.is_some_and(|it| it.contains("correct the row")), "{row}");
+        assert_eq!(rows(corpus.store.read_connection()), before, "{row}");
     }
     for row in [
         "set,,,A,annotation:1",

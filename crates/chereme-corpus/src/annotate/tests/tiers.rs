@@ -10,42 +10,42 @@ fn tiers_are_added_changed_and_removed() {
         "add G 0-100 BOL; add I 0-50 x; add C 0-100 U; add L 0-100 chin; add H 200-300 CHAT",
     )
     .expect("added");
-    let tier = |name: &str| TierName::read(name, Some(&Name::Number(1))).expect("a name");
-    let before = rows(corpus.store.read());
+    let tier = |name: &str| TierRequestName::parse_tier_name(name, Some(&RowName::Number(1))).expect("a name");
+    let before = rows(corpus.store.read_connection());
     let change = |change: &str| {
         let component = |component| TierRole::Component {
             component,
             feature: None,
         };
-        let values = |id: &str| Some(Values::Inventory(id.to_owned()));
+        let values = |id: &str| Some(TierValueSource::Inventory(id.to_owned()));
         match change {
-            "left" => TierChange {
-                hand: Some(Some(chereme_formats::roles::Hands::One(
+            "left" => TierPropertyChange {
+                hand: Some(Some(chereme_formats::roles::AnnotatedHands::One(
                     "left".parse().expect("a hand"),
                 ))),
                 ..Default::default()
             },
-            "movement" => TierChange {
-                role: Some(component(Component::Movement)),
+            "movement" => TierPropertyChange {
+                role: Some(component(SignComponent::Movement)),
                 ..Default::default()
             },
-            "free" => TierChange {
-                values: Some(Values::Free),
+            "free" => TierPropertyChange {
+                values: Some(TierValueSource::Free),
                 ..Default::default()
             },
-            "rename" => TierChange {
+            "rename" => TierPropertyChange {
                 name: Some("New".into()),
                 ..Default::default()
             },
-            "taken" => TierChange {
+            "taken" => TierPropertyChange {
                 name: Some("G".into()),
                 ..Default::default()
             },
-            "comment" => TierChange {
+            "comment" => TierPropertyChange {
                 role: Some(TierRole::Comment),
                 ..Default::default()
             },
-            id => TierChange {
+            id => TierPropertyChange {
                 values: values(id),
                 ..Default::default()
             },
@@ -79,44 +79,41 @@ fn tiers_are_added_changed_and_removed() {
         ("G", "comment", "CHAT 200-300"),
         ("G", "left", "BOL 0-100: left.placement=chin; CHAT 200-300"),
     ] {
-        match corpus.change_tier(&tier(name), &change(what)) {
+        match corpus.change_tier_properties(&tier(name), &change(what)) {
             Ok(_) => {
                 assert_eq!(tokens_shown(&corpus), want, "{name} {what}");
-                corpus.undo().expect("undone");
+                corpus.undo_operation().expect("undone");
             }
             Err(error) => {
-                let message = format!("{error} {}", error.remedy().unwrap_or_default());
+                let message = format!("{error} {}", error.error_remedy().unwrap_or_default());
                 assert!(message.contains(want), "{name} {what}: {message}");
             }
         }
-        assert_eq!(rows(corpus.store.read()), before, "{name} {what}");
+        assert_eq!(rows(corpus.store.read_connection()), before, "{name} {what}");
     }
     annotate(&mut corpus, "add L 200-300 nowhere").expect("added");
     let error = corpus
-        .change_tier(&tier("L"), &change("placements"))
+        .change_tier_properties(&tier("L"), &change("placements"))
         .expect_err("a value is missing");
-    assert!(
-        error.to_string().contains("\"nowhere\" (1 times"),
-        "{error}"
-    );
-    corpus.undo().expect("undone");
+    assert!(error.to_string().contains("\"nowhere\" (1 times"), "{error}");
+    corpus.undo_operation().expect("undone");
     let removed = corpus.remove_tier(&tier("G")).expect("removed");
     assert_eq!(
         (removed.tiers.join(" "), removed.annotations),
         ("G T I S A".to_owned(), 2)
     );
     assert_eq!(tokens_shown(&corpus), "CHAT 200-300");
-    corpus.undo().expect("undone");
-    assert_eq!(rows(corpus.store.read()), before);
+    corpus.undo_operation().expect("undone");
+    assert_eq!(rows(corpus.store.read_connection()), before);
     let wrong = NewTier {
-        parent: Some(("S".into(), Stereotype::IncludedIn)),
-        ..NewTier::new(Name::Number(1), "N", TierRole::Free)
+        parent: Some(("S".into(), TierStereotype::IncludedIn)),
+        ..NewTier::new(RowName::Number(1), "N", TierRole::Free)
     };
     assert!(
         corpus
             .add_tier(&wrong)
             .is_err_and(|error| error.to_string().contains("symbolic tier"))
     );
-    let double = NewTier::new(Name::Number(1), "G", TierRole::Free);
+    let double = NewTier::new(RowName::Number(1), "G", TierRole::Free);
     assert!(corpus.add_tier(&double).is_err());
 }

@@ -27,10 +27,7 @@ const FORMS: [(&str, bool); 20] = [
     ("spell LSF", true),
     ("spell LSF on recording:escargot", false),
     ("point right at left up", true),
-    (
-        "point right at left up on recording:escargot | reverse",
-        false,
-    ),
+    ("point right at left up on recording:escargot | reverse", false),
     ("cue \"le chat\"", true),
     ("ESCARGOT | configure right from BOL", true),
     ("ESCARGOT | place right near BOL", true),
@@ -44,15 +41,15 @@ fn made(folder: &std::path::Path) -> Corpus {
     let file = folder.join("merci.sigml");
     fs::write(&file, NOTATED).expect("written");
     corpus
-        .import(
+        .import_paths(
             &[file],
             &ImportOptions::default(),
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("imported");
-    corpus.recombine("MERCI", "FIRST").expect("generated");
+    corpus.recombine_recipe("MERCI", "FIRST").expect("generated");
     for (n, (recipe, _)) in FORMS.iter().enumerate() {
-        let made = corpus.recombine(recipe, &format!("FORM{n}"));
+        let made = corpus.recombine_recipe(recipe, &format!("FORM{n}"));
         made.unwrap_or_else(|error| panic!("{recipe}: {error}"));
     }
     corpus
@@ -61,7 +58,7 @@ fn made(folder: &std::path::Path) -> Corpus {
 fn agree(corpus: &mut Corpus, refused: &str) {
     let yes = ConsentChange {
         licence: Some("CC0".into()),
-        ..all(Audience::Public)
+        ..all(ConsentAudience::Public)
     };
     let change = |corpus: &mut Corpus, of: &str, change: &ConsentChange| {
         let changed = corpus.change_consent(&[address(of)], change);
@@ -71,18 +68,18 @@ fn agree(corpus: &mut Corpus, refused: &str) {
     for one in ["recording:bol", "recording:escargot"] {
         change(corpus, one, &yes);
     }
-    change(corpus, refused, &all(Audience::Nobody));
+    change(corpus, refused, &all(ConsentAudience::Nobody));
 }
 
 /// Returns the recipes whose movement may be published.
 fn public(corpus: &Corpus) -> Vec<&'static str> {
-    let connection = corpus.store.read();
-    let known = Permissions::of(connection, Some("CC0")).expect("read");
+    let connection = corpus.store.read_connection();
+    let known = PublishPermissions::read_publish_permissions(connection, Some("CC0")).expect("read");
     let may = |n: &usize| {
         let name = format!("FORM{n}");
-        let found = recordings::recording_named(connection, &name).expect("read");
+        let found = stored_recordings::recording_named(connection, &name).expect("read");
         let id = found.expect("a recording").id;
-        known.of_recording(id, ConsentKind::Movement).is_ok()
+        known.recording_publish_terms(id, ConsentKind::Movement).is_ok()
     };
     (0..FORMS.len()).filter(may).map(|n| FORMS[n].0).collect()
 }
@@ -96,13 +93,13 @@ fn a_refused_body_is_refused_in_every_form_of_recipe() {
     assert_eq!(public(&corpus), others.collect::<Vec<_>>());
     let to = folder.path().join("site");
     let done = corpus
-        .publish(
+        .publish_dictionary(
             &to,
             &crate::PublishOptions {
                 terms: Some("CC0".into()),
                 ..crate::PublishOptions::default()
             },
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("published");
     let moving = fs::read_dir(to.join("data/motion")).expect("a folder");
@@ -161,21 +158,21 @@ fn a_body_that_a_stored_recipe_does_not_name_is_found_by_its_skeleton() {
 #[test]
 fn a_notation_on_the_own_body_needs_nobodys_consent() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("a.chereme"), "A").expect("created");
     let file = folder.path().join("merci.sigml");
     fs::write(&file, NOTATED).expect("written");
     corpus
-        .import(
+        .import_paths(
             &[file],
             &ImportOptions::default(),
-            &mut Progress::new(&mut unheard),
+            &mut ProgressReceiver::new(&mut ignore_progress_step),
         )
         .expect("imported");
     for recipe in ["MERCI", "sigml MERCI"] {
-        let made = corpus.recombine(recipe, "ONE").expect("generated");
-        let connection = corpus.store.read();
-        let known = Permissions::of(connection, Some("CC0")).expect("read");
-        let verdict = known.of_recording(made.recording.expect("stored"), ConsentKind::Movement);
+        let made = corpus.recombine_recipe(recipe, "ONE").expect("generated");
+        let connection = corpus.store.read_connection();
+        let known = PublishPermissions::read_publish_permissions(connection, Some("CC0")).expect("read");
+        let verdict = known.recording_publish_terms(made.recording.expect("stored"), ConsentKind::Movement);
         assert!(verdict.is_ok(), "{recipe}: {verdict:?}");
     }
 }

@@ -11,46 +11,46 @@ use std::io::Write;
 use std::ops::Range;
 
 use ::parquet::data_type::ByteArray;
-use chereme_sign::Component;
-use chereme_sign::tier::Hands;
+use chereme_sign::SignComponent;
+use chereme_sign::tier::AnnotatedHands;
 use rusqlite::Connection;
 
 use super::csv;
-use super::long::Long;
-use crate::address::Stretch;
-use crate::db::attributes;
-use crate::db::columns::{ValueState, phase_name, phase_place};
-use crate::db::recordings;
+use super::export_long::LongTable;
+use crate::address::RecordingStretch;
 use crate::db::signs;
-use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::db::stored_attributes;
+use crate::db::stored_columns::{ValueState, phase_name, phase_place};
+use crate::db::stored_recordings;
+use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
+use crate::error::{CorpusError, CorpusResult};
 use crate::hands::usable_take;
 use crate::movement::{ChannelGroup, MotionTrack};
-use crate::progress::{Progress, Step, Unit};
-use file::{Cells, Column, File, Table};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use file::{ParquetCells, ParquetColumn, ParquetFileWriter, ParquetTable};
 
 /// The largest number of movement rows in a group.
-const GROUP: usize = 1 << 18;
+const MAX_GROUP_ROWS: usize = 1 << 18;
 
 /// Returns a description of a table's columns for the file's metadata.
-fn about(long: Long) -> String {
+fn describe_long_table(long: LongTable) -> String {
     let (table, columns) = match long {
-        Long::Tokens => (
+        LongTable::Tokens => (
             "tokens",
             "a token a row; columns of components are named as queries spell them, with _ for dots; several values \
              stand in one cell as in lexicons (chin > chest, S + W), n/a is not applicable, ? unclear; start_s and end_s \
              are seconds of the recording",
         ),
-        Long::Components => (
+        LongTable::Components => (
             "components",
             "a value of a token a row; state is value, not-applicable or unclear",
         ),
-        Long::Annotations => (
+        LongTable::Annotations => (
             "annotations",
             "an annotation a row; start_s and end_s are seconds of the recording; state is value, unset, \
              not-applicable or unclear",
         ),
-        Long::Frames => (
+        LongTable::Frames => (
             "frames",
             "a joint of a frame a row; t_s is seconds of the recording; tx ty tz (metres) and qx qy qz qw (unit quaternion) \
              are relative to the parent joint, wx wy wz is the place in the room in metres, Y up, the signer facing +Z; usable is \
@@ -65,24 +65,19 @@ fn about(long: Long) -> String {
 ///
 /// # Errors
 /// Fails if rows are damaged, or `out` fails.
-pub(super) fn tokens(
+pub(super) fn write_token_parquet(
     connection: &Connection,
     tokens: &[i64],
     out: &mut dyn Write,
     notes: &mut Vec<String>,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
     let mut text = Vec::new();
     let form = csv::TableForm::new(b',');
-    csv::tokens(connection, tokens, form, &mut text, notes, progress)?;
-    let fault = |error: ::csv::Error| Error::wrong(error.to_string());
+    csv::write_token_csv(connection, tokens, form, &mut text, notes, progress)?;
+    let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
     let mut reader = ::csv::Reader::from_reader(text.as_slice());
-    let titles: Vec<String> = reader
-        .headers()
-        .map_err(fault)?
-        .iter()
-        .map(str::to_owned)
-        .collect();
+    let titles: Vec<String> = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
     let mut columns: Vec<Vec<Option<String>>> = vec![Vec::new(); titles.len()];
     for record in reader.records() {
         let record = record.map_err(fault)?;
@@ -92,58 +87,52 @@ pub(super) fn tokens(
     }
     let numbers = numeric(connection, tokens)?;
     let mut taken = BTreeSet::new();
-    let table: Table = titles
+    let table: ParquetTable = titles
         .iter()
         .zip(columns)
         .map(|(title, cells)| {
             let cells = match title.as_str() {
-                "start_s" | "end_s" => Cells::Double(parsed(&cells)),
-                "token" => Cells::Integer(parsed(&cells)),
+                "start_s" | "end_s" => ParquetCells::Double(parse_cell_values(&cells)),
+                "token" => ParquetCells::Integer(parse_cell_values(&cells)),
                 "citation" => {
-                    let flags = cells.iter().map(|it| it.as_deref().map(|it| it == "yes"));
-                    Cells::Flag(flags.collect())
+                    let flags = cells.iter().map(|cell| cell.as_deref().map(|text| text == "yes"));
+                    ParquetCells::Flag(flags.collect())
                 }
-                name if numbers.contains(name) => Cells::Double(parsed(&cells)),
-                _ => Cells::Text(cells.iter().map(|it| Some(it.as_deref()?.into())).collect()),
+                name if numbers.contains(name) => ParquetCells::Double(parse_cell_values(&cells)),
+                _ => ParquetCells::Text(cells.iter().map(|cell| Some(cell.as_deref()?.into())).collect()),
             };
-            Column::new(&plain(title, &mut taken), cells)
+            ParquetColumn::new(&plain_column_title(title, &mut taken), cells)
         })
         .collect();
-    let mut file = File::new(&table, &about(Long::Tokens), out)?;
-    file.group(&table)?;
-    file.finish()
+    let mut file = ParquetFileWriter::new(&table, &describe_long_table(LongTable::Tokens), out)?;
+    file.write_row_group(&table)?;
+    file.finish_parquet_file()
 }
 
 /// Returns the names of attributes that are numbers for every token that has them.
-fn numeric(connection: &Connection, tokens: &[i64]) -> Result<BTreeSet<String>> {
+fn numeric(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeSet<String>> {
     let mut all: BTreeMap<String, bool> = BTreeMap::new();
-    for ids in tokens.chunks(signs::AT_ONCE) {
-        let rows = attributes::of_tokens(connection, ids)?;
+    for ids in tokens.chunks(signs::MAX_ROWS_PER_QUERY) {
+        let rows = stored_attributes::of_tokens(connection, ids)?;
         for row in rows.into_values().flatten() {
             // A number that Rust would read differently stays text.
             let plain = row.number.is_some() && row.text.trim().parse::<f64>().ok() == row.number;
             *all.entry(row.name).or_insert(true) &= plain || row.text.is_empty();
         }
     }
-    Ok(all.into_iter().filter(|it| it.1).map(|it| it.0).collect())
+    Ok(all.into_iter().filter(|pair| pair.1).map(|pair| pair.0).collect())
 }
 
-fn parsed<T: std::str::FromStr>(cells: &[Option<String>]) -> Vec<Option<T>> {
+fn parse_cell_values<T: std::str::FromStr>(cells: &[Option<String>]) -> Vec<Option<T>> {
     let cells = cells.iter();
-    cells
-        .map(|cell| cell.as_deref()?.trim().parse().ok())
-        .collect()
+    cells.map(|cell| cell.as_deref()?.trim().parse().ok()).collect()
 }
 
 /// Returns a title in lower-case letters, digits and underscores that is not in `taken`.
-fn plain(title: &str, taken: &mut BTreeSet<String>) -> String {
+fn plain_column_title(title: &str, taken: &mut BTreeSet<String>) -> String {
     let mut name = String::new();
     for letter in title.to_lowercase().chars() {
-        let letter = if letter.is_alphanumeric() {
-            letter
-        } else {
-            '_'
-        };
+        let letter = if letter.is_alphanumeric() { letter } else { '_' };
         if letter != '_' || !name.ends_with('_') {
             name.push(letter);
         }
@@ -152,25 +141,25 @@ fn plain(title: &str, taken: &mut BTreeSet<String>) -> String {
         "" => "column",
         name => name,
     };
-    let mut own = name.to_owned();
+    let mut unique_name = name.to_owned();
     let mut number = 2;
-    while !taken.insert(own.clone()) {
-        own = format!("{name}_{number}");
+    while !taken.insert(unique_name.clone()) {
+        unique_name = format!("{name}_{number}");
         number += 1;
     }
-    own
+    unique_name
 }
 
 /// Writes a row for each value of each token.
 ///
 /// # Errors
 /// Fails if rows are damaged, or `out` fails.
-pub(super) fn components(
+pub(super) fn write_component_parquet(
     connection: &Connection,
     tokens: &[i64],
     out: &mut dyn Write,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
     let texts = [
         "gloss",
         "recording",
@@ -181,15 +170,15 @@ pub(super) fn components(
         "state",
         "value",
     ];
-    let empty: Table = ["token", "position", "annotation"]
-        .map(|name| Column::new(name, Cells::Integer(Vec::new())))
+    let empty: ParquetTable = ["token", "position", "annotation"]
+        .map(|name| ParquetColumn::new(name, ParquetCells::Integer(Vec::new())))
         .into_iter()
-        .chain(texts.map(|name| Column::new(name, Cells::Text(Vec::new()))))
+        .chain(texts.map(|name| ParquetColumn::new(name, ParquetCells::Text(Vec::new()))))
         .collect();
-    let mut file = File::new(&empty, &about(Long::Components), out)?;
-    for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
+    let mut file = ParquetFileWriter::new(&empty, &describe_long_table(LongTable::Components), out)?;
+    for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
         let mut table = empty.clone();
-        let rows = signs::tokens(connection, ids)?;
+        let rows = signs::load_token_rows(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
         for id in ids {
             let Some(token) = rows.get(id) else { continue };
@@ -199,11 +188,11 @@ pub(super) fn components(
                 let texts = [
                     Some(token.gloss.as_str()),
                     token.recording.as_deref(),
-                    Some(value.component.name()),
+                    Some(value.component.component_name()),
                     value.feature.as_deref(),
-                    value.hand.map(Hands::name),
+                    value.hand.map(AnnotatedHands::annotated_hands_name),
                     value.phase.map(phase_name),
-                    Some(value.state.name()),
+                    Some(value.state.value_state_name()),
                     value.value.as_deref(),
                 ];
                 let (left, right) = table.split_at_mut(numbers.len());
@@ -215,18 +204,23 @@ pub(super) fn components(
                 }
             }
         }
-        file.group(&table)?;
-        report(progress, part * signs::AT_ONCE, tokens.len(), "tokens")?;
+        file.write_row_group(&table)?;
+        report_parquet_progress(progress, part * signs::MAX_ROWS_PER_QUERY, tokens.len(), "tokens")?;
     }
-    file.finish()
+    file.finish_parquet_file()
 }
 
-fn report(progress: &mut Progress<'_>, done: usize, total: usize, task: &str) -> Result<()> {
-    progress.report(Step {
+fn report_parquet_progress(
+    progress: &mut ProgressReceiver<'_>,
+    done: usize,
+    total: usize,
+    task: &str,
+) -> CorpusResult<()> {
+    progress.report_step(ProgressStep {
         task,
         done: done as u64,
         total: Some(total as u64),
-        unit: Unit::Items,
+        unit: ProgressUnit::Items,
     })
 }
 
@@ -234,33 +228,36 @@ fn report(progress: &mut Progress<'_>, done: usize, total: usize, task: &str) ->
 ///
 /// # Errors
 /// Fails if rows are damaged, or `out` fails.
-pub(super) fn annotations(
+pub(super) fn write_annotation_parquet(
     connection: &Connection,
-    stretches: &[Stretch],
+    stretches: &[RecordingStretch],
     out: &mut dyn Write,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    let mut file = File::new(&annotations_table(), &about(Long::Annotations), out)?;
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
+    let mut file = ParquetFileWriter::new(&annotations_table(), &describe_long_table(LongTable::Annotations), out)?;
     // An annotation that two tokens share is written as one row.
     let mut written = BTreeSet::new();
     for (done, stretch) in stretches.iter().enumerate() {
         let mut table = annotations_table();
-        for tier in tiers::tiers(connection, stretch.recording.id)? {
-            for row in tiers::annotations(connection, tier.id)? {
-                let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
+        for tier in stored_tiers::load_tier_rows(connection, stretch.recording.id)? {
+            for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
+                let (start, end) = (
+                    stretch.span.span_start_instant().instant_micros(),
+                    stretch.span.span_end_instant().instant_micros(),
+                );
                 let inside = stretch.token.is_none() || (row.start_us < end && start < row.end_us);
                 if inside && written.insert(row.id) {
-                    annotation(&mut table, stretch, &tier, &row);
+                    push_annotation_cells(&mut table, stretch, &tier, &row);
                 }
             }
         }
-        file.group(&table)?;
-        report(progress, done + 1, stretches.len(), "recordings")?;
+        file.write_row_group(&table)?;
+        report_parquet_progress(progress, done + 1, stretches.len(), "recordings")?;
     }
-    file.finish()
+    file.finish_parquet_file()
 }
 
-const TEXTS: [&str; 11] = [
+const ANNOTATION_TEXT_COLUMNS: [&str; 11] = [
     "recording",
     "tier",
     "tier_role",
@@ -274,32 +271,32 @@ const TEXTS: [&str; 11] = [
     "value",
 ];
 
-fn annotations_table() -> Table {
-    let texts = TEXTS.map(|name| Column::new(name, Cells::Text(Vec::new())));
-    let integers = ["annotation", "parent"];
-    let integers = integers.map(|name| Column::new(name, Cells::Integer(Vec::new())));
-    let doubles = ["start_s", "end_s", "confidence"];
-    let doubles = doubles.map(|name| Column::new(name, Cells::Double(Vec::new())));
-    let mut table: Table = texts.into_iter().chain(integers).chain(doubles).collect();
-    table.push(Column::new("origin", Cells::Text(Vec::new())));
+fn annotations_table() -> ParquetTable {
+    let texts = ANNOTATION_TEXT_COLUMNS.map(|name| ParquetColumn::new(name, ParquetCells::Text(Vec::new())));
+    let integer_names = ["annotation", "parent"];
+    let integers = integer_names.map(|name| ParquetColumn::new(name, ParquetCells::Integer(Vec::new())));
+    let double_names = ["start_s", "end_s", "confidence"];
+    let doubles = double_names.map(|name| ParquetColumn::new(name, ParquetCells::Double(Vec::new())));
+    let mut table: ParquetTable = texts.into_iter().chain(integers).chain(doubles).collect();
+    table.push(ParquetColumn::new("origin", ParquetCells::Text(Vec::new())));
     table
 }
 
-fn annotation(table: &mut Table, stretch: &Stretch, tier: &TierRow, row: &AnnotationRow) {
+fn push_annotation_cells(table: &mut ParquetTable, stretch: &RecordingStretch, tier: &TierRow, row: &AnnotationRow) {
     let value = Some(row.value.as_str()).filter(|_| row.state == ValueState::Value);
-    let (component, feature) = tier.role.component().unzip();
+    let (component, feature) = tier.role.role_component().unzip();
     let seconds = |micros: i64| Some(micros as f64 / 1e6);
     let texts = [
         Some(stretch.recording.name.as_str()),
         Some(tier.name.as_str()),
-        Some(tier.role.kind()),
-        component.map(Component::name),
+        Some(tier.role.role_kind_name()),
+        component.map(SignComponent::component_name),
         feature.flatten(),
-        tier.hand.map(Hands::name),
+        tier.hand.map(AnnotatedHands::annotated_hands_name),
         tier.participant.as_deref(),
         tier.annotator.as_deref(),
         row.external_id.as_deref(),
-        Some(row.state.name()),
+        Some(row.state.value_state_name()),
         value,
     ];
     let mut columns = table.iter_mut().map(|column| &mut column.cells);
@@ -315,7 +312,7 @@ fn annotation(table: &mut Table, stretch: &Stretch, tier: &TierRow, row: &Annota
         cells.push_double(number);
     }
     if let Some(cells) = columns.next() {
-        cells.push_text(Some(row.origin.name()));
+        cells.push_text(Some(row.origin.annotation_origin_name()));
     }
 }
 
@@ -324,72 +321,71 @@ fn annotation(table: &mut Table, stretch: &Stretch, tier: &TierRow, row: &Annota
 ///
 /// # Errors
 /// Fails if blocks are damaged, or `out` fails.
-pub(super) fn frames(
+pub(super) fn write_frame_parquet(
     connection: &Connection,
-    stretches: &[Stretch],
+    stretches: &[RecordingStretch],
     out: &mut dyn Write,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    let mut file = File::new(&frames_table(), &about(Long::Frames), out)?;
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
+    let mut file = ParquetFileWriter::new(&frames_table(), &describe_long_table(LongTable::Frames), out)?;
     let takes = RefCell::default();
     for stretch in stretches {
-        if recordings::body_track(connection, stretch.recording.id)?.is_some() {
+        if stored_recordings::body_track(connection, stretch.recording.id)?.is_some() {
             let usable = usable_take(connection, &takes, &stretch.recording)?.frames;
-            movement(connection, (stretch, &usable), &mut file, progress)?;
+            write_movement_groups(connection, (stretch, &usable), &mut file, progress)?;
         }
     }
-    file.finish()
+    file.finish_parquet_file()
 }
 
-const NUMBERS: [&str; 10] = ["tx", "ty", "tz", "qx", "qy", "qz", "qw", "wx", "wy", "wz"];
+const FRAME_NUMBER_COLUMNS: [&str; 10] = ["tx", "ty", "tz", "qx", "qy", "qz", "qw", "wx", "wy", "wz"];
 
-fn frames_table() -> Table {
+fn frames_table() -> ParquetTable {
     let mut table = vec![
-        Column::new("recording", Cells::Text(Vec::new())),
-        Column::new("token", Cells::Integer(Vec::new())),
-        Column::new("frame", Cells::Integer(Vec::new())),
-        Column::new("t_s", Cells::Double(Vec::new())),
-        Column::new("joint", Cells::Text(Vec::new())),
+        ParquetColumn::new("recording", ParquetCells::Text(Vec::new())),
+        ParquetColumn::new("token", ParquetCells::Integer(Vec::new())),
+        ParquetColumn::new("frame", ParquetCells::Integer(Vec::new())),
+        ParquetColumn::new("t_s", ParquetCells::Double(Vec::new())),
+        ParquetColumn::new("joint", ParquetCells::Text(Vec::new())),
     ];
-    table.extend(NUMBERS.map(|name| Column::new(name, Cells::Float(Vec::new()))));
-    table.push(Column::new("usable", Cells::Flag(Vec::new())));
+    table.extend(FRAME_NUMBER_COLUMNS.map(|name| ParquetColumn::new(name, ParquetCells::Float(Vec::new()))));
+    table.push(ParquetColumn::new("usable", ParquetCells::Flag(Vec::new())));
     table
 }
 
-fn movement(
+fn write_movement_groups(
     connection: &Connection,
-    (stretch, usable): (&Stretch, &Range<usize>),
-    file: &mut File<'_>,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = track.frames_of(stretch);
+    (stretch, usable): (&RecordingStretch, &Range<usize>),
+    file: &mut ParquetFileWriter<'_>,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
+    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    let frames = track.stretch_frames(stretch);
     let joints = track.hierarchy.joints.len().max(1);
-    let at_once = (GROUP / joints).max(1);
+    let at_once = (MAX_GROUP_ROWS / joints).max(1);
     let recording = ByteArray::from(stretch.recording.name.as_str());
-    let token = stretch.token.as_ref().map(|it| it.id);
+    let token = stretch.token.as_ref().map(|token_row| token_row.id);
     let offset = track.row.offset_us as f64 / 1e6;
     let mut from = frames.start;
     while from < frames.end {
         let to = (from + at_once).min(frames.end);
-        let clip = track.clip(connection, from..to, &ChannelGroup::ALL)?;
+        let clip = track.read_motion_clip(connection, from..to, &ChannelGroup::ALL_CHANNEL_GROUPS)?;
         let names: Vec<ByteArray> = clip
-            .skeleton()
-            .joints()
+            .clip_skeleton()
+            .skeleton_joints()
             .iter()
             .map(|joint| ByteArray::from(joint.name.as_str()))
             .collect();
-        let mut numbers: Vec<Vec<f32>> = vec![Vec::new(); NUMBERS.len()];
+        let mut numbers: Vec<Vec<f32>> = vec![Vec::new(); FRAME_NUMBER_COLUMNS.len()];
         let (mut rows, mut times, mut own) = (Vec::new(), Vec::new(), Vec::new());
-        for at in 0..clip.frames() {
-            let (pose, model) = (clip.pose(at), clip.model_pose(at));
-            let time = clip.rate().instant(from + at).seconds() + offset;
+        for at in 0..clip.clip_frame_count() {
+            let (pose, model) = (clip.clip_pose_at(at), clip.model_pose(at));
+            let time = clip.clip_frame_rate().frame_start_instant(from + at).instant_seconds() + offset;
             for (joint, name) in names.iter().enumerate() {
                 let (place, turn) = (pose.translations[joint], pose.rotations[joint]);
-                let room = model.position(joint);
+                let room = model.model_joint_position(joint);
                 let all = [
-                    place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w, room.x, room.y,
-                    room.z,
+                    place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w, room.x, room.y, room.z,
                 ];
                 for (column, value) in numbers.iter_mut().zip(all) {
                     column.push(value as f32);
@@ -399,26 +395,26 @@ fn movement(
                 own.push(Some(name.clone()));
             }
         }
-        let flags = rows
+        let frame_flags = rows
             .iter()
             .map(|row: &Option<i64>| row.map(|frame| usable.contains(&(frame as usize))));
-        let flags = Cells::Flag(flags.collect());
+        let flags = ParquetCells::Flag(frame_flags.collect());
         let mut table = frames_table();
-        table[0].cells = Cells::Text(vec![Some(recording.clone()); rows.len()]);
-        table[1].cells = Cells::Integer(vec![token; rows.len()]);
-        table[2].cells = Cells::Integer(rows);
-        table[3].cells = Cells::Double(times);
-        table[4].cells = Cells::Text(own);
-        let numbers = numbers.into_iter().map(Cells::Float);
+        table[0].cells = ParquetCells::Text(vec![Some(recording.clone()); rows.len()]);
+        table[1].cells = ParquetCells::Integer(vec![token; rows.len()]);
+        table[2].cells = ParquetCells::Integer(rows);
+        table[3].cells = ParquetCells::Double(times);
+        table[4].cells = ParquetCells::Text(own);
+        let numbers = numbers.into_iter().map(ParquetCells::Float);
         for (column, cells) in table[5..].iter_mut().zip(numbers.chain([flags])) {
             column.cells = cells;
         }
-        file.group(&table)?;
-        progress.report(Step {
+        file.write_row_group(&table)?;
+        progress.report_step(ProgressStep {
             task: &stretch.recording.name,
             done: (to - frames.start) as u64,
             total: Some(frames.len() as u64),
-            unit: Unit::Frames,
+            unit: ProgressUnit::Frames,
         })?;
         from = to;
     }

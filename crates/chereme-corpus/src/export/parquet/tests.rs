@@ -7,7 +7,7 @@ use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::record::{Field, Row};
 
 use crate::export::{ExportOptions, ExportWhat};
-use crate::{Corpus, ImportOptions, Progress, unheard};
+use crate::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step};
 
 const EAF: &str = include_str!("../tests.eaf");
 const BVH: &str = "HIERARCHY\nROOT Hips\n{\n OFFSET 0 1 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n JOINT Chest\n {\n  OFFSET 0 0.5 0\n  CHANNELS 3 Zrotation Xrotation Yrotation\n  End Site\n  {\n   OFFSET 0 0.2 0\n  }\n }\n}\nMOTION\nFrames: 3\nFrame Time: 0.04\n0 1 0 0 0 0 0 0 0\n0 1 0 90 0 0 0 0 0\n0 2 0 0 0 0 0 0 0\n";
@@ -27,11 +27,11 @@ impl Desk {
             paths.push(path);
         }
         let path = folder.path().join("c.chereme");
-        let mut corpus = Corpus::create(&path, "A").expect("made");
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         corpus
-            .import(&paths, &ImportOptions::default(), progress)
+            .import_paths(&paths, &ImportOptions::default(), progress)
             .expect("imported");
         Self { folder, corpus }
     }
@@ -43,14 +43,14 @@ impl Desk {
     /// Exports, and reads the rows back with an independent reader.
     fn rows(&self, what: &ExportWhat, name: &str) -> Vec<Row> {
         let path = self.path(name);
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         let options = ExportOptions {
             force: true,
             ..ExportOptions::default()
         };
         self.corpus
-            .export(what, &path, &options, progress)
+            .export_corpus(what, &path, &options, progress)
             .expect("exported");
         rows(&path)
     }
@@ -89,7 +89,7 @@ fn number(row: &Row, name: &str) -> f64 {
 fn annotations_are_rows_with_their_tiers_and_times() {
     let desk = Desk::new(&[("film.eaf", EAF)]);
     let rows = desk.rows(&ExportWhat::All, "all.annotations.parquet");
-    let (transcript, _) = chereme_formats::eaf::read(EAF.as_bytes()).expect("an EAF file");
+    let (transcript, _) = chereme_formats::eaf::read_eaf(EAF.as_bytes()).expect("an EAF file");
     let tiers = transcript.tiers.iter();
     let mut want: Vec<String> = tiers
         .flat_map(|tier| {
@@ -146,27 +146,21 @@ fn frames_are_in_metres_below_the_parent_and_in_the_room() {
     let rows = desk.rows(&ExportWhat::All, "all.frames.parquet");
     assert_eq!(rows.len(), 6);
     let take = &rows[3];
-    assert_eq!(
-        (text(take, "joint").as_str(), number(take, "frame")),
-        ("Chest", 1.0)
-    );
+    assert_eq!((text(take, "joint").as_str(), number(take, "frame")), ("Chest", 1.0));
     assert!((number(take, "t_s") - 0.04).abs() < 1e-9);
     let clip = desk
         .corpus
-        .movement(&"recording:take".parse().expect("an address"))
+        .movement_at_address(&"recording:take".parse().expect("an address"))
         .expect("movement")
         .clip;
     for row in &rows {
         let (frame, name) = (number(row, "frame") as usize, text(row, "joint"));
-        let joints = clip.skeleton().joints().iter();
-        let joint = joints
-            .clone()
-            .position(|it| it.name == name)
-            .expect("a joint");
-        let pose = clip.pose(frame);
+        let joints = clip.clip_skeleton().skeleton_joints().iter();
+        let joint = joints.clone().position(|it| it.name == name).expect("a joint");
+        let pose = clip.clip_pose_at(frame);
         let (turn, room) = (
             pose.rotations[joint],
-            clip.model_pose(frame).position(joint),
+            clip.model_pose(frame).model_joint_position(joint),
         );
         for (name, value) in [
             ("tx", pose.translations[joint].x),
@@ -202,18 +196,11 @@ fn frames_beyond_a_jump_of_the_body_are_not_usable() {
 #[test]
 fn the_same_corpus_gives_the_same_bytes() {
     let desk = Desk::new(&[("film.eaf", EAF), ("take.bvh", BVH)]);
-    for name in [
-        "all.parquet",
-        "all.annotations.parquet",
-        "all.frames.parquet",
-    ] {
+    for name in ["all.parquet", "all.annotations.parquet", "all.frames.parquet"] {
         desk.rows(&ExportWhat::All, name);
         let first = std::fs::read(desk.path(name)).expect("a file");
         desk.rows(&ExportWhat::All, name);
-        assert!(
-            first == std::fs::read(desk.path(name)).expect("a file"),
-            "{name}"
-        );
+        assert!(first == std::fs::read(desk.path(name)).expect("a file"), "{name}");
     }
 }
 

@@ -3,13 +3,9 @@
 use super::*;
 
 /// Imports paths and returns the complete report.
-pub(super) fn take(
-    corpus: &mut Corpus,
-    paths: &[PathBuf],
-    options: &ImportOptions,
-) -> ImportReport {
-    let mut hear = unheard;
-    let report = corpus.import(paths, options, &mut Progress::new(&mut hear));
+pub(super) fn take(corpus: &mut Corpus, paths: &[PathBuf], options: &ImportOptions) -> ImportReport {
+    let mut hear = ignore_progress_step;
+    let report = corpus.import_paths(paths, options, &mut ProgressReceiver::new(&mut hear));
     report.expect("imported")
 }
 
@@ -21,7 +17,7 @@ pub(super) fn choose(own_edits: OwnEdits) -> ImportOptions {
 }
 
 fn names(corpus: &Corpus) -> Vec<String> {
-    let all = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    let all = crate::db::stored_recordings::load_recording_rows(corpus.store.read_connection()).expect("recordings");
     all.into_iter().map(|row| row.name).collect()
 }
 
@@ -31,24 +27,21 @@ pub(super) fn has(findings: &[ReportFinding], what: &str) -> bool {
 
 /// Changes the annotation with this value.
 pub(super) fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
-    use crate::db::tiers;
+    use crate::db::stored_tiers;
     let done = corpus.store.named_operation("annotate", |connection| {
         let mut all = Vec::new();
-        for recording in crate::db::recordings::recordings(connection)? {
-            for tier in tiers::tiers(connection, recording.id)? {
-                all.extend(tiers::annotations(connection, tier.id)?);
+        for recording in crate::db::stored_recordings::load_recording_rows(connection)? {
+            for tier in stored_tiers::load_tier_rows(connection, recording.id)? {
+                all.extend(stored_tiers::load_tier_annotation_rows(connection, tier.id)?);
             }
         }
-        let mut row = all
-            .into_iter()
-            .find(|row| row.value == from)
-            .expect("it is there");
+        let mut row = all.into_iter().find(|row| row.value == from).expect("it is there");
         match to {
             Some(to) => {
                 to.clone_into(&mut row.value);
-                tiers::update_annotation(connection, &row)?;
+                stored_tiers::update_annotation(connection, &row)?;
             }
-            None => tiers::delete_annotation(connection, row.id)?,
+            None => stored_tiers::delete_annotation(connection, row.id)?,
         }
         Ok(((), String::new()))
     });
@@ -74,10 +67,7 @@ fn files_of_one_name_in_two_folders_are_two_recordings() {
     let desk = Desk::new();
     for (folder, value) in [("A", "CHAT"), ("B", "CHIEN")] {
         fs::create_dir(desk.folder.path().join(folder)).expect("made");
-        desk.file(
-            &format!("{folder}/x.eaf"),
-            &eaf(&[("Gloss", 0, 500, value)]),
-        );
+        desk.file(&format!("{folder}/x.eaf"), &eaf(&[("Gloss", 0, 500, value)]));
     }
     let folders = ["A", "B"].map(|folder| desk.folder.path().join(folder));
     let mut corpus = desk.corpus("c.chereme");
@@ -103,35 +93,24 @@ fn movement_and_annotations_of_one_name_in_two_folders_stay_together() {
     for (folder, value) in [("A", "CHAT"), ("B", "CHIEN")] {
         fs::create_dir(desk.folder.path().join(folder)).expect("made");
         desk.file(&format!("{folder}/Take.BVH"), MOVEMENT);
-        desk.file(
-            &format!("{folder}/TAKE.eaf"),
-            &eaf(&[("Gloss", 0, 200, value)]),
-        );
+        desk.file(&format!("{folder}/TAKE.eaf"), &eaf(&[("Gloss", 0, 200, value)]));
     }
     let mut corpus = desk.corpus("c.chereme");
-    take(
-        &mut corpus,
-        &[desk.folder.path().join("A")],
-        &ImportOptions::default(),
-    );
+    take(&mut corpus, &[desk.folder.path().join("A")], &ImportOptions::default());
     assert_eq!(names(&corpus), ["Take"], "whatever the case of their names");
     let mut corpus = desk.corpus("d.chereme");
     let both = ["A", "B"].map(|folder| desk.folder.path().join(folder));
     take(&mut corpus, &both, &ImportOptions::default());
     assert_eq!(names(&corpus), ["Take", "Take (B)"]);
     for id in recordings_of(&corpus) {
-        let connection = corpus.store.read();
+        let connection = corpus.store.read_connection();
         assert_eq!(
-            crate::db::tiers::tiers(connection, id)
+            crate::db::stored_tiers::load_tier_rows(connection, id)
                 .expect("tiers")
                 .len(),
             1
         );
-        assert!(
-            recordings::body_track(connection, id)
-                .expect("read")
-                .is_some()
-        );
+        assert!(stored_recordings::body_track(connection, id).expect("read").is_some());
     }
 }
 
@@ -170,7 +149,7 @@ fn signs_of_one_gloss_in_files_of_one_name_are_two() {
     let mut corpus = desk.corpus("c.chereme");
     let all = [desk.folder.path().to_owned()];
     let report = take(&mut corpus, &all, &ImportOptions::default());
-    let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+    let tokens = corpus.list_rows(ListKind::Tokens, &ListFilter::default());
     assert_eq!(tokens.expect("listed").total, 2, "{report:?}");
     assert!(
         report.files.iter().any(|it| has(&it.findings, "A/x.sigml")),
@@ -202,14 +181,10 @@ fn own_edits_that_conflict_with_a_changed_file_are_asked_about() {
         assert_eq!(said(&corpus), after, "{choice:?}: {report:?}");
         let file = &report.files[0];
         assert_eq!(report.has_refusals(), choice == OwnEdits::Ask);
-        let edits: Vec<_> = file
-            .edits
-            .iter()
-            .map(|it| (it.tier.as_str(), it.outcome))
-            .collect();
+        let edits: Vec<_> = file.edits.iter().map(|it| (it.tier.as_str(), it.outcome)).collect();
         match choice {
             OwnEdits::Ask => {
-                assert_eq!(edits, [("T1", Outcome::Lost), ("T2", Outcome::Lost)]);
+                assert_eq!(edits, [("T1", EditOutcome::Lost), ("T2", EditOutcome::Lost)]);
                 assert!(
                     has(
                         &file.findings,
@@ -221,7 +196,7 @@ fn own_edits_that_conflict_with_a_changed_file_are_asked_about() {
                     file.findings[0]
                         .remedy
                         .as_ref()
-                        .is_some_and(|it| it.text().contains("--merge"))
+                        .is_some_and(|it| it.remedy_text().contains("--merge"))
                 );
             }
             OwnEdits::Mine => {
@@ -229,14 +204,11 @@ fn own_edits_that_conflict_with_a_changed_file_are_asked_about() {
                 assert_eq!(file.status, FileStatus::Unchanged);
             }
             OwnEdits::Theirs => {
-                assert!(has(
-                    &file.findings,
-                    "your \"mine C\" gives way to the file's \"C2\""
-                ));
+                assert!(has(&file.findings, "your \"mine C\" gives way to the file's \"C2\""));
                 assert_eq!(report.changed.get("annotations"), Some(&3));
             }
             OwnEdits::Merge => {
-                assert_eq!(edits, [("T1", Outcome::Kept), ("T2", Outcome::Conflict)]);
+                assert_eq!(edits, [("T1", EditOutcome::Kept), ("T2", EditOutcome::Conflict)]);
                 assert!(
                     has(
                         &file.findings,
@@ -260,9 +232,7 @@ fn own_removals_and_additions_are_merged_too() {
     let paths = [desk.file("one.eaf", &four(["A", "B", "C", "D"]))];
     let without = |text: String, id: &str| {
         let start = text
-            .find(&format!(
-                "<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"{id}\""
-            ))
+            .find(&format!("<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"{id}\""))
             .expect("there");
         let end = start + text[start..].find("</TIER>").expect("its end");
         format!("{}{}", &text[..start], &text[end..])
@@ -318,12 +288,12 @@ fn a_gloss_that_a_colleague_removed_goes_with_its_token() {
         let mut corpus = desk.corpus(&format!("{own_edits:?}.chereme"));
         let paths = [desk.file("one.eaf", &whole)];
         take(&mut corpus, &paths, &ImportOptions::default());
-        assert_eq!(corpus.info().expect("info").counts["tokens"], 1);
+        assert_eq!(corpus.load_corpus_info().expect("info").counts["tokens"], 1);
         desk.file("one.eaf", &without);
         let report = take(&mut corpus, &paths, &choose(own_edits));
         assert_eq!(report.files[0].status, FileStatus::Updated, "{report:?}");
         assert_eq!(said(&corpus), ["Handshape right 0 S"]);
-        let counts = corpus.info().expect("info").counts;
+        let counts = corpus.load_corpus_info().expect("info").counts;
         assert_eq!((counts["tokens"], counts["signs"]), (0, 0));
         assert_whole(&mut corpus);
     }
@@ -337,10 +307,10 @@ fn a_tier_that_was_renamed_in_the_corpus_is_updated_by_the_file() {
     let mut corpus = desk.corpus("c.chereme");
     take(&mut corpus, &paths, &ImportOptions::default());
     let renamed = corpus.store.named_operation("change tier", |connection| {
-        let all = crate::db::tiers::tiers(connection, 1)?;
+        let all = crate::db::stored_tiers::load_tier_rows(connection, 1)?;
         for mut row in all.into_iter().filter(|row| row.name == "Gloss") {
             row.name = "GL".to_owned();
-            crate::db::tiers::update_tier(connection, &row)?;
+            crate::db::stored_tiers::update_tier(connection, &row)?;
         }
         Ok(((), String::new()))
     });
@@ -375,17 +345,13 @@ fn a_colleagues_copy_from_another_folder_is_a_version_of_the_file() {
 #[test]
 fn a_mapping_changes_the_tiers_of_an_imported_file() {
     let desk = Desk::new();
-    let tiers = [
-        ("QX1", 0, 500, "BOL"),
-        ("QX2", 0, 500, "S"),
-        ("QX3", 0, 500, "n/a"),
-    ];
+    let tiers = [("QX1", 0, 500, "BOL"), ("QX2", 0, 500, "S"), ("QX3", 0, 500, "n/a")];
     let path = desk.file("one.eaf", &eaf(&tiers));
     let mut corpus = desk.corpus("c.chereme");
     import(&mut corpus, &path, "{}");
     let map = r#"{"tiers": {"QX1": "gloss", "QX2": "right.configuration", "nosuch": "gloss"}}"#;
     let options = ImportOptions {
-        mapping: Mapping::from_json(map).expect("a mapping"),
+        mapping: TierMapping::from_json(map).expect("a mapping"),
         ..ImportOptions::default()
     };
     let report = take(&mut corpus, std::slice::from_ref(&path), &options);
@@ -403,12 +369,12 @@ fn a_mapping_changes_the_tiers_of_an_imported_file() {
         "{report:?}"
     );
     assert!(has(&report.findings, "\"nosuch\""), "{report:?}");
-    let found = corpus.search("right.configuration=S", &SearchOptions::default());
+    let found = corpus.search_tokens("right.configuration=S", &SearchOptions::default());
     assert_eq!(found.expect("searched").total, 1);
     assert_whole(&mut corpus);
     let again = take(&mut corpus, &[path], &options);
     assert_eq!(again.files[0].status, FileStatus::Unchanged);
-    corpus.undo().expect("taken back");
+    corpus.undo_operation().expect("taken back");
     assert_eq!(roles(&corpus), ["QX1:  free", "QX2:  free", "QX3:  free"]);
 }
 
@@ -421,9 +387,9 @@ fn a_mapping_changes_the_columns_of_an_imported_table() {
     let map = r#"{"columns": {"qx": "placement"}}"#;
     let report = import(&mut corpus, &path, map);
     assert_eq!(report.status, FileStatus::Updated, "{report:?}");
-    let found = corpus.search("placement=chin", &SearchOptions::default());
+    let found = corpus.search_tokens("placement=chin", &SearchOptions::default());
     assert_eq!(found.expect("searched").total, 1);
-    let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+    let tokens = corpus.list_rows(ListKind::Tokens, &ListFilter::default());
     assert_eq!(tokens.expect("listed").total, 2);
 }
 
@@ -469,7 +435,7 @@ fn a_file_that_is_again_its_earlier_version_is_a_new_version() {
         assert_ne!(status(&one), FileStatus::Unchanged, "{name}");
         assert_eq!(status(&one), FileStatus::Unchanged, "{name}");
         let shown = |corpus: &mut Corpus, query: &str| {
-            let answer = corpus.search(query, &SearchOptions::default());
+            let answer = corpus.search_tokens(query, &SearchOptions::default());
             answer.map_or(0, |answer| answer.total)
         };
         if ["a.csv", "a.sigml", "a.hns"].contains(&name) {
@@ -514,7 +480,7 @@ fn files_that_are_no_lexicon_create_nothing_and_are_named() {
     let folder = [desk.folder.path().to_owned()];
     let report = take(&mut corpus, &folder, &ImportOptions::default());
     assert!(!report.has_refusals(), "{report:?}");
-    let unread = report.unread();
+    let unread = report.unread_file_kinds();
     let kinds: Vec<(&str, usize)> = unread
         .iter()
         .map(|it| (it.ending.as_deref().unwrap_or_default(), it.files.len()))
@@ -522,13 +488,9 @@ fn files_that_are_no_lexicon_create_nothing_and_are_named() {
     for kind in [("etf", 1), ("pfsx", 2), ("json", 1), ("csv", 1)] {
         assert!(kinds.contains(&kind), "{kind:?}: {unread:?}");
     }
-    let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+    let tokens = corpus.list_rows(ListKind::Tokens, &ListFilter::default());
     assert_eq!(tokens.expect("listed").total, 1);
-    let named = take(
-        &mut corpus,
-        &[folder[0].join("prices.csv")],
-        &ImportOptions::default(),
-    );
+    let named = take(&mut corpus, &[folder[0].join("prices.csv")], &ImportOptions::default());
     assert!(named.has_refusals(), "a file that was named is refused");
 }
 
@@ -546,15 +508,12 @@ fn signs_without_a_gloss_get_the_name_of_their_file_with_a_finding() {
     assert!(has(&first.findings, "it is called \"one\""), "{first:?}");
     assert!(!has(&first.findings, "has no gloss;"), "{first:?}");
     let second = import(&mut corpus, &two, "{}");
-    assert!(
-        has(&second.findings, "\"two-2\" to \"two-3\""),
-        "{second:?}"
-    );
+    assert!(has(&second.findings, "\"two-2\" to \"two-3\""), "{second:?}");
     assert!(
         has(&second.findings, "<collection> was read as a wrapper"),
         "{second:?}"
     );
-    let signs = corpus.list(ListKind::Signs, &ListFilter::default());
+    let signs = corpus.list_rows(ListKind::Signs, &ListFilter::default());
     assert_eq!(signs.expect("listed").total, 3);
 }
 
@@ -562,17 +521,12 @@ fn signs_without_a_gloss_get_the_name_of_their_file_with_a_finding() {
 fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
     use std::ops::ControlFlow;
     let desk = Desk::new();
-    let many: Vec<(String, i64)> = (0..600)
-        .map(|at| (format!("G{}", at % 7), at * 10))
-        .collect();
+    let many: Vec<(String, i64)> = (0..600).map(|at| (format!("G{}", at % 7), at * 10)).collect();
     let rows: Vec<(&str, i64, i64, &str)> = many
         .iter()
         .map(|(value, at)| ("Gloss", *at, at + 10, value.as_str()))
         .collect();
-    let one_tier = eaf(&rows).replace(
-        "</TIER><TIER TIER_ID=\"Gloss\" LINGUISTIC_TYPE_REF=\"t\">",
-        "",
-    );
+    let one_tier = eaf(&rows).replace("</TIER><TIER TIER_ID=\"Gloss\" LINGUISTIC_TYPE_REF=\"t\">", "");
     let lexicon: String = (0..600).map(|at| format!("S{at}\tflat\n")).collect();
     let signs: String = (0..300)
         .map(|at| format!("<hamgestural_sign gloss=\"N{at}\"><sign_manual><handconfig handshape=\"flat\"/></sign_manual></hamgestural_sign>\n"))
@@ -582,32 +536,25 @@ fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
         desk.file("big.tsv", &format!("gloss\tHandshape\n{lexicon}")),
         desk.file("big.sigml", &format!("<sigml>{signs}</sigml>")),
     ] {
-        let mut corpus = desk.corpus(&format!(
-            "{}.chereme",
-            path.file_name().expect("a name").display()
-        ));
+        let mut corpus = desk.corpus(&format!("{}.chereme", path.file_name().expect("a name").display()));
         let mut steps = Vec::new();
-        let mut hear = |step: Step<'_>| {
+        let mut hear = |step: ProgressStep<'_>| {
             steps.push(step.task.to_owned());
             ControlFlow::Continue(())
         };
         let options = ImportOptions::default();
         let all = [path.clone()];
-        let done = corpus.import(&all, &options, &mut Progress::new(&mut hear));
+        let done = corpus.import_paths(&all, &options, &mut ProgressReceiver::new(&mut hear));
         done.expect("imported");
         for task in ["history", "search index"] {
-            assert!(
-                steps.iter().any(|it| it == task),
-                "{task}: {}",
-                path.display()
-            );
+            assert!(steps.iter().any(|it| it == task), "{task}: {}", path.display());
         }
-        corpus.undo().expect("taken back");
-        let before = corpus.log(9).expect("log").len();
+        corpus.undo_operation().expect("taken back");
+        let before = corpus.operation_log(9).expect("log").len();
         // Wherever it is stopped, nothing is stored.
         for at in [0, steps.len() / 3, steps.len() / 2, steps.len() - 1] {
             let mut reported = 0;
-            let mut hear = |_: Step<'_>| {
+            let mut hear = |_: ProgressStep<'_>| {
                 reported += 1;
                 if reported > at {
                     ControlFlow::Break(())
@@ -615,16 +562,16 @@ fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
                     ControlFlow::Continue(())
                 }
             };
-            let stopped = corpus.import(&all, &options, &mut Progress::new(&mut hear));
-            assert!(matches!(stopped, Err(Error::Stopped)), "{at}: {stopped:?}");
-            assert_eq!(corpus.log(9).expect("log").len(), before);
-            let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+            let stopped = corpus.import_paths(&all, &options, &mut ProgressReceiver::new(&mut hear));
+            assert!(matches!(stopped, Err(CorpusError::Stopped)), "{at}: {stopped:?}");
+            assert_eq!(corpus.operation_log(9).expect("log").len(), before);
+            let tokens = corpus.list_rows(ListKind::Tokens, &ListFilter::default());
             assert_eq!(tokens.expect("listed").total, 0);
         }
-        let mut stop = |_: Step<'_>| ControlFlow::Break(());
-        let redone = corpus.redo_with_progress(&mut Progress::new(&mut stop));
-        assert!(matches!(redone, Err(Error::Stopped)), "{redone:?}");
-        assert_eq!(corpus.log(9).expect("log").len(), before);
+        let mut stop = |_: ProgressStep<'_>| ControlFlow::Break(());
+        let redone = corpus.redo_with_progress(&mut ProgressReceiver::new(&mut stop));
+        assert!(matches!(redone, Err(CorpusError::Stopped)), "{redone:?}");
+        assert_eq!(corpus.operation_log(9).expect("log").len(), before);
         assert_whole(&mut corpus);
     }
 }
@@ -636,20 +583,11 @@ fn an_exported_folder_is_imported_without_the_copies_of_its_tables() {
     let movement = desk.file("take.bvh", MOVEMENT);
     let tiers = desk.file("take.eaf", &eaf(&[("Gloss", 0, 200, "BOL")]));
     let mut corpus = desk.corpus("c.chereme");
-    take(
-        &mut corpus,
-        &[lexicon, movement, tiers],
-        &ImportOptions::default(),
-    );
+    take(&mut corpus, &[lexicon, movement, tiers], &ImportOptions::default());
     let all = desk.folder.path().join("all");
-    let mut hear = unheard;
-    let mut progress = Progress::new(&mut hear);
-    let exported = corpus.export(
-        &ExportWhat::All,
-        &all,
-        &ExportOptions::default(),
-        &mut progress,
-    );
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
+    let exported = corpus.export_corpus(&ExportWhat::All, &all, &ExportOptions::default(), &mut progress);
     exported.expect("exported");
     let mut number = 0;
     let mut imported = |folder: PathBuf| {
@@ -657,7 +595,7 @@ fn an_exported_folder_is_imported_without_the_copies_of_its_tables() {
         let mut corpus = desk.corpus(&format!("{number}.chereme"));
         let report = take(&mut corpus, &[folder], &ImportOptions::default());
         let counts = [ListKind::Signs, ListKind::Tokens, ListKind::Recordings].map(|kind| {
-            let list = corpus.list(kind, &ListFilter::default());
+            let list = corpus.list_rows(kind, &ListFilter::default());
             list.expect("listed").total
         });
         (counts, report)
@@ -666,11 +604,11 @@ fn an_exported_folder_is_imported_without_the_copies_of_its_tables() {
     let (whole, report) = imported(all.clone());
     assert_eq!(whole, alone, "{report:?}");
     assert!(!report.has_refusals(), "{report:?}");
-    let unread = report.unread();
+    let unread = report.unread_file_kinds();
     let copies = unread.iter().find(|it| it.ending.as_deref() == Some("csv"));
     let copies = copies.expect("the tables");
     assert!(copies.files.len() > 10 && copies.why.contains("corpus.chereme"));
-    let remedy = copies.remedy.as_ref().map(|it| it.text().to_owned());
+    let remedy = copies.remedy.as_ref().map(|it| it.remedy_text().to_owned());
     assert!(remedy.is_some_and(|it| it.contains("chereme merge")));
     // The same tables elsewhere are tables like others.
     fs::remove_file(all.join("SHA256SUMS")).expect("removed");

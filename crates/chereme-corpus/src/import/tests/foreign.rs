@@ -1,7 +1,7 @@
 //! Annotation files of ANVIL, EXMARaLDA and SignStream.
 
 use super::*;
-use crate::address::{Address, Name};
+use crate::address::{CorpusAddress, RowName};
 
 fn anvil(elements: &str) -> String {
     format!(
@@ -28,7 +28,7 @@ const COLLECTION: &str = "<SIGNSTREAM-DATABASE><CODING-SCHEME><FIELD ID=\"1\" NA
     </SEGMENT></UTTERANCE></UTTERANCES></SIGNSTREAM-DATABASE>";
 
 fn hits(corpus: &mut Corpus, query: &str) -> u64 {
-    let found = corpus.search(query, &SearchOptions::default());
+    let found = corpus.search_tokens(query, &SearchOptions::default());
     found.expect("an answer").total as u64
 }
 
@@ -44,23 +44,13 @@ fn signs_of_other_programs_are_found_with_their_movement() {
         let mut corpus = desk.corpus("a.chereme");
         import(&mut corpus, &desk.file("take.bvh", MOVEMENT), "{}");
         let report = import(&mut corpus, &desk.file(name, &text), "{}");
-        assert_eq!(
-            report.status,
-            FileStatus::Imported,
-            "{name}: {:?}",
-            report.findings
-        );
+        assert_eq!(report.status, FileStatus::Imported, "{name}: {:?}", report.findings);
         assert_eq!(recordings_of(&corpus), [1], "{name}");
         assert_eq!(roles(&corpus).len(), tiers, "{name}: {:?}", roles(&corpus));
         assert_eq!(hits(&mut corpus, "gloss:CHAT"), 1, "{name}");
         assert_whole(&mut corpus);
         let again = import(&mut corpus, &desk.file(name, &text), "{}");
-        assert_eq!(
-            again.status,
-            FileStatus::Unchanged,
-            "{name}: {:?}",
-            again.findings
-        );
+        assert_eq!(again.status, FileStatus::Unchanged, "{name}: {:?}", again.findings);
     }
 }
 
@@ -86,45 +76,34 @@ fn an_edited_anvil_file_updates_its_recording() {
     assert_whole(&mut corpus);
     let folder = desk.folder.path();
     for name in ["out.eaf", "out.TextGrid"] {
-        let what = ExportWhat::Address(Address::Recording(Name::Number(1)));
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
+        let what = ExportWhat::Address(CorpusAddress::Recording(RowName::Number(1)));
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
         let options = ExportOptions::default();
-        let written = corpus.export(&what, &folder.join(name), &options, progress);
+        let written = corpus.export_corpus(&what, &folder.join(name), &options, progress);
         written.expect("exported");
         let bytes = fs::read(folder.join(name)).expect("a file");
-        let read = readers::transcript(Path::new(name)).expect("a reader");
+        let read = readers::find_transcript_parser(Path::new(name)).expect("a reader");
         let (transcript, _) = read(&bytes).expect("a document");
         if name == "out.eaf" {
             let coder = ("coder".to_owned(), "Zoé".to_owned());
-            assert!(
-                transcript.properties.contains(&coder),
-                "{:?}",
-                transcript.properties
-            );
+            assert!(transcript.properties.contains(&coder), "{:?}", transcript.properties);
             assert_eq!(transcript.media[0].url, "take.mov");
         }
-        let tier = transcript
-            .tiers
-            .iter()
-            .find(|it| it.name == "Signs.Right.token");
+        let tier = transcript.tiers.iter().find(|it| it.name == "Signs.Right.token");
         let mut values: Vec<(i64, i64, &str)> = tier
             .expect("the tier")
             .annotations
             .iter()
             .map(|it| {
                 (
-                    it.span.start().micros(),
-                    it.span.end().micros(),
+                    it.span.span_start_instant().instant_micros(),
+                    it.span.span_end_instant().instant_micros(),
                     it.value.as_str(),
                 )
             })
             .collect();
         values.sort_unstable();
-        assert_eq!(
-            values,
-            [(0, 50_000, "CHIEN"), (50_000, 120_000, "CHAT")],
-            "{name}"
-        );
+        assert_eq!(values, [(0, 50_000, "CHIEN"), (50_000, 120_000, "CHAT")], "{name}");
     }
 }

@@ -2,10 +2,10 @@
 //! to several participants.
 
 use super::*;
-use crate::{ListFilter, ListKind, Name, SignerChange, TierChange, TierName};
+use crate::{ListFilter, ListKind, RowName, SignerChange, TierPropertyChange, TierRequestName};
 
 fn total(corpus: &mut Corpus, query: &str) -> usize {
-    let answer = corpus.search(query, &SearchOptions::default());
+    let answer = corpus.search_tokens(query, &SearchOptions::default());
     answer.expect(query).total
 }
 
@@ -16,26 +16,12 @@ fn rows_of_one_gloss_are_entries_of_one_sign_even_on_a_second_import() {
     let rows = "drag\tB\t0.5\ndrag\tS\t2.5\nsee\tU\t1\n";
     let table = desk.file("lex.tsv", &format!("gloss\tHandshape\tFrequency\n{rows}"));
     let report = import(&mut corpus, &table, "{}");
-    let reported = report
-        .findings
-        .iter()
-        .find(|it| it.message.contains("line 2 too"));
-    assert_eq!(
-        reported.map(|it| it.line),
-        Some(Some(3)),
-        "{:?}",
-        report.findings
-    );
+    let reported = report.findings.iter().find(|it| it.message.contains("line 2 too"));
+    assert_eq!(reported.map(|it| it.line), Some(Some(3)), "{:?}", report.findings);
     assert_eq!(total(&mut corpus, ""), 3);
     assert_eq!(total(&mut corpus, "gloss=drag"), 2);
-    assert_eq!(
-        total(&mut corpus, "gloss=drag configuration=S frequency>2"),
-        1
-    );
-    assert_eq!(
-        total(&mut corpus, "gloss=drag configuration=B frequency>2"),
-        0
-    );
+    assert_eq!(total(&mut corpus, "gloss=drag configuration=S frequency>2"), 1);
+    assert_eq!(total(&mut corpus, "gloss=drag configuration=B frequency>2"), 0);
     let rows = "drag\tB\t0.5\ndrag\tC\t3\nsee\tU\t1\nsee\tU\t9\n";
     let again = desk.file("lex.tsv", &format!("gloss\tHandshape\tFrequency\n{rows}"));
     import(&mut corpus, &again, "{}");
@@ -121,16 +107,12 @@ fn a_value_of_a_table_is_not_equal_to_others_by_aliases_of_the_program() {
             3,
             "equal to it by an alias, too: mouth (2), upper lip (1); placement== with one",
         ),
-        (
-            "placement=bouche",
-            3,
-            "equal to it by an alias, too: upper lip (1)",
-        ),
+        ("placement=bouche", 3, "equal to it by an alias, too: upper lip (1)"),
     ] {
-        let answer = corpus.search(query, &SearchOptions::default());
+        let answer = corpus.search_tokens(query, &SearchOptions::default());
         let answer = answer.expect(query);
         assert_eq!(answer.total, wanted, "{query}: {:?}", answer.findings);
-        let messages: Vec<String> = answer.findings.iter().map(|it| it.message()).collect();
+        let messages: Vec<String> = answer.findings.iter().map(|it| it.finding_message()).collect();
         let says = match found {
             "" => messages.is_empty(),
             found => messages[0].contains(found),
@@ -166,9 +148,7 @@ fn values_that_an_inventory_knows_stay_as_many_as_the_table_has() {
     for (at, (values, queries, finding)) in cases.into_iter().enumerate() {
         let mut corpus = desk.corpus(&format!("{at}.chereme"));
         let rows = values.iter().enumerate();
-        let rows: String = rows
-            .map(|(row, value)| format!("G{row}\t{value}\n"))
-            .collect();
+        let rows: String = rows.map(|(row, value)| format!("G{row}\t{value}\n")).collect();
         let table = desk.file(&format!("{at}.tsv"), &format!("gloss\tLocation\n{rows}"));
         let report = import(&mut corpus, &table, "{}");
         for (value, wanted) in queries {
@@ -179,9 +159,7 @@ fn values_that_an_inventory_knows_stay_as_many_as_the_table_has() {
             );
         }
         let messages = report.findings.iter().map(|it| it.message.as_str());
-        let found = messages
-            .filter_map(|it| Some(it.split_once(renamed)?.1))
-            .next();
+        let found = messages.filter_map(|it| Some(it.split_once(renamed)?.1)).next();
         assert_eq!(found, finding, "{:?}", report.findings);
     }
 }
@@ -221,25 +199,17 @@ fn glosses_that_differ_only_in_the_storage_of_accents_are_one_sign() {
     let mut corpus = desk.corpus("c.chereme");
     let one = desk.file("one.eaf", &eaf(&[("Gloss", 0, 500, "ÉTÉ")]));
     let two = desk.file("two.eaf", &eaf(&[("Gloss", 0, 500, "E\u{301}TE\u{301}")]));
-    let table = desk.file(
-        "lex.tsv",
-        "gloss\tHandshape\nE\u{301}TE\u{301}\tB\nÉTÉ\tS\n",
-    );
+    let table = desk.file("lex.tsv", "gloss\tHandshape\nE\u{301}TE\u{301}\tB\nÉTÉ\tS\n");
     for file in [one, two, table] {
         import(&mut corpus, &file, "{}");
     }
     assert_whole(&mut corpus);
-    for query in [
-        "gloss=ÉTÉ",
-        "gloss=/ÉTÉ/",
-        "gloss==ÉTÉ",
-        "gloss==E\u{301}TE\u{301}",
-    ] {
+    for query in ["gloss=ÉTÉ", "gloss=/ÉTÉ/", "gloss==ÉTÉ", "gloss==E\u{301}TE\u{301}"] {
         assert_eq!(total(&mut corpus, query), 4, "{query}");
     }
-    let mut hear = crate::unheard;
-    let progress = &mut crate::Progress::new(&mut hear);
-    let tally = corpus.tally("", &["gloss".to_owned()], progress);
+    let mut hear = crate::ignore_progress_step;
+    let progress = &mut crate::ProgressReceiver::new(&mut hear);
+    let tally = corpus.tally_values("", &["gloss".to_owned()], progress);
     assert_eq!(tally.expect("counted").rows.len(), 1);
     let citations = total(&mut corpus, "origin=lexicon");
     assert_eq!(citations, 2);
@@ -270,32 +240,32 @@ fn attributes_are_kept_listed_and_found_and_can_be_undone() {
         ("placement=0.457", 0),
         ("placement=*", 3),
     ] {
-        let answer = corpus.search(query, &SearchOptions::default());
+        let answer = corpus.search_tokens(query, &SearchOptions::default());
         match answer {
             Ok(answer) => assert_eq!(answer.total, wanted, "{query}"),
             Err(error) => assert_eq!(wanted, 0, "{query}: {error}"),
         }
     }
     let error = corpus
-        .search("attribute.clas=noun", &SearchOptions::default())
+        .search_tokens("attribute.clas=noun", &SearchOptions::default())
         .expect_err("no such attribute");
-    let message = format!("{error} {}", error.remedy().unwrap_or_default());
+    let message = format!("{error} {}", error.error_remedy().unwrap_or_default());
     assert!(
         message.contains("attribute.Class") && message.contains("Sign Frequency"),
         "{message}"
     );
     let listed = corpus
-        .list(ListKind::Signs, &ListFilter::default().with("gloss", "A"))
+        .list_rows(
+            ListKind::Signs,
+            &ListFilter::default().with_column_pattern("gloss", "A"),
+        )
         .expect("listed");
     assert_eq!(
         listed.rows[0]["attributes"]["Sign Frequency"], "4.10",
         "letter by letter"
     );
-    let info = corpus.info().expect("info").attributes;
-    let reported: Vec<_> = info
-        .iter()
-        .map(|it| (&*it.name, it.entries, it.greatest))
-        .collect();
+    let info = corpus.load_corpus_info().expect("info").attributes;
+    let reported: Vec<_> = info.iter().map(|it| (&*it.name, it.entries, it.greatest)).collect();
     assert_eq!(
         reported,
         [
@@ -306,22 +276,22 @@ fn attributes_are_kept_listed_and_found_and_can_be_undone() {
     );
     assert_whole(&mut corpus);
     let out = desk.folder.path().join("tokens.csv");
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .export(
+        .export_corpus(
             &ExportWhat::All,
             &out,
             &ExportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("exported");
     let mut elsewhere = desk.corpus("d.chereme");
     import(&mut elsewhere, &out, "{}");
-    let again = elsewhere.info().expect("info").attributes;
+    let again = elsewhere.load_corpus_info().expect("info").attributes;
     assert_eq!(again, info, "a table of tokens holds them, too");
-    corpus.undo().expect("undone");
-    corpus.undo().expect("undone");
-    assert_eq!(corpus.info().expect("info").attributes, []);
+    corpus.undo_operation().expect("undone");
+    corpus.undo_operation().expect("undone");
+    assert_eq!(corpus.load_corpus_info().expect("info").attributes, []);
 }
 
 #[test]
@@ -333,9 +303,7 @@ fn notation_in_a_wrong_encoding_is_mended_or_left_uncoded() {
     let twice: String = latin.bytes().map(char::from).collect();
     let table = desk.file(
         "lex.tsv",
-        &format!(
-            "gloss\tHamNoSys\nA\t{symbols}\nB\t{latin}\nC\t{twice}\nD\tîîî\nE\tsee the film\nF\t\n"
-        ),
+        &format!("gloss\tHamNoSys\nA\t{symbols}\nB\t{latin}\nC\t{twice}\nD\tîîî\nE\tsee the film\nF\t\n"),
     );
     let report = import(&mut corpus, &table, "{}");
     assert_eq!(total(&mut corpus, ""), 6);
@@ -346,10 +314,7 @@ fn notation_in_a_wrong_encoding_is_mended_or_left_uncoded() {
         let count = messages.iter().filter(|it| it.starts_with(start)).count();
         assert_eq!(count, wanted, "{start}: {messages:?}");
     }
-    let mended = messages
-        .iter()
-        .filter(|it| it.contains("were mended"))
-        .count();
+    let mended = messages.iter().filter(|it| it.contains("were mended")).count();
     assert_eq!(mended, 2, "{messages:?}");
     assert_whole(&mut corpus);
 }
@@ -363,11 +328,7 @@ fn of_two_people() -> String {
     ];
     let mut text = eaf(&tiers);
     for (name, _, _, _) in tiers {
-        let who = if name.ends_with('A') {
-            "ber-12"
-        } else {
-            "ber-13"
-        };
+        let who = if name.ends_with('A') { "ber-12" } else { "ber-13" };
         let tier = format!("TIER_ID=\"{name}\"");
         assert!(text.contains(&tier), "{text}");
         text = text.replace(&tier, &format!("{tier} PARTICIPANT=\"{who}\""));
@@ -392,52 +353,43 @@ fn participants_of_a_file_are_signers_of_their_own_tokens() {
         assert_eq!(total(&mut corpus, query), wanted, "{query}");
     }
     let signers = corpus
-        .list(ListKind::Signers, &ListFilter::default())
+        .list_rows(ListKind::Signers, &ListFilter::default())
         .expect("listed");
     let reported: Vec<_> = (signers.rows.iter())
-        .map(|row| {
-            (
-                row["name"].as_str(),
-                row["recordings"].as_i64(),
-                row["tokens"].as_i64(),
-            )
-        })
+        .map(|row| (row["name"].as_str(), row["recordings"].as_i64(), row["tokens"].as_i64()))
         .collect();
     assert_eq!(
         reported,
-        [
-            (Some("ber-12"), Some(1), Some(1)),
-            (Some("ber-13"), Some(1), Some(1))
-        ]
+        [(Some("ber-12"), Some(1), Some(1)), (Some("ber-13"), Some(1), Some(1))]
     );
     let change = SignerChange {
         name: Some("Anna".into()),
         ..SignerChange::default()
     };
     corpus
-        .change_signer(&Name::Text("ber-12".into()), &change)
+        .change_signer(&RowName::Text("ber-12".into()), &change)
         .expect("renamed");
     assert_eq!(total(&mut corpus, "signer=Anna gloss=BOL"), 1);
-    let change = TierChange {
+    let change = TierPropertyChange {
         participant: Some(Some(" Zoë ".into())),
         annotator: Some(Some("me".into())),
         language: Some(Some("fr".into())),
-        ..TierChange::default()
+        ..TierPropertyChange::default()
     };
-    let recording = Name::Number(1);
-    let tier = TierName::read("Gloss B", Some(&recording)).expect("a name");
-    let row = corpus.change_tier(&tier, &change).expect("changed");
+    let recording = RowName::Number(1);
+    let tier = TierRequestName::parse_tier_name("Gloss B", Some(&recording)).expect("a name");
+    let row = corpus.change_tier_properties(&tier, &change).expect("changed");
     assert_eq!(
         [row.participant, row.annotator, row.language].map(Option::unwrap_or_default),
         ["Zoë", "me", "fr"]
     );
     assert_eq!(total(&mut corpus, "signer=zoe gloss=CHAT"), 1);
     let row = corpus
-        .change_tier(
+        .change_tier_properties(
             &tier,
-            &TierChange {
+            &TierPropertyChange {
                 participant: Some(None),
-                ..TierChange::default()
+                ..TierPropertyChange::default()
             },
         )
         .expect("changed");
@@ -449,8 +401,7 @@ fn participants_of_a_file_are_signers_of_their_own_tokens() {
 fn json_lines_are_read_entry_by_entry_or_refused() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
-    let lines =
-        "{\"gloss\": \"A\", \"Handshape\": \"U\"}\n{\"gloss\": \"B\", \"Handshape\": \"S\"}\n";
+    let lines = "{\"gloss\": \"A\", \"Handshape\": \"U\"}\n{\"gloss\": \"B\", \"Handshape\": \"S\"}\n";
     let report = import(&mut corpus, &desk.file("lines.json", lines), "{}");
     assert_eq!(report.status, FileStatus::Imported, "{:?}", report.findings);
     for query in ["gloss=A configuration=U", "gloss=B configuration=S"] {
@@ -485,17 +436,12 @@ fn rows_of_one_gloss_become_tokens_of_one_sign_with_one_citation_form() {
     let desk = Desk::new();
     let found = |name: &str, gloss: &dyn Fn(u32) -> String| -> [u32; 3] {
         let mut corpus = desk.corpus(&format!("{name}.chereme"));
-        let rows: String = (0..ROWS)
-            .map(|row| format!("{},U,x\n", gloss(row)))
-            .collect();
-        let table = desk.file(
-            &format!("{name}.csv"),
-            &format!("gloss,Handshape,Class\n{rows}"),
-        );
+        let rows: String = (0..ROWS).map(|row| format!("{},U,x\n", gloss(row))).collect();
+        let table = desk.file(&format!("{name}.csv"), &format!("gloss,Handshape,Class\n{rows}"));
         import(&mut corpus, &table, "{}");
         let list = "SELECT count(*), sum(citation), count(DISTINCT sign_id) FROM token";
-        let found = (corpus.store.read())
-            .query_row(list, [], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]));
+        let found =
+            (corpus.store.read_connection()).query_row(list, [], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]));
         found.expect("counted")
     };
     let many = found("many", &|row| format!("G{row}"));

@@ -1,10 +1,10 @@
 //! Tests of lexicon tables that are imported again, of their mapping, and of queries for what their cells hold.
 
 use super::*;
-use crate::{PairOptions, Progress, SearchOptions};
+use crate::{PairOptions, ProgressReceiver, SearchOptions};
 
 fn total(corpus: &mut Corpus, query: &str) -> usize {
-    let answer = corpus.search(query, &SearchOptions::default());
+    let answer = corpus.search_tokens(query, &SearchOptions::default());
     answer.expect(query).total
 }
 
@@ -13,12 +13,12 @@ fn pairs(corpus: &Corpus, fields: &[&str]) -> (usize, usize) {
         fields: fields.iter().map(|it| (*it).to_owned()).collect(),
         ..PairOptions::default()
     };
-    let found = corpus.pairs(&options).expect("counted");
+    let found = corpus.minimal_pairs(&options).expect("counted");
     (found.total, found.entries)
 }
 
 fn glosses(corpus: &Corpus) -> Vec<String> {
-    crate::db::signs::glosses(corpus.store.read()).expect("glosses")
+    crate::db::signs::list_all_glosses(corpus.store.read_connection()).expect("glosses")
 }
 
 fn messages(report: &FileReport) -> String {
@@ -36,19 +36,19 @@ fn another_mapping_of_the_gloss_changes_the_signs_and_makes_no_new_ones() {
     let table = desk.file("m.csv", text);
     import(&mut corpus, &table, "{}");
     assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
-    let name = Name::Text("e2".into());
+    let name = RowName::Text("e2".into());
     let note = crate::SignChange {
         notes: Some(Some("kept".to_owned())),
         ..crate::SignChange::default()
     };
     corpus.change_sign(&name, &note).expect("noted");
-    let before = corpus.info().expect("info").counts.clone();
+    let before = corpus.load_corpus_info().expect("info").counts.clone();
     let report = import(&mut corpus, &table, BY_LEMMA);
     assert_eq!(report.status, FileStatus::Updated);
     // A sign that somebody wrote a remark about stays.
     assert_eq!(glosses(&corpus), ["L1", "L2", "e1", "e2"]);
     assert_eq!(
-        corpus.info().expect("info").counts["tokens"],
+        corpus.load_corpus_info().expect("info").counts["tokens"],
         before["tokens"]
     );
     for (query, wanted) in [
@@ -63,7 +63,7 @@ fn another_mapping_of_the_gloss_changes_the_signs_and_makes_no_new_ones() {
     let cited = "SELECT count(*) FROM token GROUP BY sign_id HAVING sum(citation) <> 1";
     let cited = corpus
         .store
-        .read()
+        .read_connection()
         .prepare(cited)
         .and_then(|mut it| it.exists([]));
     assert!(!cited.expect("counted"), "each sign has one citation form");
@@ -74,8 +74,8 @@ fn another_mapping_of_the_gloss_changes_the_signs_and_makes_no_new_ones() {
     import(&mut corpus, &copy, r#"{"columns": {"EntryID": "gloss"}}"#);
     assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
     assert_eq!(total(&mut corpus, ""), 4);
-    corpus.undo().expect("undone");
-    corpus.undo().expect("undone");
+    corpus.undo_operation().expect("undone");
+    corpus.undo_operation().expect("undone");
     assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
     assert_whole(&mut corpus);
 }
@@ -89,16 +89,9 @@ fn the_mapping_of_a_table_is_used_whenever_the_table_is_read() {
     let table = desk.file("m.csv", text);
     import(&mut corpus, &table, mapping);
     assert_eq!(pairs(&corpus, &["Form"]), (1, 2));
-    assert_eq!(
-        pairs(&corpus, &["Handshape strong"]),
-        (1, 2),
-        "by its meaning"
-    );
+    assert_eq!(pairs(&corpus, &["Handshape strong"]), (1, 2), "by its meaning");
     // The next version has no mapping of its own, or one that is about another table.
-    for (at, other) in ["{}", r#"{"columns": {"Ort": "placement"}}"#]
-        .into_iter()
-        .enumerate()
-    {
+    for (at, other) in ["{}", r#"{"columns": {"Ort": "placement"}}"#].into_iter().enumerate() {
         let table = desk.file("m.csv", &format!("{text}e3,L3,S{at}\n"));
         let report = import(&mut corpus, &table, other);
         let messages = messages(&report);
@@ -106,10 +99,7 @@ fn the_mapping_of_a_table_is_used_whenever_the_table_is_read() {
                     \"LemmaID\" gloss";
         assert!(messages.contains(said), "{messages}");
         assert_eq!(glosses(&corpus), ["L1", "L2", "L3"]);
-        assert_eq!(
-            total(&mut corpus, &format!("gloss=L3 configuration=S{at}")),
-            1
-        );
+        assert_eq!(total(&mut corpus, &format!("gloss=L3 configuration=S{at}")), 1);
         assert_eq!(pairs(&corpus, &["Form"]), (3, 3));
     }
     assert_whole(&mut corpus);
@@ -126,45 +116,23 @@ fn a_row_that_was_removed_from_a_table_is_reported() {
         "{}",
     );
     for rows in ["C,S\n", "C,B\n"] {
-        let report = import(
-            &mut corpus,
-            &desk.file("t.csv", &format!("{head}{rows}")),
-            "{}",
-        );
-        let found = report
-            .findings
-            .iter()
-            .find(|it| it.message.contains("no row here"));
+        let report = import(&mut corpus, &desk.file("t.csv", &format!("{head}{rows}")), "{}");
+        let found = report.findings.iter().find(|it| it.message.contains("no row here"));
         let found = found.expect("a finding");
-        assert!(
-            found.message.ends_with("were kept: B, C"),
-            "{}",
-            found.message
-        );
+        assert!(found.message.ends_with("were kept: B, C"), "{}", found.message);
         let remedy = found.remedy.as_ref().expect("a remedy").to_string();
-        assert!(
-            remedy.contains("chereme delete CORPUS sign:GLOSS"),
-            "{remedy}"
-        );
+        assert!(remedy.contains("chereme delete CORPUS sign:GLOSS"), "{remedy}");
         assert_eq!(total(&mut corpus, "gloss=C configuration=A"), 1);
     }
     let whole = desk.file("t.csv", &format!("{head}B,5\nC,B\nC,A\nD,A\n"));
     let report = import(&mut corpus, &whole, "{}");
-    assert!(
-        !messages(&report).contains("no row here"),
-        "{}",
-        messages(&report)
-    );
+    assert!(!messages(&report).contains("no row here"), "{}", messages(&report));
     assert_eq!(total(&mut corpus, ""), 5);
     // The first version again is a new version.
     let first = desk.file("t.csv", &format!("{head}B,5\nC,S\nC,A\n"));
     let report = import(&mut corpus, &first, "{}");
     assert_eq!(report.status, FileStatus::Imported);
-    assert!(
-        messages(&report).contains("were kept: D"),
-        "{}",
-        messages(&report)
-    );
+    assert!(messages(&report).contains("were kept: D"), "{}", messages(&report));
     assert_eq!(total(&mut corpus, "gloss=C configuration=S"), 1);
     let report = import(&mut corpus, &first, "{}");
     assert_eq!(report.status, FileStatus::Unchanged);
@@ -174,8 +142,7 @@ fn a_row_that_was_removed_from_a_table_is_reported() {
 fn a_homonym_has_its_own_attributes_alone() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
-    let text =
-        "Gloss,Handshape,Location,Frequency,Iconicity\nBANK,B,chin,5.5,\nBANK,A,chest,,2.0\n";
+    let text = "Gloss,Handshape,Location,Frequency,Iconicity\nBANK,B,chin,5.5,\nBANK,A,chest,,2.0\n";
     import(&mut corpus, &desk.file("t.csv", text), "{}");
     import(
         &mut corpus,
@@ -188,10 +155,7 @@ fn a_homonym_has_its_own_attributes_alone() {
         ("attribute.Frequency=* configuration=A", 0),
         ("attribute.Iconicity=unset", 1),
         ("attribute.Iconicity!=7", 2),
-        (
-            "attribute.Iconicity=2 attribute.Frequency=5.5 origin=captured",
-            1,
-        ),
+        ("attribute.Iconicity=2 attribute.Frequency=5.5 origin=captured", 1),
     ] {
         assert_eq!(total(&mut corpus, query), wanted, "{query}");
     }
@@ -247,16 +211,16 @@ fn queries_know_initial_values_and_movements_that_are_none() {
     ] {
         assert_eq!(total(&mut corpus, query), wanted, "{query}");
     }
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    let tally = corpus.tally("", &["initial.placement".to_owned()], progress);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let tally = corpus.tally_values("", &["initial.placement".to_owned()], progress);
     let rows = tally.expect("counted").rows.into_iter();
     let rows: Vec<_> = rows.map(|row| (row.value, row.total)).collect();
     assert_eq!(rows, [("chin".to_owned(), 2), ("chest".to_owned(), 1)]);
     let out = desk.folder.path().join("tokens.csv");
     let options = ExportOptions::default();
     corpus
-        .export(&ExportWhat::All, &out, &options, progress)
+        .export_corpus(&ExportWhat::All, &out, &options, progress)
         .expect("exported");
     let written = fs::read_to_string(out).expect("read");
     assert!(
@@ -274,10 +238,8 @@ fn queries_know_initial_values_and_movements_that_are_none() {
     ] {
         assert_eq!(total(&mut minor, query), wanted, "{query}");
     }
-    let coded = crate::db::signs::citations(minor.store.read()).expect("tokens");
-    let coded = coded
-        .iter()
-        .map(|token| minor.coding_of(token).expect("a coding"));
+    let coded = crate::db::signs::load_citation_tokens(minor.store.read_connection()).expect("tokens");
+    let coded = coded.iter().map(|token| minor.coding_of(token).expect("a coding"));
     let coded: Vec<String> = coded.map(|it| it["placement.minor"].clone()).collect();
     assert_eq!(coded, ["Palm", "Palm > Wrist", "Chin > Palm"]);
     // Where only parts are coded, they count.

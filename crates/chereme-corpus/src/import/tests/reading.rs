@@ -1,7 +1,7 @@
 //! Tests of files that are imported again with options for another reading.
 
 use super::*;
-use crate::db::recordings::{MotionTrackRow, RecordingRow, SignerRow};
+use crate::db::stored_recordings::{MotionTrackRow, RecordingRow, SignerRow};
 use chereme_formats::gltf;
 
 const WHOLE: &str = chereme_data::starter_text("bol.bvh");
@@ -24,22 +24,22 @@ fn root_in_metres() -> String {
 }
 
 fn take(corpus: &mut Corpus, path: &Path, options: &ImportOptions) -> ImportReport {
-    let mut hear = unheard;
-    let report = corpus.import(&[path.to_owned()], options, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let report = corpus.import_paths(&[path.to_owned()], options, &mut ProgressReceiver::new(&mut hear));
     report.expect("imported")
 }
 
 /// Returns the rows of the only recording, of its body, and of its signer.
 fn rows(corpus: &Corpus) -> (RecordingRow, MotionTrackRow, Option<SignerRow>) {
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     let [id] = recordings_of(corpus)[..] else {
         panic!("one recording");
     };
-    let recording = recordings::recording(connection, id).expect("read");
-    let body = recordings::body_track(connection, id).expect("read");
+    let recording = stored_recordings::load_recording_row(connection, id).expect("read");
+    let body = stored_recordings::body_track(connection, id).expect("read");
     let signer = recording
         .signer_id
-        .map(|id| recordings::signer(connection, id));
+        .map(|id| stored_recordings::find_signer_row(connection, id));
     let signer = signer.and_then(|it| it.expect("read"));
     (recording, body.expect("a body"), signer)
 }
@@ -82,13 +82,10 @@ fn options() -> Vec<(ImportOptions, &'static str)> {
             "the parts of the body are those of the roles file",
         ),
         (signed(None), "signer: Anna (before: –)"),
-        (
-            signed(Some("left")),
-            "dominant hand of \"Anna\": left (before: –)",
-        ),
+        (signed(Some("left")), "dominant hand of \"Anna\": left (before: –)"),
         (
             ImportOptions {
-                origin: Some(Origin::Made),
+                origin: Some(RecordOrigin::Made),
                 ..none()
             },
             "origin: made (before: captured)",
@@ -119,11 +116,7 @@ fn an_unchanged_motion_file_is_read_again_as_the_options_say() {
         assert_eq!(file.status, FileStatus::Updated, "{note}: {file:?}");
         let notes: Vec<&str> = file.findings.iter().map(|it| it.message.as_str()).collect();
         assert!(notes.contains(&note), "{note}: {notes:?}");
-        assert_eq!(
-            report.changed.values().sum::<u64>(),
-            1,
-            "{note}: {report:?}"
-        );
+        assert_eq!(report.changed.values().sum::<u64>(), 1, "{note}: {report:?}");
         assert_eq!(said(&corpus), ["Gloss 0 BOL"]);
         let now = rows(&corpus);
         let before = states.last().expect("a state");
@@ -134,18 +127,14 @@ fn an_unchanged_motion_file_is_read_again_as_the_options_say() {
         states.push(now);
         // The same once more changes nothing.
         let same = take(&mut corpus, &path, &options);
-        assert_eq!(
-            same.files[0].status,
-            FileStatus::Unchanged,
-            "{note}: {same:?}"
-        );
+        assert_eq!(same.files[0].status, FileStatus::Unchanged, "{note}: {same:?}");
         assert_eq!(rows(&corpus), *states.last().expect("a state"), "{note}");
-        corpus.undo().expect("undone");
+        corpus.undo_operation().expect("undone");
         if corpus_is(&corpus, states.last()) {
-            corpus.undo().expect("undone");
+            corpus.undo_operation().expect("undone");
         }
         assert!(corpus_is(&corpus, states.iter().rev().nth(1)), "{note}");
-        corpus.redo().expect("redone");
+        corpus.redo_operation().expect("redone");
     }
     let mut one = desk.corpus("d.chereme");
     let all = ImportOptions {
@@ -160,25 +149,19 @@ fn an_unchanged_motion_file_is_read_again_as_the_options_say() {
         axes: later.axes.clone(),
         ..at_once
     };
-    assert_eq!(
-        at_once, *later,
-        "as if the first import had had the options"
-    );
+    assert_eq!(at_once, *later, "as if the first import had had the options");
     let moves = |corpus: &Corpus| {
-        let connection = corpus.store.read();
-        let track = crate::movement::MotionTrack::of(connection, recordings_of(corpus)[0]);
+        let connection = corpus.store.read_connection();
+        let track = crate::movement::MotionTrack::open_motion_track(connection, recordings_of(corpus)[0]);
         let track = track.expect("a track");
         track
-            .raw_clip(connection, 0..track.frames())
+            .raw_clip(connection, 0..track.motion_frame_count())
             .expect("a clip")
     };
     assert_eq!(moves(&one), moves(&corpus));
 }
 
-fn corpus_is(
-    corpus: &Corpus,
-    state: Option<&(RecordingRow, MotionTrackRow, Option<SignerRow>)>,
-) -> bool {
+fn corpus_is(corpus: &Corpus, state: Option<&(RecordingRow, MotionTrackRow, Option<SignerRow>)>) -> bool {
     Some(&rows(corpus)) == state
 }
 
@@ -189,10 +172,10 @@ fn an_unchanged_scene_is_read_again_as_the_options_say() {
     let path = folder.path().join("body.glb");
     fs::write(
         &path,
-        gltf::write(&clip, &gltf::About::default()).expect("in reach"),
+        gltf::write_glb(&clip, &gltf::GlbDescription::default()).expect("in reach"),
     )
     .expect("written");
-    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("a.chereme"), "A").expect("made");
     take(&mut corpus, &path, &ImportOptions::default());
     let before = rows(&corpus).1;
     let options = ImportOptions {
@@ -215,24 +198,20 @@ fn an_unchanged_annotation_file_takes_back_edits_if_it_is_to() {
     let desk = Desk::new();
     let path = desk.file(
         "one.eaf",
-        &eaf(&[
-            ("A", 0, 500, "BOL"),
-            ("B", 0, 500, "CHAT"),
-            ("C", 0, 500, "ROI"),
-        ]),
+        &eaf(&[("A", 0, 500, "BOL"), ("B", 0, 500, "CHAT"), ("C", 0, 500, "ROI")]),
     );
     let mut corpus = desk.corpus("c.chereme");
     take(&mut corpus, &path, &ImportOptions::default());
     let original = said(&corpus);
     let done = corpus.store.named_operation("annotate", |connection| {
-        use crate::db::tiers;
-        for tier in tiers::tiers(connection, 1)? {
-            for mut row in tiers::annotations(connection, tier.id)? {
+        use crate::db::stored_tiers;
+        for tier in stored_tiers::load_tier_rows(connection, 1)? {
+            for mut row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
                 match row.value.as_str() {
-                    "CHAT" => tiers::delete_annotation(connection, row.id)?,
+                    "CHAT" => stored_tiers::delete_annotation(connection, row.id)?,
                     "BOL" => {
                         "mine".clone_into(&mut row.value);
-                        tiers::update_annotation(connection, &row)?;
+                        stored_tiers::update_annotation(connection, &row)?;
                     }
                     _ => {}
                 }
@@ -257,11 +236,7 @@ fn an_unchanged_annotation_file_takes_back_edits_if_it_is_to() {
         assert_eq!(report.files[0].status, status, "{choice:?}: {report:?}");
         assert_eq!(said(&corpus), *after, "{choice:?}");
         let rows = [&report.created, &report.changed].map(|it| it.get("annotations").copied());
-        assert_eq!(
-            rows.into_iter().flatten().sum::<u64>(),
-            changes,
-            "{report:?}"
-        );
+        assert_eq!(rows.into_iter().flatten().sum::<u64>(), changes, "{report:?}");
         assert_eq!(report.files[0].edits.len() as u64, changes, "{report:?}");
         assert_whole(&mut corpus);
     }
@@ -271,14 +246,7 @@ fn an_unchanged_annotation_file_takes_back_edits_if_it_is_to() {
         ..ImportOptions::default()
     };
     let report = take(&mut corpus, &path, &signed);
-    let said: Vec<&str> = report.files[0]
-        .findings
-        .iter()
-        .map(|it| it.message.as_str())
-        .collect();
+    let said: Vec<&str> = report.files[0].findings.iter().map(|it| it.message.as_str()).collect();
     assert!(said.contains(&"signer: Anna (before: –)"), "{said:?}");
-    assert!(
-        said.iter().any(|it| it.contains("--offset has no effect")),
-        "{said:?}"
-    );
+    assert!(said.iter().any(|it| it.contains("--offset has no effect")), "{said:?}");
 }

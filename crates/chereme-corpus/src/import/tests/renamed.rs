@@ -20,12 +20,7 @@ fn file([gloss, word, class, hand]: [&str; 4], start: i64) -> String {
     };
     for at in 0..3 {
         let from = start + 1000 * at;
-        for (name, time) in [
-            ("s", from),
-            ("h", from + 200),
-            ("i", from + 600),
-            ("e", from + 900),
-        ] {
+        for (name, time) in [("s", from), ("h", from + 200), ("i", from + 600), ("e", from + 900)] {
             slots += &format!("<TIME_SLOT TIME_SLOT_ID=\"{name}{at}\" TIME_VALUE=\"{time}\"/>");
         }
         let [g, w, v, c, h] = ["g", "w", "v", "c", "h"].map(|name| format!("{name}{at}"));
@@ -45,9 +40,7 @@ fn file([gloss, word, class, hand]: [&str; 4], start: i64) -> String {
             parent => format!(" PARENT_REF=\"{parent}\""),
         };
         if !name.is_empty() {
-            body += &format!(
-                "<TIER TIER_ID=\"{name}\" LINGUISTIC_TYPE_REF=\"{kind}\"{parent}>{tier}</TIER>"
-            );
+            body += &format!("<TIER TIER_ID=\"{name}\" LINGUISTIC_TYPE_REF=\"{kind}\"{parent}>{tier}</TIER>");
         }
     }
     let types = [
@@ -57,9 +50,7 @@ fn file([gloss, word, class, hand]: [&str; 4], start: i64) -> String {
         ("h", "true", " CONSTRAINTS=\"Included_In\""),
     ];
     let types = types.map(|(name, aligned, rule)| {
-        format!(
-            "<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"{name}\" TIME_ALIGNABLE=\"{aligned}\"{rule}/>"
-        )
+        format!("<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"{name}\" TIME_ALIGNABLE=\"{aligned}\"{rule}/>")
     });
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ANNOTATION_DOCUMENT AUTHOR=\"\" \
@@ -73,11 +64,11 @@ const NAMES: [&str; 4] = ["Gloss", "Word", "Class", "Hand"];
 
 /// Returns each tier with the ids of its rows.
 fn rows(corpus: &Corpus) -> Vec<(String, Vec<i64>)> {
-    let connection = corpus.store.read();
-    let all = crate::db::tiers::tiers(connection, 1).expect("tiers");
+    let connection = corpus.store.read_connection();
+    let all = crate::db::stored_tiers::load_tier_rows(connection, 1).expect("tiers");
     all.into_iter()
         .map(|tier| {
-            let rows = crate::db::tiers::annotations(connection, tier.id).expect("annotations");
+            let rows = crate::db::stored_tiers::load_tier_annotation_rows(connection, tier.id).expect("annotations");
             (tier.name, rows.into_iter().map(|row| row.id).collect())
         })
         .collect()
@@ -96,7 +87,7 @@ fn a_tier_that_the_file_renamed_keeps_its_annotations_and_edits() {
         let paths = [desk.file("one.eaf", &file(NAMES, 0))];
         let mut corpus = desk.corpus("c.chereme");
         again::take(&mut corpus, &paths, &ImportOptions::default());
-        let tokens = corpus.info().expect("info").counts["tokens"];
+        let tokens = corpus.load_corpus_info().expect("info").counts["tokens"];
         let before = rows(&corpus);
         if own_edits == OwnEdits::Merge {
             again::edit(&mut corpus, "W1", Some("mine"));
@@ -105,20 +96,16 @@ fn a_tier_that_the_file_renamed_keeps_its_annotations_and_edits() {
         let report = again::take(&mut corpus, &paths, &again::choose(own_edits));
         assert_eq!(report.files[0].status, FileStatus::Updated, "{report:?}");
         let edits = &report.files[0].edits;
-        let kept = edits
-            .iter()
-            .filter(|it| it.outcome == Outcome::Kept)
-            .count();
+        let kept = edits.iter().filter(|it| it.outcome == EditOutcome::Kept).count();
         assert_eq!(kept, edits.len(), "{report:?}");
-        let ids =
-            |all: &[(String, Vec<i64>)]| all.iter().map(|it| it.1.clone()).collect::<Vec<_>>();
+        let ids = |all: &[(String, Vec<i64>)]| all.iter().map(|it| it.1.clone()).collect::<Vec<_>>();
         let after = rows(&corpus);
         assert_eq!(ids(&after), ids(&before), "the rows are the same");
         let found: Vec<&str> = after.iter().map(|it| it.0.as_str()).collect();
         assert_eq!(found, names);
         let kept = said(&corpus).iter().any(|it| it.ends_with(" mine"));
         assert_eq!(kept, own_edits == OwnEdits::Merge, "{:?}", said(&corpus));
-        assert_eq!(corpus.info().expect("info").counts["tokens"], tokens);
+        assert_eq!(corpus.load_corpus_info().expect("info").counts["tokens"], tokens);
         assert!(
             again::has(&report.files[0].findings, "it has the new name here, too"),
             "{report:?}"
@@ -148,10 +135,7 @@ fn a_tier_that_the_file_lost_moves_with_the_annotations_above() {
         again::take(&mut moved, &other, &ImportOptions::default());
         assert_eq!(said(&corpus), said(&moved));
         assert!(
-            again::has(
-                &report.files[0].findings,
-                "moved with the annotations above them"
-            ),
+            again::has(&report.files[0].findings, "moved with the annotations above them"),
             "{report:?}"
         );
         assert_whole(&mut corpus);

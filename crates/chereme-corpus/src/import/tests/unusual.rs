@@ -7,9 +7,9 @@ use super::*;
 
 /// Imports paths and returns the complete report.
 fn take(corpus: &mut Corpus, paths: &[PathBuf]) -> ImportReport {
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    let report = corpus.import(paths, &options, &mut Progress::new(&mut hear));
+    let report = corpus.import_paths(paths, &options, &mut ProgressReceiver::new(&mut hear));
     report.expect("imported")
 }
 
@@ -24,7 +24,7 @@ fn folder(desk: &Desk, name: &[u8], files: &[(&[u8], String)]) -> PathBuf {
 }
 
 fn names(corpus: &Corpus) -> Vec<String> {
-    let all = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    let all = crate::db::stored_recordings::load_recording_rows(corpus.store.read_connection()).expect("recordings");
     all.into_iter().map(|row| row.name).collect()
 }
 
@@ -45,11 +45,7 @@ fn files_whose_names_are_not_utf8_stay_recordings_of_their_own() {
     // A folder's name distinguishes files as well, and a file is found again.
     let other: [(&[u8], _); 1] = [(b"take.eaf", first)];
     let folders = [b"in\xff", b"in\xfe"].map(|name| folder(&desk, name, &other));
-    fs::write(
-        folders[1].join("take.eaf"),
-        eaf(&[("Gloss", 0, 400, "THIRD")]),
-    )
-    .expect("written");
+    fs::write(folders[1].join("take.eaf"), eaf(&[("Gloss", 0, 400, "THIRD")])).expect("written");
     take(&mut corpus, &folders);
     assert_eq!(names(&corpus).len(), 4, "{:?}", names(&corpus));
     let again = take(&mut corpus, &folders);
@@ -68,10 +64,7 @@ fn a_name_that_is_as_text_that_of_another_file_is_refused() {
     let report = take(&mut corpus, &[folder(&desk, b"in", &files)]);
     let count = |status| report.files.iter().filter(|it| it.status == status).count();
     assert_eq!(count(FileStatus::Imported), 1);
-    let refused = report
-        .files
-        .iter()
-        .find(|it| it.status == FileStatus::Refused);
+    let refused = report.files.iter().find(|it| it.status == FileStatus::Refused);
     let finding = &refused.expect("refused").findings[0];
     assert!(finding.message.contains("not UTF-8"), "{}", finding.message);
     assert!(finding.remedy.is_some());
@@ -90,26 +83,19 @@ fn pipes_are_left_out_of_folders_and_refused_by_name_without_a_wait() {
     assert!(made.expect("run").success());
     let report = take(&mut corpus, &[folder]);
     assert!(!report.has_refusals());
-    let skipped = report
-        .files
-        .iter()
-        .filter(|it| it.status == FileStatus::Skipped);
+    let skipped = report.files.iter().filter(|it| it.status == FileStatus::Skipped);
     let skipped: Vec<&ReportFinding> = skipped.flat_map(|it| &it.findings).collect();
     assert_eq!(skipped.len(), 3);
     for finding in skipped {
-        assert!(
-            finding.message.contains("no regular file"),
-            "{}",
-            finding.message
-        );
+        assert!(finding.message.contains("no regular file"), "{}", finding.message);
         assert!(finding.remedy.is_some());
     }
     assert_eq!(names(&corpus), ["take"]);
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let options = ImportOptions::default();
-    let alone = corpus.import(&pipes[..1], &options, &mut Progress::new(&mut hear));
+    let alone = corpus.import_paths(&pipes[..1], &options, &mut ProgressReceiver::new(&mut hear));
     let error = alone.expect_err("refused");
-    assert!(error.to_string().contains("no regular file") && error.remedy().is_some());
+    assert!(error.to_string().contains("no regular file") && error.error_remedy().is_some());
 }
 
 #[test]
@@ -121,22 +107,19 @@ fn files_too_large_to_be_read_whole_are_refused_before_any_of_it_is_read() {
         let file = fs::File::options().write(true).open(&path).expect("open");
         file.set_len(12 << 30).expect("set");
         // A file that is read after all reports its bytes.
-        let mut stop = |step: Step<'_>| match step.unit {
-            Unit::Bytes => std::ops::ControlFlow::Break(()),
+        let mut stop = |step: ProgressStep<'_>| match step.unit {
+            ProgressUnit::Bytes => std::ops::ControlFlow::Break(()),
             _ => std::ops::ControlFlow::Continue(()),
         };
         let options = ImportOptions::default();
-        let report = corpus.import(
+        let report = corpus.import_paths(
             std::slice::from_ref(&path),
             &options,
-            &mut Progress::new(&mut stop),
+            &mut ProgressReceiver::new(&mut stop),
         );
         let refused = report.expect(name).files.remove(0);
         assert_eq!(refused.status, FileStatus::Refused, "{name}");
-        assert_eq!(
-            refused.findings[0].message,
-            "the file has 12884901888 bytes"
-        );
+        assert_eq!(refused.findings[0].message, "the file has 12884901888 bytes");
         fs::remove_file(path).expect("removed");
     }
 }
@@ -202,7 +185,7 @@ fn movement_that_was_lost_for_a_while_is_reported_in_both_languages() {
         .filter(|it| it.message.contains("lost here"))
         .collect();
     assert_eq!((said.len(), said[0].severity), (1, "warning"));
-    let french = crate::words::message(&said[0].message, crate::words::Language::French)
+    let french = crate::words::localized_message(&said[0].message, crate::words::InterfaceLanguage::French)
         .expect("a French form");
     let is_french = french.contains("perdu ici : images 180 à 191 : le bras droit saute");
     assert!(is_french, "{french}");
@@ -225,13 +208,11 @@ fn annotations_whose_tier_became_a_root_tier_lose_their_parents() {
             }
         )
     };
-    let kind = "<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"a\" TIME_ALIGNABLE=\"false\" CONSTRAINTS=\"Symbolic_Association\"/>";
+    let kind =
+        "<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"a\" TIME_ALIGNABLE=\"false\" CONSTRAINTS=\"Symbolic_Association\"/>";
     let with = |tiers: String| {
         let text = whole.replacen("<LINGUISTIC_TYPE ", &format!("{tiers}<LINGUISTIC_TYPE "), 1);
-        text.replace(
-            "</ANNOTATION_DOCUMENT>",
-            &format!("{kind}</ANNOTATION_DOCUMENT>"),
-        )
+        text.replace("</ANNOTATION_DOCUMENT>", &format!("{kind}</ANNOTATION_DOCUMENT>"))
     };
     let deep = (0..200).map(|place| match place {
         0 => below("t0", "Gloss", 0),
@@ -251,20 +232,12 @@ fn annotations_whose_tier_became_a_root_tier_lose_their_parents() {
     ] {
         let report = import(&mut corpus, &desk.file(name, &text), "{}");
         let has_text = |it: &ReportFinding| it.message.contains(wanted);
-        assert!(
-            report.findings.iter().any(has_text),
-            "{:?}",
-            report.findings
-        );
-        let mut hear = unheard;
+        assert!(report.findings.iter().any(has_text), "{:?}", report.findings);
+        let mut hear = ignore_progress_step;
         let checked = corpus
-            .check(false, &mut Progress::new(&mut hear))
+            .check_corpus(false, &mut ProgressReceiver::new(&mut hear))
             .expect("checked");
-        assert_eq!(
-            (checked.faults, checked.questions),
-            (vec![], vec![]),
-            "{name}"
-        );
+        assert_eq!((checked.faults, checked.questions), (vec![], vec![]), "{name}");
     }
 }
 
@@ -275,8 +248,8 @@ fn a_value_that_no_person_wrote_is_refused_with_its_place() {
     let longest = "x".repeat(1 << 20);
     for (value, fits) in [(longest.clone(), true), (longest + "x", false)] {
         let file = desk.file("long.eaf", &eaf(&[("Gloss", 0, 500, &value)]));
-        let (mut hear, options) = (unheard, ImportOptions::default());
-        let report = corpus.import(&[file], &options, &mut Progress::new(&mut hear));
+        let (mut hear, options) = (ignore_progress_step, ImportOptions::default());
+        let report = corpus.import_paths(&[file], &options, &mut ProgressReceiver::new(&mut hear));
         let report = report.expect("a report").files.remove(0);
         assert_eq!(report.status == FileStatus::Refused, !fits, "{report:?}");
         let has_text = |it: &ReportFinding| it.message.contains("a value has at most 1048576");
@@ -286,10 +259,7 @@ fn a_value_that_no_person_wrote_is_refused_with_its_place() {
 
 /// Returns the findings of a report whose messages contain a text, each with a French form.
 fn findings<'a>(report: &'a FileReport, text: &str) -> Vec<&'a ReportFinding> {
-    let found = report
-        .findings
-        .iter()
-        .filter(|it| it.message.contains(text));
+    let found = report.findings.iter().filter(|it| it.message.contains(text));
     let found: Vec<&ReportFinding> = found.collect();
     for finding in &found {
         let texts = [
@@ -297,7 +267,7 @@ fn findings<'a>(report: &'a FileReport, text: &str) -> Vec<&'a ReportFinding> {
             finding.remedy.as_ref().map(ToString::to_string),
         ];
         for text in texts.into_iter().flatten() {
-            let french = crate::words::message(&text, crate::words::Language::French);
+            let french = crate::words::localized_message(&text, crate::words::InterfaceLanguage::French);
             assert!(french.is_some(), "no French for {text}");
         }
     }
@@ -309,41 +279,31 @@ fn a_take_in_which_no_joint_turns_is_a_warning_and_gets_no_proposals() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let capture = changed_capture("chat", &[], |_, number| number.to_owned());
-    let names = capture
-        .lines()
-        .filter_map(|line| line.trim().strip_prefix("JOINT "));
+    let names = capture.lines().filter_map(|line| line.trim().strip_prefix("JOINT "));
     let joints: Vec<&str> = names.collect();
     let still = changed_capture("chat", &joints, |_, _| "1".to_owned());
     let still = desk.file("still.bvh", &still);
     let moving = desk.file("moving.bvh", &capture);
-    let tiers = ["still.eaf", "moving.eaf"]
-        .map(|name| desk.file(name, &eaf(&[("Gloss", 300, 900, "CHAT")])));
+    let tiers = ["still.eaf", "moving.eaf"].map(|name| desk.file(name, &eaf(&[("Gloss", 300, 900, "CHAT")])));
     let [a, b] = tiers;
     let report = take(&mut corpus, &[still, moving, a, b]);
     let warned = |name: &str| {
-        let report = report
-            .files
-            .iter()
-            .find(|it| it.path.ends_with(name))
-            .expect(name);
+        let report = report.files.iter().find(|it| it.path.ends_with(name)).expect(name);
         let found = findings(report, "no joint of the body turns");
         found.iter().filter(|it| it.severity == "warning").count()
     };
     assert_eq!((warned("still.bvh"), warned("moving.bvh")), (1, 0));
     let options = crate::ProposeOptions {
-        components: crate::Proposed::COMPONENTS.to_vec(),
+        components: crate::ProposalResult::READABLE_COMPONENTS.to_vec(),
         scope: crate::ProposeScope::All,
     };
-    let mut hear = unheard;
-    let proposed = corpus.propose(&options, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let proposed = corpus.propose_components(&options, &mut ProgressReceiver::new(&mut hear));
     let proposed = proposed.expect("proposals");
     assert_eq!(proposed.recordings, ["moving"], "{proposed:?}");
     let finding = "nothing is proposed for takes in which no joint of the body turns: still";
-    assert!(
-        proposed.findings.iter().any(|it| it == finding),
-        "{proposed:?}"
-    );
-    assert!(crate::words::message(finding, crate::words::Language::French).is_some());
+    assert!(proposed.findings.iter().any(|it| it == finding), "{proposed:?}");
+    assert!(crate::words::localized_message(finding, crate::words::InterfaceLanguage::French).is_some());
 }
 
 #[test]
@@ -364,22 +324,17 @@ fn frames_that_are_left_out_are_neither_transcribed_nor_played() {
     let report = take(&mut corpus, &[leaping, tiers]);
     let found = findings(&report.files[0], "no part of the movement");
     assert_eq!(found.len(), 1, "{:?}", report.files[0].findings);
-    let address = |text: &str| text.parse::<crate::Address>().expect("an address");
-    let used = corpus
-        .usable_movement(&address("recording:1"))
-        .expect("movement");
-    assert_eq!(used.clip.frames(), cut);
-    let token = corpus
-        .usable_movement(&address("token:1"))
-        .expect("movement")
-        .clip;
-    let last = used.clip.rate().instant(cut);
-    assert_eq!(token.frames(), cut - 18);
+    let address = |text: &str| text.parse::<crate::CorpusAddress>().expect("an address");
+    let used = corpus.usable_movement(&address("recording:1")).expect("movement");
+    assert_eq!(used.clip.clip_frame_count(), cut);
+    let token = corpus.usable_movement(&address("token:1")).expect("movement").clip;
+    let last = used.clip.clip_frame_rate().frame_start_instant(cut);
+    assert_eq!(token.clip_frame_count(), cut - 18);
     for named in ["recording:1", "token:1"] {
-        let mut hear = unheard;
-        let read = corpus.transcribe(&address(named), &mut Progress::new(&mut hear));
+        let mut hear = ignore_progress_step;
+        let read = corpus.transcribe_movement(&address(named), &mut ProgressReceiver::new(&mut hear));
         let read = read.expect("a transcription");
-        assert!(read.end_us <= last.micros(), "{named}: {}", read.end_us);
+        assert!(read.end_us <= last.instant_micros(), "{named}: {}", read.end_us);
     }
 }
 
@@ -398,40 +353,31 @@ fn a_leap_in_the_middle_of_a_long_take_cuts_its_usable_frames() {
     });
     let frames = frame_count(&sound);
     let (header, _) = sound.split_once("Frame Time:").expect("frames");
-    let header = header.replace(
-        &format!("Frames: {frames}"),
-        &format!("Frames: {}", 10 * frames),
-    );
+    let header = header.replace(&format!("Frames: {frames}"), &format!("Frames: {}", 10 * frames));
     let moving = |text: &str| {
         let (_, frames) = text.split_once("Frame Time:").expect("frames");
         let (time, frames) = frames.split_once('\n').expect("a time");
         (time.to_owned(), frames.to_owned())
     };
     let (time, whole) = moving(&sound);
-    let parts = [
-        whole.repeat(2),
-        moving(&leaping).1,
-        moving(&away).1.repeat(7),
-    ];
+    let parts = [whole.repeat(2), moving(&leaping).1, moving(&away).1.repeat(7)];
     let long = format!("{header}Frame Time:{time}\n{}", parts.concat());
     let report = take(&mut corpus, &[desk.file("long.bvh", &long)]);
     let found = findings(&report.files[0], "no part of the movement");
     let cut = 2 * frames + 100;
     assert!(
-        found[0]
-            .message
-            .contains(&format!("frames 0 to {}", cut - 1)),
+        found[0].message.contains(&format!("frames 0 to {}", cut - 1)),
         "{found:?}"
     );
-    let address = "recording:1".parse::<crate::Address>().expect("an address");
+    let address = "recording:1".parse::<crate::CorpusAddress>().expect("an address");
     let used = corpus.usable_movement(&address).expect("movement");
-    assert_eq!(used.clip.frames(), 10 * frames - cut);
-    let early = chereme_motion::Span::between(
-        chereme_motion::Instant::ZERO,
-        used.clip.rate().instant(cut + 5),
+    assert_eq!(used.clip.clip_frame_count(), 10 * frames - cut);
+    let early = chereme_motion::TimeSpan::span_between(
+        chereme_motion::RecordingInstant::RECORDING_START,
+        used.clip.clip_frame_rate().frame_start_instant(cut + 5),
     );
     let part = corpus.usable_part(&address, Some(early)).expect("a span");
-    assert_eq!(used.clip.rate().frames_in(part), cut..cut + 5);
+    assert_eq!(used.clip.clip_frame_rate().frames_in(part), cut..cut + 5);
 }
 
 #[test]
@@ -458,48 +404,41 @@ fn finger_bones_over_twice_as_long_as_usual_are_drawn_and_measured_at_the_usual_
     let long = lines.collect::<String>();
     let files = [desk.file("long.bvh", &long), desk.file("sound.bvh", &sound)];
     let report = take(&mut corpus, &files);
-    let found = findings(
-        &report.files[0],
-        "these finger bones are over twice as long",
-    );
+    let found = findings(&report.files[0], "these finger bones are over twice as long");
     assert!(found[0].message.ends_with("RightHandRing2"), "{found:?}");
     let [long_clip, sound_clip] = ["long", "sound"].map(|name| {
-        let address = format!("recording:{name}").parse::<crate::Address>();
-        let moving = corpus.movement(&address.expect("an address"));
+        let address = format!("recording:{name}").parse::<crate::CorpusAddress>();
+        let moving = corpus.movement_at_address(&address.expect("an address"));
         moving.expect("movement").clip
     });
-    for (joint, of_long) in long_clip.skeleton().joints().iter().enumerate() {
-        let own = sound_clip.skeleton().joint(joint).offset;
+    for (joint, of_long) in long_clip.clip_skeleton().skeleton_joints().iter().enumerate() {
+        let own = sound_clip.clip_skeleton().joint_at(joint).offset;
         let off = of_long.offset.distance(own) / own.length().max(0.01);
         assert!(off < 0.3, "{}: {} for {own}", of_long.name, of_long.offset);
     }
     // The file comes back with its own numbers.
     let back = desk.folder.path().join("back.bvh");
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     let what = crate::ExportWhat::Address("recording:long".parse().expect("an address"));
     corpus
-        .export(
+        .export_corpus(
             &what,
             &back,
             &crate::ExportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("exported");
     let back = fs::read_to_string(&back).expect("read");
     let offsets = |text: &str| {
         let words = text.split_whitespace().map(str::to_owned);
-        words
-            .take_while(|word| word != "MOTION")
-            .collect::<Vec<_>>()
+        words.take_while(|word| word != "MOTION").collect::<Vec<_>>()
     };
     assert_eq!(offsets(&back), offsets(&long));
 }
 
 /// Returns the number of frames of a BVH file.
 fn frame_count(text: &str) -> usize {
-    let count = text
-        .lines()
-        .find_map(|line| line.trim().strip_prefix("Frames:"));
+    let count = text.lines().find_map(|line| line.trim().strip_prefix("Frames:"));
     count
         .and_then(|count| count.trim().parse().ok())
         .expect("a number of frames")

@@ -5,14 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
 use proptest::prelude::*;
 
-use super::{Decision, MergeReport};
+use super::{ConflictDecision, MergeReport};
 use crate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Corpus, ImportOptions,
-    Progress, TierName, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Corpus, ImportOptions, ProgressReceiver,
+    TierRequestName, ignore_progress_step,
 };
 
 const EAF: &str = include_str!("../tests.eaf");
@@ -20,16 +20,13 @@ const EAF: &str = include_str!("../tests.eaf");
 /// Imports a text of EAF into a new corpus, and returns the bytes of the corpus.
 fn corpus_of(eaf: &str) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a folder");
-    let (file, path) = (
-        folder.path().join("film.eaf"),
-        folder.path().join("c.chereme"),
-    );
+    let (file, path) = (folder.path().join("film.eaf"), folder.path().join("c.chereme"));
     fs::write(&file, eaf).expect("written");
-    let mut corpus = Corpus::create(&path, "A").expect("made");
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut corpus = Corpus::create_corpus(&path, "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     corpus
-        .import(&[file], &ImportOptions::default(), progress)
+        .import_paths(&[file], &ImportOptions::default(), progress)
         .expect("imported");
     drop(corpus);
     fs::read(path).expect("a corpus")
@@ -52,14 +49,14 @@ impl Copies {
     }
 
     fn open(&self, name: &str) -> Corpus {
-        Corpus::open(&self.path(name), name).expect("opened")
+        Corpus::open_corpus(&self.path(name), name).expect("opened")
     }
 }
 
 fn merge(mine: &mut Corpus, other: &Path) -> MergeReport {
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    mine.merge(other, None, progress).expect("merged")
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    mine.merge_corpus(other, None, progress).expect("merged")
 }
 
 /// An annotation: its row, tier, start, end and value, times in milliseconds.
@@ -68,7 +65,7 @@ type Said = (i64, String, i64, i64, String);
 fn annotations(corpus: &Corpus) -> Vec<Said> {
     let sql = "SELECT a.id, t.name, a.start_us / 1000, a.end_us / 1000, a.value FROM annotation a
          JOIN tier t ON t.id = a.tier_id ORDER BY t.name, a.start_us, a.end_us, a.value";
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     let mut statement = connection.prepare(sql).expect("a query");
     let rows = statement
         .query_map([], |row| {
@@ -88,14 +85,14 @@ fn said(corpus: &Corpus) -> Vec<(String, i64, i64, String)> {
 /// Changes a corpus in one operation; returns whether its rules allowed that.
 fn change(corpus: &mut Corpus, actions: Vec<AnnotationAction>) -> bool {
     let changes: Vec<AnnotationChange> = actions.into_iter().map(Into::into).collect();
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    let done = corpus.annotate(&changes, &AnnotateOptions::default(), progress);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let done = corpus.annotate_corpus(&changes, &AnnotateOptions::default(), progress);
     done.is_ok()
 }
 
-fn moment(millis: i64) -> Option<Moment> {
-    Some(Moment::Time(Instant::from_millis(millis)))
+fn moment(millis: i64) -> Option<TableMoment> {
+    Some(TableMoment::Time(RecordingInstant::from_millis(millis)))
 }
 
 fn set(id: i64, [start, end]: [Option<i64>; 2], value: Option<String>) -> AnnotationAction {
@@ -109,7 +106,7 @@ fn set(id: i64, [start, end]: [Option<i64>; 2], value: Option<String>) -> Annota
 
 fn add(tier: i64, start: i64, end: i64, value: String) -> AnnotationAction {
     AnnotationAction::Add {
-        tier: TierName::Number(tier),
+        tier: TierRequestName::Number(tier),
         start: moment(start),
         end: moment(end),
         parent: None,
@@ -154,14 +151,14 @@ fn start() -> &'static [u8] {
 
 fn operations(corpus: &Corpus) -> i64 {
     let sql = "SELECT count(*) FROM operation";
-    let count = corpus.store.read().query_row(sql, [], |row| row.get(0));
+    let count = corpus.store.read_connection().query_row(sql, [], |row| row.get(0));
     count.expect("a count")
 }
 
 fn is_whole(corpus: &mut Corpus) -> bool {
-    let mut hear = unheard;
-    let report = corpus.check(false, &mut Progress::new(&mut hear));
-    report.expect("checked").findings().next().is_none()
+    let mut hear = ignore_progress_step;
+    let report = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut hear));
+    report.expect("checked").all_findings().next().is_none()
 }
 
 fn deeds() -> impl Strategy<Value = Vec<Deed>> {
@@ -222,7 +219,7 @@ proptest! {
         prop_assert!(again.added.is_empty() && again.changed.is_empty() && again.removed.is_empty(), "{again:?}");
         prop_assert_eq!(said(&mine), merged);
         for _ in before..operations(&mine) {
-            mine.undo().expect("undone");
+            mine.undo_operation().expect("undone");
         }
         prop_assert_eq!(said(&mine), own);
     }
@@ -236,17 +233,17 @@ proptest! {
         let report = merge(&mut mine, &copies.path("theirs"));
         let before = said(&mine);
         for conflict in &report.conflicts {
-            mine.decide(&[conflict.number], Decision::Theirs).expect("decided");
+            mine.decide_conflicts(&[conflict.number], ConflictDecision::Theirs).expect("decided");
             let there = said(&mine);
             match &conflict.theirs {
                 Some(side) => prop_assert!(there.iter().any(|it| it.3 == side.text), "{conflict:?}"),
                 None => prop_assert!(there.len() <= before.len()),
             }
         }
-        prop_assert!(mine.conflicts(false).expect("listed").is_empty());
+        prop_assert!(mine.merge_conflicts(false).expect("listed").is_empty());
         prop_assert!(is_whole(&mut mine));
         for _ in &report.conflicts {
-            mine.undo().expect("undone");
+            mine.undo_operation().expect("undone");
         }
         prop_assert_eq!(said(&mine), before);
     }
@@ -378,16 +375,10 @@ fn an_hour_of_two_annotators_in_two_corpora_is_merged_without_loss() {
         want.extend(all);
         disagree += usize::from(no);
     }
-    let found: BTreeSet<(i64, i64, String)> = said(&mine)
-        .into_iter()
-        .map(|it| (it.1, it.2, it.3))
-        .collect();
+    let found: BTreeSet<(i64, i64, String)> = said(&mine).into_iter().map(|it| (it.1, it.2, it.3)).collect();
     let lost: Vec<_> = want.difference(&found).collect();
     let strange: Vec<_> = found.difference(&want).collect();
-    assert!(
-        lost.is_empty() && strange.is_empty(),
-        "{lost:?} {strange:?}"
-    );
+    assert!(lost.is_empty() && strange.is_empty(), "{lost:?} {strange:?}");
     assert_eq!(report.conflicts.len(), disagree);
     assert!(disagree > 100);
     let candidates: BTreeSet<&str> = report

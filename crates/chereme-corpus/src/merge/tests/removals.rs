@@ -4,15 +4,15 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
+use chereme_formats::table::annotations::TableMoment;
+use chereme_motion::RecordingInstant;
 use proptest::prelude::*;
 use rusqlite::types::Value as Cell;
 
-use super::{Decision, MergeReport};
+use super::{ConflictDecision, MergeReport};
 use crate::{
-    Address, AnnotateOptions, AnnotationAction, AnnotationName, Corpus, DeleteOptions,
-    ImportOptions, Name, Progress, TierName, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationName, Corpus, CorpusAddress, DeleteOptions, ImportOptions,
+    ProgressReceiver, RowName, TierRequestName, ignore_progress_step,
 };
 
 /// Two copies of a corpus with two captured signs and a lexicon.
@@ -36,10 +36,10 @@ fn base() -> &'static [u8] {
                 fs::write(path(&name.to_string_lossy()), bytes).expect("written");
             }
         }
-        let mut corpus = Corpus::create(&path("base.chereme"), "A").expect("made");
+        let mut corpus = Corpus::create_corpus(&path("base.chereme"), "A").expect("made");
         let options = ImportOptions::default();
         corpus
-            .import(&files, &options, &mut Progress::new(&mut unheard))
+            .import_paths(&files, &options, &mut ProgressReceiver::new(&mut ignore_progress_step))
             .expect("imported");
         drop(corpus);
         fs::read(path("base.chereme")).expect("read")
@@ -52,20 +52,18 @@ impl Copies {
         let open = |name: &str| {
             let path = folder.path().join(name);
             fs::write(&path, base()).expect("written");
-            Corpus::open(&path, name).expect("opened")
+            Corpus::open_corpus(&path, name).expect("opened")
         };
         let (mine, theirs) = (open("mine.chereme"), open("theirs.chereme"));
-        Self {
-            folder,
-            mine,
-            theirs,
-        }
+        Self { folder, mine, theirs }
     }
 
     fn merge(&mut self) -> MergeReport {
         let other = self.folder.path().join("theirs.chereme");
-        let mut hear = unheard;
-        let report = self.mine.merge(&other, None, &mut Progress::new(&mut hear));
+        let mut hear = ignore_progress_step;
+        let report = self
+            .mine
+            .merge_corpus(&other, None, &mut ProgressReceiver::new(&mut hear));
         report.expect("merged")
     }
 }
@@ -86,7 +84,7 @@ fn rows(corpus: &Corpus) -> Vec<String> {
         "SELECT s.gloss, v.component, v.value FROM token k JOIN sign s ON s.id = k.sign_id
          JOIN token_value v ON v.token_id = k.id",
     ] {
-        let mut statement = corpus.store.read().prepare(sql).expect("a query");
+        let mut statement = corpus.store.read_connection().prepare(sql).expect("a query");
         let count = statement.column_count();
         let found = statement.query_map([], |row| {
             let cells = (0..count).map(|at| row.get::<_, Cell>(at));
@@ -103,24 +101,24 @@ fn annotation(corpus: &Corpus, recording: &str, value: &str) -> AnnotationName {
                JOIN recording r ON r.id = t.recording_id WHERE r.name = ?1 AND a.value = ?2";
     let id = corpus
         .store
-        .read()
+        .read_connection()
         .query_row(sql, [recording, value], |row| row.get(0));
     AnnotationName::Number(id.expect("an annotation"))
 }
 
 fn act(corpus: &mut Corpus, action: AnnotationAction) {
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .annotate(
+        .annotate_corpus(
             &[action.into()],
             &AnnotateOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("annotated");
 }
 
-fn moment(millis: i64) -> Option<Moment> {
-    Some(Moment::Time(Instant::from_millis(millis)))
+fn moment(millis: i64) -> Option<TableMoment> {
+    Some(TableMoment::Time(RecordingInstant::from_millis(millis)))
 }
 
 fn set(corpus: &mut Corpus, value: &str, new: Option<&str>, start: Option<i64>) {
@@ -137,9 +135,9 @@ fn set(corpus: &mut Corpus, value: &str, new: Option<&str>, start: Option<i64>) 
 fn add(corpus: &mut Corpus, tier: &str, value: &str, [start, end]: [i64; 2]) {
     let sql = "SELECT t.id FROM tier t JOIN recording r ON r.id = t.recording_id
                WHERE r.name = 'bol' AND t.name = ?1";
-    let id = corpus.store.read().query_row(sql, [tier], |row| row.get(0));
+    let id = corpus.store.read_connection().query_row(sql, [tier], |row| row.get(0));
     let action = AnnotationAction::Add {
-        tier: TierName::Number(id.expect("a tier")),
+        tier: TierRequestName::Number(id.expect("a tier")),
         start: moment(start),
         end: moment(end),
         parent: None,
@@ -150,22 +148,22 @@ fn add(corpus: &mut Corpus, tier: &str, value: &str, [start, end]: [i64; 2]) {
     act(corpus, action);
 }
 
-fn delete(corpus: &mut Corpus, address: Address) {
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+fn delete(corpus: &mut Corpus, address: CorpusAddress) {
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     corpus
-        .delete(&[address], DeleteOptions::default(), progress)
+        .delete_objects(&[address], DeleteOptions::default(), progress)
         .expect("deleted");
 }
 
 fn delete_bol(corpus: &mut Corpus) {
-    delete(corpus, Address::Recording(Name::Text("bol".into())));
+    delete(corpus, CorpusAddress::Recording(RowName::Text("bol".into())));
 }
 
 fn remove_tier(corpus: &mut Corpus, name: &str) {
-    let recording = Name::Text("bol".into());
+    let recording = RowName::Text("bol".into());
     corpus
-        .remove_tier(&TierName::Of {
+        .remove_tier(&TierRequestName::Of {
             recording,
             tier: name.into(),
         })
@@ -173,14 +171,14 @@ fn remove_tier(corpus: &mut Corpus, name: &str) {
 }
 
 fn assert_whole(corpus: &mut Corpus) {
-    let mut hear = unheard;
-    let report = corpus.check(false, &mut Progress::new(&mut hear));
+    let mut hear = ignore_progress_step;
+    let report = corpus.check_corpus(false, &mut ProgressReceiver::new(&mut hear));
     let report = report.expect("checked");
-    assert_eq!(report.findings().next(), None);
+    assert_eq!(report.all_findings().next(), None);
 }
 
 fn conflicts(corpus: &Corpus) -> Vec<(usize, String)> {
-    let all = corpus.conflicts(false).expect("listed").into_iter();
+    let all = corpus.merge_conflicts(false).expect("listed").into_iter();
     all.map(|it| (it.number, it.what)).collect()
 }
 
@@ -195,16 +193,16 @@ fn cases() -> Vec<(Act, Act, &'static str)> {
             notes: Some(Some("seen".into())),
             ..Default::default()
         };
-        let bol = Name::Text("bol".into());
+        let bol = RowName::Text("bol".into());
         corpus.change_recording(&bol, &notes).expect("changed");
     };
-    let without_slug: Act = |corpus| delete(corpus, Address::Sign(Name::Text("LIMACE".into())));
+    let without_slug: Act = |corpus| delete(corpus, CorpusAddress::Sign(RowName::Text("LIMACE".into())));
     let slug_noted: Act = |corpus| {
         let notes = crate::SignChange {
             notes: Some(Some("seen".into())),
             ..Default::default()
         };
-        let slug = Name::Text("LIMACE".into());
+        let slug = RowName::Text("LIMACE".into());
         corpus.change_sign(&slug, &notes).expect("changed");
     };
     let without_gloss: Act = |corpus| {
@@ -236,14 +234,14 @@ fn a_thing_that_is_removed_there_and_changed_here_stays_whole_until_somebody_dec
         assert_eq!(conflicts(&copies.mine), [(1, what.to_owned())]);
         assert_whole(&mut copies.mine);
         for (decision, after) in [
-            (Decision::Mine, &before),
-            (Decision::Both, &before),
-            (Decision::Theirs, &without),
+            (ConflictDecision::Mine, &before),
+            (ConflictDecision::Both, &before),
+            (ConflictDecision::Theirs, &without),
         ] {
-            copies.mine.decide(&[1], decision).expect("decided");
+            copies.mine.decide_conflicts(&[1], decision).expect("decided");
             assert_eq!(&rows(&copies.mine), after, "{what} {decision:?}");
             assert_whole(&mut copies.mine);
-            copies.mine.undo().expect("undone");
+            copies.mine.undo_operation().expect("undone");
             assert_eq!(rows(&copies.mine), before, "{what} {decision:?}");
         }
     }
@@ -262,22 +260,18 @@ fn a_thing_that_is_removed_here_and_changed_there_comes_back_whole_until_somebod
         assert_eq!(conflicts(&copies.mine), [(1, what.to_owned())]);
         assert_whole(&mut copies.mine);
         for (decision, after) in [
-            (Decision::Mine, &without),
-            (Decision::Both, &changed),
-            (Decision::Theirs, &changed),
+            (ConflictDecision::Mine, &without),
+            (ConflictDecision::Both, &changed),
+            (ConflictDecision::Theirs, &changed),
         ] {
-            copies.mine.decide(&[1], decision).expect("decided");
+            copies.mine.decide_conflicts(&[1], decision).expect("decided");
             assert_eq!(&rows(&copies.mine), after, "{what} {decision:?}");
             assert_whole(&mut copies.mine);
-            copies.mine.undo().expect("undone");
+            copies.mine.undo_operation().expect("undone");
         }
         let again = copies.merge();
         assert_eq!(rows(&copies.mine), changed, "{what}");
-        assert_eq!(
-            (again.added.len(), again.removed.len()),
-            (0, 0),
-            "{again:?}"
-        );
+        assert_eq!((again.added.len(), again.removed.len()), (0, 0), "{again:?}");
     }
 }
 
@@ -303,12 +297,15 @@ fn a_change_that_would_break_a_tier_rule_waits_for_a_decision() {
     assert_eq!(report.conflicts.len(), 1, "{report:?}");
     assert_eq!(rows(&copies.mine), before);
     assert_whole(&mut copies.mine);
-    let refused = copies.mine.decide(&[1], Decision::Theirs);
+    let refused = copies.mine.decide_conflicts(&[1], ConflictDecision::Theirs);
     let message = refused.expect_err("a broken rule").to_string();
     assert!(message.contains("must lie inside"), "{message}");
     assert_eq!(rows(&copies.mine), before);
     set(&mut copies.mine, "BOL", None, Some(1150));
-    copies.mine.decide(&[1], Decision::Theirs).expect("decided");
+    copies
+        .mine
+        .decide_conflicts(&[1], ConflictDecision::Theirs)
+        .expect("decided");
     assert_whole(&mut copies.mine);
     assert!(rows(&copies.mine).iter().any(|row| row.contains("1160000")));
 }
@@ -327,8 +324,11 @@ fn the_origin_of_a_moved_annotation_is_merged_and_both_glosses_make_tokens() {
     set(&mut copies.mine, "BOL", Some("M"), None);
     set(&mut copies.theirs, "BOL", Some("T"), None);
     copies.merge();
-    copies.mine.decide(&[1], Decision::Both).expect("decided");
-    let found = copies.mine.search("gloss:T", &Default::default());
+    copies
+        .mine
+        .decide_conflicts(&[1], ConflictDecision::Both)
+        .expect("decided");
+    let found = copies.mine.search_tokens("gloss:T", &Default::default());
     assert_eq!(found.expect("searched").hits.len(), 1);
     assert_whole(&mut copies.mine);
 }
@@ -341,12 +341,12 @@ fn a_signer_whom_both_renamed_is_one_conflict() {
             name: Some(name.to_owned()),
             ..Default::default()
         };
-        let signer = Name::Text("Camille (made)".into());
+        let signer = RowName::Text("Camille (made)".into());
         corpus.change_signer(&signer, &change).expect("changed");
     };
     let participants = |corpus: &Corpus, name: &str| -> i64 {
         let sql = "SELECT count(*) FROM tier WHERE participant = ?1";
-        let count = corpus.store.read().query_row(sql, [name], |row| row.get(0));
+        let count = corpus.store.read_connection().query_row(sql, [name], |row| row.get(0));
         count.expect("a number")
     };
     let all = participants(&copies.mine, "Camille (made)");
@@ -355,7 +355,10 @@ fn a_signer_whom_both_renamed_is_one_conflict() {
     copies.merge();
     assert_eq!(conflicts(&copies.mine), [(1, "signer".to_owned())]);
     assert_eq!(participants(&copies.mine, "Mina"), all);
-    copies.mine.decide(&[1], Decision::Theirs).expect("decided");
+    copies
+        .mine
+        .decide_conflicts(&[1], ConflictDecision::Theirs)
+        .expect("decided");
     assert_eq!(participants(&copies.mine, "Thea"), all);
     assert_whole(&mut copies.mine);
 }
@@ -369,23 +372,28 @@ fn tiers_keep_the_new_name_of_a_signer_if_the_decision_is_about_something_else()
             notes: Some(Some(notes.to_owned())),
             ..Default::default()
         };
-        let signer = Name::Text("Camille (made)".into());
+        let signer = RowName::Text("Camille (made)".into());
         corpus.change_signer(&signer, &change).expect("changed");
     };
     change(&mut copies.mine, Some("Mina"), "mine");
     change(&mut copies.theirs, None, "theirs");
     copies.merge();
-    copies.mine.decide(&[1], Decision::Theirs).expect("decided");
+    copies
+        .mine
+        .decide_conflicts(&[1], ConflictDecision::Theirs)
+        .expect("decided");
     let sql = "SELECT DISTINCT s.name, t.participant FROM tier t, signer s";
-    let row = copies.mine.store.read().query_row(sql, [], |row| {
-        Ok((row.get::<_, String>(0)?, row.get::<_, String>(1)?))
-    });
+    let row = copies
+        .mine
+        .store
+        .read_connection()
+        .query_row(sql, [], |row| Ok((row.get::<_, String>(0)?, row.get::<_, String>(1)?)));
     assert_eq!(row.expect("a row"), ("Mina".to_owned(), "Mina".to_owned()));
 }
 
 /// Tries a change of one copy, named by a number and a time; one that is refused changes nothing.
 fn tries(corpus: &mut Corpus, (deed, at): (u8, i64)) {
-    let id = |sql: &str| corpus.store.read().query_row(sql, [], |row| row.get(0));
+    let id = |sql: &str| corpus.store.read_connection().query_row(sql, [], |row| row.get(0));
     let of = |tier: &str| {
         format!(
             "JOIN tier t ON t.id = a.tier_id JOIN recording r ON r.id = t.recording_id WHERE r.name = 'bol' AND t.name = '{tier}'"
@@ -395,8 +403,8 @@ fn tries(corpus: &mut Corpus, (deed, at): (u8, i64)) {
         let sql = format!("SELECT a.id FROM annotation a {} LIMIT 1", of(tier));
         id(&sql).ok().map(AnnotationName::Number)
     };
-    let tier = |name: &str| TierName::Of {
-        recording: Name::Text("bol".into()),
+    let tier = |name: &str| TierRequestName::Of {
+        recording: RowName::Text("bol".into()),
         tier: name.to_owned(),
     };
     let set = |tier: &str, start: Option<i64>, end: Option<i64>, value: Option<&str>| {
@@ -438,18 +446,18 @@ fn tries(corpus: &mut Corpus, (deed, at): (u8, i64)) {
             None
         }
         _ => {
-            let bol = [Address::Recording(Name::Text("bol".into()))];
-            let mut hear = unheard;
-            let progress = &mut Progress::new(&mut hear);
-            let _ = corpus.delete(&bol, DeleteOptions::default(), progress);
+            let bol = [CorpusAddress::Recording(RowName::Text("bol".into()))];
+            let mut hear = ignore_progress_step;
+            let progress = &mut ProgressReceiver::new(&mut hear);
+            let _ = corpus.delete_objects(&bol, DeleteOptions::default(), progress);
             None
         }
     };
     if let Some(action) = action {
         let options = AnnotateOptions::default();
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
-        let _ = corpus.annotate(&[action.into()], &options, progress);
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
+        let _ = corpus.annotate_corpus(&[action.into()], &options, progress);
     }
 }
 
@@ -460,7 +468,7 @@ proptest! {
     fn a_merge_and_every_decision_keep_a_corpus_whole(
         mine in proptest::collection::vec((0..12_u8, 1000..1800_i64), 0..5),
         theirs in proptest::collection::vec((0..12_u8, 1000..1800_i64), 0..5),
-        decision in prop_oneof![Just(Decision::Mine), Just(Decision::Theirs), Just(Decision::Both)],
+        decision in prop_oneof![Just(ConflictDecision::Mine), Just(ConflictDecision::Theirs), Just(ConflictDecision::Both)],
     ) {
         let mut copies = Copies::new();
         mine.into_iter().for_each(|deed| tries(&mut copies.mine, deed));
@@ -469,10 +477,10 @@ proptest! {
         assert_whole(&mut copies.mine);
         for (number, _) in conflicts(&copies.mine) {
             let before = rows(&copies.mine);
-            match copies.mine.decide(&[number], decision) {
+            match copies.mine.decide_conflicts(&[number], decision) {
                 Ok(_) => assert_whole(&mut copies.mine),
                 Err(error) => {
-                    prop_assert!(error.remedy().is_some(), "{}", error);
+                    prop_assert!(error.error_remedy().is_some(), "{}", error);
                     prop_assert_eq!(rows(&copies.mine), before);
                 }
             }

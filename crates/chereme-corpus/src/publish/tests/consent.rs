@@ -9,22 +9,14 @@ use proptest::test_runner::TestRunner;
 
 use super::*;
 use crate::consent::tests::{any_audience, corpus};
-use crate::db::{recordings, tiers};
-use crate::{Audience, ConsentChange, Name, RecordingChange, SignChange, unheard};
+use crate::db::{stored_recordings, stored_tiers};
+use crate::{ConsentAudience, ConsentChange, RecordingChange, RowName, SignChange, ignore_progress_step};
 
 /// Generated signs with their recipes: one from one recording, one from two, one from a generated one with
 /// the handshape of another.
 const MADE: [(&str, &str, &[&str]); 3] = [
-    (
-        "QZMADEZQ",
-        "QZSNAILZQ | place both by up 2cm",
-        &["qzrecsnailzq"],
-    ),
-    (
-        "QZBOTHZQ",
-        "QZBOWLZQ then QZSNAILZQ",
-        &["qzrecbowlzq", "qzrecsnailzq"],
-    ),
+    ("QZMADEZQ", "QZSNAILZQ | place both by up 2cm", &["qzrecsnailzq"]),
+    ("QZBOTHZQ", "QZBOWLZQ then QZSNAILZQ", &["qzrecbowlzq", "qzrecsnailzq"]),
     (
         "QZDEEPZQ",
         "QZMADEZQ | configure right from QZBOWLZQ",
@@ -33,13 +25,7 @@ const MADE: [(&str, &str, &[&str]); 3] = [
 ];
 /// Captured signs: the recording of the starter corpus, its new name, the signer, the gloss before and after.
 const CAPTURED: [(&str, &str, &str, &str, &str); 2] = [
-    (
-        "escargot",
-        "qzrecsnailzq",
-        "Qzadazq",
-        "ESCARGOT",
-        "QZSNAILZQ",
-    ),
+    ("escargot", "qzrecsnailzq", "Qzadazq", "ESCARGOT", "QZSNAILZQ"),
     ("bol", "qzrecbowlzq", "Qzbeazq", "BOL", "QZBOWLZQ"),
 ];
 /// Everything that can have a consent.
@@ -62,19 +48,17 @@ fn world(folder: &Path) -> Corpus {
             signer: Some(Some(signer.into())),
             ..RecordingChange::default()
         };
-        let recording = Name::Text(old.into());
-        corpus
-            .change_recording(&recording, &change)
-            .expect("changed");
+        let recording = RowName::Text(old.into());
+        corpus.change_recording(&recording, &change).expect("changed");
         let change = SignChange {
             gloss: Some(gloss.into()),
             ..SignChange::default()
         };
-        let sign = Name::Text(before.into());
+        let sign = RowName::Text(before.into());
         corpus.change_sign(&sign, &change).expect("changed");
     }
     for (gloss, recipe, _) in MADE {
-        corpus.recombine(recipe, gloss).expect("generated");
+        corpus.recombine_recipe(recipe, gloss).expect("generated");
     }
     corpus
 }
@@ -82,14 +66,14 @@ fn world(folder: &Path) -> Corpus {
 /// The consents of a case, and the terms of the recordings.
 #[derive(Debug, Clone)]
 struct Case {
-    said: Vec<[Option<Audience>; 3]>,
+    said: Vec<[Option<ConsentAudience>; 3]>,
     licences: Vec<Option<&'static str>>,
 }
 
 fn any_case() -> impl Strategy<Value = Case> {
     // Most say yes, so that something is published.
     let audience = prop_oneof![
-        5 => Just(Some(Audience::Public)),
+        5 => Just(Some(ConsentAudience::Public)),
         2 => Just(None),
         1 => any_audience(),
     ];
@@ -118,12 +102,12 @@ impl Case {
                 licence: Some(licence.map(str::to_owned)),
                 ..RecordingChange::default()
             };
-            let name = Name::Text(name.into());
+            let name = RowName::Text(name.into());
             corpus.change_recording(&name, &change).expect("changed");
         }
     }
 
-    fn of(&self, subject: &str) -> [Option<Audience>; 3] {
+    fn of(&self, subject: &str) -> [Option<ConsentAudience>; 3] {
         let at = SUBJECTS.iter().position(|it| *it == subject);
         at.map_or([None; 3], |at| self.said[at])
     }
@@ -134,12 +118,9 @@ impl Case {
         let of = format!("recording:{recording}");
         let own = self.of(&of);
         let inputs = MADE.iter().find(|it| it.0 == recording).map(|it| it.2);
-        let at = SUBJECTS[2..]
-            .iter()
-            .position(|it| *it == of)
-            .expect("known");
+        let at = SUBJECTS[2..].iter().position(|it| *it == of).expect("known");
         let licence = self.licences[at];
-        let no = |said: Option<Audience>| said.is_some_and(|it| it != Audience::Public);
+        let no = |said: Option<ConsentAudience>| said.is_some_and(|it| it != ConsentAudience::Public);
         if no(own[kind]) {
             return false;
         }
@@ -158,10 +139,7 @@ impl Case {
             && terms
             && from.all(|input| {
                 let of = format!("recording:{input}");
-                let at = SUBJECTS[2..]
-                    .iter()
-                    .position(|it| *it == of)
-                    .expect("known");
+                let at = SUBJECTS[2..].iter().position(|it| *it == of).expect("known");
                 self.licences[at] != LICENCES[2] && self.may(input, 2, people)
             })
     }
@@ -169,15 +147,12 @@ impl Case {
 
 /// Returns text or bytes as letters of one byte each, so that both can be searched for.
 fn letters(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .map(|it| char::from(it.to_ascii_lowercase()))
-        .collect()
+    bytes.iter().map(|it| char::from(it.to_ascii_lowercase())).collect()
 }
 
 /// Returns the uids of everything in the corpus, as bytes and as digits.
 fn uids(corpus: &Corpus) -> Vec<String> {
-    let connection = corpus.store.read();
+    let connection = corpus.store.read_connection();
     let mut all = Vec::new();
     for table in ["sign", "recording", "token", "signer"] {
         let sql = format!("SELECT hex(uid), uid FROM {table}");
@@ -200,15 +175,15 @@ struct People {
 }
 
 fn people(corpus: &Corpus) -> People {
-    let connection = corpus.store.read();
-    let rows = recordings::recordings(connection).expect("read");
+    let connection = corpus.store.read_connection();
+    let rows = stored_recordings::load_recording_rows(connection).expect("read");
     let (mut signers, mut strangers) = (BTreeMap::new(), BTreeSet::new());
     for row in rows {
         let signer = row
             .signer_id
-            .map(|id| recordings::signer(connection, id).expect("read"));
+            .map(|id| stored_recordings::find_signer_row(connection, id).expect("read"));
         let signer = signer.flatten().map(|it| it.name);
-        let tiers = tiers::tiers(connection, row.id).expect("read");
+        let tiers = stored_tiers::load_tier_rows(connection, row.id).expect("read");
         let mut named = tiers.iter().filter_map(|it| it.participant.as_ref());
         if named.any(|it| Some(it) != signer.as_ref()) {
             strangers.insert(row.name.clone());
@@ -236,10 +211,10 @@ fn check(corpus: &mut Corpus, case: &Case, to: &Path) -> std::result::Result<(),
         }
     }
     let before = to.exists();
-    let done = corpus.publish(
+    let done = corpus.publish_dictionary(
         to,
         &PublishOptions::default(),
-        &mut Progress::new(&mut unheard),
+        &mut ProgressReceiver::new(&mut ignore_progress_step),
     );
     if shown.is_empty() && !before {
         prop_assert!(done.is_err() && !to.exists());
@@ -255,9 +230,7 @@ fn check(corpus: &mut Corpus, case: &Case, to: &Path) -> std::result::Result<(),
     );
     let files = files(to);
     let part = |start: &str, end: &str| -> BTreeSet<String> {
-        let names = files
-            .keys()
-            .filter_map(|it| it.strip_prefix(start)?.strip_suffix(end));
+        let names = files.keys().filter_map(|it| it.strip_prefix(start)?.strip_suffix(end));
         names.map(str::to_owned).collect()
     };
     prop_assert_eq!(&part("sign/", "/index.html"), &shown);
@@ -276,11 +249,7 @@ fn check(corpus: &mut Corpus, case: &Case, to: &Path) -> std::result::Result<(),
     }
     for gloss in still.iter().filter(|it| shown.contains(**it)) {
         let page = &files[&format!("sign/{gloss}/index.html")];
-        prop_assert!(
-            !String::from_utf8_lossy(page).contains("data-motion"),
-            "{}",
-            gloss
-        );
+        prop_assert!(!String::from_utf8_lossy(page).contains("data-motion"), "{}", gloss);
     }
     Ok(())
 }
@@ -303,7 +272,7 @@ fn nothing_without_public_consent_reaches_the_folder() {
         first.state(&mut corpus);
         check(&mut corpus, &first, &to)?;
         let mut second = first.clone();
-        second.said[withdraws] = [Some(Audience::Nobody); 3];
+        second.said[withdraws] = [Some(ConsentAudience::Nobody); 3];
         second.state(&mut corpus);
         check(&mut corpus, &second, &to)
     });
@@ -315,21 +284,15 @@ fn nothing_without_public_consent_reaches_the_folder() {
 fn the_name_of_a_folder_does_not_show_that_another_sign_exists() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    corpus
-        .recombine("BOL | mirror", "escargot")
-        .expect("generated");
+    corpus.recombine_recipe("BOL | mirror", "escargot").expect("generated");
     let to = folder.path().join("site");
-    consented(&mut corpus, "signer:Ada", Audience::Public);
-    consented(&mut corpus, "recording:escargot", Audience::Nobody);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
+    consented(&mut corpus, "recording:escargot", ConsentAudience::Nobody);
     let options = PublishOptions::default();
-    let done = corpus.publish(&to, &options, &mut Progress::new(&mut unheard));
+    let done = corpus.publish_dictionary(&to, &options, &mut ProgressReceiver::new(&mut ignore_progress_step));
     done.expect("published");
     let names = files(&to);
-    assert!(
-        names.contains_key("sign/escargot/index.html"),
-        "{:?}",
-        names.keys()
-    );
+    assert!(names.contains_key("sign/escargot/index.html"), "{:?}", names.keys());
     assert!(!names.keys().any(|it| it.contains('~')));
 }
 
@@ -339,13 +302,13 @@ fn the_last_sign_can_be_withdrawn() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
     let to = folder.path().join("site");
-    consented(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
     let publish = |corpus: &mut Corpus, query: Option<&str>| {
         let options = PublishOptions {
             query: query.map(str::to_owned),
             ..PublishOptions::default()
         };
-        corpus.publish(&to, &options, &mut Progress::new(&mut unheard))
+        corpus.publish_dictionary(&to, &options, &mut ProgressReceiver::new(&mut ignore_progress_step))
     };
     publish(&mut corpus, None).expect("published");
     let before = files(&to);
@@ -354,7 +317,7 @@ fn the_last_sign_can_be_withdrawn() {
     // Forgotten terms withdraw nothing.
     publish(&mut corpus, Some("gloss=LION")).expect_err("no terms are stated");
     assert_eq!(files(&to), before);
-    consented(&mut corpus, "signer:Ada", Audience::Nobody);
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Nobody);
     let done = publish(&mut corpus, None).expect("published");
     assert_eq!((done.signs, done.left_out.is_empty()), (0, false));
     assert!(files(&to).keys().all(|it| !it.starts_with("sign/")));

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use tantivy::query::{
-    BitSetDocSet, ConstScorer, EmptyScorer, EnableScoring, Explanation, Query, Scorer, Weight,
-};
+use tantivy::query::{BitSetDocSet, ConstScorer, EmptyScorer, EnableScoring, Explanation, Query, Scorer, Weight};
 use tantivy::schema::{Field, IndexRecordOption};
 use tantivy::{BitSet, DocId, DocSet, Score, SegmentReader, TERMINATED, TantivyError, Term};
 
@@ -27,24 +25,20 @@ impl AnyTerm {
     }
 
     /// Returns the query for these texts.
-    pub(crate) fn texts<T: AsRef<str>>(field: Field, texts: impl IntoIterator<Item = T>) -> Self {
+    pub(crate) fn any_text_term<T: AsRef<str>>(field: Field, texts: impl IntoIterator<Item = T>) -> Self {
         let terms = texts.into_iter();
         Self::new(
             field,
-            terms
-                .map(|text| Term::from_field_text(field, text.as_ref()))
-                .collect(),
+            terms.map(|text| Term::from_field_text(field, text.as_ref())).collect(),
         )
     }
 
     /// Returns the query for these numbers.
-    pub(crate) fn numbers(field: Field, numbers: impl IntoIterator<Item = i64>) -> Self {
+    pub(crate) fn any_number_term(field: Field, numbers: impl IntoIterator<Item = i64>) -> Self {
         let terms = numbers.into_iter();
         Self::new(
             field,
-            terms
-                .map(|number| Term::from_field_u64(field, number as u64))
-                .collect(),
+            terms.map(|number| Term::from_field_u64(field, number as u64)).collect(),
         )
     }
 }
@@ -58,11 +52,11 @@ impl Query for AnyTerm {
 impl Weight for AnyTerm {
     fn scorer(&self, reader: &SegmentReader, boost: Score) -> tantivy::Result<Box<dyn Scorer>> {
         let index = reader.inverted_index(self.field)?;
-        let mut found = Vec::new();
+        let mut term_infos = Vec::new();
         for term in self.terms.iter() {
-            found.extend(index.get_term_info(term)?);
+            term_infos.extend(index.get_term_info(term)?);
         }
-        match &found[..] {
+        match &term_infos[..] {
             [] => Ok(Box::new(EmptyScorer)),
             [one] => {
                 let docs = index.read_postings_from_terminfo(one, IndexRecordOption::Basic)?;
@@ -87,8 +81,8 @@ impl Weight for AnyTerm {
 
     fn explain(&self, reader: &SegmentReader, doc: DocId) -> tantivy::Result<Explanation> {
         let mut scorer = self.scorer(reader, 1.0)?;
-        let found = scorer.doc() != TERMINATED && scorer.doc() <= doc && scorer.seek(doc) == doc;
-        if found {
+        let is_match = scorer.doc() != TERMINATED && scorer.doc() <= doc && scorer.seek(doc) == doc;
+        if is_match {
             Ok(Explanation::new("AnyTerm", 1.0))
         } else {
             let message = format!("document {doc} does not match");

@@ -8,57 +8,52 @@ use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
 use tantivy::Directory;
 use tantivy::directory::error::{DeleteError, LockError, OpenReadError, OpenWriteError};
 use tantivy::directory::{
-    AntiCallToken, DirectoryLock, FileHandle, FileSlice, Lock, OwnedBytes, TerminatingWrite,
-    WatchCallback, WatchHandle, WritePtr,
+    AntiCallToken, DirectoryLock, FileHandle, FileSlice, Lock, OwnedBytes, TerminatingWrite, WatchCallback,
+    WatchHandle, WritePtr,
 };
 
 /// An in-memory folder of files that records its changes since it was last saved.
 #[derive(Clone, Default)]
-pub(super) struct MemoryFolder(Arc<RwLock<Files>>);
+pub(super) struct MemoryFolder(Arc<RwLock<MemoryFiles>>);
 
 #[derive(Default)]
-struct Files {
+struct MemoryFiles {
     data: BTreeMap<PathBuf, OwnedBytes>,
     written: BTreeSet<PathBuf>,
     deleted: BTreeSet<PathBuf>,
 }
 
 /// The changes of a [`MemoryFolder`]: files to write, and names to delete.
-pub(super) struct Changes {
+pub(super) struct FolderChanges {
     pub(super) written: Vec<(String, OwnedBytes)>,
     pub(super) deleted: Vec<String>,
 }
 
 impl MemoryFolder {
     /// Adds a file that has already been saved.
-    pub(super) fn add(&mut self, name: String, data: OwnedBytes) {
-        self.write().data.insert(PathBuf::from(name), data);
+    pub(super) fn add_saved_file(&mut self, name: String, data: OwnedBytes) {
+        self.write_memory_files().data.insert(PathBuf::from(name), data);
     }
 
     /// Returns a file whose content can never change, if it is in memory; files that describe others are rewritten
     /// under the same name and are not returned.
-    pub(super) fn unchanging(&self, name: &str) -> Option<OwnedBytes> {
+    pub(super) fn unchanging_file(&self, name: &str) -> Option<OwnedBytes> {
         if name.ends_with(".json") {
             return None;
         }
-        self.read().data.get(Path::new(name)).cloned()
+        self.read_memory_files().data.get(Path::new(name)).cloned()
     }
 
     /// Returns what has changed since the last call.
-    pub(super) fn take_changes(&self) -> Changes {
-        let mut files = self.write();
+    pub(super) fn take_changes(&self) -> FolderChanges {
+        let mut files = self.write_memory_files();
         let written = std::mem::take(&mut files.written);
         let deleted = std::mem::take(&mut files.deleted);
         let name = |path: &PathBuf| path.to_string_lossy().into_owned();
-        Changes {
+        FolderChanges {
             written: written
                 .iter()
-                .filter_map(|path| {
-                    files
-                        .data
-                        .get(path)
-                        .map(|bytes| (name(path), bytes.clone()))
-                })
+                .filter_map(|path| files.data.get(path).map(|bytes| (name(path), bytes.clone())))
                 .collect(),
             deleted: deleted
                 .iter()
@@ -68,20 +63,16 @@ impl MemoryFolder {
         }
     }
 
-    fn read(&self) -> RwLockReadGuard<'_, Files> {
-        self.0
-            .read()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    fn read_memory_files(&self) -> RwLockReadGuard<'_, MemoryFiles> {
+        self.0.read().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    fn write(&self) -> RwLockWriteGuard<'_, Files> {
-        self.0
-            .write()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    fn write_memory_files(&self) -> RwLockWriteGuard<'_, MemoryFiles> {
+        self.0.write().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    fn put(&self, path: &Path, bytes: Vec<u8>) {
-        let mut files = self.write();
+    fn put_memory_file(&self, path: &Path, bytes: Vec<u8>) {
+        let mut files = self.write_memory_files();
         files.data.insert(path.to_owned(), OwnedBytes::new(bytes));
         files.written.insert(path.to_owned());
         files.deleted.remove(path);
@@ -96,13 +87,13 @@ impl std::fmt::Debug for MemoryFolder {
 
 impl Directory for MemoryFolder {
     fn get_file_handle(&self, path: &Path) -> Result<Arc<dyn FileHandle>, OpenReadError> {
-        let bytes = self.read().data.get(path).cloned();
-        let bytes = bytes.ok_or_else(|| OpenReadError::FileDoesNotExist(path.to_owned()))?;
+        let stored_bytes = self.read_memory_files().data.get(path).cloned();
+        let bytes = stored_bytes.ok_or_else(|| OpenReadError::FileDoesNotExist(path.to_owned()))?;
         Ok(Arc::new(FileSlice::new(Arc::new(bytes))))
     }
 
     fn delete(&self, path: &Path) -> Result<(), DeleteError> {
-        let mut files = self.write();
+        let mut files = self.write_memory_files();
         files.written.remove(path);
         files.deleted.insert(path.to_owned());
         match files.data.remove(path) {
@@ -112,11 +103,11 @@ impl Directory for MemoryFolder {
     }
 
     fn exists(&self, path: &Path) -> Result<bool, OpenReadError> {
-        Ok(self.read().data.contains_key(path))
+        Ok(self.read_memory_files().data.contains_key(path))
     }
 
     fn open_write(&self, path: &Path) -> Result<WritePtr, OpenWriteError> {
-        if self.read().data.contains_key(path) {
+        if self.read_memory_files().data.contains_key(path) {
             return Err(OpenWriteError::FileAlreadyExists(path.to_owned()));
         }
         let file = NewFile {
@@ -128,7 +119,7 @@ impl Directory for MemoryFolder {
     }
 
     fn atomic_read(&self, path: &Path) -> Result<Vec<u8>, OpenReadError> {
-        let files = self.read();
+        let files = self.read_memory_files();
         let bytes = files.data.get(path);
         bytes
             .map(|bytes| bytes.to_vec())
@@ -136,7 +127,7 @@ impl Directory for MemoryFolder {
     }
 
     fn atomic_write(&self, path: &Path, data: &[u8]) -> io::Result<()> {
-        self.put(path, data.to_vec());
+        self.put_memory_file(path, data.to_vec());
         Ok(())
     }
 
@@ -173,7 +164,7 @@ impl Write for NewFile {
 
 impl TerminatingWrite for NewFile {
     fn terminate_ref(&mut self, _: AntiCallToken) -> io::Result<()> {
-        self.folder.put(&self.path, std::mem::take(&mut self.bytes));
+        self.folder.put_memory_file(&self.path, std::mem::take(&mut self.bytes));
         Ok(())
     }
 }

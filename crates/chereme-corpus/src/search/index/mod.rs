@@ -18,35 +18,33 @@
 
 mod any_term;
 mod directory;
-mod read;
+mod index_read;
 
 use std::cell::{Cell, RefCell, RefMut};
 
 use rusqlite::Connection;
 use tantivy::directory::OwnedBytes;
 use tantivy::indexer::NoMergePolicy;
-use tantivy::schema::{
-    FAST, Field, INDEXED, IndexRecordOption, Schema, TextFieldIndexing, TextOptions,
-};
+use tantivy::schema::{FAST, Field, INDEXED, IndexRecordOption, Schema, TextFieldIndexing, TextOptions};
 use tantivy::tokenizer::{SimpleTokenizer, TextAnalyzer};
 use tantivy::{Index, IndexReader, IndexWriter, ReloadPolicy, TantivyDocument, TantivyError, Term};
 
-use super::known::Memory;
-use crate::db::Derived;
-use crate::db::search::{self as rows, State, TokenDocument};
-use crate::error::{Error, Result};
+use super::search_known::QueryMemory;
+use crate::db::DerivedData;
+use crate::db::stored_search::{self as rows, SearchIndexState, TokenDocument};
+use crate::error::{CorpusError, CorpusResult};
 use crate::foreign_code::catch_panic;
-use crate::progress::{Progress, Step, Unit, unheard};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 
 use directory::MemoryFolder;
-use read::{KnownLabels, Reading};
+use index_read::{IndexReading, KnownLabels};
 
 /// The version of the documents' format, raised with every change of it: indexes of other versions are rebuilt.
-const FORMAT: i64 = 3;
+const INDEX_FORMAT_VERSION: i64 = 3;
 /// The name under which the index knows its analyser of words.
-const WORDS: &str = "words";
+const WORD_ANALYZER_NAME: &str = "words";
 /// The memory for writing changes to the index, in bytes; a new index takes four times as much.
-const MEMORY: usize = 64 << 20;
+const INDEX_WRITER_MEMORY_BYTES: usize = 64 << 20;
 /// Segments with fewer documents than this are merged if there are more than [`MOST_SMALL_SEGMENTS`] of them.
 const SMALL_SEGMENT: u32 = 20_000;
 /// The most small segments that are kept apart.
@@ -54,7 +52,7 @@ const MOST_SMALL_SEGMENTS: usize = 8;
 
 /// The fields of a document.
 #[derive(Clone, Copy)]
-struct Fields {
+struct IndexFields {
     id: Field,
     sign: Field,
     recording: Field,
@@ -74,7 +72,7 @@ struct Fields {
 #[derive(Default)]
 pub(crate) struct SearchIndex {
     open: Option<OpenIndex>,
-    memory: RefCell<Memory>,
+    memory: RefCell<QueryMemory>,
     labels: RefCell<KnownLabels>,
     rebuilt: Cell<bool>,
 }
@@ -83,35 +81,33 @@ struct OpenIndex {
     folder: MemoryFolder,
     index: Index,
     reader: IndexReader,
-    fields: Fields,
+    fields: IndexFields,
     indexed: i64,
 }
 
-fn follows(state: &State) -> bool {
-    state.content == state.indexed && state.format == FORMAT
+fn is_index_state_current(state: &SearchIndexState) -> bool {
+    state.content == state.indexed && state.format == INDEX_FORMAT_VERSION
 }
 
 /// Returns the result of work with the search engine; if that panics, the index is damaged.
-pub(crate) fn unbroken<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
-    catch_panic(work).unwrap_or_else(|| Err(Error::Index("it is damaged".into())))
+pub(crate) fn catch_index_panic<T>(work: impl FnOnce() -> CorpusResult<T>) -> CorpusResult<T> {
+    catch_panic(work).unwrap_or_else(|| Err(CorpusError::Index("it is damaged".into())))
 }
 
 impl SearchIndex {
-    fn load(&self, connection: &Connection, indexed: i64) -> Result<OpenIndex> {
-        unbroken(|| OpenIndex::load(connection, indexed, self.open.as_ref()))
+    fn load_open_index(&self, connection: &Connection, indexed: i64) -> CorpusResult<OpenIndex> {
+        catch_index_panic(|| OpenIndex::load_index_state(connection, indexed, self.open.as_ref()))
     }
 
     fn is_open_at(&self, indexed: i64) -> bool {
-        self.open
-            .as_ref()
-            .is_some_and(|open| open.indexed == indexed)
+        self.open.as_ref().is_some_and(|open| open.indexed == indexed)
     }
 
     /// Rebuilds the index in a transaction of its own.
-    fn mend(&mut self, connection: &Connection, noteworthy: bool) -> Result<()> {
-        let transaction = rows::begin(connection)?;
-        let mut hear = unheard;
-        self.rebuild(&transaction, &mut Progress::new(&mut hear))?;
+    fn mend_search_index(&mut self, connection: &Connection, noteworthy: bool) -> CorpusResult<()> {
+        let transaction = rows::begin_write_transaction(connection)?;
+        let mut hear = ignore_progress_step;
+        self.rebuild_derived_data(&transaction, &mut ProgressReceiver::new(&mut hear))?;
         transaction.commit()?;
         self.rebuilt.set(self.rebuilt.get() || noteworthy);
         Ok(())
@@ -136,13 +132,13 @@ impl SearchIndex {
     /// Returns the index in its present state, for queries.
     ///
     /// # Panics
-    /// Panics before the first [`refresh`](Derived::refresh).
-    pub(crate) fn now(&self) -> Reading<'_> {
+    /// Panics before the first [`refresh_derived_data`](Derived::refresh_derived_data).
+    pub(crate) fn current_index_reading(&self) -> IndexReading<'_> {
         let open = self
             .open
             .as_ref()
             .expect("refresh loads the index before it is searched");
-        Reading {
+        IndexReading {
             searcher: open.reader.searcher(),
             fields: open.fields,
             labels: &self.labels,
@@ -150,37 +146,37 @@ impl SearchIndex {
     }
 
     /// Returns whether the index is up to date with the rows, as this connection reads them now.
-    pub(crate) fn is_current(&self, connection: &Connection) -> Result<bool> {
-        let state = State::read(connection)?;
+    pub(crate) fn is_current(&self, connection: &Connection) -> CorpusResult<bool> {
+        let state = SearchIndexState::read_index_state(connection)?;
         let open = self.open.as_ref();
-        Ok(follows(&state) && open.is_some_and(|open| open.indexed == state.indexed))
+        Ok(is_index_state_current(&state) && open.is_some_and(|open| open.indexed == state.indexed))
     }
 
     /// Returns the cache that is shared by queries on the present state of the index.
-    pub(crate) fn memory(&self) -> RefMut<'_, Memory> {
+    pub(crate) fn query_memory(&self) -> RefMut<'_, QueryMemory> {
         let mut memory = self.memory.borrow_mut();
-        memory.turn_to(self.open.as_ref().map_or(-1, |open| open.indexed));
+        memory.turn_to_state(self.open.as_ref().map_or(-1, |open| open.indexed));
         memory
     }
 
     /// Returns the number of documents in the index.
-    pub(crate) fn documents(&self) -> u64 {
-        self.now().searcher.num_docs()
+    pub(crate) fn indexed_document_count(&self) -> u64 {
+        self.current_index_reading().searcher.num_docs()
     }
 }
 
-impl Derived for SearchIndex {
+impl DerivedData for SearchIndex {
     /// Brings the index up to date: usually does nothing, loads it if another program has written since, and rebuilds
     /// it if it does not match the rows.
-    fn refresh(&mut self, connection: &Connection) -> Result<()> {
-        let state = State::read(connection)?;
-        if !follows(&state) {
-            return self.mend(connection, state.content != 0);
+    fn refresh_derived_data(&mut self, connection: &Connection) -> CorpusResult<()> {
+        let state = SearchIndexState::read_index_state(connection)?;
+        if !is_index_state_current(&state) {
+            return self.mend_search_index(connection, state.content != 0);
         }
         if !self.is_open_at(state.indexed) {
-            match self.load(connection, state.indexed) {
+            match self.load_open_index(connection, state.indexed) {
                 Ok(open) => self.open = Some(open),
-                Err(Error::Index(_)) => return self.mend(connection, true),
+                Err(CorpusError::Index(_)) => return self.mend_search_index(connection, true),
                 Err(other) => return Err(other),
             }
         }
@@ -188,37 +184,43 @@ impl Derived for SearchIndex {
     }
 
     /// Indexes the tokens that the running operation touched, in its transaction.
-    fn follow(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()> {
-        let touched = rows::touched(connection)?;
-        let state = State::read(connection)?;
-        let before: i64 = state.content - rows::touches(connection)?;
+    fn follow_operation(&mut self, connection: &Connection, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
+        let touched = rows::list_touched_tokens(connection)?;
+        let state = SearchIndexState::read_index_state(connection)?;
+        let before: i64 = state.content - rows::count_token_touches(connection)?;
         if state.content == state.indexed {
             return Ok(());
         }
-        if state.format != FORMAT || before != state.indexed {
-            return self.rebuild(connection, progress);
+        if state.format != INDEX_FORMAT_VERSION || before != state.indexed {
+            return self.rebuild_derived_data(connection, progress);
         }
         if !self.is_open_at(state.indexed) {
-            match self.load(connection, state.indexed) {
+            match self.load_open_index(connection, state.indexed) {
                 Ok(open) => self.open = Some(open),
-                Err(Error::Index(_)) => return self.rebuild(connection, progress),
+                Err(CorpusError::Index(_)) => {
+                    return self.rebuild_derived_data(connection, progress);
+                }
                 Err(other) => return Err(other),
             }
         }
         let open = self.open.as_mut().expect("just loaded");
-        match unbroken(|| open.write(connection, &touched, state.content, progress)) {
-            Err(Error::Index(_)) => self.rebuild(connection, progress),
-            written => written.and_then(|()| open.save(connection, state.content)),
+        match catch_index_panic(|| open.write_touched_tokens(connection, &touched, state.content, progress)) {
+            Err(CorpusError::Index(_)) => self.rebuild_derived_data(connection, progress),
+            written => written.and_then(|()| open.save_index_files(connection, state.content)),
         }
     }
 
     /// Rebuilds the index from all rows, inside the caller's transaction.
-    fn rebuild(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()> {
+    fn rebuild_derived_data(
+        &mut self,
+        connection: &Connection,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<()> {
         rows::delete_files(connection)?;
-        let mut open = OpenIndex::empty()?;
-        let state = State::read(connection)?;
-        open.fill(connection, state.content, progress)?;
-        open.save(connection, state.content)?;
+        let mut open = OpenIndex::create_empty_index()?;
+        let state = SearchIndexState::read_index_state(connection)?;
+        open.fill_whole_index(connection, state.content, progress)?;
+        open.save_index_files(connection, state.content)?;
         self.open = Some(open);
         Ok(())
     }
@@ -227,103 +229,94 @@ impl Derived for SearchIndex {
 impl OpenIndex {
     /// Loads the index that includes the first `indexed` changes; reuses the files that it has in common with `before`,
     /// an index of another state.
-    fn load(connection: &Connection, indexed: i64, before: Option<&Self>) -> Result<Self> {
+    fn load_index_state(connection: &Connection, indexed: i64, before: Option<&Self>) -> CorpusResult<Self> {
         if !rows::has_stored_files(connection)? {
-            return Err(Error::Index(
-                "its files are not those that were stored".into(),
-            ));
+            return Err(CorpusError::Index("its files are not those that were stored".into()));
         }
         let mut folder = MemoryFolder::default();
         let mut missing = 0;
         for name in rows::file_names(connection)? {
-            let known = before.and_then(|before| before.folder.unchanging(&name));
-            match known {
-                Some(data) => folder.add(name, data),
+            let known_data = before.and_then(|before| before.folder.unchanging_file(&name));
+            match known_data {
+                Some(data) => folder.add_saved_file(name, data),
                 None => {
                     missing += 1;
-                    let data = rows::file(connection, &name)?;
-                    folder.add(name, OwnedBytes::new(data));
+                    let data = rows::read_index_file(connection, &name)?;
+                    folder.add_saved_file(name, OwnedBytes::new(data));
                 }
             }
         }
         if missing == 0 && indexed == 0 {
-            return Self::empty();
+            return Self::create_empty_index();
         }
         let index = Index::open(folder.clone())?;
         if index.load_metas()?.payload != Some(payload(indexed)) {
             let message = "its files are of another state than the rows";
             return Err(TantivyError::SystemError(message.to_owned()).into());
         }
-        Self::ready(folder, index, indexed)
+        Self::from_memory_folder(folder, index, indexed)
     }
 
-    fn empty() -> Result<Self> {
+    fn create_empty_index() -> CorpusResult<Self> {
         let folder = MemoryFolder::default();
-        let index = Index::create(
-            folder.clone(),
-            schema().0,
-            tantivy::IndexSettings::default(),
-        )?;
-        Self::ready(folder, index, -1)
+        let index = Index::create(folder.clone(), index_schema().0, tantivy::IndexSettings::default())?;
+        Self::from_memory_folder(folder, index, -1)
     }
 
-    fn ready(folder: MemoryFolder, index: Index, indexed: i64) -> Result<Self> {
-        index.tokenizers().register(WORDS, analyzer());
-        let reader = index
-            .reader_builder()
-            .reload_policy(ReloadPolicy::Manual)
-            .try_into()?;
+    fn from_memory_folder(folder: MemoryFolder, index: Index, indexed: i64) -> CorpusResult<Self> {
+        index.tokenizers().register(WORD_ANALYZER_NAME, analyzer());
+        let reader = index.reader_builder().reload_policy(ReloadPolicy::Manual).try_into()?;
         Ok(Self {
             folder,
             index,
             reader,
-            fields: schema().1,
+            fields: index_schema().1,
             indexed,
         })
     }
 
-    fn writer(&self, memory: usize) -> Result<IndexWriter> {
+    fn writer(&self, memory: usize) -> CorpusResult<IndexWriter> {
         let writer = self.index.writer_with_num_threads(1, memory)?;
         writer.set_merge_policy(Box::new(NoMergePolicy));
         Ok(writer)
     }
 
-    fn write(
+    fn write_touched_tokens(
         &mut self,
         connection: &Connection,
         touched: &[i64],
         content: i64,
-        progress: &mut Progress<'_>,
-    ) -> Result<()> {
-        let mut writer = self.writer(MEMORY)?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<()> {
+        let mut writer = self.writer(INDEX_WRITER_MEMORY_BYTES)?;
         for &token in touched {
             writer.delete_term(Term::from_field_u64(self.fields.id, token as u64));
         }
         let (mut done, total) = (0, Some(touched.len() as u64));
-        rows::each(connection, Some(touched), |token| {
-            step(progress, &mut done, total)?;
-            writer.add_document(self.document(&token))?;
+        rows::visit_token_documents(connection, Some(touched), |token| {
+            report_index_step(progress, &mut done, total)?;
+            writer.add_document(self.token_index_document(&token))?;
             Ok(())
         })?;
         commit(&mut writer, content)?;
-        self.merge(&mut writer)?;
+        self.merge_small_segments(&mut writer)?;
         writer.garbage_collect_files().wait()?;
         writer.wait_merging_threads()?;
         self.reader.reload()?;
         Ok(())
     }
 
-    fn fill(
+    fn fill_whole_index(
         &mut self,
         connection: &Connection,
         content: i64,
-        progress: &mut Progress<'_>,
-    ) -> Result<()> {
-        let mut writer = self.writer(4 * MEMORY)?;
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<()> {
+        let mut writer = self.writer(4 * INDEX_WRITER_MEMORY_BYTES)?;
         let mut done = 0;
-        rows::each(connection, None, |token| {
-            step(progress, &mut done, None)?;
-            writer.add_document(self.document(&token))?;
+        rows::visit_token_documents(connection, None, |token| {
+            report_index_step(progress, &mut done, None)?;
+            writer.add_document(self.token_index_document(&token))?;
             Ok(())
         })?;
         commit(&mut writer, content)?;
@@ -337,7 +330,7 @@ impl OpenIndex {
         Ok(())
     }
 
-    fn merge(&self, writer: &mut IndexWriter) -> Result<()> {
+    fn merge_small_segments(&self, writer: &mut IndexWriter) -> CorpusResult<()> {
         let small: Vec<_> = self
             .index
             .searchable_segment_metas()?
@@ -351,7 +344,7 @@ impl OpenIndex {
         Ok(())
     }
 
-    fn save(&mut self, connection: &Connection, content: i64) -> Result<()> {
+    fn save_index_files(&mut self, connection: &Connection, content: i64) -> CorpusResult<()> {
         let changes = self.folder.take_changes();
         for path in changes.deleted {
             rows::delete_file(connection, &path)?;
@@ -360,12 +353,12 @@ impl OpenIndex {
             rows::write_file(connection, &path, &data)?;
         }
         rows::seal_files(connection)?;
-        State::seen(connection, content, FORMAT)?;
+        SearchIndexState::record_indexed_changes(connection, content, INDEX_FORMAT_VERSION)?;
         self.indexed = content;
         Ok(())
     }
 
-    fn document(&self, token: &TokenDocument) -> TantivyDocument {
+    fn token_index_document(&self, token: &TokenDocument) -> TantivyDocument {
         let fields = self.fields;
         let mut document = TantivyDocument::new();
         document.add_u64(fields.id, token.id as u64);
@@ -411,32 +404,32 @@ impl OpenIndex {
 }
 
 /// Reports progress at every 256th token.
-fn step(progress: &mut Progress<'_>, done: &mut u64, total: Option<u64>) -> Result<()> {
+fn report_index_step(progress: &mut ProgressReceiver<'_>, done: &mut u64, total: Option<u64>) -> CorpusResult<()> {
     *done += 1;
     if !done.is_multiple_of(256) {
         return Ok(());
     }
-    progress.report(Step {
+    progress.report_step(ProgressStep {
         task: "search index",
         done: *done,
         total,
-        unit: Unit::Items,
+        unit: ProgressUnit::Items,
     })
 }
 
 /// Returns the record of the last count that the index includes, for its own files.
 fn payload(content: i64) -> String {
-    format!("{FORMAT}:{content}")
+    format!("{INDEX_FORMAT_VERSION}:{content}")
 }
 
-fn commit(writer: &mut IndexWriter, content: i64) -> Result<()> {
+fn commit(writer: &mut IndexWriter, content: i64) -> CorpusResult<()> {
     let mut commit = writer.prepare_commit()?;
     commit.set_payload(&payload(content));
     commit.commit()?;
     Ok(())
 }
 
-fn schema() -> (Schema, Fields) {
+fn index_schema() -> (Schema, IndexFields) {
     let mut builder = Schema::builder();
     let indexing = |option, tokenizer| {
         TextFieldIndexing::default()
@@ -445,10 +438,10 @@ fn schema() -> (Schema, Fields) {
             .set_index_option(option)
     };
     let option = IndexRecordOption::WithFreqsAndPositions;
-    let text = TextOptions::default().set_indexing_options(indexing(option, WORDS));
+    let text = TextOptions::default().set_indexing_options(indexing(option, WORD_ANALYZER_NAME));
     let option = IndexRecordOption::Basic;
     let term = TextOptions::default().set_indexing_options(indexing(option, "raw"));
-    let fields = Fields {
+    let fields = IndexFields {
         id: builder.add_u64_field("id", INDEXED | FAST),
         sign: builder.add_u64_field("sign", INDEXED | FAST),
         recording: builder.add_u64_field("recording", INDEXED | FAST),
@@ -470,7 +463,7 @@ fn analyzer() -> TextAnalyzer {
     TextAnalyzer::from(SimpleTokenizer::default())
 }
 
-impl From<TantivyError> for Error {
+impl From<TantivyError> for CorpusError {
     fn from(error: TantivyError) -> Self {
         Self::Index(Box::new(error))
     }

@@ -1,6 +1,6 @@
 //! Counts of a real lexicon, made independently of this program.
 
-use crate::{Corpus, ImportOptions, Progress, SearchOptions, unheard};
+use crate::{Corpus, ImportOptions, ProgressReceiver, SearchOptions, ignore_progress_step};
 
 /// Queries with the number of tokens that they find in the table of the lexicon.
 const COUNTS: &[(&str, usize)] = &[
@@ -46,14 +46,14 @@ fn counts_in_the_shared_lexicon_equal_independent_ones() {
         return;
     };
     let folder = tempfile::tempdir().expect("a folder");
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
     let file = std::path::Path::new(&shared).join("phonology/ngt_lexicon.tsv");
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
+        .import_paths(
             &[file],
             &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
+            &mut ProgressReceiver::new(&mut hear),
         )
         .expect("imported");
     let chin = crate::KeptSearch {
@@ -68,7 +68,7 @@ fn counts_in_the_shared_lexicon_equal_independent_ones() {
             facets: false,
             ..SearchOptions::default()
         };
-        match corpus.search(query, &options) {
+        match corpus.search_tokens(query, &options) {
             Ok(answer) if answer.total == *wanted => {}
             Ok(answer) => wrong.push(format!("{query}: {}, not {wanted}", answer.total)),
             Err(error) => wrong.push(format!("{query}: {error}")),
@@ -77,14 +77,9 @@ fn counts_in_the_shared_lexicon_equal_independent_ones() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // No sign is offered as a minimal pair if a second column of the table differs, too.
     let found = corpus
-        .suggest(&"JAM-A".parse().expect("an address"))
+        .suggest_new_signs(&"JAM-A".parse().expect("an address"))
         .expect("a sign");
     assert!(found.partners.iter().all(|it| it.one_sided == 0));
     assert!(found.partners.iter().all(|it| it.gloss != "UUR-D"));
-    assert!(
-        found
-            .possible
-            .iter()
-            .any(|it| it.gloss == "UUR-D" && it.one_sided > 0)
-    );
+    assert!(found.possible.iter().any(|it| it.gloss == "UUR-D" && it.one_sided > 0));
 }

@@ -1,20 +1,16 @@
 //! One small corpus, and what each construct of the language finds in it.
 
 use super::*;
-use crate::Error;
-use crate::progress::{Progress, unheard};
-use crate::search::{Finding, FindingKind, Order, Tally, TallyRow};
+use crate::CorpusError;
+use crate::progress::{ProgressReceiver, ignore_progress_step};
+use crate::search::{FindingKind, HitOrder, QueryFinding, TallyRow, ValueTally};
 
 /// Two recordings of two signers and a lexicon; the glosses name the case.
 fn sample() -> Sample {
     let mut sample = Sample::new();
     let one = sample.recording("Session 1", "Anna", "right");
     let two = sample.recording("Session 2", "Ben", "left");
-    let values = [
-        "right.configuration=U",
-        "right.placement=chin",
-        "movement=arc",
-    ];
+    let values = ["right.configuration=U", "right.placement=chin", "movement=arc"];
     sample.token("CHAT", Some((one, 0, 500)), &values);
     let values = [
         "right.configuration=B",
@@ -26,11 +22,7 @@ fn sample() -> Sample {
     sample.token("BOL-2H", Some((one, 600, 1400)), &values);
     let values = ["right.configuration=unclear", "right.placement=n/a"];
     sample.token("MAISON", Some((one, 1400, 3400)), &values);
-    let values = [
-        "left.configuration=U",
-        "left.placement=head",
-        "nonmanual.brows=raised",
-    ];
+    let values = ["left.configuration=U", "left.placement=head", "nonmanual.brows=raised"];
     sample.token("INDEX:1", Some((two, 100, 300)), &values);
     let values = [
         "initial.both.configuration=S",
@@ -40,11 +32,7 @@ fn sample() -> Sample {
         "nonmanual.brows=furrowed",
     ];
     sample.token("ÉCOLE", Some((two, 1000, 2000)), &values);
-    sample.token(
-        "BOL",
-        None,
-        &["dominant.configuration=B", "both.placement=neutral"],
-    );
+    sample.token("BOL", None, &["dominant.configuration=B", "both.placement=neutral"]);
     sample.token("ESCARGOT", None, &[]);
     sample.work(|connection| {
         for (gloss, language, text) in [
@@ -56,32 +44,19 @@ fn sample() -> Sample {
             let sign = signs::sign_glossed(connection, gloss)?;
             signs::add_text(connection, sign, language, text)?;
         }
-        connection.execute(
-            "UPDATE sign SET notes = 'seen in Lyon' WHERE gloss = 'BOL'",
-            [],
-        )?;
+        connection.execute("UPDATE sign SET notes = 'seen in Lyon' WHERE gloss = 'BOL'", [])?;
         connection.execute("UPDATE token SET hand = 'right' WHERE id = 1", [])?;
         connection.execute("UPDATE token SET hand = 'both' WHERE id = 2", [])?;
         Ok(())
     });
     sample.tier(
         &tier(one, "Traduction", "translation"),
-        &[
-            (0, 1500, "The cat is in the bowl"),
-            (1500, 4000, "A house for animals"),
-        ],
+        &[(0, 1500, "The cat is in the bowl"), (1500, 4000, "A house for animals")],
     );
-    sample.tier(
-        &tier(one, "Remarks", "comment"),
-        &[(1400, 1500, "blurred, slow")],
-    );
+    sample.tier(&tier(one, "Remarks", "comment"), &[(1400, 1500, "blurred, slow")]);
     sample.tier(
         &component_tier(one, "nonmanual.brows"),
-        &[
-            (400, 700, "raised"),
-            (1400, 3400, "furrowed"),
-            (3400, 3500, ""),
-        ],
+        &[(400, 700, "raised"), (1400, 3400, "furrowed"), (3400, 3500, "")],
     );
     sample.tier(
         &component_tier(two, "dominant.configuration"),
@@ -101,7 +76,7 @@ fn every_construct_finds_its_listed_tokens() {
     for line in TABLE.lines().filter(|line| !line.trim().is_empty()) {
         let (query, wanted) = line.split_once("=>").expect("query => glosses");
         let query = query.trim();
-        let found = match sample.corpus.search(query, &SearchOptions::default()) {
+        let found = match sample.corpus.search_tokens(query, &SearchOptions::default()) {
             Ok(answer) => {
                 let glosses: Vec<String> = answer.hits.into_iter().map(|hit| hit.gloss).collect();
                 assert_eq!(answer.total, glosses.len());
@@ -298,11 +273,7 @@ fn unknown_values_and_fields_are_pointed_at() {
     let mut sample = sample();
     for (query, character, part) in [
         ("placement=chim", 11, "did you mean chin?"),
-        (
-            "right.configuration=U placement=xyzzy",
-            33,
-            "in no inventory",
-        ),
+        ("right.configuration=U placement=xyzzy", 33, "in no inventory"),
         ("nonmanual.brwos=raised", 11, "did you mean brows?"),
         ("configuration=[indx]", 16, "did you mean index?"),
         ("configuration=[-indx]", 17, "did you mean index?"),
@@ -316,14 +287,10 @@ fn unknown_values_and_fields_are_pointed_at() {
         ("inventory=placement", 11, "did you mean placements?"),
         ("gloss=", 7, "a value should stand here"),
     ] {
-        let error = sample.corpus.search(query, &SearchOptions::default());
+        let error = sample.corpus.search_tokens(query, &SearchOptions::default());
         let error = error.expect_err(query);
-        assert!(matches!(error, Error::Query(_)));
-        assert_eq!(
-            error.place(),
-            Some(format!("character {character}")),
-            "{query}"
-        );
+        assert!(matches!(error, CorpusError::Query(_)));
+        assert_eq!(error.error_place(), Some(format!("character {character}")), "{query}");
         let text = error.to_string();
         assert!(text.contains(part), "{query}: {text}");
         assert!(text.starts_with(query) && text.contains('^'), "{text}");
@@ -369,14 +336,9 @@ fn an_answer_reports_widened_matched_and_impossible_conditions() {
     let mut failures = Vec::new();
     for line in FOUND.lines().filter(|line| !line.trim().is_empty()) {
         let (query, wanted) = line.split_once(" =>").expect("query => findings");
-        let found = sample.corpus.search(query, &SearchOptions::default());
+        let found = sample.corpus.search_tokens(query, &SearchOptions::default());
         let found = match found {
-            Ok(answer) => answer
-                .findings
-                .iter()
-                .map(shown)
-                .collect::<Vec<_>>()
-                .join(" | "),
+            Ok(answer) => answer.findings.iter().map(shown).collect::<Vec<_>>().join(" | "),
             Err(_) => "error".to_owned(),
         };
         if found != wanted.trim() {
@@ -396,7 +358,7 @@ fn an_answer_reports_widened_matched_and_impossible_conditions() {
     assert_eq!(json, wanted);
 }
 
-fn shown(finding: &Finding) -> String {
+fn shown(finding: &QueryFinding) -> String {
     let names: Vec<String> = match &finding.kind {
         FindingKind::Widened { values } | FindingKind::Matched { values } => values.clone(),
         FindingKind::CannotMatch { names, .. } => names.clone(),
@@ -405,17 +367,9 @@ fn shown(finding: &Finding) -> String {
             values.iter().map(counted).collect()
         }
         FindingKind::NotCoded { .. } => Vec::new(),
-        FindingKind::NoneTogether { terms } => terms
-            .iter()
-            .map(|(term, count)| format!("{term} {count}"))
-            .collect(),
+        FindingKind::NoneTogether { terms } => terms.iter().map(|(term, count)| format!("{term} {count}")).collect(),
     };
-    let text = format!(
-        "{} {}: {}",
-        finding.kind_name(),
-        finding.condition,
-        names.join(" ")
-    );
+    let text = format!("{} {}: {}", finding.kind_name(), finding.condition, names.join(" "));
     text.trim_end().to_owned()
 }
 
@@ -424,12 +378,12 @@ fn values_are_counted_by_one_field_and_by_two() {
     let mut sample = sample();
     let mut tally = |query: &str, fields: &[&str]| {
         let fields: Vec<String> = fields.iter().map(|it| (*it).to_owned()).collect();
-        let mut hear = unheard;
+        let mut hear = ignore_progress_step;
         sample
             .corpus
-            .tally(query, &fields, &mut Progress::new(&mut hear))
+            .tally_values(query, &fields, &mut ProgressReceiver::new(&mut hear))
     };
-    let rows = |tally: &Tally| -> Vec<String> {
+    let rows = |tally: &ValueTally| -> Vec<String> {
         let row = |row: &TallyRow| format!("{} {} {:?}", row.value, row.total, row.counts);
         tally.rows.iter().map(row).collect()
     };
@@ -502,7 +456,7 @@ fn facets_count_the_values_that_they_leave_out() {
             facet_values: most,
             ..SearchOptions::default()
         };
-        sample.corpus.search("", &options).expect("found")
+        sample.corpus.search_tokens("", &options).expect("found")
     };
     let all = facets(usize::MAX);
     assert!(all.facets_left_out.is_empty());
@@ -524,10 +478,7 @@ fn an_answer_is_json_as_scripts_expect_it() {
         offset: 1,
         ..SearchOptions::default()
     };
-    let answer = sample
-        .corpus
-        .search("configuration=B", &options)
-        .expect("found");
+    let answer = sample.corpus.search_tokens("configuration=B", &options).expect("found");
     let json = serde_json::to_value(&answer).expect("json");
     let wanted = serde_json::json!({
         "query": "configuration=B",
@@ -573,23 +524,17 @@ fn hits_are_ordered_by_the_requested_order_with_scores() {
             order,
             ..SearchOptions::default()
         };
-        sample.corpus.search(query, &options).expect("found").hits
+        sample.corpus.search_tokens(query, &options).expect("found").hits
     };
-    let glosses = |hits: Vec<super::super::Hit>| -> Vec<String> {
-        hits.into_iter().map(|hit| hit.gloss).collect()
-    };
-    let by_gloss = glosses(in_order("", Order::Gloss));
-    let wanted = [
-        "BOL", "BOL-2H", "CHAT", "ÉCOLE", "ESCARGOT", "INDEX:1", "MAISON",
-    ];
+    let glosses =
+        |hits: Vec<super::super::SearchHit>| -> Vec<String> { hits.into_iter().map(|hit| hit.gloss).collect() };
+    let by_gloss = glosses(in_order("", HitOrder::Gloss));
+    let wanted = ["BOL", "BOL-2H", "CHAT", "ÉCOLE", "ESCARGOT", "INDEX:1", "MAISON"];
     assert_eq!(by_gloss, wanted);
-    let longest = glosses(in_order("origin=captured", Order::Duration));
+    let longest = glosses(in_order("origin=captured", HitOrder::Duration));
     assert_eq!(longest, ["MAISON", "ÉCOLE", "BOL-2H", "CHAT", "INDEX:1"]);
-    assert_eq!(
-        glosses(in_order("slow", Order::Place)),
-        ["MAISON", "ESCARGOT"]
-    );
-    let like = in_order("like CHAT on configuration:3, placement", Order::Rank);
+    assert_eq!(glosses(in_order("slow", HitOrder::Place)), ["MAISON", "ESCARGOT"]);
+    let like = in_order("like CHAT on configuration:3, placement", HitOrder::Rank);
     let scores: Vec<Option<f64>> = like.iter().map(|hit| hit.score).collect();
     assert_eq!(scores[..3], [Some(1.0), Some(0.75), Some(0.0)]);
 }
@@ -600,20 +545,17 @@ fn edits_and_their_undoing_show_at_once() {
     assert_eq!(sample.glosses("gloss=CHIEN"), "");
     sample.token("CHIEN", None, &["right.configuration=zzz"]);
     assert_eq!(sample.glosses("configuration=zzz"), "CHIEN");
-    sample.corpus.undo().expect("undone");
+    sample.corpus.undo_operation().expect("undone");
     assert_eq!(sample.glosses("gloss=CHIEN"), "");
     assert!(
         !sample.search("").facets["right.configuration"]
             .iter()
             .any(|it| it.0 == "zzz")
     );
-    sample.corpus.redo().expect("done again");
+    sample.corpus.redo_operation().expect("done again");
     assert_eq!(sample.glosses("configuration=zzz"), "CHIEN");
     sample.work(|connection| {
-        connection.execute(
-            "UPDATE signer SET handedness = 'left' WHERE name = 'Anna'",
-            [],
-        )?;
+        connection.execute("UPDATE signer SET handedness = 'left' WHERE name = 'Anna'", [])?;
         Ok(())
     });
     assert_eq!(sample.glosses("dominant.configuration=U"), "INDEX:1");
@@ -624,7 +566,7 @@ fn edits_and_their_undoing_show_at_once() {
 fn another_program_that_writes_is_noticed() {
     let mut sample = sample();
     assert_eq!(sample.glosses("gloss=CHIEN"), "");
-    let mut other = Corpus::open(&sample.path(), "B").expect("opened");
+    let mut other = Corpus::open_corpus(&sample.path(), "B").expect("opened");
     std::mem::swap(&mut other, &mut sample.corpus);
     sample.token("CHIEN", None, &["right.placement=chin"]);
     std::mem::swap(&mut other, &mut sample.corpus);
@@ -654,10 +596,10 @@ fn a_lost_or_outdated_index_is_rebuilt() {
         let foreign = rusqlite::Connection::open(sample.path()).expect("opened");
         foreign.execute(sql, []).expect("damaged");
         drop(foreign);
-        sample.corpus = Corpus::open(&sample.path(), "B").expect("opened");
+        sample.corpus = Corpus::open_corpus(&sample.path(), "B").expect("opened");
         let answer = sample.search("configuration=B");
         assert_eq!((answer.total, answer.notes.len()), (3, 1), "{sql}");
-        sample.corpus = Corpus::open(&sample.path(), "B").expect("opened");
+        sample.corpus = Corpus::open_corpus(&sample.path(), "B").expect("opened");
         let answer = sample.search("configuration=B");
         assert_eq!((answer.total, answer.notes.len()), (3, 0), "{sql}");
     }
@@ -666,19 +608,19 @@ fn a_lost_or_outdated_index_is_rebuilt() {
 #[test]
 fn a_failed_operation_leaves_no_trace_in_the_index() {
     let mut sample = sample();
-    let failed: Result<()> = sample.corpus.store.named_operation("fail", |connection| {
+    let failed: CorpusResult<()> = sample.corpus.store.named_operation("fail", |connection| {
         let sign_id = signs::sign_glossed(connection, "CHIEN")?;
         let row = TokenRow {
             sign_id,
-            origin: crate::Origin::Lexicon,
+            origin: crate::RecordOrigin::Lexicon,
             ..TokenRow::default()
         };
         signs::insert_token(connection, &row)?;
-        Err(Error::wrong("no"))
+        Err(CorpusError::from_wrong_message("no"))
     });
     assert!(failed.is_err());
     assert_eq!(sample.glosses("gloss=CHIEN"), "");
-    sample.corpus = Corpus::open(&sample.path(), "B").expect("opened");
+    sample.corpus = Corpus::open_corpus(&sample.path(), "B").expect("opened");
     let answer = sample.search("");
     assert_eq!((answer.total, answer.notes.len()), (7, 0));
 }

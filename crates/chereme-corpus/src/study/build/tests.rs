@@ -2,24 +2,20 @@ use std::collections::BTreeMap;
 
 use super::*;
 use crate::import::ImportOptions;
-use crate::progress::unheard;
-use crate::study::{StudyRequest, plan};
+use crate::progress::ignore_progress_step;
+use crate::study::{StudyRequest, study_plan};
 
 /// Returns a corpus with BOL and CHAT of the starter corpus.
 pub(in crate::study) fn corpus(folder: &Path) -> Corpus {
-    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
     let files: Vec<PathBuf> = crate::unpack_starter(folder)
         .expect("unpacked")
         .into_iter()
         .filter(|it| it.file_stem().is_some_and(|it| it == "bol" || it == "chat"))
         .collect();
-    let mut hear = unheard;
+    let mut hear = ignore_progress_step;
     corpus
-        .import(
-            &files,
-            &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
     corpus
 }
@@ -43,9 +39,9 @@ fn request() -> StudyRequest {
 fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
-    let mut plan = request().plan().expect("a plan");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let mut plan = request().make_study_plan().expect("a plan");
     plan.trials[0].right.insert("gloss".into(), "LIMACE".into());
     let planned = corpus.plan_study(&plan, progress).expect("planned");
     let small = QuestionnaireOptions {
@@ -54,9 +50,7 @@ fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
         force: false,
     };
     let to = [folder.path().join("one"), folder.path().join("two")];
-    let built = corpus
-        .build_study("placing", &to[0], small, progress)
-        .expect("built");
+    let built = corpus.build_study("placing", &to[0], small, progress).expect("built");
     corpus
         .build_study("placing", &to[1], small, progress)
         .expect("built again");
@@ -66,10 +60,7 @@ fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
         let all = media.map(|it| it.path()).chain([folder.join("index.html")]);
         all.map(|it| {
             (
-                it.file_name()
-                    .expect("a name")
-                    .to_string_lossy()
-                    .into_owned(),
+                it.file_name().expect("a name").to_string_lossy().into_owned(),
                 fs::read(&it).expect("read"),
             )
         })
@@ -80,9 +71,9 @@ fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
     assert_eq!(one.len(), 5);
     let page = String::from_utf8(one["index.html"].clone()).expect("text");
     for part in [
-        SCRIPT,
-        TEXTS,
-        STYLE,
+        QUESTIONNAIRE_SCRIPT,
+        QUESTIONNAIRE_TEXTS,
+        QUESTIONNAIRE_STYLE_CSS,
         "default-src 'none'",
         "connect-src 'none'",
         "&lt;/script> @@DATA@@</title>",
@@ -108,26 +99,19 @@ fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
     let sizes: BTreeSet<_> = films
         .map(|it| {
             let path = to[0].join("media").join(it);
-            let film = crate::Film::open(&path).expect("a film");
-            (film.facts().width, film.facts().height)
+            let film = crate::FilmFile::open_film(&path).expect("a film");
+            (film.film_facts().width, film.film_facts().height)
         })
         .collect();
     assert_eq!(sizes.len(), 1);
     assert!(
-        corpus
-            .build_study("placing", &to[0], small, progress)
-            .is_err(),
+        corpus.build_study("placing", &to[0], small, progress).is_err(),
         "it is there"
     );
     fs::write(to[0].join("media/consent.fr.mp4"), "a film").expect("written");
     fs::write(to[0].join("media/0123456789abcdef.mp4"), "an old film").expect("written");
-    let forced = QuestionnaireOptions {
-        force: true,
-        ..small
-    };
-    corpus
-        .build_study("placing", &to[0], forced, progress)
-        .expect("built");
+    let forced = QuestionnaireOptions { force: true, ..small };
+    corpus.build_study("placing", &to[0], forced, progress).expect("built");
     let names: Vec<String> = files(&to[0]).into_keys().collect();
     assert!(
         names.contains(&"consent.fr.mp4".to_owned()) && names.len() == 6,
@@ -139,19 +123,19 @@ fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
 fn what_cannot_be_made_is_named_and_a_stopped_build_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    let mut hear = unheard;
-    let progress = &mut Progress::new(&mut hear);
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
     let mut wrong = request();
     wrong.items.push("BOLL".into());
     let error = corpus
-        .plan_study(&wrong.plan().expect("a plan"), progress)
+        .plan_study(&wrong.make_study_plan().expect("a plan"), progress)
         .expect_err("unknown");
     assert!(error.to_string().contains("BOLL"), "{error}");
-    assert_eq!(error.place().as_deref(), Some("trial 5 (BOLL, captured)"));
-    let plan = request().plan().expect("a plan");
+    assert_eq!(error.error_place().as_deref(), Some("trial 5 (BOLL, captured)"));
+    let plan = request().make_study_plan().expect("a plan");
     corpus.plan_study(&plan, progress).expect("planned");
     let mut films = 0;
-    let mut stop = |step: Step<'_>| {
+    let mut stop = |step: ProgressStep<'_>| {
         films += usize::from(step.task == "drawing films");
         if films > 20 {
             std::ops::ControlFlow::Break(())
@@ -165,33 +149,29 @@ fn what_cannot_be_made_is_named_and_a_stopped_build_leaves_nothing() {
         rate: 5,
         force: false,
     };
-    let done = corpus.build_study("placing", &to, small, &mut Progress::new(&mut stop));
-    assert!(matches!(done, Err(Error::Stopped)));
+    let done = corpus.build_study("placing", &to, small, &mut ProgressReceiver::new(&mut stop));
+    assert!(matches!(done, Err(CorpusError::Stopped)));
     assert!(!to.exists());
     let damage = "UPDATE track SET metres_per_unit = metres_per_unit * 2";
-    let done = rusqlite::Connection::open(corpus.path()).and_then(|it| it.execute_batch(damage));
+    let done = rusqlite::Connection::open(corpus.corpus_file_path()).and_then(|it| it.execute_batch(damage));
     done.expect("damaged");
     let done = corpus.build_study("placing", &to, small, progress);
-    assert!(matches!(done, Err(Error::Damaged { .. })), "{done:?}");
+    assert!(matches!(done, Err(CorpusError::Damaged { .. })), "{done:?}");
     assert!(!to.exists());
-    corpus.undo().expect("undone");
-    assert!(corpus.study("placing").is_err());
+    corpus.undo_operation().expect("undone");
+    assert!(corpus.study_with_answers("placing").is_err());
 }
 
 #[test]
 fn the_script_saves_answers_before_it_forgets_them() {
     let place = |text: &str, from: usize| {
-        let found = SCRIPT[from..].find(text);
+        let found = QUESTIONNAIRE_SCRIPT[from..].find(text);
         from + found.unwrap_or_else(|| panic!("the script has no {text:?}"))
     };
     for (function, saves, forgets) in [
         ("function begin(", "rescue(null)", "person = {"),
         ("function proceed(", "rescue(saved)", "person = saved"),
-        (
-            "function thanks(",
-            "if (dirty) save()",
-            "localStorage.removeItem",
-        ),
+        ("function thanks(", "if (dirty) save()", "localStorage.removeItem"),
     ] {
         let begin = place(function, 0);
         let end = place("\n}\n", begin);
@@ -210,7 +190,7 @@ fn base64_is_that_of_the_standard() {
         ("foo", "Zm9v"),
         ("foobar", "Zm9vYmFy"),
     ] {
-        assert_eq!(base64(text.as_bytes()), code);
+        assert_eq!(encode_base64(text.as_bytes()), code);
     }
 }
 
@@ -227,15 +207,15 @@ fn a_table_makes_the_first_design_of_the_founding_paper() {
         questions: vec!["place@places=left right".into(), "realism=1-7".into()],
         ..request()
     };
-    let plan = request.plan().expect("a plan");
-    assert_eq!(plan.trials[0].role, plan::Role::Training);
+    let plan = request.make_study_plan().expect("a plan");
+    assert_eq!(plan.trials[0].role, study_plan::TrialRole::Training);
     assert_eq!(plan.trials[1].right["place"], "right");
     assert_eq!(plan.trials[1].measures["distance"], 0.5);
     assert!(plan.trials[2].right.is_empty());
     let asked: Vec<usize> = plan
         .trials
         .iter()
-        .map(|it| plan.asked(it).count())
+        .map(|it| plan.questions_of_trial(it).count())
         .collect();
     assert_eq!(asked, [2, 2, 1]);
     for (from, to, place) in [
@@ -248,9 +228,9 @@ fn a_table_makes_the_first_design_of_the_founding_paper() {
             trials: Some((table.replacen(from, to, 1), "t.csv".into())),
             ..request.clone()
         };
-        let error = wrong.plan().expect_err(to);
-        assert_eq!(error.place().as_deref(), Some(place), "{error}");
-        assert!(error.remedy().is_some());
+        let error = wrong.make_study_plan().expect_err(to);
+        assert_eq!(error.error_place().as_deref(), Some(place), "{error}");
+        assert!(error.error_remedy().is_some());
     }
 }
 
@@ -260,11 +240,9 @@ fn the_clip_of_a_trial_is_that_of_its_address_or_recipe() {
     let mut corpus = corpus(folder.path());
     let own = corpus.trial_clip("BOL").expect("a clip");
     let address = "BOL".parse().expect("an address");
-    let moving = corpus.movement(&address).expect("movement");
+    let moving = corpus.movement_at_address(&address).expect("movement");
     assert_eq!(own.clip, moving.clip);
-    let higher = corpus
-        .trial_clip("BOL | place both by up 10cm")
-        .expect("a clip");
+    let higher = corpus.trial_clip("BOL | place both by up 10cm").expect("a clip");
     assert_ne!(higher.clip, own.clip);
     assert!(corpus.trial_clip("NOBODY").is_err());
 }

@@ -3,29 +3,29 @@
 //! The same plan and answers give the same report, byte for byte: resamples come from the seed of the plan.
 
 mod charts;
-mod compare;
 mod conclude;
-mod groups;
-pub mod numbers;
-mod page;
-mod people;
-mod tables;
+mod report_compare;
+mod report_groups;
+pub mod report_numbers;
+mod report_page;
+mod report_people;
+mod report_tables;
 #[cfg(test)]
 mod tests;
 
 use chereme_analysis::statistics::{
-    Alternative, Correlation, Description, Equivalence, Friedman, Interval, Method, Size,
-    Undefined, ordinal,
+    EffectSize, EquivalenceConclusion, FriedmanResult, GroupDescription, PValueMethod, RankCorrelation,
+    ResampleIntervalRule, TestAlternative, UndefinedStatistic, ordinal,
 };
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::error::Result;
+use crate::error::CorpusResult;
 
-use super::answers::Participant;
-use super::plan::{Exclusion, Expectation, Plan, QuestionKind, Texts};
+use super::study_answers::StudyParticipant;
+use super::study_plan::{ExclusionRule, ExpectedResult, LocalizedTexts, QuestionKind, StudyPlan};
 
-pub use charts::Shade;
+pub use charts::ChartShade;
 
 /// The settings of a report.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ impl Default for ReportOptions {
 
 /// The report of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
+pub struct StudyReport {
     /// `chereme-report`.
     pub format: &'static str,
     /// The version of the format.
@@ -57,22 +57,22 @@ pub struct Report {
     /// The name of the study.
     pub study: String,
     /// Its title.
-    pub title: Texts,
+    pub title: LocalizedTexts,
     /// The SHA-256 of the plan.
     pub plan_sha256: String,
     /// The settings of intervals.
-    pub resampling: Resampling,
+    pub resampling: ResamplingSettings,
     /// The people.
-    pub people: People,
+    pub people: ReportPeople,
     /// The questions, in the order of the plan.
     pub questions: Vec<QuestionReport>,
     /// The comparisons: one for each hypothesis, or all pairs of conditions if the plan states none.
-    pub comparisons: Vec<Compared>,
+    pub comparisons: Vec<GroupComparison>,
 }
 
 /// The settings of intervals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Resampling {
+pub struct ResamplingSettings {
     /// How often participants were resampled.
     pub times: usize,
     /// The seed.
@@ -84,24 +84,24 @@ pub struct Resampling {
 /// A result, or the reason why it is undefined.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Outcome<T> {
+pub enum StatsOutcome<T> {
     /// The result.
     Found(T),
     /// No result.
     Nothing {
         /// The reason.
-        why: Undefined,
+        why: UndefinedStatistic,
     },
 }
 
-impl<T> Outcome<T> {
+impl<T> StatsOutcome<T> {
     /// Returns the result.
     #[must_use]
-    pub fn found(&self) -> Option<&T> {
+    pub fn found_result(&self) -> Option<&T> {
         self.result().ok()
     }
 
-    fn result(&self) -> std::result::Result<&T, Undefined> {
+    fn result(&self) -> std::result::Result<&T, UndefinedStatistic> {
         match self {
             Self::Found(it) => Ok(it),
             Self::Nothing { why } => Err(*why),
@@ -109,8 +109,8 @@ impl<T> Outcome<T> {
     }
 }
 
-impl<T> From<std::result::Result<T, Undefined>> for Outcome<T> {
-    fn from(result: std::result::Result<T, Undefined>) -> Self {
+impl<T> From<std::result::Result<T, UndefinedStatistic>> for StatsOutcome<T> {
+    fn from(result: std::result::Result<T, UndefinedStatistic>) -> Self {
         match result {
             Ok(it) => Self::Found(it),
             Err(why) => Self::Nothing { why },
@@ -120,11 +120,11 @@ impl<T> From<std::result::Result<T, Undefined>> for Outcome<T> {
 
 /// The participants: how many came, how many were left out and why, and who they are.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct People {
+pub struct ReportPeople {
     /// How many files of answers there are.
     pub recruited: usize,
     /// How many were left out, by the first reason that applies.
-    pub excluded: Vec<Excluded>,
+    pub excluded: Vec<ExcludedParticipants>,
     /// How many are analysed.
     pub analysed: usize,
     /// How many of the analysed answered another version of the plan.
@@ -135,9 +135,9 @@ pub struct People {
 
 /// Participants who were left out for one reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Excluded {
+pub struct ExcludedParticipants {
     /// The reason.
-    pub reason: Reason,
+    pub reason: ExclusionReason,
     /// How many.
     pub count: usize,
 }
@@ -145,11 +145,11 @@ pub struct Excluded {
 /// The reason why a participant is left out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Reason {
+pub enum ExclusionReason {
     /// The participant did not agree to an analysis.
     NoConsent,
     /// A rule of the plan.
-    Rule(Exclusion),
+    Rule(ExclusionRule),
     /// An answer about the participant is not among those that are analysed.
     Filter {
         /// The name of the question.
@@ -163,7 +163,7 @@ pub struct ProfileTable {
     /// The name of the question.
     pub question: String,
     /// Its text.
-    pub text: Texts,
+    pub text: LocalizedTexts,
     /// The options of the plan, then other answers, then those who gave none.
     pub rows: Vec<ProfileRow>,
 }
@@ -174,7 +174,7 @@ pub struct ProfileRow {
     /// The name of the option; none for those who gave no answer.
     pub option: Option<String>,
     /// Its text.
-    pub text: Texts,
+    pub text: LocalizedTexts,
     /// How many of all.
     pub recruited: usize,
     /// How many of the analysed.
@@ -187,22 +187,22 @@ pub struct QuestionReport {
     /// The name of the question.
     pub name: String,
     /// Its text.
-    pub text: Texts,
+    pub text: LocalizedTexts,
     /// The possible answers.
     pub kind: QuestionKind,
     /// The answers by part and condition.
-    pub conditions: Vec<Group>,
+    pub conditions: Vec<AnswerGroup>,
     /// The answers by part, item and condition.
-    pub items: Vec<Group>,
+    pub items: Vec<AnswerGroup>,
     /// Which options were chosen for which right option: for all conditions, and for each if there are several.
-    pub confusions: Vec<Confusion>,
+    pub confusions: Vec<ConfusionTable>,
     /// The models of answers on a scale, one for each part with several conditions.
     pub models: Vec<ModelReport>,
 }
 
 /// The answers of one group of trials.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Group {
+pub struct AnswerGroup {
     /// The part of the study.
     pub part: String,
     /// The item; none for all of them.
@@ -218,16 +218,16 @@ pub struct Group {
     /// How often each number of the scale, or each option, was given.
     pub counts: Vec<usize>,
     /// The description of answers on a scale; none for a choice, or without answers.
-    pub description: Option<Description>,
+    pub description: Option<GroupDescription>,
     /// The mean answer of each person on a scale, in ascending order.
     pub person_means: Vec<f64>,
     /// The share of right answers; none if the plan names no right option.
-    pub recognition: Option<Share>,
+    pub recognition: Option<AnswerShare>,
 }
 
 /// A share with Wilson's interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Share {
+pub struct AnswerShare {
     /// How many are right.
     pub right: usize,
     /// How many there are.
@@ -240,7 +240,7 @@ pub struct Share {
 
 /// Which options were chosen for which right option.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Confusion {
+pub struct ConfusionTable {
     /// The part of the study.
     pub part: String,
     /// The condition; none for all of them.
@@ -265,41 +265,41 @@ pub struct ModelReport {
     /// Whether items are in the model; they are left out if they cannot be separated from conditions.
     pub with_items: bool,
     /// The model; its first coefficients are the conditions in logarithmic odds.
-    pub model: Outcome<ordinal::Model>,
+    pub model: StatsOutcome<ordinal::OrdinalModel>,
 }
 
 /// The comparison that a hypothesis asks for, or all pairs of conditions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Compared {
+pub struct GroupComparison {
     /// The hypothesis; none if the plan states none, so that nothing is concluded.
-    pub hypothesis: Option<Stated>,
+    pub hypothesis: Option<StatedHypothesis>,
     /// The name of the question.
     pub question: String,
     /// The part of the study to which all groups belong; empty if they belong to several.
     pub part: String,
     /// The direction of the tests.
-    pub side: Alternative,
+    pub side: TestAlternative,
     /// The groups.
     pub groups: Vec<GroupSummary>,
     /// The tests of more than two groups.
-    pub overall: Option<Overall>,
+    pub overall: Option<OverallTests>,
     /// The pairs of groups.
-    pub pairs: Vec<Pair>,
+    pub pairs: Vec<GroupPairComparison>,
     /// The correlation with a measure.
     pub measure: Option<MeasureReport>,
     /// The conclusion.
-    pub conclusion: Option<Conclusion>,
+    pub conclusion: Option<HypothesisConclusion>,
 }
 
 /// A hypothesis as the plan states it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stated {
+pub struct StatedHypothesis {
     /// Its name.
     pub name: String,
     /// The statement in words.
-    pub text: Texts,
+    pub text: LocalizedTexts,
     /// The expected result.
-    pub expects: Expectation,
+    pub expects: ExpectedResult,
     /// The level of significance.
     pub alpha: f64,
 }
@@ -312,21 +312,21 @@ pub struct GroupSummary {
     /// How many people answered.
     pub people: usize,
     /// The answers; shares of right answers count 1 and 0.
-    pub description: Outcome<Description>,
+    pub description: StatsOutcome<GroupDescription>,
 }
 
 /// The tests of more than two groups.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Overall {
+pub struct OverallTests {
     /// Kruskal-Wallis of all answers, as if they were independent.
-    pub pooled: Outcome<Pooled>,
+    pub pooled: StatsOutcome<PooledAnswersTest>,
     /// Friedman on the means of people who answered in every group.
-    pub people: Outcome<Friedman>,
+    pub people: StatsOutcome<FriedmanResult>,
 }
 
 /// Kruskal-Wallis of all answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Pooled {
+pub struct PooledAnswersTest {
     /// H, corrected for ties.
     pub h: f64,
     /// The degrees of freedom.
@@ -339,19 +339,19 @@ pub struct Pooled {
 
 /// The comparison of two groups.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Pair {
+pub struct GroupPairComparison {
     /// The places of the two groups in the list.
     pub groups: [usize; 2],
     /// The test of all answers, as if they were independent.
-    pub pooled: Outcome<PairTest>,
+    pub pooled: StatsOutcome<PairTest>,
     /// The effect on all answers.
-    pub effect: Outcome<EffectReport>,
+    pub effect: StatsOutcome<EffectReport>,
     /// The test of the means of people.
-    pub people: Outcome<PairTest>,
+    pub people: StatsOutcome<PairTest>,
     /// The mean over people of the difference of their means, first minus second; none without people in both groups.
     pub mean_difference: Option<f64>,
     /// Whether the difference is smaller than the smallest of interest.
-    pub sameness: Outcome<Sameness>,
+    pub sameness: StatsOutcome<SamenessTest>,
 }
 
 /// One test of two groups.
@@ -364,7 +364,7 @@ pub struct PairTest {
     /// U, W+, the number of people right in the first group only, or the odds ratio; none if that is infinite.
     pub statistic: Option<f64>,
     /// The computation of p.
-    pub method: Method,
+    pub method: PValueMethod,
     /// p of this test alone.
     pub p: f64,
     /// p corrected for the number of pairs by Holm's method.
@@ -391,20 +391,20 @@ pub struct EffectReport {
     /// Cliff's delta: how much more often the first answer is the higher one; of right answers, the difference of shares.
     pub delta: f64,
     /// The words for its size.
-    pub size: Size,
+    pub size: EffectSize,
     /// The probability of a higher answer in the first group, ties counted half.
     pub a12: f64,
     /// The median difference.
     pub shift: Option<f64>,
     /// The interval of delta.
-    pub interval: Outcome<Ends>,
+    pub interval: StatsOutcome<ResampledInterval>,
 }
 
 /// An interval from resampled participants.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Ends {
+pub struct ResampledInterval {
     /// The rule.
-    pub kind: Interval,
+    pub kind: ResampleIntervalRule,
     /// Its level.
     pub level: f64,
     /// Its lower end.
@@ -415,13 +415,13 @@ pub struct Ends {
 
 /// The test for sameness: whether the interval of delta lies between two bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Sameness {
+pub struct SamenessTest {
     /// The smallest difference of interest, as Cliff's delta.
     pub bound: f64,
     /// The interval whose level is 1 minus twice the level of significance.
-    pub ends: Ends,
+    pub ends: ResampledInterval,
     /// The result.
-    pub result: Equivalence,
+    pub result: EquivalenceConclusion,
 }
 
 /// The correlation of answers with a measure of the trials.
@@ -432,11 +432,11 @@ pub struct MeasureReport {
     /// Each trial that has the measure and answers.
     pub points: Vec<MeasurePoint>,
     /// Spearman's coefficient of the measure and the mean answers of trials.
-    pub spearman: Outcome<Correlation>,
+    pub spearman: StatsOutcome<RankCorrelation>,
     /// Kendall's tau-b of the same.
-    pub kendall: Outcome<Correlation>,
+    pub kendall: StatsOutcome<RankCorrelation>,
     /// The interval of Spearman's coefficient.
-    pub interval: Outcome<Ends>,
+    pub interval: StatsOutcome<ResampledInterval>,
 }
 
 /// A trial with its measure and its mean answer.
@@ -452,17 +452,17 @@ pub struct MeasurePoint {
 
 /// The conclusion about a hypothesis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Conclusion {
+pub struct HypothesisConclusion {
     /// Whether they support it.
-    pub verdict: Verdict,
+    pub verdict: HypothesisVerdict,
     /// The reason.
-    pub because: Because,
+    pub because: VerdictReason,
 }
 
 /// Whether answers support a hypothesis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum HypothesisVerdict {
     /// They support it.
     Supported,
     /// They speak against it.
@@ -474,7 +474,7 @@ pub enum Verdict {
 /// The reason of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Because {
+pub enum VerdictReason {
     /// The test of people's means is significant.
     Significant,
     /// Every interval lies between the bounds.
@@ -488,7 +488,7 @@ pub enum Because {
     /// The test of a correlation is not significant.
     NotSignificant,
     /// There is no test.
-    NoTest(Undefined),
+    NoTest(UndefinedStatistic),
 }
 
 impl Corpus {
@@ -496,40 +496,35 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no study of that name.
-    pub fn report_study(&self, name: &str) -> Result<Report> {
-        let study = self.study(name)?;
+    pub fn report_study(&self, name: &str) -> CorpusResult<StudyReport> {
+        let study = self.study_with_answers(name)?;
         let options = ReportOptions::default();
         // The stored hash is the one that answers name, also if this version would write the plan in another form.
         let sha256 = study.plan_sha256;
-        Ok(report_of(
-            &study.plan,
-            sha256,
-            &study.participants,
-            &options,
-        ))
+        Ok(report_of(&study.plan, sha256, &study.participants, &options))
     }
 }
 
 /// Makes the report of a study.
 #[must_use]
-pub fn report(plan: &Plan, participants: &[Participant], options: &ReportOptions) -> Report {
-    report_of(plan, plan.sha256(), participants, options)
+pub fn make_study_report(plan: &StudyPlan, participants: &[StudyParticipant], options: &ReportOptions) -> StudyReport {
+    report_of(plan, plan.plan_sha256(), participants, options)
 }
 
 fn report_of(
-    plan: &Plan,
+    plan: &StudyPlan,
     plan_sha256: String,
-    participants: &[Participant],
+    participants: &[StudyParticipant],
     options: &ReportOptions,
-) -> Report {
-    let (people, analysed) = people::sort_out(plan, &plan_sha256, participants);
-    let resampling = Resampling {
+) -> StudyReport {
+    let (people, analysed) = report_people::sort_out(plan, &plan_sha256, participants);
+    let resampling = ResamplingSettings {
         times: options.resamples,
         seed: plan.design.seed,
         level: options.level,
     };
     let questions = plan.questions.iter();
-    Report {
+    StudyReport {
         format: "chereme-report",
         version: 1,
         program: env!("CARGO_PKG_VERSION"),
@@ -539,8 +534,8 @@ fn report_of(
         resampling,
         people,
         questions: questions
-            .map(|question| groups::of_question(plan, question, &analysed))
+            .map(|question| report_groups::of_question(plan, question, &analysed))
             .collect(),
-        comparisons: compare::all(plan, &analysed, &resampling),
+        comparisons: report_compare::compare_all_hypotheses(plan, &analysed, &resampling),
     }
 }

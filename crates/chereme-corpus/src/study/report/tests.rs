@@ -4,11 +4,11 @@ mod simulated;
 
 use serde_json::{Value, json};
 
-use crate::study::answers::Participant;
-use crate::study::plan::Plan;
+use crate::study::study_answers::StudyParticipant;
+use crate::study::study_plan::StudyPlan;
 
 /// Returns a plan from the parts that differ between tests.
-fn plan_of(trials: &[Value], questions: Value, more: Value) -> Plan {
+fn plan_of(trials: &[Value], questions: Value, more: Value) -> StudyPlan {
     let mut plan = json!({
         "format": "chereme-study", "version": 1, "name": "test", "title": {"en": "A test", "fr": "Un essai"},
         "trials": trials, "questions": questions,
@@ -23,13 +23,12 @@ fn trial(part: &str, item: &str, condition: &str) -> Value {
 }
 
 fn realism() -> Value {
-    let labels =
-        json!({"1": {"en": "not at all", "fr": "pas du tout"}, "5": {"en": "very", "fr": "très"}});
+    let labels = json!({"1": {"en": "not at all", "fr": "pas du tout"}, "5": {"en": "very", "fr": "très"}});
     json!({"name": "realism", "text": {"en": "How natural?"}, "kind": {"scale": {"low": 1, "high": 5, "labels": labels}}})
 }
 
 /// Returns a participant who finished, with a level of sign language and answers.
-fn person(number: usize, level: &str, answers: &[Value]) -> Participant {
+fn person(number: usize, level: &str, answers: &[Value]) -> StudyParticipant {
     let answers: Vec<Value> = answers
         .iter()
         .enumerate()

@@ -2,7 +2,7 @@ use serde_json::json;
 
 use super::*;
 
-fn plan() -> Plan {
+fn plan() -> StudyPlan {
     let plan = json!({
         "format": "chereme-study", "version": 1, "name": "bowls",
         "trials": [
@@ -31,20 +31,17 @@ since;;;;profile.level;
 /// Returns the map above; the codes of its third line stand in quotes, as they hold the separator.
 fn map() -> ColumnMap {
     let text = MAP.replace("A1=1; A5=5", "\"A1=1; A5=5\"");
-    ColumnMap::read(&text, "map.csv", &plan()).expect("a map")
+    ColumnMap::read_column_map(&text, "map.csv", &plan()).expect("a map")
 }
 
-fn people(text: &str) -> (Vec<Participant>, Findings) {
-    let mut findings = Findings::default();
+fn people(text: &str) -> (Vec<StudyParticipant>, FileFindings) {
+    let mut findings = FileFindings::default();
     let by = (&map(), &plan(), "sha");
-    let (read, _) = read(text, "answers.csv", by, &mut findings).expect("read");
-    (
-        read.into_iter().map(|it| it.participant).collect(),
-        findings,
-    )
+    let (read, _) = read_wide_answers(text, "answers.csv", by, &mut findings).expect("read");
+    (read.into_iter().map(|it| it.participant).collect(), findings)
 }
 
-fn said(person: &Participant) -> Vec<(u32, &str, Option<i64>, Option<&str>)> {
+fn said(person: &StudyParticipant) -> Vec<(u32, &str, Option<i64>, Option<&str>)> {
     let each = person.answers.iter();
     each.map(|it| (it.n, it.question.as_str(), it.value, it.choice.as_deref()))
         .collect()
@@ -64,10 +61,7 @@ fn codes_labels_texts_and_names_are_answers() {
             (2, "place", None, Some("right")),
         ]
     );
-    assert_eq!(
-        all[0].profile.get("level").map(String::as_str),
-        Some("native")
-    );
+    assert_eq!(all[0].profile.get("level").map(String::as_str), Some("native"));
     assert_eq!((all[0].code.as_str(), all[0].finished), ("12", true));
     assert_eq!(
         said(&all[1]),
@@ -78,7 +72,7 @@ fn codes_labels_texts_and_names_are_answers() {
         ]
     );
     assert!(!all[1].finished, "an answer is missing");
-    assert!(findings.finished().is_empty());
+    assert!(findings.finish_findings().is_empty());
 }
 
 #[test]
@@ -98,7 +92,7 @@ R_1,3,left,4,right,good
 fn what_is_no_answer_is_reported_with_its_line() {
     let (all, findings) = people("id,r1,p1,r2,p2,since\na,6,up,A1,right,\n");
     assert_eq!(said(&all[0]), [(2, "place", None, Some("right"))]);
-    let found = findings.finished();
+    let found = findings.finish_findings();
     let lines: Vec<_> = found.iter().map(|it| it.line).collect();
     assert_eq!(lines, [Some(2); 3]);
     assert!(found[0].message.contains("\"6\" in the column \"r1\""));
@@ -147,38 +141,27 @@ fn maps_that_fit_neither_plan_nor_table_are_refused_with_their_line() {
             "map.csv",
             "no column of participants",
         ),
-        (
-            "column,what\nid,participant\n",
-            "map.csv",
-            "no column \"what\"",
-        ),
-        (
-            "column,means\n,participant\n",
-            "map.csv, line 2",
-            "names no column",
-        ),
+        ("column,what\nid,participant\n", "map.csv", "no column \"what\""),
+        ("column,means\n,participant\n", "map.csv, line 2", "names no column"),
     ];
     for (text, place, message) in cases {
-        let error = ColumnMap::read(text, "map.csv", &plan()).expect_err(text);
+        let error = ColumnMap::read_column_map(text, "map.csv", &plan()).expect_err(text);
         let shown = error.to_string();
         assert!(shown.contains(message), "{shown}");
-        assert_eq!(error.place().as_deref(), Some(place), "{shown}");
+        assert_eq!(error.error_place().as_deref(), Some(place), "{shown}");
     }
     let by = (&map(), &plan(), "sha");
-    let mut findings = Findings::default();
-    let error = read("id,r1,p1,r2,p3\n", "a.csv", by, &mut findings).err();
+    let mut findings = FileFindings::default();
+    let error = read_wide_answers("id,r1,p1,r2,p3\n", "a.csv", by, &mut findings).err();
     let shown = error.expect("refused").to_string();
-    assert!(
-        shown.contains("does not have: \"p2\"; did you mean"),
-        "{shown}"
-    );
+    assert!(shown.contains("does not have: \"p2\"; did you mean"), "{shown}");
 }
 
 #[test]
 fn the_use_of_each_column_is_shown_before_anything_is_stored() {
     let text = "id,r1,p1,r2,p2,since,other\n,A5,left,,,,x\n12,A1,,2,,,y\n";
     let by = (&map(), &plan(), "sha");
-    let (_, uses) = read(text, "a.csv", by, &mut Findings::default()).expect("read");
+    let (_, uses) = read_wide_answers(text, "a.csv", by, &mut FileFindings::default()).expect("read");
     let shown: Vec<String> = uses
         .iter()
         .map(|it| {
@@ -202,11 +185,10 @@ fn the_use_of_each_column_is_shown_before_anything_is_stored() {
 
 #[test]
 fn every_wrong_row_of_a_map_is_named() {
-    let text =
-        "column,item,condition,question,means\nid,,,,participant\nr1,BOL,mad,realism,\nx,,,,age\n";
-    let Err(Error::Several { errors }) = ColumnMap::read(text, "m.csv", &plan()) else {
+    let text = "column,item,condition,question,means\nid,,,,participant\nr1,BOL,mad,realism,\nx,,,,age\n";
+    let Err(CorpusError::Several { errors }) = ColumnMap::read_column_map(text, "m.csv", &plan()) else {
         panic!("two rows are wrong")
     };
-    let places: Vec<_> = errors.iter().filter_map(Error::place).collect();
+    let places: Vec<_> = errors.iter().filter_map(CorpusError::error_place).collect();
     assert_eq!(places, ["m.csv, line 3", "m.csv, line 4"]);
 }

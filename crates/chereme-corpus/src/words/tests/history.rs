@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use super::super::effect::{TrackEffect, ValuedThing};
 use super::super::old_effect::effect_of_summary;
 use super::*;
-use crate::merge::Decision;
+use crate::merge::ConflictDecision;
 
 fn annotations(changes: Vec<AnnotationDeed>) -> AnnotationEffect {
     AnnotationEffect::from_changes(changes, &["Un".to_owned()])
@@ -106,9 +106,7 @@ fn all_effects() -> Vec<OperationEffect> {
         Effect::ChangeRecording {
             recording: recording.clone(),
         },
-        Effect::ChangeSigner {
-            signer: text("signer"),
-        },
+        Effect::ChangeSigner { signer: text("signer") },
         change_sign(None),
         change_sign(Some(text("former"))),
         Effect::SetCitation {
@@ -142,14 +140,8 @@ fn all_effects() -> Vec<OperationEffect> {
             signer: text("signer"),
             recording,
         },
-        Effect::CueFromDictionary {
-            gloss,
-            movements: 8,
-        },
-        Effect::FindTargets {
-            keys: 1,
-            recordings: 2,
-        },
+        Effect::CueFromDictionary { gloss, movements: 8 },
+        Effect::FindTargets { keys: 1, recordings: 2 },
         Effect::KeepSearch {
             names: vec![text("one"), text("two")],
         },
@@ -161,16 +153,12 @@ fn all_effects() -> Vec<OperationEffect> {
         Effect::Delete {
             names: vec![text("one"), text("two")],
         },
-        Effect::PlanStudy {
-            study: study.clone(),
-        },
+        Effect::PlanStudy { study: study.clone() },
         Effect::ImportAnswers {
             study: study.clone(),
             participants: 2,
         },
-        Effect::ForgetParticipant {
-            study: study.clone(),
-        },
+        Effect::ForgetParticipant { study: study.clone() },
         Effect::DeleteStudy { study },
         Effect::ChangeConsent {
             names: vec![text("one")],
@@ -184,7 +172,7 @@ fn all_effects() -> Vec<OperationEffect> {
         },
         Effect::Decide {
             conflicts: vec![1, 2],
-            decision: Decision::Theirs,
+            decision: ConflictDecision::Theirs,
         },
         Effect::Mend {},
     ]
@@ -200,17 +188,14 @@ fn every_operation_has_its_sentence_with_all_its_names_in_both_languages() {
         assert_eq!(read, effect, "{json}");
         let ids = json.split("\"does\":\"").skip(1);
         used.extend(ids.filter_map(|rest| rest.split('"').next().map(str::to_owned)));
-        let [english, french] = [Language::English, Language::French]
+        let [english, french] = [InterfaceLanguage::English, InterfaceLanguage::French]
             .map(|language| operation_sentence(&effect, language));
         for sentence in [&english, &french] {
             assert!(!sentence.contains(['{', '}']), "{sentence}");
             assert!(!sentence.contains("  "), "{sentence}");
             let names = json.split('<').skip(1);
             for name in names.filter_map(|rest| rest.split('>').next()) {
-                assert!(
-                    sentence.contains(&format!("<{name}>")),
-                    "{sentence}: {name}"
-                );
+                assert!(sentence.contains(&format!("<{name}>")), "{sentence}: {name}");
             }
         }
         assert_ne!(english, french, "{json}");
@@ -230,7 +215,7 @@ fn every_operation_has_its_sentence_with_all_its_names_in_both_languages() {
     let variants: Vec<&str> = error.split('`').skip(3).step_by(2).collect();
     assert!(variants.len() > 40, "{error}");
     assert!(variants.iter().all(|name| used.contains(*name)), "{error}");
-    let known = sentences(Language::French)
+    let known = load_message_patterns(InterfaceLanguage::French)
         .keys()
         .filter_map(|id| id.strip_prefix("history-"));
     let known = known
@@ -292,16 +277,8 @@ fn operations_are_sentences_in_both_languages() {
             "note: X made: BOL | swap",
             "note: X composé : BOL | swap",
         ),
-        (
-            import(1, "a.bvh", "a.bvh"),
-            "Imported: a.bvh",
-            "Importé : a.bvh",
-        ),
-        (
-            import(0, "", ""),
-            "Imported: nothing new",
-            "Importé : rien de nouveau",
-        ),
+        (import(1, "a.bvh", "a.bvh"), "Imported: a.bvh", "Importé : a.bvh"),
+        (import(0, "", ""), "Imported: nothing new", "Importé : rien de nouveau"),
         (
             import(2, "talk in Paris to Lyon.bvh", "talk in Paris to Lyon.eaf"),
             "Imported: 2 files from talk in Paris to Lyon.bvh to talk in Paris to Lyon.eaf",
@@ -324,8 +301,8 @@ fn operations_are_sentences_in_both_languages() {
             "novel : x",
         ),
     ] {
-        assert_eq!(operation_sentence(&effect, Language::English), english);
-        assert_eq!(operation_sentence(&effect, Language::French), french);
+        assert_eq!(operation_sentence(&effect, InterfaceLanguage::English), english);
+        assert_eq!(operation_sentence(&effect, InterfaceLanguage::French), french);
     }
 }
 
@@ -360,8 +337,8 @@ fn undoing_a_removal_reads_as_a_restoration() {
             "Rétabli : escargot, B",
         ),
     ] {
-        assert_eq!(undo_sentence(&effect, Language::English), english);
-        assert_eq!(undo_sentence(&effect, Language::French), french);
+        assert_eq!(undo_sentence(&effect, InterfaceLanguage::English), english);
+        assert_eq!(undo_sentence(&effect, InterfaceLanguage::French), french);
     }
 }
 
@@ -380,11 +357,7 @@ fn old_summaries_are_read_if_they_have_one_reading() {
             "2 files from talk in Paris to Lyon.bvh to talk in Paris to Lyon.eaf",
             "Importé : 2 files from talk in Paris to Lyon.bvh to talk in Paris to Lyon.eaf",
         ),
-        (
-            "recombine",
-            "note: X = BOL | swap",
-            "note: X composé : BOL | swap",
-        ),
+        ("recombine", "note: X = BOL | swap", "note: X composé : BOL | swap"),
         (
             "annotate",
             "2 added, 1 removed in Un",
@@ -416,11 +389,7 @@ fn old_summaries_are_read_if_they_have_one_reading() {
             "2S into 2s in hands",
             "Valeur 2S fusionnée avec 2s dans hands",
         ),
-        (
-            "add tier",
-            "\"a \\\"b\\\" to\" to Un",
-            "Acteur a \"b\" to ajouté à Un",
-        ),
+        ("add tier", "\"a \\\"b\\\" to\" to Un", "Acteur a \"b\" to ajouté à Un"),
         (
             "remove tier",
             "Gloss with 2 annotations from Un",
@@ -431,12 +400,9 @@ fn old_summaries_are_read_if_they_have_one_reading() {
         let effect = effect_of_summary(name, summary);
         let unread = OperationEffect::from_stored_texts(name, summary, None);
         let effect = effect.unwrap_or(unread);
-        assert_eq!(operation_sentence(&effect, Language::French), french);
+        assert_eq!(operation_sentence(&effect, InterfaceLanguage::French), french);
         let (stored_name, stored_summary, _) = effect.stored_texts();
-        assert_eq!(
-            (stored_name.as_str(), stored_summary.as_str()),
-            (name, summary)
-        );
+        assert_eq!((stored_name.as_str(), stored_summary.as_str()), (name, summary));
     }
 }
 
@@ -448,7 +414,7 @@ fn changes_of_rows_are_lines_in_both_languages() {
         from,
         to,
     };
-    let change = |kind, fields| Changed {
+    let change = |kind, fields| ChangedRow {
         what: "annotation",
         id: Some(1),
         name: "note: X".into(),
@@ -484,7 +450,7 @@ fn changes_of_rows_are_lines_in_both_languages() {
             "annotation \"note: X\" sur A of B de talk, 1 to 2 : son ordre ou sa forme",
         ),
     ] {
-        assert_eq!(change_sentence(&change, Language::English), english);
-        assert_eq!(change_sentence(&change, Language::French), french);
+        assert_eq!(change_sentence(&change, InterfaceLanguage::English), english);
+        assert_eq!(change_sentence(&change, InterfaceLanguage::French), french);
     }
 }

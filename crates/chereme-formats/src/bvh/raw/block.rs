@@ -1,13 +1,13 @@
 //! A block of frames, column by column.
 
-use chereme_motion::column::{MANTISSA_LIMIT, POW10};
+use chereme_motion::column::{MANTISSA_LIMIT, POWERS_OF_TEN};
 
 use super::digits::ColumnState;
-use super::{Column, Number};
+use super::{Column, FileNumber};
 
 /// Some frames of the motion, one column per channel.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Block {
+pub struct MotionBlock {
     /// The number of the first frame, counted from 0.
     pub first_frame: u64,
     /// The number of frames.
@@ -17,27 +17,18 @@ pub struct Block {
 }
 
 /// Converts the column to a larger scale; returns false and changes nothing if a number would not fit.
-pub(super) fn raise(column: &mut Column, scale: u8, pending: &mut [i64]) -> bool {
+pub(super) fn raise_column_scale(column: &mut Column, scale: u8, pending: &mut [i64]) -> bool {
     let steps = usize::from(scale - column.scale);
-    let largest = column
-        .mantissas
-        .iter()
-        .chain(&*pending)
-        .map(|m| m.unsigned_abs())
-        .max();
-    let largest = largest.unwrap_or(0);
+    let largest_mantissa = column.mantissas.iter().chain(&*pending).map(|m| m.unsigned_abs()).max();
+    let largest = largest_mantissa.unwrap_or(0);
     if largest > 0 {
-        let Some(&factor) = POW10
+        let Some(&factor) = POWERS_OF_TEN
             .get(steps)
             .filter(|&&f| largest < (MANTISSA_LIMIT / f) as u64)
         else {
             return false;
         };
-        column
-            .mantissas
-            .iter_mut()
-            .chain(pending)
-            .for_each(|m| *m *= factor);
+        column.mantissas.iter_mut().chain(pending).for_each(|m| *m *= factor);
     }
     column.scale = scale;
     true
@@ -45,11 +36,11 @@ pub(super) fn raise(column: &mut Column, scale: u8, pending: &mut [i64]) -> bool
 
 /// Converts a finished column to the scale that its own numbers need, and returns the scale at which the
 /// next block starts.
-pub(super) fn settle(column: &mut Column, state: ColumnState) -> u8 {
+pub(super) fn settle_column_scale(column: &mut Column, state: ColumnState) -> u8 {
     if column
         .exceptions
         .iter()
-        .any(|(_, number)| matches!(number, Number::Decimal(_)))
+        .any(|(_, number)| matches!(number, FileNumber::Decimal(_)))
     {
         column.fit_most();
         return 0;
@@ -57,10 +48,7 @@ pub(super) fn settle(column: &mut Column, state: ColumnState) -> u8 {
     let rows = column.mantissas.len();
     let lower = column.scale - state.most;
     if state.fewer as usize + column.exceptions.len() == rows && lower > 0 {
-        let divisor = POW10
-            .get(usize::from(lower))
-            .copied()
-            .unwrap_or(MANTISSA_LIMIT);
+        let divisor = POWERS_OF_TEN.get(usize::from(lower)).copied().unwrap_or(MANTISSA_LIMIT);
         column.mantissas.iter_mut().for_each(|m| *m /= divisor);
         column.scale = state.most;
     }
@@ -82,7 +70,7 @@ mod tests {
             "12345678901234567890",
             "-7",
         ];
-        let numbers: Vec<Number> = texts.iter().map(|text| text.parse().unwrap()).collect();
+        let numbers: Vec<FileNumber> = texts.iter().map(|text| text.parse().unwrap()).collect();
         let exceptions = numbers
             .iter()
             .cloned()
@@ -94,19 +82,15 @@ mod tests {
             mantissas: vec![0; texts.len()],
             exceptions,
         };
-        settle(&mut column, ColumnState::default());
+        settle_column_scale(&mut column, ColumnState::default());
         assert_eq!(column.scale, 2);
         assert_eq!(
-            column
-                .exceptions
-                .iter()
-                .map(|(frame, _)| *frame)
-                .collect::<Vec<_>>(),
+            column.exceptions.iter().map(|(frame, _)| *frame).collect::<Vec<_>>(),
             [1, 4, 5]
         );
         for (frame, number) in numbers.iter().enumerate() {
-            assert_eq!(column.number(frame).as_ref(), Some(number));
-            assert_eq!(column.value(frame), number.to_f64());
+            assert_eq!(column.exact_number_at(frame).as_ref(), Some(number));
+            assert_eq!(column.decimal_value_at(frame), number.to_f64());
         }
     }
 }

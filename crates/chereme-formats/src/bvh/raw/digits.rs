@@ -1,17 +1,17 @@
 //! The fast path for numbers such as `-12.345678`: eight digits at a time.
 
-use chereme_motion::column::{MANTISSA_LIMIT, POW10};
+use chereme_motion::column::{MANTISSA_LIMIT, POWERS_OF_TEN};
 
 /// Bytes that must be available from the start of a token; the last tokens of a chunk take the slow path.
-const REACH: usize = 48;
+const TOKEN_REACH_BYTES: usize = 48;
 
 /// Rows gathered before they are spread over the columns: eight make a cache line of each column.
-pub(super) const TILE: usize = 8;
+pub(super) const TILE_ROW_COUNT: usize = 8;
 
 /// Eight zeros in ASCII.
-const ZEROS: u64 = 0x3030_3030_3030_3030;
+const ASCII_ZERO_BYTES: u64 = 0x3030_3030_3030_3030;
 /// The high bit of each of eight bytes.
-const HIGH: u64 = 0x8080_8080_8080_8080;
+const BYTE_HIGH_BITS: u64 = 0x8080_8080_8080_8080;
 
 /// The state of a column while a block is read.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,7 +37,7 @@ impl ColumnState {
     }
 
     /// Returns the digits after the point that the column's mantissas have.
-    pub(super) fn scale(&self) -> u8 {
+    pub(super) fn column_decimal_scale(&self) -> u8 {
         self.scale
     }
 
@@ -50,11 +50,11 @@ impl ColumnState {
 
     /// Returns the mantissa at the column's scale; `None` if it would have more than eighteen digits or lose one.
     #[inline]
-    pub(super) fn fit(&mut self, mantissa: i64, scale: u8) -> Option<i64> {
+    pub(super) fn fit_column_mantissa(&mut self, mantissa: i64, scale: u8) -> Option<i64> {
         if scale == self.scale {
             return Some(mantissa);
         }
-        let factor = *POW10.get(usize::from(self.scale.checked_sub(scale)?))?;
+        let factor = *POWERS_OF_TEN.get(usize::from(self.scale.checked_sub(scale)?))?;
         let fitted = mantissa.checked_mul(factor)?;
         if fitted.unsigned_abs() >= MANTISSA_LIMIT as u64 {
             return None;
@@ -72,7 +72,7 @@ impl ColumnState {
 pub(super) fn read_numbers(
     text: &[u8],
     row: usize,
-    slots: &mut [[i64; TILE]],
+    slots: &mut [[i64; TILE_ROW_COUNT]],
     columns: &mut [ColumnState],
 ) -> (usize, usize) {
     let mut done = 0;
@@ -81,14 +81,12 @@ pub(super) fn read_numbers(
         if let [b' ' | b'\t', ..] = rest {
             rest = &rest[leading_blanks(rest)..];
         }
-        let expected = rest
-            .first_chunk()
-            .and_then(|window| expected_at(window, *column));
+        let expected = rest.first_chunk().and_then(|window| expected_at(window, *column));
         if let Some((mantissa, end)) = expected {
-            slot[row % TILE] = mantissa;
+            slot[row % TILE_ROW_COUNT] = mantissa;
             rest = &rest[end + 1..];
         } else if let Some((mantissa, after)) = any_at(rest, column) {
-            slot[row % TILE] = mantissa;
+            slot[row % TILE_ROW_COUNT] = mantissa;
             rest = after;
         } else {
             break;
@@ -102,13 +100,11 @@ pub(super) fn read_numbers(
 #[inline(never)]
 fn any_at<'a>(text: &'a [u8], column: &mut ColumnState) -> Option<(i64, &'a [u8])> {
     let (mantissa, scale, length) = number_at(text)?;
-    Some((column.fit(mantissa, scale)?, &text[length..]))
+    Some((column.fit_column_mantissa(mantissa, scale)?, &text[length..]))
 }
 
 fn leading_blanks(text: &[u8]) -> usize {
-    text.iter()
-        .take_while(|b| matches!(b, b' ' | b'\t'))
-        .count()
+    text.iter().take_while(|b| matches!(b, b' ' | b'\t')).count()
 }
 
 /// Returns the mantissa and the length of a number written as the column expects it: up to four characters
@@ -118,8 +114,8 @@ fn leading_blanks(text: &[u8]) -> usize {
 /// The end follows from the position of the point alone, so that the processor can begin the next number
 /// early.
 #[inline(always)]
-fn expected_at(window: &[u8; REACH], column: ColumnState) -> Option<(i64, usize)> {
-    let word = load(window, 0);
+fn expected_at(window: &[u8; TOKEN_REACH_BYTES], column: ColumnState) -> Option<(i64, usize)> {
+    let word = load_window_word(window, 0);
     let point = first_point(word);
     if point.wrapping_sub(1) >= 4 {
         return None;
@@ -127,37 +123,37 @@ fn expected_at(window: &[u8; REACH], column: ColumnState) -> Option<(i64, usize)
     let end = point + 1 + usize::from(column.quick & 15);
     let minus = minus_one_if(word as u8 == b'-');
     let sign_to_zero = minus as u32 & u32::from(b'-' ^ b'0');
-    let whole = ((word ^ ZEROS) as u32 ^ sign_to_zero) << (32 - 8 * point);
-    let fraction = (load(window, point + 1) ^ ZEROS).wrapping_shl(column.shift.into());
+    let whole_number = ((word ^ ASCII_ZERO_BYTES) as u32 ^ sign_to_zero) << (32 - 8 * point);
+    let fraction = (load_window_word(window, point + 1) ^ ASCII_ZERO_BYTES).wrapping_shl(column.shift.into());
     if window[end] != b' '
-        || (high_unless_digits(fraction) | high_unless_digits(whole.into())) & HIGH != 0
+        || (high_unless_digits(fraction) | high_unless_digits(whole_number.into())) & BYTE_HIGH_BITS != 0
     {
         return None;
     }
-    let size = four(whole) * POW10[usize::from(column.quick & 15)] + eight(fraction);
-    Some((signed(size, minus), end))
+    let size = four_digit_value(whole_number) * POWERS_OF_TEN[usize::from(column.quick & 15)] + eight(fraction);
+    Some((apply_number_sign(size, minus), end))
 }
 
 /// Returns mantissa, scale and length of a plain number that a blank follows: at most seven digits before the point
 /// and fifteen after it, eighteen in all.
 #[inline(always)]
 fn number_at(text: &[u8]) -> Option<(i64, u8, usize)> {
-    let window: &[u8; REACH] = text.first_chunk()?;
+    let window: &[u8; TOKEN_REACH_BYTES] = text.first_chunk()?;
     let sign = usize::from(window[0] == b'-');
     let minus = minus_one_if(sign == 1);
-    let (whole_word, whole_digits) = digits(load(window, sign));
+    let (whole_word, whole_digits) = count_leading_digits(load_window_word(window, sign));
     if whole_digits == 8 {
         return None;
     }
-    let whole = eight((whole_word << (56 - 8 * whole_digits)) << 8);
+    let whole_number = eight((whole_word << (56 - 8 * whole_digits)) << 8);
     let point = sign + whole_digits;
     if window[point & 15] != b'.' {
         let good = whole_digits > 0 && is_end(window[point & 15]);
-        return good.then(|| (signed(whole, minus), 0, point));
+        return good.then(|| (apply_number_sign(whole_number, minus), 0, point));
     }
-    let (word, count) = digits(load(window, point + 1));
+    let (word, count) = count_leading_digits(load_window_word(window, point + 1));
     if count == 8 {
-        return long_fraction(window, whole, minus, point);
+        return long_fraction(window, whole_number, minus, point);
     }
     let end = point + 1 + count;
     if !is_end(window[end & 31]) || whole_digits + count == 0 {
@@ -165,44 +161,39 @@ fn number_at(text: &[u8]) -> Option<(i64, u8, usize)> {
     }
     let fraction = eight((word << (56 - 8 * count)) << 8);
     Some((
-        signed(whole * POW10[count & 7] + fraction, minus),
+        apply_number_sign(whole_number * POWERS_OF_TEN[count & 7] + fraction, minus),
         count as u8,
         end,
     ))
 }
 
 #[inline(never)]
-fn long_fraction(
-    window: &[u8; REACH],
-    whole: i64,
-    minus: i64,
-    point: usize,
-) -> Option<(i64, u8, usize)> {
-    let first = eight(digits(load(window, point + 1)).0);
-    let (word, count) = digits(load(window, point + 9));
+fn long_fraction(window: &[u8; TOKEN_REACH_BYTES], whole: i64, minus: i64, point: usize) -> Option<(i64, u8, usize)> {
+    let first = eight(count_leading_digits(load_window_word(window, point + 1)).0);
+    let (word, count) = count_leading_digits(load_window_word(window, point + 9));
     let end = point + 9 + count;
     if count == 8 || !is_end(window[end & 31]) {
         return None;
     }
     let second = eight((word << (56 - 8 * count)) << 8);
-    let head = whole * POW10[8] + first;
-    let mantissa = head.checked_mul(POW10[count & 7])? + second;
-    (mantissa < MANTISSA_LIMIT).then(|| (signed(mantissa, minus), 8 + count as u8, end))
+    let head = whole * POWERS_OF_TEN[8] + first;
+    let mantissa = head.checked_mul(POWERS_OF_TEN[count & 7])? + second;
+    (mantissa < MANTISSA_LIMIT).then(|| (apply_number_sign(mantissa, minus), 8 + count as u8, end))
 }
 
 #[inline(always)]
-fn load(window: &[u8; REACH], at: usize) -> u64 {
-    let at = at & 31;
+fn load_window_word(window: &[u8; TOKEN_REACH_BYTES], at: usize) -> u64 {
+    let start = at & 31;
     let mut word = [0; 8];
-    word.copy_from_slice(&window[at..at + 8]);
+    word.copy_from_slice(&window[start..start + 8]);
     u64::from_le_bytes(word)
 }
 
 /// Returns the bytes less `'0'`, and the number of leading digits.
 #[inline(always)]
-fn digits(word: u64) -> (u64, usize) {
-    let values = word ^ ZEROS;
-    let others = high_unless_digits(values) & HIGH;
+fn count_leading_digits(word: u64) -> (u64, usize) {
+    let values = word ^ ASCII_ZERO_BYTES;
+    let others = high_unless_digits(values) & BYTE_HIGH_BITS;
     (values, (others.trailing_zeros() / 8) as usize)
 }
 
@@ -216,13 +207,13 @@ fn high_unless_digits(values: u64) -> u64 {
 #[inline(always)]
 fn first_point(word: u64) -> usize {
     let zero_at_points = word ^ 0x2e2e_2e2e_2e2e_2e2e;
-    let found = zero_at_points.wrapping_sub(0x0101_0101_0101_0101) & !zero_at_points & HIGH;
-    (found.trailing_zeros() / 8) as usize
+    let point_bits = zero_at_points.wrapping_sub(0x0101_0101_0101_0101) & !zero_at_points & BYTE_HIGH_BITS;
+    (point_bits.trailing_zeros() / 8) as usize
 }
 
 /// Returns the number that four digit values make, the first in the lowest byte.
 #[inline(always)]
-fn four(values: u32) -> i64 {
+fn four_digit_value(values: u32) -> i64 {
     let pairs = values.wrapping_mul(10).wrapping_add(values >> 8) & 0x00ff_00ff;
     i64::from(pairs.wrapping_mul((100 << 16) + 1) >> 16)
 }
@@ -243,7 +234,7 @@ fn minus_one_if(negative: bool) -> i64 {
 
 /// Returns `size` with its sign: `minus` is -1 for a negative number, otherwise 0.
 #[inline(always)]
-fn signed(size: i64, minus: i64) -> i64 {
+fn apply_number_sign(size: i64, minus: i64) -> i64 {
     (size ^ minus) - minus
 }
 
@@ -254,21 +245,20 @@ fn is_end(byte: u8) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Decimal, Number};
+    use super::super::{ExactDecimal, FileNumber};
     use super::*;
     use proptest::prelude::*;
 
     fn padded(token: &str) -> Vec<u8> {
         let mut text = token.as_bytes().to_vec();
-        text.extend([b'\n'; REACH]);
+        text.extend([b'\n'; TOKEN_REACH_BYTES]);
         text
     }
 
     #[test]
     fn odd_tokens_take_the_slow_path() {
         for token in [
-            "", "-", ".", "-.", "+1", "1e3", "1.5e3", "12345678", "1..2", "1.2.3", "1,5", "nan",
-            "1x", "1.5x",
+            "", "-", ".", "-.", "+1", "1e3", "1.5e3", "12345678", "1..2", "1.2.3", "1,5", "nan", "1x", "1.5x",
         ] {
             assert_eq!(number_at(&padded(token)), None, "{token:?}");
         }
@@ -289,8 +279,8 @@ mod tests {
         ] {
             let (mantissa, scale, length) = number_at(&padded(token)).expect(token);
             assert_eq!(length, token.len());
-            let fast = Number::Decimal(Decimal { mantissa, scale });
-            assert_eq!(Ok(fast), Number::parse(token.as_bytes()), "{token:?}");
+            let fast = FileNumber::Decimal(ExactDecimal { mantissa, scale });
+            assert_eq!(Ok(fast), FileNumber::parse_file_number(token.as_bytes()), "{token:?}");
         }
     }
 
@@ -299,9 +289,9 @@ mod tests {
 
         #[test]
         fn fast_and_slow_path_agree(token in "-?[0-9]{0,9}(\\.[0-9]{0,18})?([eEx,.-][0-9]?)?") {
-            let fast = number_at(&padded(&token)).map(|(mantissa, scale, _)| Number::from(Decimal { mantissa, scale }));
+            let fast = number_at(&padded(&token)).map(|(mantissa, scale, _)| FileNumber::from(ExactDecimal { mantissa, scale }));
             if let Some(fast) = fast {
-                prop_assert_eq!(Ok(fast), Number::parse(token.as_bytes()));
+                prop_assert_eq!(Ok(fast), FileNumber::parse_file_number(token.as_bytes()));
             }
         }
     }

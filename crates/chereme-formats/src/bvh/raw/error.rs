@@ -4,7 +4,7 @@ use super::NotANumber;
 
 /// The reason why a BVH file can't be read: the line, the text found there, and a correction.
 #[derive(Debug, thiserror::Error)]
-#[error("line {line}: {kind}; {}", kind.remedy())]
+#[error("line {line}: {kind}; {}", kind.bvh_error_remedy())]
 pub struct BvhError {
     /// The line, counted from 1.
     pub line: u64,
@@ -48,7 +48,7 @@ pub enum BvhErrorKind {
         joint: String,
         /// The line of its brace.
         opened: u64,
-        /// The text found instead: `MOTION` or `the end of the file`.
+        /// The text found instead: `MOTION_FORMATS` or `the end of the file`.
         before: &'static str,
     },
     /// A second skeleton.
@@ -125,24 +125,20 @@ pub enum BvhErrorKind {
 impl BvhErrorKind {
     /// Returns the error of this kind at a line.
     #[must_use]
-    pub(super) fn at(self, line: u64) -> BvhError {
+    pub(super) fn error_at_line(self, line: u64) -> BvhError {
         BvhError { line, kind: self }
     }
 
     /// Returns a correction, or an action for the user.
     #[must_use]
-    pub fn remedy(&self) -> &'static str {
+    pub fn bvh_error_remedy(&self) -> &'static str {
         match self {
             Self::Io(_) => "check the disk and the permissions, and try again",
             Self::Empty => "export the recording again",
             Self::Utf16 => "save the file as UTF-8 with a text editor",
-            Self::Binary | Self::NotBvh { .. } => {
-                "a BVH file is text that begins with the line HIERARCHY"
-            }
+            Self::Binary | Self::NotBvh { .. } => "a BVH file is text that begins with the line HIERARCHY",
             Self::Unexpected { .. } => "compare the lines around it with another joint of the file",
-            Self::Unclosed { .. } => {
-                "add the missing \"}\", or export again if the file was cut off"
-            }
+            Self::Unclosed { .. } => "add the missing \"}\", or export again if the file was cut off",
             Self::SecondRoot => "split the file: one skeleton with one ROOT each",
             Self::UnknownChannel { .. } => {
                 "channels are Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation (Xscale, Yscale, Zscale)"
@@ -152,9 +148,7 @@ impl BvhErrorKind {
             }
             Self::TooLong { .. } => "the file is damaged here; export it again",
             Self::BadNumber { why, .. } | Self::BadValue { why, .. } => remedy_for(*why),
-            Self::RowWidth { .. } => {
-                "each row holds one number per channel; correct the row or the CHANNELS lines"
-            }
+            Self::RowWidth { .. } => "each row holds one number per channel; correct the row or the CHANNELS lines",
             Self::NoFrameTime { .. } => {
                 "give the seconds per frame in the header, such as \"Frame Time: 0.0083333\" for 120 Hz"
             }
@@ -167,11 +161,7 @@ fn remedy_for(why: NotANumber) -> &'static str {
         NotANumber::NotFinite => {
             "the exporter could not compute it; fill the gap in the capture software and export again"
         }
-        NotANumber::Comma => {
-            "export with decimal points (set the system's number format to English)"
-        }
-        NotANumber::TooLarge | NotANumber::Garbage => {
-            "a number such as -12.345 or 1.2e-3 belongs here"
-        }
+        NotANumber::Comma => "export with decimal points (set the system's number format to English)",
+        NotANumber::TooLarge | NotANumber::Garbage => "a number such as -12.345 or 1.2e-3 belongs here",
     }
 }

@@ -5,16 +5,16 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::Number;
+use super::FileNumber;
 
 /// The joints of a file in its own order, parents before their children.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Hierarchy {
+pub struct BvhHierarchy {
     /// The joints; the first is the root.
     pub joints: Vec<RawJoint>,
 }
 
-impl Hierarchy {
+impl BvhHierarchy {
     /// Returns the number of channels of all joints: the columns of the motion.
     #[must_use]
     pub fn channel_count(&self) -> usize {
@@ -23,7 +23,7 @@ impl Hierarchy {
 
     /// Returns the columns of the motion that are each joint's channels.
     #[must_use]
-    pub fn columns(&self) -> Vec<Range<usize>> {
+    pub fn joint_channel_columns(&self) -> Vec<Range<usize>> {
         let mut next = 0;
         let ranges = self.joints.iter().map(|joint| {
             let first = next;
@@ -35,7 +35,7 @@ impl Hierarchy {
 
     /// Returns the joint and the channel that a column of the motion belongs to.
     #[must_use]
-    pub fn channel_at(&self, column: usize) -> Option<(&RawJoint, Channel)> {
+    pub fn channel_at(&self, column: usize) -> Option<(&RawJoint, BvhChannel)> {
         let mut rest = column;
         for joint in &self.joints {
             match joint.channels.get(rest) {
@@ -55,23 +55,23 @@ pub struct RawJoint {
     /// The index of the parent; `None` for the root.
     pub parent: Option<usize>,
     /// The position in the parent's frame, in the file's unit and axes.
-    pub offset: [Number; 3],
+    pub offset: [FileNumber; 3],
     /// The channels in the order written, which is the order of the columns and of the rotations.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<BvhChannel>,
     /// The offsets of the End Sites: usually one on a leaf, but files may lack them, or have them next to
     /// children.
-    pub end_sites: Vec<[Number; 3]>,
+    pub end_sites: Vec<[FileNumber; 3]>,
     /// The position of the joint in its parent's frame according to the position channels (the median over
     /// the movement), if it differs from the offset. No file states it. See
-    /// [`Bones`](crate::bvh::bones::Bones).
+    /// [`BonePositions`](crate::bvh::bones::BonePositions).
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub placed: Option<[Number; 3]>,
+    pub placed: Option<[FileNumber; 3]>,
 }
 
 /// The quantity in a column of the motion: positions in the file's unit, rotations in degrees, scales as
 /// factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum Channel {
+pub enum BvhChannel {
     /// Translation along X.
     Xposition,
     /// Translation along Y.
@@ -92,9 +92,9 @@ pub enum Channel {
     Zscale,
 }
 
-impl Channel {
+impl BvhChannel {
     /// Every channel with its word in files.
-    pub const WORDS: [(Self, &'static str); 9] = [
+    pub const CHANNEL_WORDS: [(Self, &'static str); 9] = [
         (Self::Xposition, "Xposition"),
         (Self::Yposition, "Yposition"),
         (Self::Zposition, "Zposition"),
@@ -109,7 +109,7 @@ impl Channel {
     /// Returns the channel that a word names, ignoring case.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
-        Self::WORDS
+        Self::CHANNEL_WORDS
             .iter()
             .find(|(_, known)| known.eq_ignore_ascii_case(word))
             .map(|&(channel, _)| channel)
@@ -117,13 +117,13 @@ impl Channel {
 
     /// Returns the channel's word in files.
     #[must_use]
-    pub fn word(self) -> &'static str {
-        Self::WORDS[self as usize].1
+    pub fn channel_word(self) -> &'static str {
+        Self::CHANNEL_WORDS[self as usize].1
     }
 
     /// Returns the axis: 0 for X, 1 for Y, 2 for Z.
     #[must_use]
-    pub fn axis(self) -> usize {
+    pub fn channel_axis(self) -> usize {
         self as usize % 3
     }
 
@@ -140,8 +140,8 @@ impl Channel {
     }
 }
 
-impl fmt::Display for Channel {
+impl fmt::Display for BvhChannel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
+        f.write_str(self.channel_word())
     }
 }

@@ -27,18 +27,18 @@ mod error;
 mod header;
 mod hierarchy;
 mod oddity;
-mod parse;
+mod raw_parse;
+mod raw_source;
+mod raw_writer;
 mod reader;
 mod root_order;
-mod source;
-mod writer;
 
-pub use block::Block;
+pub use block::MotionBlock;
 pub use error::{BvhError, BvhErrorKind};
-pub use header::Header;
-pub use hierarchy::{Channel, Hierarchy, RawJoint};
-pub use reader::{Options, Reader, Summary};
+pub use header::BvhMotionHeader;
+pub use hierarchy::{BvhChannel, BvhHierarchy, RawJoint};
+pub use raw_writer::{BvhWriteError, BvhWriter};
+pub use reader::{BvhReadOptions, BvhReadSummary, BvhReader};
 pub use root_order::ChannelFix;
-pub use writer::{WriteError, Writer};
 
-pub use chereme_motion::column::{Decimal, Decimals as Column, NotANumber, Number};
+pub use chereme_motion::column::{DecimalColumn as Column, ExactDecimal, FileNumber, NotANumber};

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Finding, Mend, Severity};
+use crate::{FindingSeverity, ImportFinding, ReaderCorrection};
 
 /// The kinds of oddity that the reader knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Oddity {
+pub(super) enum BvhOddity {
     ByteOrderMark,
     CrLf,
     CrOnly,
@@ -50,11 +50,11 @@ struct OddityCount {
 
 /// The oddities noticed so far: at most one entry per kind, whatever the file's size.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Oddities(BTreeMap<Oddity, OddityCount>);
+pub(super) struct BvhOddities(BTreeMap<BvhOddity, OddityCount>);
 
-impl Oddities {
+impl BvhOddities {
     /// Records one occurrence; the line and detail of the first are kept.
-    pub(super) fn note(&mut self, kind: Oddity, line: u64, detail: impl Into<String>) {
+    pub(super) fn note_oddity(&mut self, kind: BvhOddity, line: u64, detail: impl Into<String>) {
         let new = || OddityCount {
             line,
             count: 0,
@@ -64,62 +64,47 @@ impl Oddities {
     }
 
     /// Returns whether the kind was noticed.
-    pub(super) fn has(&self, kind: Oddity) -> bool {
+    pub(super) fn has_oddity(&self, kind: BvhOddity) -> bool {
         self.0.contains_key(&kind)
     }
 
     /// Returns a finding for each kind, in the order of their lines.
-    pub(super) fn findings(&self) -> Vec<Finding> {
+    pub(super) fn oddity_findings(&self) -> Vec<ImportFinding> {
         let mut seen: Vec<_> = self.0.iter().collect();
         seen.sort_by_key(|(kind, seen)| (seen.line, **kind));
         seen.into_iter()
-            .map(|(kind, seen)| finding(*kind, seen))
+            .map(|(kind, seen)| describe_oddity_finding(*kind, seen))
             .collect()
     }
 }
 
-fn finding(
-    kind: Oddity,
-    OddityCount {
-        line,
-        count,
-        detail,
-    }: &OddityCount,
-) -> Finding {
-    let (severity, what, remedy) = words(kind);
+fn describe_oddity_finding(kind: BvhOddity, OddityCount { line, count, detail }: &OddityCount) -> ImportFinding {
+    let (severity, what, remedy) = oddity_words(kind);
     let mut message = what.replace("{}", detail);
     if *count > 1 {
         message.push_str(&format!(" ({count} times)"));
     }
     let remedy = (!remedy.is_empty()).then(|| remedy.into());
-    Finding {
+    ImportFinding {
         severity,
         line: Some(*line),
         message,
         remedy,
-        mend: (kind == Oddity::SwappedRoot).then_some(Mend::RootOrder),
+        mend: (kind == BvhOddity::SwappedRoot).then_some(ReaderCorrection::RootOrder),
     }
 }
 
 /// Returns severity, message (with `{}` for the detail of the first occurrence) and remedy of each kind.
-fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
-    use Oddity as O;
-    use Severity::{Note, Warning};
+fn oddity_words(kind: BvhOddity) -> (FindingSeverity, &'static str, &'static str) {
+    use BvhOddity as O;
+    use FindingSeverity::{Note, Warning};
     match kind {
         O::ByteOrderMark => (Note, "the file begins with a byte-order mark; skipped", ""),
         O::CrLf => (Note, "lines end with CR LF, as on Windows", ""),
         O::CrOnly => (Note, "lines end with CR alone, as on old Macs", ""),
-        O::NoHierarchyLine => (
-            Note,
-            "the line HIERARCHY is missing; the file begins with ROOT",
-            "",
-        ),
+        O::NoHierarchyLine => (Note, "the line HIERARCHY is missing; the file begins with ROOT", ""),
         O::KeywordCase => (Note, "the keyword {} has an unusual spelling", ""),
-        O::BraceOnNameLine => (
-            Note,
-            "the brace of joint {} stands on the line of the name",
-            "",
-        ),
+        O::BraceOnNameLine => (Note, "the brace of joint {} stands on the line of the name", ""),
         O::EmptyName => (
             Warning,
             "a joint has no name",
@@ -136,50 +121,22 @@ fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
             "rename one of them",
         ),
         O::OffsetOverLines => (Note, "the OFFSET of joint {} goes over several lines", ""),
-        O::NoOffset => (
-            Warning,
-            "joint {} has no OFFSET; taken as 0 0 0",
-            "give its OFFSET",
-        ),
+        O::NoOffset => (Warning, "joint {} has no OFFSET; taken as 0 0 0", "give its OFFSET"),
         O::ChannelCount => (
             Warning,
             "joint {}; the names count",
             "correct the number after CHANNELS",
         ),
         O::RepeatedChannel => (Warning, "joint {} twice", "check the CHANNELS line"),
-        O::ScaleChannel => (
-            Warning,
-            "joint {} has scale channels; kept, but no scale is shown",
-            "",
-        ),
+        O::ScaleChannel => (Warning, "joint {} has scale channels; kept, but no scale is shown", ""),
         O::PositionBelowRoot => (Note, "joint {} below the root has position channels", ""),
-        O::NoChannels => (
-            Note,
-            "joint {} has no channels and never moves by itself",
-            "",
-        ),
-        O::NoEndSite => (
-            Note,
-            "joint {} is a leaf without End Site; its length is unknown",
-            "",
-        ),
-        O::EndSiteBesideChildren => (
-            Note,
-            "joint {} has an End Site beside children; both kept",
-            "",
-        ),
+        O::NoChannels => (Note, "joint {} has no channels and never moves by itself", ""),
+        O::NoEndSite => (Note, "joint {} is a leaf without End Site; its length is unknown", ""),
+        O::EndSiteBesideChildren => (Note, "joint {} has an End Site beside children; both kept", ""),
         O::SeveralEndSites => (Note, "joint {} has several End Sites; all kept", ""),
         O::EndSiteName => (Note, "an End Site has the name {}; dropped", ""),
-        O::NoMotion => (
-            Warning,
-            "there is no MOTION section: a skeleton without movement",
-            "",
-        ),
-        O::NoFrameCount => (
-            Note,
-            "the line \"Frames:\" is missing; rows are counted instead",
-            "",
-        ),
+        O::NoMotion => (Warning, "there is no MOTION section: a skeleton without movement", ""),
+        O::NoFrameCount => (Note, "the line \"Frames:\" is missing; rows are counted instead", ""),
         O::BadFrameCount => (
             Warning,
             "the frame count {} is no count; rows are counted instead",
@@ -190,11 +147,7 @@ fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
             "the header says {}; the rows count",
             "check that the recording is whole",
         ),
-        O::NoFrames => (
-            Warning,
-            "there are no frames: a skeleton without movement",
-            "",
-        ),
+        O::NoFrames => (Warning, "there are no frames: a skeleton without movement", ""),
         O::HeaderSpelling => (Note, "the header line {} has unusual blanks", ""),
         O::NoFrameTime => (
             Warning,
@@ -216,11 +169,7 @@ fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
             "the last row breaks off: {}; dropped",
             "the file was cut off; export it again",
         ),
-        O::TextAfterMotion => (
-            Note,
-            "text follows the motion, beginning with {}; ignored",
-            "",
-        ),
+        O::TextAfterMotion => (Note, "text follows the motion, beginning with {}; ignored", ""),
         O::SwappedRoot => (
             Warning,
             "the root's columns hold rotation before position, though CHANNELS says the reverse: {}",
@@ -235,13 +184,13 @@ mod tests {
 
     #[test]
     fn repeated_oddities_are_one_finding() {
-        let mut oddities = Oddities::default();
+        let mut oddities = BvhOddities::default();
         for line in 5..1005 {
-            oddities.note(Oddity::NoEndSite, line, format!("J{line}"));
+            oddities.note_oddity(BvhOddity::NoEndSite, line, format!("J{line}"));
         }
-        oddities.note(Oddity::ByteOrderMark, 1, "");
+        oddities.note_oddity(BvhOddity::ByteOrderMark, 1, "");
         let messages: Vec<_> = oddities
-            .findings()
+            .oddity_findings()
             .into_iter()
             .map(|f| (f.line, f.message))
             .collect();

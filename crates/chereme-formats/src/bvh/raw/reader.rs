@@ -2,28 +2,28 @@
 
 use std::io::Read;
 
-use super::block::{raise, settle};
-use super::digits::{ColumnState, TILE, read_numbers};
-use super::oddity::{Oddities, Oddity};
-use super::parse::read_head;
+use super::block::{raise_column_scale, settle_column_scale};
+use super::digits::{ColumnState, TILE_ROW_COUNT, read_numbers};
+use super::oddity::{BvhOddities, BvhOddity};
+use super::raw_parse::read_head;
+use super::raw_source::{ByteSource, is_blank, shown_token_bytes};
 use super::root_order::RootOrder;
-use super::source::{Source, is_blank, shown};
 use super::{
-    Block, BvhError, BvhErrorKind, ChannelFix, Column, Header, Hierarchy, NotANumber, Number,
+    BvhError, BvhErrorKind, BvhHierarchy, BvhMotionHeader, ChannelFix, Column, FileNumber, MotionBlock, NotANumber,
 };
-use crate::Finding;
+use crate::ImportFinding;
 
 /// Most bytes per block of numbers that are too long for a mantissa.
 const LONG_NUMBERS_LIMIT: usize = 32 << 20;
 
 /// Options of the reader.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct BvhReadOptions {
     /// The frames per block, at least 1.
     pub block_frames: usize,
 }
 
-impl Default for Options {
+impl Default for BvhReadOptions {
     fn default() -> Self {
         Self { block_frames: 256 }
     }
@@ -32,18 +32,18 @@ impl Default for Options {
 /// Reads a BVH file: opening it reads the hierarchy, and the motion is then pulled block by block.
 ///
 /// Memory is bounded by the hierarchy and one block, whatever the file's size and whatever its header claims.
-pub struct Reader<R> {
-    source: Source<R>,
-    oddities: Oddities,
-    hierarchy: Hierarchy,
-    header: Header,
+pub struct BvhReader<R> {
+    source: ByteSource<R>,
+    oddities: BvhOddities,
+    hierarchy: BvhHierarchy,
+    header: BvhMotionHeader,
     root_order: RootOrder,
-    options: Options,
+    options: BvhReadOptions,
     /// The full rows read so far.
     rows: u64,
     ended: bool,
     columns: Vec<ColumnState>,
-    tile: Vec<[i64; TILE]>,
+    tile: Vec<[i64; TILE_ROW_COUNT]>,
     /// The full rows in the tile.
     tile_rows: usize,
     /// The columns already read of the row after those.
@@ -59,47 +59,47 @@ pub struct Reader<R> {
 
 /// The results of reading a whole file.
 #[derive(Clone, Debug)]
-pub struct Summary {
+pub struct BvhReadSummary {
     /// The frames read.
     pub frames: u64,
     /// The oddities, in the order of the lines.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<ImportFinding>,
     /// The actual order of the root's columns, if it differs from CHANNELS.
     pub root_fix: Option<ChannelFix>,
 }
 
-impl<R: Read> Reader<R> {
+impl<R: Read> BvhReader<R> {
     /// Reads the hierarchy and the header of the motion.
     ///
     /// # Errors
     /// [`BvhError`] if the bytes are not a BVH file, or its hierarchy or header has no clear meaning.
-    pub fn open(read: R) -> Result<Self, BvhError> {
-        Self::open_with(read, Options::default())
+    pub fn open_bvh(read: R) -> Result<Self, BvhError> {
+        Self::open_with(read, BvhReadOptions::default())
     }
 
     /// Reads the hierarchy and the header of the motion, with options.
     ///
     /// # Errors
-    /// The same as [`Reader::open`]'s.
-    pub fn open_with(read: R, options: Options) -> Result<Self, BvhError> {
-        let mut source = Source::new(read);
-        let mut oddities = Oddities::default();
+    /// The same as [`BvhReader::open_bvh`]'s.
+    pub fn open_with(read: R, options: BvhReadOptions) -> Result<Self, BvhError> {
+        let mut source = ByteSource::new(read);
+        let mut oddities = BvhOddities::default();
         let (hierarchy, header) = read_head(&mut source, &mut oddities)?;
         let channels = hierarchy.channel_count();
         Ok(Self {
             root_order: RootOrder::new(&hierarchy),
-            motion_line: source.line(),
+            motion_line: source.byte_source_line(),
             ended: !header.has_motion,
             source,
             oddities,
             hierarchy,
             header,
-            options: Options {
+            options: BvhReadOptions {
                 block_frames: options.block_frames.max(1),
             },
             rows: 0,
             columns: vec![ColumnState::default(); channels],
-            tile: vec![[0; TILE]; channels],
+            tile: vec![[0; TILE_ROW_COUNT]; channels],
             tile_rows: 0,
             column: 0,
             on_line: 0,
@@ -110,13 +110,13 @@ impl<R: Read> Reader<R> {
 
     /// Returns the joints.
     #[must_use]
-    pub fn hierarchy(&self) -> &Hierarchy {
+    pub fn bvh_hierarchy(&self) -> &BvhHierarchy {
         &self.hierarchy
     }
 
     /// Returns the header of the motion.
     #[must_use]
-    pub fn header(&self) -> &Header {
+    pub fn bvh_motion_header(&self) -> &BvhMotionHeader {
         &self.header
     }
 
@@ -132,54 +132,52 @@ impl<R: Read> Reader<R> {
     /// # Errors
     /// [`BvhError`] with its line for a number or a row without a clear meaning; the reader cannot be used
     /// afterwards.
-    pub fn next_block(&mut self, block: &mut Block) -> Result<bool, BvhError> {
-        self.begin(block);
+    pub fn next_block(&mut self, block: &mut MotionBlock) -> Result<bool, BvhError> {
+        self.begin_motion_block(block);
         self.long_numbers = 0;
         while !self.ended && block.frames + self.tile_rows < self.options.block_frames {
-            self.step(block)?;
+            self.read_row_step(block)?;
         }
         self.spread_tile(block);
         for (column, state) in block.columns.iter_mut().zip(&mut self.columns) {
-            *state = ColumnState::new(settle(column, *state));
+            *state = ColumnState::new(settle_column_scale(column, *state));
         }
-        self.root_order.watch(block);
+        self.root_order.watch_motion_block(block);
         Ok(block.frames > 0)
     }
 
     /// Returns the summary of the frames read so far.
     #[must_use]
-    pub fn finish(mut self) -> Summary {
-        let root_fix = self.root_order.fix();
+    pub fn finish_bvh_reading(mut self) -> BvhReadSummary {
+        let root_fix = self.root_order.root_channel_fix();
         self.note_ending(root_fix);
-        Summary {
+        BvhReadSummary {
             frames: self.rows,
-            findings: self.oddities.findings(),
+            findings: self.oddities.oddity_findings(),
             root_fix,
         }
     }
 
-    fn begin(&self, block: &mut Block) {
+    fn begin_motion_block(&self, block: &mut MotionBlock) {
         block.first_frame = self.rows;
         block.frames = 0;
-        block
-            .columns
-            .resize_with(self.columns.len(), Column::default);
+        block.columns.resize_with(self.columns.len(), Column::default);
         for (column, state) in block.columns.iter_mut().zip(&self.columns) {
-            column.scale = state.scale();
+            column.scale = state.column_decimal_scale();
             column.mantissas.clear();
             column.exceptions.clear();
         }
     }
 
     /// Reads numbers up to the end of a row, or one number, or the end.
-    fn step(&mut self, block: &mut Block) -> Result<(), BvhError> {
+    fn read_row_step(&mut self, block: &mut MotionBlock) -> Result<(), BvhError> {
         if self.next_is_number(block)? {
             if self.short.is_none() {
                 let tokens = self.source.whole_tokens();
                 let slots = &mut self.tile[self.column..];
                 let states = &mut self.columns[self.column..];
                 let (done, length) = read_numbers(tokens, self.tile_rows, slots, states);
-                self.source.advance(length);
+                self.source.advance_source_bytes(length);
                 self.column += done;
                 self.on_line += done as u64;
                 if done > 0 {
@@ -192,9 +190,9 @@ impl<R: Read> Reader<R> {
     }
 
     /// Skips blanks and closes lines; returns whether a token follows.
-    fn next_is_number(&mut self, block: &mut Block) -> Result<bool, BvhError> {
+    fn next_is_number(&mut self, block: &mut MotionBlock) -> Result<bool, BvhError> {
         loop {
-            match self.source.peek()? {
+            match self.source.peek_source_byte()? {
                 None => {
                     self.end_motion(block)?;
                     return Ok(false);
@@ -203,25 +201,25 @@ impl<R: Read> Reader<R> {
                 Some(byte) if is_blank(byte) => {}
                 Some(_) => return Ok(true),
             }
-            self.source.take();
+            self.source.take_source_byte();
         }
     }
 
     fn end_line(&mut self) {
         if self.column != 0 && self.short.is_none() {
-            self.short = Some((self.source.line(), self.on_line));
+            self.short = Some((self.source.byte_source_line(), self.on_line));
         } else if self.on_line > self.columns.len() as u64 {
             self.oddities
-                .note(Oddity::SeveralFramesOnLine, self.source.line(), "");
+                .note_oddity(BvhOddity::SeveralFramesOnLine, self.source.byte_source_line(), "");
         }
         self.on_line = 0;
     }
 
     /// Reads one token of any form.
-    fn slow_number(&mut self, block: &mut Block) -> Result<(), BvhError> {
-        let line = self.source.line();
+    fn slow_number(&mut self, block: &mut MotionBlock) -> Result<(), BvhError> {
+        let line = self.source.byte_source_line();
         let token = self.source.take_until(is_blank)?.to_vec();
-        let number = match Number::parse(&token) {
+        let number = match FileNumber::parse_file_number(&token) {
             Err(why) => return self.no_number(&token, why, line),
             Ok(number) => number,
         };
@@ -231,7 +229,7 @@ impl<R: Read> Reader<R> {
         if self.columns.is_empty() {
             return Err(self.width_error(line, 1));
         }
-        if matches!(number, Number::Text(_)) {
+        if matches!(number, FileNumber::Text(_)) {
             self.long_numbers += token.len();
         }
         if self.long_numbers > LONG_NUMBERS_LIMIT {
@@ -240,69 +238,69 @@ impl<R: Read> Reader<R> {
                 limit: LONG_NUMBERS_LIMIT,
                 what,
             }
-            .at(line));
+            .error_at_line(line));
         }
-        self.put(number, block);
+        self.put_row_number(number, block);
         self.column += 1;
         self.on_line += 1;
         self.end_row(block)
     }
 
     fn no_number(&mut self, token: &[u8], why: NotANumber, line: u64) -> Result<(), BvhError> {
-        let all_frames = self
-            .header
-            .declared_frames
-            .is_some_and(|all| self.rows >= all);
+        let all_frames = self.header.declared_frames.is_some_and(|all| self.rows >= all);
         let between_rows = self.column == 0 && self.on_line == 0 && self.short.is_none();
         if why == NotANumber::Garbage && all_frames && between_rows {
-            self.oddities
-                .note(Oddity::TextAfterMotion, line, format!("{:?}", shown(token)));
+            self.oddities.note_oddity(
+                BvhOddity::TextAfterMotion,
+                line,
+                format!("{:?}", shown_token_bytes(token)),
+            );
             self.ended = true;
             return Ok(());
         }
         if let Some((line, found)) = self.short {
             return Err(self.width_error(line, found));
         }
-        if self.source.peek()?.is_none() && Number::parse(&[token, b"0"].concat()).is_ok() {
+        if self.source.peek_source_byte()?.is_none() && FileNumber::parse_file_number(&[token, b"0"].concat()).is_ok() {
             self.column_cut(line);
             return Ok(());
         }
-        let at = self.hierarchy.channel_at(self.column);
-        let (joint, channel) = at.map_or((String::new(), "no channel"), |(joint, c)| {
-            (joint.name.clone(), c.word())
+        let channel_place = self.hierarchy.channel_at(self.column);
+        let (joint, channel) = channel_place.map_or((String::new(), "no channel"), |(joint, c)| {
+            (joint.name.clone(), c.channel_word())
         });
         Err(BvhErrorKind::BadValue {
             column: self.column + 1,
             joint,
             channel,
-            found: shown(token),
+            found: shown_token_bytes(token),
             why,
         }
-        .at(line))
+        .error_at_line(line))
     }
 
     /// Records that the file ends inside a number, such as `-` or `1e`.
     fn column_cut(&mut self, line: u64) {
         if self.column == 0 {
             let detail = format!("0 numbers of {}", self.columns.len());
-            self.oddities.note(Oddity::Truncated, line, detail);
+            self.oddities.note_oddity(BvhOddity::Truncated, line, detail);
         }
     }
 
     /// Puts a number into the current row; raises its column's scale if needed and possible.
-    fn put(&mut self, number: Number, block: &mut Block) {
+    fn put_row_number(&mut self, number: FileNumber, block: &mut MotionBlock) {
         let (index, row) = (self.column, self.tile_rows);
         let frame = (block.frames + row) as u32;
         let (column, state) = (&mut block.columns[index], &mut self.columns[index]);
         let (above, below) = self.tile[index].split_at_mut(row);
         let slot = &mut below[0];
         *slot = 0;
-        if let Number::Decimal(decimal) = number {
-            if let Some(fitted) = state.fit(decimal.mantissa, decimal.scale) {
+        if let FileNumber::Decimal(decimal) = number {
+            if let Some(fitted) = state.fit_column_mantissa(decimal.mantissa, decimal.scale) {
                 *slot = fitted;
                 return;
             }
-            if decimal.scale > state.scale() && raise(column, decimal.scale, above) {
+            if decimal.scale > state.column_decimal_scale() && raise_column_scale(column, decimal.scale, above) {
                 state.set_scale(decimal.scale);
                 *slot = decimal.mantissa;
                 return;
@@ -312,7 +310,7 @@ impl<R: Read> Reader<R> {
     }
 
     /// Closes the row if it is full.
-    fn end_row(&mut self, block: &mut Block) -> Result<(), BvhError> {
+    fn end_row(&mut self, block: &mut MotionBlock) -> Result<(), BvhError> {
         if self.column == self.columns.len() {
             self.column = 0;
             self.tile_rows += 1;
@@ -320,7 +318,7 @@ impl<R: Read> Reader<R> {
             if self.rows == 2 {
                 self.header.check_timed()?;
             }
-            if self.tile_rows == TILE {
+            if self.tile_rows == TILE_ROW_COUNT {
                 self.spread_tile(block);
             }
         }
@@ -328,7 +326,7 @@ impl<R: Read> Reader<R> {
     }
 
     /// Moves the rows of the tile to the columns; called between rows only.
-    fn spread_tile(&mut self, block: &mut Block) {
+    fn spread_tile(&mut self, block: &mut MotionBlock) {
         let rows = self.tile_rows;
         for (rows_of_column, column) in self.tile.iter().zip(&mut block.columns) {
             column.mantissas.extend_from_slice(&rows_of_column[..rows]);
@@ -338,27 +336,21 @@ impl<R: Read> Reader<R> {
     }
 
     /// Closes the motion: an incomplete row is dropped if it ends the file.
-    fn end_motion(&mut self, block: &mut Block) -> Result<(), BvhError> {
+    fn end_motion(&mut self, block: &mut MotionBlock) -> Result<(), BvhError> {
         self.end_line();
         self.ended = true;
         let Some((line, found)) = self.short else {
             return Ok(());
         };
         let expected = self.columns.len();
-        let many_per_line =
-            line == self.motion_line || self.oddities.has(Oddity::SeveralFramesOnLine);
+        let many_per_line = line == self.motion_line || self.oddities.has_oddity(BvhOddity::SeveralFramesOnLine);
         if found > expected as u64 && !many_per_line {
             return Err(self.width_error(line, found));
         }
         let detail = format!("{} numbers of {expected}", self.column);
-        self.oddities.note(Oddity::Truncated, line, detail);
+        self.oddities.note_oddity(BvhOddity::Truncated, line, detail);
         let frame = (block.frames + self.tile_rows) as u32;
-        for (column, state) in block
-            .columns
-            .iter_mut()
-            .zip(&mut self.columns)
-            .take(self.column)
-        {
+        for (column, state) in block.columns.iter_mut().zip(&mut self.columns).take(self.column) {
             column.exceptions.retain(|(at, _)| *at != frame);
             state.fewer = 0;
         }
@@ -371,21 +363,21 @@ impl<R: Read> Reader<R> {
             found,
             expected: self.columns.len(),
         }
-        .at(line)
+        .error_at_line(line)
     }
 
     fn note_ending(&mut self, root_fix: Option<ChannelFix>) {
         for (kind, line) in [
-            (Oddity::CrLf, self.source.cr_lf),
-            (Oddity::CrOnly, self.source.cr),
+            (BvhOddity::CrLf, self.source.cr_lf),
+            (BvhOddity::CrOnly, self.source.cr),
         ] {
             line.into_iter()
-                .for_each(|line| self.oddities.note(kind, line, ""));
+                .for_each(|line| self.oddities.note_oddity(kind, line, ""));
         }
         if root_fix.is_some() {
             let detail = "columns 4 to 6 stay at the root's OFFSET";
             self.oddities
-                .note(Oddity::SwappedRoot, self.motion_line, detail);
+                .note_oddity(BvhOddity::SwappedRoot, self.motion_line, detail);
         }
         if !self.ended || !self.header.has_motion {
             return;
@@ -394,9 +386,9 @@ impl<R: Read> Reader<R> {
             Some(declared) if declared != self.rows => {
                 let detail = format!("{declared} frames, but there are {}", self.rows);
                 self.oddities
-                    .note(Oddity::FrameCountDiffers, self.motion_line, detail);
+                    .note_oddity(BvhOddity::FrameCountDiffers, self.motion_line, detail);
             }
-            _ if self.rows == 0 => self.oddities.note(Oddity::NoFrames, self.motion_line, ""),
+            _ if self.rows == 0 => self.oddities.note_oddity(BvhOddity::NoFrames, self.motion_line, ""),
             _ => {}
         }
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Block, Channel, Hierarchy};
+use super::{BvhChannel, BvhHierarchy, MotionBlock};
 
 /// The actual order of the root's columns, if it differs from the order in CHANNELS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,7 +17,7 @@ impl ChannelFix {
     ///
     /// The order among the rotations, and among the positions, is that of the file.
     #[must_use]
-    pub fn apply(self, channels: &[Channel]) -> Vec<Channel> {
+    pub fn apply_channel_fix(self, channels: &[BvhChannel]) -> Vec<BvhChannel> {
         match self {
             Self::RotationBeforePosition => {
                 let mut fixed = channels.to_vec();
@@ -39,18 +39,14 @@ pub(super) struct RootOrder {
 }
 
 impl RootOrder {
-    pub(super) fn new(hierarchy: &Hierarchy) -> Self {
+    pub(super) fn new(hierarchy: &BvhHierarchy) -> Self {
         let mut offset = [0.0; 3];
         let mut suspect = false;
-        if let Some(root) = hierarchy
-            .joints
-            .first()
-            .filter(|root| root.channels.len() == 6)
-        {
+        if let Some(root) = hierarchy.joints.first().filter(|root| root.channels.len() == 6) {
             let (first, last) = root.channels.split_at(3);
             suspect = first.iter().all(|c| c.is_position()) && last.iter().all(|c| c.is_rotation());
             for (value, channel) in offset.iter_mut().zip(first) {
-                *value = root.offset[channel.axis()].to_f64();
+                *value = root.offset[channel.channel_axis()].to_f64();
             }
         }
         let length = offset.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -62,7 +58,7 @@ impl RootOrder {
         }
     }
 
-    pub(super) fn watch(&mut self, block: &Block) {
+    pub(super) fn watch_motion_block(&mut self, block: &MotionBlock) {
         if !self.suspect {
             return;
         }
@@ -70,7 +66,7 @@ impl RootOrder {
         let near = |first: usize, frame: usize| {
             let place = self.offset.iter().zip(block.columns.iter().skip(first));
             let far = place
-                .map(|(offset, column)| (column.value(frame) - offset).powi(2))
+                .map(|(offset, column)| (column.decimal_value_at(frame) - offset).powi(2))
                 .sum::<f64>()
                 .sqrt();
             far <= self.tolerance
@@ -79,7 +75,7 @@ impl RootOrder {
     }
 
     /// Returns the correction, if all frames agree with it.
-    pub(super) fn fix(&self) -> Option<ChannelFix> {
+    pub(super) fn root_channel_fix(&self) -> Option<ChannelFix> {
         (self.suspect && self.frames > 0).then_some(ChannelFix::RotationBeforePosition)
     }
 }

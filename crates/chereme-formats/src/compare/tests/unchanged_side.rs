@@ -1,36 +1,42 @@
 //! A merge with an unchanged side gives the other side, for tiers of every stereotype.
 
 use super::{Seeded, own, shown};
-use crate::compare::loose::{Loose, Pieces};
-use crate::compare::{diff, merge};
-use crate::eaf::Transcript;
-use crate::eaf::convert::Tier;
-use chereme_motion::{Instant, Span};
-use chereme_sign::Stereotype;
+use crate::compare::diff_transcripts;
+use crate::compare::loose::{LooseAnnotation, TranscriptPieces};
+use crate::compare::merge_transcripts;
+use crate::eaf::AnnotationTranscript;
+use crate::eaf::eaf_convert::TranscriptTier;
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::TierStereotype;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
 /// The tiers: the name, the parent, and the stereotype.
-const TIERS: [(&str, &str, Option<Stereotype>); 8] = [
+const TIERS: [(&str, &str, Option<TierStereotype>); 8] = [
     ("Gloss", "", None),
-    ("word", "Gloss", Some(Stereotype::SymbolicSubdivision)),
-    ("morph", "word", Some(Stereotype::SymbolicSubdivision)),
-    ("pos", "morph", Some(Stereotype::SymbolicAssociation)),
-    ("phase", "Gloss", Some(Stereotype::TimeSubdivision)),
-    ("mouth", "Gloss", Some(Stereotype::IncludedIn)),
-    ("note", "mouth", Some(Stereotype::SymbolicAssociation)),
+    ("word", "Gloss", Some(TierStereotype::SymbolicSubdivision)),
+    ("morph", "word", Some(TierStereotype::SymbolicSubdivision)),
+    ("pos", "morph", Some(TierStereotype::SymbolicAssociation)),
+    ("phase", "Gloss", Some(TierStereotype::TimeSubdivision)),
+    ("mouth", "Gloss", Some(TierStereotype::IncludedIn)),
+    ("note", "mouth", Some(TierStereotype::SymbolicAssociation)),
     ("Head", "", None),
 ];
 
-fn stereotype(pieces: &Pieces, tier: &str) -> Option<Stereotype> {
+fn stereotype(pieces: &TranscriptPieces, tier: &str) -> Option<TierStereotype> {
     let found = pieces.tiers.iter().find(|(it, _)| it.name == tier);
     found.and_then(|(it, _)| it.stereotype)
 }
 
-fn put(pieces: &mut Pieces, tier: &str, (above, rank): (Option<&str>, f64), value: &str) -> String {
+fn put(pieces: &mut TranscriptPieces, tier: &str, (above, rank): (Option<&str>, f64), value: &str) -> String {
     let times = above.and_then(|id| pieces.all.get(id)).map(|it| it.it.span);
-    let (start, end) = times.map_or((0, 1000), |it| (it.start().micros(), it.end().micros()));
-    pieces.add(Loose {
+    let (start, end) = times.map_or((0, 1000), |it| {
+        (
+            it.span_start_instant().instant_micros(),
+            it.span_end_instant().instant_micros(),
+        )
+    });
+    pieces.add_loose_annotation(LooseAnnotation {
         it: own("", start, end, value),
         tier: tier.to_owned(),
         above: above.map(str::to_owned),
@@ -38,29 +44,32 @@ fn put(pieces: &mut Pieces, tier: &str, (above, rank): (Option<&str>, f64), valu
     })
 }
 
-fn set_times(pieces: &mut Pieces, id: &str, start: i64, end: i64) {
+fn set_times(pieces: &mut TranscriptPieces, id: &str, start: i64, end: i64) {
     if let Some(it) = pieces.all.get_mut(id) {
-        it.it.span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
+        it.it.span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
     }
 }
 
-fn times(it: &Loose) -> (i64, i64) {
-    (it.it.span.start().micros(), it.it.span.end().micros())
+fn times(it: &LooseAnnotation) -> (i64, i64) {
+    (
+        it.it.span.span_start_instant().instant_micros(),
+        it.it.span.span_end_instant().instant_micros(),
+    )
 }
 
-fn base(numbers: &mut Seeded) -> Transcript {
-    let mut pieces = Pieces::of(&Transcript::default());
+fn base(numbers: &mut Seeded) -> AnnotationTranscript {
+    let mut pieces = TranscriptPieces::pieces_from_transcript(&AnnotationTranscript::default());
     if numbers.below(2) == 0 {
         let urn = ("URN".to_owned(), "urn:one".to_owned());
         pieces.rest.properties.push(urn);
     }
     for (name, parent, stereotype) in TIERS {
         let parent = Some(parent.to_owned()).filter(|it| !it.is_empty());
-        let tier = Tier {
+        let tier = TranscriptTier {
             name: name.to_owned(),
             kind: "k".into(),
             stereotype,
-            ..Tier::default()
+            ..TranscriptTier::default()
         };
         pieces.tiers.push((tier, parent.clone()));
         let above: Vec<Option<String>> = match parent {
@@ -73,7 +82,7 @@ fn base(numbers: &mut Seeded) -> Transcript {
         for (at, above) in above.iter().enumerate() {
             let count = match stereotype {
                 None => 1,
-                Some(Stereotype::SymbolicAssociation) => numbers.below(2),
+                Some(TierStereotype::SymbolicAssociation) => numbers.below(2),
                 Some(_) => numbers.below(4),
             };
             for rank in 0..count {
@@ -87,7 +96,7 @@ fn base(numbers: &mut Seeded) -> Transcript {
                         let start = 1_000_000 * at as i64;
                         set_times(&mut pieces, &id, start, start + 800_000);
                     }
-                    Some(Stereotype::TimeSubdivision | Stereotype::IncludedIn) => {
+                    Some(TierStereotype::TimeSubdivision | TierStereotype::IncludedIn) => {
                         let step = (end - start) / many;
                         let start = start + step * rank;
                         set_times(&mut pieces, &id, start, start + step);
@@ -97,11 +106,11 @@ fn base(numbers: &mut Seeded) -> Transcript {
             }
         }
     }
-    pieces.whole()
+    pieces.reassemble_transcript()
 }
 
 /// Removes an annotation with all below it.
-fn remove(pieces: &mut Pieces, id: &str) {
+fn remove(pieces: &mut TranscriptPieces, id: &str) {
     pieces.all.remove(id);
     let below = pieces.all.iter();
     let below = below.filter(|(_, it)| it.above.as_deref() == Some(id));
@@ -111,7 +120,7 @@ fn remove(pieces: &mut Pieces, id: &str) {
     }
 }
 
-fn remove_tier(pieces: &mut Pieces, name: &str) {
+fn remove_tier(pieces: &mut TranscriptPieces, name: &str) {
     pieces.tiers.retain(|(tier, _)| tier.name != name);
     pieces.all.retain(|_, it| it.tier != name);
     let below = pieces.tiers.iter();
@@ -123,17 +132,12 @@ fn remove_tier(pieces: &mut Pieces, name: &str) {
 }
 
 /// Splits an annotation with times; the second part gets the children that begin later or come later in their chains.
-fn split(pieces: &mut Pieces, id: &str) {
+fn split(pieces: &mut TranscriptPieces, id: &str) {
     let first = pieces.all[id].clone();
     let (start, end) = times(&first);
     let middle = i64::midpoint(start, end);
     set_times(pieces, id, start, middle);
-    let second = put(
-        pieces,
-        &first.tier,
-        (first.above.as_deref(), 0.0),
-        &first.it.value,
-    );
+    let second = put(pieces, &first.tier, (first.above.as_deref(), 0.0), &first.it.value);
     set_times(pieces, &second, middle, end);
     for it in pieces.all.values_mut() {
         if it.above.as_deref() == Some(id) && (it.rank > 0.0 || times(it).0 >= middle) {
@@ -143,8 +147,8 @@ fn split(pieces: &mut Pieces, id: &str) {
 }
 
 /// Changes a document as an annotator does.
-fn edited(it: &Transcript, numbers: &mut Seeded, deeds: u64) -> Transcript {
-    let mut pieces = Pieces::of(it);
+fn edited(it: &AnnotationTranscript, numbers: &mut Seeded, deeds: u64) -> AnnotationTranscript {
+    let mut pieces = TranscriptPieces::pieces_from_transcript(it);
     for deed in 0..deeds {
         let ids: Vec<String> = pieces.all.keys().cloned().collect();
         if ids.is_empty() {
@@ -164,19 +168,11 @@ fn edited(it: &Transcript, numbers: &mut Seeded, deeds: u64) -> Transcript {
             }
             1 if !chained => {
                 let most = u64::try_from(end - start).expect("a length").max(2);
-                set_times(
-                    &mut pieces,
-                    &id,
-                    start + numbers.below(most - 1) as i64,
-                    end,
-                );
+                set_times(&mut pieces, &id, start + numbers.below(most - 1) as i64, end);
             }
             2 | 3 => remove(&mut pieces, &id),
-            4 if stereotype == Some(Stereotype::SymbolicSubdivision) => {
-                let chain = (
-                    old.above.as_deref(),
-                    old.rank + 0.5 - numbers.below(2) as f64,
-                );
+            4 if stereotype == Some(TierStereotype::SymbolicSubdivision) => {
+                let chain = (old.above.as_deref(), old.rank + 0.5 - numbers.below(2) as f64);
                 put(&mut pieces, &old.tier, chain, &new);
             }
             5 if !chained => {
@@ -185,13 +181,13 @@ fn edited(it: &Transcript, numbers: &mut Seeded, deeds: u64) -> Transcript {
             }
             6 if !chained && end - start > 10_000 => split(&mut pieces, &id),
             7 if numbers.below(3) == 0 => remove_tier(&mut pieces, &old.tier),
-            8 => pieces.rename(&old.tier, &new),
+            8 => pieces.rename_loose_tier(&old.tier, &new),
             9 => {
-                let tier = Tier {
+                let tier = TranscriptTier {
                     name: new.clone(),
                     kind: "k".into(),
-                    stereotype: Some(Stereotype::SymbolicAssociation),
-                    ..Tier::default()
+                    stereotype: Some(TierStereotype::SymbolicAssociation),
+                    ..TranscriptTier::default()
                 };
                 pieces.tiers.push((tier, Some(old.tier.clone())));
                 put(&mut pieces, &new, (Some(&id), 0.0), &new);
@@ -202,25 +198,25 @@ fn edited(it: &Transcript, numbers: &mut Seeded, deeds: u64) -> Transcript {
                 }
             }
             _ => {
-                if let Some((tier, _)) = pieces.tier(&old.tier) {
+                if let Some((tier, _)) = pieces.find_loose_tier(&old.tier) {
                     tier.participant = Some(new);
                 }
             }
         }
     }
-    pieces.whole()
+    pieces.reassemble_transcript()
 }
 
 /// Adds a tier that has nothing to do with the others.
-fn with_another_tier(it: &Transcript) -> Transcript {
-    let mut pieces = Pieces::of(it);
-    let tier = Tier {
+fn with_another_tier(it: &AnnotationTranscript) -> AnnotationTranscript {
+    let mut pieces = TranscriptPieces::pieces_from_transcript(it);
+    let tier = TranscriptTier {
         name: "another".into(),
-        ..Tier::default()
+        ..TranscriptTier::default()
     };
     pieces.tiers.push((tier, None));
     put(&mut pieces, "another", (None, 0.0), "mine");
-    pieces.whole()
+    pieces.reassemble_transcript()
 }
 
 fn unchanged_side_gives_the_other(seed: u64, deeds: u64) {
@@ -229,23 +225,23 @@ fn unchanged_side_gives_the_other(seed: u64, deeds: u64) {
     let other = edited(&base, numbers, deeds);
     let [more, most] = [&base, &other].map(with_another_tier);
     let cases: BTreeMap<&str, _> = BTreeMap::from([
-        ("theirs changed", (merge(&base, &base, &other), &other)),
-        ("mine changed", (merge(&base, &other, &base), &other)),
-        ("both changed alike", (merge(&base, &other, &other), &other)),
+        ("theirs changed", (merge_transcripts(&base, &base, &other), &other)),
+        ("mine changed", (merge_transcripts(&base, &other, &base), &other)),
+        ("both changed alike", (merge_transcripts(&base, &other, &other), &other)),
         (
             "mine has another tier",
-            (merge(&base, &more, &other), &most),
+            (merge_transcripts(&base, &more, &other), &most),
         ),
         (
             "theirs has another tier",
-            (merge(&base, &other, &more), &most),
+            (merge_transcripts(&base, &other, &more), &most),
         ),
     ]);
     for (name, (merged, want)) in cases {
         let message = format!("{name}\n{:#?}\n{:#?}", shown(&base), shown(&other));
         assert_eq!(shown(&merged.document), shown(want), "{message}");
         assert_eq!(merged.conflicts, [], "{message}");
-        let left = diff(want, &merged.document);
+        let left = diff_transcripts(want, &merged.document);
         assert!(left.is_empty(), "{message}\n{left:#?}");
     }
 }
@@ -267,7 +263,7 @@ fn an_annotation_with_words_and_their_parts_is_removed_as_a_whole() {
         "Gloss: a2 1000-2000 B\nc <Gloss:\nd <c:".to_owned(),
     ]
     .map(|text| super::document(&text));
-    let merged = merge(&base, &mine, &theirs);
+    let merged = merge_transcripts(&base, &mine, &theirs);
     let want = "Gloss: a1 0-1000 A, a2 1000-2000 B\nc <Gloss: a3 ^a1 X\nd <c: a5 ^a3 M2";
     assert_eq!(shown(&merged.document), shown(&super::document(want)));
     let sides = merged.conflicts.iter().map(|it| {

@@ -1,39 +1,39 @@
 //! Annotations and tiers that were changed, removed and added.
 
-use super::{Refs, Work, is_alignable};
-use crate::eaf::model::{AnnotationAddress, Transcript};
-use crate::eaf::output::written;
-use crate::eaf::raw::{self, Anchor, At, Document};
-use crate::eaf::write;
-use chereme_sign::Stereotype;
+use super::{EafPatchWork, SlotReferences, is_alignable};
+use crate::eaf::eaf_model::{AnnotationAddress, AnnotationTranscript};
+use crate::eaf::eaf_output::render_eaf_elements;
+use crate::eaf::eaf_raw::{self, AnnotationAnchor, EafDocument, ElementStart};
+use crate::eaf::eaf_write;
+use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 
-impl<'w> Work<'w, '_> {
+impl<'w> EafPatchWork<'w, '_> {
     /// Changes and removes annotations of the file, and adds new ones to its tiers.
-    pub(super) fn annotations(&mut self, refs: &Refs) -> Option<()> {
+    pub(super) fn patch_file_annotations(&mut self, refs: &SlotReferences) -> Option<()> {
         let (previous, next) = (before_each(self.before), before_each(self.after));
         let mut elements: HashMap<AnnotationAddress, usize> = HashMap::new();
         for (place, element, raw) in self.annotations_of_file() {
             let Some(old) = place else { continue };
             let around = self.layout.elements[element].parent?;
-            match self.kept(old) {
+            match self.kept_annotation_place(old) {
                 Some(new) => {
                     elements.insert(new, around);
                     let chain = (previous.get(&old).copied(), next.get(&new).copied());
-                    self.annotation(element, raw, (old, new), refs.get(&new), chain)?;
+                    self.patch_kept_annotation(element, raw, (old, new), refs.get(&new), chain)?;
                 }
                 None if self.tiers[old.tier].is_none() => {}
                 None => {
                     let alone = self.layout.elements[around].children.len() == 1;
-                    let span = self.layout.lines(if alone { around } else { element });
-                    self.edits.remove(span);
+                    let span = self.layout.element_line_span(if alone { around } else { element });
+                    self.edits.remove_text_span(span);
                 }
             }
         }
         for (tier, from) in self.from.clone().into_iter().enumerate() {
             let Some(from) = from else { continue };
-            let at = self.document.tiers[from].at.0 as usize;
-            let container = self.layout.starting(at)?;
+            let tier_start = self.document.tiers[from].at.0 as usize;
+            let container = self.layout.element_starting_at(tier_start)?;
             let indent = self.indent_in(container);
             let mut added: BTreeMap<Option<usize>, Vec<String>> = BTreeMap::new();
             let mut last = None;
@@ -43,62 +43,62 @@ impl<'w> Work<'w, '_> {
                     last = Some(*element);
                     continue;
                 }
-                let block = self.block(place, refs, &next, &indent)?;
+                let block = self.render_new_annotation(place, refs, &next, &indent)?;
                 added.entry(last).or_default().push(block);
             }
             for (after, blocks) in added {
-                self.insert(container, after, &blocks);
+                self.insert_container_elements(container, after, &blocks);
             }
         }
         Some(())
     }
 
     /// Changes an annotation that remains.
-    fn annotation(
+    fn patch_kept_annotation(
         &mut self,
         element: usize,
-        raw: &raw::Annotation<'_>,
+        raw: &eaf_raw::EafAnnotation<'_>,
         (old, new): (AnnotationAddress, AnnotationAddress),
         refs: Option<&[String; 2]>,
         (previous, next): (Option<&str>, Option<&str>),
     ) -> Option<()> {
-        let (before, after) = (self.before.annotation(old)?, self.wanted(new));
+        let (before, after) = (self.before.annotation_at(old)?, self.wanted_annotation(new));
         if before.value != after.value {
-            match self.layout.child(element, "ANNOTATION_VALUE") {
-                Some(value) => self.text(value, &after.value),
+            match self.layout.first_child_named(element, "ANNOTATION_VALUE") {
+                Some(value) => self.patch_element_text(value, &after.value),
                 None => return None,
             }
         }
-        let own = [
+        let reference_pairs = [
             ("CVE_REF", &before.entry, &after.entry),
             ("EXT_REF", &before.external_ref, &after.external_ref),
             ("LANG_REF", &before.language, &after.language),
         ];
-        for (name, before, after) in own {
+        for (name, before, after) in reference_pairs {
             if before != after {
-                self.attribute(element, name, after.as_deref());
+                self.patch_element_attribute(element, name, after.as_deref());
             }
         }
         match (&raw.anchor, refs) {
-            (Anchor::Slots { start, end }, Some(refs)) => {
+            (AnnotationAnchor::Slots { start, end }, Some(refs)) => {
                 let names = ["TIME_SLOT_REF1", "TIME_SLOT_REF2"];
                 for ((name, slot), known) in names.into_iter().zip(refs).zip([start, end]) {
                     if slot.as_str() != &**known {
-                        self.attribute(element, name, Some(slot));
+                        self.patch_element_attribute(element, name, Some(slot));
                     }
                 }
             }
-            (Anchor::Parent { .. }, None) => {
-                let above = |transcript: &'w Transcript, place: AnnotationAddress| {
-                    let parent = transcript.annotation(place)?.parent?;
-                    Some(transcript.annotation(parent)?.id.as_str())
+            (AnnotationAnchor::Parent { .. }, None) => {
+                let above = |transcript: &'w AnnotationTranscript, place: AnnotationAddress| {
+                    let parent = transcript.annotation_at(place)?.parent?;
+                    Some(transcript.annotation_at(parent)?.id.as_str())
                 };
                 let parent = above(self.after, new);
                 if above(self.before, old) != parent {
-                    self.attribute(element, "ANNOTATION_REF", Some(parent?));
+                    self.patch_element_attribute(element, "ANNOTATION_REF", Some(parent?));
                 }
                 if previous != next {
-                    self.attribute(element, "PREVIOUS_ANNOTATION", next);
+                    self.patch_element_attribute(element, "PREVIOUS_ANNOTATION", next);
                 }
             }
             _ => return None,
@@ -107,27 +107,27 @@ impl<'w> Work<'w, '_> {
     }
 
     /// Returns the lines of a new annotation.
-    fn block(
+    fn render_new_annotation(
         &self,
         place: AnnotationAddress,
-        refs: &Refs,
+        refs: &SlotReferences,
         previous: &HashMap<AnnotationAddress, &str>,
         indent: &str,
     ) -> Option<String> {
-        let it = self.wanted(place);
+        let it = self.wanted_annotation(place);
         let anchor = if is_alignable(self.after, place.tier) {
             let [start, end] = refs.get(&place)?.clone();
-            Anchor::Slots {
+            AnnotationAnchor::Slots {
                 start: start.into(),
                 end: end.into(),
             }
         } else {
-            Anchor::Parent {
-                parent: self.after.annotation(it.parent?)?.id.as_str().into(),
+            AnnotationAnchor::Parent {
+                parent: self.after.annotation_at(it.parent?)?.id.as_str().into(),
                 previous: previous.get(&place).map(|id| (*id).into()),
             }
         };
-        let raw = raw::Annotation {
+        let raw = eaf_raw::EafAnnotation {
             id: it.id.as_str().into(),
             anchor,
             value: it.value.as_str().into(),
@@ -136,75 +136,79 @@ impl<'w> Work<'w, '_> {
             language: it.language.as_deref().map(Into::into),
             svg: None,
             kept: None,
-            at: At::default(),
+            at: ElementStart::default(),
         };
-        written(self.style, indent, |xml| write::annotation(&raw, xml))
+        render_eaf_elements(self.style, indent, |xml| eaf_write::write_eaf_annotation(&raw, xml))
     }
 
     /// Removes tiers, adds tiers with their annotations, and changes the attributes of the others.
-    pub(super) fn tiers(
+    pub(super) fn patch_file_tiers(
         &mut self,
-        new: &Document<'_>,
-        old: &Document<'_>,
-        refs: &Refs,
+        new: &EafDocument<'_>,
+        old: &EafDocument<'_>,
+        refs: &SlotReferences,
     ) -> Option<()> {
         let order = self.from.iter().flatten();
         if !order.is_sorted() {
             return None;
         }
         let element = |work: &Self, old: usize| {
-            let at = work.document.tiers[old].at.0 as usize;
-            work.layout.starting(at)
+            let tier_start = work.document.tiers[old].at.0 as usize;
+            work.layout.element_starting_at(tier_start)
         };
         for at in 0..self.tiers.len() {
             if self.tiers[at].is_none() {
-                let span = self.layout.lines(element(self, at)?);
-                self.edits.remove(span);
+                let span = self.layout.element_line_span(element(self, at)?);
+                self.edits.remove_text_span(span);
             }
         }
         let previous = before_each(self.after);
-        let root = self.root()?;
-        let mut last = self.layout.child(root, "TIME_ORDER");
+        let root = self.root_layout_element()?;
+        let mut last = self.layout.first_child_named(root, "TIME_ORDER");
         let mut added: BTreeMap<Option<usize>, Vec<String>> = BTreeMap::new();
         for at in 0..new.tiers.len() {
             if let Some(from) = self.from[at] {
-                let own = element(self, from)?;
-                last = Some(own);
-                self.attributes_of(own, &bare(&old.tiers[from]), &bare(&new.tiers[at]))?;
+                let tier_element = element(self, from)?;
+                last = Some(tier_element);
+                self.attributes_of(
+                    tier_element,
+                    &raw_tier_without_annotations(&old.tiers[from]),
+                    &raw_tier_without_annotations(&new.tiers[at]),
+                )?;
                 continue;
             }
             let indent = self.indent_in(root);
             let inner = format!("{indent}{}", self.style.unit);
-            let mut text = written(self.style, &indent, |xml| {
-                write::tier(&bare(&new.tiers[at]), xml)
+            let mut text = render_eaf_elements(self.style, &indent, |xml| {
+                eaf_write::write_eaf_tier(&raw_tier_without_annotations(&new.tiers[at]), xml)
             })?;
             let mut blocks = String::new();
             for index in 0..self.after.tiers[at].annotations.len() {
                 let place = AnnotationAddress { tier: at, index };
-                let block = self.block(place, refs, &previous, &inner)?;
+                let block = self.render_new_annotation(place, refs, &previous, &inner)?;
                 blocks.push_str(&format!("{}{inner}{block}", self.style.newline));
             }
             if !blocks.is_empty() {
-                let tag = text.strip_suffix(self.style.close())?;
+                let tag = text.strip_suffix(self.style.empty_tag_end())?;
                 text = format!("{tag}>{blocks}{}{indent}</TIER>", self.style.newline);
             }
             added.entry(last).or_default().push(text);
         }
         for (after, blocks) in added {
-            self.insert(root, after, &blocks);
+            self.insert_container_elements(root, after, &blocks);
         }
         Some(())
     }
 
-    pub(super) fn root(&self) -> Option<usize> {
+    pub(super) fn root_layout_element(&self) -> Option<usize> {
         let all = 0..self.layout.elements.len();
         all.take(1)
-            .find(|it| self.layout.elements[*it].parent.is_none())
+            .find(|element| self.layout.elements[*element].parent.is_none())
     }
 }
 
-fn bare<'t>(tier: &raw::Tier<'t>) -> raw::Tier<'t> {
-    raw::Tier {
+fn raw_tier_without_annotations<'t>(tier: &eaf_raw::EafTier<'t>) -> eaf_raw::EafTier<'t> {
+    eaf_raw::EafTier {
         annotations: Vec::new(),
         kept: None,
         ..tier.clone()
@@ -212,10 +216,10 @@ fn bare<'t>(tier: &raw::Tier<'t>) -> raw::Tier<'t> {
 }
 
 /// Returns for each annotation of a chain below a symbolic parent the id of the one before it.
-fn before_each(transcript: &Transcript) -> HashMap<AnnotationAddress, &str> {
-    let mut found = HashMap::new();
+fn before_each(transcript: &AnnotationTranscript) -> HashMap<AnnotationAddress, &str> {
+    let mut ids_before = HashMap::new();
     for (tier, it) in transcript.tiers.iter().enumerate() {
-        if it.stereotype != Some(Stereotype::SymbolicSubdivision) {
+        if it.stereotype != Some(TierStereotype::SymbolicSubdivision) {
             continue;
         }
         let mut chain: Vec<usize> = (0..it.annotations.len()).collect();
@@ -224,9 +228,9 @@ fn before_each(transcript: &Transcript) -> HashMap<AnnotationAddress, &str> {
             let (before, own) = (&it.annotations[pair[0]], &it.annotations[pair[1]]);
             if before.parent == own.parent {
                 let index = pair[1];
-                found.insert(AnnotationAddress { tier, index }, before.id.as_str());
+                ids_before.insert(AnnotationAddress { tier, index }, before.id.as_str());
             }
         }
     }
-    found
+    ids_before
 }

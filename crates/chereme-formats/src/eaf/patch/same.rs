@@ -1,23 +1,23 @@
 //! Compares what two transcripts mean, whatever their files look like.
 
-use super::{ends, ids, is_alignable};
-use crate::eaf::model::{Annotation, Tier, Timing, Transcript};
-use chereme_sign::Stereotype;
+use super::{annotation_end_millis, annotations_by_id, is_alignable};
+use crate::eaf::eaf_model::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+use chereme_sign::TierStereotype;
 use std::collections::BTreeMap;
 
 /// Returns whether two transcripts mean the same. The order of annotations on a tier, the date, times that follow from
 /// others, and the counter of ids make no difference.
 #[must_use]
-pub fn same_meaning(a: &Transcript, b: &Transcript) -> bool {
+pub fn same_meaning(a: &AnnotationTranscript, b: &AnnotationTranscript) -> bool {
     a.author == b.author
         && a.media == b.media
         && a.linked_files == b.linked_files
-        && properties(a) == properties(b)
-        && vocabularies(a) == vocabularies(b)
+        && sorted_transcript_properties(a) == sorted_transcript_properties(b)
+        && vocabularies_by_id(a) == vocabularies_by_id(b)
         && a.tiers.len() == b.tiers.len()
         && same_annotations(a, b)
         && a.tiers.iter().zip(&b.tiers).all(|(x, y)| {
-            let bare = |tier: &Tier| Tier {
+            let bare = |tier: &TranscriptTier| TranscriptTier {
                 annotations: Vec::new(),
                 ..tier.clone()
             };
@@ -25,7 +25,7 @@ pub fn same_meaning(a: &Transcript, b: &Transcript) -> bool {
         })
 }
 
-fn properties(transcript: &Transcript) -> Vec<(&str, &str)> {
+fn sorted_transcript_properties(transcript: &AnnotationTranscript) -> Vec<(&str, &str)> {
     let mut all: Vec<(&str, &str)> = transcript
         .properties
         .iter()
@@ -36,37 +36,44 @@ fn properties(transcript: &Transcript) -> Vec<(&str, &str)> {
     all
 }
 
-fn vocabularies(transcript: &Transcript) -> BTreeMap<&str, &crate::eaf::convert::Vocabulary> {
+fn vocabularies_by_id(
+    transcript: &AnnotationTranscript,
+) -> BTreeMap<&str, &crate::eaf::eaf_convert::ControlledVocabulary> {
     let all = transcript.vocabularies.iter();
-    all.map(|it| (it.id.as_str(), it)).collect()
+    all.map(|vocabulary| (vocabulary.id.as_str(), vocabulary)).collect()
 }
 
-fn same_annotations(a: &Transcript, b: &Transcript) -> bool {
-    let (known, found) = (ids(a), ids(b));
+fn same_annotations(a: &AnnotationTranscript, b: &AnnotationTranscript) -> bool {
+    let (known, found) = (annotations_by_id(a), annotations_by_id(b));
     known.len() == found.len()
         && known.iter().all(|(id, place)| {
             let Some(other) = found.get(id).filter(|other| other.tier == place.tier) else {
                 return false;
             };
-            let pair = a.annotation(*place).zip(b.annotation(*other));
-            pair.is_some_and(|(x, y)| same(a, b, place.tier, (x, y)))
+            let pair = a.annotation_at(*place).zip(b.annotation_at(*other));
+            pair.is_some_and(|(x, y)| is_same_annotation(a, b, place.tier, (x, y)))
         })
 }
 
-fn same(a: &Transcript, b: &Transcript, tier: usize, (x, y): (&Annotation, &Annotation)) -> bool {
-    let above = |transcript: &Transcript, it: &Annotation| {
+fn is_same_annotation(
+    a: &AnnotationTranscript,
+    b: &AnnotationTranscript,
+    tier: usize,
+    (x, y): (&TranscriptAnnotation, &TranscriptAnnotation),
+) -> bool {
+    let above = |transcript: &AnnotationTranscript, it: &TranscriptAnnotation| {
         let place = it.parent?;
-        Some(transcript.annotation(place)?.id.clone())
+        Some(transcript.annotation_at(place)?.id.clone())
     };
-    let held = if is_alignable(a, tier) {
-        ends(x) == ends(y)
+    let has_same_time = if is_alignable(a, tier) {
+        annotation_end_millis(x) == annotation_end_millis(y)
     } else {
         above(a, x) == above(b, y)
-            && (x.order == y.order
-                || a.tiers[tier].stereotype != Some(Stereotype::SymbolicSubdivision))
+            && (x.order == y.order || a.tiers[tier].stereotype != Some(TierStereotype::SymbolicSubdivision))
     };
-    let open = |it: &Annotation| matches!(it.timing, Timing::Proposed { .. });
-    held && open(x) == open(y)
+    let open = |annotation: &TranscriptAnnotation| matches!(annotation.timing, AnnotationTiming::Proposed { .. });
+    has_same_time
+        && open(x) == open(y)
         && x.value == y.value
         && x.entry == y.entry
         && x.language == y.language

@@ -1,15 +1,15 @@
 //! Time slots: those of moved ends, those that nothing uses any more, and those of new annotations.
 
-use super::{Refs, Work, ends, is_alignable};
-use crate::eaf::model::AnnotationAddress;
-use crate::eaf::output::written;
-use crate::eaf::raw::{Anchor, TimeSlot};
-use crate::eaf::write;
-use chereme_sign::Stereotype;
+use super::{EafPatchWork, SlotReferences, annotation_end_millis, is_alignable};
+use crate::eaf::eaf_model::AnnotationAddress;
+use crate::eaf::eaf_output::render_eaf_elements;
+use crate::eaf::eaf_raw::{AnnotationAnchor, TimeSlot};
+use crate::eaf::eaf_write;
+use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 
 /// One end of an annotation at a slot.
-struct User {
+struct SlotUser {
     /// Its new place; `None` if it was left out on reading.
     place: Option<AnnotationAddress>,
     side: usize,
@@ -18,7 +18,7 @@ struct User {
 }
 
 /// The time slots of the file, and their changes.
-struct Slots {
+struct FileTimeSlots {
     names: Vec<String>,
     elements: Vec<usize>,
     values: Vec<Option<i64>>,
@@ -28,9 +28,9 @@ struct Slots {
     last: u64,
 }
 
-impl Work<'_, '_> {
+impl EafPatchWork<'_, '_> {
     /// Returns the slots of all new annotations, and changes the time order of the file.
-    pub(super) fn slots(&mut self) -> Option<Refs> {
+    pub(super) fn patch_time_slots(&mut self) -> Option<SlotReferences> {
         let mut slots = self.slots_of_file()?;
         let index: HashMap<&str, usize> = self
             .document
@@ -40,24 +40,22 @@ impl Work<'_, '_> {
             .rev()
             .map(|(at, slot)| (&*slot.id, at))
             .collect();
-        let mut users: Vec<Vec<User>> = slots.names.iter().map(|_| Vec::new()).collect();
+        let mut users: Vec<Vec<SlotUser>> = slots.names.iter().map(|_| Vec::new()).collect();
         let mut used = vec![false; slots.names.len()];
-        let mut refs = Refs::new();
+        let mut refs = SlotReferences::new();
         for (place, _, raw) in self.annotations_of_file() {
-            let Anchor::Slots { start, end } = &raw.anchor else {
+            let AnnotationAnchor::Slots { start, end } = &raw.anchor else {
                 continue;
             };
             let new = match place {
-                Some(old) => self.kept(old).map(Some),
+                Some(old) => self.kept_annotation_place(old).map(Some),
                 None => Some(None),
             };
-            let moved = self.moved(place, new.flatten());
+            let moved = self.moved_annotation_ends(place, new.flatten());
             let both = [index.get(&**start), index.get(&**end)];
             if let [Some(from), Some(to)] = both
                 && moved != [None; 2]
-                && slots.values[*from]
-                    .zip(slots.values[*to])
-                    .is_some_and(|(a, b)| a > b)
+                && slots.values[*from].zip(slots.values[*to]).is_some_and(|(a, b)| a > b)
             {
                 return None;
             }
@@ -69,7 +67,7 @@ impl Work<'_, '_> {
                 used[slot] = true;
                 if let Some(place) = new {
                     let moved = moved[side];
-                    users[slot].push(User { place, side, moved });
+                    users[slot].push(SlotUser { place, side, moved });
                 }
             }
         }
@@ -88,55 +86,51 @@ impl Work<'_, '_> {
         Some(refs)
     }
 
-    fn slots_of_file(&self) -> Option<Slots> {
+    fn slots_of_file(&self) -> Option<FileTimeSlots> {
         let all = &self.document.time_order;
-        let element = |slot: &TimeSlot<'_>| self.layout.starting(slot.at.0 as usize);
+        let element = |slot: &TimeSlot<'_>| self.layout.element_starting_at(slot.at.0 as usize);
         let number = |slot: &TimeSlot<'_>| slot.id.strip_prefix("ts")?.parse::<u64>().ok();
-        Some(Slots {
+        Some(FileTimeSlots {
             names: all.iter().map(|slot| slot.id.to_string()).collect(),
             elements: all.iter().map(element).collect::<Option<_>>()?,
             values: all.iter().map(|slot| slot.value).collect(),
             retimed: vec![false; all.len()],
             removed: vec![false; all.len()],
             fresh: Vec::new(),
-            last: all
-                .iter()
-                .filter_map(number)
-                .max()
-                .unwrap_or(0)
-                .min(u64::MAX / 2),
+            last: all.iter().filter_map(number).max().unwrap_or(0).min(u64::MAX / 2),
         })
     }
 
     /// Returns the new times of the ends of an annotation that moved.
-    fn moved(
+    fn moved_annotation_ends(
         &self,
         old: Option<AnnotationAddress>,
         new: Option<AnnotationAddress>,
     ) -> [Option<Option<i64>>; 2] {
-        let Some((old, new)) = old.and_then(|old| self.before.annotation(old)).zip(new) else {
+        let Some((old, new)) = old.and_then(|old| self.before.annotation_at(old)).zip(new) else {
             return [None; 2];
         };
-        let (before, after) = (ends(old), ends(self.wanted(new)));
+        let (before, after) = (
+            annotation_end_millis(old),
+            annotation_end_millis(self.wanted_annotation(new)),
+        );
         [0, 1].map(|side| (before[side] != after[side]).then_some(after[side]))
     }
 
     fn divides(&self, place: Option<AnnotationAddress>) -> bool {
-        place.is_some_and(|place| {
-            self.after.tiers[place.tier].stereotype == Some(Stereotype::TimeSubdivision)
-        })
+        place.is_some_and(|place| self.after.tiers[place.tier].stereotype == Some(TierStereotype::TimeSubdivision))
     }
 
     /// Finds slots for the ends at this slot that moved.
     fn place_users(
         &self,
         slot: usize,
-        users: &[User],
-        slots: &mut Slots,
-        refs: &mut Refs,
+        users: &[SlotUser],
+        slots: &mut FileTimeSlots,
+        refs: &mut SlotReferences,
     ) -> Option<()> {
         let mut stays = users.iter().any(|user| user.moved.is_none());
-        let mut groups: BTreeMap<i64, Vec<&User>> = BTreeMap::new();
+        let mut groups: BTreeMap<i64, Vec<&SlotUser>> = BTreeMap::new();
         for user in users {
             if let Some(time) = user.moved {
                 groups.entry(time?).or_default().push(user);
@@ -145,9 +139,9 @@ impl Work<'_, '_> {
         for (time, group) in groups {
             let shared = group.iter().find_map(|user| {
                 let place = user.place.filter(|_| self.divides(user.place))?;
-                let parent = self.wanted(place).parent?;
-                let at = ends(self.wanted(parent))[user.side] == Some(time);
-                let name = &refs.get(&parent).filter(|_| at)?[user.side];
+                let parent = self.wanted_annotation(place).parent?;
+                let is_at_time = annotation_end_millis(self.wanted_annotation(parent))[user.side] == Some(time);
+                let name = &refs.get(&parent).filter(|_| is_at_time)?[user.side];
                 (*name != slots.names[slot]).then(|| name.clone())
             });
             let name = match shared {
@@ -158,7 +152,7 @@ impl Work<'_, '_> {
                     slots.retimed[slot] = true;
                     slots.names[slot].clone()
                 }
-                None => slots.add(time),
+                None => slots.add_time_slot(time),
             };
             for user in group {
                 if let Some(place) = user.place {
@@ -171,7 +165,7 @@ impl Work<'_, '_> {
     }
 
     /// Finds slots for new annotations; those of a Time_Subdivision share them.
-    fn place_added(&self, slots: &mut Slots, refs: &mut Refs) -> Option<()> {
+    fn place_added(&self, slots: &mut FileTimeSlots, refs: &mut SlotReferences) -> Option<()> {
         let depth = |tier: usize| {
             std::iter::successors(Some(tier), |at| self.after.tiers[*at].parent)
                 .take(self.after.tiers.len() + 1)
@@ -185,15 +179,15 @@ impl Work<'_, '_> {
             }
             let all = &self.after.tiers[tier].annotations;
             let divides = self.divides(Some(AnnotationAddress { tier, index: 0 }));
-            let mut known: HashMap<(Option<AnnotationAddress>, i64), String> = HashMap::new();
+            let mut slot_names: HashMap<(Option<AnnotationAddress>, i64), String> = HashMap::new();
             let mut added: Vec<AnnotationAddress> = Vec::new();
             for (index, it) in all.iter().enumerate() {
                 let place = AnnotationAddress { tier, index };
                 match refs.get(&place) {
                     None => added.push(place),
                     Some(names) if divides => {
-                        for (time, name) in ends(it).into_iter().zip(names) {
-                            known.insert((it.parent, time.unwrap_or(i64::MIN)), name.clone());
+                        for (time, name) in annotation_end_millis(it).into_iter().zip(names) {
+                            slot_names.insert((it.parent, time.unwrap_or(i64::MIN)), name.clone());
                         }
                     }
                     Some(_) => {}
@@ -203,18 +197,22 @@ impl Work<'_, '_> {
             for place in added {
                 let it = &all[place.index];
                 let above = it.parent.filter(|_| divides);
-                let above =
-                    above.and_then(|parent| Some((ends(self.wanted(parent)), refs.get(&parent)?)));
+                let above = above.and_then(|parent| {
+                    Some((
+                        annotation_end_millis(self.wanted_annotation(parent)),
+                        refs.get(&parent)?,
+                    ))
+                });
                 let mut names = [String::new(), String::new()];
-                for (side, time) in ends(it).into_iter().enumerate() {
+                for (side, time) in annotation_end_millis(it).into_iter().enumerate() {
                     let time = time?;
-                    let shared = known.get(&(it.parent, time)).filter(|_| divides).cloned();
+                    let shared = slot_names.get(&(it.parent, time)).filter(|_| divides).cloned();
                     let of_parent = above
                         .as_ref()
                         .filter(|(times, _)| times[side] == Some(time))
                         .map(|(_, names)| names[side].clone());
-                    names[side] = shared.or(of_parent).unwrap_or_else(|| slots.add(time));
-                    known.insert((it.parent, time), names[side].clone());
+                    names[side] = shared.or(of_parent).unwrap_or_else(|| slots.add_time_slot(time));
+                    slot_names.insert((it.parent, time), names[side].clone());
                 }
                 refs.insert(place, names);
             }
@@ -222,25 +220,25 @@ impl Work<'_, '_> {
         Some(())
     }
 
-    fn write_slots(&mut self, slots: Slots) -> Option<()> {
+    fn write_slots(&mut self, slots: FileTimeSlots) -> Option<()> {
         if !slots.is_changed() {
             return Some(());
         }
-        let root = self.root()?;
-        let container = self.layout.child(root, "TIME_ORDER")?;
+        let root = self.root_layout_element()?;
+        let container = self.layout.first_child_named(root, "TIME_ORDER")?;
         let mut fresh = slots.fresh.clone();
         let gone = slots.out_of_order();
         for (slot, gone) in gone.iter().enumerate() {
             if slots.removed[slot] || *gone {
-                let span = self.layout.lines(slots.elements[slot]);
-                self.edits.remove(span);
+                let span = self.layout.element_line_span(slots.elements[slot]);
+                self.edits.remove_text_span(span);
             }
             if let Some(time) = slots.values[slot].filter(|_| slots.retimed[slot]) {
                 if *gone {
                     fresh.push((slots.names[slot].clone(), time));
                 } else {
                     let time = time.to_string();
-                    self.attribute(slots.elements[slot], "TIME_VALUE", Some(&time));
+                    self.patch_element_attribute(slots.elements[slot], "TIME_VALUE", Some(&time));
                 }
             }
         }
@@ -253,21 +251,21 @@ impl Work<'_, '_> {
                 value: Some(time),
                 ..TimeSlot::default()
             };
-            let block = written(self.style, &indent, |xml| write::time_slot(&slot, xml))?;
-            let mut before = (0..slots.names.len()).rev().filter(|at| !gone[*at]);
-            let before = before.find(|at| slots.values[*at].is_some_and(|value| value <= time));
+            let block = render_eaf_elements(self.style, &indent, |xml| eaf_write::time_slot(&slot, xml))?;
+            let mut earlier_slots = (0..slots.names.len()).rev().filter(|at| !gone[*at]);
+            let before = earlier_slots.find(|at| slots.values[*at].is_some_and(|value| value <= time));
             let before = before.map(|at| slots.elements[at]);
             added.entry(before).or_default().push(block);
         }
         for (after, blocks) in added {
-            self.insert(container, after, &blocks);
+            self.insert_container_elements(container, after, &blocks);
         }
         Some(())
     }
 }
 
-impl Slots {
-    fn add(&mut self, time: i64) -> String {
+impl FileTimeSlots {
+    fn add_time_slot(&mut self, time: i64) -> String {
         self.last += 1;
         let name = format!("ts{}", self.last);
         self.fresh.push((name.clone(), time));
@@ -293,8 +291,7 @@ impl Slots {
                 let Some(time) = self.values[slot].filter(|_| !gone[slot]) else {
                     continue;
                 };
-                let past =
-                    before.is_some_and(|it| it > time) || next[slot].is_some_and(|it| it < time);
+                let past = before.is_some_and(|other| other > time) || next[slot].is_some_and(|other| other < time);
                 if past && self.retimed[slot] {
                     (gone[slot], more) = (true, true);
                 } else {

@@ -23,7 +23,7 @@ fn tables_of_other_things_hold_no_points() {
         ",,,\n",
         "events\n5\nBOL\n",
     ] {
-        assert_eq!(PointFile::of(text.as_bytes()), None, "{text}");
+        assert_eq!(PointFile::detect_point_file(text.as_bytes()), None, "{text}");
     }
 }
 
@@ -31,15 +31,15 @@ fn tables_of_other_things_hold_no_points() {
 fn rotations_beside_places_become_curves() {
     let text = "timestamp_ms,Hips_position_x,Hips_position_y,Hips_position_z,Hips_rotation_x,Hips_rotation_y,Hips_rotation_z,Hips_rotation_w\n0,0,0.9,0,0,0,0,1\n10,0,0.9,0,0,0,0,1\n";
     assert_eq!(
-        PointFile::of(text.as_bytes()),
+        PointFile::detect_point_file(text.as_bytes()),
         None,
         "most of it are rotations"
     );
     let text = text.replace(",Hips_rotation_w", "").replace(",1\n", "\n");
     let (tracks, _) = table(&text);
-    let Content::Curves(curves) = &tracks.tracks[1].content else {
+    let CapturedTrackContent::Curves(curves) = &tracks.tracks[1].content else {
         panic!("curves");
     };
-    assert_eq!(curves.curves().len(), 3);
+    assert_eq!(curves.track_curves().len(), 3);
     assert_eq!(labels(&markers(&text).0), [("", "Hips")]);
 }

@@ -60,10 +60,10 @@ coords,x,y,likelihood,x,y,likelihood
 1,246.1,190.3,0.97,301,193.2,0.96
 ";
 
-fn convention(markers: &Markers) -> String {
-    match markers.space() {
-        Space::World(it) => format!("{} {}", it.metres_per_unit, it.axes.up()),
-        other => other.name().to_owned(),
+fn convention(markers: &MarkerTrack) -> String {
+    match markers.marker_space() {
+        MarkerSpace::World(it) => format!("{} {}", it.metres_per_unit, it.axes.up_direction()),
+        other => other.marker_space_name().to_owned(),
     }
 }
 
@@ -78,11 +78,14 @@ fn motive_gives_markers_bones_and_rigid_bodies_and_names_what_is_left_out() {
     ];
     assert_eq!(labels(&found), expected);
     assert_eq!(
-        found.points()[2].place[0].text(0).as_deref(),
+        found.marker_points()[2].place[0].column_text_at(0).as_deref(),
         Some("12.250")
     );
-    assert_eq!(found.points()[2].at(1), None);
-    assert_eq!(found.times().rate().map(|it| it.frames()), Some(120));
+    assert_eq!(found.marker_points()[2].marker_position(1), None);
+    assert_eq!(
+        found.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+        Some(120)
+    );
     assert_eq!(convention(&found), "0.001 +Y");
     for part in [
         "columns of rotations are left out, for a table of points holds the places of bones and rigid bodies alone: 4",
@@ -92,7 +95,7 @@ fn motive_gives_markers_bones_and_rigid_bodies_and_names_what_is_left_out() {
     ] {
         assert!(holds(&findings, part), "{part}: {findings:?}");
     }
-    assert_eq!(PointFile::of(MOTIVE.as_bytes()), Some(PointFile::Motive));
+    assert_eq!(PointFile::detect_point_file(MOTIVE.as_bytes()), Some(PointFile::Motive));
 }
 
 #[test]
@@ -114,10 +117,7 @@ fn versions_of_motive_read_to_equal_points() {
         ("a blank line above", format!("\n{MOTIVE}")),
         (
             "only the rate of the capture",
-            MOTIVE.replace(
-                "240.000000,Export Frame Rate,120",
-                "120.000000,Export Frame Rate,",
-            ),
+            MOTIVE.replace("240.000000,Export Frame Rate,120", "120.000000,Export Frame Rate,"),
         ),
     ];
     for (name, text) in dialects {
@@ -134,11 +134,7 @@ fn versions_of_motive_read_to_equal_points() {
         .replace(",,Rotation", ",,,Rotation")
         .replace("240.000000,15:26:46:12.02,", "240.000000,")
         .replace("120.000000,15:26:46:12.02,", "120.000000,");
-    assert_eq!(
-        markers(&timed).0,
-        expected,
-        "a column of timecodes\n{timed}"
-    );
+    assert_eq!(markers(&timed).0, expected, "a column of timecodes\n{timed}");
 }
 
 #[test]
@@ -146,10 +142,7 @@ fn bones_of_motive_in_their_parents_space_are_no_places() {
     let local = MOTIVE.replace("Space,Global", "Space,Local");
     let (found, findings) = markers(&local);
     assert!(!labels(&found).contains(&("Anna bones", "Hip")));
-    assert!(
-        holds(&findings, "relative to their parents"),
-        "{findings:?}"
-    );
+    assert!(holds(&findings, "relative to their parents"), "{findings:?}");
     let alone = "Format Version,1.23,Length Units,Meters,Coordinate Space,Local\n\n,,Bone,Bone,Bone\n,,A:Hip,A:Hip,A:Hip\n,,1,1,1\n,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n";
     assert!(refused(alone).contains("Coordinate Space is Local"));
     let whole = alone.replace("Local", "Global");
@@ -162,23 +155,25 @@ fn nexus_gives_its_trajectories_and_names_its_other_sections() {
     let (tracks, findings) = table(VICON);
     let (found, _) = markers(VICON);
     assert_eq!(labels(&found), [("Anna", "LSHO"), ("Anna", "RSHO")]);
-    assert_eq!(found.points()[0].place[0].text(1).as_deref(), Some("10.6"));
-    assert_eq!(found.points()[1].at(1), None);
+    assert_eq!(
+        found.marker_points()[0].place[0].column_text_at(1).as_deref(),
+        Some("10.6")
+    );
+    assert_eq!(found.marker_points()[1].marker_position(1), None);
     assert_eq!(convention(&found), "0.001 +Z");
-    assert_eq!(found.times().rate().map(|it| it.frames()), Some(100));
+    assert_eq!(
+        found.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+        Some(100)
+    );
     assert!(
-        holds(
-            &findings,
-            "sections of other data are left out: Devices, Model Outputs"
-        ),
+        holds(&findings, "sections of other data are left out: Devices, Model Outputs"),
         "{findings:?}"
     );
     assert!(holds(&findings, "it begins with frame 101"), "{findings:?}");
     assert_eq!(tracks.events, None);
     let tabs = VICON.replace(',', "\t");
     assert_eq!(markers(&tabs).0, found);
-    let moments =
-        "Events\n100\nSubject,Context,Name,Time (s),Description\nAnna,Left,Foot Strike,0.01,\n\n";
+    let moments = "Events\n100\nSubject,Context,Name,Time (s),Description\nAnna,Left,Foot Strike,0.01,\n\n";
     let (tracks, _) = table(&format!("{moments}{VICON}"));
     let events = tracks.events.expect("events");
     assert_eq!(events.tiers[0].annotations[0].value, "Left Foot Strike");
@@ -191,8 +186,11 @@ fn qualisys_has_frames_and_times_or_none_and_three_forms_of_a_gap() {
     let (tracks, findings) = table(QUALISYS);
     let (expected, _) = markers(QUALISYS);
     assert_eq!(labels(&expected), [("", "x_HeadL"), ("", "x_ToeR")]);
-    assert_eq!(expected.points()[1].at(1), None);
-    assert_eq!(expected.times().rate().map(|it| it.frames()), Some(200));
+    assert_eq!(expected.marker_points()[1].marker_position(1), None);
+    assert_eq!(
+        expected.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+        Some(200)
+    );
     assert_eq!(convention(&expected), "0.001 +Z", "{findings:?}");
     let events = tracks.events.expect("events");
     assert_eq!(events.tiers[0].annotations[0].value, "clap");
@@ -201,8 +199,7 @@ fn qualisys_has_frames_and_times_or_none_and_three_forms_of_a_gap() {
             .replace("\n100.5", &format!("\n{first}100.5"))
             .replace("\n100.6", &format!("\n{second}100.6"))
     };
-    let titles =
-        "\nFrame\tTime\tx_HeadL X\tx_HeadL Y\tx_HeadL Z\tx_ToeR X\tx_ToeR Y\tx_ToeR Z\n100.5";
+    let titles = "\nFrame\tTime\tx_HeadL X\tx_HeadL Y\tx_HeadL Z\tx_ToeR X\tx_ToeR Y\tx_ToeR Z\n100.5";
     for (name, text) in [
         ("times", rows("1\t0.00000\t", "2\t0.00500\t")),
         (
@@ -212,14 +209,8 @@ fn qualisys_has_frames_and_times_or_none_and_three_forms_of_a_gap() {
                 .replace("\n100.5", "\n1\t0.00000\t100.5")
                 .replace("\n100.6", "\n2\t0.00500\t100.6"),
         ),
-        (
-            "noughts",
-            QUALISYS.replace("\t\t\t\n", "\t0.000\t0.000\t0.000\n"),
-        ),
-        (
-            "words",
-            QUALISYS.replace("\t\t\t\n", "\tNULL\tNULL\tNULL\n"),
-        ),
+        ("noughts", QUALISYS.replace("\t\t\t\n", "\t0.000\t0.000\t0.000\n")),
+        ("words", QUALISYS.replace("\t\t\t\n", "\tNULL\tNULL\tNULL\n")),
         (
             "decimal commas",
             QUALISYS
@@ -240,16 +231,10 @@ fn bodies_of_qualisys_are_points_if_titles_show_their_places() {
     let titles = "Frame\tTime\tX\tY\tZ\tRoll\tX\tY\tZ\tRoll\n";
     let row = "1\t0\t1\t2\t3\t90\t4\t5\t6\t90\n";
     let (found, findings) = markers(&format!("{head}{titles}{row}"));
-    assert_eq!(
-        labels(&found),
-        [("rigid bodies", "Hat"), ("rigid bodies", "Hand")]
-    );
-    assert_eq!(found.points()[1].at(0).map(|at| at.z), Some(6.0));
+    assert_eq!(labels(&found), [("rigid bodies", "Hat"), ("rigid bodies", "Hand")]);
+    assert_eq!(found.marker_points()[1].marker_position(0).map(|at| at.z), Some(6.0));
     assert!(
-        holds(
-            &findings,
-            "holds the places of bones and rigid bodies alone: 2"
-        ),
+        holds(&findings, "holds the places of bones and rigid bodies alone: 2"),
         "{findings:?}"
     );
     assert!(refused(&format!("{head}{row}")).contains("do not show which columns are places"));
@@ -260,21 +245,15 @@ fn titles_over_several_rows_name_points_and_people() {
     let (found, _) = markers(DEEP_LAB_CUT);
     assert_eq!(labels(&found), [("", "nose"), ("", "tail base")]);
     assert_eq!(convention(&found), "image-2d");
-    assert_eq!(found.quality(), Some(Quality::Confidence));
+    assert_eq!(found.marker_quality(), Some(QualityMeaning::Confidence));
     let (_, below) = DEEP_LAB_CUT.split_once('\n').expect("rows");
     let people = format!("scorer,a,a,a,a,a,a\nindividuals,one,one,one,two,two,two\n{below}");
-    assert_eq!(
-        labels(&markers(&people).0),
-        [("one", "nose"), ("two", "tail base")]
-    );
-    let (room, _) = markers(
-        ",A,,,B,,\ntime,X,Y,Z,X,Y,Z\n,mm,mm,mm,mm,mm,mm\n0,1,2,3,4,5,6\n0.02,1,2,3,4,5,6\n",
-    );
+    assert_eq!(labels(&markers(&people).0), [("one", "nose"), ("two", "tail base")]);
+    let (room, _) = markers(",A,,,B,,\ntime,X,Y,Z,X,Y,Z\n,mm,mm,mm,mm,mm,mm\n0,1,2,3,4,5,6\n0.02,1,2,3,4,5,6\n");
     assert_eq!(labels(&room), [("", "A"), ("", "B")]);
-    assert!(
-        convention(&room).starts_with("0.001 "),
-        "{}",
-        convention(&room)
+    assert!(convention(&room).starts_with("0.001 "), "{}", convention(&room));
+    assert_eq!(
+        room.marker_times().even_times_rate().map(|it| it.rate_numerator()),
+        Some(50)
     );
-    assert_eq!(room.times().rate().map(|it| it.frames()), Some(50));
 }

@@ -6,12 +6,12 @@ use super::*;
 fn times(text: &str) -> Vec<f64> {
     let (tracks, _) = table(text);
     let track = &tracks.tracks[0];
-    let Content::Markers(markers) = &track.content else {
+    let CapturedTrackContent::Markers(markers) = &track.content else {
         panic!("markers");
     };
-    let start = track.offset.seconds();
-    (0..markers.frames())
-        .map(|frame| start + markers.times().instant(frame).seconds())
+    let start = track.offset.instant_seconds();
+    (0..markers.marker_frame_count())
+        .map(|frame| start + markers.marker_times().frame_time_instant(frame).instant_seconds())
         .collect()
 }
 
@@ -29,10 +29,7 @@ fn assert_times(text: &str, expected: &[f64], slack: f64) {
     let found = times(text);
     assert_eq!(found.len(), expected.len(), "{text}");
     for (found, expected) in found.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() <= slack,
-            "{found} {expected}\n{text}"
-        );
+        assert!((found - expected).abs() <= slack, "{found} {expected}\n{text}");
     }
 }
 
@@ -57,11 +54,8 @@ fn rounded_times_are_those_of_an_even_rate() {
     for (rate, decimals) in [(120.0, 2), (60.0, 2), (60.0, 3), (29.97, 3), (25.0, 2)] {
         let rows = (0..90).map(|it| format!("{:.decimals$}", f64::from(it) / rate));
         let (markers, _) = markers(&of_rows("time", rows));
-        let found = markers.times().rate().map(|it| it.per_second());
-        assert!(
-            found.is_some_and(|it| (it - rate).abs() < 0.05),
-            "{rate} {found:?}"
-        );
+        let found = markers.marker_times().even_times_rate().map(|it| it.per_second());
+        assert!(found.is_some_and(|it| (it - rate).abs() < 0.05), "{rate} {found:?}");
     }
 }
 
@@ -84,22 +78,19 @@ fn units_of_times_are_read_from_titles_and_from_whole_numbers() {
 fn rows_without_numbers_are_frames_unless_rows_have_a_clock() {
     let text = "palm_x,palm_y,palm_z\n1,2,3\n,,\n,,\n4,5,6\n,,\n";
     let (found, _) = markers(text);
-    assert_eq!(found.frames(), 4);
-    assert_eq!(found.points()[0].at(1), None);
+    assert_eq!(found.marker_frame_count(), 4);
+    assert_eq!(found.marker_points()[0].marker_position(1), None);
     assert_eq!(
-        found.points()[0].at(3),
+        found.marker_points()[0].marker_position(3),
         Some(glam::DVec3::new(4.0, 5.0, 6.0))
     );
     let text = "time,palm_x,palm_y,palm_z\n0,1,2,3\n,,,\n0.02,1,2,3\n0.03,1,2,3\n";
     assert_times(text, &[0.0, 0.02, 0.03], 1e-6);
     let qualisys = "NO_OF_FRAMES\t5\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tw\nNULL\tNULL\tNULL\n1\t2\t3\n\t\t\n4\t5\t6\n";
     let (found, findings) = markers(qualisys);
-    assert_eq!(found.frames(), 4);
-    assert_eq!(found.points()[0].at(0), None);
-    let said = holds(
-        &findings,
-        "the header states 5 frames, and the file holds 4",
-    );
+    assert_eq!(found.marker_frame_count(), 4);
+    assert_eq!(found.marker_points()[0].marker_position(0), None);
+    let said = holds(&findings, "the header states 5 frames, and the file holds 4");
     assert!(said, "{findings:?}");
 }
 
@@ -113,7 +104,10 @@ fn events_have_the_times_of_the_frames_of_their_capture() {
     let (tracks, _) = table(&text);
     assert!((times(&text)[0] - 2.0).abs() < 1e-6);
     let events = tracks.events.expect("events");
-    let at = events.tiers[0].annotations[0].span.start().seconds();
+    let at = events.tiers[0].annotations[0]
+        .span
+        .span_start_instant()
+        .instant_seconds();
     assert!((at - 2.5).abs() < 1e-6, "{at}");
 }
 
@@ -132,7 +126,7 @@ fn lexicons_features_and_trials_hold_no_points() {
         "time,acc1_x,acc1_y,acc1_z,velocities_x,velocities_y,velocities_z\n0,1,2,3,4,5,6\n0.1,1,2,3,4,5,6\n",
         "time,grf_x,grf_y,grf_z,torques_x,torques_y,torques_z\n0,1,2,3,4,5,6\n0.1,1,2,3,4,5,6\n",
     ] {
-        assert_eq!(PointFile::of(text.as_bytes()), None, "{text}");
+        assert_eq!(PointFile::detect_point_file(text.as_bytes()), None, "{text}");
     }
     let pose = "frame,timestamp,pose_Tx,pose_Ty,pose_Tz,pose_Rx,pose_Ry,pose_Rz\n1,0,1,2,3,0.1,0.2,0.3\n2,0.04,1,2,3,0.1,0.2,0.3\n";
     assert_eq!(labels(&markers(pose).0), [("", "pose_T")]);
@@ -147,10 +141,7 @@ fn a_row_for_each_point_of_a_frame_is_refused_whatever_names_the_point() {
             "time,marker,x,y,z\n0,a,1,2,3\n0,b,2,3,4\n0.1,a,1,2,3\n0.1,b,2,3,4\n",
             "marker",
         ),
-        (
-            "frame,id,x,y,z\n1,1,1,2,3\n1,2,2,3,4\n2,1,1,2,3\n2,2,2,3,4\n",
-            "id",
-        ),
+        ("frame,id,x,y,z\n1,1,1,2,3\n1,2,2,3,4\n2,1,1,2,3\n2,2,2,3,4\n", "id"),
     ] {
         let error = refused(text);
         assert!(error.contains(&format!("the column {column:?}")), "{error}");
@@ -161,6 +152,6 @@ fn a_row_for_each_point_of_a_frame_is_refused_whatever_names_the_point() {
 fn a_pelvis_from_which_the_others_are_measured_is_kept() {
     let text = "time,pelvis_x,pelvis_y,pelvis_z,head_x,head_y,head_z\n0,0,0,0,0,0.6,0\n0.01,0,0,0,0,0.61,0\n";
     let (found, findings) = markers(text);
-    assert_eq!(found.points()[0].at(1), Some(glam::DVec3::ZERO));
+    assert_eq!(found.marker_points()[0].marker_position(1), Some(glam::DVec3::ZERO));
     assert!(!holds(&findings, "0 0 0"), "{findings:?}");
 }

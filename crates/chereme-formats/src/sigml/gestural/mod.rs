@@ -1,53 +1,58 @@
 //! Converts gestural SiGML to and from the tree of a sign.
 
-mod motion;
-mod nonmanual;
-mod posture;
-mod write;
+mod gestural_motion;
+mod gestural_nonmanual;
+mod gestural_posture;
+mod gestural_write;
 
-use super::node::Node;
-use super::raw::Element;
-use crate::finding::Finding;
-use crate::tally::Findings;
-use chereme_sign::hamnosys::{BodyAction, HandsUsed, Manual, Motion, Nonmanual, Sign, Symmetry};
+use super::node::AttributeReader;
+use super::sigml_raw::SigmlElement;
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
+use chereme_sign::hamnosys::{
+    BodyAction, HamnosysSign, HandSymmetry, HandsUsed, ManualPart, NonmanualActs, NotatedMotion,
+};
 
-pub(super) use nonmanual::{read_nonmanual, write_nonmanual};
-pub(super) use write::write_manual;
+pub(super) use gestural_nonmanual::{read_nonmanual, write_nonmanual};
+pub(super) use gestural_write::write_manual;
 
 /// Reads the actions of the hands, one `sign_manual` after the other; nested ones are the parts of a compound.
-pub(super) fn read_manual(element: &Element<'_>, findings: &mut Findings, sign: &mut Sign) {
-    let nested = |child: &&Element<'_>| child.name == "sign_manual";
+pub(super) fn read_manual(element: &SigmlElement<'_>, findings: &mut FindingTally, sign: &mut HamnosysSign) {
+    let nested = |child: &&SigmlElement<'_>| child.name == "sign_manual";
     if !element.children.iter().any(|child| nested(&child)) {
         sign.parts.push(read_part(element, findings));
         return;
     }
-    Node::new(element, findings).finish();
+    AttributeReader::new(element, findings).report_unread_attributes();
     for child in &element.children {
         if nested(&child) {
             read_manual(child, findings, sign);
         } else {
-            unexpected(child, element, findings);
+            report_unexpected_gestural(child, element, findings);
         }
     }
 }
 
-fn read_part(element: &Element<'_>, findings: &mut Findings) -> Manual {
-    let mut node = Node::new(element, findings);
-    let symmetry = Symmetry {
-        left_right: node.flag("lr_symm"),
-        up_down: node.flag("ud_symm"),
-        out_in: node.flag("oi_symm"),
-        out_of_phase: node.flag("outofphase"),
-        real_space: node.flag("realspace"),
+fn read_part(element: &SigmlElement<'_>, findings: &mut FindingTally) -> ManualPart {
+    let mut node = AttributeReader::new(element, findings);
+    let symmetry = HandSymmetry {
+        left_right: node.read_flag_attribute("lr_symm"),
+        up_down: node.read_flag_attribute("ud_symm"),
+        out_in: node.read_flag_attribute("oi_symm"),
+        out_of_phase: node.read_flag_attribute("outofphase"),
+        real_space: node.read_flag_attribute("realspace"),
     };
-    let (both, other) = (node.flag("both_hands"), node.flag("nondominant"));
-    let holdover = node.flag("holdover");
-    if !both && symmetry != Symmetry::default() {
-        node.note("symmetry of one hand", |tag| {
+    let (both, other) = (
+        node.read_flag_attribute("both_hands"),
+        node.read_flag_attribute("nondominant"),
+    );
+    let holdover = node.read_flag_attribute("holdover");
+    if !both && symmetry != HandSymmetry::default() {
+        node.add_element_note("symmetry of one hand", |tag| {
             format!("<{tag}> names a symmetry without both_hands; it was read as two-handed")
         });
     }
-    let hands = if both || symmetry != Symmetry::default() {
+    let hands = if both || symmetry != HandSymmetry::default() {
         HandsUsed::Both(symmetry)
     } else if other {
         HandsUsed::Nondominant
@@ -55,58 +60,55 @@ fn read_part(element: &Element<'_>, findings: &mut Findings) -> Manual {
         HandsUsed::Dominant
     };
     if other && hands != HandsUsed::Nondominant {
-        node.warn("two hands and one", |tag| {
+        node.add_element_warning("two hands and one", |tag| {
             format!("<{tag}> is two-handed and of the non-dominant hand; the second was left out")
         });
     }
-    node.finish();
-    let mut part = Manual {
+    node.report_unread_attributes();
+    let mut part = ManualPart {
         hands,
         holdover,
-        ..Manual::default()
+        ..ManualPart::default()
     };
-    let mut posture = posture::Reader::new(element);
+    let mut posture = gestural_posture::PostureReader::new(element);
     for child in &element.children {
-        if posture.takes(&child.name) {
+        if posture.is_posture_part(&child.name) {
             if !part.actions.is_empty() {
-                late(child, findings);
+                report_late_element(child, findings);
             }
-            posture.take(child, findings);
+            posture.read_posture_part(child, findings);
         } else if child.name == "nonmanualconfig" {
-            part.body.extend(body_action(child, findings));
-        } else if motion::is_motion(&child.name) {
-            part.actions.push(motion::read_motion(child, findings));
+            part.body.extend(read_body_action(child, findings));
+        } else if gestural_motion::is_motion(&child.name) {
+            part.actions.push(gestural_motion::read_motion(child, findings));
         } else {
-            unexpected(child, element, findings);
+            report_unexpected_gestural(child, element, findings);
         }
     }
-    part.posture = posture.finish();
+    part.posture = posture.finish_posture();
     part
 }
 
 /// Reads `nonmanualconfig` or `nonman_motion`: a part of the body, and its action.
-fn body_action(element: &Element<'_>, findings: &mut Findings) -> Option<BodyAction> {
+fn read_body_action(element: &SigmlElement<'_>, findings: &mut FindingTally) -> Option<BodyAction> {
     let (mut part, mut side) = (None, None);
-    let mut motion: Option<Motion> = None;
+    let mut motion: Option<NotatedMotion> = None;
     for child in &element.children {
         if child.name == "handconfig" && part.is_none() {
-            let mut node = Node::new(child, findings);
-            part = node.word("bodypart");
-            side = node.word("side");
-            node.finish();
-        } else if motion::is_motion(&child.name) && motion.is_none() {
-            motion = Some(motion::read_motion(child, findings));
+            let mut node = AttributeReader::new(child, findings);
+            part = node.read_word_attribute("bodypart");
+            side = node.read_word_attribute("side");
+            node.report_unread_attributes();
+        } else if gestural_motion::is_motion(&child.name) && motion.is_none() {
+            motion = Some(gestural_motion::read_motion(child, findings));
         } else {
-            unexpected(child, element, findings);
+            report_unexpected_gestural(child, element, findings);
         }
     }
     let Some(part) = part else {
-        findings.add("body actions without a part of the body", || {
-            let message = format!(
-                "<{}> names no part of the body; it was left out",
-                element.name
-            );
-            Finding::warning(element.line.0, message)
+        findings.add_limited_finding("body actions without a part of the body", || {
+            let message = format!("<{}> names no part of the body; it was left out", element.name);
+            ImportFinding::new_warning_finding(element.line.0, message)
                 .with_remedy("begin it with <handconfig bodypart=\"shoulders\"/> or another part")
         });
         return None;
@@ -115,37 +117,37 @@ fn body_action(element: &Element<'_>, findings: &mut Findings) -> Option<BodyAct
     Some(BodyAction { part, side, motion })
 }
 
-fn late(child: &Element<'_>, findings: &mut Findings) {
-    findings.add("postures after motions", || {
+fn report_late_element(child: &SigmlElement<'_>, findings: &mut FindingTally) {
+    findings.add_limited_finding("postures after motions", || {
         let message = format!(
             "<{}> stands after a motion; it was read as part of the posture the sign begins with",
             child.name
         );
-        Finding::warning(child.line.0, message)
+        ImportFinding::new_warning_finding(child.line.0, message)
             .with_remedy("write the posture first, or put a target into <tgt_motion>")
     });
 }
 
 /// Reports an element that does not belong at its place.
-fn unexpected(child: &Element<'_>, parent: &Element<'_>, findings: &mut Findings) {
-    findings.add("elements that are not known", || {
+fn report_unexpected_gestural(child: &SigmlElement<'_>, parent: &SigmlElement<'_>, findings: &mut FindingTally) {
+    findings.add_limited_finding("elements that are not known", || {
         let (child_name, parent) = (
-            super::raw::shown(&child.name),
-            super::raw::shown(&parent.name),
+            super::sigml_raw::shorten_sigml_text(&child.name),
+            super::sigml_raw::shorten_sigml_text(&parent.name),
         );
         let message = format!("<{child_name}> has no place in <{parent}>; it was left out");
-        Finding::warning(child.line.0, message)
+        ImportFinding::new_warning_finding(child.line.0, message)
     });
 }
 
 /// Reads a gestural sign's two halves, in either order.
-pub(super) fn read_sign(element: &Element<'_>, findings: &mut Findings) -> (Sign, Nonmanual) {
-    let (mut sign, mut nonmanual) = (Sign::default(), Nonmanual::default());
+pub(super) fn read_sign(element: &SigmlElement<'_>, findings: &mut FindingTally) -> (HamnosysSign, NonmanualActs) {
+    let (mut sign, mut nonmanual) = (HamnosysSign::default(), NonmanualActs::default());
     for child in &element.children {
         match &*child.name {
             "sign_manual" => read_manual(child, findings, &mut sign),
             "sign_nonmanual" => read_nonmanual(child, findings, &mut nonmanual),
-            _ => unexpected(child, element, findings),
+            _ => report_unexpected_gestural(child, element, findings),
         }
     }
     (sign, nonmanual)

@@ -8,25 +8,25 @@
 //! NGT Thanks,Gloss RH,0:01.500,,,remove,
 //! ```
 
-mod columns;
-mod export;
+mod annotations_columns;
+mod annotations_export;
 mod moment;
 
-pub use export::{is_export, transcript, write};
-pub use moment::{Moment, MomentError, TimeUnit};
+pub use annotations_export::{is_export, read_elan_table, write_elan_table};
+pub use moment::{MomentError, TableMoment, TableTimeUnit};
 
-use super::cells::{Cells, Row as RawRow, TableError, listed};
-use crate::finding::Finding;
-use crate::tally::Findings;
-use chereme_motion::Instant;
-use chereme_sign::text::{did_you_mean, nearest};
-use columns::{Columns, Time};
+use super::table_cells::{TableCells, TableError, TableRow as RawRow, join_column_names};
+use crate::finding::ImportFinding;
+use crate::tally::FindingTally;
+use annotations_columns::{ChangeTableColumns, TimeColumn};
+use chereme_motion::RecordingInstant;
+use chereme_sign::text::{did_you_mean, nearest_candidate};
 use serde::Serialize;
 
 /// The change that a row requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Action {
+pub enum ChangeAction {
     /// Adds an annotation.
     #[default]
     Add,
@@ -46,13 +46,13 @@ pub struct ChangeRow {
     /// The tier's name.
     pub tier: Option<String>,
     /// The start.
-    pub start: Option<Moment>,
+    pub start: Option<TableMoment>,
     /// The end.
-    pub end: Option<Moment>,
+    pub end: Option<TableMoment>,
     /// The value; `None` for an empty cell.
     pub value: Option<String>,
     /// The change.
-    pub action: Action,
+    pub action: ChangeAction,
     /// The id of the annotation to change or remove, or of the new one.
     pub id: Option<String>,
     /// The id of the annotation above, on a symbolic tier.
@@ -65,7 +65,7 @@ pub struct ChangeRow {
 /// A row that cannot be carried out.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, thiserror::Error)]
 #[error("line {line}, {column}: {message}")]
-pub struct Fault {
+pub struct ChangeRowFault {
     /// The line of the table, counted from 1.
     pub line: u64,
     /// The column.
@@ -76,24 +76,15 @@ pub struct Fault {
 
 /// The rows of a table; invalid ones are listed separately.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Annotations {
+pub struct AnnotationChangeTable {
     /// The changes in the order of the table.
     pub rows: Vec<ChangeRow>,
     /// The problems of the other rows.
-    pub faults: Vec<Fault>,
+    pub faults: Vec<ChangeRowFault>,
 }
 
 /// The columns by name; the titles of times are recognised separately.
-const NAMES: [&str; 8] = [
-    "recording",
-    "tier",
-    "start",
-    "end",
-    "value",
-    "action",
-    "id",
-    "parent",
-];
+const ANNOTATION_COLUMN_NAMES: [&str; 8] = ["recording", "tier", "start", "end", "value", "action", "id", "parent"];
 
 /// Reads a table of changes; columns may stand in any order.
 ///
@@ -109,102 +100,98 @@ const NAMES: [&str; 8] = [
 /// # Errors
 /// [`TableError`] if the bytes are not a table, no column names a tier or an id, or bare whole numbers would be
 /// implausibly long or late annotations. Faults of single rows are in the result.
-pub fn read(
+pub fn read_change_table(
     bytes: &[u8],
-    unit: Option<TimeUnit>,
-) -> Result<(Annotations, Vec<Finding>), TableError> {
-    let mut findings = Findings::default();
-    let mut table = Cells::read(bytes, &mut findings)?;
-    let columns = match Columns::of_export(&table) {
+    unit: Option<TableTimeUnit>,
+) -> Result<(AnnotationChangeTable, Vec<ImportFinding>), TableError> {
+    let mut findings = FindingTally::default();
+    let mut table = TableCells::read_table_cells(bytes, &mut findings)?;
+    let columns = match ChangeTableColumns::of_export(&table) {
         Some(columns) => {
             let cells = std::mem::take(&mut table.header);
             let line = table.header_line;
             table.rows.insert(0, RawRow { line, cells });
-            findings.add("no titles", || {
-                Finding::note(
+            findings.add_limited_finding("no titles", || {
+                ImportFinding::new_note_finding(
                     line,
                     "the table has no titles; it was read as ELAN exports it: tier, begin, end, annotation",
                 )
             });
             columns
         }
-        None => Columns::of_titles(&table.header, &mut findings),
+        None => ChangeTableColumns::of_titles(&table.header, &mut findings),
     };
     if columns.at[1].is_none() && columns.at[6].is_none() && columns.tiers.is_empty() {
         return Err(TableError::Missing {
-            found: listed(&table.header),
+            found: join_column_names(&table.header),
             needed: "tier or id",
             remedy: "name the columns recording, tier, start, end, value, action, id",
         });
     }
     columns.mend_commas(&mut table);
-    let mut annotations = Annotations::default();
-    let mut take = |read: Result<ChangeRow, Fault>| match read {
+    let mut annotations = AnnotationChangeTable::default();
+    let mut take = |read: Result<ChangeRow, ChangeRowFault>| match read {
         Ok(row) => annotations.rows.push(row),
         Err(fault) => annotations.faults.push(fault),
     };
     for raw in &table.rows {
         if columns.tiers.is_empty() {
-            take(row(raw, &columns, unit, None));
+            take(read_change_row(raw, &columns, unit, None));
         }
         for (at, tier) in &columns.tiers {
             if raw.cells.get(*at).is_some_and(|cell| !cell.is_empty()) {
-                take(row(raw, &columns, unit, Some((*at, tier))));
+                take(read_change_row(raw, &columns, unit, Some((*at, tier))));
             }
         }
     }
     if unit.is_none() {
         columns.check_plausible(&table.rows)?;
     }
-    Ok((annotations, findings.finish()))
+    Ok((annotations, findings.finish_finding_tally()))
 }
 
-fn row(
+fn read_change_row(
     raw: &RawRow,
-    columns: &Columns,
-    unit: Option<TimeUnit>,
+    columns: &ChangeTableColumns,
+    unit: Option<TableTimeUnit>,
     tier: Option<(usize, &str)>,
-) -> Result<ChangeRow, Fault> {
+) -> Result<ChangeRow, ChangeRowFault> {
     let cell_at = |column: Option<usize>| {
         let text = column.and_then(|column| raw.cells.get(column));
         text.map(|cell| cell.trim()).filter(|text| !text.is_empty())
     };
     let cell = |at: usize| cell_at(columns.at[at]);
-    let fault = |at: usize, message: String| Fault {
+    let fault = |at: usize, message: String| ChangeRowFault {
         line: raw.line,
-        column: NAMES[at],
+        column: ANNOTATION_COLUMN_NAMES[at],
         message,
     };
-    let moment = |at: usize, time: Option<Time>| {
+    let moment = |at: usize, time: Option<TimeColumn>| {
         let Some(time) = time else { return Ok(None) };
-        let unit = time.unit.or(unit).unwrap_or(TimeUnit::Seconds);
-        let read = |text| Moment::read(text, unit).map_err(|error| fault(at, error.to_string()));
+        let unit = time.unit.or(unit).unwrap_or(TableTimeUnit::Seconds);
+        let read = |text| TableMoment::parse_table_moment(text, unit).map_err(|error| fault(at, error.to_string()));
         cell_at(Some(time.column)).map(read).transpose()
     };
     let owned = |at: usize| cell(at).map(str::to_owned);
-    let value = tier.map(|(at, _)| at).or(columns.at[4]);
-    let value = value
+    let value_column = tier.map(|(at, _)| at).or(columns.at[4]);
+    let value = value_column
         .and_then(|column| raw.cells.get(column))
         .filter(|text| !text.is_empty());
     let start = moment(2, columns.start)?;
     let mut end = moment(3, columns.end)?;
     if end.is_none() {
         end = match (start, moment(3, columns.duration)?) {
-            (Some(Moment::Time(start)), Some(Moment::Time(length))) => {
-                let end = start.micros().checked_add(length.micros());
-                let end = end.ok_or_else(|| {
-                    fault(3, format!("the duration {length} from {start} is too long"))
-                })?;
-                Some(Moment::Time(Instant::from_micros(end)))
+            (Some(TableMoment::Time(start)), Some(TableMoment::Time(length))) => {
+                let end_micros = start.instant_micros().checked_add(length.instant_micros());
+                let end =
+                    end_micros.ok_or_else(|| fault(3, format!("the duration {length} from {start} is too long")))?;
+                Some(TableMoment::Time(RecordingInstant::from_micros(end)))
             }
-            (Some(Moment::Frame(start)), Some(Moment::Frame(length))) => {
-                let end = start.checked_add(length).ok_or_else(|| {
-                    fault(
-                        3,
-                        format!("the duration f{length} from f{start} is too long"),
-                    )
-                })?;
-                Some(Moment::Frame(end))
+            (Some(TableMoment::Frame(start)), Some(TableMoment::Frame(length))) => {
+                let end = start
+                    .checked_add(length)
+                    .ok_or_else(|| fault(3, format!("the duration f{length} from f{start} is too long")))?;
+                Some(TableMoment::Frame(end))
             }
             _ => None,
         };
@@ -216,43 +203,33 @@ fn row(
         start,
         end,
         value: value.cloned(),
-        action: cell(5).map_or(Ok(Action::Add), |text| {
-            action(text).map_err(|message| fault(5, message))
+        action: cell(5).map_or(Ok(ChangeAction::Add), |text| {
+            parse_change_action(text).map_err(|message| fault(5, message))
         })?,
         id: owned(6),
         parent: owned(7),
         participant: cell_at(columns.participant).map(str::to_owned),
     };
-    if let (Some(Moment::Time(start)), Some(Moment::Time(end))) = (row.start, row.end)
+    if let (Some(TableMoment::Time(start)), Some(TableMoment::Time(end))) = (row.start, row.end)
         && end <= start
     {
-        return Err(fault(
-            3,
-            format!("the end {end} is not after the start {start}"),
-        ));
+        return Err(fault(3, format!("the end {end} is not after the start {start}")));
     }
-    if let (Some(Moment::Frame(start)), Some(Moment::Frame(end))) = (row.start, row.end)
+    if let (Some(TableMoment::Frame(start)), Some(TableMoment::Frame(end))) = (row.start, row.end)
         && end <= start
     {
-        return Err(fault(
-            3,
-            format!("the end f{end} is not after the start f{start}"),
-        ));
+        return Err(fault(3, format!("the end f{end} is not after the start f{start}")));
     }
     match row.action {
-        Action::Add if row.tier.is_none() => {
-            Err(fault(1, "an added annotation needs a tier".into()))
-        }
-        Action::Add if row.parent.is_none() && row.start.is_none() => Err(fault(
+        ChangeAction::Add if row.tier.is_none() => Err(fault(1, "an added annotation needs a tier".into())),
+        ChangeAction::Add if row.parent.is_none() && row.start.is_none() => Err(fault(
             2,
             "an added annotation needs a start, or a parent on a symbolic tier".into(),
         )),
-        Action::Add if row.parent.is_none() && row.end.is_none() => {
+        ChangeAction::Add if row.parent.is_none() && row.end.is_none() => {
             Err(fault(3, "an added annotation needs an end".into()))
         }
-        Action::Remove | Action::Set
-            if row.id.is_none() && (row.tier.is_none() || row.start.is_none()) =>
-        {
+        ChangeAction::Remove | ChangeAction::Set if row.id.is_none() && (row.tier.is_none() || row.start.is_none()) => {
             Err(fault(
                 6,
                 "name the annotation by its id, or by its tier and start".into(),
@@ -262,15 +239,15 @@ fn row(
     }
 }
 
-fn action(text: &str) -> Result<Action, String> {
+fn parse_change_action(text: &str) -> Result<ChangeAction, String> {
     let names = ["add", "remove", "set"];
     match &*text.to_lowercase() {
-        "add" => Ok(Action::Add),
-        "remove" | "delete" => Ok(Action::Remove),
-        "set" | "change" => Ok(Action::Set),
+        "add" => Ok(ChangeAction::Add),
+        "remove" | "delete" => Ok(ChangeAction::Remove),
+        "set" | "change" => Ok(ChangeAction::Set),
         _ => Err(format!(
             "{text:?} is no action: add, remove or set{}",
-            did_you_mean(nearest(text, names))
+            did_you_mean(nearest_candidate(text, names))
         )),
     }
 }

@@ -1,6 +1,6 @@
 //! Parses points in time as people and programs write them.
 
-use chereme_motion::Instant;
+use chereme_motion::RecordingInstant;
 use serde::Serialize;
 use std::fmt;
 use std::str::FromStr;
@@ -8,25 +8,25 @@ use std::str::FromStr;
 /// A point in time as a table gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Moment {
+pub enum TableMoment {
     /// A time from the start of the recording.
-    Time(Instant),
+    Time(RecordingInstant),
     /// A frame of the recording, counted from 0.
     Frame(u64),
 }
 
-/// A text that is not a [`Moment`].
+/// A text that is not a [`TableMoment`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12{}",
-    remark(text)
+    moment_remark(text)
 )]
 pub struct MomentError {
     /// The text.
     pub text: String,
 }
 
-fn remark(text: &str) -> &'static str {
+fn moment_remark(text: &str) -> &'static str {
     if text.matches(':').count() == 3 {
         "; the rate of hh:mm:ss:ff is not stated: export the times as hh:mm:ss.ms"
     } else if text.contains(',') {
@@ -36,21 +36,19 @@ fn remark(text: &str) -> &'static str {
     }
 }
 
-impl FromStr for Moment {
+impl FromStr for TableMoment {
     type Err = MomentError;
 
     /// Reads seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`) or
     /// a frame (`f12`).
     fn from_str(text: &str) -> Result<Self, MomentError> {
-        moment(text).ok_or_else(|| MomentError {
-            text: text.to_owned(),
-        })
+        parse_moment_text(text).ok_or_else(|| MomentError { text: text.to_owned() })
     }
 }
 
 /// The unit of times that are bare numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum TimeUnit {
+pub enum TableTimeUnit {
     /// Seconds.
     #[serde(rename = "s")]
     Seconds,
@@ -62,13 +60,13 @@ pub enum TimeUnit {
     Frames,
 }
 
-impl TimeUnit {
+impl TableTimeUnit {
     /// The units.
-    pub const ALL: [Self; 3] = [Self::Seconds, Self::Milliseconds, Self::Frames];
+    pub const ALL_TIME_UNITS: [Self; 3] = [Self::Seconds, Self::Milliseconds, Self::Frames];
 
     /// Returns `s`, `ms` or `frames`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn time_unit_name(self) -> &'static str {
         match self {
             Self::Seconds => "s",
             Self::Milliseconds => "ms",
@@ -79,24 +77,23 @@ impl TimeUnit {
     /// Returns the unit that a word means.
     pub(super) fn of_word(word: &str) -> Option<Self> {
         match word {
-            "s" | "sec" | "secs" | "second" | "seconds" | "seconde" | "secondes" | "sekunden" => {
-                Some(Self::Seconds)
+            "s" | "sec" | "secs" | "second" | "seconds" | "seconde" | "secondes" | "sekunden" => Some(Self::Seconds),
+            "ms" | "msec" | "msecs" | "millis" | "millisecond" | "milliseconds" | "millisecondes" | "millisekunden" => {
+                Some(Self::Milliseconds)
             }
-            "ms" | "msec" | "msecs" | "millis" | "millisecond" | "milliseconds"
-            | "millisecondes" | "millisekunden" => Some(Self::Milliseconds),
             "f" | "frame" | "frames" => Some(Self::Frames),
             _ => None,
         }
     }
 }
 
-impl fmt::Display for TimeUnit {
+impl fmt::Display for TableTimeUnit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.time_unit_name())
     }
 }
 
-impl FromStr for TimeUnit {
+impl FromStr for TableTimeUnit {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -105,29 +102,27 @@ impl FromStr for TimeUnit {
     }
 }
 
-impl Moment {
+impl TableMoment {
     /// Reads a moment whose bare number is in `unit`; a text with its own unit or with colons ignores `unit`.
     ///
     /// # Errors
     /// [`MomentError`] if the text is not a moment.
-    pub fn read(text: &str, unit: TimeUnit) -> Result<Self, MomentError> {
+    pub fn parse_table_moment(text: &str, unit: TableTimeUnit) -> Result<Self, MomentError> {
         let bare = text.trim();
         if !is_bare(bare) {
             return text.parse();
         }
         let read = match unit {
-            TimeUnit::Frames => bare.parse().ok().map(Self::Frame),
-            TimeUnit::Milliseconds => decimal(bare, 3).map(time),
-            TimeUnit::Seconds => decimal(bare, 6).map(time),
+            TableTimeUnit::Frames => bare.parse().ok().map(Self::Frame),
+            TableTimeUnit::Milliseconds => parse_shifted_decimal(bare, 3).map(table_moment_from_micros),
+            TableTimeUnit::Seconds => parse_shifted_decimal(bare, 6).map(table_moment_from_micros),
         };
-        read.ok_or_else(|| MomentError {
-            text: text.to_owned(),
-        })
+        read.ok_or_else(|| MomentError { text: text.to_owned() })
     }
 }
 
-fn time(micros: i64) -> Moment {
-    Moment::Time(Instant::from_micros(micros))
+fn table_moment_from_micros(micros: i64) -> TableMoment {
+    TableMoment::Time(RecordingInstant::from_micros(micros))
 }
 
 /// Returns whether a time is a number without a unit.
@@ -136,24 +131,24 @@ pub(super) fn is_bare(text: &str) -> bool {
     !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.')
 }
 
-fn moment(text: &str) -> Option<Moment> {
+fn parse_moment_text(text: &str) -> Option<TableMoment> {
     let lower = text.trim().to_lowercase();
     if let Some(frame) = lower.strip_prefix('f') {
-        return frame.trim().parse().map(Moment::Frame).ok();
+        return frame.trim().parse().map(TableMoment::Frame).ok();
     }
     let micros = if let Some(millis) = lower.strip_suffix("ms") {
-        decimal(millis.trim(), 3)
+        parse_shifted_decimal(millis.trim(), 3)
     } else if let Some(seconds) = lower.strip_suffix('s') {
-        decimal(seconds.trim(), 6)
+        parse_shifted_decimal(seconds.trim(), 6)
     } else {
-        clock(&lower)
+        parse_clock_micros(&lower)
     };
-    Some(Moment::Time(Instant::from_micros(micros?)))
+    Some(TableMoment::Time(RecordingInstant::from_micros(micros?)))
 }
 
 /// Reads `S.S`, `M:SS.S` or `H:MM:SS.S` as microseconds; a minus before it makes all of it negative.
-fn clock(text: &str) -> Option<i64> {
-    let (sign, text) = text.strip_prefix('-').map_or((1, text), |it| (-1, it));
+fn parse_clock_micros(text: &str) -> Option<i64> {
+    let (sign, text) = text.strip_prefix('-').map_or((1, text), |rest| (-1, rest));
     (!text.contains('-')).then_some(())?;
     let (rest, seconds) = text
         .rsplit_once(':')
@@ -162,35 +157,29 @@ fn clock(text: &str) -> Option<i64> {
         Some(_) => seconds.replacen(',', ".", 1),
         None => seconds.to_owned(),
     };
-    let micros = decimal(&seconds, 6)?;
+    let micros = parse_shifted_decimal(&seconds, 6)?;
     let Some(rest) = rest else {
         return Some(sign * micros);
     };
     let (hours, minutes) = rest.split_once(':').unwrap_or(("0", rest));
-    let whole = |text: &str| text.parse::<u32>().ok().map(i64::from);
-    let minutes = whole(hours)?
+    let whole_number = |text: &str| text.parse::<u32>().ok().map(i64::from);
+    let minutes = whole_number(hours)?
         .checked_mul(60)?
-        .checked_add(whole(minutes)?)?;
+        .checked_add(whole_number(minutes)?)?;
     (0..60_000_000).contains(&micros).then_some(())?;
     let micros = minutes.checked_mul(60_000_000)?.checked_add(micros)?;
     Some(sign * micros)
 }
 
 /// Reads a decimal number times ten to the power `shift`, with further decimals rounded.
-fn decimal(text: &str, shift: usize) -> Option<i64> {
-    let (sign, digits) = text
-        .strip_prefix('-')
-        .map_or((1, text), |digits| (-1, digits));
+fn parse_shifted_decimal(text: &str, shift: usize) -> Option<i64> {
+    let (sign, digits) = text.strip_prefix('-').map_or((1, text), |digits| (-1, digits));
     let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
     let plain = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
     if (whole.is_empty() && part.is_empty()) || !plain(whole) || !plain(part) || whole.len() > 12 {
         return None;
     }
-    let kept: String = part
-        .chars()
-        .chain(std::iter::repeat('0'))
-        .take(shift)
-        .collect();
+    let kept: String = part.chars().chain(std::iter::repeat('0')).take(shift).collect();
     let up = part.as_bytes().get(shift).is_some_and(|b| *b >= b'5');
     let value: i64 = format!("{whole}{kept}").parse().ok()?;
     Some(sign * (value + i64::from(up)))

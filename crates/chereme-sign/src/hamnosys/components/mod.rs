@@ -20,24 +20,24 @@
 //! assert_eq!(said, ["dominant.configuration=flat", "dominant.placement=chin", "dominant.movement=hold"]);
 //! ```
 
-mod hands;
-mod motion;
-mod place;
-mod shape;
+mod components_hands;
+mod components_motion;
+mod components_place;
+mod components_shape;
 
 use std::collections::BTreeMap;
 
-use self::hands::Hands;
-use self::shape::Shapes;
-use super::direction::{Compass, Direction};
-use super::nonmanual::{Nonmanual, NonmanualPart};
-use super::notated::Notated;
-use crate::component::{Component, Field, HandRef, Phase};
-use crate::inventory::Inventory;
+use self::components_hands::HandActions;
+use self::components_shape::InventoryHandshapes;
+use super::direction::{CompassDirection, SpatialDirection};
+use super::hamnosys_nonmanual::{NonmanualActs, NonmanualPart};
+use super::hamnosys_notated::NotatedSign;
+use crate::component::{ComponentField, HandRef, SignComponent, SignPhase};
+use crate::inventory::ComponentInventory;
 
 /// The component values of a notated sign.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Mapped {
+pub struct MappedSign {
     /// The values, in this order: of the dominant hand, of the weak hand, of face and body.
     pub values: Vec<MappedValue>,
     /// The parts of the notation that the values do not express, without duplicates.
@@ -48,7 +48,7 @@ pub struct Mapped {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MappedValue {
     /// The component, with its hand and phase.
-    pub field: Field,
+    pub field: ComponentField,
     /// The id of a value of the field's inventory.
     pub value: String,
     /// Whether it means everything in the notation.
@@ -57,39 +57,34 @@ pub struct MappedValue {
 
 /// Maps notated signs to component values.
 #[derive(Debug)]
-pub struct Mapper<'i> {
+pub struct SignMapper<'i> {
     /// The values of each component and feature, by id and alias.
-    words: BTreeMap<(Component, Option<&'i str>), BTreeMap<&'i str, &'i str>>,
-    shapes: Shapes<'i>,
+    words: BTreeMap<(SignComponent, Option<&'i str>), BTreeMap<&'i str, &'i str>>,
+    shapes: InventoryHandshapes<'i>,
     left_handed: bool,
 }
 
-impl<'i> Mapper<'i> {
+impl<'i> SignMapper<'i> {
     /// Prepares for these inventories; for each component or feature the first one counts.
-    pub fn new(inventories: impl IntoIterator<Item = &'i Inventory>) -> Self {
+    pub fn new(inventories: impl IntoIterator<Item = &'i ComponentInventory>) -> Self {
         let mut words = BTreeMap::new();
-        let mut shapes = Shapes::default();
+        let mut shapes = InventoryHandshapes::default();
         for inventory in inventories {
             let key = (inventory.component, inventory.feature.as_deref());
             if words.contains_key(&key) {
                 continue;
             }
-            if key == (Component::Configuration, None) {
-                shapes = Shapes::of(inventory);
+            if key == (SignComponent::Configuration, None) {
+                shapes = InventoryHandshapes::from_inventory_notation(inventory);
             }
-            let mut own: BTreeMap<&str, &str> = BTreeMap::new();
+            let mut ids_by_word: BTreeMap<&str, &str> = BTreeMap::new();
             for value in &inventory.values {
                 for alias in &value.aliases {
-                    own.entry(alias).or_insert(&value.id);
+                    ids_by_word.entry(alias).or_insert(&value.id);
                 }
             }
-            own.extend(
-                inventory
-                    .values
-                    .iter()
-                    .map(|value| (&*value.id, &*value.id)),
-            );
-            words.insert(key, own);
+            ids_by_word.extend(inventory.values.iter().map(|value| (&*value.id, &*value.id)));
+            words.insert(key, ids_by_word);
         }
         Self {
             words,
@@ -109,123 +104,105 @@ impl<'i> Mapper<'i> {
 
     /// Returns the component values of a sign.
     #[must_use]
-    pub fn map(&self, notated: &Notated) -> Mapped {
-        let mut lost = Lost::default();
-        let mut hands = Hands::new(&self.shapes);
+    pub fn map_sign_components(&self, notated: &NotatedSign) -> MappedSign {
+        let mut lost = NotationLosses::default();
+        let mut hands = HandActions::new(&self.shapes);
         for part in &notated.sign.parts {
-            hands.part(part, &mut lost);
+            hands.process_manual_part(part, &mut lost);
         }
-        let mut mapped = Mapped::default();
+        let mut mapped = MappedSign::default();
         for (hand, course) in [HandRef::Dominant, HandRef::Weak]
             .into_iter()
-            .zip(hands.courses())
+            .zip(hands.both_hand_courses())
         {
             for (component, feature, steps) in course {
-                self.write(
-                    Some(hand),
-                    component,
-                    feature,
-                    &steps,
-                    &mut mapped,
-                    &mut lost,
-                );
+                self.write_field_values(Some(hand), component, feature, &steps, &mut mapped, &mut lost);
             }
         }
-        for (feature, steps) in nonmanual(&notated.nonmanual, &mut lost) {
-            let component = Component::NonManual;
-            self.write(
-                None,
-                component,
-                Some(feature),
-                &steps,
-                &mut mapped,
-                &mut lost,
-            );
+        for (feature, steps) in map_nonmanual_features(&notated.nonmanual, &mut lost) {
+            let component = SignComponent::NonManual;
+            self.write_field_values(None, component, Some(feature), &steps, &mut mapped, &mut lost);
         }
         mapped.lost = lost.0;
         mapped
     }
 
     /// Writes successive values of one field, each with its phase.
-    fn write(
+    fn write_field_values(
         &self,
         hand: Option<HandRef>,
-        component: Component,
+        component: SignComponent,
         feature: Option<&'static str>,
-        steps: &[Vec<Value>],
-        mapped: &mut Mapped,
-        lost: &mut Lost,
+        steps: &[Vec<ComponentWord>],
+        mapped: &mut MappedSign,
+        lost: &mut NotationLosses,
     ) {
-        let known = self.words.get(&(component, feature));
+        let word_ids = self.words.get(&(component, feature));
         let mut written: Vec<Vec<(&str, bool)>> = Vec::new();
         for step in steps {
-            let mut own = Vec::new();
+            let mut step_values = Vec::new();
             for value in step {
                 let word = if self.left_handed && hand.is_some() {
-                    mirrored(component, feature, &value.word)
+                    mirrored_component_value(component, feature, &value.word)
                 } else {
                     value.word.clone()
                 };
-                match known.and_then(|known| known.get(word.as_str())) {
-                    Some(id) if own.iter().all(|(other, _)| other != id) => {
-                        own.push((*id, value.exact));
+                match word_ids.and_then(|known| known.get(word.as_str())) {
+                    Some(id) if step_values.iter().all(|(other, _)| other != id) => {
+                        step_values.push((*id, value.exact));
                     }
                     Some(_) => {}
-                    None => lost.add(format!("{} has no {word}", name(component, feature))),
+                    None => {
+                        lost.add_notation_loss(format!("{} has no {word}", component_field_name(component, feature)))
+                    }
                 }
             }
             let same = |before: &Vec<(&str, bool)>| {
                 let ids = |(a, b): (&(&str, bool), &(&str, bool))| a.0 == b.0;
-                before.len() == own.len() && before.iter().zip(&own).all(ids)
+                before.len() == step_values.len() && before.iter().zip(&step_values).all(ids)
             };
-            if !own.is_empty() && !written.last().is_some_and(same) {
-                written.push(own);
+            if !step_values.is_empty() && !written.last().is_some_and(same) {
+                written.push(step_values);
             }
         }
         let last = written.len().saturating_sub(1);
         for (at, step) in written.iter().enumerate() {
             let phase = match at {
                 _ if last == 0 => None,
-                0 => Some(Phase::Initial),
-                at if at == last => Some(Phase::Final),
-                at => Some(Phase::Middle(u8::try_from(at).unwrap_or(u8::MAX))),
+                0 => Some(SignPhase::Initial),
+                at if at == last => Some(SignPhase::Final),
+                at => Some(SignPhase::Middle(u8::try_from(at).unwrap_or(u8::MAX))),
             };
-            mapped
-                .values
-                .extend(step.iter().map(|(id, exact)| MappedValue {
-                    field: Field {
-                        hand,
-                        component,
-                        feature: feature.map(str::to_owned),
-                        phase,
-                    },
-                    value: (*id).to_owned(),
-                    exact: *exact,
-                }));
+            mapped.values.extend(step.iter().map(|(id, exact)| MappedValue {
+                field: ComponentField {
+                    hand,
+                    component,
+                    feature: feature.map(str::to_owned),
+                    phase,
+                },
+                value: (*id).to_owned(),
+                exact: *exact,
+            }));
         }
     }
 }
 
-fn name(component: Component, feature: Option<&str>) -> String {
-    feature.map_or_else(
-        || component.to_string(),
-        |feature| format!("{component}.{feature}"),
-    )
+fn component_field_name(component: SignComponent, feature: Option<&str>) -> String {
+    feature.map_or_else(|| component.to_string(), |feature| format!("{component}.{feature}"))
 }
 
 /// Returns the value for the mirror image across the signer's middle.
-fn mirrored(component: Component, feature: Option<&str>, word: &str) -> String {
+fn mirrored_component_value(component: SignComponent, feature: Option<&str>, word: &str) -> String {
     let other = match (component, feature) {
-        (Component::Orientation, Some("palm")) => word
+        (SignComponent::Orientation, Some("palm")) => word
             .parse()
             .ok()
-            .map(|it: Compass| it.mirrored().to_string()),
-        (Component::Orientation, Some("fingers")) | (Component::Movement, Some("direction")) => {
-            word.parse()
-                .ok()
-                .map(|it: Direction| it.mirrored().to_string())
-        }
-        (Component::Placement, None) => {
+            .map(|compass: CompassDirection| compass.mirrored_compass_direction().to_string()),
+        (SignComponent::Orientation, Some("fingers")) | (SignComponent::Movement, Some("direction")) => word
+            .parse()
+            .ok()
+            .map(|direction: SpatialDirection| direction.mirrored_spatial_direction().to_string()),
+        (SignComponent::Placement, None) => {
             let parts = word.split('-').map(|part| match part {
                 "left" => "right",
                 "right" => "left",
@@ -240,18 +217,18 @@ fn mirrored(component: Component, feature: Option<&str>, word: &str) -> String {
 
 /// A value as an inventory spells it, and whether it means the same as the notation.
 #[derive(Debug, Clone, PartialEq)]
-struct Value {
+struct ComponentWord {
     word: String,
     exact: bool,
 }
 
-impl Value {
-    fn exact(word: impl Into<String>) -> Self {
+impl ComponentWord {
+    fn exact_value(word: impl Into<String>) -> Self {
         let word = word.into();
         Self { word, exact: true }
     }
 
-    fn near(word: impl Into<String>) -> Self {
+    fn approximate_value(word: impl Into<String>) -> Self {
         let word = word.into();
         Self { word, exact: false }
     }
@@ -259,10 +236,10 @@ impl Value {
 
 /// The parts of the notation that the values do not express, without duplicates.
 #[derive(Debug, Default)]
-struct Lost(Vec<String>);
+struct NotationLosses(Vec<String>);
 
-impl Lost {
-    fn add(&mut self, what: impl Into<String>) {
+impl NotationLosses {
+    fn add_notation_loss(&mut self, what: impl Into<String>) {
         let what = what.into();
         if !self.0.contains(&what) {
             self.0.push(what);
@@ -272,28 +249,31 @@ impl Lost {
 
 /// Returns the successive values of each feature of face and body; simultaneous acts of one feature follow each other, and a
 /// mouth picture becomes `word`, without its sounds.
-fn nonmanual(notated: &Nonmanual, lost: &mut Lost) -> BTreeMap<&'static str, Vec<Vec<Value>>> {
-    let mut features: BTreeMap<&'static str, Vec<Vec<Value>>> = BTreeMap::new();
-    for (_, act) in notated.acts() {
+fn map_nonmanual_features(
+    notated: &NonmanualActs,
+    lost: &mut NotationLosses,
+) -> BTreeMap<&'static str, Vec<Vec<ComponentWord>>> {
+    let mut features: BTreeMap<&'static str, Vec<Vec<ComponentWord>>> = BTreeMap::new();
+    for (_, act) in notated.acts_by_tier() {
         let (feature, value) = match act.part {
-            NonmanualPart::Shoulders => ("shoulders", act.code()),
-            NonmanualPart::Body => ("body", act.code()),
-            NonmanualPart::Head => ("head", act.code()),
-            NonmanualPart::Gaze => ("gaze", act.code()),
-            NonmanualPart::Brows => ("brows", act.code()),
-            NonmanualPart::Lids => ("lids", act.code()),
-            NonmanualPart::Nose => ("nose", act.code()),
-            NonmanualPart::MouthGesture => ("mouth", act.code()),
+            NonmanualPart::Shoulders => ("shoulders", act.act_code()),
+            NonmanualPart::Body => ("body", act.act_code()),
+            NonmanualPart::Head => ("head", act.act_code()),
+            NonmanualPart::Gaze => ("gaze", act.act_code()),
+            NonmanualPart::Brows => ("brows", act.act_code()),
+            NonmanualPart::Lids => ("lids", act.act_code()),
+            NonmanualPart::Nose => ("nose", act.act_code()),
+            NonmanualPart::MouthGesture => ("mouth", act.act_code()),
             NonmanualPart::MouthPicture => ("mouthing", "word"),
-            NonmanualPart::MouthMeta => ("mouthing", act.code()),
+            NonmanualPart::MouthMeta => ("mouthing", act.act_code()),
             NonmanualPart::Neutral => continue,
             NonmanualPart::Extra => {
-                lost.add(format!("nonmanual has no {}", act.code()));
+                lost.add_notation_loss(format!("nonmanual has no {}", act.act_code()));
                 continue;
             }
         };
         let steps = features.entry(feature).or_default();
-        steps.push(vec![Value::exact(value)]);
+        steps.push(vec![ComponentWord::exact_value(value)]);
     }
     features
 }

@@ -1,17 +1,17 @@
 //! Notation in the inventories' words, sign by sign.
 
-use super::super::direction::{Compass, Direction};
+use super::super::direction::{CompassDirection, SpatialDirection};
 use super::super::tree::*;
-use super::super::{Act, NonmanualPart, Notated};
+use super::super::{NonmanualAct, NonmanualPart, NotatedSign};
 use super::*;
-use crate::inventory::builtin;
+use crate::inventory::builtin_inventories;
 
 fn flat() -> Handshape {
     shape(HandClass::Flat, None, None)
 }
 
-fn shape(class: HandClass, thumb: Option<ThumbPosition>, bend: Option<Bend>) -> Handshape {
-    let form = Form {
+fn shape(class: HandClass, thumb: Option<ThumbPosition>, bend: Option<FingerBend>) -> Handshape {
+    let form = HandshapeForm {
         class,
         thumb,
         bend,
@@ -23,25 +23,25 @@ fn shape(class: HandClass, thumb: Option<ThumbPosition>, bend: Option<Bend>) -> 
     }
 }
 
-fn at(at: BodyLocation, side: Option<Side>, contact: Option<Contact>) -> Place {
-    let site = Some(Site {
+fn at(at: BodyLocation, side: Option<LocationSide>, contact: Option<PlaceContact>) -> HandPlace {
+    let site = Some(SidedLocation {
         at,
         side,
         approx: false,
     });
-    Place::Body(BodyPlace {
+    HandPlace::Body(BodyPlace {
         site,
         contact,
         ..BodyPlace::default()
     })
 }
 
-fn toward(direction: Direction, size: Option<Size>) -> Motion {
-    let size = Amount {
+fn toward(direction: SpatialDirection, size: Option<MotionSize>) -> NotatedMotion {
+    let size = SizeAmount {
         first: size,
         second: None,
     };
-    Motion::new(MotionKind::Directed(Directed {
+    NotatedMotion::new(MotionKind::Directed(DirectedPath {
         direction,
         second: None,
         size,
@@ -52,28 +52,21 @@ fn toward(direction: Direction, size: Option<Size>) -> Motion {
 }
 
 /// Returns values and losses of a sign of one part, as one line each.
-fn said(part: Manual) -> (Vec<String>, Vec<String>) {
-    let sign = Sign { parts: vec![part] };
-    let mapped = Mapper::new(builtin()).map(&Notated {
+fn said(part: ManualPart) -> (Vec<String>, Vec<String>) {
+    let sign = HamnosysSign { parts: vec![part] };
+    let mapped = SignMapper::new(builtin_inventories()).map_sign_components(&NotatedSign {
         sign,
-        ..Notated::default()
+        ..NotatedSign::default()
     });
-    let line = |it: &MappedValue| {
-        format!(
-            "{}{}{}",
-            it.field,
-            if it.exact { "=" } else { "~" },
-            it.value
-        )
-    };
+    let line = |it: &MappedValue| format!("{}{}{}", it.field, if it.exact { "=" } else { "~" }, it.value);
     (mapped.values.iter().map(line).collect(), mapped.lost)
 }
 
-fn posture(shape: Handshape, place: Place) -> Posture {
-    Posture {
-        shape: Each::Shared(shape),
+fn posture(shape: Handshape, place: HandPlace) -> NotatedPosture {
+    NotatedPosture {
+        shape: EachHand::Shared(shape),
         place: Some(place),
-        ..Posture::default()
+        ..NotatedPosture::default()
     }
 }
 
@@ -83,21 +76,21 @@ fn a_hand_that_follows_by_symmetry_has_values_of_its_own() {
         flat(),
         at(
             BodyLocation::Chest,
-            Some(Side::RightAt),
-            Some(Contact::Touch),
+            Some(LocationSide::RightAt),
+            Some(PlaceContact::Touch),
         ),
     );
-    start.extended = Each::Shared(Aim::at(Direction::LEFT));
-    start.palm = Each::Shared(Aim::at(Compass::Dl));
-    let symmetry = Symmetry {
+    start.extended = EachHand::Shared(DirectionAim::aim_at(SpatialDirection::LEFT_DIRECTION));
+    start.palm = EachHand::Shared(DirectionAim::aim_at(CompassDirection::Dl));
+    let symmetry = HandSymmetry {
         left_right: true,
-        ..Symmetry::default()
+        ..HandSymmetry::default()
     };
-    let part = Manual {
+    let part = ManualPart {
         hands: HandsUsed::Both(symmetry),
         posture: start,
-        actions: vec![toward(Direction::RIGHT, Some(Size::Small))],
-        ..Manual::default()
+        actions: vec![toward(SpatialDirection::RIGHT_DIRECTION, Some(MotionSize::Small))],
+        ..ManualPart::default()
     };
     assert_eq!(
         said(part),
@@ -131,27 +124,27 @@ fn a_hand_that_follows_by_symmetry_has_values_of_its_own() {
 fn targets_and_replacements_are_final_values() {
     let target = posture(
         shape(HandClass::Fist, None, None),
-        at(BodyLocation::Chin, None, Some(Contact::Touch)),
+        at(BodyLocation::Chin, None, Some(PlaceContact::Touch)),
     );
-    let closing = Motion::new(MotionKind::Target {
+    let closing = NotatedMotion::new(MotionKind::Target {
         motion: None,
         posture: Box::new(target),
     });
-    let repetition = Repetition::plain(Repeat::FromStart);
-    let part = Manual {
+    let repetition = MotionRepetition::plain_repetition(RepeatKind::FromStart);
+    let part = ManualPart {
         posture: posture(
             flat(),
             at(
                 BodyLocation::Forehead,
-                Some(Side::RightAt),
-                Some(Contact::Close),
+                Some(LocationSide::RightAt),
+                Some(PlaceContact::Close),
             ),
         ),
-        actions: vec![Motion::new(MotionKind::Repeated {
+        actions: vec![NotatedMotion::new(MotionKind::Repeated {
             motion: Box::new(closing),
             repetition,
         })],
-        ..Manual::default()
+        ..ManualPart::default()
     };
     let (values, lost) = said(part);
     assert_eq!(
@@ -175,49 +168,44 @@ fn places_without_contact_at_the_trunk_are_in_space() {
         (BodyLocation::Shoulders, None, None, "=high"),
         (
             BodyLocation::Shoulders,
-            Some(Side::RightBeside),
-            Some(Contact::Close),
+            Some(LocationSide::RightBeside),
+            Some(PlaceContact::Close),
             "=high-right-near",
         ),
         (
             BodyLocation::Shoulders,
-            Some(Side::RightAt),
+            Some(LocationSide::RightAt),
             None,
             "~high-right",
         ),
         (
             BodyLocation::Shoulders,
-            Some(Side::LeftAt),
-            Some(Contact::Touch),
+            Some(LocationSide::LeftAt),
+            Some(PlaceContact::Touch),
             "=shoulder-contra",
         ),
         (BodyLocation::Chest, None, None, "=neutral"),
-        (BodyLocation::Chest, None, Some(Contact::Touch), "=chest"),
+        (BodyLocation::Chest, None, Some(PlaceContact::Touch), "=chest"),
         (
             BodyLocation::Stomach,
-            Some(Side::LeftBeside),
-            Some(Contact::ArmExtended),
+            Some(LocationSide::LeftBeside),
+            Some(PlaceContact::ArmExtended),
             "=low-left-far",
         ),
-        (
-            BodyLocation::Cheek,
-            Some(Side::LeftAt),
-            None,
-            "=cheek-contra",
-        ),
-        (BodyLocation::Ear, Some(Side::LeftAt), None, "~ear"),
-        (BodyLocation::Nose, Some(Side::RightAt), None, "~nose"),
+        (BodyLocation::Cheek, Some(LocationSide::LeftAt), None, "=cheek-contra"),
+        (BodyLocation::Ear, Some(LocationSide::LeftAt), None, "~ear"),
+        (BodyLocation::Nose, Some(LocationSide::RightAt), None, "~nose"),
         (BodyLocation::UpperLip, None, None, "~mouth"),
         (
             BodyLocation::Head,
-            Some(Side::RightBeside),
+            Some(LocationSide::RightBeside),
             None,
             "=beside-head",
         ),
     ] {
-        let part = Manual {
+        let part = ManualPart {
             posture: posture(flat(), at(location, side, contact)),
-            ..Manual::default()
+            ..ManualPart::default()
         };
         let (values, _) = said(part);
         assert_eq!(
@@ -231,18 +219,12 @@ fn places_without_contact_at_the_trunk_are_in_space() {
 #[test]
 fn handshapes_without_a_value_get_the_nearest_one() {
     for (shape, expected) in [
-        (
-            shape(HandClass::Flat, Some(ThumbPosition::Across), None),
-            "=B",
-        ),
-        (
-            shape(HandClass::Pinch12, Some(ThumbPosition::Across), None),
-            "=pinch",
-        ),
-        (shape(HandClass::Finger2, None, Some(Bend::Hooked)), "~X"),
+        (shape(HandClass::Flat, Some(ThumbPosition::Across), None), "=B"),
+        (shape(HandClass::Pinch12, Some(ThumbPosition::Across), None), "=pinch"),
+        (shape(HandClass::Finger2, None, Some(FingerBend::Hooked)), "~X"),
         (
             Handshape {
-                special: Digits(vec![Digit::Little]),
+                special: DigitList(vec![HandDigit::Little]),
                 ..shape(HandClass::Finger2, Some(ThumbPosition::Across), None)
             },
             "=I",
@@ -250,24 +232,24 @@ fn handshapes_without_a_value_get_the_nearest_one() {
         (
             Handshape {
                 between: Some(flat().form),
-                ..shape(HandClass::Flat, None, Some(Bend::Round))
+                ..shape(HandClass::Flat, None, Some(FingerBend::Round))
             },
             "~B-round",
         ),
         (
             Handshape {
-                form: Form {
-                    opening: Some(Opening::Slack),
-                    ..Form::default()
+                form: HandshapeForm {
+                    opening: Some(CeeOpening::Slack),
+                    ..HandshapeForm::default()
                 },
                 ..shape(HandClass::Fist, None, None)
             },
             "=A",
         ),
     ] {
-        let part = Manual {
+        let part = ManualPart {
             posture: posture(shape, at(BodyLocation::Chin, None, None)),
-            ..Manual::default()
+            ..ManualPart::default()
         };
         assert_eq!(said(part).0[0], format!("dominant.configuration{expected}"));
     }
@@ -275,23 +257,23 @@ fn handshapes_without_a_value_get_the_nearest_one() {
 
 #[test]
 fn values_of_a_left_handed_signer_are_the_signers_own_left_and_right() {
-    let shown = |place: Place, left_handed: bool| {
+    let shown = |place: HandPlace, left_handed: bool| {
         let mut start = posture(flat(), place);
-        start.extended = Each::Shared(Aim::at(Direction::LEFT));
-        start.palm = Each::Shared(Aim::at(Compass::Dl));
-        let part = Manual {
+        start.extended = EachHand::Shared(DirectionAim::aim_at(SpatialDirection::LEFT_DIRECTION));
+        start.palm = EachHand::Shared(DirectionAim::aim_at(CompassDirection::Dl));
+        let part = ManualPart {
             posture: start,
-            actions: vec![toward(Direction::RIGHT, None)],
-            ..Manual::default()
+            actions: vec![toward(SpatialDirection::RIGHT_DIRECTION, None)],
+            ..ManualPart::default()
         };
-        let mut notated = Notated::default();
+        let mut notated = NotatedSign::default();
         notated.sign.parts.push(part);
-        let gaze = Act::new(NonmanualPart::Gaze, "LE");
+        let gaze = NonmanualAct::new(NonmanualPart::Gaze, "LE");
         notated
             .nonmanual
-            .push(NonmanualPart::Gaze.tier(), vec![gaze]);
-        let mapper = Mapper::new(builtin()).of_left_handed(left_handed);
-        let mapped = mapper.map(&notated);
+            .push_act_group(NonmanualPart::Gaze.sigml_tier(), vec![gaze]);
+        let mapper = SignMapper::new(builtin_inventories()).of_left_handed(left_handed);
+        let mapped = mapper.map_sign_components(&notated);
         assert_eq!(mapped.lost, [""; 0]);
         let said = |name: &str| {
             let mut values = mapped.values.iter();
@@ -311,20 +293,20 @@ fn values_of_a_left_handed_signer_are_the_signers_own_left_and_right() {
     for (place, right_handed, left_handed) in [
         // In space a side is the signer's own; on the body it counts from the acting hand.
         (
-            at(BodyLocation::Shoulders, Some(Side::LeftBeside), None),
+            at(BodyLocation::Shoulders, Some(LocationSide::LeftBeside), None),
             "high-left",
             "high-right",
         ),
         (
-            at(BodyLocation::Chest, Some(Side::RightBeside), None),
+            at(BodyLocation::Chest, Some(LocationSide::RightBeside), None),
             "right",
             "left",
         ),
         (
             at(
                 BodyLocation::Cheek,
-                Some(Side::LeftAt),
-                Some(Contact::Touch),
+                Some(LocationSide::LeftAt),
+                Some(PlaceContact::Touch),
             ),
             "cheek-contra",
             "cheek-contra",
@@ -344,7 +326,7 @@ fn values_of_a_left_handed_signer_are_the_signers_own_left_and_right() {
 
 #[test]
 fn face_and_body_get_values_and_unknown_ones_are_reported() {
-    let mut notated = Notated::default();
+    let mut notated = NotatedSign::default();
     for (part, tag) in [
         (NonmanualPart::Brows, "RB_both_eyebrows_raised"),
         (NonmanualPart::Head, "SH"),
@@ -355,9 +337,9 @@ fn face_and_body_get_values_and_unknown_ones_are_reported() {
     ] {
         notated
             .nonmanual
-            .push(part.tier(), vec![Act::new(part, tag)]);
+            .push_act_group(part.sigml_tier(), vec![NonmanualAct::new(part, tag)]);
     }
-    let mapped = Mapper::new(builtin()).map(&notated);
+    let mapped = SignMapper::new(builtin_inventories()).map_sign_components(&notated);
     let values: Vec<String> = mapped
         .values
         .iter()

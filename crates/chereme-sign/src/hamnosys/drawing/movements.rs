@@ -1,67 +1,67 @@
 //! Draws directions, palms, movements, and their marks.
 
-use super::super::direction::{Compass, Direction};
-use super::super::symbol::Kind;
-use super::super::tree::{Ellipse, Size, WristMotion};
-use super::{Drawing, Point, arc, oval, seen};
+use super::super::direction::{CompassDirection, SpatialDirection};
+use super::super::symbol::SymbolKind;
+use super::super::tree::{EllipseAxis, MotionSize, WristMotion};
+use super::{DrawingPoint, SymbolDrawing, arc_points, oval, page_point};
 
-const MIDDLE: Point = [0.4, 0.5];
+const DRAWING_MIDDLE: DrawingPoint = [0.4, 0.5];
 
 /// Draws a direction, a palm, a movement, or a mark of one.
-pub(super) fn draw(kind: Kind) -> Drawing {
+pub(super) fn draw_movement_symbol(kind: SymbolKind) -> SymbolDrawing {
     match kind {
-        Kind::Extended(to) => {
-            let (drawing, right, up, middle) = plane(to);
+        SymbolKind::Extended(to) => {
+            let (drawing, right, up, middle) = draw_plane_direction(to);
             let (tip, back) = (0.3, 0.14);
             let side = |to: f32| {
                 let (x, y) = (-right * back - up * 0.3 * to, -up * back + right * 0.3 * to);
-                seen(middle, x, y)
+                page_point(middle, x, y)
             };
-            drawing.line([side(1.0), seen(middle, right * tip, up * tip), side(-1.0)])
+            drawing.with_line([side(1.0), page_point(middle, right * tip, up * tip), side(-1.0)])
         }
-        Kind::Move(to) => {
-            let (drawing, right, up, middle) = plane(to);
-            let end = |share: f32| seen(middle, right * 0.34 * share, up * 0.34 * share);
-            drawing.arrow([end(-1.0), end(1.0)])
+        SymbolKind::Move(to) => {
+            let (drawing, right, up, middle) = draw_plane_direction(to);
+            let end = |share: f32| page_point(middle, right * 0.34 * share, up * 0.34 * share);
+            drawing.with_arrow([end(-1.0), end(1.0)])
         }
-        Kind::Palm(to) => {
+        SymbolKind::Palm(to) => {
             let (right, up) = on_page(to);
             let turn = (-up).atan2(right) / std::f32::consts::TAU;
-            Drawing::new(0.6)
-                .line(oval([0.3, 0.5], [0.26, 0.26]))
-                .solid(arc([0.3, 0.5], [0.26, 0.26], turn - 0.25, turn + 0.25))
+            SymbolDrawing::new(0.6)
+                .with_line(oval([0.3, 0.5], [0.26, 0.26]))
+                .solid(arc_points([0.3, 0.5], [0.26, 0.26], turn - 0.25, turn + 0.25))
         }
-        Kind::Circle(axis) => circle(axis),
-        Kind::Clock(at) => {
+        SymbolKind::Circle(axis) => draw_axis_circle(axis),
+        SymbolKind::Clock(at) => {
             let (right, up) = on_page(at);
-            Drawing::new(0.8)
-                .thin(oval(MIDDLE, [0.28, 0.28]))
-                .line([MIDDLE, seen(MIDDLE, right * 0.28, up * 0.28)])
-                .dot(seen(MIDDLE, right * 0.28, up * 0.28))
+            SymbolDrawing::new(0.8)
+                .thin(oval(DRAWING_MIDDLE, [0.28, 0.28]))
+                .with_line([DRAWING_MIDDLE, page_point(DRAWING_MIDDLE, right * 0.28, up * 0.28)])
+                .with_dot(page_point(DRAWING_MIDDLE, right * 0.28, up * 0.28))
         }
-        Kind::ClockFull => Drawing::new(0.8)
-            .line(oval(MIDDLE, [0.28, 0.28]))
-            .dot(MIDDLE),
-        Kind::Arc(to) => {
+        SymbolKind::ClockFull => SymbolDrawing::new(0.8)
+            .with_line(oval(DRAWING_MIDDLE, [0.28, 0.28]))
+            .with_dot(DRAWING_MIDDLE),
+        SymbolKind::Arc(to) => {
             let (right, up) = on_page(to);
             let turn = (-up).atan2(right) / std::f32::consts::TAU;
-            let ends = [0.32, -0.32].map(|share| seen(MIDDLE, -up * share, right * share));
-            Drawing::new(0.8)
-                .thin(ends)
-                .line(arc(MIDDLE, [0.32, 0.32], turn - 0.25, turn + 0.25))
+            let ends = [0.32, -0.32].map(|share| page_point(DRAWING_MIDDLE, -up * share, right * share));
+            SymbolDrawing::new(0.8).thin(ends).with_line(arc_points(
+                DRAWING_MIDDLE,
+                [0.32, 0.32],
+                turn - 0.25,
+                turn + 0.25,
+            ))
         }
-        Kind::Zigzag { wavy: true } => Drawing::new(0.9).line(
+        SymbolKind::Zigzag { wavy: true } => SymbolDrawing::new(0.9).with_line(
             (0..=40u8)
                 .map(|step| {
                     let t = f32::from(step) / 40.0;
-                    [
-                        0.06 + 0.78 * t,
-                        0.5 - 0.2 * (t * 2.0 * std::f32::consts::TAU).sin(),
-                    ]
+                    [0.06 + 0.78 * t, 0.5 - 0.2 * (t * 2.0 * std::f32::consts::TAU).sin()]
                 })
                 .collect::<Vec<_>>(),
         ),
-        Kind::Zigzag { wavy: false } => Drawing::new(0.9).line([
+        SymbolKind::Zigzag { wavy: false } => SymbolDrawing::new(0.9).with_line([
             [0.06, 0.66],
             [0.2, 0.34],
             [0.34, 0.66],
@@ -70,107 +70,103 @@ pub(super) fn draw(kind: Kind) -> Drawing {
             [0.76, 0.34],
             [0.84, 0.52],
         ]),
-        Kind::Ellipse(ellipse) => {
+        SymbolKind::Ellipse(ellipse) => {
             let turned: f32 = match ellipse {
-                Ellipse::Horizontal => 0.0,
-                Ellipse::UpRight => -45.0,
-                Ellipse::Vertical => 90.0,
-                Ellipse::UpLeft => 45.0,
+                EllipseAxis::Horizontal => 0.0,
+                EllipseAxis::UpRight => -45.0,
+                EllipseAxis::Vertical => 90.0,
+                EllipseAxis::UpLeft => 45.0,
             };
             let (sin, cos) = turned.to_radians().sin_cos();
             let points = oval([0.0, 0.0], [0.36, 0.17]);
-            let turn = |[x, y]: Point| [0.4 + x * cos - y * sin, 0.5 + x * sin + y * cos];
-            Drawing::new(0.8).line(points.into_iter().map(turn).collect::<Vec<_>>())
+            let turn = |[x, y]: DrawingPoint| [0.4 + x * cos - y * sin, 0.5 + x * sin + y * cos];
+            SymbolDrawing::new(0.8).with_line(points.into_iter().map(turn).collect::<Vec<_>>())
         }
-        Kind::Growth { increasing } => {
-            let (narrow, wide) = if increasing {
-                (0.06, 0.74)
-            } else {
-                (0.74, 0.06)
-            };
-            Drawing::new(0.8).line([[wide, 0.26], [narrow, 0.5], [wide, 0.74]])
+        SymbolKind::Growth { increasing } => {
+            let (narrow, wide) = if increasing { (0.06, 0.74) } else { (0.74, 0.06) };
+            SymbolDrawing::new(0.8).with_line([[wide, 0.26], [narrow, 0.5], [wide, 0.74]])
         }
-        Kind::Size(size) => {
+        SymbolKind::Size(size) => {
             let (out, back) = match size {
-                Size::Small => (0.22, 0.04),
-                Size::Big => (0.04, 0.22),
+                MotionSize::Small => (0.22, 0.04),
+                MotionSize::Big => (0.04, 0.22),
             };
-            Drawing::new(0.7)
-                .line([[back, 0.34], [out, 0.5], [back, 0.66]])
-                .line([[0.7 - back, 0.34], [0.7 - out, 0.5], [0.7 - back, 0.66]])
+            SymbolDrawing::new(0.7)
+                .with_line([[back, 0.34], [out, 0.5], [back, 0.66]])
+                .with_line([[0.7 - back, 0.34], [0.7 - out, 0.5], [0.7 - back, 0.66]])
         }
-        Kind::FingerPlay => {
+        SymbolKind::FingerPlay => {
             let up = |x: f32, top: f32| [[x, 0.94], [x, top]];
-            Drawing::new(0.8)
-                .line(up(0.1, 0.2))
-                .line(up(0.3, 0.44))
-                .line(up(0.5, 0.2))
-                .line(up(0.7, 0.44))
-                .thin(arc([0.4, 0.22], [0.26, 0.16], 0.58, 0.92))
+            SymbolDrawing::new(0.8)
+                .with_line(up(0.1, 0.2))
+                .with_line(up(0.3, 0.44))
+                .with_line(up(0.5, 0.2))
+                .with_line(up(0.7, 0.44))
+                .thin(arc_points([0.4, 0.22], [0.26, 0.16], 0.58, 0.92))
         }
-        Kind::Wrist(motion) => wrist(motion),
-        Kind::Replace => Drawing::new(0.9)
-            .line([[0.06, 0.4], [0.68, 0.4]])
-            .line([[0.06, 0.6], [0.68, 0.6]])
-            .line([[0.58, 0.22], [0.84, 0.5], [0.58, 0.78]]),
-        Kind::Cross { diagonal } => {
+        SymbolKind::Wrist(motion) => draw_wrist_motion(motion),
+        SymbolKind::Replace => SymbolDrawing::new(0.9)
+            .with_line([[0.06, 0.4], [0.68, 0.4]])
+            .with_line([[0.06, 0.6], [0.68, 0.6]])
+            .with_line([[0.58, 0.22], [0.84, 0.5], [0.58, 0.78]]),
+        SymbolKind::Cross { diagonal } => {
             let at = |x: f32, y: f32| {
                 if diagonal {
-                    seen(MIDDLE, (x - y) * 0.7, (x + y) * 0.7)
+                    page_point(DRAWING_MIDDLE, (x - y) * 0.7, (x + y) * 0.7)
                 } else {
-                    seen(MIDDLE, x, y)
+                    page_point(DRAWING_MIDDLE, x, y)
                 }
             };
-            Drawing::new(0.8)
-                .arrow([at(-0.34, 0.0), at(0.34, 0.0)])
-                .arrow([at(0.0, 0.34), at(0.0, -0.34)])
+            SymbolDrawing::new(0.8)
+                .with_arrow([at(-0.34, 0.0), at(0.34, 0.0)])
+                .with_arrow([at(0.0, 0.34), at(0.0, -0.34)])
         }
-        Kind::Still => Drawing::new(0.8)
-            .line(oval(MIDDLE, [0.28, 0.28]))
-            .line([[0.2, 0.7], [0.6, 0.3]]),
-        Kind::Mime => Drawing::new(0.8)
-            .line(oval(MIDDLE, [0.3, 0.42]))
-            .dot([0.28, 0.38])
-            .dot([0.52, 0.38])
-            .line(arc([0.4, 0.6], [0.16, 0.14], 0.02, 0.48)),
-        _ => Drawing::default(),
+        SymbolKind::Still => SymbolDrawing::new(0.8)
+            .with_line(oval(DRAWING_MIDDLE, [0.28, 0.28]))
+            .with_line([[0.2, 0.7], [0.6, 0.3]]),
+        SymbolKind::Mime => SymbolDrawing::new(0.8)
+            .with_line(oval(DRAWING_MIDDLE, [0.3, 0.42]))
+            .with_dot([0.28, 0.38])
+            .with_dot([0.52, 0.38])
+            .with_line(arc_points([0.4, 0.6], [0.16, 0.14], 0.02, 0.48)),
+        _ => SymbolDrawing::default(),
     }
 }
 
 /// Returns the direction of a compass on the page: to the right, and up.
-fn on_page(compass: Compass) -> (f32, f32) {
+fn on_page(compass: CompassDirection) -> (f32, f32) {
     let (horizontal, vertical) = match compass {
-        Compass::U => (0.0, 1.0),
-        Compass::Ur => (1.0, 1.0),
-        Compass::R => (1.0, 0.0),
-        Compass::Dr => (1.0, -1.0),
-        Compass::D => (0.0, -1.0),
-        Compass::Dl => (-1.0, -1.0),
-        Compass::L => (-1.0, 0.0),
-        Compass::Ul => (-1.0, 1.0),
+        CompassDirection::U => (0.0, 1.0),
+        CompassDirection::Ur => (1.0, 1.0),
+        CompassDirection::R => (1.0, 0.0),
+        CompassDirection::Dr => (1.0, -1.0),
+        CompassDirection::D => (0.0, -1.0),
+        CompassDirection::Dl => (-1.0, -1.0),
+        CompassDirection::L => (-1.0, 0.0),
+        CompassDirection::Ul => (-1.0, 1.0),
     };
     let length = f32::hypot(horizontal, vertical);
     (horizontal / length, vertical / length)
 }
 
 /// Returns the view of a direction with its bar, the direction on the page, and the middle.
-fn plane(to: Direction) -> (Drawing, f32, f32, Point) {
-    let [left, up, out] = to.vector().map(|part| part as f32);
+fn draw_plane_direction(to: SpatialDirection) -> (SymbolDrawing, f32, f32, DrawingPoint) {
+    let [left, up, out] = to.spatial_direction_vector().map(|part| part as f32);
     if out == 0.0 {
-        return (Drawing::new(0.8), -left, up, MIDDLE);
+        return (SymbolDrawing::new(0.8), -left, up, DRAWING_MIDDLE);
     }
     if up == 0.0 {
-        let bar = Drawing::new(0.8).thin([[0.06, 0.97], [0.74, 0.97]]);
+        let bar = SymbolDrawing::new(0.8).thin([[0.06, 0.97], [0.74, 0.97]]);
         return (bar, -left, out, [0.4, 0.46]);
     }
-    let bar = Drawing::new(0.86).thin([[0.03, 0.08], [0.03, 0.92]]);
+    let bar = SymbolDrawing::new(0.86).thin([[0.03, 0.08], [0.03, 0.92]]);
     (bar, out, up, [0.48, 0.5])
 }
 
 /// The line of sight for circles (left, up, out), chosen so that no circle is seen on its edge.
-const LOOK: [f64; 3] = [0.2157, -0.52, 0.826];
+const CIRCLE_SIGHT_LINE: [f64; 3] = [0.2157, -0.52, 0.826];
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+fn cross_product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -178,67 +174,57 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+fn dot_product(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn unit(v: [f64; 3]) -> [f64; 3] {
-    v.map(|part| part / dot(v, v).sqrt())
+fn unit_vector(v: [f64; 3]) -> [f64; 3] {
+    v.map(|part| part / dot_product(v, v).sqrt())
 }
 
 /// A circle about an axis, seen from behind, above and a little from the right.
-fn circle(axis: Direction) -> Drawing {
-    let axis = axis.vector();
-    let right = unit(cross(LOOK, [0.0, 1.0, 0.0]));
-    let up = unit(cross(right, LOOK));
+fn draw_axis_circle(axis: SpatialDirection) -> SymbolDrawing {
+    let axis = axis.spatial_direction_vector();
+    let right = unit_vector(cross_product(CIRCLE_SIGHT_LINE, [0.0, 1.0, 0.0]));
+    let up = unit_vector(cross_product(right, CIRCLE_SIGHT_LINE));
     // The circle begins at its farthest point along the page.
-    let side = unit(cross(axis, LOOK));
-    let across = cross(axis, side);
-    let points: Vec<Point> = (0..=30u8)
+    let side = unit_vector(cross_product(axis, CIRCLE_SIGHT_LINE));
+    let across = cross_product(axis, side);
+    let points: Vec<DrawingPoint> = (0..=30u8)
         .map(|step| {
             let (sin, cos) = (f64::from(step) / 36.0 * std::f64::consts::TAU).sin_cos();
-            let at = [0, 1, 2].map(|part| side[part] * cos + across[part] * sin);
-            seen(
+            let point = [0, 1, 2].map(|part| side[part] * cos + across[part] * sin);
+            page_point(
                 [0.45, 0.5],
-                0.33 * dot(at, right) as f32,
-                0.33 * dot(at, up) as f32,
+                0.33 * dot_product(point, right) as f32,
+                0.33 * dot_product(point, up) as f32,
             )
         })
         .collect();
-    let drawing = Drawing::new(0.9).line(points.clone());
-    drawing.head(&points, 0.14)
+    let drawing = SymbolDrawing::new(0.9).with_line(points.clone());
+    drawing.with_arrow_head(&points, 0.14)
 }
 
-fn wrist(motion: WristMotion) -> Drawing {
+fn draw_wrist_motion(motion: WristMotion) -> SymbolDrawing {
     // The forearm from below, with the hand moving to and fro about its end.
-    let stick = Drawing::new(0.8).thin([[0.4, 1.0], [0.4, 0.62]]);
+    let stick = SymbolDrawing::new(0.8).thin([[0.4, 1.0], [0.4, 0.62]]);
     match motion {
-        WristMotion::Nodding => Drawing::new(0.8)
+        WristMotion::Nodding => SymbolDrawing::new(0.8)
             .thin([[0.04, 0.6], [0.34, 0.6]])
-            .line([[0.34, 0.6], [0.62, 0.6]])
-            .arrow(arc([0.36, 0.6], [0.36, 0.36], -0.02, -0.2))
-            .arrow(arc([0.36, 0.6], [0.36, 0.36], 0.02, 0.18)),
+            .with_line([[0.34, 0.6], [0.62, 0.6]])
+            .with_arrow(arc_points([0.36, 0.6], [0.36, 0.36], -0.02, -0.2))
+            .with_arrow(arc_points([0.36, 0.6], [0.36, 0.36], 0.02, 0.18)),
         WristMotion::Swinging => {
-            let path = |sign: f32| {
-                arc(
-                    [0.4, 0.62],
-                    [0.3, 0.42],
-                    -0.25 + sign * 0.03,
-                    -0.25 + sign * 0.2,
-                )
-            };
+            let path = |sign: f32| arc_points([0.4, 0.62], [0.3, 0.42], -0.25 + sign * 0.03, -0.25 + sign * 0.2);
             stick
-                .line([[0.4, 0.62], [0.4, 0.34]])
-                .arrow(path(1.0))
-                .arrow(path(-1.0))
+                .with_line([[0.4, 0.62], [0.4, 0.34]])
+                .with_arrow(path(1.0))
+                .with_arrow(path(-1.0))
         }
-        WristMotion::Twisting => Drawing::new(0.8).thin([[0.4, 1.0], [0.4, 0.06]]).arrow(arc(
-            [0.4, 0.52],
-            [0.32, 0.16],
-            -0.4,
-            0.4,
-        )),
-        WristMotion::StirCw => stick.arrow(arc([0.4, 0.36], [0.22, 0.22], -0.25, 0.62)),
-        WristMotion::StirCcw => stick.arrow(arc([0.4, 0.36], [0.22, 0.22], -0.25, -1.12)),
+        WristMotion::Twisting => SymbolDrawing::new(0.8)
+            .thin([[0.4, 1.0], [0.4, 0.06]])
+            .with_arrow(arc_points([0.4, 0.52], [0.32, 0.16], -0.4, 0.4)),
+        WristMotion::StirCw => stick.with_arrow(arc_points([0.4, 0.36], [0.22, 0.22], -0.25, 0.62)),
+        WristMotion::StirCcw => stick.with_arrow(arc_points([0.4, 0.36], [0.22, 0.22], -0.25, -1.12)),
     }
 }

@@ -1,40 +1,43 @@
 //! Parses symbols into the tree, by recursive descent with one symbol of look-ahead and a bounded depth.
 //!
 //! A text is read once; if the canonical print of the result differs from the text, it is read a second
-//! time, and every part that prints differently from its own symbols remembers them ([`Written`]).
+//! time, and every part that prints differently from its own symbols remembers them ([`WrittenSymbols`]).
 //! Therefore every accepted text prints unchanged.
 
-mod action;
-mod place;
-mod posture;
+mod parse_action;
+mod parse_place;
+mod parse_posture;
 
-use super::error::{Finding, HamnosysError};
-use super::lex::{self, Lexed, Token};
-use super::print::{self, Write};
-use super::symbol::{Bracket, Kind, Symbol};
-use super::tree::{Bend, BodyAction, HandsUsed, Manual, Posture, Sign, Size, Symmetry, Written};
+use super::error::{HamnosysError, HamnosysFinding};
+use super::hamnosys_lex::{self, LexedSymbol, LexedText};
+use super::print::{self, HamnosysWriter};
+use super::symbol::{BracketKind, HamnosysSymbol, SymbolKind};
+use super::tree::{
+    BodyAction, FingerBend, HamnosysSign, HandSymmetry, HandsUsed, ManualPart, MotionSize, NotatedPosture,
+    WrittenSymbols,
+};
 
 /// Largest depth of nested brackets and modifiers.
-pub const MAX_DEPTH: usize = 48;
+pub const MAX_BRACKET_DEPTH: usize = 48;
 
 /// A transcription after reading.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Transcription {
+pub struct HamnosysTranscription {
     /// The sign.
-    pub sign: Sign,
+    pub sign: HamnosysSign,
     /// Oddities of the text; everything that the tree does not hold is listed here.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<HamnosysFinding>,
     /// The text, if it was not written in the symbols' own characters.
     text: Option<Box<str>>,
 }
 
-impl Transcription {
+impl HamnosysTranscription {
     /// Returns the original text, byte by byte.
     #[must_use]
-    pub fn print(&self) -> String {
+    pub fn transcription_text(&self) -> String {
         match &self.text {
             Some(text) => text.to_string(),
-            None => print::text_of(&self.sign),
+            None => print::sign_hamnosys_text(&self.sign),
         }
     }
 
@@ -49,30 +52,30 @@ impl Transcription {
 ///
 /// # Errors
 /// [`HamnosysError`] for the first symbol that cannot be at its place, with the expected ones.
-pub fn parse(text: &str) -> Result<Transcription, HamnosysError> {
-    read(text, false)
+pub fn parse_hamnosys(text: &str) -> Result<HamnosysTranscription, HamnosysError> {
+    read_transcription(text, false)
 }
 
 /// Reads the parts of a transcription that can be understood; the findings list the rest. The tree keeps
 /// the whole text, so that it prints unchanged.
 #[must_use]
-pub fn parse_lenient(text: &str) -> Transcription {
-    read(text, true).unwrap_or_else(|error| Transcription {
-        sign: Sign::default(),
-        findings: vec![Finding::from(&error)],
+pub fn parse_lenient(text: &str) -> HamnosysTranscription {
+    read_transcription(text, true).unwrap_or_else(|error| HamnosysTranscription {
+        sign: HamnosysSign::default(),
+        findings: vec![HamnosysFinding::from(&error)],
         text: Some(text.into()),
     })
 }
 
-impl From<&HamnosysError> for Finding {
+impl From<&HamnosysError> for HamnosysFinding {
     fn from(error: &HamnosysError) -> Self {
         Self {
             index: error.index().unwrap_or_default(),
             // The index stands before the message of a finding.
             message: match error {
-                HamnosysError::Unexpected {
-                    symbol, expected, ..
-                } => format!("{symbol} stands where only {expected} can be"),
+                HamnosysError::Unexpected { symbol, expected, .. } => {
+                    format!("{symbol} stands where only {expected} can be")
+                }
                 HamnosysError::Ended { expected, .. } => {
                     format!("the text ends, but expected {expected}")
                 }
@@ -84,43 +87,43 @@ impl From<&HamnosysError> for Finding {
     }
 }
 
-fn read(text: &str, lenient: bool) -> Result<Transcription, HamnosysError> {
-    let mut lexed = lex::lex(text, lenient)?;
+fn read_transcription(text: &str, lenient: bool) -> Result<HamnosysTranscription, HamnosysError> {
+    let mut lexed = hamnosys_lex::lex_hamnosys(text, lenient)?;
     if lexed.text.trim().is_empty() {
         return Err(HamnosysError::Empty);
     }
     let findings = std::mem::take(&mut lexed.findings);
-    let mut parser = Parser::new(&lexed, lenient, false);
-    let mut sign = parser.sign()?;
-    if print::text_of(&sign) != *lexed.text {
-        parser = Parser::new(&lexed, lenient, true);
-        sign = parser.sign()?;
+    let mut parser = HamnosysParser::new(&lexed, lenient, false);
+    let mut sign = parser.parse_hamnosys_sign()?;
+    if print::sign_hamnosys_text(&sign) != *lexed.text {
+        parser = HamnosysParser::new(&lexed, lenient, true);
+        sign = parser.parse_hamnosys_sign()?;
     }
     let mut findings = [findings, parser.findings].concat();
     findings.sort_by_key(|finding| finding.index);
-    Ok(Transcription {
+    Ok(HamnosysTranscription {
         sign,
         findings,
         text: (*lexed.text != *text).then(|| text.into()),
     })
 }
 
-type Parsed<T> = Result<T, HamnosysError>;
+type HamnosysParsed<T> = Result<T, HamnosysError>;
 
-struct Parser<'a> {
+struct HamnosysParser<'a> {
     text: &'a str,
-    tokens: &'a [Token],
+    tokens: &'a [LexedSymbol],
     count: usize,
     at: usize,
     depth: usize,
     lenient: bool,
     /// Whether parts that print differently remember their symbols.
     remember: bool,
-    findings: Vec<Finding>,
+    findings: Vec<HamnosysFinding>,
 }
 
-impl<'a> Parser<'a> {
-    fn new(lexed: &'a Lexed<'_>, lenient: bool, remember: bool) -> Self {
+impl<'a> HamnosysParser<'a> {
+    fn new(lexed: &'a LexedText<'_>, lenient: bool, remember: bool) -> Self {
         Self {
             text: &lexed.text,
             tokens: &lexed.tokens,
@@ -133,16 +136,16 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn sign(&mut self) -> Parsed<Sign> {
-        let mut parts: Vec<Manual> = Vec::new();
+    fn parse_hamnosys_sign(&mut self) -> HamnosysParsed<HamnosysSign> {
+        let mut parts: Vec<ManualPart> = Vec::new();
         let mut from = 0;
         while parts.is_empty() || self.at < self.tokens.len() {
             let start = self.at;
-            let mut part = self.manual(parts.is_empty())?;
+            let mut part = self.parse_manual_part(parts.is_empty())?;
             if self.at == start && self.at < self.tokens.len() {
-                self.unexpected("a handshape, a movement or another part of a sign")?;
-            } else if !parts.is_empty() && part == Manual::default() {
-                self.missing("another sign after hamplus")?;
+                self.refuse_next_symbol("a handshape, a movement or another part of a sign")?;
+            } else if !parts.is_empty() && part == ManualPart::default() {
+                self.report_missing_symbol("another sign after hamplus")?;
             }
             let to = self
                 .tokens
@@ -150,62 +153,62 @@ impl<'a> Parser<'a> {
                 .map_or(self.text.len(), |next| next.start as usize);
             if self.remember {
                 let separator = !parts.is_empty();
-                let mut out = Write::default();
-                out.manual(&part, separator);
+                let mut out = HamnosysWriter::default();
+                out.write_manual_part(&part, separator);
                 if out.text != self.text[from..to] {
-                    part.written = Written(Some(self.text[from..to].into()));
+                    part.written = WrittenSymbols(Some(self.text[from..to].into()));
                 }
             }
             from = to;
             parts.push(part);
         }
-        Ok(Sign { parts })
+        Ok(HamnosysSign { parts })
     }
 
-    fn manual(&mut self, first: bool) -> Parsed<Manual> {
-        if !first && !self.eat(Kind::Plus) {
-            self.note(
+    fn parse_manual_part(&mut self, first: bool) -> HamnosysParsed<ManualPart> {
+        if !first && !self.eat_symbol_kind(SymbolKind::Plus) {
+            self.note_symbol_finding(
                 "another sign begins without hamplus before it",
                 "write hamplus between the parts of a compound, or hamreplace before a new handshape",
                 false,
             );
         }
-        let mut part = Manual {
-            hands: self.hands()?,
-            ..Manual::default()
+        let mut part = ManualPart {
+            hands: self.parse_hands_used()?,
+            ..ManualPart::default()
         };
         while self.at_body_action() || self.at_body_part() {
-            part.body.push(self.body_action()?.0);
+            part.body.push(self.parse_body_action()?.0);
         }
-        part.posture = self.posture()?;
-        part.actions = self.actions()?;
+        part.posture = self.parse_hand_posture()?;
+        part.actions = self.parse_actions()?;
         Ok(part)
     }
 
-    fn hands(&mut self) -> Parsed<HandsUsed> {
-        let left_right = match self.peek() {
-            Some(Kind::Nondominant) => {
+    fn parse_hands_used(&mut self) -> HamnosysParsed<HandsUsed> {
+        let left_right = match self.peek_symbol_kind() {
+            Some(SymbolKind::Nondominant) => {
                 self.at += 1;
                 return Ok(HandsUsed::Nondominant);
             }
-            Some(Kind::Symmetry { left_right }) => left_right,
+            Some(SymbolKind::Symmetry { left_right }) => left_right,
             _ => return Ok(HandsUsed::Dominant),
         };
         self.at += 1;
-        let mut symmetry = Symmetry {
+        let mut symmetry = HandSymmetry {
             left_right,
-            ..Symmetry::default()
+            ..HandSymmetry::default()
         };
-        while let Some(kind) = self.peek() {
+        while let Some(kind) = self.peek_symbol_kind() {
             let flag = match kind {
-                Kind::Size(Size::Big) => &mut symmetry.up_down,
-                Kind::Bend(Bend::Bent) => &mut symmetry.out_in,
-                Kind::Alternating => &mut symmetry.out_of_phase,
-                Kind::RealSpace => &mut symmetry.real_space,
+                SymbolKind::Size(MotionSize::Big) => &mut symmetry.up_down,
+                SymbolKind::Bend(FingerBend::Bent) => &mut symmetry.out_in,
+                SymbolKind::Alternating => &mut symmetry.out_of_phase,
+                SymbolKind::RealSpace => &mut symmetry.real_space,
                 _ => break,
             };
             if std::mem::replace(flag, true) {
-                self.note("the mark is there twice", "write it once", true);
+                self.note_symbol_finding("the mark is there twice", "write it once", true);
             }
             self.at += 1;
         }
@@ -215,41 +218,40 @@ impl<'a> Parser<'a> {
     /// Returns whether an action of the body begins here.
     fn at_body_action(&self) -> bool {
         self.after_body_site()
-            .and_then(|at| self.kind(at))
+            .and_then(|at| self.symbol_kind_at(at))
             .is_some_and(is_motion)
     }
 
     /// Returns whether a held part of the body begins here, before the description of the hands.
     fn at_body_part(&self) -> bool {
-        self.after_body_site()
-            .is_some_and(|at| match self.kind(at) {
-                Some(Kind::Base(_)) => true,
-                Some(Kind::Open(Bracket::Par)) => self.is_split_config(at, &Posture::default()),
-                _ => false,
-            })
+        self.after_body_site().is_some_and(|at| match self.symbol_kind_at(at) {
+            Some(SymbolKind::Base(_)) => true,
+            Some(SymbolKind::Open(BracketKind::Par)) => self.is_split_config(at, &NotatedPosture::default()),
+            _ => false,
+        })
     }
 
     /// Returns the index after a place on the body with its side, if one is here.
     fn after_body_site(&self) -> Option<usize> {
-        let side = |at: usize| matches!(self.kind(at), Some(Kind::At | Kind::Beside));
-        let mut at = self.at;
-        while side(at) {
-            at += 1;
+        let side = |at: usize| matches!(self.symbol_kind_at(at), Some(SymbolKind::At | SymbolKind::Beside));
+        let mut position = self.at;
+        while side(position) {
+            position += 1;
         }
-        if !matches!(self.kind(at), Some(Kind::Body(_))) {
+        if !matches!(self.symbol_kind_at(position), Some(SymbolKind::Body(_))) {
             return None;
         }
-        at += 1;
-        while side(at) || matches!(self.kind(at), Some(Kind::Bend(_))) {
-            at += 1;
+        position += 1;
+        while side(position) || matches!(self.symbol_kind_at(position), Some(SymbolKind::Bend(_))) {
+            position += 1;
         }
-        Some(at)
+        Some(position)
     }
 
-    fn body_action(&mut self) -> Parsed<(BodyAction, usize)> {
-        let site = self.body_site()?;
-        let motion = match self.peek() {
-            Some(kind) if is_motion(kind) => Some(self.deeper(Self::action)?),
+    fn parse_body_action(&mut self) -> HamnosysParsed<(BodyAction, usize)> {
+        let site = self.parse_body_site()?;
+        let motion = match self.peek_symbol_kind() {
+            Some(kind) if is_motion(kind) => Some(self.deeper(Self::parse_action)?),
             _ => None,
         };
         let height = 1 + motion.as_ref().map_or(0, |deep| deep.1);
@@ -261,46 +263,44 @@ impl<'a> Parser<'a> {
         Ok((action, height))
     }
 
-    fn kind(&self, at: usize) -> Option<Kind> {
+    fn symbol_kind_at(&self, at: usize) -> Option<SymbolKind> {
         self.tokens.get(at).map(|token| token.kind)
     }
 
-    fn peek(&self) -> Option<Kind> {
-        self.kind(self.at)
+    fn peek_symbol_kind(&self) -> Option<SymbolKind> {
+        self.symbol_kind_at(self.at)
     }
 
-    fn next_is(&self, ahead: usize, kind: Kind) -> bool {
-        self.kind(self.at + ahead) == Some(kind)
+    fn next_is(&self, ahead: usize, kind: SymbolKind) -> bool {
+        self.symbol_kind_at(self.at + ahead) == Some(kind)
     }
 
-    fn eat(&mut self, kind: Kind) -> bool {
+    fn eat_symbol_kind(&mut self, kind: SymbolKind) -> bool {
         let there = self.next_is(0, kind);
         self.at += usize::from(there);
         there
     }
 
     /// Returns the symbols from one token up to another as text.
-    fn slice(&self, from: usize, to: usize) -> &'a str {
-        let (Some(first), Some(last)) =
-            (self.tokens.get(from), self.tokens.get(to.wrapping_sub(1)))
-        else {
+    fn slice_symbol_text(&self, from: usize, to: usize) -> &'a str {
+        let (Some(first), Some(last)) = (self.tokens.get(from), self.tokens.get(to.wrapping_sub(1))) else {
             return "";
         };
         self.text
-            .get(first.start as usize..last.end())
+            .get(first.start as usize..last.symbol_end())
             .unwrap_or_default()
     }
 
     /// Returns the symbols that a part read since `from` must remember: its own, unless it prints the same
     /// by `write`.
-    fn written(&self, from: usize, write: impl FnOnce(&mut Write)) -> Written {
+    fn written_symbols_since(&self, from: usize, write: impl FnOnce(&mut HamnosysWriter)) -> WrittenSymbols {
         if !self.remember {
-            return Written(None);
+            return WrittenSymbols(None);
         }
-        let mut out = Write::default();
+        let mut out = HamnosysWriter::default();
         write(&mut out);
-        let text = self.slice(from, self.at);
-        Written((out.text != text).then(|| text.into()))
+        let text = self.slice_symbol_text(from, self.at);
+        WrittenSymbols((out.text != text).then(|| text.into()))
     }
 
     fn index(&self) -> usize {
@@ -309,7 +309,7 @@ impl<'a> Parser<'a> {
             .map_or(self.count, |token| token.index as usize)
     }
 
-    fn wrong(&self, expected: &'static str) -> HamnosysError {
+    fn expected_symbol_error(&self, expected: &'static str) -> HamnosysError {
         let index = self.index();
         match self.tokens.get(self.at) {
             Some(token) => HamnosysError::Unexpected {
@@ -322,29 +322,29 @@ impl<'a> Parser<'a> {
     }
 
     /// Refuses the next symbol; a lenient reading leaves it out.
-    fn unexpected(&mut self, expected: &'static str) -> Parsed<()> {
-        self.missing(expected)?;
+    fn refuse_next_symbol(&mut self, expected: &'static str) -> HamnosysParsed<()> {
+        self.report_missing_symbol(expected)?;
         self.at += 1;
         Ok(())
     }
 
     /// Reports that something is missing here; a lenient reading continues without it.
-    fn missing(&mut self, expected: &'static str) -> Parsed<()> {
-        let error = self.wrong(expected);
+    fn report_missing_symbol(&mut self, expected: &'static str) -> HamnosysParsed<()> {
+        let error = self.expected_symbol_error(expected);
         if !self.lenient {
             return Err(error);
         }
-        self.findings.push(Finding::from(&error));
+        self.findings.push(HamnosysFinding::from(&error));
         Ok(())
     }
 
     /// Adds a finding about the next symbol.
-    fn note(&mut self, message: &str, remedy: &'static str, dropped: bool) {
+    fn note_symbol_finding(&mut self, message: &str, remedy: &'static str, dropped: bool) {
         let symbol = self
             .tokens
             .get(self.at)
-            .map_or("end", |token| token.symbol.name());
-        self.findings.push(Finding {
+            .map_or("end", |token| token.symbol.symbol_name());
+        self.findings.push(HamnosysFinding {
             index: self.index(),
             message: format!("{symbol}: {message}"),
             remedy,
@@ -354,12 +354,12 @@ impl<'a> Parser<'a> {
 
     /// Leaves out the next symbol, with a finding.
     fn drop(&mut self, message: &str, remedy: &'static str) {
-        self.note(message, remedy, true);
+        self.note_symbol_finding(message, remedy, true);
         self.at += 1;
     }
 
-    fn close(&mut self, opened: usize, bracket: Bracket) -> Parsed<()> {
-        if self.eat(Kind::Close(bracket)) {
+    fn close_bracket(&mut self, opened: usize, bracket: BracketKind) -> HamnosysParsed<()> {
+        if self.eat_symbol_kind(SymbolKind::Close(bracket)) {
             return Ok(());
         }
         let Some(token) = self.tokens.get(opened) else {
@@ -369,17 +369,18 @@ impl<'a> Parser<'a> {
             index: token.index as usize,
             symbol: token.symbol,
             at: self.index(),
-            expected: Symbol::of(Kind::Close(bracket)).map_or("a bracket", Symbol::name),
+            expected: HamnosysSymbol::from_symbol_kind(SymbolKind::Close(bracket))
+                .map_or("a bracket", HamnosysSymbol::symbol_name),
         };
         if !self.lenient {
             return Err(error);
         }
-        self.findings.push(Finding::from(&error));
+        self.findings.push(HamnosysFinding::from(&error));
         Ok(())
     }
 
-    fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
-        if self.depth >= MAX_DEPTH {
+    fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> HamnosysParsed<T>) -> HamnosysParsed<T> {
+        if self.depth >= MAX_BRACKET_DEPTH {
             return Err(self.too_deep());
         }
         self.depth += 1;
@@ -391,22 +392,22 @@ impl<'a> Parser<'a> {
     fn too_deep(&self) -> HamnosysError {
         HamnosysError::TooDeep {
             index: self.index(),
-            limit: MAX_DEPTH,
+            limit: MAX_BRACKET_DEPTH,
         }
     }
 
     /// Returns the tokens within the group that opens at `at`, up to its close or the end, and the index
     /// of its own hamplus.
-    fn group(&self, at: usize) -> (&'a [Token], Option<usize>) {
+    fn group_tokens(&self, at: usize) -> (&'a [LexedSymbol], Option<usize>) {
         let inside = self.tokens.get(at + 1..).unwrap_or_default();
         let mut depth = 0_usize;
         let mut plus = None;
         for (offset, token) in inside.iter().enumerate() {
             match token.kind {
-                Kind::Open(_) => depth += 1,
-                Kind::Close(_) if depth == 0 => return (&inside[..offset], plus),
-                Kind::Close(_) => depth -= 1,
-                Kind::Plus if depth == 0 && plus.is_none() => plus = Some(offset),
+                SymbolKind::Open(_) => depth += 1,
+                SymbolKind::Close(_) if depth == 0 => return (&inside[..offset], plus),
+                SymbolKind::Close(_) => depth -= 1,
+                SymbolKind::Plus if depth == 0 && plus.is_none() => plus = Some(offset),
                 _ => {}
             }
         }
@@ -415,8 +416,8 @@ impl<'a> Parser<'a> {
 }
 
 /// Returns whether a movement, or a group that can only be one, begins with this symbol.
-fn is_motion(kind: Kind) -> bool {
-    use Kind as K;
+fn is_motion(kind: SymbolKind) -> bool {
+    use SymbolKind as K;
     matches!(
         kind,
         K::Move(_) | K::Circle(_) | K::Wrist(_) | K::FingerPlay | K::Cross { .. } | K::Still

@@ -1,31 +1,32 @@
 //! Prints the tree as symbols.
 //!
 //! The tree is printed in one canonical order; a part that remembers another spelling from text
-//! ([`Written`]) prints that spelling.
+//! ([`WrittenSymbols`]) prints that spelling.
 
-mod motion;
-mod place;
+mod print_motion;
+mod print_place;
 
-use super::direction::{Compass, Direction};
+use super::direction::{CompassDirection, SpatialDirection};
 use super::parse;
-use super::symbol::{Bracket, Kind, Symbol};
+use super::symbol::{BracketKind, HamnosysSymbol, SymbolKind};
 use super::tree::{
-    Aim, Bend, BodyAction, Digit, Each, Form, Frame, HandsUsed, Handshape, Manual, Opening,
-    Posture, Sign, Size, Symmetry, ThumbExtra, ThumbPosition, Written,
+    BodyAction, CeeOpening, DirectionAim, DirectionFrame, EachHand, FingerBend, HamnosysSign, HandDigit, HandSymmetry,
+    HandsUsed, Handshape, HandshapeForm, ManualPart, MotionSize, NotatedPosture, ThumbExtra, ThumbPosition,
+    WrittenSymbols,
 };
 
 /// A sign as text, and the parts that the text does not express.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Printed {
+pub struct PrintedSign {
     /// The text, one character per symbol.
     pub text: String,
     /// The parts of the tree that are missing from the text.
-    pub losses: Vec<Loss>,
+    pub losses: Vec<NotationLoss>,
 }
 
 /// A part without symbols in HamNoSys.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Loss {
+pub struct NotationLoss {
     /// The index of the part of the sign, from 0.
     pub part: usize,
     /// A description of the part, and of its replacement in the text.
@@ -36,14 +37,14 @@ pub struct Loss {
 ///
 /// The text reads back as an equal tree, or `losses` lists the differences.
 #[must_use]
-pub fn print(sign: &Sign) -> Printed {
-    let mut out = Write::default();
-    out.sign(sign);
-    let same = |text: &str| parse::parse(text).is_ok_and(|read| read.sign == *sign);
+pub fn print_hamnosys(sign: &HamnosysSign) -> PrintedSign {
+    let mut out = HamnosysWriter::default();
+    out.write_hamnosys_sign(sign);
+    let same = |text: &str| parse::parse_hamnosys(text).is_ok_and(|read| read.sign == *sign);
     if out.losses.is_empty() && !same(&out.text) {
-        out.lose("HamNoSys groups this differently: the text reads back as another tree");
+        out.report_notation_loss("HamNoSys groups this differently: the text reads back as another tree");
     }
-    Printed {
+    PrintedSign {
         text: out.text,
         losses: out.losses,
     }
@@ -51,64 +52,64 @@ pub fn print(sign: &Sign) -> Printed {
 
 /// Returns the text of a sign, ignoring losses.
 #[must_use]
-pub fn text_of(sign: &Sign) -> String {
-    let mut out = Write::default();
-    out.sign(sign);
+pub fn sign_hamnosys_text(sign: &HamnosysSign) -> String {
+    let mut out = HamnosysWriter::default();
+    out.write_hamnosys_sign(sign);
     out.text
 }
 
 #[derive(Default)]
-pub(super) struct Write {
+pub(super) struct HamnosysWriter {
     pub(super) text: String,
-    losses: Vec<Loss>,
+    losses: Vec<NotationLoss>,
     part: usize,
 }
 
-impl Write {
-    fn sign(&mut self, sign: &Sign) {
+impl HamnosysWriter {
+    fn write_hamnosys_sign(&mut self, sign: &HamnosysSign) {
         self.text.reserve(96);
         for (index, part) in sign.parts.iter().enumerate() {
             self.part = index;
-            self.manual(part, index > 0);
+            self.write_manual_part(part, index > 0);
         }
         if sign.parts.is_empty() {
-            self.lose("a sign without any part has no text");
+            self.report_notation_loss("a sign without any part has no text");
         }
     }
 
-    pub(super) fn manual(&mut self, part: &Manual, separator: bool) {
-        if self.written(&part.written) {
+    pub(super) fn write_manual_part(&mut self, part: &ManualPart, separator: bool) {
+        if self.write_kept_symbols(&part.written) {
             return;
         }
         if separator {
-            self.symbol(Kind::Plus);
+            self.symbol(SymbolKind::Plus);
         }
         match part.hands {
             HandsUsed::Dominant => {}
-            HandsUsed::Nondominant => self.symbol(Kind::Nondominant),
+            HandsUsed::Nondominant => self.symbol(SymbolKind::Nondominant),
             HandsUsed::Both(symmetry) => self.symmetry(symmetry),
         }
         if part.holdover {
-            self.lose("that the hands keep what they had has no symbol; it is left out");
+            self.report_notation_loss("that the hands keep what they had has no symbol; it is left out");
         }
         for action in &part.body {
-            self.body_action(action);
+            self.write_body_action(action);
         }
-        self.posture(&part.posture);
+        self.write_hand_posture(&part.posture);
         for motion in &part.actions {
-            self.motion(motion);
+            self.write_motion(motion);
         }
     }
 
-    fn symmetry(&mut self, symmetry: Symmetry) {
-        self.symbol(Kind::Symmetry {
+    fn symmetry(&mut self, symmetry: HandSymmetry) {
+        self.symbol(SymbolKind::Symmetry {
             left_right: symmetry.left_right,
         });
         let marks = [
-            (symmetry.out_in, Kind::Bend(Bend::Bent)),
-            (symmetry.up_down, Kind::Size(Size::Big)),
-            (symmetry.out_of_phase, Kind::Alternating),
-            (symmetry.real_space, Kind::RealSpace),
+            (symmetry.out_in, SymbolKind::Bend(FingerBend::Bent)),
+            (symmetry.up_down, SymbolKind::Size(MotionSize::Big)),
+            (symmetry.out_of_phase, SymbolKind::Alternating),
+            (symmetry.real_space, SymbolKind::RealSpace),
         ];
         for (there, mark) in marks {
             if there {
@@ -117,241 +118,246 @@ impl Write {
         }
     }
 
-    fn body_action(&mut self, action: &BodyAction) {
-        self.body_site(&super::tree::Site {
+    fn write_body_action(&mut self, action: &BodyAction) {
+        self.write_body_site(&super::tree::SidedLocation {
             at: action.part,
             side: action.side,
             approx: false,
         });
         if let Some(motion) = &action.motion {
-            self.motion(motion);
+            self.write_motion(motion);
         }
     }
 
-    pub(super) fn posture(&mut self, posture: &Posture) {
-        let mut one = Half::default();
-        let mut two = Half::default();
+    pub(super) fn write_hand_posture(&mut self, posture: &NotatedPosture) {
+        let mut one = PrintedHandHalf::default();
+        let mut two = PrintedHandHalf::default();
         let mut open = false;
         match &posture.shape {
-            Each::Unset => {}
-            Each::Shared(shape) => self.handshape(shape),
-            Each::Split(a, b) => {
+            EachHand::Unset => {}
+            EachHand::Shared(shape) => self.write_handshape(shape),
+            EachHand::Split(a, b) => {
                 open = true;
                 (one.shape, two.shape) = (a.as_ref(), b.as_ref());
             }
         }
         match &posture.extended {
-            Each::Unset => {}
-            Each::Shared(aim) => {
-                self.halves(&mut one, &mut two, &mut open);
-                self.extended(aim);
+            EachHand::Unset => {}
+            EachHand::Shared(aim) => {
+                self.write_split_halves(&mut one, &mut two, &mut open);
+                self.write_extended_direction(aim);
             }
-            Each::Split(a, b) => {
+            EachHand::Split(a, b) => {
                 open = true;
                 (one.extended, two.extended) = (a.as_ref(), b.as_ref());
             }
         }
         match &posture.palm {
-            Each::Unset => {}
-            Each::Shared(aim) => {
-                self.halves(&mut one, &mut two, &mut open);
-                self.palm(aim);
+            EachHand::Unset => {}
+            EachHand::Shared(aim) => {
+                self.write_split_halves(&mut one, &mut two, &mut open);
+                self.write_palm_direction(aim);
             }
-            Each::Split(a, b) => {
+            EachHand::Split(a, b) => {
                 open = true;
                 (one.palm, two.palm) = (a.as_ref(), b.as_ref());
             }
         }
-        self.halves(&mut one, &mut two, &mut open);
+        self.write_split_halves(&mut one, &mut two, &mut open);
         if let Some(place) = &posture.place {
-            self.place(place);
+            self.write_hand_place(place);
         }
     }
 
     /// Writes the parts collected for each hand, in one bracket.
-    fn halves<'a>(&mut self, one: &mut Half<'a>, two: &mut Half<'a>, open: &mut bool) {
+    fn write_split_halves<'a>(
+        &mut self,
+        one: &mut PrintedHandHalf<'a>,
+        two: &mut PrintedHandHalf<'a>,
+        open: &mut bool,
+    ) {
         if !std::mem::take(open) {
             return;
         }
-        self.symbol(Kind::Open(Bracket::Par));
-        self.half(&std::mem::take(one));
-        self.symbol(Kind::Plus);
-        self.half(&std::mem::take(two));
-        self.symbol(Kind::Close(Bracket::Par));
+        self.symbol(SymbolKind::Open(BracketKind::Par));
+        self.write_split_half(&std::mem::take(one));
+        self.symbol(SymbolKind::Plus);
+        self.write_split_half(&std::mem::take(two));
+        self.symbol(SymbolKind::Close(BracketKind::Par));
     }
 
-    fn half(&mut self, half: &Half<'_>) {
+    fn write_split_half(&mut self, half: &PrintedHandHalf<'_>) {
         if let Some(shape) = half.shape {
-            self.handshape(shape);
+            self.write_handshape(shape);
         }
         if let Some(aim) = half.extended {
-            self.extended(aim);
+            self.write_extended_direction(aim);
         }
         if let Some(aim) = half.palm {
-            self.palm(aim);
+            self.write_palm_direction(aim);
         }
     }
 
-    fn extended(&mut self, aim: &Aim<Direction>) {
-        self.direction(aim.first);
+    fn write_extended_direction(&mut self, aim: &DirectionAim<SpatialDirection>) {
+        self.write_direction(aim.first);
         if let Some(second) = aim.second {
-            self.symbol(Kind::Between);
-            self.direction(second);
+            self.symbol(SymbolKind::Between);
+            self.write_direction(second);
         }
         self.aim_marks(aim);
     }
 
-    fn direction(&mut self, direction: Direction) {
+    fn write_direction(&mut self, direction: SpatialDirection) {
         match direction.corner_parts() {
-            None => self.symbol(Kind::Extended(direction)),
+            None => self.symbol(SymbolKind::Extended(direction)),
             Some((one, two)) => {
-                self.symbol(Kind::Extended(one));
-                self.symbol(Kind::Extended(two));
+                self.symbol(SymbolKind::Extended(one));
+                self.symbol(SymbolKind::Extended(two));
             }
         }
     }
 
-    fn palm(&mut self, aim: &Aim<Compass>) {
-        self.symbol(Kind::Palm(aim.first));
+    fn write_palm_direction(&mut self, aim: &DirectionAim<CompassDirection>) {
+        self.symbol(SymbolKind::Palm(aim.first));
         if let Some(second) = aim.second {
-            self.symbol(Kind::Between);
-            self.symbol(Kind::Palm(second));
+            self.symbol(SymbolKind::Between);
+            self.symbol(SymbolKind::Palm(second));
         }
         self.aim_marks(aim);
     }
 
-    fn aim_marks<D>(&mut self, aim: &Aim<D>) {
+    fn aim_marks<D>(&mut self, aim: &DirectionAim<D>) {
         if aim.approx {
-            self.symbol(Kind::Approx);
+            self.symbol(SymbolKind::Approx);
         }
         match aim.frame {
-            Frame::Plain => {}
-            Frame::Relative => self.symbol(Kind::Relative),
-            Frame::Absolute => {
-                self.lose("that a direction is absolute has no symbol; it is left out");
+            DirectionFrame::Plain => {}
+            DirectionFrame::Relative => self.symbol(SymbolKind::Relative),
+            DirectionFrame::Absolute => {
+                self.report_notation_loss("that a direction is absolute has no symbol; it is left out");
             }
         }
     }
 
-    pub(super) fn handshape(&mut self, shape: &Handshape) {
-        if self.written(&shape.written) {
+    pub(super) fn write_handshape(&mut self, shape: &Handshape) {
+        if self.write_kept_symbols(&shape.written) {
             return;
         }
-        self.form(&shape.form);
+        self.write_hand_form(&shape.form);
         if let Some(second) = &shape.between {
-            self.symbol(Kind::Between);
-            self.form(second);
+            self.symbol(SymbolKind::Between);
+            self.write_hand_form(second);
         }
         if shape.approx {
-            self.symbol(Kind::Approx);
+            self.symbol(SymbolKind::Approx);
         }
         if shape.splay.is_some() {
-            self.lose("how far fingers are spread has no symbol; it is left to the class");
+            self.report_notation_loss("how far fingers are spread has no symbol; it is left to the class");
         }
-        self.fingers(shape);
-        for (digit, bend) in Digit::ALL.into_iter().zip(shape.bends) {
+        self.write_handshape_fingers(shape);
+        for (digit, bend) in HandDigit::ALL_HAND_DIGITS.into_iter().zip(shape.bends) {
             if let Some(bend) = bend {
-                self.symbol(Kind::Digit(digit));
-                self.bend(bend);
+                self.symbol(SymbolKind::Digit(digit));
+                self.write_finger_bend(bend);
             }
         }
         for contact in &shape.contacts {
-            self.symbol(Kind::Digit(contact.first));
+            self.symbol(SymbolKind::Digit(contact.first));
             match contact.part {
-                Some(part) => self.symbol(Kind::Part(part)),
-                None => self.symbol(Kind::Contact(super::tree::Contact::Cross)),
+                Some(part) => self.symbol(SymbolKind::Part(part)),
+                None => self.symbol(SymbolKind::Contact(super::tree::PlaceContact::Cross)),
             }
-            self.symbol(Kind::Digit(contact.second));
+            self.symbol(SymbolKind::Digit(contact.second));
         }
         match shape.thumb {
             None => {}
             Some(ThumbExtra::Between(one, two)) => {
-                self.symbol(Kind::Between);
-                self.symbol(Kind::Digit(one));
-                self.symbol(Kind::Digit(two));
+                self.symbol(SymbolKind::Between);
+                self.symbol(SymbolKind::Digit(one));
+                self.symbol(SymbolKind::Digit(two));
             }
-            Some(ThumbExtra::Enclosed) => self.symbol(Kind::Between),
-            Some(ThumbExtra::Contact(part)) => self.symbol(Kind::Part(part)),
+            Some(ThumbExtra::Enclosed) => self.symbol(SymbolKind::Between),
+            Some(ThumbExtra::Contact(part)) => self.symbol(SymbolKind::Part(part)),
         }
     }
 
-    fn fingers(&mut self, shape: &Handshape) {
+    fn write_handshape_fingers(&mut self, shape: &Handshape) {
         let mut written = [false; 5];
         let listed = shape.exempt.0.iter().chain(&shape.special.0);
         for digit in listed.chain(&shape.opposed) {
             if std::mem::replace(&mut written[*digit as usize], true) {
                 continue;
             }
-            self.symbol(Kind::Digit(*digit));
+            self.symbol(SymbolKind::Digit(*digit));
             if shape.opposed == Some(*digit) {
-                self.symbol(Kind::Size(Size::Big));
+                self.symbol(SymbolKind::Size(MotionSize::Big));
             }
         }
     }
 
-    fn form(&mut self, form: &Form) {
-        self.symbol(Kind::Base(form.class));
+    fn write_hand_form(&mut self, form: &HandshapeForm) {
+        self.symbol(SymbolKind::Base(form.class));
         if let Some(thumb) = form.thumb {
-            self.symbol(Kind::Thumb(thumb));
+            self.symbol(SymbolKind::Thumb(thumb));
         }
         match form.opening {
             None => {}
-            Some(Opening::Tight) => self.symbol(Kind::Thumb(ThumbPosition::Across)),
-            Some(Opening::Slack) => self.symbol(Kind::Thumb(ThumbPosition::Opposed)),
+            Some(CeeOpening::Tight) => self.symbol(SymbolKind::Thumb(ThumbPosition::Across)),
+            Some(CeeOpening::Slack) => self.symbol(SymbolKind::Thumb(ThumbPosition::Opposed)),
         }
         if let Some(bend) = form.bend {
-            self.bend(bend);
+            self.write_finger_bend(bend);
         }
     }
 
     /// Writes a bend, or two bends with this one half-way between; if neither is possible, the nearest bend.
-    fn bend(&mut self, bend: Bend) {
-        if !matches!(bend, Bend::HalfBent | Bend::Joints(_)) {
-            return self.symbol(Kind::Bend(bend));
+    fn write_finger_bend(&mut self, bend: FingerBend) {
+        if !matches!(bend, FingerBend::HalfBent | FingerBend::Joints(_)) {
+            return self.symbol(SymbolKind::Bend(bend));
         }
-        let joints = bend.joints();
-        let middle = |one: Bend, two: Bend| {
-            let (a, b) = (one.joints(), two.joints());
+        let joints = bend.joint_bends();
+        let middle = |one: FingerBend, two: FingerBend| {
+            let (a, b) = (one.joint_bends(), two.joint_bends());
             (0..3).all(|joint| ((a[joint] + b[joint]) / 2.0).floor() == joints[joint])
         };
-        let pairs = BENDS
+        let pairs = SYMBOL_BENDS
             .iter()
             .enumerate()
-            .flat_map(|(index, one)| BENDS[index..].iter().map(move |two| (*one, *two)));
-        if let Bend::Joints(_) = bend
+            .flat_map(|(index, one)| SYMBOL_BENDS[index..].iter().map(move |two| (*one, *two)));
+        if let FingerBend::Joints(_) = bend
             && let Some((one, two)) = pairs.into_iter().find(|(one, two)| middle(*one, *two))
         {
-            self.symbol(Kind::Bend(one));
-            self.symbol(Kind::Between);
-            return self.symbol(Kind::Bend(two));
+            self.symbol(SymbolKind::Bend(one));
+            self.symbol(SymbolKind::Between);
+            return self.symbol(SymbolKind::Bend(two));
         }
-        let gap = |other: &Bend| {
-            let own = other.joints();
+        let gap = |other: &FingerBend| {
+            let other_joints = other.joint_bends();
             (0..3)
-                .map(|joint| (own[joint] - joints[joint]).powi(2))
+                .map(|joint| (other_joints[joint] - joints[joint]).powi(2))
                 .sum::<f64>()
         };
-        let nearest = BENDS.into_iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
-        self.lose("the bend has no symbol; the nearest one stands for it");
-        self.symbol(Kind::Bend(nearest.unwrap_or(Bend::Bent)));
+        let nearest = SYMBOL_BENDS.into_iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
+        self.report_notation_loss("the bend has no symbol; the nearest one stands for it");
+        self.symbol(SymbolKind::Bend(nearest.unwrap_or(FingerBend::Bent)));
     }
 
-    fn written(&mut self, written: &Written) -> bool {
+    fn write_kept_symbols(&mut self, written: &WrittenSymbols) -> bool {
         if let Some(text) = &written.0 {
             self.text.push_str(text);
         }
         written.0.is_some()
     }
 
-    fn symbol(&mut self, kind: Kind) {
-        match Symbol::of(kind) {
-            Some(symbol) => self.text.push(symbol.char()),
-            None => self.lose("a value has no symbol of its own; it is left out"),
+    fn symbol(&mut self, kind: SymbolKind) {
+        match HamnosysSymbol::from_symbol_kind(kind) {
+            Some(symbol) => self.text.push(symbol.symbol_char()),
+            None => self.report_notation_loss("a value has no symbol of its own; it is left out"),
         }
     }
 
-    pub(super) fn lose(&mut self, message: &str) {
-        let loss = Loss {
+    pub(super) fn report_notation_loss(&mut self, message: &str) {
+        let loss = NotationLoss {
             part: self.part,
             message: message.to_owned(),
         };
@@ -362,18 +368,18 @@ impl Write {
 }
 
 /// The bends that have a symbol.
-const BENDS: [Bend; 5] = [
-    Bend::Bent,
-    Bend::Round,
-    Bend::Hooked,
-    Bend::DoubleBent,
-    Bend::DoubleHooked,
+const SYMBOL_BENDS: [FingerBend; 5] = [
+    FingerBend::Bent,
+    FingerBend::Round,
+    FingerBend::Hooked,
+    FingerBend::DoubleBent,
+    FingerBend::DoubleHooked,
 ];
 
 /// The configuration of one hand.
 #[derive(Default)]
-struct Half<'a> {
+struct PrintedHandHalf<'a> {
     shape: Option<&'a Handshape>,
-    extended: Option<&'a Aim<Direction>>,
-    palm: Option<&'a Aim<Compass>>,
+    extended: Option<&'a DirectionAim<SpatialDirection>>,
+    palm: Option<&'a DirectionAim<CompassDirection>>,
 }

@@ -4,38 +4,39 @@
 //! tree. Parts that a spelling omits are `None` here, never a default: readers of the tree choose their
 //! own.
 
-mod hand;
-mod motion;
-mod place;
+mod hamnosys_tree_motion;
+mod tree_hand;
+mod tree_place;
 
-pub use hand::{
-    Bend, Digit, Digits, FingerContact, FingerPart, Form, HandClass, Handshape, Opening,
+pub use hamnosys_tree_motion::{
+    BodyAction, CircularPath, ClockRange, DirectedPath, EllipseAxis, MotionGrowth, MotionKind, MotionManner,
+    MotionRepetition, MotionSize, NotatedMotion, PathCurve, PathZigzag, RepeatKind, SizeAmount, WristMotion,
+};
+pub use tree_hand::{
+    CeeOpening, DigitList, FingerBend, FingerContact, FingerPart, HandClass, HandDigit, Handshape, HandshapeForm,
     ThumbExtra, ThumbPosition,
 };
-pub use motion::{
-    Amount, BodyAction, Circular, Clock, Curve, Directed, Ellipse, Growth, Manner, Motion,
-    MotionKind, Repeat, Repetition, Size, WristMotion, Zigzag,
-};
-pub use place::{
-    BodyLocation, BodyPlace, Constellation, Contact, HandLocation, HandSite, Place, Side, Site,
+pub use tree_place::{
+    BodyLocation, BodyPlace, HandConstellation, HandLocation, HandPlace, HandSite, LocationSide, PlaceContact,
+    SidedLocation,
 };
 
 use serde::{Deserialize, Serialize};
 
-use super::direction::{Compass, Direction};
+use super::direction::{CompassDirection, SpatialDirection};
 
 /// A sign: the actions of the hands, part after part.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Sign {
+pub struct HamnosysSign {
     /// The parts of a compound in their order; one for a simple sign.
-    pub parts: Vec<Manual>,
+    pub parts: Vec<ManualPart>,
 }
 
 /// The actions of the hands in one part of a sign.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Manual {
+pub struct ManualPart {
     /// The acting hands.
     pub hands: HandsUsed,
     /// Whether the hands keep the last posture of the part before.
@@ -43,12 +44,12 @@ pub struct Manual {
     /// Actions of the body while the sign begins.
     pub body: Vec<BodyAction>,
     /// The posture it begins with.
-    pub posture: Posture,
+    pub posture: NotatedPosture,
     /// The actions after the first posture, in order.
-    pub actions: Vec<Motion>,
+    pub actions: Vec<NotatedMotion>,
     /// The spelling of this part in text, if it differs from the printer's.
     #[serde(skip)]
-    pub written: Written,
+    pub written: WrittenSymbols,
 }
 
 /// The acting hands of a sign.
@@ -61,7 +62,7 @@ pub enum HandsUsed {
     /// The other hand alone.
     Nondominant,
     /// Both, the second following the first by a symmetry.
-    Both(Symmetry),
+    Both(HandSymmetry),
 }
 
 /// The symmetry by which the second hand follows the dominant one.
@@ -69,7 +70,7 @@ pub enum HandsUsed {
 /// Without any of the mirrors both do the same (parallel).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Symmetry {
+pub struct HandSymmetry {
     /// Left and right are exchanged.
     pub left_right: bool,
     /// Up and down are exchanged.
@@ -85,7 +86,7 @@ pub struct Symmetry {
 /// A notated value of the hands: unset, shared, or one for each hand.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Each<T> {
+pub enum EachHand<T> {
     /// Unset: as before, or as usual.
     #[default]
     Unset,
@@ -95,10 +96,10 @@ pub enum Each<T> {
     Split(Option<T>, Option<T>),
 }
 
-impl<T> Each<T> {
+impl<T> EachHand<T> {
     /// Returns the dominant hand's value.
     #[must_use]
-    pub fn dominant(&self) -> Option<&T> {
+    pub fn dominant_value(&self) -> Option<&T> {
         match self {
             Self::Unset => None,
             Self::Shared(one) => Some(one),
@@ -108,7 +109,7 @@ impl<T> Each<T> {
 
     /// Returns the other hand's own value, without symmetry.
     #[must_use]
-    pub fn other(&self) -> Option<&T> {
+    pub fn other_value(&self) -> Option<&T> {
         match self {
             Self::Split(_, other) => other.as_ref(),
             _ => None,
@@ -125,18 +126,18 @@ impl<T> Each<T> {
 /// A posture of the hands, part by part; unset parts keep their previous values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Posture {
+pub struct NotatedPosture {
     /// The handshape.
-    pub shape: Each<Handshape>,
+    pub shape: EachHand<Handshape>,
     /// The direction of the hand's own axis, from the wrist to the middle knuckle.
-    pub extended: Each<Aim<Direction>>,
+    pub extended: EachHand<DirectionAim<SpatialDirection>>,
     /// The direction of the palm, as an angle about that axis.
-    pub palm: Each<Aim<Compass>>,
+    pub palm: EachHand<DirectionAim<CompassDirection>>,
     /// The place of the hands.
-    pub place: Option<Place>,
+    pub place: Option<HandPlace>,
 }
 
-impl Posture {
+impl NotatedPosture {
     /// Returns whether no part of it is set.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -147,45 +148,45 @@ impl Posture {
 /// A direction, or the middle of two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Aim<D> {
+pub struct DirectionAim<D> {
     /// The direction.
     pub first: D,
     /// The second direction, if half-way between two is meant.
-    #[serde(default = "none", skip_serializing_if = "Option::is_none")]
+    #[serde(default = "unset_direction", skip_serializing_if = "Option::is_none")]
     pub second: Option<D>,
     /// Whether it is only approximate.
     #[serde(default)]
     pub approx: bool,
     /// The reference frame.
     #[serde(default)]
-    pub frame: Frame,
+    pub frame: DirectionFrame,
 }
 
-fn none<D>() -> Option<D> {
+fn unset_direction<D>() -> Option<D> {
     None
 }
 
-impl<D> Aim<D> {
+impl<D> DirectionAim<D> {
     /// Returns an aim straight in one direction.
-    pub const fn at(first: D) -> Self {
+    pub const fn aim_at(first: D) -> Self {
         Self {
             first,
             second: None,
             approx: false,
-            frame: Frame::Plain,
+            frame: DirectionFrame::Plain,
         }
     }
 }
 
-impl Aim<Compass> {
-    /// Returns the angle (rad) as in [`Compass::angle`]; half-way on the shorter side if there are two.
+impl DirectionAim<CompassDirection> {
+    /// Returns the angle (rad) as in [`CompassDirection::compass_angle`]; half-way on the shorter side if there are two.
     #[must_use]
-    pub fn angle(&self) -> f64 {
-        let first = self.first.angle();
+    pub fn aim_angle(&self) -> f64 {
+        let first = self.first.compass_angle();
         let Some(second) = self.second else {
             return first;
         };
-        let apart = second.angle() - first;
+        let apart = second.compass_angle() - first;
         let turns = (apart / std::f64::consts::TAU).round();
         first + (apart - turns * std::f64::consts::TAU) / 2.0
     }
@@ -194,7 +195,7 @@ impl Aim<Compass> {
 /// The reference frame of a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Frame {
+pub enum DirectionFrame {
     /// By default the signer's body.
     #[default]
     Plain,
@@ -207,11 +208,11 @@ pub enum Frame {
 /// The symbols of a part in text, if they differ from those the printer would choose.
 ///
 /// Two parts are equal whatever their spelling. Code that changes a part must reset its spelling
-/// (`Written::default()`).
+/// (`WrittenSymbols::default()`).
 #[derive(Debug, Clone, Default)]
-pub struct Written(pub Option<Box<str>>);
+pub struct WrittenSymbols(pub Option<Box<str>>);
 
-impl PartialEq for Written {
+impl PartialEq for WrittenSymbols {
     fn eq(&self, _: &Self) -> bool {
         true
     }

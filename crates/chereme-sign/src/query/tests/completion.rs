@@ -7,16 +7,12 @@ fn a_cursor_gets_the_possible_continuations() {
     for (text, expected, prefix, replaced) in COMPLETIONS {
         let cursor = text.chars().position(|c| c == '|').expect("a cursor");
         let query = text.replace('|', "");
-        let found = complete(&query, cursor);
+        let found = complete_query(&query, cursor);
         let chars: Vec<char> = query.chars().collect();
         let old: String = chars[found.replace.clone()].iter().collect();
         let shown = format!("{:?}", found.expected);
         assert!(shown.starts_with(expected), "{text}: {shown}");
-        assert_eq!(
-            (&found.prefix[..], &old[..]),
-            (*prefix, *replaced),
-            "{text}"
-        );
+        assert_eq!((&found.prefix[..], &old[..]), (*prefix, *replaced), "{text}");
     }
 }
 
@@ -30,28 +26,13 @@ const COMPLETIONS: &[(&str, &str, &str, &str)] = &[
     ("right.conf|", "Term", "conf", "conf"),
     ("final.right.|", "Term", "", ""),
     ("nonmanual.br|", "Part(NonManual)", "br", "br"),
-    (
-        "placement=|",
-        "Value(Field { hand: None, component: Placement",
-        "",
-        "",
-    ),
+    ("placement=|", "Value(Field { hand: None, component: Placement", "", ""),
     ("placement=chi|", "Value", "chi", "chi"),
     ("placement=ch|in gloss=A", "Value", "ch", "chin"),
     ("placement=chest,ch|", "Value", "ch", "ch"),
     ("placement = chest , |", "Value", "", ""),
-    (
-        "placement=\"neutral s|",
-        "Value",
-        "neutral s",
-        "\"neutral s",
-    ),
-    (
-        "placement=\"neutral s|\" x",
-        "Value",
-        "neutral s",
-        "\"neutral s\"",
-    ),
+    ("placement=\"neutral s|", "Value", "neutral s", "\"neutral s"),
+    ("placement=\"neutral s|\" x", "Value", "neutral s", "\"neutral s\""),
     ("placement=\"neutral space\" gl|", "Term", "gl", "gl"),
     ("confguration=U|", "Unknown", "U", "U"),
     ("configuration=[|", "Feature", "", ""),
@@ -73,23 +54,13 @@ const COMPLETIONS: &[(&str, &str, &str, &str)] = &[
     ("within 0.5s of-begin gloss=|", "Text(Gloss)", "", ""),
     ("overlaps tier(|", "TierName", "", ""),
     ("overlaps tier(\"Mou|", "TierName", "Mou", "\"Mou"),
-    (
-        "overlaps tier(\"Mouthing\")=m|",
-        "TierValue(\"Mouthing\")",
-        "m",
-        "m",
-    ),
+    ("overlaps tier(\"Mouthing\")=m|", "TierValue(\"Mouthing\")", "m", "m"),
     ("like |", "Example", "", ""),
     ("like token:4|", "Example", "token:4", "token:4"),
     ("like token:41 |", "AfterExample", "", ""),
     ("like token:41 o|", "AfterExample", "o", "o"),
     ("like token:41 on |", "Component", "", ""),
-    (
-        "like token:41 on configuration:2, pl|",
-        "Component",
-        "pl",
-        "pl",
-    ),
+    ("like token:41 on configuration:2, pl|", "Component", "pl", "pl"),
     ("like token:41 on configuration gl|", "Term", "gl", "gl"),
     ("\"slow an|", "Term", "slow an", "\"slow an"),
 ];
@@ -113,7 +84,7 @@ fn completions_offer_the_words_of_the_language() {
         ("gloss=C", ""),
     ] {
         assert_eq!(
-            complete(text, text.chars().count()).words.join(" "),
+            complete_query(text, text.chars().count()).words.join(" "),
             words,
             "{text}"
         );

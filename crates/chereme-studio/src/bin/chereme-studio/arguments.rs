@@ -4,15 +4,15 @@ use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use chereme_corpus::words::{Language, fill};
+use chereme_corpus::words::{InterfaceLanguage, fill_text_braces};
 
-use crate::words;
+use crate::studio_words;
 
 /// The request that the arguments make.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Request {
+pub(crate) enum ArgumentRequest {
     /// Open the window.
-    Open(Asked),
+    Open(WindowArguments),
     /// Print the help.
     Help,
     /// Print the version.
@@ -21,7 +21,7 @@ pub(crate) enum Request {
 
 /// The arguments for the window.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(crate) struct Asked {
+pub(crate) struct WindowArguments {
     /// The corpus to open.
     pub(crate) corpus: Option<PathBuf>,
     /// The folder for settings and the starter corpus.
@@ -29,12 +29,12 @@ pub(crate) struct Asked {
     /// The name for the history.
     pub(crate) author: Option<String>,
     /// The language of the window, which is stored in the settings.
-    pub(crate) language: Option<Language>,
+    pub(crate) language: Option<InterfaceLanguage>,
 }
 
 /// A reason why arguments cannot be used.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Wrong {
+pub(crate) enum ArgumentError {
     /// An option that the program does not have.
     Unknown(String),
     /// An option without its value.
@@ -45,26 +45,25 @@ pub(crate) enum Wrong {
     Second(String),
 }
 
-impl Wrong {
+impl ArgumentError {
     /// Returns the message.
-    pub(crate) fn text(&self, language: Language) -> String {
+    pub(crate) fn argument_error_text(&self, language: InterfaceLanguage) -> String {
         let (text, option, value) = match self {
-            Self::Unknown(option) => (words::UNKNOWN, option, ""),
-            Self::Valueless(option) => (words::VALUELESS, option, ""),
-            Self::Value(option, value) => (words::VALUE, option, value.as_str()),
-            Self::Second(corpus) => (words::SECOND, corpus, ""),
+            Self::Unknown(option) => (studio_words::UNKNOWN_OPTION_TEXT, option, ""),
+            Self::Valueless(option) => (studio_words::MISSING_VALUE_TEXT, option, ""),
+            Self::Value(option, value) => (studio_words::UNWANTED_VALUE_TEXT, option, value.as_str()),
+            Self::Second(corpus) => (studio_words::SECOND_CORPUS_TEXT, corpus, ""),
         };
-        let listed = Language::all_listed().into_iter();
-        let codes: Vec<&str> = listed.map(|(language, _)| language.code()).collect();
-        let codes = codes.join(", ");
-        let values: [(&str, &dyn Display); 3] =
-            [("option", option), ("value", &value), ("codes", &codes)];
-        fill(text.of(language), &values)
+        let listed = InterfaceLanguage::all_listed().into_iter();
+        let code_list: Vec<&str> = listed.map(|(language, _)| language.language_code()).collect();
+        let codes = code_list.join(", ");
+        let values: [(&str, &dyn Display); 3] = [("option", option), ("value", &value), ("codes", &codes)];
+        fill_text_braces(text.text_in_language(language), &values)
     }
 }
 
 /// Returns the language that the words ask for, also if something else in them is wrong.
-pub(crate) fn language(given: &[OsString]) -> Option<Language> {
+pub(crate) fn requested_language(given: &[OsString]) -> Option<InterfaceLanguage> {
     let joined = given
         .iter()
         .filter_map(|word| word.to_str()?.strip_prefix("--language="));
@@ -72,12 +71,12 @@ pub(crate) fn language(given: &[OsString]) -> Option<Language> {
         .windows(2)
         .filter(|pair| pair[0] == "--language")
         .filter_map(|pair| pair[1].to_str());
-    joined.chain(parted).find_map(Language::from_code)
+    joined.chain(parted).find_map(InterfaceLanguage::from_code)
 }
 
 /// Reads the words after the name of the program.
-pub(crate) fn read(given: Vec<OsString>) -> Result<Request, Wrong> {
-    let mut asked = Asked::default();
+pub(crate) fn read_window_arguments(given: Vec<OsString>) -> Result<ArgumentRequest, ArgumentError> {
+    let mut asked = WindowArguments::default();
     let mut rest = given.into_iter();
     let mut options = true;
     while let Some(word) = rest.next() {
@@ -87,29 +86,31 @@ pub(crate) fn read(given: Vec<OsString>) -> Result<Request, Wrong> {
             None => (text, None),
         };
         let mut value = || joined.clone().or_else(|| rest.next());
-        let mut needed = || value().ok_or_else(|| Wrong::Valueless(option.to_owned()));
+        let mut needed = || value().ok_or_else(|| ArgumentError::Valueless(option.to_owned()));
         match option {
             "--" => options = false,
-            "-h" | "--help" => return Ok(Request::Help),
-            "-V" | "--version" => return Ok(Request::Version),
+            "-h" | "--help" => return Ok(ArgumentRequest::Help),
+            "-V" | "--version" => return Ok(ArgumentRequest::Version),
             "--json" => {}
             "--folder" => asked.folder = Some(needed()?.into()),
-            "--author" => asked.author = Some(shown(&needed()?)),
+            "--author" => asked.author = Some(shown_argument(&needed()?)),
             "--language" => {
-                let code = shown(&needed()?);
-                let language = Language::from_code(&code);
-                let wrong = || Wrong::Value(option.to_owned(), code);
+                let code = shown_argument(&needed()?);
+                let language = InterfaceLanguage::from_code(&code);
+                let wrong = || ArgumentError::Value(option.to_owned(), code);
                 asked.language = Some(language.ok_or_else(wrong)?);
             }
-            _ if option.starts_with('-') => return Err(Wrong::Unknown(option.to_owned())),
-            _ if asked.corpus.is_some() => return Err(Wrong::Second(shown(&word))),
+            _ if option.starts_with('-') => return Err(ArgumentError::Unknown(option.to_owned())),
+            _ if asked.corpus.is_some() => {
+                return Err(ArgumentError::Second(shown_argument(&word)));
+            }
             _ => asked.corpus = Some(word.into()),
         }
     }
-    Ok(Request::Open(asked))
+    Ok(ArgumentRequest::Open(asked))
 }
 
-fn shown(word: &OsStr) -> String {
+fn shown_argument(word: &OsStr) -> String {
     word.to_string_lossy().into_owned()
 }
 
@@ -121,62 +122,58 @@ mod tests {
         line.split_whitespace().map(OsString::from).collect()
     }
 
-    fn asked(line: &str) -> Asked {
-        match read(words(line)) {
-            Ok(Request::Open(asked)) => asked,
+    fn asked(line: &str) -> WindowArguments {
+        match read_window_arguments(words(line)) {
+            Ok(ArgumentRequest::Open(asked)) => asked,
             other => panic!("{line}: {other:?}"),
         }
     }
 
     #[test]
     fn options_and_corpus_come_in_any_order() {
-        let whole = Asked {
+        let whole = WindowArguments {
             corpus: Some("a=b.chereme".into()),
             folder: Some("here".into()),
             author: Some("--Camille".into()),
-            language: Some(Language::French),
+            language: Some(InterfaceLanguage::French),
         };
         let first = "--json --folder here --author --Camille --language fr a=b.chereme";
         assert_eq!(asked(first), whole);
         let last = "a=b.chereme --language=fr --author=--Camille --folder=here";
         assert_eq!(asked(last), whole);
-        assert_eq!(asked(""), Asked::default());
+        assert_eq!(asked(""), WindowArguments::default());
         assert_eq!(asked("-- --help").corpus, Some("--help".into()));
     }
 
     #[test]
     fn help_and_version_are_requests() {
         for (line, want) in [
-            ("--help", Request::Help),
-            ("a.chereme -h", Request::Help),
-            ("-V", Request::Version),
-            ("--language fr --version", Request::Version),
+            ("--help", ArgumentRequest::Help),
+            ("a.chereme -h", ArgumentRequest::Help),
+            ("-V", ArgumentRequest::Version),
+            ("--language fr --version", ArgumentRequest::Version),
         ] {
-            assert_eq!(read(words(line)), Ok(want), "{line}");
+            assert_eq!(read_window_arguments(words(line)), Ok(want), "{line}");
         }
     }
 
     #[test]
     fn wrong_words_are_named() {
         for (line, named, want) in [
-            ("--thme dark", "--thme", Wrong::Unknown("--thme".into())),
-            ("-x", "-x", Wrong::Unknown("-x".into())),
-            (
-                "a --folder",
-                "--folder",
-                Wrong::Valueless("--folder".into()),
-            ),
+            ("--thme dark", "--thme", ArgumentError::Unknown("--thme".into())),
+            ("-x", "-x", ArgumentError::Unknown("-x".into())),
+            ("a --folder", "--folder", ArgumentError::Valueless("--folder".into())),
             (
                 "--language tlh",
                 "tlh",
-                Wrong::Value("--language".into(), "tlh".into()),
+                ArgumentError::Value("--language".into(), "tlh".into()),
             ),
-            ("a b", " b ", Wrong::Second("b".into())),
+            ("a b", " b ", ArgumentError::Second("b".into())),
         ] {
-            let wrong = read(words(line)).expect_err(line);
+            let wrong = read_window_arguments(words(line)).expect_err(line);
             assert_eq!(wrong, want, "{line}");
-            for (language, _) in Language::ALL {
-                let text = wrong.text(language);
+            for (language, _) in InterfaceLanguage::BUILTIN_LANGUAGES {
+                let text = wrong.argument_error_text(language);
                 assert!(!text.contains('{') && text.contains(named), "{text}");
             }
         }
@@ -185,13 +182,13 @@ mod tests {
     #[test]
     fn the_language_is_known_though_other_words_are_wrong() {
         assert_eq!(
-            language(&words("--x --language fr")),
-            Some(Language::French)
+            requested_language(&words("--x --language fr")),
+            Some(InterfaceLanguage::French)
         );
         assert_eq!(
-            language(&words("--language=en --x")),
-            Some(Language::English)
+            requested_language(&words("--language=en --x")),
+            Some(InterfaceLanguage::English)
         );
-        assert_eq!(language(&words("--language tlh")), None);
+        assert_eq!(requested_language(&words("--language tlh")), None);
     }
 }

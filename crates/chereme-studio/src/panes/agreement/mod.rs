@@ -1,36 +1,34 @@
 //! Agreement: two annotators compared, the places where they differ, and a third tier to decide on.
 
-mod data;
-mod list;
-mod tables;
+mod agreement_data;
+mod agreement_list;
+mod agreement_tables;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use chereme_corpus::{Adjudicated, AgreeOptions, Agreement, Contents, alike_tiers};
-use eframe::egui::{
-    Button, CollapsingHeader, DragValue, ProgressBar, Role, ScrollArea, Ui, WidgetInfo,
-};
+use chereme_corpus::{AdjudicationResult, AgreeOptions, AnnotatorAgreement, RecordingContents, alike_tiers};
+use eframe::egui::{Button, CollapsingHeader, DragValue, ProgressBar, Role, ScrollArea, Ui, WidgetInfo};
 
-use self::data::{Choices, Key, Kinds, Order, Row};
-use super::saved::SavedTo;
-use super::{Acted, Pane, combo, reach_focus};
+use self::agreement_data::{AgreementChoices, DisagreementKey, DisagreementKinds, DisagreementOrder, DisagreementRow};
+use super::saved_pane::SavedTo;
+use super::{ActionOutcome, PaneInterface, combo, reach_focus};
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::file_dialogs::Choose;
-use crate::overlay::remedy;
-use crate::script::edit;
-use crate::words::{Language, agreement as words, fill, shell, spoken};
-use crate::work::{Ended, Outcome, WorkId, comparing};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::file_dialogs::ChooserPurpose;
+use crate::overlay::overlay_remedy;
+use crate::script::script_edit;
+use crate::words::{InterfaceLanguage, agreement as words, fill_text_braces, shell, translate_library_message};
+use crate::work::{WorkId, WorkOutcome, WorkResult, comparing};
 
 /// The least height of the lists and tables below the measures, in points.
-const LEAST: f32 = 220.0;
+const MIN_AGREEMENT_LIST_HEIGHT: f32 = 220.0;
 
 /// The inputs of a comparison.
 #[derive(Debug, Clone, PartialEq)]
-struct Asked {
+struct ComparisonInputs {
     generation: i64,
     options: AgreeOptions,
     names: [String; 2],
@@ -38,7 +36,7 @@ struct Asked {
 
 /// The list or table below the measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum View {
+enum AgreementView {
     #[default]
     Disagreements,
     Values,
@@ -49,31 +47,36 @@ enum View {
 
 /// Why there is no result.
 #[derive(Debug)]
-struct Wrong {
+struct ComparisonFailure {
     text: String,
-    remedy: Option<chereme_corpus::remedy::Remedy>,
+    remedy: Option<chereme_corpus::remedy::ErrorRemedy>,
 }
 
 /// The pane.
 #[derive(Default)]
 pub(crate) struct AgreementPane {
-    choices: Choices,
+    choices: AgreementChoices,
     /// The recording for which the tiers were chosen.
     of: Option<i64>,
-    asked: Option<Asked>,
+    asked: Option<ComparisonInputs>,
     asking: Option<WorkId>,
     /// The result, with the names of both tiers.
-    found: Option<(Arc<Agreement>, [String; 2])>,
-    wrong: Option<Wrong>,
+    found: Option<(Arc<AnnotatorAgreement>, [String; 2])>,
+    wrong: Option<ComparisonFailure>,
     stopped: bool,
-    view: View,
-    kinds: Kinds,
-    order: Order,
+    view: AgreementView,
+    kinds: DisagreementKinds,
+    order: DisagreementOrder,
     /// The rows of the list, and the inputs that they were computed from.
-    rows: Vec<Row>,
-    rows_of: Option<(Arc<Agreement>, Kinds, Order, Language)>,
+    rows: Vec<DisagreementRow>,
+    rows_of: Option<(
+        Arc<AnnotatorAgreement>,
+        DisagreementKinds,
+        DisagreementOrder,
+        InterfaceLanguage,
+    )>,
     /// The chosen disagreement, and its row.
-    chosen: Option<Key>,
+    chosen: Option<DisagreementKey>,
     at: Option<usize>,
     /// The row that takes the keyboard focus.
     reach: Option<usize>,
@@ -82,7 +85,7 @@ pub(crate) struct AgreementPane {
     /// The last proposed name; it is replaced by new proposals until the user types one.
     proposed: String,
     writing: Option<WorkId>,
-    written: Option<Adjudicated>,
+    written: Option<AdjudicationResult>,
     /// The texts that name tiers, while they are typed.
     typing: [String; 2],
     /// The table of disagreements.
@@ -91,10 +94,10 @@ pub(crate) struct AgreementPane {
 
 impl AgreementPane {
     /// Keeps the tiers of the open recording: those of the same names in another one, else two that code the same.
-    fn settle(&mut self, contents: &Contents) {
+    fn settle_compared_tiers(&mut self, contents: &RecordingContents) {
         let tier_of = |name: &String| {
-            let found = contents.tiers.iter().find(|it| it.row.name == *name);
-            found.map(|it| it.row.id)
+            let tier = contents.tiers.iter().find(|it| it.row.name == *name);
+            tier.map(|it| it.row.id)
         };
         let recording = contents.recording.id;
         if self.of != Some(recording) {
@@ -102,29 +105,35 @@ impl AgreementPane {
             let kept = self
                 .asked
                 .as_ref()
-                .map(|it| it.names.each_ref().map(tier_of));
+                .map(|agreement| agreement.names.each_ref().map(tier_of));
             self.choices.tiers = match kept {
                 Some([Some(a), Some(b)]) => [Some(a), Some(b)],
                 // The comparison over all recordings stays, wherever its list leads.
                 Some(_) if self.choices.everywhere => [None; 2],
-                _ => alike_tiers(&contents.tiers).map_or([None; 2], |it| it.map(Some)),
+                _ => alike_tiers(&contents.tiers).map_or([None; 2], |pair| pair.map(Some)),
             };
         }
         for tier in &mut self.choices.tiers {
-            let there = |id: &i64| contents.tiers.iter().any(|it| it.row.id == *id);
+            let there = |id: &i64| contents.tiers.iter().any(|other_tier| other_tier.row.id == *id);
             *tier = tier.filter(there);
         }
     }
 
     /// Requests the comparison if its inputs changed.
-    fn follow(&mut self, ui: &Ui, seen: &PaneInput<'_>, contents: &Contents, out: &mut Outbox) {
-        let Some((options, names)) = self.choices.options(contents) else {
+    fn request_comparison(
+        &mut self,
+        ui: &Ui,
+        seen: &PaneInput<'_>,
+        contents: &RecordingContents,
+        out: &mut CommandOutbox,
+    ) {
+        let Some((options, names)) = self.choices.agree_options(contents) else {
             if !self.choices.everywhere || self.choices.by_text {
                 (self.found, self.asked, self.wrong) = (None, None, None);
             }
             return;
         };
-        let asked = Asked {
+        let asked = ComparisonInputs {
             generation: seen.snapshot.overview.generation,
             options,
             names,
@@ -134,116 +143,100 @@ impl AgreementPane {
             return;
         }
         if let Some(old) = self.asking.take() {
-            out.send(Command::Stop(old));
+            out.send_command(WindowCommand::Stop(old));
         }
-        let taken: Vec<&str> = contents
-            .tiers
-            .iter()
-            .map(|it| it.row.name.as_str())
-            .collect();
-        let proposed = data::third_name(&asked.names, &taken);
+        let taken: Vec<&str> = contents.tiers.iter().map(|tier| tier.row.name.as_str()).collect();
+        let proposed = agreement_data::third_name(&asked.names, &taken);
         if self.into.trim().is_empty() || self.into == self.proposed {
             self.into.clone_from(&proposed);
         }
         self.proposed = proposed;
         self.stopped = false;
-        self.asking = Some(out.work(comparing::agree(asked.options.clone())));
+        self.asking = Some(out.request_work(comparing::compare_tiers_job(asked.options.clone())));
         self.asked = Some(asked);
     }
 
     /// Computes the rows of the list again if their inputs changed; the chosen disagreement stays chosen.
-    fn refresh(&mut self, language: Language) {
+    fn refresh_disagreement_rows(&mut self, language: InterfaceLanguage) {
         let Some((found, names)) = &self.found else {
             return;
         };
-        let same = self.rows_of.as_ref().is_some_and(|it| {
-            Arc::ptr_eq(&it.0, found) && (it.1, it.2, it.3) == (self.kinds, self.order, language)
+        let same = self.rows_of.as_ref().is_some_and(|source| {
+            Arc::ptr_eq(&source.0, found) && (source.1, source.2, source.3) == (self.kinds, self.order, language)
         });
         if same {
             return;
         }
-        self.rows = data::rows(found, names, (self.kinds, self.order), language);
+        self.rows = agreement_data::disagreement_rows(found, names, (self.kinds, self.order), language);
         self.at = self.chosen.and_then(|chosen| {
-            let is = |row: &Row| data::key(&found.list[row.place]) == chosen;
+            let is = |row: &DisagreementRow| agreement_data::disagreement_key(&found.list[row.place]) == chosen;
             self.rows.iter().position(is)
         });
         self.rows_of = Some((found.clone(), self.kinds, self.order, language));
     }
 
     /// Shows the lists of tiers, and the settings.
-    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, contents: &Contents, out: &mut Outbox) {
-        let named = |it: &chereme_corpus::TierContents| match it.row.annotator.as_deref() {
-            Some(by) if !by.trim().is_empty() => format!("{} · {by}", it.row.name),
-            _ => it.row.name.clone(),
+    fn show_comparison_tools(
+        &mut self,
+        ui: &mut Ui,
+        seen: &PaneInput<'_>,
+        contents: &RecordingContents,
+        out: &mut CommandOutbox,
+    ) {
+        let named = |tier: &chereme_corpus::TierContents| match tier.row.annotator.as_deref() {
+            Some(by) if !by.trim().is_empty() => format!("{} · {by}", tier.row.name),
+            _ => tier.row.name.clone(),
         };
         let tiers = contents.tiers.iter();
-        let tiers: Vec<(Option<i64>, String)> =
-            tiers.map(|it| (Some(it.row.id), named(it))).collect();
+        let tiers: Vec<(Option<i64>, String)> = tiers.map(|tier| (Some(tier.row.id), named(tier))).collect();
         let [first, second] = &mut self.choices.tiers;
         match self.choices.by_text {
-            true => self.typed(ui, seen),
+            true => self.show_typed_tiers(ui, seen),
             false => drop(ui.horizontal_wrapped(|ui| {
-                combo::named(ui, seen.say(words::FIRST), first, &tiers);
-                combo::named(ui, seen.say(words::SECOND), second, &tiers);
+                combo::show_named_combo(ui, seen.say_text(words::FIRST), first, &tiers);
+                combo::show_named_combo(ui, seen.say_text(words::SECOND), second, &tiers);
             })),
         }
         ui.horizontal_wrapped(|ui| {
-            let swap = ui.button(seen.say(words::SWAP));
-            if swap.on_hover_text(seen.say(words::SWAP_TIP)).clicked() {
+            let swap = ui.button(seen.say_text(words::SWAP));
+            if swap.on_hover_text(seen.say_text(words::SWAP_TIP)).clicked() {
                 self.choices.tiers.reverse();
                 self.choices.texts.reverse();
                 self.typing.reverse();
             }
             for (on, text, tip) in [
-                (
-                    &mut self.choices.by_text,
-                    words::BY_TEXT,
-                    words::BY_TEXT_TIP,
-                ),
-                (
-                    &mut self.choices.everywhere,
-                    words::EVERYWHERE,
-                    words::EVERYWHERE_TIP,
-                ),
+                (&mut self.choices.by_text, words::BY_TEXT, words::BY_TEXT_TIP),
+                (&mut self.choices.everywhere, words::EVERYWHERE, words::EVERYWHERE_TIP),
                 (&mut self.choices.gamma, words::GAMMA, words::GAMMA_TIP),
             ] {
-                ui.checkbox(on, seen.say(text)).on_hover_text(seen.say(tip));
+                ui.checkbox(on, seen.say_text(text)).on_hover_text(seen.say_text(tip));
             }
             self.running(ui, seen, out);
         });
-        let header = CollapsingHeader::new(seen.say(words::SETTINGS)).id_salt("settings");
+        let header = CollapsingHeader::new(seen.say_text(words::SETTINGS)).id_salt("settings");
         header.show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                let label = ui.label(seen.say(words::TOLERANCE));
+                let label = ui.label(seen.say_text(words::TOLERANCE));
                 let field = DragValue::new(&mut self.choices.tolerance_ms).range(0..=5000);
                 ui.add(field.suffix(" ms")).labelled_by(label.id);
             });
             ui.horizontal_wrapped(|ui| {
-                let label = ui.label(seen.say(words::OVERLAP));
+                let label = ui.label(seen.say_text(words::OVERLAP));
                 let field = DragValue::new(&mut self.choices.overlap).range(51..=100);
                 ui.add(field.suffix(" %")).labelled_by(label.id);
             });
-            ui.checkbox(&mut self.choices.whole, seen.say(words::WHOLE))
-                .on_hover_text(seen.say(words::WHOLE_TIP));
-            let Choices {
-                draws,
-                samples,
-                seed,
-                ..
+            ui.checkbox(&mut self.choices.whole, seen.say_text(words::WHOLE))
+                .on_hover_text(seen.say_text(words::WHOLE_TIP));
+            let AgreementChoices {
+                draws, samples, seed, ..
             } = &mut self.choices;
             for (field, text) in [
-                (
-                    DragValue::new(draws).range(0..=100_000),
-                    words::DRAWS_OF_INTERVALS,
-                ),
-                (
-                    DragValue::new(samples).range(30..=10_000),
-                    words::DRAWS_OF_GAMMA,
-                ),
+                (DragValue::new(draws).range(0..=100_000), words::DRAWS_OF_INTERVALS),
+                (DragValue::new(samples).range(30..=10_000), words::DRAWS_OF_GAMMA),
                 (DragValue::new(seed), words::SEED),
             ] {
                 ui.horizontal_wrapped(|ui| {
-                    let label = ui.label(seen.say(text));
+                    let label = ui.label(seen.say_text(text));
                     ui.add(field).labelled_by(label.id);
                 });
             }
@@ -251,16 +244,14 @@ impl AgreementPane {
     }
 
     /// Shows the lines of tiers that are named by texts; a text counts once it is complete.
-    fn typed(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+    fn show_typed_tiers(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let lines = self.typing.iter_mut().zip(&mut self.choices.texts);
         for ((typed, counts), name) in lines.zip([words::FIRST, words::SECOND]) {
-            let name = seen.say(name);
+            let name = seen.say_text(name);
             ui.horizontal_wrapped(|ui| {
                 ui.weak(name);
-                let hint = seen.say(words::BY_TEXT_HINT);
-                let shown = edit::line(ui, typed, |field| {
-                    field.hint_text(hint).desired_width(240.0)
-                });
+                let hint = seen.say_text(words::BY_TEXT_HINT);
+                let shown = script_edit::draw_text_line(ui, typed, |field| field.hint_text(hint).desired_width(240.0));
                 let response = shown.response.response;
                 response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
                 if response.lost_focus() {
@@ -278,53 +269,59 @@ impl AgreementPane {
     }
 
     /// Shows the file for the table of disagreements, and the button that writes it.
-    fn save(
+    fn show_disagreement_export(
         &mut self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        found: &Arc<Agreement>,
-        out: &mut Outbox,
+        found: &Arc<AnnotatorAgreement>,
+        out: &mut CommandOutbox,
     ) {
-        let header = CollapsingHeader::new(seen.say(words::SAVE_TABLE)).id_salt("table");
+        let header = CollapsingHeader::new(seen.say_text(words::SAVE_TABLE)).id_salt("table");
         header.show(ui, |ui| {
-            let named = (words::TABLE_FILE, words::WRITE_TABLE, Choose::Disagreements);
-            let to = self.saved.show(ui, seen, named, "disagreements.csv", out);
+            let named = (words::TABLE_FILE, words::WRITE_TABLE, ChooserPurpose::Disagreements);
+            let to = self.saved.show_save_path(ui, seen, named, "disagreements.csv", out);
             if let Some((to, force)) = to {
-                let job = comparing::write(found.clone(), to, force);
-                self.saved.saving = Some(out.work(job));
+                let job = comparing::write_disagreements_job(found.clone(), to, force);
+                self.saved.saving = Some(out.request_work(job));
             }
         });
     }
 
     /// Shows how far the comparison is, and the button that stops it.
-    fn running(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn running(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let Some(id) = self.asking.filter(|id| seen.is_running(Some(*id))) else {
             return;
         };
-        match seen.far(id).and_then(crate::work::Far::share) {
+        match seen
+            .work_progress(id)
+            .and_then(crate::work::WorkProgress::finished_share)
+        {
             Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(80.0))),
             None => drop(ui.spinner()),
         }
-        let stop = ui.button(seen.say(words::STOP));
-        if stop.on_hover_text(seen.say(words::TASK)).clicked() {
-            out.send(Command::Stop(id));
+        let stop = ui.button(seen.say_text(words::STOP));
+        if stop.on_hover_text(seen.say_text(words::TASK)).clicked() {
+            out.send_command(WindowCommand::Stop(id));
         }
     }
 
     /// Shows why there is no comparison.
-    fn status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+    fn show_comparison_status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         if self.stopped {
             ui.horizontal_wrapped(|ui| {
-                ui.strong(seen.say(words::STOPPED));
-                if ui.button(seen.say(words::AGAIN)).clicked() {
+                ui.strong(seen.say_text(words::STOPPED));
+                if ui.button(seen.say_text(words::AGAIN)).clicked() {
                     self.asked = None;
                 }
             });
         }
         if let Some(wrong) = &self.wrong {
-            ui.colored_label(seen.colours().trouble, spoken(&wrong.text, seen.language));
+            ui.colored_label(
+                seen.pane_colours().trouble,
+                translate_library_message(&wrong.text, seen.language),
+            );
             let helps = wrong.remedy.as_ref();
-            if let Some(helps) = helps.and_then(|it| remedy::here(it, seen.language)) {
+            if let Some(helps) = helps.and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language)) {
                 ui.weak(helps);
             }
         }
@@ -335,43 +332,42 @@ impl AgreementPane {
         &mut self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        contents: Option<&Contents>,
-        out: &mut Outbox,
+        contents: Option<&RecordingContents>,
+        out: &mut CommandOutbox,
     ) {
         ui.horizontal_wrapped(|ui| {
-            let name = seen.say(words::INTO);
+            let name = seen.say_text(words::INTO);
             ui.weak(name);
-            let shown = edit::line(ui, &mut self.into, |field| {
-                field.hint_text(name).desired_width(140.0)
-            });
+            let shown =
+                script_edit::draw_text_line(ui, &mut self.into, |field| field.hint_text(name).desired_width(140.0));
             let response = shown.response.response;
             response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
             let is_named = !self.into.trim().is_empty();
             let locked = seen.snapshot.is_read_only();
             let busy = seen.is_running(self.writing) || seen.is_running(self.asking);
             let ready = is_named && !locked && !busy && self.found.is_some();
-            let button = ui.add_enabled(ready, Button::new(seen.say(words::WRITE)));
+            let button = ui.add_enabled(ready, Button::new(seen.say_text(words::WRITE)));
             let why = match locked {
                 true => shell::READ_ONLY_WHY,
                 false => words::NEEDS_NAME,
             };
             let button = button
-                .on_hover_text(seen.say(words::WRITE_TIP))
-                .on_disabled_hover_text(seen.say(why));
+                .on_hover_text(seen.say_text(words::WRITE_TIP))
+                .on_disabled_hover_text(seen.say_text(why));
             if button.clicked()
                 && let Some(asked) = &self.asked
             {
                 let into = self.into.trim().to_owned();
                 self.written = None;
-                let job = comparing::adjudicate(asked.options.clone(), into);
-                self.writing = Some(out.work(job));
+                let job = comparing::adjudicate_tiers_job(asked.options.clone(), into);
+                self.writing = Some(out.request_work(job));
             }
         });
         // After an undo the third tier does not exist any more.
-        let there = |it: &&Adjudicated| {
+        let there = |adjudicated: &&AdjudicationResult| {
             contents.is_none_or(|open| {
-                !it.recordings.contains(&open.recording.name)
-                    || open.tiers.iter().any(|tier| tier.row.name == it.tier)
+                !adjudicated.recordings.contains(&open.recording.name)
+                    || open.tiers.iter().any(|tier| tier.row.name == adjudicated.tier)
             })
         };
         let Some(done) = self.written.as_ref().filter(there) else {
@@ -383,136 +379,140 @@ impl AgreementPane {
                 ("agreed", &done.agreed),
                 ("conflicts", &done.conflicts),
             ];
-            ui.label(fill(seen.say(words::WRITTEN), &values));
-            if done.conflicts > 0 && ui.button(seen.say(words::DECIDE)).clicked() {
-                out.send(Command::Do(Action::ShowHistory));
+            ui.label(fill_text_braces(seen.say_text(words::WRITTEN), &values));
+            if done.conflicts > 0 && ui.button(seen.say_text(words::DECIDE)).clicked() {
+                out.send_command(WindowCommand::Do(Action::ShowHistory));
             }
         });
     }
 
     /// Opens the disagreement of a row: the place on the timeline and the stage, and the annotation.
-    fn open(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn open_disagreement(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let Some((found, _)) = &self.found else {
             return;
         };
         let Some(it) = self.rows.get(at).map(|row| &found.list[row.place]) else {
             return;
         };
-        (self.chosen, self.at) = (Some(data::key(it)), Some(at));
-        out.send(Command::Place(it.recording_id, data::span(it)));
+        (self.chosen, self.at) = (Some(agreement_data::disagreement_key(it)), Some(at));
+        out.send_command(WindowCommand::Place(
+            it.recording_id,
+            agreement_data::disagreement_span(it),
+        ));
         if let Some(side) = it.a.as_ref().or(it.b.as_ref()) {
             let id = side.annotation;
-            let tier = seen.snapshot.annotation(id).map(|it| it.tier.row.id);
+            let tier = seen
+                .snapshot
+                .find_open_annotation(id)
+                .map(|annotation| annotation.tier.row.id);
             if tier.is_some() {
-                out.send(Command::Tier(tier));
+                out.send_command(WindowCommand::Tier(tier));
             }
-            out.send(Command::Annotations(BTreeSet::from([id])));
+            out.send_command(WindowCommand::Annotations(BTreeSet::from([id])));
         }
-        out.send(Command::Look);
+        out.send_command(WindowCommand::Look);
     }
 
     /// Opens the next disagreement of the list, or the previous one.
-    fn walk(&mut self, by: isize, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
-        self.refresh(seen.language);
+    fn walk_disagreements(&mut self, by: isize, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+        self.refresh_disagreement_rows(seen.language);
         if self.found.is_none() {
-            return Acted::Cannot(words::NEEDS_RESULT);
+            return ActionOutcome::Cannot(words::NEEDS_RESULT);
         }
-        let Some(to) = data::step(self.at, by, self.rows.len()) else {
-            return Acted::Cannot(words::NO_MORE);
+        let Some(to) = agreement_data::step_disagreement_row(self.at, by, self.rows.len()) else {
+            return ActionOutcome::Cannot(words::NO_MORE);
         };
-        self.view = View::Disagreements;
-        self.open(to, seen, out);
+        self.view = AgreementView::Disagreements;
+        self.open_disagreement(to, seen, out);
         self.reach = Some(to);
-        Acted::Yes
+        ActionOutcome::Yes
     }
 }
 
-impl Pane for AgreementPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        let contents = seen
-            .shown
-            .recording
-            .and_then(|id| seen.snapshot.contents(id));
+impl PaneInterface for AgreementPane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        let contents = seen.shown.recording.and_then(|id| seen.snapshot.recording_contents(id));
         if let Some(contents) = contents {
-            self.settle(contents);
-            self.follow(ui, seen, contents, out);
+            self.settle_compared_tiers(contents);
+            self.request_comparison(ui, seen, contents, out);
         }
         let contents = seen.snapshot.contents_or_before(seen.shown.recording);
-        self.refresh(seen.language);
-        let area = ScrollArea::vertical()
-            .id_salt("agreement")
-            .auto_shrink(false);
+        self.refresh_disagreement_rows(seen.language);
+        let area = ScrollArea::vertical().id_salt("agreement").auto_shrink(false);
         area.show(ui, |ui| {
             match contents {
-                Some(contents) => self.tools(ui, seen, contents, out),
+                Some(contents) => self.show_comparison_tools(ui, seen, contents, out),
                 None if seen.shown.recording.is_none() => {
-                    drop(ui.label(seen.say(words::NO_RECORDING)));
+                    drop(ui.label(seen.say_text(words::NO_RECORDING)));
                 }
                 None => {}
             }
-            self.status(ui, seen);
+            self.show_comparison_status(ui, seen);
             let Some((found, names)) = self.found.clone() else {
-                if let Some(open) =
-                    contents.filter(|_| self.asking.is_none() && self.wrong.is_none())
-                {
+                if let Some(open) = contents.filter(|_| self.asking.is_none() && self.wrong.is_none()) {
                     let advice = match open.tiers.len() {
                         0 | 1 => words::NO_RECORDING,
                         _ => words::CHOOSE,
                     };
-                    ui.label(seen.say(advice));
+                    ui.label(seen.say_text(advice));
                 }
                 return;
             };
-            tables::measures(ui, seen, &found);
+            agreement_tables::show_agreement_measures(ui, seen, &found);
             self.third(ui, seen, contents, out);
-            self.save(ui, seen, &found, out);
-            self.views(ui, seen, &found);
-            let height = ui.available_height().max(LEAST);
+            self.show_disagreement_export(ui, seen, &found, out);
+            self.show_agreement_views(ui, seen, &found);
+            let height = ui.available_height().max(MIN_AGREEMENT_LIST_HEIGHT);
             let width = ui.available_width();
             ui.allocate_ui(eframe::egui::vec2(width, height), |ui| match self.view {
-                View::Disagreements => self.list(ui, seen, (&found, &names), out),
-                View::Values => tables::values(ui, seen, &found),
-                View::Confusion => tables::confusion(ui, seen, &found),
-                View::Measures => tables::every_measure(ui, seen, &found),
-                View::Recordings => tables::recordings(ui, seen, &found),
+                AgreementView::Disagreements => self.show_disagreement_list(ui, seen, (&found, &names), out),
+                AgreementView::Values => agreement_tables::show_value_agreement(ui, seen, &found),
+                AgreementView::Confusion => agreement_tables::show_value_confusion(ui, seen, &found),
+                AgreementView::Measures => agreement_tables::every_measure(ui, seen, &found),
+                AgreementView::Recordings => agreement_tables::show_recording_agreement(ui, seen, &found),
             });
             reach_focus(ui);
         });
     }
 
-    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
+    fn carry_out_pane_action(
+        &mut self,
+        action: Action,
+        seen: &PaneInput<'_>,
+        out: &mut CommandOutbox,
+    ) -> ActionOutcome {
         match action {
-            Action::NextDisagreement => self.walk(1, seen, out),
-            Action::PreviousDisagreement => self.walk(-1, seen, out),
-            _ => Acted::No,
+            Action::NextDisagreement => self.walk_disagreements(1, seen, out),
+            Action::PreviousDisagreement => self.walk_disagreements(-1, seen, out),
+            _ => ActionOutcome::No,
         }
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
-        if self.asking.take_if(|it| *it == id).is_some() {
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        if self.asking.take_if(|work| *work == id).is_some() {
             match ended {
-                Ok(Outcome::Agreed(found)) => {
+                Ok(WorkOutcome::Agreed(found)) => {
                     self.wrong = None;
                     if let Some(asked) = &self.asked {
                         self.found = Some((found.clone(), asked.names.clone()));
                     }
                 }
-                Err(chereme_corpus::Error::Stopped) => self.stopped = true,
+                Err(chereme_corpus::CorpusError::Stopped) => self.stopped = true,
                 Err(error) => {
                     self.found = None;
-                    self.wrong = Some(Wrong {
+                    self.wrong = Some(ComparisonFailure {
                         text: error.to_string(),
-                        remedy: error.remedy(),
+                        remedy: error.error_remedy(),
                     });
                 }
                 Ok(_) => {}
             }
-        } else if self.saved.saving.take_if(|it| *it == id).is_some() {
-            if matches!(ended, Ok(Outcome::DisagreementsWritten)) {
-                self.saved.written();
+        } else if self.saved.saving.take_if(|work| *work == id).is_some() {
+            if matches!(ended, Ok(WorkOutcome::DisagreementsWritten)) {
+                self.saved.mark_file_written();
             }
-        } else if self.writing.take_if(|it| *it == id).is_some()
-            && let Ok(Outcome::Adjudicated(done)) = ended
+        } else if self.writing.take_if(|work| *work == id).is_some()
+            && let Ok(WorkOutcome::Adjudicated(done)) = ended
         {
             self.written = Some(done.clone());
         }

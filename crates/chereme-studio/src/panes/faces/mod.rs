@@ -1,59 +1,59 @@
 //! Faces: the recorded performances of an expression ranked for a sentence, played side by side, explained, and put on it.
 
-mod choice;
-mod data;
-mod onsets;
+mod faces_choice;
+mod faces_data;
+mod faces_onsets;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, Choice, DetectOptions, Detector, Expressions, FoundExpression, Function, Name,
-    Nonmanuals, Onsets, ProposeScope, Rank, Ranked,
+    AnnotationDetector, CorpusAddress, DetectOptions, ExpressionFunction, FoundExpression, FoundExpressions,
+    NonmanualDetector, NonmanualOnsets, PerformanceChoice, ProposeScope, RankedPerformance, RankingCriterion, RowName,
 };
 use eframe::egui::{Button, ScrollArea, Ui};
 
-use self::data::Compared;
-use super::{Pane, combo};
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
+use self::faces_data::ComparedChannels;
+use super::{PaneInterface, combo};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
 use crate::model::generated::GeneratedClip;
-use crate::words::{Text, faces as words, fill, spoken};
-use crate::work::{Ended, Outcome, WorkId, analysis, faces};
+use crate::words::{InterfaceText, faces_words as words, fill_text_braces, translate_library_message};
+use crate::work::{WorkId, WorkOutcome, WorkResult, analysis, faces_jobs};
 
 /// How many candidates are shown.
-const CANDIDATES: usize = 12;
+const MAX_SHOWN_CANDIDATES: usize = 12;
 
 /// The inputs of the displayed answer.
 #[derive(Debug, Clone, PartialEq)]
-struct Asked {
+struct FaceChoiceInputs {
     generation: i64,
-    function: Function,
-    target: Address,
-    rank: Rank,
-    compared: Compared,
+    function: ExpressionFunction,
+    target: CorpusAddress,
+    rank: RankingCriterion,
+    compared: ComparedChannels,
     lengths: bool,
 }
 
 /// The pane.
 #[derive(Default)]
-pub(crate) struct Faces {
+pub(crate) struct FacesPane {
     /// The corpus generation of the last request for expressions.
     of: Option<i64>,
     finding: Option<WorkId>,
-    found: Option<Arc<Expressions>>,
-    function: Option<Function>,
+    found: Option<Arc<FoundExpressions>>,
+    function: Option<ExpressionFunction>,
     /// The address of the sentence.
     sentence: Option<String>,
-    rank: Rank,
-    compared: Compared,
+    rank: RankingCriterion,
+    compared: ComparedChannels,
     lengths: bool,
     in_step: bool,
     carried: bool,
     wide: bool,
-    asked: Option<Asked>,
+    asked: Option<FaceChoiceInputs>,
     choosing: Option<WorkId>,
-    choice: Option<Arc<Choice>>,
+    choice: Option<Arc<PerformanceChoice>>,
     wrong: Option<String>,
     /// The token of the chosen performance.
     chosen: Option<String>,
@@ -66,36 +66,36 @@ pub(crate) struct Faces {
     carrying: BTreeMap<WorkId, String>,
     made: BTreeMap<String, Option<Arc<GeneratedClip>>>,
     measuring: Option<WorkId>,
-    onsets: Option<Arc<Onsets>>,
+    onsets: Option<Arc<NonmanualOnsets>>,
     begun: bool,
 }
 
-impl Faces {
+impl FacesPane {
     /// Requests the expressions, or the ranking, if their inputs changed.
-    fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn request_face_answers(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         if !std::mem::replace(&mut self.begun, true) {
             (self.lengths, self.in_step) = (true, true);
         }
         let generation = seen.snapshot.overview.generation;
         if self.of != Some(generation) && !seen.is_running(self.finding) {
             self.of = Some(generation);
-            self.finding = Some(out.work(faces::expressions()));
+            self.finding = Some(out.request_work(faces_jobs::find_expressions_job()));
         }
-        let Some(asked) = self.question(generation) else {
+        let Some(asked) = self.face_question(generation) else {
             return;
         };
         if self.asked.as_ref() == Some(&asked) || seen.is_running(self.choosing) {
             return;
         }
-        let options = data::options(asked.rank, asked.compared, asked.lengths, CANDIDATES);
-        let job = faces::choose(asked.function.clone(), asked.target.clone(), options);
-        self.choosing = Some(out.work(job));
+        let options = faces_data::face_choice_options(asked.rank, asked.compared, asked.lengths, MAX_SHOWN_CANDIDATES);
+        let job = faces_jobs::choose_performance_job(asked.function.clone(), asked.target.clone(), options);
+        self.choosing = Some(out.request_work(job));
         self.made.clear();
         self.asked = Some(asked);
     }
 
-    fn question(&self, generation: i64) -> Option<Asked> {
-        Some(Asked {
+    fn face_question(&self, generation: i64) -> Option<FaceChoiceInputs> {
+        Some(FaceChoiceInputs {
             generation,
             function: self.function.clone()?,
             target: self.sentence.as_ref()?.parse().ok()?,
@@ -105,80 +105,84 @@ impl Faces {
         })
     }
 
-    fn expressions(&self) -> &[FoundExpression] {
-        self.found.as_ref().map_or(&[], |it| &it.expressions)
+    fn found_expressions(&self) -> &[FoundExpression] {
+        self.found.as_ref().map_or(&[], |list| &list.expressions)
     }
 
     /// Returns the sentences that can get a face: those with an expression of the function.
-    fn sentences(&self) -> impl Iterator<Item = &FoundExpression> {
+    fn face_target_sentences(&self) -> impl Iterator<Item = &FoundExpression> {
         let of = self.function.as_ref();
-        self.expressions()
+        self.found_expressions()
             .iter()
-            .filter(move |it| Some(&it.function) == of)
+            .filter(move |expression| Some(&expression.function) == of)
     }
 
     /// Keeps function and sentence as long as they exist; otherwise chooses the displayed recording's, else the first.
-    fn settle(&mut self, seen: &PaneInput<'_>) {
-        let there = |it: &FoundExpression| Some(&it.function) == self.function.as_ref();
-        if !self.expressions().iter().any(there) {
-            self.function = self.expressions().first().map(|it| it.function.clone());
+    fn settle_function_and_sentence(&mut self, seen: &PaneInput<'_>) {
+        let there = |expression: &FoundExpression| Some(&expression.function) == self.function.as_ref();
+        if !self.found_expressions().iter().any(there) {
+            self.function = self
+                .found_expressions()
+                .first()
+                .map(|expression| expression.function.clone());
         }
         let sentence = self.sentence.as_deref();
         if self
-            .sentences()
-            .any(|it| Some(it.address.as_str()) == sentence)
+            .face_target_sentences()
+            .any(|expression| Some(expression.address.as_str()) == sentence)
         {
             return;
         }
-        let shown = seen
-            .shown
-            .recording
-            .and_then(|id| seen.snapshot.recording(id));
-        let own = |it: &&FoundExpression| shown.is_some_and(|own| own.row.name == it.recording);
-        let found = self.sentences().find(own).or(self.sentences().next());
-        self.sentence = found.map(|it| it.address.clone());
+        let shown = seen.shown.recording.and_then(|id| seen.snapshot.recording_glance(id));
+        let is_shown = |expression: &&FoundExpression| shown.is_some_and(|own| own.row.name == expression.recording);
+        let expression = self
+            .face_target_sentences()
+            .find(is_shown)
+            .or(self.face_target_sentences().next());
+        self.sentence = expression.map(|it| it.address.clone());
     }
 
-    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
-        let functions: Vec<Function> = {
-            let all = self.found.iter().flat_map(|it| it.functions.keys());
-            all.map(|name| Function::of(name)).collect()
+    fn show_face_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        let functions: Vec<ExpressionFunction> = {
+            let all = self.found.iter().flat_map(|list| list.functions.keys());
+            all.map(|name| ExpressionFunction::from_function_name(name)).collect()
         };
         ui.horizontal_wrapped(|ui| {
-            let names: Vec<(Option<Function>, String)> = functions
+            let names: Vec<(Option<ExpressionFunction>, String)> = functions
                 .into_iter()
-                .map(|it| (Some(it.clone()), it.to_string()))
+                .map(|function| (Some(function.clone()), function.to_string()))
                 .collect();
-            combo::named(ui, seen.say(words::FUNCTION), &mut self.function, &names);
+            combo::show_named_combo(ui, seen.say_text(words::FUNCTION), &mut self.function, &names);
             let sentences: Vec<(Option<String>, String)> = self
-                .sentences()
-                .map(|it| (Some(it.address.clone()), data::named(it)))
+                .face_target_sentences()
+                .map(|expression| {
+                    (
+                        Some(expression.address.clone()),
+                        faces_data::found_sentence_name(expression),
+                    )
+                })
                 .collect();
-            combo::named(
-                ui,
-                seen.say(words::SENTENCE),
-                &mut self.sentence,
-                &sentences,
-            );
+            combo::show_named_combo(ui, seen.say_text(words::SENTENCE), &mut self.sentence, &sentences);
             let ranks = [
-                (Rank::Nearest, words::NEAREST),
-                (Rank::Farthest, words::FARTHEST),
-                (Rank::Medoid, words::MEDOID),
+                (RankingCriterion::Nearest, words::NEAREST),
+                (RankingCriterion::Farthest, words::FARTHEST),
+                (RankingCriterion::Medoid, words::MEDOID),
             ]
-            .map(|(it, text)| (it, seen.say(text).to_owned()));
-            combo::named(ui, seen.say(words::FIRST), &mut self.rank, &ranks);
-            let compared = Compared::ALL.map(|it| (it, seen.say(name(it)).to_owned()));
-            combo::named(ui, seen.say(words::COMPARED), &mut self.compared, &compared);
+            .map(|(rank, text)| (rank, seen.say_text(text).to_owned()));
+            combo::show_named_combo(ui, seen.say_text(words::FIRST), &mut self.rank, &ranks);
+            let compared = ComparedChannels::ALL_COMPARED_CHANNELS
+                .map(|kind| (kind, seen.say_text(compared_channels_name(kind)).to_owned()));
+            combo::show_named_combo(ui, seen.say_text(words::COMPARED), &mut self.compared, &compared);
             for (on, text, tip) in [
                 (&mut self.lengths, words::LENGTHS, words::LENGTHS_TIP),
                 (&mut self.in_step, words::IN_STEP, words::IN_STEP_TIP),
                 (&mut self.carried, words::CARRIED, words::CARRIED_TIP),
             ] {
-                ui.checkbox(on, seen.say(text)).on_hover_text(seen.say(tip));
+                ui.checkbox(on, seen.say_text(text)).on_hover_text(seen.say_text(tip));
             }
             let mut close = !self.wide;
-            ui.checkbox(&mut close, seen.say(words::CLOSE))
-                .on_hover_text(seen.say(words::CLOSE_TIP));
+            ui.checkbox(&mut close, seen.say_text(words::CLOSE))
+                .on_hover_text(seen.say_text(words::CLOSE_TIP));
             self.wide = !close;
             if seen.is_running(self.choosing) || seen.is_running(self.finding) {
                 ui.spinner();
@@ -187,58 +191,58 @@ impl Faces {
     }
 
     /// Shows the milestones of the sentence, and the button that writes them onto a tier.
-    fn milestones(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn show_sentence_milestones(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let sentence = self.sentence.as_deref();
-        let found = self
-            .sentences()
-            .find(|it| Some(it.address.as_str()) == sentence);
-        let Some(it) = found else { return };
+        let found_sentence = self
+            .face_target_sentences()
+            .find(|expression| Some(expression.address.as_str()) == sentence);
+        let Some(it) = found_sentence else { return };
         ui.horizontal_wrapped(|ui| {
-            ui.strong(seen.say(words::MILESTONES));
-            let times = it.milestones.times();
+            ui.strong(seen.say_text(words::MILESTONES));
+            let times = it.milestones.milestone_times();
             for (n, at) in times.into_iter().enumerate() {
                 let text = match (n, it.milestones.m3) {
                     (2, None) => "M3 –".to_owned(),
-                    _ => format!("M{} {:.3}", n + 1, at.seconds()),
+                    _ => format!("M{} {:.3}", n + 1, at.instant_seconds()),
                 };
                 ui.monospace(text);
             }
-            ui.weak(seen.say(match it.corrected {
+            ui.weak(seen.say_text(match it.corrected {
                 true => words::CORRECTED,
                 false => words::DERIVED,
             }));
             let recording = seen.snapshot.recording_named(&it.recording);
-            if ui.small_button(seen.say(words::SHOW)).clicked()
+            if ui.small_button(seen.say_text(words::SHOW)).clicked()
                 && let Some(recording) = recording
             {
-                out.send(Command::Place(
+                out.send_command(WindowCommand::Place(
                     recording.row.id,
-                    data::seen_span(&it.milestones),
+                    faces_data::seen_span(&it.milestones),
                 ));
-                out.send(Command::Look);
+                out.send_command(WindowCommand::Look);
             }
             let open = !seen.snapshot.is_read_only();
-            let write = ui.add_enabled(open, Button::new(seen.say(words::WRITE)).small());
-            if write.on_hover_text(seen.say(words::WRITE_TIP)).clicked() {
-                out.work(faces::milestones(it.function.clone()));
+            let write = ui.add_enabled(open, Button::new(seen.say_text(words::WRITE)).small());
+            if write.on_hover_text(seen.say_text(words::WRITE_TIP)).clicked() {
+                out.request_work(faces_jobs::write_milestones_job(it.function.clone()));
             }
         });
         for finding in &it.findings {
-            ui.weak(crate::words::spoken(finding, seen.language));
+            ui.weak(crate::words::translate_library_message(finding, seen.language));
         }
     }
 
-    fn proposing(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn proposing(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let recording = seen.shown.recording;
         let open = recording.is_some() && !seen.snapshot.is_read_only();
-        let button = ui.add_enabled(open, Button::new(seen.say(words::PROPOSE)));
-        if button.on_hover_text(seen.say(words::PROPOSE_TIP)).clicked()
+        let button = ui.add_enabled(open, Button::new(seen.say_text(words::PROPOSE)));
+        if button.on_hover_text(seen.say_text(words::PROPOSE_TIP)).clicked()
             && let Some(id) = recording
         {
-            out.work(analysis::detect(
+            out.request_work(analysis::run_detector_job(
                 DetectOptions {
-                    detector: Nonmanuals.name().to_owned(),
-                    scope: ProposeScope::Recording(Name::Number(id)),
+                    detector: NonmanualDetector.detector_name().to_owned(),
+                    scope: ProposeScope::Recording(RowName::Number(id)),
                 },
                 seen.language,
             ));
@@ -246,88 +250,91 @@ impl Faces {
     }
 
     /// Chooses a performance and proposes a gloss for the sentence with its face.
-    fn choose(&mut self, it: &Ranked) {
+    fn choose_performance(&mut self, it: &RankedPerformance) {
         self.chosen = Some(it.token.clone());
         let Some(choice) = self.choice.clone() else {
             return;
         };
         let sentence = self.sentence_name(&choice);
-        let proposed = data::proposed_gloss(&choice, &sentence, &it.recording);
+        let proposed = faces_data::proposed_gloss(&choice, &sentence, &it.recording);
         if self.gloss.trim().is_empty() || self.gloss == self.proposed {
             self.gloss.clone_from(&proposed);
         }
         self.proposed = proposed;
     }
 
-    fn sentence_name(&self, choice: &Choice) -> String {
-        let own = self
-            .expressions()
+    fn sentence_name(&self, choice: &PerformanceChoice) -> String {
+        let target_sentence = self
+            .found_expressions()
             .iter()
-            .find(|it| it.address == choice.target);
-        own.map_or_else(|| choice.target.clone(), |it| it.recording.clone())
+            .find(|expression| expression.address == choice.target);
+        target_sentence.map_or_else(|| choice.target.clone(), |expression| expression.recording.clone())
     }
 
-    fn chosen<'a>(&self, choice: &'a Choice) -> Option<&'a Ranked> {
+    fn chosen_performance<'a>(&self, choice: &'a PerformanceChoice) -> Option<&'a RankedPerformance> {
         let chosen = self.chosen.as_deref()?;
-        choice.ranking.iter().find(|it| it.token == chosen)
+        choice.ranking.iter().find(|ranked| ranked.token == chosen)
     }
 }
 
-fn name(compared: Compared) -> Text {
+fn compared_channels_name(compared: ComparedChannels) -> InterfaceText {
     match compared {
-        Compared::Usual => words::USUAL,
-        Compared::Head => words::HEAD,
-        Compared::Brows => words::BROWS,
-        Compared::All => words::WHOLE,
+        ComparedChannels::Usual => words::USUAL,
+        ComparedChannels::Head => words::HEAD,
+        ComparedChannels::Brows => words::BROWS,
+        ComparedChannels::All => words::WHOLE,
     }
 }
 
-impl Pane for Faces {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        self.settle(seen);
-        self.follow(seen, out);
+impl PaneInterface for FacesPane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        self.settle_function_and_sentence(seen);
+        self.request_face_answers(seen, out);
         // Without an expression there is nothing to choose from.
-        let nothing = |it: &Arc<Expressions>| it.expressions.is_empty();
+        let nothing = |list: &Arc<FoundExpressions>| list.expressions.is_empty();
         if !self.found.as_ref().is_some_and(nothing) {
-            self.tools(ui, seen);
+            self.show_face_tools(ui, seen);
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             if let Some(found) = &self.found
                 && found.expressions.is_empty()
             {
-                ui.label(seen.say(words::NONE));
+                ui.label(seen.say_text(words::NONE));
                 self.proposing(ui, seen, out);
                 return;
             }
-            self.milestones(ui, seen, out);
+            self.show_sentence_milestones(ui, seen, out);
             if let Some(wrong) = &self.wrong {
-                ui.colored_label(seen.colours().warning, spoken(wrong, seen.language));
+                ui.colored_label(
+                    seen.pane_colours().warning,
+                    translate_library_message(wrong, seen.language),
+                );
             }
             if let Some(choice) = self.choice.clone() {
-                self.candidates(ui, seen, &choice, out);
+                self.show_face_candidates(ui, seen, &choice, out);
                 self.show_counts(ui, seen, &choice);
-                self.reasons(ui, seen, &choice);
-                self.putting(ui, seen, &choice, out);
+                self.show_score_reasons(ui, seen, &choice);
+                self.show_face_sign_form(ui, seen, &choice, out);
             }
             ui.separator();
-            self.timing(ui, seen, out);
+            self.show_channel_timing(ui, seen, out);
             self.proposing(ui, seen, out);
         });
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
-        if self.finding.take_if(|it| *it == id).is_some() {
-            if let Ok(Outcome::Expressions(found)) = ended {
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        if self.finding.take_if(|work| *work == id).is_some() {
+            if let Ok(WorkOutcome::Expressions(found)) = ended {
                 self.found = Some(found.clone());
             }
-        } else if self.choosing.take_if(|it| *it == id).is_some() {
+        } else if self.choosing.take_if(|work| *work == id).is_some() {
             match ended {
-                Ok(Outcome::Chosen(choice)) => {
+                Ok(WorkOutcome::Chosen(choice)) => {
                     self.wrong = None;
-                    let kept = self.chosen(choice).or(choice.ranking.first()).cloned();
+                    let kept = self.chosen_performance(choice).or(choice.ranking.first()).cloned();
                     self.choice = Some(choice.clone());
                     if let Some(first) = kept {
-                        self.choose(&first);
+                        self.choose_performance(&first);
                     }
                 }
                 Err(error) => {
@@ -336,19 +343,19 @@ impl Pane for Faces {
                 }
                 Ok(_) => {}
             }
-        } else if self.storing.take_if(|it| *it == id).is_some() {
-            if let Ok(Outcome::Recombined(made)) = ended {
-                self.stored = made.recording.map(|it| (made.gloss.clone(), it));
+        } else if self.storing.take_if(|work| *work == id).is_some() {
+            if let Ok(WorkOutcome::Recombined(made)) = ended {
+                self.stored = made.recording.map(|recording| (made.gloss.clone(), recording));
             }
-        } else if self.measuring.take_if(|it| *it == id).is_some() {
+        } else if self.measuring.take_if(|work| *work == id).is_some() {
             match ended {
-                Ok(Outcome::Onsets(onsets)) => self.onsets = Some(onsets.clone()),
+                Ok(WorkOutcome::Onsets(onsets)) => self.onsets = Some(onsets.clone()),
                 Err(error) => self.wrong = Some(error.to_string()),
                 Ok(_) => {}
             }
         } else if let Some(recipe) = self.carrying.remove(&id) {
             let made = match ended {
-                Ok(Outcome::Previewed(made)) => Some(Arc::new(GeneratedClip::of(made))),
+                Ok(WorkOutcome::Previewed(made)) => Some(Arc::new(GeneratedClip::clip_from_recipe_result(made))),
                 _ => None,
             };
             self.made.insert(recipe, made);
@@ -357,6 +364,6 @@ impl Pane for Faces {
 }
 
 /// Returns a text with a count, or `None` if the count is 0.
-fn counted(seen: &PaneInput<'_>, text: Text, n: u64) -> Option<String> {
-    (n > 0).then(|| fill(seen.say(text), &[("n", &n)]))
+fn counted_face_text(seen: &PaneInput<'_>, text: InterfaceText, n: u64) -> Option<String> {
+    (n > 0).then(|| fill_text_braces(seen.say_text(text), &[("n", &n)]))
 }

@@ -1,37 +1,37 @@
 //! Import: shows the interpretation of files before anything is written, takes corrections, and then writes.
 
-mod body;
-mod data;
-mod files;
-mod known;
-mod paths;
-pub(super) mod people;
-mod together;
+mod import_body;
+mod import_data;
+mod import_files;
+mod import_known;
+mod import_paths;
+pub(super) mod import_people;
+mod import_together;
 
 use std::path::PathBuf;
 
-use chereme_corpus::remedy::Remedy;
+use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::{FileStatus, ImportReport, MergeReport};
 use eframe::egui::{Align, Button, Id, Layout, ProgressBar, RichText, ScrollArea, Ui};
 
-use super::Pane;
-use super::complete::Line;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::file_dialogs::Choose;
-use crate::overlay::remedy;
-use crate::words::{fill, import as words, shell, spoken};
-use crate::work::{Ended, Outcome, WorkId, exchange};
-use known::ImportCorrections;
-pub(crate) use paths::Paths;
+use super::PaneInterface;
+use super::complete_pane::CompletionLine;
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::file_dialogs::ChooserPurpose;
+use crate::overlay::overlay_remedy;
+use crate::words::{fill_text_braces, import_words as words, shell, translate_library_message};
+use crate::work::{WorkId, WorkOutcome, WorkResult, exchange};
+use import_known::ImportCorrections;
+pub(crate) use import_paths::PathCompletions;
 
 /// The pane.
 #[derive(Default)]
-pub(crate) struct Import {
+pub(crate) struct ImportPane {
     path: String,
     /// The dropped or chosen files, if there are several.
     dropped: Vec<PathBuf>,
-    paths: Paths,
+    paths: PathCompletions,
     corrections: ImportCorrections,
     /// The corrections at the last examination of the files.
     looked: ImportCorrections,
@@ -40,7 +40,7 @@ pub(crate) struct Import {
     /// The outcome of a merge.
     merged: Option<MergeReport>,
     /// Why nothing could be examined: a message and a remedy.
-    wrong: Option<(String, Option<Remedy>)>,
+    wrong: Option<(String, Option<ErrorRemedy>)>,
     /// Whether the work was stopped.
     stopped: bool,
     /// Whether files were just given, which must be examined.
@@ -48,9 +48,9 @@ pub(crate) struct Import {
     come: bool,
 }
 
-impl Import {
+impl ImportPane {
     /// Sets the paths to examine.
-    pub(crate) fn propose(&mut self, paths: &[PathBuf]) {
+    pub(crate) fn propose_import_paths(&mut self, paths: &[PathBuf]) {
         self.path = match paths {
             [one] => one.display().to_string(),
             _ => String::new(),
@@ -60,7 +60,7 @@ impl Import {
         self.fresh = !paths.is_empty();
     }
 
-    fn files(&self) -> Vec<PathBuf> {
+    fn paths_to_examine(&self) -> Vec<PathBuf> {
         match self.path.trim() {
             "" => self.dropped.clone(),
             path => vec![PathBuf::from(path)],
@@ -68,50 +68,50 @@ impl Import {
     }
 
     /// Returns the path if it names a corpus, which is merged rather than imported.
-    fn other(&self) -> Option<PathBuf> {
-        match self.files().as_slice() {
-            [one] if together::is_corpus(one) => Some(one.clone()),
+    fn corpus_to_merge(&self) -> Option<PathBuf> {
+        match self.paths_to_examine().as_slice() {
+            [one] if import_together::is_corpus(one) => Some(one.clone()),
             _ => None,
         }
     }
 
-    fn ask(&mut self, dry_run: bool, out: &mut Outbox) {
+    fn request_import(&mut self, dry_run: bool, out: &mut CommandOutbox) {
         if let Some(old) = self.asked.take() {
-            out.send(Command::Stop(old));
+            out.send_command(WindowCommand::Stop(old));
         }
-        let options = self.corrections.options(dry_run);
+        let options = self.corrections.corrected_import_options(dry_run);
         self.looked = self.corrections.clone();
         (self.wrong, self.stopped) = (None, false);
-        self.asked = Some(out.work(exchange::import(self.files(), options)));
+        self.asked = Some(out.request_work(exchange::import_files_job(self.paths_to_examine(), options)));
     }
 
-    fn choosing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        let label = ui.label(RichText::new(seen.say(words::PATH)).small());
+    fn choosing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        let label = ui.label(RichText::new(seen.say_text(words::PATH)).small());
         let id = Id::unique("import path");
-        let line = Line {
-            hint: seen.say(words::PATH_HINT),
-            ..Line::default()
+        let line = CompletionLine {
+            hint: seen.say_text(words::PATH_HINT),
+            ..CompletionLine::default()
         };
         if std::mem::take(&mut self.come) {
             ui.memory_mut(|memory| memory.request_focus(id));
         }
-        let typed = self.paths.show(ui, id, line, &mut self.path);
+        let typed = self.paths.show_path_field(ui, id, line, &mut self.path);
         let (entered, changed) = (typed.entered, typed.changed);
         typed.response.labelled_by(label.id);
         if changed {
             (self.report, self.merged) = (None, None);
         }
         // After a folder is taken from the list, its contents are offered next.
-        let whole = !changed || !self.path.ends_with('/');
-        if entered && whole && !self.files().is_empty() && self.other().is_none() {
-            self.ask(true, out);
+        let is_whole_path = !changed || !self.path.ends_with('/');
+        if entered && is_whole_path && !self.paths_to_examine().is_empty() && self.corpus_to_merge().is_none() {
+            self.request_import(true, out);
         }
         ui.horizontal_wrapped(|ui| {
-            if ui.button(seen.say(words::CHOOSE_FILES)).clicked() {
-                out.send(Command::Choose(Choose::Files));
+            if ui.button(seen.say_text(words::CHOOSE_FILES)).clicked() {
+                out.send_command(WindowCommand::Choose(ChooserPurpose::Files));
             }
-            if ui.button(seen.say(words::CHOOSE_FOLDER)).clicked() {
-                out.send(Command::Choose(Choose::Folder));
+            if ui.button(seen.say_text(words::CHOOSE_FOLDER)).clicked() {
+                out.send_command(WindowCommand::Choose(ChooserPurpose::Folder));
             }
         });
         if self.path.trim().is_empty() {
@@ -120,27 +120,27 @@ impl Import {
             }
             if self.dropped.len() > 8 {
                 let more = self.dropped.len() - 8;
-                ui.small(fill(seen.say(words::MORE_FILES), &[("n", &more)]));
+                ui.small(fill_text_braces(seen.say_text(words::MORE_FILES), &[("n", &more)]));
             }
         }
     }
 
-    fn buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn show_import_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let running = self.asked.and_then(|id| seen.running.get(&id));
         if let (Some(running), Some(id)) = (running, self.asked) {
             // At the other end from the buttons that are clicked before and after this one.
             ui.horizontal(|ui| {
-                match running.far.share() {
+                match running.far.finished_share() {
                     Some(share) => {
                         let bar = ProgressBar::new(share).desired_width(120.0);
                         ui.add(bar.show_percentage());
                     }
                     None => drop(ui.spinner()),
                 }
-                let cancel = Button::new(seen.say(shell::CANCEL));
+                let cancel = Button::new(seen.say_text(shell::CANCEL));
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     if ui.add(cancel).clicked() {
-                        out.send(Command::Stop(id));
+                        out.send_command(WindowCommand::Stop(id));
                     }
                     let task = eframe::egui::Label::new(&running.far.task);
                     ui.add(task.truncate());
@@ -148,19 +148,15 @@ impl Import {
             });
             return;
         }
-        let ready = !self.files().is_empty();
+        let ready = !self.paths_to_examine().is_empty();
         let looked = self.report.as_ref().is_some_and(|report| report.dry_run);
         let changed = looked && self.looked != self.corrections;
         ui.horizontal_wrapped(|ui| {
-            let text = if looked {
-                words::LOOK_AGAIN
-            } else {
-                words::LOOK
-            };
+            let text = if looked { words::LOOK_AGAIN } else { words::LOOK };
             if !looked || changed {
-                let look = Button::new(seen.say(text));
+                let look = Button::new(seen.say_text(text));
                 if ui.add_enabled(ready, look).clicked() {
-                    self.ask(true, out);
+                    self.request_import(true, out);
                 }
             }
             let any = self.report.as_ref().is_some_and(|report| {
@@ -169,107 +165,96 @@ impl Import {
                     .iter()
                     .any(|file| matches!(file.status, FileStatus::Imported | FileStatus::Updated))
             });
-            let take = Button::new(RichText::new(seen.say(words::TAKE)).strong());
-            let take = ui.add_enabled(ready && looked && !changed && any, take);
+            let take_button = Button::new(RichText::new(seen.say_text(words::TAKE)).strong());
+            let take = ui.add_enabled(ready && looked && !changed && any, take_button);
             let tip = if looked && !changed {
                 words::NOTHING_NEW
             } else {
                 words::LOOK_FIRST
             };
-            if take.on_disabled_hover_text(seen.say(tip)).clicked() {
-                self.ask(false, out);
+            if take.on_disabled_hover_text(seen.say_text(tip)).clicked() {
+                self.request_import(false, out);
             }
         });
     }
 
-    fn report(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn show_import_report(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let Some(report) = self.report.take() else {
             if self.wrong.is_none() && !seen.is_running(self.asked) {
-                ui.weak(seen.say(words::NOTHING));
+                ui.weak(seen.say_text(words::NOTHING));
             }
             return;
         };
         ui.separator();
-        let text = if report.dry_run {
-            words::DRY
-        } else {
-            words::DONE
-        };
-        ui.strong(seen.say(text));
-        let created: Vec<String> = data::created(&report)
+        let text = if report.dry_run { words::DRY } else { words::DONE };
+        ui.strong(seen.say_text(text));
+        let created: Vec<String> = import_data::created_row_counts(&report)
             .iter()
-            .map(|(text, count)| fill(seen.say(*text), &[("n", count)]))
+            .map(|(text, count)| fill_text_braces(seen.say_text(*text), &[("n", count)]))
             .collect();
         ui.label(created.join(" · "));
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let open = report.files.len() <= 2;
-            for file in data::in_order(&report) {
-                files::show(
-                    &mut self.corrections,
-                    ui,
-                    seen,
-                    file,
-                    (open, report.dry_run),
-                    out,
-                );
+            for file in import_data::files_by_attention(&report) {
+                import_files::show_file_report(&mut self.corrections, ui, seen, file, (open, report.dry_run), out);
             }
         });
         self.report = Some(report);
     }
 }
 
-impl Pane for Import {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+impl PaneInterface for ImportPane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         self.choosing(ui, seen, out);
-        let other = self.other();
+        let other = self.corpus_to_merge();
         if std::mem::take(&mut self.fresh) && other.is_none() {
-            self.ask(true, out);
+            self.request_import(true, out);
         }
         if let Some(other) = &other {
             let state = (self.asked, self.merged.as_ref());
-            if let Some(begun) = together::show(ui, seen, out, other, state) {
+            if let Some(begun) = import_together::show_corpus_merge(ui, seen, out, other, state) {
                 self.asked = Some(begun);
                 (self.merged, self.wrong, self.stopped) = (None, None, false);
             }
         } else {
-            known::show(&mut self.corrections, ui, seen);
-            self.buttons(ui, seen, out);
+            import_known::show_import_corrections(&mut self.corrections, ui, seen);
+            self.show_import_buttons(ui, seen, out);
         }
         if let Some((wrong, remedy)) = &self.wrong {
-            let message = spoken(wrong, seen.language);
-            ui.label(RichText::new(message).color(seen.colours().trouble));
+            let message = translate_library_message(wrong, seen.language);
+            ui.label(RichText::new(message).color(seen.pane_colours().trouble));
             let remedy = remedy
                 .as_ref()
-                .and_then(|it| remedy::here(it, seen.language));
+                .and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language));
             if let Some(remedy) = remedy {
-                ui.label(fill(seen.say(shell::REMEDY), &[("remedy", &remedy)]));
+                ui.label(fill_text_braces(seen.say_text(shell::REMEDY), &[("remedy", &remedy)]));
             }
         }
         if self.stopped {
-            ui.label(seen.say(shell::STOPPED));
+            ui.label(seen.say_text(shell::STOPPED));
         }
         if other.is_none() {
-            self.report(ui, seen, out);
+            self.show_import_report(ui, seen, out);
         }
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
         if self.asked.take_if(|asked| *asked == id).is_none() {
             return;
         }
         match ended {
-            Ok(Outcome::Imported(report)) => self.report = Some(report.clone()),
-            Ok(Outcome::Merged(report)) => self.merged = Some(report.clone()),
-            Err(chereme_corpus::Error::Stopped) => self.stopped = true,
+            Ok(WorkOutcome::Imported(report)) => self.report = Some(report.clone()),
+            Ok(WorkOutcome::Merged(report)) => self.merged = Some(report.clone()),
+            Err(chereme_corpus::CorpusError::Stopped) => self.stopped = true,
             Ok(_) => {}
             Err(error) => {
-                self.wrong = Some((error.to_string(), error.remedy()));
+                self.wrong = Some((error.to_string(), error.error_remedy()));
             }
         }
     }
 
     fn come(&mut self) {
         // Given files are examined; the keyboard is not given to the path, whose list would cover the next button.
-        self.come = self.files().is_empty();
+        self.come = self.paths_to_examine().is_empty();
     }
 }

@@ -1,39 +1,42 @@
 //! The details of recordings, signers, signs and values.
 
 use chereme_corpus::{
-    MediaChange, Name, RecordingChange, RecordingDetails, RecordingGlance, SignChange, SignDetails,
-    SignerChange, SignerDetails, SignerRow, TrackKind,
+    MediaChange, RecordingChange, RecordingDetails, RecordingGlance, RowName, SignChange, SignDetails, SignerChange,
+    SignerDetails, SignerRow, TrackKind,
 };
-use chereme_motion::{Instant, Side};
+use chereme_motion::{BodySide, RecordingInstant};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
 
-use super::data;
-use super::edit::{choice, grid, line, name_and_value, notes, offered, title};
-use super::ui::{lines, link};
-use super::{Inspector, Thing};
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::file_dialogs::Choose;
-use crate::panes::complete::fitting;
-use crate::panes::import::people;
-use crate::panes::library::data as library;
-use crate::panes::timeline::data::time_text;
-use crate::words::{fill, inspector as words};
-use crate::work::recordings;
+use super::inspector_data;
+use super::inspector_edit::{
+    name_and_value, show_editable_line, show_editable_notes, show_inspector_choice, show_inspector_grid,
+    show_line_with_completion, show_part_title,
+};
+use super::inspector_ui::{show_inspector_lines, show_thing_link};
+use super::{InspectedThing, InspectorPane};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::file_dialogs::ChooserPurpose;
+use crate::panes::complete_pane::fitting_candidates;
+use crate::panes::import::import_people;
+use crate::panes::library::library_data as library;
+use crate::panes::timeline::timeline_data::time_text;
+use crate::words::{fill_text_braces, inspector as words};
+use crate::work::recordings_jobs;
 
-pub(super) fn recording(
+pub(super) fn show_recording_details(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     glance: &RecordingGlance,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     let row = &glance.row;
-    let change = |out: &mut Outbox, change: RecordingChange| {
-        out.work(recordings::change_recording(Name::Number(row.id), change));
+    let change = |out: &mut CommandOutbox, change: RecordingChange| {
+        out.request_work(recordings_jobs::change_recording(RowName::Number(row.id), change));
     };
     let key = |what: &str| Id::unique(("recording", row.id, what.to_owned()));
-    grid(ui, "recording", |ui| {
-        if let Some(name) = line(ui, seen, key("name"), words::NAME, &row.name) {
+    show_inspector_grid(ui, "recording", |ui| {
+        if let Some(name) = show_editable_line(ui, seen, key("name"), words::NAME, &row.name) {
             let name = Some(name);
             change(
                 out,
@@ -44,9 +47,9 @@ pub(super) fn recording(
             );
         }
         let signers = &seen.snapshot.overview.signers;
-        let candidates = |typed: &str| fitting(signers.iter().map(|it| it.name.as_str()), typed);
+        let candidates = |typed: &str| fitting_candidates(signers.iter().map(|signer| signer.name.as_str()), typed);
         let now = row.signer.clone().unwrap_or_default();
-        if let Some(name) = offered(ui, seen, key("signer"), words::SIGNER, &now, &candidates) {
+        if let Some(name) = show_line_with_completion(ui, seen, key("signer"), words::SIGNER, &now, &candidates) {
             let signer = Some(none_if_blank(name));
             change(
                 out,
@@ -57,7 +60,7 @@ pub(super) fn recording(
             );
         }
         let now = row.licence.clone().unwrap_or_default();
-        if let Some(text) = line(ui, seen, key("licence"), words::LICENCE, &now) {
+        if let Some(text) = show_editable_line(ui, seen, key("licence"), words::LICENCE, &now) {
             let licence = Some(none_if_blank(text));
             change(
                 out,
@@ -68,7 +71,7 @@ pub(super) fn recording(
             );
         }
         let now = row.notes.clone().unwrap_or_default();
-        if let Some(text) = notes(ui, seen, key("notes"), &now) {
+        if let Some(text) = show_editable_notes(ui, seen, key("notes"), &now) {
             let notes = Some(none_if_blank(text));
             change(
                 out,
@@ -79,17 +82,17 @@ pub(super) fn recording(
             );
         }
     });
-    let origin = |source: library::Source| seen.say(source.text()).to_owned();
-    lines(
+    let origin = |source: library::RecordingOrigin| seen.say_text(source.recording_origin_text()).to_owned();
+    show_inspector_lines(
         ui,
         seen,
         "recording more",
-        &data::recording_lines(glance, origin),
+        &inspector_data::recording_lines(glance, origin),
     );
     if let Some(recipe) = &glance.recipe {
-        ui.weak(seen.snapshot.named(recipe));
-        if ui.button(seen.say(words::OPEN_RECIPE)).clicked() {
-            out.send(Command::Recipe(recipe.clone(), Some(row.name.clone())));
+        ui.weak(seen.snapshot.name_tokens_in_text(recipe));
+        if ui.button(seen.say_text(words::OPEN_RECIPE)).clicked() {
+            out.send_command(WindowCommand::Recipe(recipe.clone(), Some(row.name.clone())));
         }
     }
 }
@@ -98,19 +101,14 @@ pub(super) fn none_if_blank(text: String) -> Option<String> {
     Some(text.trim().to_owned()).filter(|text| !text.is_empty())
 }
 
-pub(super) fn recording_more(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    it: &RecordingDetails,
-    out: &mut Outbox,
-) {
-    grid(ui, "recording file", |ui| {
+pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut CommandOutbox) {
+    show_inspector_grid(ui, "recording file", |ui| {
         if let Some(metres) = it.metres_per_unit {
-            name_and_value(ui, seen, words::UNITS, &data::metres(metres));
+            name_and_value(ui, seen, words::UNITS, &inspector_data::metres_text(metres));
         }
         if let Some(axes) = &it.axes {
             let axes = match axes.parse() {
-                Ok(axes) => people::axes(axes, seen.language),
+                Ok(axes) => import_people::axes_sentence(axes, seen.language),
                 Err(_) => axes.clone(),
             };
             name_and_value(ui, seen, words::AXES, &axes);
@@ -126,50 +124,52 @@ pub(super) fn recording_more(
             name_and_value(ui, seen, words::JOINTS, &it.joints.to_string());
         }
     });
-    tracks(ui, seen, it);
-    media(ui, seen, it, out);
+    show_recording_tracks(ui, seen, it);
+    show_recording_media(ui, seen, it, out);
     if it.roles.is_empty() {
         return;
     }
-    let text = fill(seen.say(words::ROLES), &[("n", &it.roles.len())]);
+    let text = fill_text_braces(seen.say_text(words::ROLES), &[("n", &it.roles.len())]);
     CollapsingHeader::new(RichText::new(text).small()).show(ui, |ui| {
-        grid(ui, "roles", |ui| {
+        show_inspector_grid(ui, "roles", |ui| {
             for (part, joint) in &it.roles {
-                ui.small(people::part(part, seen.language));
+                ui.small(import_people::body_part_name(part, seen.language));
                 ui.small(joint);
                 ui.end_row();
             }
         });
         if !it.missing.is_empty() {
-            let parts = it.missing.iter();
-            let parts: Vec<String> = parts.map(|it| people::part(it, seen.language)).collect();
+            let missing_parts = it.missing.iter();
+            let parts: Vec<String> = missing_parts
+                .map(|name| import_people::body_part_name(name, seen.language))
+                .collect();
             let what = parts.join(" · ");
-            ui.label(RichText::new(fill(seen.say(words::MISSING), &[("what", &what)])).small());
+            ui.label(RichText::new(fill_text_braces(seen.say_text(words::MISSING), &[("what", &what)])).small());
         }
     });
 }
 
 /// Shows the tracks of numbers, if there are any besides the body's movement.
-fn tracks(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
-    let moving = it.tracks.iter().filter(|it| it.kind != TrackKind::Media);
+fn show_recording_tracks(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
+    let moving = it.tracks.iter().filter(|track| track.kind != TrackKind::Media);
     let lines: Vec<(&str, String)> = moving
         .map(|track| {
             (
                 track.name.as_str(),
-                data::track(track, |text| seen.say(text).to_owned()),
+                inspector_data::track_description(track, |text| seen.say_text(text).to_owned()),
             )
         })
         .collect();
     if it
         .tracks
         .iter()
-        .all(|it| matches!(it.kind, TrackKind::Skeleton | TrackKind::Media))
+        .all(|track| matches!(track.kind, TrackKind::Skeleton | TrackKind::Media))
         && lines.len() < 2
     {
         return;
     }
-    ui.weak(seen.say(words::TRACKS));
-    grid(ui, "tracks", |ui| {
+    ui.weak(seen.say_text(words::TRACKS));
+    show_inspector_grid(ui, "tracks", |ui| {
         for (name, text) in &lines {
             ui.label(*name);
             ui.add(Label::new(RichText::new(text).small()).wrap());
@@ -179,51 +179,49 @@ fn tracks(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
 }
 
 /// Shows the media files of a recording: whether they exist, and how to link them.
-fn media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut Outbox) {
-    let change = |out: &mut Outbox, change: MediaChange| {
-        out.work(recordings::change_media(Name::Number(it.id), change));
+fn show_recording_media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut CommandOutbox) {
+    let change = |out: &mut CommandOutbox, change: MediaChange| {
+        out.request_work(recordings_jobs::change_media(RowName::Number(it.id), change));
     };
     for (at, place) in it.media.iter().enumerate() {
         let track = &place.track;
-        grid(ui, &format!("media {at}"), |ui| {
+        show_inspector_grid(ui, &format!("media {at}"), |ui| {
             let key = Id::unique(("media", track.id));
-            if let Some(url) = line(ui, seen, key, words::MEDIA, &track.url) {
+            if let Some(url) = show_editable_line(ui, seen, key, words::MEDIA, &track.url) {
                 change(out, MediaChange::Move(track.id, url));
             }
         });
-        let path = place.path.as_ref().map(|it| it.display().to_string());
+        let path = place.path.as_ref().map(|path| path.display().to_string());
         let (text, colour) = match (&path, place.is_there) {
-            (Some(_), true) => (words::MEDIA_THERE, seen.colours().good),
-            (Some(_), false) => (words::MEDIA_GONE, seen.colours().trouble),
+            (Some(_), true) => (words::MEDIA_THERE, seen.pane_colours().good),
+            (Some(_), false) => (words::MEDIA_GONE, seen.pane_colours().trouble),
             (None, _) => (words::MEDIA_ELSEWHERE, ui.visuals().weak_text_color()),
         };
-        let text = fill(seen.say(text), &[("path", &path.unwrap_or_default())]);
+        let text = fill_text_braces(seen.say_text(text), &[("path", &path.unwrap_or_default())]);
         ui.add(Label::new(RichText::new(text).small().color(colour)).wrap());
         ui.horizontal_wrapped(|ui| {
-            if ui.small_button(seen.say(words::MEDIA_FIND)).clicked() {
-                out.send(Command::Choose(Choose::Media(it.id, Some(track.id))));
+            if ui.small_button(seen.say_text(words::MEDIA_FIND)).clicked() {
+                out.send_command(WindowCommand::Choose(ChooserPurpose::Media(it.id, Some(track.id))));
             }
-            if ui.small_button(seen.say(words::MEDIA_REMOVE)).clicked() {
+            if ui.small_button(seen.say_text(words::MEDIA_REMOVE)).clicked() {
                 change(out, MediaChange::Remove(track.id));
             }
         });
     }
-    let hint = seen.say(words::MEDIA_HINT);
-    let add = ui
-        .small_button(seen.say(words::MEDIA_ADD))
-        .on_hover_text(hint);
+    let hint = seen.say_text(words::MEDIA_HINT);
+    let add = ui.small_button(seen.say_text(words::MEDIA_ADD)).on_hover_text(hint);
     if add.clicked() {
-        out.send(Command::Choose(Choose::Media(it.id, None)));
+        out.send_command(WindowCommand::Choose(ChooserPurpose::Media(it.id, None)));
     }
 }
 
-pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &mut Outbox) {
-    let change = |out: &mut Outbox, change: SignerChange| {
-        out.work(recordings::change_signer(Name::Number(row.id), change));
+pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &mut CommandOutbox) {
+    let change = |out: &mut CommandOutbox, change: SignerChange| {
+        out.request_work(recordings_jobs::change_signer(RowName::Number(row.id), change));
     };
-    grid(ui, "signer", |ui| {
+    show_inspector_grid(ui, "signer", |ui| {
         let key = Id::unique(("signer name", row.id));
-        if let Some(name) = line(ui, seen, key, words::NAME, &row.name) {
+        if let Some(name) = show_editable_line(ui, seen, key, words::NAME, &row.name) {
             let name = Some(name);
             change(
                 out,
@@ -238,12 +236,12 @@ pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &m
             (Some("right"), words::RIGHT),
             (Some("left"), words::LEFT),
         ]
-        .map(|(name, text)| (name.map(str::to_owned), seen.say(text).to_owned()))
+        .map(|(name, text)| (name.map(str::to_owned), seen.say_text(text).to_owned()))
         .into();
-        if let Some(hand) = choice(ui, seen, words::HANDEDNESS, &row.handedness, &all) {
+        if let Some(hand) = show_inspector_choice(ui, seen, words::HANDEDNESS, &row.handedness, &all) {
             let side = |name: String| match name.as_str() {
-                "left" => Side::Left,
-                _ => Side::Right,
+                "left" => BodySide::Left,
+                _ => BodySide::Right,
             };
             let handedness = Some(hand.map(side));
             change(
@@ -256,7 +254,7 @@ pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &m
         }
         let key = Id::unique(("signer notes", row.id));
         let now = row.notes.clone().unwrap_or_default();
-        if let Some(text) = notes(ui, seen, key, &now) {
+        if let Some(text) = show_editable_notes(ui, seen, key, &now) {
             let notes = Some(none_if_blank(text));
             change(
                 out,
@@ -269,36 +267,31 @@ pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &m
     });
 }
 
-pub(super) fn signer_more(
-    it: &mut Inspector,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    signer: &SignerDetails,
-) {
-    lines(ui, seen, "measures", &data::measures(signer));
+pub(super) fn signer_more(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, signer: &SignerDetails) {
+    show_inspector_lines(ui, seen, "measures", &inspector_data::body_measure_lines(signer));
     let n = signer.recordings.len();
-    let text = format!("{} ({n})", seen.say(words::RECORDINGS));
+    let text = format!("{} ({n})", seen.say_text(words::RECORDINGS));
     CollapsingHeader::new(RichText::new(text).small()).show(ui, |ui| {
         for recording in &signer.recordings {
-            link(it, ui, &recording.name, Thing::Recording(recording.id));
+            show_thing_link(it, ui, &recording.name, InspectedThing::Recording(recording.id));
         }
     });
 }
 
-pub(super) fn sign(
-    it: &mut Inspector,
+pub(super) fn show_sign_details(
+    it: &mut InspectorPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     sign: &SignDetails,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
-    title(ui, seen.say(words::SIGN), &sign.gloss);
-    let change = |out: &mut Outbox, change: SignChange| {
-        out.work(recordings::change_sign(Name::Number(sign.id), change));
+    show_part_title(ui, seen.say_text(words::SIGN), &sign.gloss);
+    let change = |out: &mut CommandOutbox, change: SignChange| {
+        out.request_work(recordings_jobs::change_sign(RowName::Number(sign.id), change));
     };
-    grid(ui, "sign", |ui| {
+    show_inspector_grid(ui, "sign", |ui| {
         let key = Id::unique(("sign gloss", sign.id));
-        if let Some(gloss) = line(ui, seen, key, words::GLOSS, &sign.gloss) {
+        if let Some(gloss) = show_editable_line(ui, seen, key, words::GLOSS, &sign.gloss) {
             let gloss = Some(gloss);
             change(
                 out,
@@ -310,7 +303,7 @@ pub(super) fn sign(
         }
         let key = Id::unique(("sign notes", sign.id));
         let now = sign.notes.clone().unwrap_or_default();
-        if let Some(text) = notes(ui, seen, key, &now) {
+        if let Some(text) = show_editable_notes(ui, seen, key, &now) {
             let notes = Some(none_if_blank(text));
             change(
                 out,
@@ -324,7 +317,7 @@ pub(super) fn sign(
             ui.weak(language);
             ui.horizontal(|ui| {
                 ui.label(text);
-                let tip = fill(seen.say(words::REMOVE), &[("what", text)]);
+                let tip = fill_text_braces(seen.say_text(words::REMOVE), &[("what", text)]);
                 if ui.small_button("×").on_hover_text(tip).clicked() {
                     let remove_texts = vec![(language.clone(), text.clone())];
                     change(
@@ -339,8 +332,8 @@ pub(super) fn sign(
             ui.end_row();
         }
         let key = Id::unique(("sign text", sign.id));
-        let language = seen.language.code();
-        if let Some(text) = line(ui, seen, key, words::TEXT_NEW, "") {
+        let language = seen.language.language_code();
+        if let Some(text) = show_editable_line(ui, seen, key, words::TEXT_NEW, "") {
             let add_texts = vec![(language.to_owned(), text)];
             change(
                 out,
@@ -352,51 +345,48 @@ pub(super) fn sign(
         }
     });
     ui.separator();
-    ui.weak(format!(
-        "{} ({})",
-        seen.say(words::TOKENS),
-        sign.tokens.len()
-    ));
+    ui.weak(format!("{} ({})", seen.say_text(words::TOKENS), sign.tokens.len()));
     for token in &sign.tokens {
         ui.horizontal_wrapped(|ui| {
             let place = match (&token.recording, token.start_us) {
                 (Some(name), Some(start)) => {
-                    format!("{name} · {}", time_text(Instant::from_micros(start)))
+                    format!("{name} · {}", time_text(RecordingInstant::from_micros(start)))
                 }
-                _ => seen.say(crate::words::search::LEXICON).to_owned(),
+                _ => seen.say_text(crate::words::search_words::LEXICON).to_owned(),
             };
-            link(it, ui, &place, Thing::Token(token.id));
+            show_thing_link(it, ui, &place, InspectedThing::Token(token.id));
             if token.citation {
-                ui.small(seen.say(words::CITATION));
+                ui.small(seen.say_text(words::CITATION));
             }
         });
     }
 }
 
-pub(super) fn value(
-    it: &mut Inspector,
+pub(super) fn show_inventory_value(
+    it: &mut InspectorPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     (inventory, id): (i64, &str),
     uses: u64,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     let stored = seen
         .snapshot
         .overview
         .inventories
         .iter()
-        .find(|it| it.id == inventory);
-    let Some((stored, value)) = stored.and_then(|it| Some((&it.inventory, it.inventory.get(id)?)))
+        .find(|stored_inventory| stored_inventory.id == inventory);
+    let Some((stored, value)) = stored
+        .and_then(|stored_inventory| Some((&stored_inventory.inventory, stored_inventory.inventory.value_by_id(id)?)))
     else {
         ui.label(id);
         return;
     };
-    title(ui, seen.say(words::INVENTORY_VALUE), id);
+    show_part_title(ui, seen.say_text(words::INVENTORY_VALUE), id);
     let (rect, _) = ui.allocate_exact_size(vec2(110.0, 110.0), Sense::hover());
-    crate::pickers::picture(ui, rect, seen, stored, id);
-    let code = seen.language.code();
-    grid(ui, "value", |ui| {
+    crate::pickers::paint_inventory_value(ui, rect, seen, stored, id);
+    let code = seen.language.language_code();
+    show_inspector_grid(ui, "value", |ui| {
         name_and_value(ui, seen, words::INVENTORY, &stored.id);
         if let Some(name) = value.names.get(code) {
             name_and_value(ui, seen, words::NAME, name);
@@ -405,8 +395,8 @@ pub(super) fn value(
             name_and_value(ui, seen, words::ALIASES, &value.aliases.join(", "));
         }
         if let Some(broader) = &value.broader {
-            ui.weak(seen.say(words::BROADER));
-            link(it, ui, broader, Thing::Value(inventory, broader.clone()));
+            ui.weak(seen.say_text(words::BROADER));
+            show_thing_link(it, ui, broader, InspectedThing::Value(inventory, broader.clone()));
             ui.end_row();
         }
         if !value.features.is_empty() {
@@ -419,12 +409,10 @@ pub(super) fn value(
         name_and_value(ui, seen, words::USES, &uses.to_string());
     });
     if let Some(text) = &value.hamnosys {
-        super::token::hamnosys(ui, seen, text);
+        super::inspector_token::show_hamnosys_notation(ui, seen, text);
     }
-    if uses > 0 && ui.button(seen.say(words::SEARCH_USES)).clicked() {
-        let field = stored.field().to_string();
-        out.send(Command::Find(crate::panes::search::with_value(
-            "", &field, id,
-        )));
+    if uses > 0 && ui.button(seen.say_text(words::SEARCH_USES)).clicked() {
+        let field = stored.inventory_field().to_string();
+        out.send_command(WindowCommand::Find(crate::panes::search::with_value("", &field, id)));
     }
 }

@@ -1,26 +1,26 @@
 //! The inspector: details of the selection, which can be edited if undo can restore them.
 
 mod about;
-pub(crate) mod data;
-mod edit;
-mod notation;
-mod tier;
-mod token;
-mod ui;
+pub(crate) mod inspector_data;
+mod inspector_edit;
+mod inspector_notation;
+mod inspector_tier;
+mod inspector_token;
+mod inspector_ui;
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::Details;
+use chereme_corpus::ObjectDetails;
 use eframe::egui::{ScrollArea, Ui};
 
-use super::Pane;
-use crate::context::{Outbox, PaneInput};
+use super::PaneInterface;
+use crate::context::{CommandOutbox, PaneInput};
 use crate::words::inspector as words;
-use crate::work::{Ended, Outcome, WorkId, recordings};
+use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};
 
 /// Something that the inspector can show.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Thing {
+pub(crate) enum InspectedThing {
     Token(i64),
     Sign(i64),
     Signer(i64),
@@ -30,29 +30,29 @@ pub(crate) enum Thing {
 }
 
 /// Row ids of the selected recording, tier and annotation.
-type Selected = (Option<i64>, Option<i64>, Option<i64>);
+type SelectedRowIds = (Option<i64>, Option<i64>, Option<i64>);
 
 /// The pane.
 #[derive(Default)]
-pub(crate) struct Inspector {
+pub(crate) struct InspectorPane {
     /// The subject, if it is not the selection; cleared when the selection changes.
-    turned: Option<Thing>,
-    selected: Selected,
+    turned: Option<InspectedThing>,
+    selected: SelectedRowIds,
     /// The corpus generation of `known`.
     generation: i64,
-    known: BTreeMap<Thing, Result<Details, String>>,
-    asked: BTreeMap<WorkId, Thing>,
+    known: BTreeMap<InspectedThing, Result<ObjectDetails, String>>,
+    asked: BTreeMap<WorkId, InspectedThing>,
 }
 
-impl Inspector {
+impl InspectorPane {
     /// Shows something until something else is selected.
-    pub(crate) fn turn_to(&mut self, thing: Thing) {
+    pub(crate) fn inspect_thing(&mut self, thing: InspectedThing) {
         self.turned = Some(thing);
     }
 
-    fn follow(&mut self, seen: &PaneInput<'_>) {
+    fn follow_inspected_selection(&mut self, seen: &PaneInput<'_>) {
         let shown = seen.shown;
-        let selected = (shown.recording, shown.tier, shown.annotation());
+        let selected = (shown.recording, shown.tier, shown.selected_annotation());
         if selected != self.selected {
             self.selected = selected;
             self.turned = None;
@@ -66,48 +66,52 @@ impl Inspector {
     }
 
     /// Returns the details of something, and requests them if they are missing.
-    fn details(&mut self, thing: &Thing, out: &mut Outbox) -> Option<Result<Details, String>> {
+    fn request_thing_details(
+        &mut self,
+        thing: &InspectedThing,
+        out: &mut CommandOutbox,
+    ) -> Option<Result<ObjectDetails, String>> {
         if let Some(known) = self.known.get(thing) {
             return Some(known.clone());
         }
         if !self.asked.values().any(|asked| asked == thing) {
-            let id = out.work(recordings::look(thing.clone()));
+            let id = out.request_work(recordings_jobs::look_up_details_job(thing.clone()));
             self.asked.insert(id, thing.clone());
         }
         None
     }
 }
 
-impl Pane for Inspector {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        self.follow(seen);
+impl PaneInterface for InspectorPane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        self.follow_inspected_selection(seen);
         if let Some(thing) = self.turned.clone() {
-            if ui.button(seen.say(words::BACK)).clicked() {
+            if ui.button(seen.say_text(words::BACK)).clicked() {
                 self.turned = None;
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                ui::thing(self, ui, seen, &thing, out);
+                inspector_ui::show_thing_details(self, ui, seen, &thing, out);
             });
             return;
         }
         if seen.shown.recording.is_none() {
-            ui.label(seen.say(words::NOTHING));
+            ui.label(seen.say_text(words::NOTHING));
             return;
         }
         ScrollArea::vertical()
             .auto_shrink(false)
-            .show(ui, |ui| ui::selected(self, ui, seen, out));
+            .show(ui, |ui| inspector_ui::show_selected_details(self, ui, seen, out));
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
         let Some(thing) = self.asked.remove(&id) else {
             return;
         };
-        let known = match ended {
-            Ok(Outcome::Looked(details)) => Ok(details.clone()),
+        let lookup_result = match ended {
+            Ok(WorkOutcome::Looked(details)) => Ok(details.clone()),
             Ok(_) => return,
             Err(error) => Err(error.to_string()),
         };
-        self.known.insert(thing, known);
+        self.known.insert(thing, lookup_result);
     }
 }

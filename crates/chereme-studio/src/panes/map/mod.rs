@@ -1,74 +1,74 @@
 //! The map: every coded sign as a point in a plane, with similar signs near each other.
 
-mod data;
+mod map_data;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::SignMap;
-use chereme_sign::Component;
+use chereme_sign::SignComponent;
 use eframe::egui::{
-    Align2, Checkbox, FontId, Label, Pos2, Rect, Response, RichText, Role, Sense, Stroke,
-    StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Checkbox, FontId, Label, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::Pane;
-use super::library::data::Moves;
-use super::notated::Notated;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::miniatures::{self, Cell, Motion};
-use crate::panes::inspector::Thing;
-use crate::words::{fill, inspector, map as words, spoken};
-use crate::work::{Ended, Outcome, WorkId, searching};
-use data::{Labels, View};
+use super::PaneInterface;
+use super::library::library_data::SignMovement;
+use super::notated_pane::AnimatedNotations;
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
+use crate::panes::inspector::InspectedThing;
+use crate::words::{fill_text_braces, inspector, map_words as words, translate_library_message};
+use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
+use map_data::{MapView, OccupiedLabels};
 
 /// The components that can place the signs, with their names.
-const COMPONENTS: [(Component, crate::words::Text); 4] = [
-    (Component::Configuration, inspector::CONFIGURATION),
-    (Component::Placement, inspector::PLACEMENT),
-    (Component::Movement, inspector::MOVEMENT),
-    (Component::Orientation, inspector::ORIENTATION),
+const PLACING_COMPONENTS: [(SignComponent, crate::words::InterfaceText); 4] = [
+    (SignComponent::Configuration, inspector::CONFIGURATION),
+    (SignComponent::Placement, inspector::PLACEMENT),
+    (SignComponent::Movement, inspector::MOVEMENT),
+    (SignComponent::Orientation, inspector::ORIENTATION),
 ];
 
 /// The side of a little figure, in points.
-const FIGURE: f32 = 84.0;
+const MAP_FIGURE_SIZE_POINTS: f32 = 84.0;
 /// The most little figures at once.
 const MOST_FIGURES: usize = 40;
 /// Signs with only a notation are animated if no more signs than this are in sight.
-const FEW: usize = 160;
+const MAX_ANIMATED_NOTATIONS: usize = 160;
 /// The number of signs in sight from which their points are small and faint.
-const DENSE: usize = 800;
+const DENSE_MAP_SIGN_COUNT: usize = 800;
 /// The most glosses.
 const MOST_NAMES: usize = 120;
 /// The distance in points within which the pointer selects a sign.
-const REACH: f32 = 14.0;
+const MAP_POINTER_REACH_POINTS: f32 = 14.0;
 
 /// The pane.
-pub(crate) struct Map {
-    /// For each of [`COMPONENTS`] whether it helps to place the signs.
+pub(crate) struct MapPane {
+    /// For each of [`PLACING_COMPONENTS`] whether it helps to place the signs.
     by: [bool; 4],
     asked: Option<WorkId>,
     map: Option<Arc<SignMap>>,
     wrong: Option<String>,
     /// The generation of the corpus and the components of the newest request.
     of: Option<(i64, [bool; 4])>,
-    view: View,
+    view: MapView,
     /// The view at the end of a flight.
-    towards: Option<View>,
+    towards: Option<MapView>,
     chosen: Option<usize>,
     /// The outline of a selection by dragging, drawn so far.
     lasso: Vec<Pos2>,
     /// The movement of the citation forms, by token, and the address of the overview that it comes from.
-    moving: (usize, BTreeMap<i64, Moves>),
-    notated: Notated,
+    moving: (usize, BTreeMap<i64, SignMovement>),
+    notated: AnimatedNotations,
     /// Computed maps by their components, each with its corpus generation.
     kept: BTreeMap<[bool; 4], (i64, Arc<SignMap>)>,
     /// The height of the lines below the plane in the frame before; narrow panes need several.
     foot_height: Option<f32>,
 }
 
-impl Default for Map {
+impl Default for MapPane {
     fn default() -> Self {
         Self {
             by: [true; 4],
@@ -76,106 +76,100 @@ impl Default for Map {
             map: None,
             wrong: None,
             of: None,
-            view: View::default(),
+            view: MapView::default(),
             towards: None,
             chosen: None,
             lasso: Vec::new(),
             moving: (0, BTreeMap::new()),
-            notated: Notated::default(),
+            notated: AnimatedNotations::default(),
             kept: BTreeMap::new(),
             foot_height: None,
         }
     }
 }
 
-impl Map {
+impl MapPane {
     /// Requests the map again if the corpus or the components changed.
-    fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn request_changed_map(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let of = Some((seen.snapshot.overview.generation, self.by));
         if self.of == of || seen.is_running(self.asked) {
             return;
         }
         self.of = of;
         let generation = seen.snapshot.overview.generation;
-        if let Some((_, map)) = self.kept.get(&self.by).filter(|it| it.0 == generation) {
+        if let Some((_, map)) = self.kept.get(&self.by).filter(|entry| entry.0 == generation) {
             (self.map, self.wrong, self.chosen) = (Some(map.clone()), None, None);
             return;
         }
-        let wanted = COMPONENTS.iter().zip(self.by).filter(|(_, on)| *on);
+        let wanted = PLACING_COMPONENTS.iter().zip(self.by).filter(|(_, on)| *on);
         let components = wanted.map(|((component, _), _)| *component).collect();
-        self.asked = Some(out.work(searching::map(components)));
+        self.asked = Some(out.request_work(searching::map_signs_job(components)));
     }
 
-    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+    fn show_map_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal_wrapped(|ui| {
-            ui.label(seen.say(words::BY));
-            for (at, (_, name)) in COMPONENTS.iter().enumerate() {
-                let others = self.by.iter().enumerate().any(|(it, on)| it != at && *on);
+            ui.label(seen.say_text(words::BY));
+            for (at, (_, name)) in PLACING_COMPONENTS.iter().enumerate() {
+                let others = self.by.iter().enumerate().any(|(index, on)| index != at && *on);
                 let only = self.by[at] && !others;
-                let tick = Checkbox::new(&mut self.by[at], seen.say(*name));
+                let tick = Checkbox::new(&mut self.by[at], seen.say_text(*name));
                 ui.add_enabled(!only, tick);
             }
-            if ui.button(seen.say(words::WHOLE)).clicked() {
-                self.towards = Some(View::default());
+            if ui.button(seen.say_text(words::WHOLE)).clicked() {
+                self.towards = Some(MapView::default());
             }
             if seen.is_running(self.asked) {
                 ui.spinner();
             } else if let Some(map) = &self.map {
-                let text = fill(seen.say(words::COUNT), &[("n", &map.signs.len())]);
+                let text = fill_text_braces(seen.say_text(words::COUNT), &[("n", &map.signs.len())]);
                 // Whole, in the next line if there is no room in this one.
-                let whole = |text: String| Label::new(RichText::new(text).weak()).extend();
-                ui.add(whole(text));
+                let unbroken_label = |text: String| Label::new(RichText::new(text).weak()).extend();
+                ui.add(unbroken_label(text));
                 if map.left_out > 0 {
-                    let text = fill(seen.say(words::LEFT_OUT), &[("n", &map.left_out)]);
-                    ui.add(whole(text));
+                    let text = fill_text_braces(seen.say_text(words::LEFT_OUT), &[("n", &map.left_out)]);
+                    ui.add(unbroken_label(text));
                 }
             }
         });
     }
 
-    fn plane(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut Outbox) {
+    fn show_map_plane(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut CommandOutbox) {
         let usual = ui.spacing().interact_size.y * 1.6;
         let foot = self.foot_height.unwrap_or(usual) + ui.spacing().item_spacing.y;
-        let size = vec2(
-            ui.available_width(),
-            (ui.available_height() - foot).max(120.0),
-        );
+        let size = vec2(ui.available_width(), (ui.available_height() - foot).max(120.0));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-        let name = fill(seen.say(words::COUNT), &[("n", &map.signs.len())]);
+        let name = fill_text_braces(seen.say_text(words::COUNT), &[("n", &map.signs.len())]);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
         self.look_around(ui, &response, rect);
         self.fly(ui);
-        ui.painter()
-            .rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
+        ui.painter().rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
         let painter = ui.painter().with_clip_rect(rect);
         let overview = Arc::as_ptr(&seen.snapshot.overview) as usize;
         if self.moving.0 != overview {
             let signs = seen.snapshot.overview.signs.iter();
-            let moving = signs.filter_map(|it| Some((it.citation?, Moves::of(it))));
+            let moving = signs.filter_map(|sign| Some((sign.citation?, SignMovement::movement_of_sign(sign))));
             self.moving = (overview, moving.collect());
         }
         let places: Vec<Pos2> = map
             .signs
             .iter()
-            .map(|it| self.view.shown(rect, pos2(it.x, it.y)))
+            .map(|sign| self.view.window_point_of(rect, pos2(sign.x, sign.y)))
             .collect();
-        let visible: Vec<usize> = (0..places.len())
-            .filter(|&at| rect.contains(places[at]))
-            .collect();
+        let visible: Vec<usize> = (0..places.len()).filter(|&at| rect.contains(places[at])).collect();
         let under = response.hover_pos().and_then(|pointer| {
             let near = visible.iter().map(|&at| (places[at].distance(pointer), at));
             let reach = if visible.len() <= MOST_FIGURES {
-                FIGURE / 2.0
+                MAP_FIGURE_SIZE_POINTS / 2.0
             } else {
-                REACH
+                MAP_POINTER_REACH_POINTS
             };
             near.filter(|(far, _)| *far < reach)
                 .min_by(|a, b| a.0.total_cmp(&b.0))
-                .map(|it| it.1)
+                .map(|pair| pair.1)
         });
-        let colours = seen.colours();
+        let colours = seen.pane_colours();
         if let Some(at) = under.or(self.chosen) {
-            for near in data::near(map, at) {
+            for near in map_data::most_similar_signs(map, at) {
                 painter.line_segment([places[at], places[near]], Stroke::new(1.0, colours.accent));
             }
         }
@@ -183,7 +177,7 @@ impl Map {
         marked.dedup();
         let others = visible.iter().copied().filter(|at| !marked.contains(at));
         let order: Vec<usize> = marked.iter().copied().chain(others).collect();
-        let shown = Shown {
+        let shown = VisibleSigns {
             map,
             places: &places,
             order: &order,
@@ -193,9 +187,9 @@ impl Map {
         let mut inside = ui.new_child(UiBuilder::new().max_rect(rect));
         inside.set_clip_rect(painter.clip_rect());
         let figures = self.figures(&inside, seen, out, &shown);
-        glosses(&inside, &shown, &figures);
+        draw_map_glosses(&inside, &shown, &figures);
         if visible.is_empty() && !map.signs.is_empty() {
-            let text = seen.say(words::NONE_IN_SIGHT);
+            let text = seen.say_text(words::NONE_IN_SIGHT);
             let colour = ui.visuals().weak_text_color();
             let font = FontId::proportional(13.0);
             painter.text(rect.center(), Align2::CENTER_CENTER, text, font, colour);
@@ -207,7 +201,7 @@ impl Map {
             painter.line_segment(ends, Stroke::new(1.0, colours.rule));
             for &at in visible
                 .iter()
-                .filter(|&&at| data::is_inside(&self.lasso, places[at]))
+                .filter(|&&at| map_data::is_inside_outline(&self.lasso, places[at]))
             {
                 painter.circle_stroke(places[at], 7.0, stroke);
             }
@@ -216,20 +210,20 @@ impl Map {
             let lasso = std::mem::take(&mut self.lasso);
             let inside = visible
                 .iter()
-                .filter(|&&at| data::is_inside(&lasso, places[at]));
-            if let Some(query) = data::query(inside.map(|&at| map.signs[at].gloss.as_str())) {
-                out.send(Command::Find(query));
+                .filter(|&&at| map_data::is_inside_outline(&lasso, places[at]));
+            if let Some(query) = map_data::glosses_query(inside.map(|&at| map.signs[at].gloss.as_str())) {
+                out.send_command(WindowCommand::Find(query));
             }
         }
         if response.clicked() {
             self.chosen = under;
             if let Some(at) = under {
                 let sign = &map.signs[at];
-                let places = map.signs.iter().map(|it| pos2(it.x, it.y));
+                let places = map.signs.iter().map(|other| pos2(other.x, other.y));
                 let few = MOST_FIGURES / 2;
-                let to = self.view.near(rect, pos2(sign.x, sign.y), places, few);
+                let to = self.view.view_near_place(rect, pos2(sign.x, sign.y), places, few);
                 self.towards = Some(to);
-                self.open(seen, map.signs[at].token, out);
+                self.open_map_sign(seen, map.signs[at].token, out);
             }
         }
     }
@@ -240,30 +234,30 @@ impl Map {
         &mut self,
         ui: &Ui,
         seen: &PaneInput<'_>,
-        out: &mut Outbox,
-        shown: &Shown<'_>,
+        out: &mut CommandOutbox,
+        shown: &VisibleSigns<'_>,
     ) -> BTreeMap<usize, Rect> {
         let mut rooms: BTreeMap<usize, Rect> = BTreeMap::new();
-        let accent = seen.colours().accent;
+        let accent = seen.pane_colours().accent;
         let weak = ui.visuals().weak_text_color();
         // Where many signs lie close together, their density is visible.
-        let (small, weak) = match shown.order.len() > DENSE {
+        let (small, weak) = match shown.order.len() > DENSE_MAP_SIGN_COUNT {
             true => (1.6, weak.gamma_multiply(0.6)),
             false => (2.5, weak),
         };
         for &at in shown.order {
             let (sign, place) = (&shown.map.signs[at], shown.places[at]);
             let marked = shown.marked.contains(&at);
-            let room = Rect::from_center_size(place, Vec2::splat(FIGURE));
-            let free = rooms.len() < MOST_FIGURES && rooms.values().all(|it| !it.intersects(room));
+            let room = Rect::from_center_size(place, Vec2::splat(MAP_FIGURE_SIZE_POINTS));
+            let free = rooms.len() < MOST_FIGURES && rooms.values().all(|other_room| !other_room.intersects(room));
             let moves = self.moving.1.get(&sign.token).copied().filter(|_| free);
             // Notated signs are animated one by one, so only if few are in sight.
-            let few = shown.order.len() <= FEW || marked;
+            let few = shown.order.len() <= MAX_ANIMATED_NOTATIONS || marked;
             let motion = match moves {
-                Some(Moves::Recorded(recording, span)) => Some(Motion::Span(recording, span)),
-                Some(Moves::Notated) if few => {
-                    let made = self.notated.get(sign.token, &sign.gloss, out);
-                    made.map(Motion::Made)
+                Some(SignMovement::Recorded(recording, span)) => Some(MiniatureMotion::Span(recording, span)),
+                Some(SignMovement::Notated) if few => {
+                    let made = self.notated.notated_clip(sign.token, &sign.gloss, out);
+                    made.map(MiniatureMotion::Made)
                 }
                 _ => None,
             };
@@ -273,8 +267,8 @@ impl Map {
                 continue;
             };
             rooms.insert(at, room);
-            let cell = Cell::new(motion, room.size()).playing(miniatures::clock(ui));
-            seen.little.paint(ui, seen, out, &cell, room);
+            let cell = MiniatureCell::new(motion, room.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
+            seen.little.paint_figure(ui, seen, out, &cell, room);
             if marked {
                 let stroke = Stroke::new(2.0, accent);
                 let painter = ui.painter();
@@ -288,7 +282,7 @@ impl Map {
     fn fly(&mut self, ui: &Ui) {
         let Some(to) = self.towards else { return };
         let passed = ui.input(|input| input.stable_dt).min(0.1);
-        if self.view.towards(to, passed) {
+        if self.view.move_towards_view(to, passed) {
             self.towards = None;
         }
         ui.ctx().request_repaint();
@@ -297,7 +291,7 @@ impl Map {
     /// Moves and zooms by drag, wheel and pinch; a drag with Shift selects the signs that it encloses.
     fn look_around(&mut self, ui: &Ui, response: &Response, rect: Rect) {
         let pointer = response.interact_pointer_pos();
-        if response.drag_started() && ui.input(|it| it.modifiers.shift) {
+        if response.drag_started() && ui.input(|input| input.modifiers.shift) {
             self.lasso = pointer.into_iter().collect();
         } else if response.dragged()
             && let (Some(at), Some(last)) = (pointer, self.lasso.last())
@@ -309,48 +303,48 @@ impl Map {
             self.towards = None;
         }
         if response.dragged() && self.lasso.is_empty() {
-            self.view.moved(rect, response.drag_delta());
+            self.view.move_map_by(rect, response.drag_delta());
         }
         let Some(pointer) = response.hover_pos() else {
             return;
         };
-        let (scroll, pinch) = ui.input(|it| (it.smooth_scroll_delta.y, it.zoom_delta()));
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
         let factor = pinch * (scroll / 200.0).exp();
         if (factor - 1.0).abs() > 1e-3 {
             self.towards = None;
-            self.view.zoomed(rect, pointer, factor);
+            self.view.zoom_map_at(rect, pointer, factor);
         }
     }
 
     /// Shows a sign on the stage, animated if it has only a notation; or its coding in the inspector if it has no
     /// movement.
-    fn open(&mut self, seen: &PaneInput<'_>, token: i64, out: &mut Outbox) {
+    fn open_map_sign(&mut self, seen: &PaneInput<'_>, token: i64, out: &mut CommandOutbox) {
         let signs = &seen.snapshot.overview.signs;
-        let Some(sign) = signs.iter().find(|it| it.citation == Some(token)) else {
-            return out.send(Command::Inspect(Thing::Token(token)));
+        let Some(sign) = signs.iter().find(|sign| sign.citation == Some(token)) else {
+            return out.send_command(WindowCommand::Inspect(InspectedThing::Token(token)));
         };
         self.notated
-            .choose(Moves::of(sign), (token, &sign.gloss), out);
+            .choose_notated_sign(SignMovement::movement_of_sign(sign), (token, &sign.gloss), out);
     }
 
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
-    pub(crate) fn show_made(&mut self, out: &mut Outbox) {
-        self.notated.show(out);
+    pub(crate) fn show_animated_map_sign(&mut self, out: &mut CommandOutbox) {
+        self.notated.show_opened_notation(out);
     }
 
     /// Shows the chosen sign and those most similar to it, as buttons.
-    fn foot(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut Outbox) {
+    fn foot(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut CommandOutbox) {
         let Some(chosen) = self.chosen.filter(|&at| at < map.signs.len()) else {
-            ui.weak(seen.say(words::HINT));
+            ui.weak(seen.say_text(words::HINT));
             return;
         };
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(&map.signs[chosen].gloss).strong());
-            ui.label(seen.say(words::ALIKE));
-            for at in data::near(map, chosen) {
+            ui.label(seen.say_text(words::ALIKE));
+            for at in map_data::most_similar_signs(map, chosen) {
                 if ui.link(&map.signs[at].gloss).clicked() {
                     self.chosen = Some(at);
-                    self.open(seen, map.signs[at].token, out);
+                    self.open_map_sign(seen, map.signs[at].token, out);
                 }
             }
         });
@@ -358,7 +352,7 @@ impl Map {
 }
 
 /// The signs in sight.
-struct Shown<'a> {
+struct VisibleSigns<'a> {
     map: &'a SignMap,
     /// The point of every sign of the map in the window.
     places: &'a [Pos2],
@@ -369,11 +363,11 @@ struct Shown<'a> {
 }
 
 /// Writes glosses below points and figures as far as there is room for them; they cover no figure.
-fn glosses(ui: &Ui, shown: &Shown<'_>, figures: &BTreeMap<usize, Rect>) {
+fn draw_map_glosses(ui: &Ui, shown: &VisibleSigns<'_>, figures: &BTreeMap<usize, Rect>) {
     let font = FontId::proportional(11.0);
-    let mut labels = Labels::default();
+    let mut labels = OccupiedLabels::default();
     for room in figures.values() {
-        labels.take(room.shrink(data::SQUARE));
+        labels.take_label_room(room.shrink(map_data::LABEL_SQUARE_SIDE));
     }
     // They stay readable on top of all points.
     let back = ui.visuals().extreme_bg_color.gamma_multiply(0.75);
@@ -384,7 +378,7 @@ fn glosses(ui: &Ui, shown: &Shown<'_>, figures: &BTreeMap<usize, Rect>) {
             break;
         }
         let below = if figures.contains_key(&at) {
-            FIGURE / 2.0
+            MAP_FIGURE_SIZE_POINTS / 2.0
         } else {
             4.0
         };
@@ -397,7 +391,7 @@ fn glosses(ui: &Ui, shown: &Shown<'_>, figures: &BTreeMap<usize, Rect>) {
         let galley = ui.painter().layout_no_wrap(gloss, font.clone(), text);
         let top = shown.places[at] + vec2(0.0, below);
         let room = Align2::CENTER_TOP.anchor_size(top, galley.size());
-        if labels.take(room) || marked {
+        if labels.take_label_room(room) || marked {
             let painter = ui.painter();
             painter.rect_filled(room.expand2(vec2(2.0, 0.0)), 2.0, back);
             painter.galley(room.min, galley, text);
@@ -406,35 +400,39 @@ fn glosses(ui: &Ui, shown: &Shown<'_>, figures: &BTreeMap<usize, Rect>) {
     }
 }
 
-impl Pane for Map {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        self.notated.follow(seen.snapshot.overview.generation);
-        self.follow(seen, out);
-        self.tools(ui, seen);
+impl PaneInterface for MapPane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        self.notated
+            .forget_animation_failures(seen.snapshot.overview.generation);
+        self.request_changed_map(seen, out);
+        self.show_map_tools(ui, seen);
         if let Some(wrong) = &self.wrong {
-            ui.weak(spoken(wrong, seen.language));
+            ui.weak(translate_library_message(wrong, seen.language));
         }
         let Some(map) = self.map.clone() else {
             return;
         };
-        self.plane(ui, seen, &map, out);
+        self.show_map_plane(ui, seen, &map, out);
         let top = ui.cursor().top();
         let foot = ui.scope(|ui| self.foot(ui, seen, &map, out));
         let height = foot.response.rect.bottom() - top;
-        if self.foot_height.is_none_or(|it| (it - height).abs() > 0.5) {
+        if self
+            .foot_height
+            .is_none_or(|old_height| (old_height - height).abs() > 0.5)
+        {
             self.foot_height = Some(height);
             ui.ctx().request_repaint();
         }
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
-        self.notated.hear(id, ended);
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        self.notated.receive_animation_result(id, ended);
         if self.asked.take_if(|asked| *asked == id).is_none() {
             return;
         }
         self.chosen = None;
         match ended {
-            Ok(Outcome::Mapped(map)) => {
+            Ok(WorkOutcome::Mapped(map)) => {
                 self.wrong = None;
                 self.map = Some(map.clone());
                 if let Some((generation, by)) = self.of {

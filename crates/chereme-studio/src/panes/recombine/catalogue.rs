@@ -1,63 +1,64 @@
 //! Every source and operator, with its title, its description, and an initial card.
 
 use chereme_corpus::recipe::{
-    Cue, Direction, Hands, Node, Notation, PhaseRule, Point, Spell, Spot, Step, Transition,
+    BodyDirection, CueSettings, HandChoice, NotationSettings, PhaseRule, PointSettings, PostureTransition, RecipeNode,
+    SigningSpot, SpellSettings, Step,
 };
 
-use super::stack::What;
-use crate::words::{Text, recombine as words};
+use super::stack::CardContent;
+use crate::words::{InterfaceText, recombine_words as words};
 
 /// Returns the title of each kind of source, with an empty one.
-pub(super) fn sources() -> [(Text, Node); 6] {
-    let notation = || Notation {
+pub(super) fn list_recipe_sources() -> [(InterfaceText, RecipeNode); 6] {
+    let notation = || NotationSettings {
         of: String::new(),
         language: None,
         on: None,
     };
     [
-        (words::SIGN, Node::Sign(String::new())),
+        (words::SIGN, RecipeNode::Sign(String::new())),
         (
             words::SPELL,
-            Node::Spell(Spell {
+            RecipeNode::Spell(SpellSettings {
                 word: String::new(),
-                hand: Hands::Dominant,
+                hand: HandChoice::Dominant,
                 alphabet: None,
                 hold: None,
-                via: Transition::default(),
+                via: PostureTransition::default(),
                 on: None,
             }),
         ),
         (
             words::POINT,
-            Node::Point(Point {
-                hand: Hands::Dominant,
-                at: Spot::Towards(vec![Direction::Left]),
+            RecipeNode::Point(PointSettings {
+                hand: HandChoice::Dominant,
+                at: SigningSpot::Towards(vec![BodyDirection::Left]),
                 with: None,
                 hold: None,
-                via: Transition::default(),
+                via: PostureTransition::default(),
                 on: None,
             }),
         ),
         (
             words::CUE,
-            Node::Cue(Cue {
+            RecipeNode::Cue(CueSettings {
                 text: String::new(),
                 phones: None,
                 code: None,
                 variants: Vec::new(),
-                hand: Hands::Dominant,
+                hand: HandChoice::Dominant,
                 phase: PhaseRule::default(),
                 pace: None,
                 on: None,
             }),
         ),
-        (words::HAMNOSYS, Node::Hamnosys(notation())),
-        (words::SIGML, Node::Sigml(notation())),
+        (words::HAMNOSYS, RecipeNode::Hamnosys(notation())),
+        (words::SIGML, RecipeNode::Sigml(notation())),
     ]
 }
 
 /// Returns the title and the description of each operator, with an initial one.
-pub(super) fn operators() -> Vec<(Text, Text, Step)> {
+pub(super) fn list_recipe_operators() -> Vec<(InterfaceText, InterfaceText, Step)> {
     let described = |step: Step| {
         let words = step.description();
         (words.title, words.hint, step)
@@ -66,17 +67,17 @@ pub(super) fn operators() -> Vec<(Text, Text, Step)> {
 }
 
 /// Returns the title of a card.
-pub(super) fn title(what: &What) -> Text {
+pub(super) fn card_content_title(what: &CardContent) -> InterfaceText {
     match what {
-        What::Source { node, .. } => match node {
-            Node::Sign(_) => words::SIGN,
-            Node::Spell(_) => words::SPELL,
-            Node::Point(_) => words::POINT,
-            Node::Cue(_) => words::CUE,
-            Node::Hamnosys(_) => words::HAMNOSYS,
-            Node::Sigml(_) => words::SIGML,
-            Node::Pipe(_) | Node::Then(_) => words::TEXT,
+        CardContent::Source { node, .. } => match node {
+            RecipeNode::Sign(_) => words::SIGN,
+            RecipeNode::Spell(_) => words::SPELL,
+            RecipeNode::Point(_) => words::POINT,
+            RecipeNode::Cue(_) => words::CUE,
+            RecipeNode::Hamnosys(_) => words::HAMNOSYS,
+            RecipeNode::Sigml(_) => words::SIGML,
+            RecipeNode::Pipe(_) | RecipeNode::Then(_) => words::TEXT,
         },
-        What::Step(step) => step.description().title,
+        CardContent::Step(step) => step.description().title,
     }
 }

@@ -1,17 +1,17 @@
 //! Widgets for the settings of operators with several settings.
 
 use chereme_corpus::recipe::{
-    Choice, Configure, Degrees, Direction, Factor, Goal, HandPoint, Length, Orient, Pace, Place,
-    Retime, Seconds, Turn,
+    AxisTurn, BodyDirection, ConfigureSettings, OrientSettings, PlaceSettings, PlacementGoal, RecipeDegrees,
+    RecipeFactor, RecipeHandPoint, RecipeLength, RecipeSeconds, RetimePace, RetimeSettings, ValueChoice,
 };
-use chereme_sign::Component;
+use chereme_sign::SignComponent;
 use eframe::egui::{Id, Ui};
 
-use super::fields::{self, caption, choose};
-use super::settings::{At, line, transition};
-use super::{path, spots};
+use super::recombine_fields::{self, show_field_caption, show_value_choice};
+use super::recombine_settings::{SettingsCard, show_card_transition, show_recipe_text_line};
+use super::{recombine_path, spots};
 use crate::context::PaneInput;
-use crate::words::recombine as words;
+use crate::words::recombine_words as words;
 
 #[derive(Clone, Copy, PartialEq)]
 enum ChoiceKind {
@@ -21,42 +21,47 @@ enum ChoiceKind {
     Best,
 }
 
-fn choice(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, value: &mut Choice) -> bool {
+fn show_configuration_choice(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, value: &mut ValueChoice) -> bool {
     let mut kind = match value {
-        Choice::Value(_) => ChoiceKind::Value,
-        Choice::From(_) => ChoiceKind::From,
-        Choice::Keep => ChoiceKind::Keep,
-        Choice::Best(_) => ChoiceKind::Best,
+        ValueChoice::Value(_) => ChoiceKind::Value,
+        ValueChoice::From(_) => ChoiceKind::From,
+        ValueChoice::Keep => ChoiceKind::Keep,
+        ValueChoice::Best(_) => ChoiceKind::Best,
     };
     let all = [
-        (ChoiceKind::Value, seen.say(words::CHOICE_VALUE)),
-        (ChoiceKind::From, seen.say(words::FROM_SIGN)),
-        (ChoiceKind::Best, seen.say(words::CHOICE_BEST)),
-        (ChoiceKind::Keep, seen.say(words::CHOICE_KEEP)),
+        (ChoiceKind::Value, seen.say_text(words::CHOICE_VALUE)),
+        (ChoiceKind::From, seen.say_text(words::FROM_SIGN)),
+        (ChoiceKind::Best, seen.say_text(words::CHOICE_BEST)),
+        (ChoiceKind::Keep, seen.say_text(words::CHOICE_KEEP)),
     ];
-    let mut changed = choose(ui, seen.say(words::WHERE_FROM), &mut kind, &all);
+    let mut changed = show_value_choice(ui, seen.say_text(words::WHERE_FROM), &mut kind, &all);
     if changed {
         *value = match kind {
-            ChoiceKind::Value => Choice::Value(String::new()),
-            ChoiceKind::From => Choice::From(String::new()),
-            ChoiceKind::Best => Choice::Best("configuration=U signer=same".into()),
-            ChoiceKind::Keep => Choice::Keep,
+            ChoiceKind::Value => ValueChoice::Value(String::new()),
+            ChoiceKind::From => ValueChoice::From(String::new()),
+            ChoiceKind::Best => ValueChoice::Best("configuration=U signer=same".into()),
+            ChoiceKind::Keep => ValueChoice::Keep,
         };
     }
     match value {
-        Choice::Value(text) => {
-            changed |= fields::of_inventory(ui, seen, id, Component::Configuration, text);
+        ValueChoice::Value(text) => {
+            changed |= recombine_fields::of_inventory(ui, seen, id, SignComponent::Configuration, text);
         }
-        Choice::From(text) => {
-            changed |= fields::sign(ui, seen, id, seen.say(words::FROM_SIGN), text);
+        ValueChoice::From(text) => {
+            changed |= recombine_fields::show_sign_field(ui, seen, id, seen.say_text(words::FROM_SIGN), text);
         }
-        Choice::Best(text) => changed |= line(ui, seen.say(words::CHOICE_BEST), "", text),
-        Choice::Keep => {}
+        ValueChoice::Best(text) => changed |= show_recipe_text_line(ui, seen.say_text(words::CHOICE_BEST), "", text),
+        ValueChoice::Keep => {}
     }
     changed
 }
 
-pub(super) fn configure(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Configure) -> bool {
+pub(super) fn show_configure_settings(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    at: SettingsCard,
+    it: &mut ConfigureSettings,
+) -> bool {
     let mut changed = false;
     let mut gone = None;
     let several = it.values.len() > 1;
@@ -64,16 +69,16 @@ pub(super) fn configure(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Conf
         ui.push_id(nth, |ui| {
             ui.horizontal_wrapped(|ui| {
                 if nth == 0 {
-                    changed |= fields::hands(ui, seen, &mut it.hand, true);
+                    changed |= recombine_fields::show_hands_choice(ui, seen, &mut it.hand, true);
                 }
                 if several {
                     ui.weak(format!("{}.", nth + 1));
                 }
-                changed |= choice(ui, seen, at.id.with(nth), value);
+                changed |= show_configuration_choice(ui, seen, at.id.with(nth), value);
                 if several
                     && ui
                         .small_button("×")
-                        .on_hover_text(seen.say(words::REMOVE))
+                        .on_hover_text(seen.say_text(words::REMOVE))
                         .clicked()
                 {
                     gone = Some(nth);
@@ -86,19 +91,16 @@ pub(super) fn configure(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Conf
         changed = true;
     }
     if !at.whole {
-        return changed | transition(ui, seen, at, &mut it.via);
+        return changed | show_card_transition(ui, seen, at, &mut it.via);
     }
     ui.horizontal_wrapped(|ui| {
-        let more = ui.small_button(seen.say(words::ANOTHER_SHAPE));
-        if more
-            .on_hover_text(seen.say(words::ANOTHER_SHAPE_TIP))
-            .clicked()
-        {
-            it.values.push(Choice::Keep);
+        let more = ui.small_button(seen.say_text(words::ANOTHER_SHAPE));
+        if more.on_hover_text(seen.say_text(words::ANOTHER_SHAPE_TIP)).clicked() {
+            it.values.push(ValueChoice::Keep);
             changed = true;
         }
     });
-    changed | transition(ui, seen, at, &mut it.via)
+    changed | show_card_transition(ui, seen, at, &mut it.via)
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -109,28 +111,28 @@ enum GoalKind {
     Near,
 }
 
-pub(super) fn place(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Place) -> bool {
+pub(super) fn show_place_settings(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, it: &mut PlaceSettings) -> bool {
     let mut kind = match it.to {
-        Goal::By(_) => GoalKind::By,
-        Goal::At(_) | Goal::Best(_) => GoalKind::At,
-        Goal::AtPoint(_) => GoalKind::Point,
-        Goal::Near { .. } => GoalKind::Near,
+        PlacementGoal::By(_) => GoalKind::By,
+        PlacementGoal::At(_) | PlacementGoal::Best(_) => GoalKind::At,
+        PlacementGoal::AtPoint(_) => GoalKind::Point,
+        PlacementGoal::Near { .. } => GoalKind::Near,
     };
     let all = [
-        (GoalKind::By, seen.say(words::GOAL_BY)),
-        (GoalKind::At, seen.say(words::SPOT_VALUE)),
-        (GoalKind::Point, seen.say(words::SPOT_POINT)),
-        (GoalKind::Near, seen.say(words::GOAL_NEAR)),
+        (GoalKind::By, seen.say_text(words::GOAL_BY)),
+        (GoalKind::At, seen.say_text(words::SPOT_VALUE)),
+        (GoalKind::Point, seen.say_text(words::SPOT_POINT)),
+        (GoalKind::Near, seen.say_text(words::GOAL_NEAR)),
     ];
     let mut changed = false;
     ui.horizontal_wrapped(|ui| {
-        changed |= fields::hands(ui, seen, &mut it.hand, true);
-        if choose(ui, seen.say(words::WHERE_TO), &mut kind, &all) {
+        changed |= recombine_fields::show_hands_choice(ui, seen, &mut it.hand, true);
+        if show_value_choice(ui, seen.say_text(words::WHERE_TO), &mut kind, &all) {
             it.to = match kind {
-                GoalKind::By => Goal::By(path::legs_of([0.0, 0.1, 0.0])),
-                GoalKind::At => Goal::At(String::new()),
-                GoalKind::Point => Goal::AtPoint([0.0, 1.2, 0.4].map(Length::Metres)),
-                GoalKind::Near => Goal::Near {
+                GoalKind::By => PlacementGoal::By(recombine_path::legs_of([0.0, 0.1, 0.0])),
+                GoalKind::At => PlacementGoal::At(String::new()),
+                GoalKind::Point => PlacementGoal::AtPoint([0.0, 1.2, 0.4].map(RecipeLength::Metres)),
+                GoalKind::Near => PlacementGoal::Near {
                     of: String::new(),
                     by: Vec::new(),
                 },
@@ -139,34 +141,34 @@ pub(super) fn place(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Place) -
         }
     });
     match &mut it.to {
-        Goal::By(legs) => changed |= path::offset(ui, seen, legs),
-        Goal::At(text) => {
-            changed |= fields::of_inventory(ui, seen, at.id, Component::Placement, text);
+        PlacementGoal::By(legs) => changed |= recombine_path::show_offset_field(ui, seen, legs),
+        PlacementGoal::At(text) => {
+            changed |= recombine_fields::of_inventory(ui, seen, at.id, SignComponent::Placement, text);
         }
-        Goal::AtPoint(point) => changed |= spots::point(ui, seen, point),
-        Goal::Near { of, by } => {
-            changed |= fields::sign(ui, seen, at.id, seen.say(words::FROM_SIGN), of);
-            changed |= path::offset(ui, seen, by);
+        PlacementGoal::AtPoint(point) => changed |= spots::show_point_field(ui, seen, point),
+        PlacementGoal::Near { of, by } => {
+            changed |= recombine_fields::show_sign_field(ui, seen, at.id, seen.say_text(words::FROM_SIGN), of);
+            changed |= recombine_path::show_offset_field(ui, seen, by);
         }
-        Goal::Best(_) => {}
+        PlacementGoal::Best(_) => {}
     }
-    if matches!(it.to, Goal::By(_)) || !(at.whole || it.with.is_some()) {
+    if matches!(it.to, PlacementGoal::By(_)) || !(at.whole || it.with.is_some()) {
         return changed;
     }
     ui.horizontal_wrapped(|ui| {
-        caption(ui, seen, words::WITH);
-        let points = [
+        show_field_caption(ui, seen, words::WITH);
+        let point_texts = [
             (None, words::PALM),
-            (Some(HandPoint::Wrist), words::WRIST),
-            (Some(HandPoint::Thumb), words::THUMB),
-            (Some(HandPoint::Index), words::INDEX),
-            (Some(HandPoint::Middle), words::MIDDLE),
-            (Some(HandPoint::Ring), words::RING),
-            (Some(HandPoint::Little), words::LITTLE),
+            (Some(RecipeHandPoint::Wrist), words::WRIST),
+            (Some(RecipeHandPoint::Thumb), words::THUMB),
+            (Some(RecipeHandPoint::Index), words::INDEX),
+            (Some(RecipeHandPoint::Middle), words::MIDDLE),
+            (Some(RecipeHandPoint::Ring), words::RING),
+            (Some(RecipeHandPoint::Little), words::LITTLE),
         ];
-        let points = points.map(|(point, text)| (point, seen.say(text)));
-        let mut with = it.with.filter(|it| *it != HandPoint::Palm);
-        if choose(ui, seen.say(words::WITH), &mut with, &points) {
+        let points = point_texts.map(|(point, text)| (point, seen.say_text(text)));
+        let mut with = it.with.filter(|point| *point != RecipeHandPoint::Palm);
+        if show_value_choice(ui, seen.say_text(words::WITH), &mut with, &points) {
             it.with = with;
             changed = true;
         }
@@ -174,17 +176,14 @@ pub(super) fn place(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Place) -
     changed
 }
 
-pub(super) fn orient(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Orient) -> bool {
+pub(super) fn show_orient_settings(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut OrientSettings) -> bool {
     let mut changed = false;
-    ui.horizontal_wrapped(|ui| changed |= fields::hands(ui, seen, &mut it.hand, true));
-    for (text, value) in [
-        (words::PALM, &mut it.palm),
-        (words::FINGERS, &mut it.fingers),
-    ] {
-        caption(ui, seen, text);
+    ui.horizontal_wrapped(|ui| changed |= recombine_fields::show_hands_choice(ui, seen, &mut it.hand, true));
+    for (text, value) in [(words::PALM, &mut it.palm), (words::FINGERS, &mut it.fingers)] {
+        show_field_caption(ui, seen, text);
         changed |= ui
             .push_id(text.en, |ui| {
-                fields::directions(ui, seen, seen.say(text), value)
+                recombine_fields::show_direction_switches(ui, seen, seen.say_text(text), value)
             })
             .inner;
     }
@@ -192,14 +191,16 @@ pub(super) fn orient(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Orient) -> bool
     for (at, turn) in it.by.iter_mut().enumerate() {
         ui.push_id(at, |ui| {
             ui.horizontal_wrapped(|ui| {
-                let Degrees(angle) = &mut turn.angle;
-                changed |= fields::slide(ui, seen.say(words::TURN), angle, -180.0..=180.0, "°");
-                caption(ui, seen, words::ABOUT);
-                let all = Direction::ALL.map(|it| (it, seen.say(fields::direction_text(it))));
-                changed |= choose(ui, seen.say(words::ABOUT), &mut turn.about, &all);
+                let RecipeDegrees(angle) = &mut turn.angle;
+                changed |=
+                    recombine_fields::show_number_slider(ui, seen.say_text(words::TURN), angle, -180.0..=180.0, "°");
+                show_field_caption(ui, seen, words::ABOUT);
+                let all = BodyDirection::ALL_BODY_DIRECTIONS
+                    .map(|direction| (direction, seen.say_text(recombine_fields::direction_text(direction))));
+                changed |= show_value_choice(ui, seen.say_text(words::ABOUT), &mut turn.about, &all);
                 if ui
                     .small_button("×")
-                    .on_hover_text(seen.say(words::REMOVE))
+                    .on_hover_text(seen.say_text(words::REMOVE))
                     .clicked()
                 {
                     gone = Some(at);
@@ -211,21 +212,21 @@ pub(super) fn orient(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Orient) -> bool
         it.by.remove(at);
         changed = true;
     }
-    if ui.small_button(seen.say(words::ADD_TURN)).clicked() {
-        let (angle, about) = (Degrees(30.0), Direction::Up);
-        it.by.push(Turn { angle, about });
+    if ui.small_button(seen.say_text(words::ADD_TURN)).clicked() {
+        let (angle, about) = (RecipeDegrees(30.0), BodyDirection::Up);
+        it.by.push(AxisTurn { angle, about });
         changed = true;
     }
     changed
 }
 
-pub(super) fn retime(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Retime) -> bool {
+pub(super) fn show_retime_settings(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut RetimeSettings) -> bool {
     let mut changed = false;
     let mut gone = None;
     let several = it.paces.len() > 1;
     let kinds = [
-        (false, seen.say(words::PACE_TIMES)),
-        (true, seen.say(words::PACE_TO)),
+        (false, seen.say_text(words::PACE_TIMES)),
+        (true, seen.say_text(words::PACE_TO)),
     ];
     for (at, pace) in it.paces.iter_mut().enumerate() {
         ui.push_id(at, |ui| {
@@ -233,24 +234,28 @@ pub(super) fn retime(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Retime) -> bool
                 if several {
                     ui.weak(format!("{}.", at + 1));
                 }
-                let mut to = matches!(pace, Pace::To(_));
-                if choose(ui, seen.say(words::PACE), &mut to, &kinds) {
+                let mut to = matches!(pace, RetimePace::To(_));
+                if show_value_choice(ui, seen.say_text(words::PACE), &mut to, &kinds) {
                     *pace = if to {
-                        Pace::To(Seconds(1.0))
+                        RetimePace::To(RecipeSeconds(1.0))
                     } else {
-                        Pace::Times(Factor(1.5))
+                        RetimePace::Times(RecipeFactor(1.5))
                     };
                     changed = true;
                 }
-                let name = seen.say(words::PACE);
+                let name = seen.say_text(words::PACE);
                 changed |= match pace {
-                    Pace::Times(Factor(by)) => fields::slide(ui, name, by, 0.25..=4.0, "×"),
-                    Pace::To(Seconds(to)) => fields::slide(ui, name, to, 0.1..=5.0, " s"),
+                    RetimePace::Times(RecipeFactor(by)) => {
+                        recombine_fields::show_number_slider(ui, name, by, 0.25..=4.0, "×")
+                    }
+                    RetimePace::To(RecipeSeconds(to)) => {
+                        recombine_fields::show_number_slider(ui, name, to, 0.1..=5.0, " s")
+                    }
                 };
                 if several
                     && ui
                         .small_button("×")
-                        .on_hover_text(seen.say(words::REMOVE))
+                        .on_hover_text(seen.say_text(words::REMOVE))
                         .clicked()
                 {
                     gone = Some(at);
@@ -262,12 +267,9 @@ pub(super) fn retime(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Retime) -> bool
         it.paces.remove(at);
         changed = true;
     }
-    let more = ui.small_button(seen.say(words::ANOTHER_PHASE));
-    if more
-        .on_hover_text(seen.say(words::ANOTHER_PHASE_TIP))
-        .clicked()
-    {
-        it.paces.push(Pace::Times(Factor(1.0)));
+    let more = ui.small_button(seen.say_text(words::ANOTHER_PHASE));
+    if more.on_hover_text(seen.say_text(words::ANOTHER_PHASE_TIP)).clicked() {
+        it.paces.push(RetimePace::Times(RecipeFactor(1.0)));
         changed = true;
     }
     changed

@@ -1,15 +1,15 @@
 //! Widgets for places in the signing space: points, and everything that a recipe can name as a place.
 
-use chereme_corpus::recipe::{Direction, Length, Spot};
-use chereme_sign::Component;
+use chereme_corpus::recipe::{BodyDirection, RecipeLength, SigningSpot};
+use chereme_sign::SignComponent;
 use eframe::egui::{Id, Ui};
 
-use super::fields;
+use super::recombine_fields;
 use crate::context::PaneInput;
-use crate::words::{Text, recombine as words};
+use crate::words::{InterfaceText, recombine_words as words};
 
 /// Shows a point as three lengths: to the left, up from the floor, forward.
-pub(super) fn point(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut [Length; 3]) -> bool {
+pub(super) fn show_point_field(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut [RecipeLength; 3]) -> bool {
     let rows = [
         (words::TO_THE_LEFT, -80.0..=80.0),
         (words::ABOVE_FLOOR, 0.0..=220.0),
@@ -18,18 +18,19 @@ pub(super) fn point(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut [Length; 3]) 
     let mut changed = false;
     for (axis, (text, range)) in value.iter_mut().zip(rows) {
         ui.horizontal(|ui| {
-            fields::caption(ui, seen, text);
+            recombine_fields::show_field_caption(ui, seen, text);
             match axis {
-                Length::Metres(metres) => {
-                    let mut cm = fields::tidy(*metres * 100.0);
-                    if fields::slide(ui, seen.say(text), &mut cm, range, " cm") {
+                RecipeLength::Metres(metres) => {
+                    let mut cm = recombine_fields::round_shown_number(*metres * 100.0);
+                    if recombine_fields::show_number_slider(ui, seen.say_text(text), &mut cm, range, " cm") {
                         *metres = cm / 100.0;
                         changed = true;
                     }
                 }
-                Length::Arm(share) => {
-                    let mut percent = fields::tidy(*share * 100.0);
-                    if fields::slide(ui, seen.say(text), &mut percent, -300.0..=300.0, " %") {
+                RecipeLength::Arm(share) => {
+                    let mut percent = recombine_fields::round_shown_number(*share * 100.0);
+                    if recombine_fields::show_number_slider(ui, seen.say_text(text), &mut percent, -300.0..=300.0, " %")
+                    {
                         *share = percent / 100.0;
                         changed = true;
                     }
@@ -50,44 +51,38 @@ enum SpotKind {
 }
 
 /// Shows a place in the signing space.
-pub(super) fn spot(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    id: Id,
-    name: &str,
-    value: &mut Spot,
-) -> bool {
+pub(super) fn show_spot_field(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, name: &str, value: &mut SigningSpot) -> bool {
     let mut kind = match value {
-        Spot::Me => SpotKind::Me,
-        Spot::You => SpotKind::You,
-        Spot::Towards(_) => SpotKind::Towards,
-        Spot::Value(_) => SpotKind::Value,
-        Spot::Point(_) => SpotKind::Point,
+        SigningSpot::Me => SpotKind::Me,
+        SigningSpot::You => SpotKind::You,
+        SigningSpot::Towards(_) => SpotKind::Towards,
+        SigningSpot::Value(_) => SpotKind::Value,
+        SigningSpot::Point(_) => SpotKind::Point,
     };
     let all = [
-        (SpotKind::Me, seen.say(words::SPOT_ME)),
-        (SpotKind::You, seen.say(words::SPOT_YOU)),
-        (SpotKind::Towards, seen.say(words::SPOT_TOWARDS)),
-        (SpotKind::Value, seen.say(words::SPOT_VALUE)),
-        (SpotKind::Point, seen.say(words::SPOT_POINT)),
+        (SpotKind::Me, seen.say_text(words::SPOT_ME)),
+        (SpotKind::You, seen.say_text(words::SPOT_YOU)),
+        (SpotKind::Towards, seen.say_text(words::SPOT_TOWARDS)),
+        (SpotKind::Value, seen.say_text(words::SPOT_VALUE)),
+        (SpotKind::Point, seen.say_text(words::SPOT_POINT)),
     ];
-    let mut changed = fields::choose(ui, name, &mut kind, &all);
+    let mut changed = recombine_fields::show_value_choice(ui, name, &mut kind, &all);
     if changed {
         *value = match kind {
-            SpotKind::Me => Spot::Me,
-            SpotKind::You => Spot::You,
-            SpotKind::Towards => Spot::Towards(vec![Direction::Left]),
-            SpotKind::Value => Spot::Value(String::new()),
-            SpotKind::Point => Spot::Point([0.3, 1.4, 0.5].map(Length::Metres)),
+            SpotKind::Me => SigningSpot::Me,
+            SpotKind::You => SigningSpot::You,
+            SpotKind::Towards => SigningSpot::Towards(vec![BodyDirection::Left]),
+            SpotKind::Value => SigningSpot::Value(String::new()),
+            SpotKind::Point => SigningSpot::Point([0.3, 1.4, 0.5].map(RecipeLength::Metres)),
         };
     }
     match value {
-        Spot::Towards(all) => changed |= fields::directions(ui, seen, name, all),
-        Spot::Value(text) => {
-            changed |= fields::of_inventory(ui, seen, id, Component::Placement, text)
+        SigningSpot::Towards(all) => changed |= recombine_fields::show_direction_switches(ui, seen, name, all),
+        SigningSpot::Value(text) => {
+            changed |= recombine_fields::of_inventory(ui, seen, id, SignComponent::Placement, text)
         }
-        Spot::Point(at) => changed |= point(ui, seen, at),
-        Spot::Me | Spot::You => {}
+        SigningSpot::Point(at) => changed |= show_point_field(ui, seen, at),
+        SigningSpot::Me | SigningSpot::You => {}
     }
     changed
 }
@@ -97,17 +92,17 @@ pub(super) fn optional_spot(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     id: Id,
-    text: Text,
-    value: &mut Option<Spot>,
+    text: InterfaceText,
+    value: &mut Option<SigningSpot>,
 ) -> bool {
     let row = ui.horizontal_wrapped(|ui| {
-        let mut said = value.is_some();
-        let mut changed = ui.checkbox(&mut said, seen.say(text)).changed();
+        let mut is_set = value.is_some();
+        let mut changed = ui.checkbox(&mut is_set, seen.say_text(text)).changed();
         if changed {
-            *value = said.then_some(Spot::Me);
+            *value = is_set.then_some(SigningSpot::Me);
         }
         if let Some(value) = value {
-            changed |= spot(ui, seen, id, seen.say(text), value);
+            changed |= show_spot_field(ui, seen, id, seen.say_text(text), value);
         }
         changed
     });

@@ -6,18 +6,19 @@
 use std::collections::BTreeMap;
 
 use chereme_corpus::recipe::{
-    Choice, Joined, Node, Pipe, Recipe, RecipeError, Spot, Step, Then, Transition,
+    JoinedPiece, OperatorPipe, PostureTransition, Recipe, RecipeChain, RecipeError, RecipeNode, SigningSpot, Step,
+    ValueChoice,
 };
 
 /// The contents of a card.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum What {
+pub(crate) enum CardContent {
     /// A source of movement; the operators up to the next source apply to it.
     Source {
         /// The transition from the movement before; ignored for the first source.
-        via: Transition,
+        via: PostureTransition,
         /// A sign, spelling, pointing, notation, or an utterance in parentheses.
-        node: Node,
+        node: RecipeNode,
     },
     /// An operator.
     Step(Step),
@@ -25,25 +26,25 @@ pub(crate) enum What {
 
 /// A card of the stack.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Card {
+pub(crate) struct RecipeCard {
     /// Its id, which stays the same when the card moves.
     pub(crate) id: u64,
     /// Whether it is switched on.
     pub(crate) on: bool,
-    pub(crate) what: What,
+    pub(crate) what: CardContent,
 }
 
 /// The cards; the first is a source.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Stack {
-    cards: Vec<Card>,
+pub(crate) struct CardStack {
+    cards: Vec<RecipeCard>,
     next: u64,
 }
 
-impl What {
+impl CardContent {
     /// Returns a source with the default transition.
-    pub(crate) fn source(node: Node) -> Self {
-        let via = Transition::default();
+    pub(crate) fn source_with_default_transition(node: RecipeNode) -> Self {
+        let via = PostureTransition::default();
         Self::Source { via, node }
     }
 
@@ -54,51 +55,51 @@ impl What {
     /// Returns whether every necessary name is filled in.
     pub(crate) fn is_complete(&self) -> bool {
         let there = |name: &str| !name.trim().is_empty();
-        let chosen = |choice: &Choice| match choice {
-            Choice::Keep => true,
-            Choice::Value(name) | Choice::From(name) | Choice::Best(name) => there(name),
+        let chosen = |choice: &ValueChoice| match choice {
+            ValueChoice::Keep => true,
+            ValueChoice::Value(name) | ValueChoice::From(name) | ValueChoice::Best(name) => there(name),
         };
-        let spot = |spot: &Spot| match spot {
-            Spot::Value(name) => there(name),
-            Spot::Towards(all) => !all.is_empty(),
+        let spot = |spot: &SigningSpot| match spot {
+            SigningSpot::Value(name) => there(name),
+            SigningSpot::Towards(all) => !all.is_empty(),
             _ => true,
         };
         match self {
             Self::Source { node, .. } => match node {
-                Node::Sign(name) => there(name),
-                Node::Spell(spell) => there(&spell.word),
-                Node::Point(point) => spot(&point.at) && point.with.as_ref().is_none_or(chosen),
-                Node::Cue(cue) => there(&cue.text),
-                Node::Hamnosys(notation) | Node::Sigml(notation) => there(&notation.of),
-                Node::Pipe(_) | Node::Then(_) => true,
+                RecipeNode::Sign(name) => there(name),
+                RecipeNode::Spell(spell) => there(&spell.word),
+                RecipeNode::Point(point) => spot(&point.at) && point.with.as_ref().is_none_or(chosen),
+                RecipeNode::Cue(cue) => there(&cue.text),
+                RecipeNode::Hamnosys(notation) | RecipeNode::Sigml(notation) => there(&notation.of),
+                RecipeNode::Pipe(_) | RecipeNode::Then(_) => true,
             },
-            Self::Step(step) => !matches!(step.check(), Err(RecipeError::Empty { .. })),
+            Self::Step(step) => !matches!(step.check_step_settings(), Err(RecipeError::Empty { .. })),
         }
     }
 
     /// Returns the card with `right` in place of the name `wrong`, if the card contains that name.
-    pub(crate) fn mended(&self, wrong: &str, right: &str) -> Option<Self> {
-        let name = |name: &str| Node::Sign(name.to_owned()).to_string();
+    pub(crate) fn with_corrected_name(&self, wrong: &str, right: &str) -> Option<Self> {
+        let name = |name: &str| RecipeNode::Sign(name.to_owned()).to_string();
         let (wrong_text, right_text) = (name(wrong), name(right));
         let replaced = |text: &str| -> Option<Recipe> {
-            let found = text.contains(&wrong_text);
+            let has_wrong = text.contains(&wrong_text);
             let text = text.replacen(&wrong_text, &right_text, 1);
-            found.then(|| text.parse().ok()).flatten()
+            has_wrong.then(|| text.parse().ok()).flatten()
         };
         match self {
             Self::Source {
                 via,
-                node: Node::Sign(name),
+                node: RecipeNode::Sign(name),
             } if name == wrong => Some(Self::Source {
                 via: *via,
-                node: Node::Sign(right.to_owned()),
+                node: RecipeNode::Sign(right.to_owned()),
             }),
             Self::Source { via, node } => Some(Self::Source {
                 via: *via,
-                node: replaced(&node.to_string())?.root().clone(),
+                node: replaced(&node.to_string())?.recipe_root().clone(),
             }),
-            Self::Step(step) => match replaced(&format!("A | {step}"))?.root() {
-                Node::Pipe(pipe) => pipe.steps.first().cloned().map(Self::Step),
+            Self::Step(step) => match replaced(&format!("A | {step}"))?.recipe_root() {
+                RecipeNode::Pipe(pipe) => pipe.steps.first().cloned().map(Self::Step),
                 _ => None,
             },
         }
@@ -114,16 +115,16 @@ impl What {
     }
 }
 
-impl Stack {
+impl CardStack {
     /// Returns the stack of a recipe.
     #[cfg(test)]
-    pub(crate) fn of(recipe: &Recipe) -> Self {
+    pub(crate) fn from_stack_recipe(recipe: &Recipe) -> Self {
         let mut stack = Self::default();
-        stack.take(recipe);
+        stack.replace_stack_recipe(recipe);
         stack
     }
 
-    pub(crate) fn cards(&self) -> &[Card] {
+    pub(crate) fn stack_cards(&self) -> &[RecipeCard] {
         &self.cards
     }
 
@@ -131,17 +132,17 @@ impl Stack {
         self.cards.is_empty()
     }
 
-    pub(crate) fn position(&self, id: u64) -> Option<usize> {
+    pub(crate) fn find_card_position(&self, id: u64) -> Option<usize> {
         self.cards.iter().position(|card| card.id == id)
     }
 
-    pub(crate) fn get_mut(&mut self, id: u64) -> Option<&mut Card> {
+    pub(crate) fn get_mut(&mut self, id: u64) -> Option<&mut RecipeCard> {
         self.cards.iter_mut().find(|card| card.id == id)
     }
 
     /// Returns whether the card at `at` is used: it is switched on and complete, and so is its source.
-    pub(crate) fn counts(&self, at: usize) -> bool {
-        let counts = |card: &Card| card.on && card.what.is_complete();
+    pub(crate) fn is_card_used(&self, at: usize) -> bool {
+        let counts = |card: &RecipeCard| card.on && card.what.is_complete();
         counts(&self.cards[at]) && counts(&self.cards[self.piece_of(at).start])
     }
 
@@ -154,43 +155,40 @@ impl Stack {
     }
 
     /// Returns the number of sources.
-    pub(crate) fn pieces(&self) -> usize {
-        self.cards
-            .iter()
-            .filter(|card| card.what.is_source())
-            .count()
+    pub(crate) fn count_stack_sources(&self) -> usize {
+        self.cards.iter().filter(|card| card.what.is_source()).count()
     }
 
     /// Returns the tree of the used cards, whether or not it is a valid recipe.
-    pub(crate) fn node(&self) -> Option<Node> {
-        let mut pieces: Vec<(Transition, Node, Vec<Step>)> = Vec::new();
+    pub(crate) fn used_recipe_node(&self) -> Option<RecipeNode> {
+        let mut pieces: Vec<(PostureTransition, RecipeNode, Vec<Step>)> = Vec::new();
         for (at, card) in self.cards.iter().enumerate() {
-            if !self.counts(at) {
+            if !self.is_card_used(at) {
                 continue;
             }
             match (&card.what, pieces.last_mut()) {
-                (What::Source { via, node }, _) => pieces.push((*via, node.clone(), Vec::new())),
-                (What::Step(step), Some((.., steps))) => steps.push(step.clone()),
-                (What::Step(_), None) => {}
+                (CardContent::Source { via, node }, _) => pieces.push((*via, node.clone(), Vec::new())),
+                (CardContent::Step(step), Some((.., steps))) => steps.push(step.clone()),
+                (CardContent::Step(_), None) => {}
             }
         }
-        let piped = |(via, of, steps): (Transition, Node, Vec<Step>)| {
+        let piped = |(via, of, steps): (PostureTransition, RecipeNode, Vec<Step>)| {
             let of = Box::new(of);
             let node = if steps.is_empty() {
                 *of
             } else {
-                Node::Pipe(Pipe { of, steps })
+                RecipeNode::Pipe(OperatorPipe { of, steps })
             };
-            Joined { via, node }
+            JoinedPiece { via, node }
         };
         let mut pieces = pieces.into_iter().map(piped);
         let first = pieces.next()?.node;
-        let next: Vec<Joined> = pieces.collect();
+        let next: Vec<JoinedPiece> = pieces.collect();
         Some(if next.is_empty() {
             first
         } else {
             let first = Box::new(first);
-            Node::Then(Then { first, next })
+            RecipeNode::Then(RecipeChain { first, next })
         })
     }
 
@@ -198,20 +196,18 @@ impl Stack {
     ///
     /// # Errors
     /// Fails if a setting is out of range.
-    pub(crate) fn recipe(&self) -> Option<Result<Recipe, RecipeError>> {
-        self.node().map(Recipe::new)
+    pub(crate) fn used_recipe(&self) -> Option<Result<Recipe, RecipeError>> {
+        self.used_recipe_node().map(Recipe::new)
     }
 
     /// Returns the recipe's text; empty if no card is used.
-    pub(crate) fn text(&self) -> String {
-        self.node().map_or(String::new(), |node| node.to_string())
+    pub(crate) fn used_recipe_text(&self) -> String {
+        self.used_recipe_node().map_or(String::new(), |node| node.to_string())
     }
 
     /// Returns the index of each used card by its path in the recipe's JSON, as in reports.
-    pub(crate) fn paths(&self) -> BTreeMap<String, usize> {
-        let counting: Vec<usize> = (0..self.cards.len())
-            .filter(|at| self.counts(*at))
-            .collect();
+    pub(crate) fn card_indices_by_path(&self) -> BTreeMap<String, usize> {
+        let counting: Vec<usize> = (0..self.cards.len()).filter(|at| self.is_card_used(*at)).collect();
         let sources = |at: &&usize| self.cards[**at].what.is_source();
         let several = counting.iter().filter(sources).count() > 1;
         let mut paths = BTreeMap::new();
@@ -253,30 +249,30 @@ impl Stack {
             path.strip_prefix(at.as_str())
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
-        let held = self.paths().into_iter().filter(inside);
-        held.max_by_key(|(at, _)| at.len()).map(|(_, card)| card)
+        let containing_paths = self.card_indices_by_path().into_iter().filter(inside);
+        containing_paths.max_by_key(|(at, _)| at.len()).map(|(_, card)| card)
     }
 
     /// Replaces the stack with a recipe: cards that are in the recipe keep their ids, and unused cards keep their
     /// places.
-    pub(crate) fn take(&mut self, recipe: &Recipe) {
-        let new = whats(recipe.root());
-        let old: Vec<(Card, bool)> = self
+    pub(crate) fn replace_stack_recipe(&mut self, recipe: &Recipe) {
+        let new = whats(recipe.recipe_root());
+        let old: Vec<(RecipeCard, bool)> = self
             .cards
             .iter()
             .enumerate()
-            .map(|(at, card)| (card.clone(), self.counts(at)))
+            .map(|(at, card)| (card.clone(), self.is_card_used(at)))
             .collect();
-        let counting: Vec<Card> = old
+        let counting: Vec<RecipeCard> = old
             .iter()
             .filter(|(_, counts)| *counts)
             .map(|(card, _)| card.clone())
             .collect();
-        let kept = matched(&counting, &new);
+        let kept = match_old_cards(&counting, &new);
         self.cards = new
             .into_iter()
             .zip(kept)
-            .map(|(what, id)| Card {
+            .map(|(what, id)| RecipeCard {
                 id: id.unwrap_or_else(|| {
                     self.next += 1;
                     self.next
@@ -289,7 +285,7 @@ impl Stack {
     }
 
     /// Inserts the unused cards of `old` after the cards that they followed.
-    fn put_back(&mut self, old: &[(Card, bool)]) {
+    fn put_back(&mut self, old: &[(RecipeCard, bool)]) {
         for (at, (card, counts)) in old.iter().enumerate() {
             if *counts {
                 continue;
@@ -297,7 +293,7 @@ impl Stack {
             let anchor = old[..at]
                 .iter()
                 .rev()
-                .find_map(|(before, _)| self.position(before.id));
+                .find_map(|(before, _)| self.find_card_position(before.id));
             let place = match (anchor, card.what.is_source()) {
                 (Some(anchor), true) => self.piece_of(anchor).end,
                 (Some(anchor), false) => anchor + 1,
@@ -311,25 +307,27 @@ impl Stack {
 
     /// Adds a card after the card `after`, or at the end, and returns its id. A source goes to the end of the piece,
     /// and the first card must be a source.
-    pub(crate) fn add(&mut self, after: Option<u64>, what: What) -> Option<u64> {
-        let after = after.and_then(|id| self.position(id));
+    pub(crate) fn add_stack_card(&mut self, after: Option<u64>, what: CardContent) -> Option<u64> {
+        let after = after.and_then(|id| self.find_card_position(id));
         if self.cards.is_empty() && !what.is_source() {
             return None;
         }
-        let at = match after {
+        let index = match after {
             Some(at) if what.is_source() => self.piece_of(at).end,
             Some(at) => at + 1,
             None => self.cards.len(),
         };
         self.next += 1;
         let id = self.next;
-        self.cards.insert(at, Card { id, on: true, what });
+        self.cards.insert(index, RecipeCard { id, on: true, what });
         Some(id)
     }
 
     /// Removes a card; removing a source removes its operators too, unless it is the only source.
-    pub(crate) fn remove(&mut self, id: u64) {
-        let Some(at) = self.position(id) else { return };
+    pub(crate) fn remove_stack_card(&mut self, id: u64) {
+        let Some(at) = self.find_card_position(id) else {
+            return;
+        };
         if self.cards[at].what.is_source() {
             self.cards.drain(self.piece_of(at));
         } else {
@@ -338,12 +336,12 @@ impl Stack {
     }
 
     /// Inserts a copy after a card, of a source with its operators, and returns the copy's id.
-    pub(crate) fn duplicate(&mut self, id: u64) -> Option<u64> {
-        let at = self.position(id)?;
-        let range = if self.cards[at].what.is_source() {
-            self.piece_of(at)
+    pub(crate) fn duplicate_stack_card(&mut self, id: u64) -> Option<u64> {
+        let index = self.find_card_position(id)?;
+        let range = if self.cards[index].what.is_source() {
+            self.piece_of(index)
         } else {
-            at..at + 1
+            index..index + 1
         };
         let mut copies = self.cards[range.clone()].to_vec();
         for card in &mut copies {
@@ -356,7 +354,7 @@ impl Stack {
     }
 
     /// Switches a card on or off.
-    pub(crate) fn switch(&mut self, id: u64) {
+    pub(crate) fn switch_stack_card(&mut self, id: u64) {
         if let Some(card) = self.get_mut(id) {
             card.on = !card.on;
         }
@@ -365,12 +363,12 @@ impl Stack {
     /// Moves a card before the one at index `to`; a source moves with its operators to a boundary between pieces.
     /// Returns whether anything moved.
     pub(crate) fn move_to(&mut self, id: u64, to: usize) -> bool {
-        let Some(from) = self.position(id) else {
+        let Some(from) = self.find_card_position(id) else {
             return false;
         };
         let to = to.min(self.cards.len());
         let (range, to) = if self.cards[from].what.is_source() {
-            let own = self.piece_of(from);
+            let moved_piece = self.piece_of(from);
             let to = if to < self.cards.len() {
                 let piece = self.piece_of(to);
                 if to == piece.start || to < from {
@@ -381,7 +379,7 @@ impl Stack {
             } else {
                 to
             };
-            (own, to)
+            (moved_piece, to)
         } else {
             (from..from + 1, to.max(1))
         };
@@ -389,25 +387,25 @@ impl Stack {
             return false;
         }
         let count = range.len();
-        let moved: Vec<Card> = self.cards.drain(range.clone()).collect();
+        let moved: Vec<RecipeCard> = self.cards.drain(range.clone()).collect();
         let to = if to > range.start { to - count } else { to };
         self.cards.splice(to..to, moved);
         true
     }
 
     /// Moves a card one place up or down. Returns whether anything moved.
-    pub(crate) fn shift(&mut self, id: u64, down: bool) -> bool {
-        let Some(at) = self.position(id) else {
+    pub(crate) fn shift_stack_card(&mut self, id: u64, down: bool) -> bool {
+        let Some(at) = self.find_card_position(id) else {
             return false;
         };
         if !self.cards[at].what.is_source() {
             let to = if down { at + 2 } else { at.saturating_sub(1) };
             return to <= self.cards.len() && self.move_to(id, to);
         }
-        let own = self.piece_of(at);
+        let shifted_piece = self.piece_of(at);
         if down {
-            own.end < self.cards.len() && {
-                let next = self.piece_of(own.end).end;
+            shifted_piece.end < self.cards.len() && {
+                let next = self.piece_of(shifted_piece.end).end;
                 self.move_to(id, next)
             }
         } else {
@@ -417,35 +415,35 @@ impl Stack {
 }
 
 /// Returns the contents of the cards for a tree.
-fn whats(root: &Node) -> Vec<What> {
+fn whats(root: &RecipeNode) -> Vec<CardContent> {
     let mut all = Vec::new();
-    let mut piece = |via: Transition, node: &Node| match node {
-        Node::Pipe(pipe) => {
+    let mut piece = |via: PostureTransition, node: &RecipeNode| match node {
+        RecipeNode::Pipe(pipe) => {
             let node = (*pipe.of).clone();
-            all.push(What::Source { via, node });
-            all.extend(pipe.steps.iter().cloned().map(What::Step));
+            all.push(CardContent::Source { via, node });
+            all.extend(pipe.steps.iter().cloned().map(CardContent::Step));
         }
         other => {
             let node = other.clone();
-            all.push(What::Source { via, node });
+            all.push(CardContent::Source { via, node });
         }
     };
     match root {
-        Node::Then(then) => {
-            piece(Transition::default(), &then.first);
+        RecipeNode::Then(then) => {
+            piece(PostureTransition::default(), &then.first);
             for joined in &then.next {
                 piece(joined.via, &joined.node);
             }
         }
-        one => piece(Transition::default(), one),
+        one => piece(PostureTransition::default(), one),
     }
     all
 }
 
 /// Returns for each of `new` the id of the corresponding old card: equal ones are matched from both ends, and those
 /// between by kind, in order.
-fn matched(old: &[Card], new: &[What]) -> Vec<Option<u64>> {
-    let same = |(card, what): &(&Card, &What)| card.what == **what;
+fn match_old_cards(old: &[RecipeCard], new: &[CardContent]) -> Vec<Option<u64>> {
+    let same = |(card, what): &(&RecipeCard, &CardContent)| card.what == **what;
     let front = old.iter().zip(new).take_while(same).count();
     let most = old.len().min(new.len()) - front;
     let back = old

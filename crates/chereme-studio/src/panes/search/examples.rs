@@ -2,82 +2,82 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::Details;
-use chereme_motion::{Instant, Span};
-use chereme_sign::query::Example;
+use chereme_corpus::ObjectDetails;
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::query::ExampleToken;
 
-use super::builder::{self, Condition};
-use crate::context::{Outbox, PaneInput};
-use crate::model::Known;
-use crate::panes::inspector::Thing;
-use crate::work::{Ended, Outcome, WorkId, recordings};
+use super::search_builder::{self, QueryCondition};
+use crate::context::{CommandOutbox, PaneInput};
+use crate::model::TokenSign;
+use crate::panes::inspector::InspectedThing;
+use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};
 
 /// The known examples; others are looked up.
 #[derive(Debug, Default)]
-pub(super) struct Examples {
-    known: BTreeMap<i64, Known>,
+pub(super) struct KnownExamples {
+    known: BTreeMap<i64, TokenSign>,
     looking: BTreeMap<WorkId, i64>,
 }
 
 /// Returns the tokens that a query names as examples.
-fn tokens(query: &str) -> Vec<i64> {
+fn find_example_tokens(query: &str) -> Vec<i64> {
     let Ok(query) = query.parse() else {
         return Vec::new();
     };
-    let rows = builder::rows(&query).into_iter();
+    let rows = search_builder::rows_from_query(&query).into_iter();
     let token = |row| match row {
-        Condition::Like(Example::Token(number), ..) => number.parse().ok(),
+        QueryCondition::Like(ExampleToken::Token(number), ..) => number.parse().ok(),
         _ => None,
     };
     rows.filter_map(token).collect()
 }
 
-impl Examples {
+impl KnownExamples {
     /// Looks up the unknown tokens of a query.
-    pub(super) fn follow(&mut self, query: &str, seen: &PaneInput<'_>, out: &mut Outbox) {
+    pub(super) fn look_up_unknown_examples(&mut self, query: &str, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         if !query.contains("token:") {
             return;
         }
-        for token in tokens(query) {
-            let asked = self.looking.values().any(|it| *it == token);
+        for token in find_example_tokens(query) {
+            let asked = self.looking.values().any(|asked_token| *asked_token == token);
             if asked || self.known.contains_key(&token) {
                 continue;
             }
-            match seen.snapshot.token(token) {
+            match seen.snapshot.known_token_sign(token) {
                 Some(known) => drop(self.known.insert(token, known)),
                 None => {
-                    let id = out.work(recordings::look(Thing::Token(token)));
+                    let id = out.request_work(recordings_jobs::look_up_details_job(InspectedThing::Token(token)));
                     self.looking.insert(id, token);
                 }
             }
         }
     }
 
-    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) {
+    pub(super) fn receive_example_result(&mut self, id: WorkId, ended: &WorkResult) {
         let Some(token) = self.looking.remove(&id) else {
             return;
         };
-        let mut known = Known::default();
-        if let Ok(Outcome::Looked(Details::Token(it))) = ended {
+        let mut token_facts = TokenSign::default();
+        if let Ok(WorkOutcome::Looked(ObjectDetails::Token(it))) = ended {
             let span = it.row.start_us.zip(it.row.end_us).map(|(start, end)| {
-                Span::between(Instant::from_micros(start), Instant::from_micros(end))
+                TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
             });
-            known.gloss.clone_from(&it.row.gloss);
-            known.place = it.row.recording_id.zip(span);
+            token_facts.gloss.clone_from(&it.row.gloss);
+            token_facts.place = it.row.recording_id.zip(span);
         }
-        self.known.insert(token, known);
+        self.known.insert(token, token_facts);
     }
 
     /// Returns the sign of an example, once it has been looked up.
-    pub(super) fn get(&self, example: &Example, seen: &PaneInput<'_>) -> Option<Known> {
+    pub(super) fn find_known_example(&self, example: &ExampleToken, seen: &PaneInput<'_>) -> Option<TokenSign> {
         match example {
-            Example::Token(number) => self.known.get(&number.parse().ok()?).cloned(),
-            Example::Sign(gloss) => {
+            ExampleToken::Token(number) => self.known.get(&number.parse().ok()?).cloned(),
+            ExampleToken::Sign(gloss) => {
                 let signs = &seen.snapshot.overview.signs;
-                let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
-                Some(Known {
+                let position = signs.binary_search_by(|sign| sign.gloss.as_str().cmp(gloss));
+                Some(TokenSign {
                     gloss: gloss.clone(),
-                    place: at.ok().and_then(|at| signs[at].place),
+                    place: position.ok().and_then(|at| signs[at].place),
                 })
             }
         }
@@ -90,8 +90,8 @@ mod tests {
 
     #[test]
     fn tokens_named_in_a_query_are_looked_up() {
-        assert_eq!(tokens("like token:41 on placement gloss=A"), [41]);
-        assert!(tokens("like CHAT").is_empty());
-        assert!(tokens("token:").is_empty());
+        assert_eq!(find_example_tokens("like token:41 on placement gloss=A"), [41]);
+        assert!(find_example_tokens("like CHAT").is_empty());
+        assert!(find_example_tokens("token:").is_empty());
     }
 }

@@ -4,21 +4,21 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use chereme_corpus::{Answer, Around, Finding, Hit, Order};
-use chereme_motion::{Instant, Span};
-use chereme_sign::{Component, Field};
+use chereme_corpus::{HitOrder, QueryFinding, SearchAnswer, SearchHit, TokenNeighbours};
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::{ComponentField, SignComponent};
 use serde_json::Value;
 
-use super::super::timeline::data::time_text;
+use super::super::timeline::timeline_data::time_text;
 
 /// How many hits are requested at once.
-pub(crate) const PAGE: usize = 500;
+pub(crate) const HIT_PAGE_SIZE: usize = 500;
 /// How many neighbours are requested on each side.
-pub(crate) const NEIGHBOURS: usize = 3;
+pub(crate) const MAX_HIT_NEIGHBOURS: usize = 3;
 
 /// The order of hits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Sort {
+pub(crate) enum HitSort {
     #[default]
     Rank,
     Place,
@@ -28,14 +28,14 @@ pub(crate) enum Sort {
     After,
 }
 
-impl Sort {
+impl HitSort {
     /// Returns the order to request from the corpus.
-    pub(crate) fn order(self) -> Order {
+    pub(crate) fn corpus_order(self) -> HitOrder {
         match self {
-            Self::Rank => Order::Rank,
-            Self::Gloss => Order::Gloss,
-            Self::Duration => Order::Duration,
-            Self::Place | Self::Before | Self::After => Order::Place,
+            Self::Rank => HitOrder::Rank,
+            Self::Gloss => HitOrder::Gloss,
+            Self::Duration => HitOrder::Duration,
+            Self::Place | Self::Before | Self::After => HitOrder::Place,
         }
     }
 
@@ -47,21 +47,21 @@ impl Sort {
 
 /// The answer to a query.
 #[derive(Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct QueryAnswer {
     /// The query in its canonical form.
     pub(crate) query: String,
     pub(crate) total: usize,
     pub(crate) facets: Arc<BTreeMap<String, Vec<(String, usize)>>>,
     pub(crate) notes: Vec<String>,
-    pub(crate) findings: Vec<Finding>,
-    pages: BTreeMap<usize, Vec<Hit>>,
-    around: BTreeMap<i64, Around>,
+    pub(crate) findings: Vec<QueryFinding>,
+    pages: BTreeMap<usize, Vec<SearchHit>>,
+    around: BTreeMap<i64, TokenNeighbours>,
     /// The order of hits as indices, if they are sorted here.
     sorted: Option<Vec<usize>>,
 }
 
-impl Found {
-    pub(crate) fn new(answer: &Answer) -> Self {
+impl QueryAnswer {
+    pub(crate) fn new(answer: &SearchAnswer) -> Self {
         Self {
             query: answer.query.clone(),
             total: answer.total,
@@ -73,41 +73,40 @@ impl Found {
         }
     }
 
-    pub(crate) fn put(&mut self, page: usize, hits: &[Hit]) {
+    pub(crate) fn put_hit_page(&mut self, page: usize, hits: &[SearchHit]) {
         self.pages.insert(page, hits.to_vec());
     }
 
-    pub(crate) fn put_around(&mut self, around: &[Around]) {
-        let pairs = around.iter().map(|it| (it.token, it.clone()));
+    pub(crate) fn put_around(&mut self, around: &[TokenNeighbours]) {
+        let pairs = around.iter().map(|entry| (entry.token, entry.clone()));
         self.around.extend(pairs);
     }
 
     /// Returns the hit at a position, if it has been read.
-    pub(crate) fn hit(&self, at: usize) -> Option<&Hit> {
-        let at = self
-            .sorted
-            .as_ref()
-            .map_or(Some(at), |it| it.get(at).copied())?;
-        self.pages.get(&(at / PAGE))?.get(at % PAGE)
+    pub(crate) fn hit_at(&self, at: usize) -> Option<&SearchHit> {
+        let hit_index = self.sorted.as_ref().map_or(Some(at), |order| order.get(at).copied())?;
+        self.pages
+            .get(&(hit_index / HIT_PAGE_SIZE))?
+            .get(hit_index % HIT_PAGE_SIZE)
     }
 
-    pub(crate) fn around(&self, token: i64) -> Option<&Around> {
+    pub(crate) fn hit_neighbours(&self, token: i64) -> Option<&TokenNeighbours> {
         self.around.get(&token)
     }
 
     /// Returns the first missing page of a range.
-    pub(crate) fn missing(&self, range: Range<usize>) -> Option<usize> {
+    pub(crate) fn first_missing_page(&self, range: Range<usize>) -> Option<usize> {
         let end = range.end.min(self.total);
         if range.start >= end || self.sorted.is_some() {
             return None;
         }
-        (range.start / PAGE..=(end - 1) / PAGE).find(|page| !self.pages.contains_key(page))
+        (range.start / HIT_PAGE_SIZE..=(end - 1) / HIT_PAGE_SIZE).find(|page| !self.pages.contains_key(page))
     }
 
     /// Returns the tokens of a range whose neighbours are unknown.
-    pub(crate) fn lonely(&self, range: Range<usize>) -> Vec<i64> {
+    pub(crate) fn tokens_without_neighbours(&self, range: Range<usize>) -> Vec<i64> {
         range
-            .filter_map(|at| Some(self.hit(at)?.token))
+            .filter_map(|at| Some(self.hit_at(at)?.token))
             .filter(|token| !self.around.contains_key(token))
             .collect()
     }
@@ -118,15 +117,15 @@ impl Found {
     }
 
     /// Sorts the hits by their neighbours, or restores their own order.
-    pub(crate) fn sort(&mut self, sort: Sort) {
+    pub(crate) fn sort_found_hits(&mut self, sort: HitSort) {
         self.sorted = None;
         if !sort.is_local() || !self.is_whole() {
             return;
         }
         let word = |at: &usize| {
-            let around = self.around(self.hit(*at)?.token)?;
+            let around = self.hit_neighbours(self.hit_at(*at)?.token)?;
             match sort {
-                Sort::Before => around.before.last(),
+                HitSort::Before => around.before.last(),
                 _ => around.after.first(),
             }
         };
@@ -138,51 +137,49 @@ impl Found {
 }
 
 /// Returns the place of a hit, as the recording's name and the span, if it was recorded.
-pub(crate) fn place(hit: &Hit) -> Option<(&str, Span)> {
+pub(crate) fn hit_recording_span(hit: &SearchHit) -> Option<(&str, TimeSpan)> {
     let (start, end) = hit.start_us.zip(hit.end_us)?;
-    let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
+    let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
     Some((hit.recording.as_deref()?, span))
 }
 
 /// Returns the place of a hit as text; `lexicon` is the text for an entry without movement.
-pub(crate) fn place_text(hit: &Hit, lexicon: &str) -> String {
-    match place(hit) {
-        Some((name, span)) => format!("{name} · {}", time_text(span.start())),
+pub(crate) fn place_text(hit: &SearchHit, lexicon: &str) -> String {
+    match hit_recording_span(hit) {
+        Some((name, span)) => format!("{name} · {}", time_text(span.span_start_instant())),
         None => lexicon.to_owned(),
     }
 }
 
 /// Returns the duration of a hit as text.
-pub(crate) fn duration_text(hit: &Hit) -> String {
-    place(hit).map_or(String::new(), |(_, span)| {
-        format!("{:.2} s", span.seconds())
-    })
+pub(crate) fn duration_text(hit: &SearchHit) -> String {
+    hit_recording_span(hit).map_or(String::new(), |(_, span)| format!("{:.2} s", span.span_seconds()))
 }
 
 /// Returns the values of a hit, which its picture shows, as component, feature and value. The dominant hand comes
 /// before the weak one, component by component, each value once.
-pub(crate) fn coding(hit: &Hit) -> Vec<(String, String)> {
+pub(crate) fn hit_coding_values(hit: &SearchHit) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = Vec::new();
     for hand in ["right", "dominant", "left", "weak", ""] {
         for (field, value) in &hit.components {
             let parts: Vec<&str> = field.split('.').collect();
-            let own = parts
+            let field_hand = parts
                 .iter()
                 .find(|part| ["right", "dominant", "left", "weak"].contains(part))
                 .copied()
                 .unwrap_or("");
-            if own != hand {
+            if field_hand != hand {
                 continue;
             }
             let kept: Vec<&str> = parts
                 .into_iter()
-                .filter(|part| *part != own && !["initial", "middle", "final"].contains(part))
+                .filter(|part| *part != field_hand && !["initial", "middle", "final"].contains(part))
                 .collect();
             let values = match value {
                 Value::String(one) => vec![one.clone()],
                 Value::Array(several) => several
                     .iter()
-                    .filter_map(|it| it.as_str().map(str::to_owned))
+                    .filter_map(|item| item.as_str().map(str::to_owned))
                     .collect(),
                 _ => Vec::new(),
             };
@@ -195,15 +192,17 @@ pub(crate) fn coding(hit: &Hit) -> Vec<(String, String)> {
         }
     }
     let place = |(field, _): &(String, String)| {
-        let component = field.parse::<Field>().ok().map(|it| it.component);
-        Component::ALL.iter().position(|it| Some(*it) == component)
+        let component = field.parse::<ComponentField>().ok().map(|parsed| parsed.component);
+        SignComponent::ALL_COMPONENTS
+            .iter()
+            .position(|other| Some(*other) == component)
     };
-    all.sort_by_key(|pair| place(pair).unwrap_or(Component::ALL.len()));
+    all.sort_by_key(|pair| place(pair).unwrap_or(SignComponent::ALL_COMPONENTS.len()));
     all
 }
 
 /// Returns the index that arrow keys go to in a grid of `columns`; a table has one column.
-pub(crate) fn walk(at: usize, total: usize, columns: usize, [x, y]: [isize; 2]) -> usize {
+pub(crate) fn walk_hit_grid(at: usize, total: usize, columns: usize, [x, y]: [isize; 2]) -> usize {
     let step = x + y * columns as isize;
     let to = at as isize + step;
     if total == 0 {
@@ -223,22 +222,22 @@ pub(crate) fn walk(at: usize, total: usize, columns: usize, [x, y]: [isize; 2]) 
 mod tests {
     use super::*;
 
-    fn hit(token: i64, gloss: &str) -> Hit {
-        Hit {
+    fn hit(token: i64, gloss: &str) -> SearchHit {
+        SearchHit {
             token,
             gloss: gloss.into(),
             recording: Some("Un".into()),
             start_us: Some(1_250_000),
             end_us: Some(2_000_000),
-            origin: chereme_corpus::Origin::Captured,
+            origin: chereme_corpus::RecordOrigin::Captured,
             score: None,
             components: BTreeMap::new(),
         }
     }
 
-    fn found(total: usize) -> Found {
-        let hits = (0..total.min(PAGE)).map(|n| hit(n as i64, "BOL"));
-        Found::new(&Answer {
+    fn found(total: usize) -> QueryAnswer {
+        let hits = (0..total.min(HIT_PAGE_SIZE)).map(|n| hit(n as i64, "BOL"));
+        QueryAnswer::new(&SearchAnswer {
             query: String::new(),
             total,
             hits: hits.collect(),
@@ -262,33 +261,33 @@ mod tests {
     #[test]
     fn pages_are_requested_as_they_become_visible() {
         let mut found = found(100_000);
-        assert_eq!(found.missing(0..40), None);
-        assert_eq!(found.missing(480..520), Some(1));
-        assert_eq!(found.missing(99_990..100_010), Some(199));
-        assert_eq!(found.missing(100_000..100_010), None);
-        found.put(199, &[hit(7, "X")]);
-        assert_eq!(found.hit(99_500).map(|hit| hit.token), Some(7));
-        assert!(found.hit(700).is_none() && !found.is_whole());
-        found.sort(Sort::Before);
-        assert_eq!(found.hit(0).map(|hit| hit.token), Some(0));
+        assert_eq!(found.first_missing_page(0..40), None);
+        assert_eq!(found.first_missing_page(480..520), Some(1));
+        assert_eq!(found.first_missing_page(99_990..100_010), Some(199));
+        assert_eq!(found.first_missing_page(100_000..100_010), None);
+        found.put_hit_page(199, &[hit(7, "X")]);
+        assert_eq!(found.hit_at(99_500).map(|hit| hit.token), Some(7));
+        assert!(found.hit_at(700).is_none() && !found.is_whole());
+        found.sort_found_hits(HitSort::Before);
+        assert_eq!(found.hit_at(0).map(|hit| hit.token), Some(0));
     }
 
     #[test]
     fn hits_are_sorted_by_their_neighbours_with_unknown_ones_last() {
         let mut found = found(3);
-        assert_eq!(found.lonely(0..3), [0, 1, 2]);
-        let around = |token, before: &[&str]| Around {
+        assert_eq!(found.tokens_without_neighbours(0..3), [0, 1, 2]);
+        let around = |token, before: &[&str]| TokenNeighbours {
             token,
             before: before.iter().map(|it| (*it).to_owned()).collect(),
-            ..Around::default()
+            ..TokenNeighbours::default()
         };
         found.put_around(&[around(0, &[]), around(1, &["A", "Z"]), around(2, &["B"])]);
-        assert!(found.lonely(0..3).is_empty());
-        found.sort(Sort::Before);
-        let order: Vec<i64> = (0..3).filter_map(|at| Some(found.hit(at)?.token)).collect();
+        assert!(found.tokens_without_neighbours(0..3).is_empty());
+        found.sort_found_hits(HitSort::Before);
+        let order: Vec<i64> = (0..3).filter_map(|at| Some(found.hit_at(at)?.token)).collect();
         assert_eq!(order, [2, 1, 0]);
-        found.sort(Sort::Place);
-        assert_eq!(found.hit(0).map(|hit| hit.token), Some(0));
+        found.sort_found_hits(HitSort::Place);
+        assert_eq!(found.hit_at(0).map(|hit| hit.token), Some(0));
     }
 
     #[test]
@@ -305,7 +304,7 @@ mod tests {
         }
         let pair = |field: &str, value: &str| (field.to_owned(), value.to_owned());
         assert_eq!(
-            coding(&coded),
+            hit_coding_values(&coded),
             [
                 pair("configuration", "U"),
                 pair("configuration", "S"),
@@ -317,12 +316,12 @@ mod tests {
 
     #[test]
     fn arrow_keys_stay_within_the_hits() {
-        assert_eq!(walk(0, 7, 3, [1, 0]), 1);
-        assert_eq!(walk(0, 7, 3, [-1, 0]), 0);
-        assert_eq!(walk(4, 7, 3, [0, 1]), 6);
-        assert_eq!(walk(6, 7, 3, [0, 1]), 6);
-        assert_eq!(walk(1, 7, 3, [0, -1]), 1);
-        assert_eq!(walk(5, 7, 1, [0, 1]), 6);
-        assert_eq!(walk(3, 0, 1, [0, 1]), 0);
+        assert_eq!(walk_hit_grid(0, 7, 3, [1, 0]), 1);
+        assert_eq!(walk_hit_grid(0, 7, 3, [-1, 0]), 0);
+        assert_eq!(walk_hit_grid(4, 7, 3, [0, 1]), 6);
+        assert_eq!(walk_hit_grid(6, 7, 3, [0, 1]), 6);
+        assert_eq!(walk_hit_grid(1, 7, 3, [0, -1]), 1);
+        assert_eq!(walk_hit_grid(5, 7, 1, [0, 1]), 6);
+        assert_eq!(walk_hit_grid(3, 0, 1, [0, 1]), 0);
     }
 }

@@ -12,75 +12,75 @@
 //! | `facets` | the number of results with each value |
 //! | `side_column`, `saved` | recent queries, help, advice for empty results; saved searches |
 
-pub(crate) mod builder;
 mod examples;
-mod facets;
-mod field;
 mod hits;
-mod page;
+mod panes_search_facets;
 mod results;
-mod rows;
-mod saved;
+pub(crate) mod search_builder;
+mod search_field;
+mod search_page;
+mod search_rows;
+mod search_saved;
+mod search_suggest;
+mod search_symbols;
 mod side_column;
-mod suggest;
-mod symbols;
 mod tiles;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use chereme_corpus::remedy::Remedy;
-use chereme_corpus::{Error, Overview, SearchOptions};
-use chereme_sign::query::{Example, Expr, Query};
+use chereme_corpus::remedy::ErrorRemedy;
+use chereme_corpus::{CorpusError, CorpusOverview, SearchOptions};
+use chereme_sign::query::{ExampleToken, QueryExpression, TokenQuery};
 use eframe::egui::{ScrollArea, Ui};
 
-use super::inspector::Thing;
-use super::notated::Notated;
-use super::without_movement::{self, Bare};
-use super::{Acted, Carried, Pane};
+use super::inspector::InspectedThing;
+use super::notated_pane::AnimatedNotations;
+use super::without_movement::{self, MovementAbsence};
+use super::{ActionOutcome, DraggedToken, PaneInterface};
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::words::{fill, search as words};
-use crate::work::{Ended, Outcome, WorkId, searching};
-pub(crate) use builder::with_value;
-use field::Field;
-pub(crate) use hits::walk as walked;
-use hits::{Found, NEIGHBOURS, PAGE, Sort};
-use rows::Rows;
-pub(crate) use rows::{feature_text, field_text};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::words::{fill_text_braces, search_words as words};
+use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
+pub(crate) use hits::walk_hit_grid as walked;
+use hits::{HIT_PAGE_SIZE, HitSort, MAX_HIT_NEIGHBOURS, QueryAnswer};
+pub(crate) use search_builder::with_value;
+use search_field::QueryField;
+use search_rows::ConditionRows;
+pub(crate) use search_rows::{feature_text, field_text};
 
 /// How long the text must rest before it is searched for, in seconds.
-const PAUSE: f64 = 0.35;
+const SEARCH_PAUSE_SECONDS: f64 = 0.35;
 /// The least height of the results below the query, in points; with less, the whole pane scrolls.
-const LOW: f32 = 170.0;
+const MIN_RESULTS_HEIGHT_POINTS: f32 = 170.0;
 /// The most hits whose neighbours are requested together.
 const MOST_AROUND: usize = 64;
 
 /// The form in which results are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum View {
+pub(crate) enum ResultsView {
     #[default]
     Grid,
     Table,
 }
 
 /// The pane.
-pub(crate) struct Search {
-    field: Field,
-    rows: Rows,
+pub(crate) struct SearchPane {
+    field: QueryField,
+    rows: ConditionRows,
     /// The symbols picked from the board of HamNoSys.
     symbols: String,
     /// Whether the rows of conditions are shown.
     built: bool,
-    view: View,
-    sort: Sort,
+    view: ResultsView,
+    sort: HitSort,
     /// Whether figures loop without the pointer over them; and whether they show the hand from near.
     playing: bool,
     close: bool,
     /// Whether facets are shown; if `None`, that depends on the width of the pane.
     counted: Option<bool>,
-    conditions: facets::Conditions,
+    conditions: panes_search_facets::FacetConditions,
     /// The height of the query in the last frame, with everything between it and the results.
     head: f32,
     /// Whether the query left too little room for the results in the last frame.
@@ -91,16 +91,16 @@ pub(crate) struct Search {
     /// The requested pages.
     pages: BTreeMap<WorkId, usize>,
     around: Option<WorkId>,
-    found: Option<Found>,
+    found: Option<QueryAnswer>,
     /// The last requested query, as it was written.
     query: String,
     /// The error that the corpus reports.
-    wrong: Option<Wrong>,
+    wrong: Option<QueryFault>,
     /// Whether the search was stopped before there was an answer.
     stopped: bool,
-    aside: side_column::Aside,
-    examples: examples::Examples,
-    tiles: tiles::Tiles,
+    aside: side_column::SearchSideColumn,
+    examples: examples::KnownExamples,
+    tiles: tiles::TilePickers,
     /// The corpus generation that was searched.
     generation: i64,
     /// The index of the hit at the keyboard cursor, of the one to give the focus, and of the one that was opened.
@@ -110,35 +110,35 @@ pub(crate) struct Search {
     /// The scroll offset of the hits, in points.
     scrolled: f32,
     /// The widths of the table's columns.
-    shares: results::Shares,
+    shares: results::ColumnShares,
     /// Signs animated from their notation.
-    notated: Notated,
+    notated: AnimatedNotations,
     come: bool,
 }
 
 /// An error in a query, and the index of its first character.
-struct Wrong {
+struct QueryFault {
     from: Option<usize>,
     error: String,
-    remedy: Option<Remedy>,
+    remedy: Option<ErrorRemedy>,
     /// Returns the likeliest intended name, and the query with it.
     mended: Option<(String, String)>,
 }
 
-impl Default for Search {
+impl Default for SearchPane {
     fn default() -> Self {
         Self {
             built: true,
             symbols: String::new(),
             playing: true,
             counted: None,
-            conditions: facets::Conditions::default(),
+            conditions: panes_search_facets::FacetConditions::default(),
             head: 0.0,
             low: false,
-            field: Field::default(),
-            rows: Rows::default(),
-            view: View::default(),
-            sort: Sort::default(),
+            field: QueryField::default(),
+            rows: ConditionRows::default(),
+            view: ResultsView::default(),
+            sort: HitSort::default(),
             close: false,
             changed: None,
             asked: None,
@@ -148,180 +148,180 @@ impl Default for Search {
             query: String::new(),
             wrong: None,
             stopped: false,
-            aside: side_column::Aside::default(),
-            examples: examples::Examples::default(),
-            tiles: tiles::Tiles::default(),
+            aside: side_column::SearchSideColumn::default(),
+            examples: examples::KnownExamples::default(),
+            tiles: tiles::TilePickers::default(),
             generation: 0,
             at: 0,
             reach: None,
             opened: None,
             scrolled: 0.0,
-            shares: results::Shares::default(),
-            notated: Notated::default(),
+            shares: results::ColumnShares::default(),
+            notated: AnimatedNotations::default(),
             come: false,
         }
     }
 }
 
-impl Search {
+impl SearchPane {
     /// Searches with a query from another pane.
-    pub(crate) fn find(&mut self, query: String, out: &mut Outbox) {
-        self.turn_to(query, out);
+    pub(crate) fn search_for_query(&mut self, query: String, out: &mut CommandOutbox) {
+        self.turn_to_query(query, out);
     }
 
     /// Searches with the present text.
-    fn ask(&mut self, out: &mut Outbox) {
-        let old = self.asked.take().into_iter();
-        let old = old.chain(std::mem::take(&mut self.pages).into_keys());
-        old.for_each(|id| out.send(Command::Stop(id)));
-        self.aside.stop(out);
+    fn search_present_text(&mut self, out: &mut CommandOutbox) {
+        let asked_work = self.asked.take().into_iter();
+        let old = asked_work.chain(std::mem::take(&mut self.pages).into_keys());
+        old.for_each(|id| out.send_command(WindowCommand::Stop(id)));
+        self.aside.stop_outdated_counts(out);
         self.changed = None;
         (self.wrong, self.stopped) = (None, false);
         self.query = self.field.text.clone();
-        self.asked = Some(out.work(searching::search(self.query.clone(), self.options(0))));
+        self.asked = Some(out.request_work(searching::search_tokens_job(
+            self.query.clone(),
+            self.page_search_options(0),
+        )));
     }
 
-    fn options(&self, page: usize) -> SearchOptions {
+    fn page_search_options(&self, page: usize) -> SearchOptions {
         SearchOptions {
-            limit: Some(PAGE),
-            offset: page * PAGE,
+            limit: Some(HIT_PAGE_SIZE),
+            offset: page * HIT_PAGE_SIZE,
             facets: page == 0,
-            order: self.sort.order(),
+            order: self.sort.corpus_order(),
             ..SearchOptions::default()
         }
     }
 
     /// Sets another query, and searches with it.
-    fn turn_to(&mut self, query: String, out: &mut Outbox) {
-        self.field.set(query);
-        self.rows = Rows::default();
-        self.ask(out);
+    fn turn_to_query(&mut self, query: String, out: &mut CommandOutbox) {
+        self.field.set_query_text(query);
+        self.rows = ConditionRows::default();
+        self.search_present_text(out);
     }
 
-    fn sort_by(&mut self, sort: Sort, out: &mut Outbox) {
-        let asks = sort.order() != self.sort.order();
+    fn sort_by(&mut self, sort: HitSort, out: &mut CommandOutbox) {
+        let asks = sort.corpus_order() != self.sort.corpus_order();
         self.sort = sort;
         match &mut self.found {
-            Some(found) if !asks => found.sort(sort),
-            _ => self.ask(out),
+            Some(found) if !asks => found.sort_found_hits(sort),
+            _ => self.search_present_text(out),
         }
     }
 
     /// Requests the missing data of the visible hits.
-    fn sight(&mut self, range: Range<usize>, out: &mut Outbox) {
+    fn request_visible_hits(&mut self, range: Range<usize>, out: &mut CommandOutbox) {
         let Some(found) = &self.found else { return };
         if self.asked.is_none()
             && self.pages.is_empty()
-            && let Some(page) = found.missing(range.clone())
+            && let Some(page) = found.first_missing_page(range.clone())
         {
-            let job = searching::search(self.query.clone(), self.options(page));
-            self.pages.insert(out.work(job), page);
+            let job = searching::search_tokens_job(self.query.clone(), self.page_search_options(page));
+            self.pages.insert(out.request_work(job), page);
         }
-        if self.around.is_none() && self.view == View::Table {
-            let all = if found.is_whole() {
-                0..found.total
-            } else {
-                range
-            };
-            let mut lonely = found.lonely(all);
-            lonely.truncate(MOST_AROUND.max(PAGE));
+        if self.around.is_none() && self.view == ResultsView::Table {
+            let all = if found.is_whole() { 0..found.total } else { range };
+            let mut lonely = found.tokens_without_neighbours(all);
+            lonely.truncate(MOST_AROUND.max(HIT_PAGE_SIZE));
             if !lonely.is_empty() {
-                self.around = Some(out.work(searching::around(lonely, NEIGHBOURS)));
+                self.around = Some(out.request_work(searching::load_neighbours_job(lonely, MAX_HIT_NEIGHBOURS)));
             }
         }
     }
 
     /// Moves the keyboard cursor to a hit.
-    fn reach(&mut self, at: usize) {
+    fn move_cursor_to_hit(&mut self, at: usize) {
         self.at = at;
         self.reach = Some(at);
     }
 
     /// Opens a hit at its place; one that has only a notation is animated and shown on the stage.
-    fn open(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn open_hit_at(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let Some(found) = &self.found else { return };
-        let Some(hit) = found.hit(at) else { return };
+        let Some(hit) = found.hit_at(at) else { return };
         self.opened = Some(at);
         self.at = at;
-        let recorded = hits::place(hit)
+        let recorded = hits::hit_recording_span(hit)
             .and_then(|(name, span)| Some((seen.snapshot.recording_named(name)?.row.id, span)));
         match recorded {
             Some((recording, span)) => {
-                out.send(Command::Made(None));
-                out.send(Command::Place(recording, span));
-                out.send(Command::Look);
-                match found.around(hit.token).cloned() {
-                    Some(around) => select(&around, out),
+                out.send_command(WindowCommand::Made(None));
+                out.send_command(WindowCommand::Place(recording, span));
+                out.send_command(WindowCommand::Look);
+                match found.hit_neighbours(hit.token).cloned() {
+                    Some(around) => select_token_annotation(&around, out),
                     None => {
-                        let job = searching::around(vec![hit.token], NEIGHBOURS);
-                        self.aside.opening = Some(out.work(job));
+                        let job = searching::load_neighbours_job(vec![hit.token], MAX_HIT_NEIGHBOURS);
+                        self.aside.opening = Some(out.request_work(job));
                     }
                 }
             }
             None => {
-                out.send(Command::Made(None));
+                out.send_command(WindowCommand::Made(None));
                 if seen.snapshot.is_notated(&hit.gloss) {
-                    out.send(Command::Note(Thing::Token(hit.token)));
-                    self.notated.open(hit.token, &hit.gloss, out);
+                    out.send_command(WindowCommand::Note(InspectedThing::Token(hit.token)));
+                    self.notated.open_notated_sign(hit.token, &hit.gloss, out);
                 } else {
-                    out.send(Command::Inspect(Thing::Token(hit.token)));
+                    out.send_command(WindowCommand::Inspect(InspectedThing::Token(hit.token)));
                 }
             }
         }
     }
 
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
-    pub(crate) fn show_made(&mut self, out: &mut Outbox) {
-        self.notated.show(out);
+    pub(crate) fn show_animated_hit(&mut self, out: &mut CommandOutbox) {
+        self.notated.show_opened_notation(out);
     }
 
     /// Returns the hit at the keyboard cursor, for use in another pane.
-    pub(crate) fn carried(&self) -> Option<Carried> {
-        self.found.as_ref()?.hit(self.at).map(results::carried)
+    pub(crate) fn cursor_hit_token(&self) -> Option<DraggedToken> {
+        self.found.as_ref()?.hit_at(self.at).map(results::hit_drag_payload)
     }
 
     /// Lists the possible actions for the opened hit if it has no movement.
-    pub(super) fn hint(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        let found = self.found.as_ref().zip(self.opened);
-        let Some(hit) = found.and_then(|(found, at)| found.hit(at)) else {
+    pub(super) fn show_movement_hint(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        let opened_hit = self.found.as_ref().zip(self.opened);
+        let Some(hit) = opened_hit.and_then(|(found, at)| found.hit_at(at)) else {
             return;
         };
-        if hits::place(hit).is_some() {
+        if hits::hit_recording_span(hit).is_some() {
             return;
         }
         let bare = if seen.snapshot.is_notated(&hit.gloss) {
-            self.notated.bare(hit.token)
+            self.notated.movement_absence(hit.token)
         } else {
-            Some(Bare::Coded)
+            Some(MovementAbsence::Coded)
         };
         if let Some(bare) = bare {
-            without_movement::show(ui, seen, out, (hit.token, &hit.gloss), &bare);
+            without_movement::show_movement_absence(ui, seen, out, (hit.token, &hit.gloss), &bare);
         }
     }
 
     /// Searches for signs similar to the selected token, or to the token at the selected time.
-    fn like_selected(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) -> bool {
+    fn like_selected(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
         let Some(contents) = seen
             .shown
             .recording
-            .and_then(|recording| seen.snapshot.contents(recording))
+            .and_then(|recording| seen.snapshot.recording_contents(recording))
         else {
             return false;
         };
-        let by_annotation = seen.shown.annotation().and_then(|annotation| {
+        let by_annotation = seen.shown.selected_annotation().and_then(|annotation| {
             let mut tokens = contents.tokens.iter();
             tokens.find(|token| token.annotation_id == Some(annotation))
         });
-        let annotated = seen.shown.annotation().and_then(|id| {
-            let found = seen.snapshot.annotation(id)?;
-            Some(found.tier.annotations.span(found.at))
+        let annotated = seen.shown.selected_annotation().and_then(|id| {
+            let selection = seen.snapshot.find_open_annotation(id)?;
+            Some(selection.tier.annotations.annotation_span_at(selection.at))
         });
         let span = annotated.or(seen.shown.span);
         let by_time = || {
             let span = span?;
             let shared = |token: &&chereme_corpus::TokenRow| {
                 let (start, end) = token.start_us.zip(token.end_us).unwrap_or_default();
-                end.min(span.end().micros()) - start.max(span.start().micros())
+                end.min(span.span_end_instant().instant_micros())
+                    - start.max(span.span_start_instant().instant_micros())
             };
             let tokens = contents.tokens.iter().filter(|token| shared(token) > 0);
             tokens.max_by_key(shared)
@@ -329,37 +329,34 @@ impl Search {
         let Some(token) = by_annotation.or_else(by_time) else {
             return false;
         };
-        self.turn_to(
-            like_query(&seen.snapshot.overview, token.id, &token.gloss),
-            out,
-        );
+        self.turn_to_query(like_query(&seen.snapshot.overview, token.id, &token.gloss), out);
         self.built = true;
         true
     }
 
     /// Searches again if the corpus changed.
-    fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn repeat_changed_search(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let now = seen.snapshot.overview.generation;
         if self.generation == now {
             return;
         }
         self.generation = now;
         self.aside.forget_counts();
-        self.notated.follow(now);
+        self.notated.forget_animation_failures(now);
         let asked = self.found.is_some() || self.wrong.is_some();
         if asked && self.changed.is_none() {
-            self.ask(out);
+            self.search_present_text(out);
         }
     }
 }
 
 /// Returns the query for signs similar to a token, named by its gloss if that means this token.
-pub(crate) fn like_query(overview: &Overview, token: i64, gloss: &str) -> String {
-    let mut named = overview.signs.iter().filter(|it| it.gloss == gloss);
-    if named.next().is_some_and(|it| it.citation == Some(token)) {
-        let text = format!("like {}", suggest::quoted(gloss));
-        let means = |query: Query| match &query.root {
-            Expr::Like(like) => like.example == Example::Sign(gloss.to_owned()),
+pub(crate) fn like_query(overview: &CorpusOverview, token: i64, gloss: &str) -> String {
+    let mut named = overview.signs.iter().filter(|sign| sign.gloss == gloss);
+    if named.next().is_some_and(|sign| sign.citation == Some(token)) {
+        let text = format!("like {}", search_suggest::quote_query_value(gloss));
+        let means = |query: TokenQuery| match &query.root {
+            QueryExpression::Like(like) => like.example == ExampleToken::Sign(gloss.to_owned()),
             _ => false,
         };
         if text.parse().is_ok_and(means) {
@@ -370,75 +367,84 @@ pub(crate) fn like_query(overview: &Overview, token: i64, gloss: &str) -> String
 }
 
 /// Selects the annotation of a token, and its tier.
-fn select(around: &chereme_corpus::Around, out: &mut Outbox) {
+fn select_token_annotation(around: &chereme_corpus::TokenNeighbours, out: &mut CommandOutbox) {
     if let Some((annotation, tier)) = around.annotation.zip(around.tier) {
-        out.send(Command::Tier(Some(tier)));
-        out.send(Command::Annotations([annotation].into()));
+        out.send_command(WindowCommand::Tier(Some(tier)));
+        out.send_command(WindowCommand::Annotations([annotation].into()));
     }
 }
 
-impl Pane for Search {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        self.follow(seen, out);
+impl PaneInterface for SearchPane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        self.repeat_changed_search(seen, out);
         if let Some(around) = self.aside.opened.take() {
-            select(&around, out);
+            select_token_annotation(&around, out);
         }
         if seen.snapshot.overview.signs.is_empty() {
-            ui.label(seen.say(words::EMPTY));
-            if ui.button(seen.say(crate::words::library::IMPORT)).clicked() {
-                out.send(Command::Do(Action::Import));
+            ui.label(seen.say_text(words::EMPTY));
+            if ui.button(seen.say_text(crate::words::library::IMPORT)).clicked() {
+                out.send_command(WindowCommand::Do(Action::Import));
             }
             return;
         }
         let room = ui.available_height();
         let left = room - self.head - 1.0;
-        self.low = left < LOW;
+        self.low = left < MIN_RESULTS_HEIGHT_POINTS;
         // The whole pane is always in a scroll area, as otherwise the text field would become another widget.
         let area = ScrollArea::vertical().id_salt("page").auto_shrink(false);
-        let high = if self.low { room.max(LOW) } else { left };
-        area.show(ui, |ui| self.page(ui, seen, out, high));
+        let high = if self.low {
+            room.max(MIN_RESULTS_HEIGHT_POINTS)
+        } else {
+            left
+        };
+        area.show(ui, |ui| self.draw_search_page(ui, seen, out, high));
     }
 
-    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
+    fn carry_out_pane_action(
+        &mut self,
+        action: Action,
+        seen: &PaneInput<'_>,
+        out: &mut CommandOutbox,
+    ) -> ActionOutcome {
         match action {
             Action::SearchLike => {
                 if !self.like_selected(seen, out) {
-                    return Acted::Cannot(words::NOTHING_SELECTED);
+                    return ActionOutcome::Cannot(words::NOTHING_SELECTED);
                 }
-                out.send(Command::Do(Action::Search));
-                Acted::Yes
+                out.send_command(WindowCommand::Do(Action::Search));
+                ActionOutcome::Yes
             }
             Action::SearchView => {
                 self.view = match self.view {
-                    View::Grid => View::Table,
-                    View::Table => View::Grid,
+                    ResultsView::Grid => ResultsView::Table,
+                    ResultsView::Table => ResultsView::Grid,
                 };
-                out.send(Command::Do(Action::Search));
-                Acted::Yes
+                out.send_command(WindowCommand::Do(Action::Search));
+                ActionOutcome::Yes
             }
-            _ => Acted::No,
+            _ => ActionOutcome::No,
         }
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
-        self.aside.hear(id, ended);
-        self.examples.hear(id, ended);
-        self.notated.hear(id, ended);
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        self.aside.receive_relaxed_counts(id, ended);
+        self.examples.receive_example_result(id, ended);
+        self.notated.receive_animation_result(id, ended);
         if self.around == Some(id) {
             self.around = None;
-            if let (Ok(Outcome::Around(around)), Some(found)) = (ended, &mut self.found) {
+            if let (Ok(WorkOutcome::Around(around)), Some(found)) = (ended, &mut self.found) {
                 found.put_around(around);
-                found.sort(self.sort);
+                found.sort_found_hits(self.sort);
             }
         }
         if let Some(page) = self.pages.remove(&id)
-            && let (Ok(Outcome::Found(answer)), Some(found)) = (ended, &mut self.found)
+            && let (Ok(WorkOutcome::Found(answer)), Some(found)) = (ended, &mut self.found)
         {
-            found.put(page, &answer.hits);
+            found.put_hit_page(page, &answer.hits);
         }
         if self.asked == Some(id) {
             self.asked = None;
-            self.answered(ended);
+            self.receive_search_answer(ended);
         }
     }
 
@@ -447,46 +453,43 @@ impl Pane for Search {
     }
 }
 
-impl Search {
-    fn answered(&mut self, ended: &Ended) {
-        if matches!(ended, Err(error) if !matches!(error, Error::Stopped)) {
+impl SearchPane {
+    fn receive_search_answer(&mut self, ended: &WorkResult) {
+        if matches!(ended, Err(error) if !matches!(error, CorpusError::Stopped)) {
             // The old answer does not belong to the new query.
             self.found = None;
             (self.at, self.opened, self.scrolled) = (0, None, 0.0);
         }
         match ended {
-            Ok(Outcome::Found(answer)) => {
-                let same = self
-                    .found
-                    .as_ref()
-                    .is_some_and(|it| it.query == answer.query);
-                self.found = Some(Found::new(answer));
+            Ok(WorkOutcome::Found(answer)) => {
+                let same = self.found.as_ref().is_some_and(|earlier| earlier.query == answer.query);
+                self.found = Some(QueryAnswer::new(answer));
                 self.aside.forget_nothing();
                 if !same {
                     (self.at, self.opened, self.scrolled) = (0, None, 0.0);
                 }
             }
-            Err(Error::Query(wrong)) => {
-                self.wrong = Some(Wrong {
+            Err(CorpusError::Query(wrong)) => {
+                self.wrong = Some(QueryFault {
                     from: Some(wrong.at),
                     error: wrong.message.clone(),
                     remedy: wrong.remedy.clone(),
                     mended: wrong.mended.clone(),
                 });
             }
-            Err(error @ Error::Wrong { .. }) => {
-                self.wrong = Some(Wrong {
+            Err(error @ CorpusError::Wrong { .. }) => {
+                self.wrong = Some(QueryFault {
                     from: None,
                     error: error.to_string(),
-                    remedy: error.remedy(),
+                    remedy: error.error_remedy(),
                     mended: None,
                 });
             }
-            Err(Error::Stopped) => self.stopped = true,
+            Err(CorpusError::Stopped) => self.stopped = true,
             Err(error) => {
-                self.wrong = Some(Wrong {
+                self.wrong = Some(QueryFault {
                     from: None,
-                    error: fill("{error}", &[("error", error)]),
+                    error: fill_text_braces("{error}", &[("error", error)]),
                     remedy: None,
                     mended: None,
                 });
@@ -508,13 +511,9 @@ mod tests {
             citation: Some(token),
             ..SignGlance::default()
         };
-        let overview = Overview {
-            signs: vec![
-                sign("AIMER", 15),
-                sign("BON APPETIT", 16),
-                sign("token:3", 17),
-            ],
-            ..Overview::default()
+        let overview = CorpusOverview {
+            signs: vec![sign("AIMER", 15), sign("BON APPETIT", 16), sign("token:3", 17)],
+            ..CorpusOverview::default()
         };
         for (token, gloss, wanted) in [
             (15, "AIMER", "like AIMER"),
@@ -523,11 +522,8 @@ mod tests {
             (17, "token:3", "like token:17"),
         ] {
             let query = like_query(&overview, token, gloss);
-            assert!(
-                query == wanted || query == format!("like \"{gloss}\""),
-                "{query}"
-            );
-            assert!(query.parse::<Query>().is_ok());
+            assert!(query == wanted || query == format!("like \"{gloss}\""), "{query}");
+            assert!(query.parse::<TokenQuery>().is_ok());
         }
     }
 }

@@ -1,40 +1,35 @@
 //! The three tiles that begin a search: a hand, the body, a movement; each opens the pictures of its values.
 
-use chereme_sign::{Component, Inventory};
+use chereme_sign::{ComponentInventory, SignComponent};
 use eframe::egui::{
-    Align2, CornerRadius, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, CornerRadius, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::builder::with_value;
-use crate::context::{Outbox, PaneInput};
+use super::search_builder::with_value;
+use crate::context::{CommandOutbox, PaneInput};
 use crate::miniatures;
-use crate::pickers::{self, Picker};
-use crate::words::{Text, search as words};
+use crate::pickers::{self, ValuePicker};
+use crate::words::{InterfaceText, search_words as words};
 
 /// The height of a tile, in points.
-const HIGH: f32 = 92.0;
+const TILE_HEIGHT_POINTS: f32 = 92.0;
 /// The time for which a tile shows each value, in seconds.
-const TURN: f64 = 1.6;
+const TILE_VALUE_SECONDS: f64 = 1.6;
 /// The space between two tiles, in points.
-const GAP: f32 = 8.0;
+const TILE_GAP_POINTS: f32 = 8.0;
 /// The room on the right for the bar that scrolls the pane.
-const MARGIN: f32 = 6.0;
+const TILE_SCROLLBAR_MARGIN_POINTS: f32 = 6.0;
 
 /// A tile: its component, its name, and sample values, which are shown one after the other.
-const TILES: [(Component, Text, [&str; 4]); 3] = [
+const SAMPLE_TILES: [(SignComponent, InterfaceText, [&str; 4]); 3] = [
+    (SignComponent::Configuration, words::TILE_HAND, ["5", "U", "1", "S"]),
     (
-        Component::Configuration,
-        words::TILE_HAND,
-        ["5", "U", "1", "S"],
-    ),
-    (
-        Component::Placement,
+        SignComponent::Placement,
         words::TILE_BODY,
         ["forehead", "chest", "chin", "shoulder"],
     ),
     (
-        Component::Movement,
+        SignComponent::Movement,
         words::TILE_MOVEMENT,
         ["arc", "circle", "straight", "zigzag"],
     ),
@@ -42,41 +37,41 @@ const TILES: [(Component, Text, [&str; 4]); 3] = [
 
 /// The pickers of the tiles.
 #[derive(Debug, Default)]
-pub(super) struct Tiles {
-    pickers: [Picker; 3],
+pub(super) struct TilePickers {
+    pickers: [ValuePicker; 3],
 }
 
-impl Tiles {
+impl TilePickers {
     /// Shows the tiles; returns the query for the picked value.
-    pub(super) fn show(
+    pub(super) fn show_component_tiles(
         &mut self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        out: &mut Outbox,
+        out: &mut CommandOutbox,
     ) -> Option<String> {
-        let found: Vec<(usize, &Inventory)> = TILES
+        let tiles: Vec<(usize, &ComponentInventory)> = SAMPLE_TILES
             .iter()
             .enumerate()
-            .filter_map(|(at, (component, ..))| Some((at, inventory(seen, *component)?)))
+            .filter_map(|(at, (component, ..))| Some((at, largest_component_inventory(seen, *component)?)))
             .collect();
-        if found.is_empty() {
+        if tiles.is_empty() {
             return None;
         }
-        let room = ui.available_width() - MARGIN;
-        let width = (room + GAP) / found.len() as f32 - GAP;
+        let room = ui.available_width() - TILE_SCROLLBAR_MARGIN_POINTS;
+        let width = (room + TILE_GAP_POINTS) / tiles.len() as f32 - TILE_GAP_POINTS;
         let mut query = None;
         ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = GAP;
-            for (at, inventory) in found {
-                let (component, name, _) = &TILES[at];
-                let name = seen.say(*name);
+            ui.spacing_mut().item_spacing.x = TILE_GAP_POINTS;
+            for (at, inventory) in tiles {
+                let (component, name, _) = &SAMPLE_TILES[at];
+                let name = seen.say_text(*name);
                 let response = tile(ui, seen, (at, inventory), name, width);
                 let picker = &mut self.pickers[at];
                 let about = (inventory, None, name);
-                if let Some(value) = pickers::below(ui, &response, picker, seen, about) {
-                    query = Some(with_value("", component.name(), &value));
+                if let Some(value) = pickers::show_picker_below(ui, &response, picker, seen, about) {
+                    query = Some(with_value("", component.component_name(), &value));
                 }
-                picker.inspect(seen, out);
+                picker.inspect_requested_value(seen, out);
             }
         });
         ui.add_space(4.0);
@@ -85,26 +80,26 @@ impl Tiles {
 }
 
 /// Returns the inventory of a component with the most values.
-fn inventory<'a>(seen: &PaneInput<'a>, component: Component) -> Option<&'a Inventory> {
+fn largest_component_inventory<'a>(seen: &PaneInput<'a>, component: SignComponent) -> Option<&'a ComponentInventory> {
     let all = seen.snapshot.overview.inventories.iter();
-    all.map(|it| &it.inventory)
-        .filter(|it| it.component == component && it.feature.is_none())
-        .max_by_key(|it| it.values.len())
+    all.map(|stored| &stored.inventory)
+        .filter(|inventory| inventory.component == component && inventory.feature.is_none())
+        .max_by_key(|inventory| inventory.values.len())
 }
 
 fn tile(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (at, inventory): (usize, &Inventory),
+    (at, inventory): (usize, &ComponentInventory),
     name: &str,
     width: f32,
 ) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(width, HIGH), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(width, TILE_HEIGHT_POINTS), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     if !ui.is_rect_visible(rect) {
         return response;
     }
-    let colours = seen.colours();
+    let colours = seen.pane_colours();
     let lit = response.hovered() || response.has_focus();
     let (line, colour) = if lit {
         (2.0, colours.accent)
@@ -114,33 +109,29 @@ fn tile(
     let fill = ui.visuals().extreme_bg_color;
     let stroke = Stroke::new(line, colour);
     let corner = CornerRadius::same(8);
-    ui.painter()
-        .rect(rect, corner, fill, stroke, StrokeKind::Inside);
-    let turn = (miniatures::clock(ui) / TURN) as usize + at;
-    let known = TILES[at].2.into_iter().cycle().skip(turn % 4).take(4);
-    let side = HIGH - 34.0;
-    let picture = Rect::from_center_size(
-        pos2(rect.center().x, rect.top() + 5.0 + side / 2.0),
-        vec2(side, side),
-    );
-    for value in known {
-        if pickers::picture(ui, picture, seen, inventory, value) {
+    ui.painter().rect(rect, corner, fill, stroke, StrokeKind::Inside);
+    let turn = (miniatures::figure_loop_clock(ui) / TILE_VALUE_SECONDS) as usize + at;
+    let tile_values = SAMPLE_TILES[at].2.into_iter().cycle().skip(turn % 4).take(4);
+    let side = TILE_HEIGHT_POINTS - 34.0;
+    let picture = Rect::from_center_size(pos2(rect.center().x, rect.top() + 5.0 + side / 2.0), vec2(side, side));
+    for value in tile_values {
+        if pickers::paint_inventory_value(ui, picture, seen, inventory, value) {
             break;
         }
     }
-    ui.ctx().request_repaint_after_secs(TURN as f32 / 4.0);
+    ui.ctx().request_repaint_after_secs(TILE_VALUE_SECONDS as f32 / 4.0);
     let below = pos2(rect.center().x, rect.bottom() - 14.0);
     let text = ui.visuals().text_color();
-    let laid = |style: TextStyle| {
+    let styled_galley = |style: TextStyle| {
         let font = style.resolve(ui.style());
         ui.painter().layout_no_wrap(name.to_owned(), font, text)
     };
-    let mut galley = laid(TextStyle::Body);
+    let mut galley = styled_galley(TextStyle::Body);
     if galley.size().x > width - 8.0 {
-        galley = laid(TextStyle::Small);
+        galley = styled_galley(TextStyle::Small);
     }
-    let at = Align2::CENTER_CENTER.anchor_size(below, galley.size());
-    ui.painter().galley(at.min, galley, text);
+    let text_rect = Align2::CENTER_CENTER.anchor_size(below, galley.size());
+    ui.painter().galley(text_rect.min, galley, text);
     response
 }
 
@@ -152,9 +143,9 @@ mod tests {
     #[test]
     fn each_tile_has_built_in_values_to_show() {
         let ids = ["configurations", "placements", "movements"];
-        for ((_, _, values), id) in TILES.iter().zip(ids) {
+        for ((_, _, values), id) in SAMPLE_TILES.iter().zip(ids) {
             let inventory = builtin_by_id(id).expect("of the house");
-            let known = values.iter().filter(|it| inventory.find(it).is_some());
+            let known = values.iter().filter(|it| inventory.find_inventory_value(it).is_some());
             assert!(known.count() >= 2, "{id}");
         }
     }

@@ -1,28 +1,28 @@
 //! The geometry of a placement's handle, without widgets: its place in the picture, and the effect of a drag in space.
 
-use chereme_figure::camera::Projection;
-use chereme_motion::{Anatomy, Clip};
+use chereme_figure::camera::CameraProjection;
+use chereme_motion::{BodyAnatomy, Clip};
 use glam::{DMat3, DVec3, Vec3};
 
 /// The length of an axis in the picture if it is perpendicular to the line of sight, in points.
-pub(super) const REACH: f32 = 64.0;
+pub(super) const GIZMO_AXIS_LENGTH_POINTS: f32 = 64.0;
 /// Axes that are shorter than this in the picture, in points, are left out, as they point towards the eye.
-const LEAST: f32 = 12.0;
+const MIN_GIZMO_AXIS_POINTS: f32 = 12.0;
 /// How many frames are examined for the direction that the body faces.
-const LOOKS: usize = 16;
+const MAX_EXAMINED_FRAMES: usize = 16;
 
 /// A line of sight.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ray {
+pub(super) struct SightRay {
     pub(super) from: DVec3,
     /// Its direction, of length 1.
     pub(super) along: DVec3,
 }
 
-impl Ray {
+impl SightRay {
     /// Returns the line of sight through a point of the picture.
-    pub(super) fn through(projection: &Projection, [x, y]: [f32; 2]) -> Self {
-        let (from, along) = projection.ray(x, y);
+    pub(super) fn ray_through_point(projection: &CameraProjection, [x, y]: [f32; 2]) -> Self {
+        let (from, along) = projection.sight_ray(x, y);
         Self {
             from: from.as_dvec3(),
             along: along.as_dvec3().normalize_or(DVec3::NEG_Z),
@@ -49,18 +49,18 @@ impl Ray {
 
 /// A signer's directions, and the length of an arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Directions {
+pub(super) struct SignerDirections {
     /// Left, up and forward.
     pub(super) axes: DMat3,
     /// The length of the arm, in metres.
     pub(super) arm: f64,
 }
 
-impl Directions {
+impl SignerDirections {
     /// Returns the directions of a movement as placements use them: up is vertical, left and forward are horizontal.
-    pub(super) fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        let step = clip.frames().div_ceil(LOOKS).max(1);
-        let facing = (0..clip.frames()).step_by(step).filter_map(|frame| {
+    pub(super) fn directions_from_clip(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Self> {
+        let step = clip.clip_frame_count().div_ceil(MAX_EXAMINED_FRAMES).max(1);
+        let facing = (0..clip.clip_frame_count()).step_by(step).filter_map(|frame| {
             let body = anatomy.body_frame(&clip.model_pose(frame))?;
             Some(body.forward)
         });
@@ -68,7 +68,7 @@ impl Directions {
         let forward = DVec3::new(facing.x, 0.0, facing.z).normalize_or(DVec3::Z);
         Some(Self {
             axes: DMat3::from_cols(DVec3::Y.cross(forward), DVec3::Y, forward),
-            arm: anatomy.measures()?.arm,
+            arm: anatomy.anatomy_measures()?.arm,
         })
     }
 }
@@ -84,21 +84,21 @@ pub(super) enum HandlePart {
 
 /// The state at the beginning of a drag.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Begun {
+pub(super) struct GizmoDragStart {
     pub(super) part: HandlePart,
     /// The position of the handle, in model space.
     pub(super) origin: DVec3,
     /// The value, in metres to the left, up and forward.
     pub(super) value: [f64; 3],
     /// The line of sight through the pointer.
-    pub(super) ray: Ray,
+    pub(super) ray: SightRay,
     /// The direction of view.
     pub(super) sight: DVec3,
 }
 
-impl Begun {
+impl GizmoDragStart {
     /// Returns the value for a pointer on the line of sight `ray`, rounded to millimetres or to `step`.
-    pub(super) fn value(&self, ray: Ray, axes: DMat3, step: Option<f64>) -> Option<[f64; 3]> {
+    pub(super) fn dragged_gizmo_value(&self, ray: SightRay, axes: DMat3, step: Option<f64>) -> Option<[f64; 3]> {
         let offset = match self.part {
             HandlePart::Axis(nth) => {
                 let axis = axes.col(nth);
@@ -117,20 +117,20 @@ impl Begun {
         for (nth, offset) in offset.into_iter().enumerate() {
             let moves = self.part == HandlePart::Middle || self.part == HandlePart::Axis(nth);
             if moves {
-                value[nth] = snapped(value[nth] + offset, step);
+                value[nth] = snap_gizmo_length(value[nth] + offset, step);
             }
         }
         Some(value)
     }
 
     /// Returns the position of the handle for a value, in model space.
-    pub(super) fn place(&self, value: [f64; 3], axes: DMat3) -> DVec3 {
+    pub(super) fn gizmo_handle_position(&self, value: [f64; 3], axes: DMat3) -> DVec3 {
         self.origin + axes * (DVec3::from(value) - DVec3::from(self.value))
     }
 }
 
 /// Returns a length rounded to millimetres or to `step`, such that it is exact in centimetres.
-pub(super) fn snapped(metres: f64, step: Option<f64>) -> f64 {
+pub(super) fn snap_gizmo_length(metres: f64, step: Option<f64>) -> f64 {
     let step = step.unwrap_or(0.001);
     let mm = ((metres / step).round() * step * 1000.0).round();
     // Adding 0.0 turns -0.0 into 0.0.
@@ -139,25 +139,18 @@ pub(super) fn snapped(metres: f64, step: Option<f64>) -> f64 {
 
 /// Returns the value after a step by keys, in metres to the picture's right, up, and away from the eye. Each step
 /// follows the axis of the signer that is nearest to it in the picture.
-pub(super) fn stepped(
+pub(super) fn step_gizmo_value(
     value: [f64; 3],
     [right, up, away]: [f64; 3],
-    (projection, axes): (&Projection, DMat3),
+    (projection, axes): (&CameraProjection, DMat3),
 ) -> [f64; 3] {
-    let seen = [0, 1, 2].map(|nth| projection.turned(axes.col(nth).as_vec3()));
-    const ORDERS: [[usize; 3]; 6] = [
-        [0, 1, 2],
-        [0, 2, 1],
-        [1, 0, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [2, 1, 0],
-    ];
+    let seen = [0, 1, 2].map(|nth| projection.to_picture_axes(axes.col(nth).as_vec3()));
+    const AXIS_ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let fits = |order: &[usize; 3]| -> f32 {
         let [right, up, away] = order.map(|nth| seen[nth]);
         right.x.abs() + up.y.abs() + away.z.abs()
     };
-    let best = ORDERS
+    let best = AXIS_ORDERS
         .into_iter()
         .reduce(|a, b| if fits(&b) > fits(&a) { b } else { a });
     let order = best.unwrap_or([0, 1, 2]);
@@ -170,7 +163,7 @@ pub(super) fn stepped(
             _ => -seen[nth].z,
         };
         if distance != 0.0 {
-            value[nth] = snapped(value[nth] + distance * f64::from(sign.signum()), None);
+            value[nth] = snap_gizmo_length(value[nth] + distance * f64::from(sign.signum()), None);
         }
     }
     value
@@ -178,22 +171,22 @@ pub(super) fn stepped(
 
 /// The place of a handle in the picture, in points from its upper left corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Laid {
+pub(super) struct GizmoLayout {
     pub(super) middle: [f32; 2],
     /// The ends of left, up and forward; `None` for an axis that points towards the eye.
     pub(super) ends: [Option<[f32; 2]>; 3],
 }
 
 /// Returns the place of a handle at `origin`; `None` if it is behind the eye.
-pub(super) fn laid(projection: &Projection, origin: DVec3, axes: DMat3) -> Option<Laid> {
-    let at = projection.project(origin.as_vec3());
+pub(super) fn lay_out_gizmo(projection: &CameraProjection, origin: DVec3, axes: DMat3) -> Option<GizmoLayout> {
+    let projected = projection.project_point(origin.as_vec3());
     let ends = [0, 1, 2].map(|nth| {
-        let direction: Vec3 = projection.turned(axes.col(nth).as_vec3()) * REACH;
+        let direction: Vec3 = projection.to_picture_axes(axes.col(nth).as_vec3()) * GIZMO_AXIS_LENGTH_POINTS;
         let length = direction.x.hypot(direction.y);
-        (length >= LEAST).then_some([at.x + direction.x, at.y - direction.y])
+        (length >= MIN_GIZMO_AXIS_POINTS).then_some([projected.x + direction.x, projected.y - direction.y])
     });
-    (at.depth > 0.0).then_some(Laid {
-        middle: [at.x, at.y],
+    (projected.depth > 0.0).then_some(GizmoLayout {
+        middle: [projected.x, projected.y],
         ends,
     })
 }
@@ -201,25 +194,25 @@ pub(super) fn laid(projection: &Projection, origin: DVec3, axes: DMat3) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_figure::camera::Camera;
+    use chereme_figure::camera::FigureCamera;
     use proptest::prelude::*;
 
-    fn front() -> Projection {
-        let camera = Camera {
+    fn front() -> CameraProjection {
+        let camera = FigureCamera {
             eye: Vec3::new(0.0, 1.0, 7.0),
             target: Vec3::new(0.0, 1.0, 0.0),
             up: Vec3::Y,
             half_height: 1.0,
             near: 0.0,
         };
-        camera.projection(400, 400)
+        camera.camera_projection(400, 400)
     }
 
     /// Left, up and forward of a signer who faces +Z.
     const OWN: DMat3 = DMat3::IDENTITY;
 
-    fn pixel(projection: &Projection, at: DVec3) -> [f32; 2] {
-        let at = projection.project(at.as_vec3());
+    fn pixel(projection: &CameraProjection, at: DVec3) -> [f32; 2] {
+        let at = projection.project_point(at.as_vec3());
         [at.x, at.y]
     }
 
@@ -231,7 +224,7 @@ mod tests {
             DVec3::new(-0.5, 0.4, -0.3),
             DVec3::new(0.0, 1.0, 0.0),
         ] {
-            let ray = Ray::through(&projection, pixel(&projection, at));
+            let ray = SightRay::ray_through_point(&projection, pixel(&projection, at));
             let nearest = ray.from + ray.along * ray.along.dot(at - ray.from);
             assert!(nearest.distance(at) < 1e-4, "{at}: {nearest}");
         }
@@ -240,28 +233,18 @@ mod tests {
     #[test]
     fn rays_meet_axes_and_planes_at_the_points_of_closed_forms() {
         // The ray from (1, 2, 5) straight back is nearest to the x axis at x = 1, and meets z = 0 at (1, 2, 0).
-        let ray = Ray {
+        let ray = SightRay {
             from: DVec3::new(1.0, 2.0, 5.0),
             along: DVec3::NEG_Z,
         };
         assert_eq!(ray.along_axis(DVec3::ZERO, DVec3::X), Some(1.0));
-        assert_eq!(
-            ray.along_axis(DVec3::new(0.25, 9.0, 0.0), DVec3::X),
-            Some(0.75)
-        );
+        assert_eq!(ray.along_axis(DVec3::new(0.25, 9.0, 0.0), DVec3::X), Some(0.75));
         assert_eq!(ray.along_axis(DVec3::ZERO, DVec3::Z), None);
-        assert_eq!(
-            ray.on_plane(DVec3::ZERO, DVec3::Z),
-            Some(DVec3::new(1.0, 2.0, 0.0))
-        );
+        assert_eq!(ray.on_plane(DVec3::ZERO, DVec3::Z), Some(DVec3::new(1.0, 2.0, 0.0)));
         assert_eq!(ray.on_plane(DVec3::ZERO, DVec3::X), None);
-        assert_eq!(
-            ray.on_plane(DVec3::new(0.0, 0.0, 9.0), DVec3::Z),
-            None,
-            "behind"
-        );
+        assert_eq!(ray.on_plane(DVec3::new(0.0, 0.0, 9.0), DVec3::Z), None, "behind");
         // At 45 degrees from (0, 0, 1) it crosses the x axis at 1.
-        let slant = Ray {
+        let slant = SightRay {
             from: DVec3::Z,
             along: DVec3::new(1.0, 0.0, -1.0).normalize(),
         };
@@ -278,22 +261,19 @@ mod tests {
             (HandlePart::Axis(1), DVec3::new(0.0, -0.2, 0.0)),
             (HandlePart::Middle, DVec3::new(0.1, 0.07, 0.0)),
         ] {
-            let begun = Begun {
+            let begun = GizmoDragStart {
                 part,
                 origin,
                 value: [0.1, 0.0, 0.05],
-                ray: Ray::through(&projection, pixel(&projection, origin)),
+                ray: SightRay::ray_through_point(&projection, pixel(&projection, origin)),
                 sight: DVec3::NEG_Z,
             };
-            let ray = Ray::through(&projection, pixel(&projection, origin + offset));
-            let value = begun.value(ray, OWN, None).expect("a value");
+            let ray = SightRay::ray_through_point(&projection, pixel(&projection, origin + offset));
+            let value = begun.dragged_gizmo_value(ray, OWN, None).expect("a value");
             let wanted = DVec3::new(0.1, 0.0, 0.05) + offset;
-            assert!(
-                DVec3::from(value).distance(wanted) < 2e-3,
-                "{part:?}: {value:?}"
-            );
-            assert!(begun.place(value, OWN).distance(origin + offset) < 2e-3);
-            let whole = begun.value(ray, OWN, Some(0.01)).expect("a value");
+            assert!(DVec3::from(value).distance(wanted) < 2e-3, "{part:?}: {value:?}");
+            assert!(begun.gizmo_handle_position(value, OWN).distance(origin + offset) < 2e-3);
+            let whole = begun.dragged_gizmo_value(ray, OWN, Some(0.01)).expect("a value");
             let moved = (0..3).filter(|nth| whole[*nth] != begun.value[*nth]);
             for nth in moved {
                 let cm = whole[nth] * 100.0;
@@ -305,62 +285,47 @@ mod tests {
     #[test]
     fn lengths_are_written_in_centimetres() {
         for mm in -999..999 {
-            let metres = snapped(f64::from(mm) / 1000.0 + 0.0002, None);
-            let text = chereme_corpus::recipe::Length::Metres(metres).to_string();
+            let metres = snap_gizmo_length(f64::from(mm) / 1000.0 + 0.0002, None);
+            let text = chereme_corpus::recipe::RecipeLength::Metres(metres).to_string();
             assert_eq!(text, format!("{}cm", f64::from(mm) / 10.0));
         }
-        assert_eq!(snapped(0.1872, Some(0.01)), 0.19);
+        assert_eq!(snap_gizmo_length(0.1872, Some(0.01)), 0.19);
     }
 
     #[test]
     fn arrow_keys_move_a_handle_as_seen_in_the_picture() {
         let one = |from: Vec3, to: Vec3, up: Vec3, keys: [f64; 3]| {
-            let camera = Camera {
+            let camera = FigureCamera {
                 eye: from,
                 target: to,
                 up,
                 half_height: 1.0,
                 near: 0.0,
             };
-            stepped([0.0; 3], keys, (&camera.projection(400, 400), OWN))
+            step_gizmo_value([0.0; 3], keys, (&camera.camera_projection(400, 400), OWN))
         };
         let (up, middle) = (Vec3::Y, Vec3::new(0.0, 1.0, 0.0));
         let addressee = Vec3::new(0.0, 1.0, 7.0);
-        assert_eq!(
-            one(addressee, middle, up, [0.01, 0.0, 0.0]),
-            [0.01, 0.0, 0.0]
-        );
-        assert_eq!(
-            one(addressee, middle, up, [0.0, 0.05, 0.0]),
-            [0.0, 0.05, 0.0]
-        );
-        assert_eq!(
-            one(addressee, middle, up, [0.0, 0.0, 0.01]),
-            [0.0, 0.0, -0.01]
-        );
+        assert_eq!(one(addressee, middle, up, [0.01, 0.0, 0.0]), [0.01, 0.0, 0.0]);
+        assert_eq!(one(addressee, middle, up, [0.0, 0.05, 0.0]), [0.0, 0.05, 0.0]);
+        assert_eq!(one(addressee, middle, up, [0.0, 0.0, 0.01]), [0.0, 0.0, -0.01]);
         // From the signer's left, forward is to the left of the picture.
         let left = Vec3::new(7.0, 1.0, 0.0);
         assert_eq!(one(left, middle, up, [0.01, 0.0, 0.0]), [0.0, 0.0, -0.01]);
         assert_eq!(one(left, middle, up, [0.0, 0.0, 0.01]), [-0.01, 0.0, 0.0]);
         let above = Vec3::new(0.0, 8.0, 0.0);
-        assert_eq!(
-            one(above, middle, Vec3::NEG_Z, [0.0, 0.01, 0.0]),
-            [0.0, 0.0, -0.01]
-        );
-        assert_eq!(
-            one(above, middle, Vec3::NEG_Z, [0.0, 0.0, 0.01]),
-            [0.0, -0.01, 0.0]
-        );
+        assert_eq!(one(above, middle, Vec3::NEG_Z, [0.0, 0.01, 0.0]), [0.0, 0.0, -0.01]);
+        assert_eq!(one(above, middle, Vec3::NEG_Z, [0.0, 0.0, 0.01]), [0.0, -0.01, 0.0]);
     }
 
     #[test]
     fn ends_lie_along_the_axes_and_none_points_at_the_eye() {
-        let laid = laid(&front(), DVec3::new(0.0, 1.0, 0.0), OWN).expect("seen");
+        let laid = lay_out_gizmo(&front(), DVec3::new(0.0, 1.0, 0.0), OWN).expect("seen");
         assert_eq!(laid.middle, [200.0, 200.0]);
-        assert_eq!(laid.ends[0], Some([200.0 + REACH, 200.0]));
-        assert_eq!(laid.ends[1], Some([200.0, 200.0 - REACH]));
+        assert_eq!(laid.ends[0], Some([200.0 + GIZMO_AXIS_LENGTH_POINTS, 200.0]));
+        assert_eq!(laid.ends[1], Some([200.0, 200.0 - GIZMO_AXIS_LENGTH_POINTS]));
         assert_eq!(laid.ends[2], None);
-        assert!(super::laid(&front(), DVec3::new(0.0, 1.0, 8.0), OWN).is_none());
+        assert!(super::lay_out_gizmo(&front(), DVec3::new(0.0, 1.0, 8.0), OWN).is_none());
     }
 
     proptest! {
@@ -377,7 +342,7 @@ mod tests {
             else {
                 return Ok(());
             };
-            let ray = Ray { from, along };
+            let ray = SightRay { from, along };
             if let Some(far) = ray.along_axis(DVec3::ZERO, axis) {
                 let place = axis * far;
                 let on_ray = from + along * along.dot(place - from);

@@ -21,70 +21,70 @@
 
 mod artist;
 mod captions;
-mod course;
-pub(crate) mod data;
 mod gizmo;
-mod handle;
 mod insets;
-mod marks;
 mod original;
-mod points;
 mod preview;
-mod scene;
+mod stage_course;
+pub(crate) mod stage_data;
+mod stage_handle;
+mod stage_marks;
+mod stage_points;
+mod stage_scene;
+mod stage_ui;
+mod stage_view_settings;
 mod tools;
 mod transport;
-mod ui;
-mod view_settings;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use chereme_corpus::Overview;
-use chereme_figure::View;
-use chereme_motion::{ModelPose, Side};
+use chereme_corpus::CorpusOverview;
+use chereme_figure::FigureView;
+use chereme_motion::{BodySide, ModelPose};
 use eframe::egui::{Context, Id, Rect, TextureHandle, Ui};
 
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
 use crate::model::generated::GeneratedClip;
-use crate::panes::{Acted, Pane};
-use crate::work::{Ended, WorkId};
-use artist::Artist;
-use data::{Compare, Eye, Insets, Look, Shows};
-use marks::Zone;
-use original::Original;
-use points::Points;
-use scene::{Movement, Subject};
-pub(crate) use view_settings::StageSettings;
+use crate::panes::{ActionOutcome, PaneInterface};
+use crate::work::{WorkId, WorkResult};
+use artist::StageArtist;
+use original::OriginalMovements;
+use stage_data::{OriginalComparison, StageExtras, StageEye, StageLook, WantedInsets};
+use stage_marks::PlacementZone;
+use stage_points::RecordingPoints;
+use stage_scene::{PostureSource, StageSubject};
+pub(crate) use stage_view_settings::StageSettings;
 
 /// The step of a key for turning, in shares of the picture's height, and for magnification.
 const KEY_STEP: f32 = 0.06;
 const KEY_ZOOM: f32 = 1.15;
 /// Usual reach of trails, in seconds.
-const REACH: f64 = 0.4;
+const DEFAULT_TRAIL_REACH_SECONDS: f64 = 0.4;
 
 /// The pane.
-pub(crate) struct Stage {
-    artist: Option<Artist>,
-    signer: Option<(Of, Subject)>,
-    original: Original,
-    points: Points,
+pub(crate) struct StagePane {
+    artist: Option<StageArtist>,
+    signer: Option<(MovementIdentity, StageSubject)>,
+    original: OriginalMovements,
+    points: RecordingPoints,
     /// The cameras of the panes.
-    eyes: Vec<Eye>,
+    eyes: Vec<StageEye>,
     /// The pane that keyboard actions apply to.
     active: usize,
-    compare: Compare,
-    shows: Shows,
+    compare: OriginalComparison,
+    shows: StageExtras,
     /// The reach of trails when they are shown, in seconds.
     reach: f64,
     places: bool,
-    insets: Insets,
+    insets: WantedInsets,
     /// The stroke of a newly opened recording or sign.
-    stroke: Option<preview::Stroke>,
+    stroke: Option<preview::PreviewStroke>,
     /// The moment that is shown instead of the playhead's, if any.
-    previews: Option<chereme_motion::Instant>,
-    zones: Option<(Arc<Overview>, Vec<Zone>)>,
+    previews: Option<chereme_motion::RecordingInstant>,
+    zones: Option<(Arc<CorpusOverview>, Vec<PlacementZone>)>,
     textures: Vec<TextureHandle>,
     /// The signer's posture in the visible pictures.
     drawn: Option<ModelPose>,
@@ -92,15 +92,15 @@ pub(crate) struct Stage {
     wished: u64,
     shown: u64,
     /// The inputs of the last requested pictures.
-    asked: Option<Look>,
+    asked: Option<StageLook>,
     /// Whether the moment at the playhead is still being loaded.
     coming: bool,
     /// How long the last pictures took to draw.
     took: Duration,
     /// The state of a placement's handle.
-    holding: handle::Holding,
+    holding: stage_handle::HandleState,
     /// The point of a path that is being pulled.
-    pull: Option<course::Pull>,
+    pull: Option<stage_course::PathPull>,
     /// Whether the signer belongs to generated movement.
     made: bool,
     /// When generated movement was last replaced by a newer version, in seconds of the window's clock; and whether its
@@ -111,25 +111,25 @@ pub(crate) struct Stage {
     remembered: bool,
 }
 
-impl Default for Stage {
+impl Default for StagePane {
     fn default() -> Self {
         Self {
             artist: None,
             signer: None,
-            original: Original::default(),
-            points: Points::default(),
-            eyes: vec![Eye::default()],
+            original: OriginalMovements::default(),
+            points: RecordingPoints::default(),
+            eyes: vec![StageEye::default()],
             active: 0,
-            compare: Compare::default(),
-            shows: Shows {
+            compare: OriginalComparison::default(),
+            shows: StageExtras {
                 trails: None,
                 ghosts: false,
                 grid: false,
                 points: true,
             },
-            reach: REACH,
+            reach: DEFAULT_TRAIL_REACH_SECONDS,
             places: false,
-            insets: Insets::default(),
+            insets: WantedInsets::default(),
             stroke: None,
             previews: None,
             zones: None,
@@ -140,7 +140,7 @@ impl Default for Stage {
             asked: None,
             coming: false,
             took: Duration::ZERO,
-            holding: handle::Holding::default(),
+            holding: stage_handle::HandleState::default(),
             pull: None,
             made: false,
             replaced: None,
@@ -152,23 +152,23 @@ impl Default for Stage {
 
 /// The identity of a subject's movement: its address in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Of(usize);
+struct MovementIdentity(usize);
 
-impl Stage {
+impl StagePane {
     /// Builds the figures of the displayed movement if it changed; `time` is in seconds of the window's clock.
-    fn follow(&mut self, seen: &PaneInput<'_>, time: f64, out: &mut Outbox) {
+    fn rebuild_stage_figures(&mut self, seen: &PaneInput<'_>, time: f64, out: &mut CommandOutbox) {
         let made = seen.shown.made.as_ref().map(|showing| &showing.made);
-        let sample = seen.reel.sample();
+        let sample = seen.reel.sample_piece();
         let now = match (made, sample) {
             (Some(made), _) => Some((
-                Of(Arc::as_ptr(made) as usize),
+                MovementIdentity(Arc::as_ptr(made) as usize),
                 &made.clip,
                 made.anatomy.as_ref(),
             )),
-            (None, Some(it)) => Some((Of(Arc::as_ptr(it) as usize), &it.clip, &it.anatomy)),
+            (None, Some(it)) => Some((MovementIdentity(Arc::as_ptr(it) as usize), &it.clip, &it.anatomy)),
             (None, None) => None,
         };
-        if self.signer.as_ref().map(|it| it.0) != now.map(|it| it.0) {
+        if self.signer.as_ref().map(|signer| signer.0) != now.map(|entry| entry.0) {
             // While a hand is being placed, the camera does not move.
             let newer = self.made && made.is_some();
             let steady = newer && seen.shown.handle.is_some();
@@ -177,15 +177,15 @@ impl Stage {
             self.made = made.is_some();
             self.signer = now.and_then(|(of, clip, anatomy)| {
                 // The same body is used again if only its movement changed.
-                let before = self.signer.take().map(|it| it.1);
-                Some((of, Subject::after(before, clip, anatomy, steady)?))
+                let before = self.signer.take().map(|signer| signer.1);
+                Some((of, StageSubject::succeed_stage_subject(before, clip, anatomy, steady)?))
             });
             self.asked = None;
         }
-        if self.original.follow(seen, out) {
+        if self.original.request_original_movements(seen, out) {
             self.asked = None;
         }
-        if self.points.follow(seen, out) {
+        if self.points.request_recording_points(seen, out) {
             self.asked = None;
         }
     }
@@ -201,13 +201,13 @@ impl Stage {
     }
 
     /// Returns whether that movement is on the stage.
-    pub(crate) fn shows(&self, made: &Arc<GeneratedClip>) -> bool {
-        let of = Of(Arc::as_ptr(made) as usize);
-        self.signer.as_ref().is_some_and(|it| it.0 == of)
+    pub(crate) fn is_clip_on_stage(&self, made: &Arc<GeneratedClip>) -> bool {
+        let of = MovementIdentity(Arc::as_ptr(made) as usize);
+        self.signer.as_ref().is_some_and(|signer| signer.0 == of)
     }
 
     /// Returns how the original is shown, if there is one.
-    fn comparing(&self) -> Option<Compare> {
+    fn comparing(&self) -> Option<OriginalComparison> {
         self.original.is_there().then_some(self.compare)
     }
 
@@ -216,76 +216,86 @@ impl Stage {
         self.holding.has_focus(ctx)
     }
 
-    fn split(&mut self, count: usize) {
-        let usual = data::usual_views(count);
+    fn split_stage_views(&mut self, count: usize) {
+        let usual = stage_data::usual_views(count);
         let kept = self.eyes.len().min(count);
-        let mut eyes: Vec<Eye> = self.eyes[..kept].to_vec();
+        let mut eyes: Vec<StageEye> = self.eyes[..kept].to_vec();
         for view in usual {
             if eyes.len() < count && eyes.iter().all(|eye| eye.view != *view) {
-                eyes.push(Eye::of(*view));
+                eyes.push(StageEye::from_preset_view(*view));
             }
         }
-        eyes.extend(usual.iter().skip(eyes.len()).map(|view| Eye::of(*view)));
+        eyes.extend(
+            usual
+                .iter()
+                .skip(eyes.len())
+                .map(|view| StageEye::from_preset_view(*view)),
+        );
         self.eyes = eyes;
         self.active = self.active.min(count - 1);
     }
 
-    fn eye(&mut self) -> &mut Eye {
-        let at = self.active.min(self.eyes.len() - 1);
-        &mut self.eyes[at]
+    fn current_stage_eye(&mut self) -> &mut StageEye {
+        let index = self.active.min(self.eyes.len() - 1);
+        &mut self.eyes[index]
     }
 
     fn look_from(&mut self, action: Action) -> bool {
         let view = match action {
-            Action::ViewFront => View::Addressee,
-            Action::ViewSigner => View::Signer,
-            Action::ViewLeft => View::Left,
-            Action::ViewRight => View::Right,
-            Action::ViewTop => View::Top,
-            Action::ViewRightHand => View::Hand(Side::Right),
-            Action::ViewLeftHand => View::Hand(Side::Left),
-            Action::ViewFace => View::Face,
+            Action::ViewFront => FigureView::Addressee,
+            Action::ViewSigner => FigureView::Signer,
+            Action::ViewLeft => FigureView::Left,
+            Action::ViewRight => FigureView::Right,
+            Action::ViewTop => FigureView::Top,
+            Action::ViewRightHand => FigureView::Hand(BodySide::Right),
+            Action::ViewLeftHand => FigureView::Hand(BodySide::Left),
+            Action::ViewFace => FigureView::Face,
             _ => return self.move_eye(action),
         };
-        *self.eye() = Eye::of(view);
+        *self.current_stage_eye() = StageEye::from_preset_view(view);
         true
     }
 
     fn move_eye(&mut self, action: Action) -> bool {
-        let eye = self.eye();
+        let eye = self.current_stage_eye();
         match action {
-            Action::OrbitLeft => eye.orbit([-KEY_STEP, 0.0]),
-            Action::OrbitRight => eye.orbit([KEY_STEP, 0.0]),
-            Action::OrbitUp => eye.orbit([0.0, KEY_STEP]),
-            Action::OrbitDown => eye.orbit([0.0, -KEY_STEP]),
-            Action::PanLeft => eye.pan([KEY_STEP, 0.0]),
-            Action::PanRight => eye.pan([-KEY_STEP, 0.0]),
-            Action::PanUp => eye.pan([0.0, KEY_STEP]),
-            Action::PanDown => eye.pan([0.0, -KEY_STEP]),
-            Action::Nearer => eye.nearer(KEY_ZOOM),
-            Action::Farther => eye.nearer(1.0 / KEY_ZOOM),
-            Action::StageReset => *eye = Eye::of(eye.view),
+            Action::OrbitLeft => eye.orbit_eye([-KEY_STEP, 0.0]),
+            Action::OrbitRight => eye.orbit_eye([KEY_STEP, 0.0]),
+            Action::OrbitUp => eye.orbit_eye([0.0, KEY_STEP]),
+            Action::OrbitDown => eye.orbit_eye([0.0, -KEY_STEP]),
+            Action::PanLeft => eye.pan_eye([KEY_STEP, 0.0]),
+            Action::PanRight => eye.pan_eye([-KEY_STEP, 0.0]),
+            Action::PanUp => eye.pan_eye([0.0, KEY_STEP]),
+            Action::PanDown => eye.pan_eye([0.0, -KEY_STEP]),
+            Action::Nearer => eye.magnify_eye(KEY_ZOOM),
+            Action::Farther => eye.magnify_eye(1.0 / KEY_ZOOM),
+            Action::StageReset => *eye = StageEye::from_preset_view(eye.view),
             _ => return false,
         }
         true
     }
 }
 
-impl Pane for Stage {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+impl PaneInterface for StagePane {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         if !std::mem::replace(&mut self.remembered, true) {
-            seen.settings.stage.take(self);
+            seen.settings.stage.apply_stage_settings(self);
         }
-        ui::show(self, ui, seen, out);
-        let settings = StageSettings::of(self);
+        stage_ui::show_stage_pane(self, ui, seen, out);
+        let settings = StageSettings::from_stage_pane(self);
         if settings != seen.settings.stage {
-            out.send(Command::Stage(Box::new(settings)));
+            out.send_command(WindowCommand::Stage(Box::new(settings)));
         }
     }
 
-    fn act(&mut self, action: Action, _seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
+    fn carry_out_pane_action(
+        &mut self,
+        action: Action,
+        _seen: &PaneInput<'_>,
+        out: &mut CommandOutbox,
+    ) -> ActionOutcome {
         match action {
-            Action::StageSplit => self.split(match self.eyes.len() {
+            Action::StageSplit => self.split_stage_views(match self.eyes.len() {
                 1 => 2,
                 2 => 4,
                 _ => 1,
@@ -308,40 +318,40 @@ impl Pane for Stage {
             Action::StageFace => self.insets.face = !self.insets.face,
             Action::StageGrid => self.shows.grid = !self.shows.grid,
             Action::StageCompare => self.compare = self.compare.next(),
-            Action::StageRecording => out.send(Command::Made(None)),
+            Action::StageRecording => out.send_command(WindowCommand::Made(None)),
             other if self.look_from(other) => {}
-            _ => return Acted::No,
+            _ => return ActionOutcome::No,
         }
         self.asked = None;
-        Acted::Yes
+        ActionOutcome::Yes
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
-        if self.original.hear(id, ended) || self.points.hear(id, ended) {
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        if self.original.receive_original_movements(id, ended) || self.points.receive_recording_points(id, ended) {
             self.asked = None;
         }
     }
 }
 
 /// Key for the rectangle of the pictures, and the frame in which they were there.
-const PLACE: &str = "place of the stage";
+const STAGE_PLACE_KEY: &str = "place of the stage";
 
 /// Remembers the rectangle of the pictures.
 fn note_place(ui: &Ui, rect: Rect) {
     let frame = ui.ctx().cumulative_frame_nr();
-    ui.data_mut(|data| data.insert_temp(Id::unique(PLACE), (frame, rect)));
+    ui.data_mut(|data| data.insert_temp(Id::unique(STAGE_PLACE_KEY), (frame, rect)));
 }
 
 /// Returns the rectangle of the stage's pictures, if it is in sight.
-pub(crate) fn place(ctx: &Context) -> Option<Rect> {
-    let (frame, rect): (u64, Rect) = ctx.data(|data| data.get_temp(Id::unique(PLACE)))?;
+pub(crate) fn visible_stage_rect(ctx: &Context) -> Option<Rect> {
+    let (frame, rect): (u64, Rect) = ctx.data(|data| data.get_temp(Id::unique(STAGE_PLACE_KEY)))?;
     (frame + 1 >= ctx.cumulative_frame_nr()).then_some(rect)
 }
 
 /// Returns the source of the signer's postures.
-fn movement<'a>(seen: &PaneInput<'a>) -> Movement<'a> {
+fn stage_movement_source<'a>(seen: &PaneInput<'a>) -> PostureSource<'a> {
     match &seen.shown.made {
-        Some(showing) => Movement::Clip(&showing.made.clip, &showing.made.faces),
-        None => Movement::Reel(seen.reel),
+        Some(showing) => PostureSource::Clip(&showing.made.clip, &showing.made.faces),
+        None => PostureSource::Reel(seen.reel),
     }
 }

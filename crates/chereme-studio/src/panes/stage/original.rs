@@ -2,78 +2,78 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::{MadePart, Moving};
-use chereme_motion::Instant;
+use chereme_corpus::{DisplayedMovement, MadePart};
+use chereme_motion::RecordingInstant;
 
-use super::scene::Subject;
-use crate::context::{Outbox, PaneInput};
-use crate::work::{Ended, Outcome, WorkId, movement};
+use super::stage_scene::StageSubject;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::work::{WorkId, WorkOutcome, WorkResult, movement_jobs};
 
 /// The originals of the movement on the stage.
 #[derive(Default)]
-pub(super) struct Original {
-    source: Option<Source>,
+pub(super) struct OriginalMovements {
+    source: Option<OriginalSource>,
     work: Option<WorkId>,
-    parts: Vec<Piece>,
+    parts: Vec<OriginalPiece>,
     /// Whether the pieces are known, with or without originals.
     answered: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Source {
+enum OriginalSource {
     Parts(Vec<MadePart>),
     /// The row id of a stored recording, and its recipe.
     Stored(i64, String),
 }
 
 /// A piece of the generated movement.
-pub(super) struct Piece {
+pub(super) struct OriginalPiece {
     pub(super) part: MadePart,
     /// Its original, if it has one.
-    pub(super) shown: Option<(Arc<Moving>, Subject)>,
+    pub(super) shown: Option<(Arc<DisplayedMovement>, StageSubject)>,
 }
 
-impl Original {
+impl OriginalMovements {
     /// Requests the originals if the movement on the stage changed; returns whether it did.
-    pub(super) fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) -> bool {
+    pub(super) fn request_original_movements(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
         let source = match &seen.shown.made {
-            Some(showing) => Some(Source::Parts(showing.made.parts.clone())),
+            Some(showing) => Some(OriginalSource::Parts(showing.made.parts.clone())),
             None => {
                 let shown = seen.shown.recording;
-                let glance = shown.and_then(|id| seen.snapshot.recording(id));
-                glance.and_then(|it| Some(Source::Stored(it.row.id, it.recipe.clone()?)))
+                let glance = shown.and_then(|id| seen.snapshot.recording_glance(id));
+                glance.and_then(|glance| Some(OriginalSource::Stored(glance.row.id, glance.recipe.clone()?)))
             }
         };
         if source == self.source {
             return false;
         }
         let job = source.clone().map(|source| match source {
-            Source::Parts(parts) => movement::originals(parts),
-            Source::Stored(recording, _) => movement::originals_of(recording),
+            OriginalSource::Parts(parts) => movement_jobs::load_originals_job(parts),
+            OriginalSource::Stored(recording, _) => movement_jobs::originals_of(recording),
         });
         *self = Self {
             source,
-            work: job.map(|job| out.work(job)),
+            work: job.map(|job| out.request_work(job)),
             ..Self::default()
         };
         true
     }
 
     /// Handles the result of work; returns whether it was the requested originals.
-    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
+    pub(super) fn receive_original_movements(&mut self, id: WorkId, ended: &WorkResult) -> bool {
         if self.work.take_if(|work| *work == id).is_none() {
             return false;
         }
-        if let Ok(Outcome::Originals(all)) = ended {
+        if let Ok(WorkOutcome::Originals(all)) = ended {
             self.answered = true;
             self.parts = all
                 .iter()
                 .map(|(part, moving)| {
                     let shown = moving.as_ref().and_then(|moving| {
-                        let subject = Subject::after(None, &moving.clip, &moving.anatomy, false)?;
+                        let subject = StageSubject::succeed_stage_subject(None, &moving.clip, &moving.anatomy, false)?;
                         Some((moving.clone(), subject))
                     });
-                    Piece {
+                    OriginalPiece {
                         part: part.clone(),
                         shown,
                     }
@@ -94,24 +94,25 @@ impl Original {
         let none = self.answered && !self.is_there();
         let first = self.parts.first().filter(|_| none)?;
         let from = &first.part.from;
-        let made = ["spell ", "point "]
-            .iter()
-            .any(|word| from.starts_with(word));
+        let made = ["spell ", "point "].iter().any(|word| from.starts_with(word));
         made.then_some(from)
     }
 
     /// Returns the piece at `at`; between two pieces, the nearer one.
-    pub(super) fn piece(&self, at: Instant) -> Option<&Piece> {
-        let nearest = nearest(self.parts.iter().map(|piece| &piece.part), at)?;
+    pub(super) fn original_piece_at(&self, at: RecordingInstant) -> Option<&OriginalPiece> {
+        let nearest = nearest_made_part(self.parts.iter().map(|piece| &piece.part), at)?;
         self.parts.get(nearest)
     }
 }
 
 /// Returns the index of the part whose time is nearest to `at`; the first of equally near ones.
-fn nearest<'a>(parts: impl Iterator<Item = &'a MadePart>, at: Instant) -> Option<usize> {
+fn nearest_made_part<'a>(parts: impl Iterator<Item = &'a MadePart>, at: RecordingInstant) -> Option<usize> {
     let far = |part: &MadePart| {
-        let (start, end) = (part.span.start().micros(), part.span.end().micros());
-        (start - at.micros()).max(at.micros() - end + 1).max(0)
+        let (start, end) = (
+            part.span.span_start_instant().instant_micros(),
+            part.span.span_end_instant().instant_micros(),
+        );
+        (start - at.instant_micros()).max(at.instant_micros() - end + 1).max(0)
     };
     parts
         .enumerate()
@@ -121,30 +122,33 @@ fn nearest<'a>(parts: impl Iterator<Item = &'a MadePart>, at: Instant) -> Option
 
 /// Returns the moment of the original that corresponds to `at`: at the same distance from the beginning, but not after
 /// the end.
-pub(super) fn moment(piece: &MadePart, moving: &Moving, at: Instant) -> Instant {
-    let inside = at.shifted(-piece.span.start().micros()).max(Instant::ZERO);
-    inside.min(moving.clip.span().end())
+pub(super) fn original_moment_at(
+    piece: &MadePart,
+    moving: &DisplayedMovement,
+    at: RecordingInstant,
+) -> RecordingInstant {
+    let inside = at
+        .shifted_instant(-piece.span.span_start_instant().instant_micros())
+        .max(RecordingInstant::RECORDING_START);
+    inside.min(moving.clip.clip_span().span_end_instant())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_motion::Span;
+    use chereme_motion::TimeSpan;
 
     #[test]
     fn the_played_piece_is_the_one_at_the_playhead_or_the_nearest() {
-        let micros = Instant::from_micros;
+        let micros = RecordingInstant::from_micros;
         let part = |start, end| MadePart {
-            span: Span::between(micros(start), micros(end)),
+            span: TimeSpan::span_between(micros(start), micros(end)),
             gloss: String::new(),
             from: String::new(),
         };
         let parts = [part(0, 100), part(140, 200)];
-        let at = |at| nearest(parts.iter(), micros(at));
-        assert_eq!(
-            [0, 99, 110, 130, 140, 500].map(at),
-            [0, 0, 0, 1, 1, 1].map(Some)
-        );
-        assert_eq!(nearest([].iter(), micros(0)), None);
+        let at = |at| nearest_made_part(parts.iter(), micros(at));
+        assert_eq!([0, 99, 110, 130, 140, 500].map(at), [0, 0, 0, 1, 1, 1].map(Some));
+        assert_eq!(nearest_made_part([].iter(), micros(0)), None);
     }
 }

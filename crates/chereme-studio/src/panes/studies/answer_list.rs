@@ -2,25 +2,23 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::study::{
-    AnswerFilter, AnswerList, AnswerRow, ParticipantSummary, StudyOverview,
-};
+use chereme_corpus::study::{AnswerFilter, AnswerList, AnswerListRow, ParticipantSummary, StudyOverview};
 use eframe::egui::{Button, ScrollArea, Ui};
 
-use super::draft::line;
-use super::{SavedTo, Studies, data};
-use crate::context::{Outbox, PaneInput};
-use crate::file_dialogs::Choose;
+use super::studies_draft::show_draft_text_line;
+use super::{SavedTo, StudiesPane, studies_data};
+use crate::context::{CommandOutbox, PaneInput};
+use crate::file_dialogs::ChooserPurpose;
 use crate::panes::{combo, list_row};
-use crate::words::{fill, shell, studies as words};
+use crate::words::{fill_text_braces, shell, studies_words as words};
 use crate::work::{WorkId, studying};
 
 /// The height of the list, in points.
-const HEIGHT: f32 = 320.0;
+const ANSWER_LIST_HEIGHT_POINTS: f32 = 320.0;
 
 /// The answers, and what is shown of them.
 #[derive(Default)]
-pub(super) struct List {
+pub(super) struct StudyAnswersView {
     /// The corpus generation of the last request.
     of: Option<i64>,
     pub(super) asking: Option<WorkId>,
@@ -35,92 +33,87 @@ pub(super) struct List {
     pub(super) saved: SavedTo,
 }
 
-impl List {
-    fn refresh(&mut self, list: &Arc<AnswerList>) {
+impl StudyAnswersView {
+    fn refresh_answer_list(&mut self, list: &Arc<AnswerList>) {
         let same = self.rows_of.as_ref();
-        if same.is_some_and(|it| Arc::ptr_eq(&it.0, list) && it.1 == self.filter) {
+        if same.is_some_and(|source| Arc::ptr_eq(&source.0, list) && source.1 == self.filter) {
             return;
         }
-        let held = |it: &(usize, &AnswerRow)| self.filter.holds(it.1);
-        let rows = list.rows.iter().enumerate().filter(held);
-        self.rows = rows.map(|it| it.0).collect();
+        let is_listed = |entry: &(usize, &AnswerListRow)| self.filter.holds_answer_row(entry.1);
+        let rows = list.rows.iter().enumerate().filter(is_listed);
+        self.rows = rows.map(|entry| entry.0).collect();
         self.rows_of = Some((list.clone(), self.filter.clone()));
     }
 }
 
 /// Shows the answers, what can be done with them, and the table they are written to.
-pub(super) fn show(
-    pane: &mut Studies,
+pub(super) fn show_study_answers(
+    pane: &mut StudiesPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     it: &StudyOverview,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     let list = &mut pane.forms.list;
     let generation = seen.snapshot.overview.generation;
     if list.of != Some(generation) && !seen.is_running(list.asking) {
         list.of = Some(generation);
-        list.asking = Some(out.work(studying::answers(it.plan.name.clone())));
+        list.asking = Some(out.request_work(studying::list_answers_job(it.plan.name.clone())));
     }
-    let Some(found) = list.found.clone().filter(|it| !it.participants.is_empty()) else {
+    let Some(found) = list.found.clone().filter(|answers| !answers.participants.is_empty()) else {
         return;
     };
     ui.separator();
-    let everybody = seen.say(words::EVERYBODY).to_owned();
+    let everybody = seen.say_text(words::EVERYBODY).to_owned();
     let mut people = vec![(None, everybody)];
     people.extend(
         found
             .participants
             .iter()
-            .map(|it| (Some(it.code.clone()), it.code.clone())),
+            .map(|participant| (Some(participant.code.clone()), participant.code.clone())),
     );
-    let gone = |code: &String| !people.iter().any(|it| it.0.as_ref() == Some(code));
-    list.filter.participant.take_if(|it| gone(it));
-    list.forget.take_if(|it| gone(it));
+    let gone = |code: &String| !people.iter().any(|person| person.0.as_ref() == Some(code));
+    list.filter.participant.take_if(|code| gone(code));
+    list.forget.take_if(|code| gone(code));
     ui.horizontal_wrapped(|ui| {
-        let name = seen.say(words::PARTICIPANT);
-        combo::named(ui, name, &mut list.filter.participant, &people);
-        ui.checkbox(&mut list.filter.missing, seen.say(words::ONLY_MISSING));
+        let name = seen.say_text(words::PARTICIPANT);
+        combo::show_named_combo(ui, name, &mut list.filter.participant, &people);
+        ui.checkbox(&mut list.filter.missing, seen.say_text(words::ONLY_MISSING));
     });
-    let hint = seen.say(words::FILTER_HINT);
-    line(ui, seen.say(words::FILTER), hint, &mut list.filter.text);
-    list.refresh(&found);
+    let hint = seen.say_text(words::FILTER_HINT);
+    show_draft_text_line(ui, seen.say_text(words::FILTER), hint, &mut list.filter.text);
+    list.refresh_answer_list(&found);
     let chosen = list.filter.participant.clone();
     let person = found
         .participants
         .iter()
-        .find(|it| Some(&it.code) == chosen.as_ref());
+        .find(|participant| Some(&participant.code) == chosen.as_ref());
     if let Some(person) = person {
-        about(pane, ui, seen, person, &found.study, out);
+        show_participant_summary(pane, ui, seen, person, &found.study, out);
     }
     let list = &pane.forms.list;
-    let values: [(&str, &dyn std::fmt::Display); 2] =
-        [("n", &list.rows.len()), ("of", &found.rows.len())];
-    ui.weak(fill(seen.say(words::ANSWERS_SHOWN), &values));
-    pane.making(ui, seen);
-    rows(pane, ui, seen, (it, &found), out);
-    let proposed = format!("{}-answers.csv", data::file_stem(&it.plan.name));
-    let named = (
-        words::ANSWERS_TABLE,
-        words::SAVE_ANSWERS,
-        Choose::AnswersTable,
-    );
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &list.rows.len()), ("of", &found.rows.len())];
+    ui.weak(fill_text_braces(seen.say_text(words::ANSWERS_SHOWN), &values));
+    pane.show_clip_progress(ui, seen);
+    show_answer_rows(pane, ui, seen, (it, &found), out);
+    let proposed = format!("{}-answers.csv", studies_data::file_stem(&it.plan.name));
+    let named = (words::ANSWERS_TABLE, words::SAVE_ANSWERS, ChooserPurpose::AnswersTable);
     let saved = &mut pane.forms.list.saved;
-    if let Some((to, force)) = saved.show(ui, seen, named, &proposed, out) {
+    if let Some((to, force)) = saved.show_save_path(ui, seen, named, &proposed, out) {
         let job = studying::write_answers(it.plan.name.clone(), to, force);
-        saved.saving = Some(out.work(job));
-        pane.clear();
+        saved.saving = Some(out.request_work(job));
+        pane.clear_study_results();
     }
 }
 
 /// Shows a participant, and the buttons that delete the answers.
-fn about(
-    pane: &mut Studies,
+fn show_participant_summary(
+    pane: &mut StudiesPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     it: &ParticipantSummary,
     study: &str,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     let mut texts = Vec::new();
     let values: [(&str, &dyn std::fmt::Display); 3] = [
@@ -128,71 +121,70 @@ fn about(
         ("skipped", &it.skipped),
         ("not_reached", &it.not_reached),
     ];
-    texts.push(fill(seen.say(words::PERSON), &values));
+    texts.push(fill_text_braces(seen.say_text(words::PERSON), &values));
     texts.extend((!it.started_day.is_empty()).then(|| it.started_day.clone()));
     let finished = match it.finished {
         true => words::FINISHED,
         false => words::NOT_FINISHED,
     };
-    texts.push(seen.say(finished).to_owned());
+    texts.push(seen.say_text(finished).to_owned());
     for (name, option) in &it.profile {
         let values: [(&str, &dyn std::fmt::Display); 2] = [("name", name), ("answers", option)];
-        texts.push(fill(seen.say(words::ASKED), &values));
+        texts.push(fill_text_braces(seen.say_text(words::ASKED), &values));
     }
     ui.label(texts.join(" · "));
     let list = &mut pane.forms.list;
     let locked = seen.snapshot.is_read_only();
     if list.forget.as_ref() != Some(&it.code) {
-        let text = fill(seen.say(words::FORGET), &[("code", &it.code)]);
-        let forget = ui.add_enabled(!locked, Button::new(text));
-        let forget = forget.on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
+        let text = fill_text_braces(seen.say_text(words::FORGET), &[("code", &it.code)]);
+        let forget_button = ui.add_enabled(!locked, Button::new(text));
+        let forget = forget_button.on_disabled_hover_text(seen.say_text(shell::READ_ONLY_WHY));
         if forget.clicked() {
             list.forget = Some(it.code.clone());
         }
         return;
     }
-    let values: [(&str, &dyn std::fmt::Display); 2] =
-        [("code", &it.code), ("answers", &it.answers)];
-    let text = fill(seen.say(words::FORGET_WHAT), &values);
-    ui.colored_label(seen.colours().warning, text);
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("code", &it.code), ("answers", &it.answers)];
+    let text = fill_text_braces(seen.say_text(words::FORGET_WHAT), &values);
+    ui.colored_label(seen.pane_colours().warning, text);
     ui.horizontal_wrapped(|ui| {
-        if ui.button(seen.say(words::FORGET_NOW)).clicked() {
-            let job = studying::forget(study.to_owned(), it.code.clone());
-            (list.forgetting, list.forget) = (Some(out.work(job)), None);
+        if ui.button(seen.say_text(words::FORGET_NOW)).clicked() {
+            let job = studying::forget_participant_job(study.to_owned(), it.code.clone());
+            (list.forgetting, list.forget) = (Some(out.request_work(job)), None);
         }
-        if ui.button(seen.say(shell::CANCEL)).clicked() {
+        if ui.button(seen.say_text(shell::CANCEL)).clicked() {
             list.forget = None;
         }
     });
 }
 
 /// Shows the rows; a click shows the clip of a trial on the stage.
-fn rows(
-    pane: &mut Studies,
+fn show_answer_rows(
+    pane: &mut StudiesPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     (study, found): (&StudyOverview, &AnswerList),
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     let height = ui.spacing().interact_size.y * 1.9;
-    let whole = height + ui.spacing().item_spacing.y;
-    let held = &pane.forms.list.rows;
+    let row_pitch = height + ui.spacing().item_spacing.y;
+    let listed_rows = &pane.forms.list.rows;
     let mut picked = None;
     ScrollArea::vertical()
         .id_salt("answers")
-        .max_height((whole * held.len() as f32).min(HEIGHT))
+        .max_height((row_pitch * listed_rows.len() as f32).min(ANSWER_LIST_HEIGHT_POINTS))
         .auto_shrink([false, true])
-        .show_rows(ui, height, held.len(), |ui, range| {
-            for it in held[range].iter().filter_map(|at| found.rows.get(*at)) {
-                let (name, about) = data::answer(it, seen.language);
-                let trial = study.plan.trial(&it.part, &it.item, &it.condition, it.role);
-                let clip = trial.map(|it| it.clip.as_str()).unwrap_or_default();
-                if list_row(ui, height, pane.clip.is(&name, clip), &name, &about).clicked() {
+        .show_rows(ui, height, listed_rows.len(), |ui, range| {
+            for it in listed_rows[range].iter().filter_map(|at| found.rows.get(*at)) {
+                let (name, about) = studies_data::answer_row_texts(it, seen.language);
+                let trial = study.plan.find_plan_trial(&it.part, &it.item, &it.condition, it.role);
+                let clip = trial.map(|trial| trial.clip.as_str()).unwrap_or_default();
+                if list_row(ui, height, pane.clip.is_requested_clip(&name, clip), &name, &about).clicked() {
                     picked = Some((name, clip.to_owned()));
                 }
             }
         });
-    if let Some((name, clip)) = picked.filter(|it| !it.1.is_empty()) {
+    if let Some((name, clip)) = picked.filter(|pick| !pick.1.is_empty()) {
         pane.show_clip(&name, &clip, out);
     }
 }

@@ -1,14 +1,15 @@
 //! A plan that is being written or changed, without widgets.
 
-use chereme_corpus::study::plan::{
-    Comparison, Design, Exclusion, Expectation, Hypothesis, Order, Plan, Question, Selection, Trial,
+use chereme_corpus::study::study_plan::{
+    ConditionOrder, ExclusionRule, ExpectedResult, HypothesisComparison, StudyHypothesis, StudyPlan, StudyQuestion,
+    StudyTrial, TrialDesign, TrialSelection,
 };
-use chereme_corpus::study::{StudyOverview, StudyRequest, words as split};
-use chereme_corpus::{Corpus, Error};
+use chereme_corpus::study::{StudyOverview, StudyRequest, split_quoted_words as split};
+use chereme_corpus::{Corpus, CorpusError};
 
 /// A plan in the form.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Draft {
+pub(super) struct StudyDraft {
     pub(super) name: String,
     pub(super) title: String,
     pub(super) items: String,
@@ -19,25 +20,25 @@ pub(super) struct Draft {
     pub(super) file: String,
     pub(super) questions: Vec<String>,
     pub(super) scale: i64,
-    pub(super) order: Order,
+    pub(super) order: ConditionOrder,
     pub(super) between: bool,
     pub(super) blocks: u32,
     pub(super) seed: u64,
     /// The condition from which distances are measured.
     pub(super) distance_from: Option<String>,
-    pub(super) hypotheses: Vec<Hypothesis>,
-    pub(super) exclusions: Vec<Exclusion>,
+    pub(super) hypotheses: Vec<StudyHypothesis>,
+    pub(super) exclusions: Vec<ExclusionRule>,
     /// The plan before: it has all that the lines of the form do not state, such as the texts of questions.
-    pub(super) before: Option<Plan>,
+    pub(super) before: Option<StudyPlan>,
     /// Trials that neither signs and conditions nor a table can state.
-    pub(super) others: Vec<Trial>,
+    pub(super) others: Vec<StudyTrial>,
     /// The stored study that is changed.
-    pub(super) changes: Option<Changed>,
+    pub(super) changes: Option<StudyBeforeChange>,
 }
 
 /// A stored study that is being changed, as it was when its form was opened.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Changed {
+pub(super) struct StudyBeforeChange {
     pub(super) name: String,
     pub(super) people: u64,
     pub(super) answers: u64,
@@ -45,13 +46,13 @@ pub(super) struct Changed {
 
 /// The plan of a form, and its faults.
 #[derive(Default)]
-pub(super) struct Planned {
-    of: Option<Draft>,
-    pub(super) plan: Option<Plan>,
-    pub(super) faults: Vec<Error>,
+pub(super) struct DraftedPlan {
+    of: Option<StudyDraft>,
+    pub(super) plan: Option<StudyPlan>,
+    pub(super) faults: Vec<CorpusError>,
 }
 
-impl Default for Draft {
+impl Default for StudyDraft {
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -62,7 +63,7 @@ impl Default for Draft {
             file: String::new(),
             questions: vec!["realism".to_owned()],
             scale: 5,
-            order: Order::default(),
+            order: ConditionOrder::default(),
             between: false,
             blocks: 1,
             seed: 1,
@@ -76,15 +77,15 @@ impl Default for Draft {
     }
 }
 
-impl Draft {
+impl StudyDraft {
     /// Returns the form of a stored study. The plan of one that was answered becomes another study, which has the next free
     /// name.
-    pub(super) fn of(it: &StudyOverview, taken: &[&str]) -> Self {
+    pub(super) fn draft_from_study(it: &StudyOverview, taken: &[&str]) -> Self {
         let mut draft = Self::of_plan(&it.plan);
         if it.participants > 0 {
-            draft.name = free_name(&it.plan.name, taken);
+            draft.name = numbered_study_name(&it.plan.name, taken);
         }
-        draft.changes = Some(Changed {
+        draft.changes = Some(StudyBeforeChange {
             name: it.plan.name.clone(),
             people: it.participants,
             answers: it.answers,
@@ -93,8 +94,8 @@ impl Draft {
     }
 
     /// Returns the form of a plan.
-    pub(super) fn of_plan(plan: &Plan) -> Self {
-        let (request, distance_from) = StudyRequest::of(plan);
+    pub(super) fn of_plan(plan: &StudyPlan) -> Self {
+        let (request, distance_from) = StudyRequest::from_stored_plan(plan);
         let mut draft = Self {
             name: request.name,
             title: request.title.unwrap_or_default(),
@@ -123,10 +124,10 @@ impl Draft {
     }
 
     /// Returns the study in the words of the library.
-    pub(super) fn request(&self) -> StudyRequest {
+    pub(super) fn draft_study_request(&self) -> StudyRequest {
         let filled = |text: &String| !text.trim().is_empty();
-        let conditions = self.conditions.iter().filter(|it| it.iter().all(filled));
-        let questions = self.questions.iter().filter(|it| filled(it));
+        let conditions = self.conditions.iter().filter(|condition| condition.iter().all(filled));
+        let questions = self.questions.iter().filter(|question| filled(question));
         let file = match self.file.trim() {
             "" => "table",
             name => name,
@@ -139,9 +140,9 @@ impl Draft {
                 .map(|[name, recipe]| (name.trim().to_owned(), recipe.trim().to_owned()))
                 .collect(),
             trials: filled(&self.table).then(|| (self.table.clone(), file.to_owned())),
-            questions: questions.map(|it| it.trim().to_owned()).collect(),
+            questions: questions.map(|question| question.trim().to_owned()).collect(),
             scale: self.scale,
-            design: Design {
+            design: TrialDesign {
                 order: self.order,
                 seed: self.seed,
                 blocks: self.blocks,
@@ -156,7 +157,7 @@ impl Draft {
 
     /// Adds an item, unless it is there.
     pub(super) fn add_item(&mut self, item: &str) {
-        if split(&self.items).iter().any(|it| it == item) {
+        if split(&self.items).iter().any(|other| other == item) {
             return;
         }
         let quoted = match item.contains(char::is_whitespace) {
@@ -171,41 +172,41 @@ impl Draft {
     }
 
     /// Adds a hypothesis about the first question: the first condition differs from the second.
-    pub(super) fn add_hypothesis(&mut self, plan: &Plan) {
-        let name = (1..).map(|n| format!("H{n}"));
-        let mut name = name.filter(|it| self.hypotheses.iter().all(|own| own.name != *it));
-        let conditions = plan.conditions();
-        let group = |at: usize| Selection {
+    pub(super) fn add_hypothesis(&mut self, plan: &StudyPlan) {
+        let numbered_names = (1..).map(|n| format!("H{n}"));
+        let mut name = numbered_names.filter(|candidate| self.hypotheses.iter().all(|own| own.name != *candidate));
+        let conditions = plan.main_conditions();
+        let group = |at: usize| TrialSelection {
             conditions: conditions
                 .get(at)
-                .map(|it| (*it).to_owned())
+                .map(|condition| (*condition).to_owned())
                 .into_iter()
                 .collect(),
-            ..Selection::default()
+            ..TrialSelection::default()
         };
-        self.hypotheses.push(Hypothesis {
+        self.hypotheses.push(StudyHypothesis {
             name: name.next().unwrap_or_default(),
             text: [].into(),
             question: plan
                 .questions
                 .first()
-                .map(|it| it.name.clone())
+                .map(|question| question.name.clone())
                 .unwrap_or_default(),
-            compares: Comparison::Between(vec![group(0), group(1)]),
-            expects: Expectation::Difference,
+            compares: HypothesisComparison::Between(vec![group(0), group(1)]),
+            expects: ExpectedResult::Difference,
             alpha: 0.05,
         });
     }
 
     /// Returns the details of a question, which its line does not state, to be changed.
-    pub(super) fn details<'a>(
+    pub(super) fn question_details_mut<'a>(
         &'a mut self,
-        planned: &Plan,
+        planned: &StudyPlan,
         name: &str,
-    ) -> Option<&'a mut Question> {
-        let now = planned.question(name)?;
+    ) -> Option<&'a mut StudyQuestion> {
+        let now = planned.find_plan_question(name)?;
         let before = self.before.get_or_insert_with(|| planned.clone());
-        match before.questions.iter().position(|it| it.name == name) {
+        match before.questions.iter().position(|question| question.name == name) {
             Some(at) => {
                 // The answers are those of the line.
                 before.questions[at].clone_from(now);
@@ -219,13 +220,13 @@ impl Draft {
     }
 }
 
-impl Planned {
+impl DraftedPlan {
     /// Makes the plan of the form again if the form has changed.
-    pub(super) fn follow(&mut self, draft: &Draft) {
+    pub(super) fn plan_changed_draft(&mut self, draft: &StudyDraft) {
         if self.of.as_ref() == Some(draft) {
             return;
         }
-        (self.plan, self.faults) = match draft.request().plan() {
+        (self.plan, self.faults) = match draft.draft_study_request().make_study_plan() {
             Ok(plan) => {
                 let mut named = plan.clone();
                 if named.name.is_empty() {
@@ -233,44 +234,44 @@ impl Planned {
                     named.name = "-".to_owned();
                 }
                 let faults = Corpus::check_plan(&named).err();
-                (Some(plan), faults.map(each).unwrap_or_default())
+                (Some(plan), faults.map(split_study_errors).unwrap_or_default())
             }
-            Err(error) => (None, each(error)),
+            Err(error) => (None, split_study_errors(error)),
         };
         self.of = Some(draft.clone());
     }
 
     /// Returns the plan if it has no faults.
-    pub(super) fn sound(&self) -> Option<&Plan> {
+    pub(super) fn faultless_plan(&self) -> Option<&StudyPlan> {
         self.plan.as_ref().filter(|_| self.faults.is_empty())
     }
 }
 
 /// Returns the parts of an error.
-pub(super) fn each(error: Error) -> Vec<Error> {
+pub(super) fn split_study_errors(error: CorpusError) -> Vec<CorpusError> {
     match error {
-        Error::Several { errors } => errors,
+        CorpusError::Several { errors } => errors,
         one => vec![one],
     }
 }
 
 /// Returns the name with a number that no study has yet.
-fn free_name(name: &str, taken: &[&str]) -> String {
+fn numbered_study_name(name: &str, taken: &[&str]) -> String {
     let numbered = (2..).map(|n: u32| format!("{name} ({n})"));
-    let mut free = numbered.filter(|it| !taken.contains(&it.as_str()));
+    let mut free = numbered.filter(|candidate| !taken.contains(&candidate.as_str()));
     free.next().unwrap_or_default()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::data::trials;
+    use super::super::studies_data::trial_rows_from_plan;
     use super::*;
-    use crate::words::Language;
+    use crate::words::InterfaceLanguage;
 
-    fn places() -> Draft {
-        let mut draft = Draft {
+    fn places() -> StudyDraft {
+        let mut draft = StudyDraft {
             name: " places ".to_owned(),
-            ..Draft::default()
+            ..StudyDraft::default()
         };
         for item in ["BOL", "CHAT", "BOL", "WEEK END"] {
             draft.add_item(item);
@@ -288,10 +289,10 @@ mod tests {
         assert_eq!(draft.items, "BOL CHAT \"WEEK END\"");
         // A condition without a recipe is not finished.
         draft.conditions.push(["lower".to_owned(), String::new()]);
-        let plan = draft.request().plan().expect("a plan");
+        let plan = draft.draft_study_request().make_study_plan().expect("a plan");
         assert_eq!((plan.name.as_str(), plan.trials.len()), ("places", 6));
         assert_eq!(plan.questions.len(), 2);
-        let rows = trials(&plan, Language::English);
+        let rows = trial_rows_from_plan(&plan, InterfaceLanguage::English);
         assert_eq!(rows[3].name, "CHAT, higher");
         assert_eq!(rows[3].clip, "CHAT | place both by up 10cm");
         assert_eq!(
@@ -306,17 +307,17 @@ mod tests {
         let mut draft = places();
         draft.seed = 7;
         draft.table = "item,condition,clip,role\nLSF,,spell LSF,training\n".to_owned();
-        let plan = draft.request().plan().expect("a plan");
+        let plan = draft.draft_study_request().make_study_plan().expect("a plan");
         draft.add_hypothesis(&plan);
-        let details = draft.details(&plan, "realism").expect("a question");
+        let details = draft.question_details_mut(&plan, "realism").expect("a question");
         details.cannot_say = true;
-        let plan = draft.request().plan().expect("a plan");
+        let plan = draft.draft_study_request().make_study_plan().expect("a plan");
         assert!(plan.questions[0].cannot_say);
-        let groups = Comparison::Between(
+        let groups = HypothesisComparison::Between(
             ["captured", "higher"]
-                .map(|it| Selection {
+                .map(|it| TrialSelection {
                     conditions: vec![it.to_owned()],
-                    ..Selection::default()
+                    ..TrialSelection::default()
                 })
                 .to_vec(),
         );
@@ -327,29 +328,29 @@ mod tests {
             finished: 0,
             answers: 0,
         };
-        let again = Draft::of(&overview, &["places"]);
+        let again = StudyDraft::draft_from_study(&overview, &["places"]);
         assert_eq!(again.items, draft.items);
-        assert_eq!(again.request().plan().expect("a plan"), plan);
+        assert_eq!(again.draft_study_request().make_study_plan().expect("a plan"), plan);
         overview.participants = 3;
-        let another = Draft::of(&overview, &["places", "places (2)"]);
+        let another = StudyDraft::draft_from_study(&overview, &["places", "places (2)"]);
         assert_eq!(another.name, "places (3)");
     }
 
     #[test]
     fn faults_are_found_while_the_form_is_filled_in() {
-        let mut planned = Planned::default();
+        let mut planned = DraftedPlan::default();
         let mut draft = places();
-        planned.follow(&draft);
-        assert!(planned.sound().is_some());
+        planned.plan_changed_draft(&draft);
+        assert!(planned.faultless_plan().is_some());
         draft.table = "item,condition,clip\nA,a,\nB,b,\n".to_owned();
-        planned.follow(&draft);
+        planned.plan_changed_draft(&draft);
         assert_eq!((planned.plan.is_none(), planned.faults.len()), (true, 2));
         draft.table.clear();
-        let plan = draft.request().plan().expect("a plan");
+        let plan = draft.draft_study_request().make_study_plan().expect("a plan");
         draft.add_hypothesis(&plan);
         draft.hypotheses[0].alpha = 2.0;
-        planned.follow(&draft);
+        planned.plan_changed_draft(&draft);
         assert_eq!(planned.faults.len(), 1);
-        assert!(planned.plan.is_some() && planned.sound().is_none());
+        assert!(planned.plan.is_some() && planned.faultless_plan().is_none());
     }
 }

@@ -2,70 +2,68 @@
 
 use std::path::PathBuf;
 
-use chereme_corpus::study::{Questionnaire, QuestionnaireOptions, StudyOverview};
+use chereme_corpus::study::{BuiltQuestionnaire, QuestionnaireOptions, StudyOverview};
 use eframe::egui::{Button, DragValue, Ui};
 
-use super::{Studies, data, path_field, progress};
-use crate::context::{Outbox, PaneInput};
-use crate::file_dialogs::Choose;
-use crate::panes::import::Paths;
-use crate::words::{fill, studies as words};
+use super::{StudiesPane, path_field, progress, studies_data};
+use crate::context::{CommandOutbox, PaneInput};
+use crate::file_dialogs::ChooserPurpose;
+use crate::panes::import::PathCompletions;
+use crate::words::{fill_text_braces, studies_words as words};
 use crate::work::{WorkId, studying};
 
 /// The folder and the settings, and the result.
 #[derive(Default)]
-pub(super) struct Form {
+pub(super) struct QuestionnaireForm {
     pub(super) to: String,
-    paths: Paths,
+    paths: PathCompletions,
     /// Height and rate of films, and whether a questionnaire is replaced; the usual ones if `None`.
     options: Option<QuestionnaireOptions>,
     pub(super) building: Option<WorkId>,
-    pub(super) built: Option<Questionnaire>,
+    pub(super) built: Option<BuiltQuestionnaire>,
 }
 
 /// Shows the form, the progress of building, and the result.
-pub(super) fn show(
-    pane: &mut Studies,
+pub(super) fn show_questionnaire_form(
+    pane: &mut StudiesPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     it: &StudyOverview,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     let form = &mut pane.forms.questionnaire;
     if form.options.is_none() && form.to.is_empty() {
-        let folder = format!("{}-questionnaire", data::file_stem(&it.plan.name));
-        form.to = seen.beside(&folder).display().to_string();
+        let folder = format!("{}-questionnaire", studies_data::file_stem(&it.plan.name));
+        form.to = seen.path_beside_corpus(&folder).display().to_string();
     }
-    let options = form
-        .options
-        .get_or_insert_with(QuestionnaireOptions::default);
+    let options = form.options.get_or_insert_with(QuestionnaireOptions::default);
     path_field(
         ui,
         seen,
         (words::FOLDER, ""),
         (&mut form.paths, &mut form.to),
-        Choose::Questionnaire,
+        ChooserPurpose::Questionnaire,
         out,
     );
     ui.horizontal_wrapped(|ui| {
-        let label = ui.weak(seen.say(words::HEIGHT));
+        let label = ui.weak(seen.say_text(words::HEIGHT));
         ui.add(DragValue::new(&mut options.height).range(64..=1080))
             .labelled_by(label.id);
-        let label = ui.weak(seen.say(words::RATE));
+        let label = ui.weak(seen.say_text(words::RATE));
         ui.add(DragValue::new(&mut options.rate).range(1..=120))
             .labelled_by(label.id);
-        ui.checkbox(&mut options.force, seen.say(words::REPLACE));
+        ui.checkbox(&mut options.force, seen.say_text(words::REPLACE));
     });
     let options = *options;
     if !progress(ui, seen, form.building, words::TASK_BUILD, out) {
         let ready = !form.to.trim().is_empty();
-        let build = ui.add_enabled(ready, Button::new(seen.say(words::BUILD)));
-        let build = build.on_disabled_hover_text(seen.say(words::NEEDS_FOLDER));
+        let build_button = ui.add_enabled(ready, Button::new(seen.say_text(words::BUILD)));
+        let build = build_button.on_disabled_hover_text(seen.say_text(words::NEEDS_FOLDER));
         if build.clicked() {
             let to = PathBuf::from(form.to.trim());
-            let job = studying::build(it.plan.name.clone(), to, options);
-            (form.building, form.built) = (Some(out.work(job)), None);
-            pane.clear();
+            let job = studying::build_questionnaire_job(it.plan.name.clone(), to, options);
+            (form.building, form.built) = (Some(out.request_work(job)), None);
+            pane.clear_study_results();
         }
     }
     let Some(built) = &pane.forms.questionnaire.built else {
@@ -78,20 +76,20 @@ pub(super) fn show(
         ("kb", &kb),
         ("page", &built.page.display()),
     ];
-    ui.label(fill(seen.say(words::BUILT), &values));
+    ui.label(fill_text_braces(seen.say_text(words::BUILT), &values));
     for [one, other] in &built.alike {
         let values: [(&str, &dyn std::fmt::Display); 2] = [("one", one), ("other", other)];
         ui.colored_label(
-            seen.colours().warning,
-            fill(seen.say(words::ALIKE), &values),
+            seen.pane_colours().warning,
+            fill_text_braces(seen.say_text(words::ALIKE), &values),
         );
     }
     for path in &built.missing {
-        let text = fill(seen.say(words::MISSING), &[("path", &path.display())]);
-        ui.colored_label(seen.colours().warning, text);
+        let text = fill_text_braces(seen.say_text(words::MISSING), &[("path", &path.display())]);
+        ui.colored_label(seen.pane_colours().warning, text);
     }
-    let open = ui.button(seen.say(words::OPEN_PAGE));
-    if open.on_hover_text(seen.say(words::ADDRESS_TIP)).clicked() {
-        pane.opening = Some(out.work(studying::open(built.page.clone())));
+    let open = ui.button(seen.say_text(words::OPEN_PAGE));
+    if open.on_hover_text(seen.say_text(words::ADDRESS_TIP)).clicked() {
+        pane.opening = Some(out.request_work(studying::open_page_job(built.page.clone())));
     }
 }

@@ -1,61 +1,62 @@
 //! The layer above the rows: annotations at their future places, dragged ones, and the field for values.
 
-use chereme_corpus::{Contents, requests};
+use chereme_corpus::{RecordingContents, requests};
 use eframe::egui::{Rangef, Rect, TextStyle, Ui};
 
-use super::drag::Sight;
-use super::edit::Scene;
-use super::ui::Drawing;
-use super::{Ghost, editor, paint};
+use super::drag::GestureSight;
+use super::timeline_edit::TimelineScene;
+use super::timeline_ui::TimelineDrawing;
+use super::{GhostAnnotation, editor, timeline_paint};
 
-impl Drawing<'_, '_> {
+impl TimelineDrawing<'_, '_> {
     /// Paints annotations that are not in the snapshot: those at their future places, and those being dragged.
-    pub(super) fn overlay(&mut self, ui: &Ui, contents: &Contents, lane: Rect, sight: &Sight) {
+    pub(super) fn paint_overlay_annotations(
+        &mut self,
+        ui: &Ui,
+        contents: &RecordingContents,
+        lane: Rect,
+        sight: &GestureSight,
+    ) {
         let painter = ui.painter_at(lane);
         let font = TextStyle::Body.resolve(ui.style());
-        let mut all: Vec<(Ghost, bool)> = Vec::new();
+        let mut all: Vec<(GhostAnnotation, bool)> = Vec::new();
         if sight.ghosts.is_empty() {
-            all.extend(
-                self.timeline
-                    .asked
-                    .ghosts
-                    .iter()
-                    .map(|ghost| (*ghost, false)),
-            );
+            all.extend(self.timeline.asked.ghosts.iter().map(|ghost| (*ghost, false)));
         }
         all.extend(sight.ghosts.iter().map(|ghost| (*ghost, sight.refused)));
         if let Some(ghost) = self.new_ghost(contents) {
             all.push((ghost, false));
         }
         for (ghost, refused) in &all {
-            let row = self.timeline.layout.rows.iter().find(|(at, _)| {
-                contents
-                    .tiers
-                    .get(*at)
-                    .is_some_and(|tier| tier.row.id == ghost.tier)
-            });
+            let row = self
+                .timeline
+                .layout
+                .rows
+                .iter()
+                .find(|(at, _)| contents.tiers.get(*at).is_some_and(|tier| tier.row.id == ghost.tier));
             let Some((at, y)) = row else { continue };
-            let text = ghost.id.and_then(|id| self.seen.snapshot.annotation(id));
-            let text = text.map(|it| requests::typed(&it.tier.annotations, it.at));
+            let ghost_annotation = ghost.id.and_then(|id| self.seen.snapshot.find_open_annotation(id));
+            let text = ghost_annotation
+                .map(|annotation| requests::typed_annotation_value(&annotation.tier.annotations, annotation.at));
             let row = Rect::from_x_y_ranges(lane.x_range(), *y);
             let tier = &contents.tiers[*at];
             let what = (tier, text.unwrap_or_default(), *refused);
             let span = (ghost.start, ghost.end);
-            paint::ghost(&painter, row, &self.window, span, what, (self.seen, &font));
+            timeline_paint::paint_ghost_annotation(&painter, row, &self.window, span, what, (self.seen, &font));
         }
-        let at = ui.input(|input| input.pointer.latest_pos());
-        paint::sight(&painter, lane, &self.window, (sight, at), self.seen);
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        timeline_paint::paint_gesture_sight(&painter, lane, &self.window, (sight, pointer), self.seen);
     }
 
     /// Returns the annotation that is being typed, or created during playback.
-    fn new_ghost(&self, contents: &Contents) -> Option<Ghost> {
-        let scene = Scene {
+    fn new_ghost(&self, contents: &RecordingContents) -> Option<GhostAnnotation> {
+        let scene = TimelineScene {
             contents,
             seen: self.seen,
         };
         if let Some(begun) = &self.timeline.entry.begun {
-            let here = scene.playhead();
-            return Some(Ghost {
+            let here = scene.scene_playhead_micros();
+            return Some(GhostAnnotation {
                 tier: begun.tier,
                 id: None,
                 start: begun.start.min(here),
@@ -64,26 +65,26 @@ impl Drawing<'_, '_> {
         }
         let editing = self.timeline.entry.editing.as_ref()?;
         match editing.target {
-            editor::Target::New { tier, start, end } => Some(Ghost {
+            editor::EditTarget::New { tier, start, end } => Some(GhostAnnotation {
                 tier,
                 id: None,
                 start,
                 end,
             }),
-            editor::Target::Of(_) => None,
+            editor::EditTarget::Of(_) => None,
         }
     }
 
-    pub(super) fn editor(&mut self, ui: &mut Ui, contents: &Contents, lane: Rect) {
-        let scene = Scene {
+    pub(super) fn show_lane_editor(&mut self, ui: &mut Ui, contents: &RecordingContents, lane: Rect) {
+        let scene = TimelineScene {
             contents,
             seen: self.seen,
         };
         let Some(editing) = &self.timeline.entry.editing else {
             return;
         };
-        let span = editing.span(&scene).unwrap_or_default();
-        let tier = editing.tier(&scene).map(|tier| tier.row.id);
+        let span = editing.editing_span_micros(&scene).unwrap_or_default();
+        let tier = editing.editing_tier(&scene).map(|tier| tier.row.id);
         let row = self
             .timeline
             .layout
@@ -92,9 +93,9 @@ impl Drawing<'_, '_> {
             .find(|(at, _)| contents.tiers.get(*at).map(|tier| tier.row.id) == tier);
         let y = row.map_or(Rangef::point(lane.bottom()), |(_, y)| *y);
         // A lane may be narrower than the box's least width.
-        let x = lane.left() + self.window.x(span.0 as f64);
-        let x = x.min(lane.right() - 40.0).max(lane.left());
+        let raw_x = lane.left() + self.window.time_to_points(span.0 as f64);
+        let x = raw_x.min(lane.right() - 40.0).max(lane.left());
         let below = Rect::from_x_y_ranges(x..=x + 1.0, y);
-        editor::show(self.timeline, ui, &scene, below, self.out);
+        editor::show_value_field(self.timeline, ui, &scene, below, self.out);
     }
 }

@@ -1,12 +1,12 @@
 //! The list to choose the detector that proposes annotations.
 
-use chereme_corpus::{DETECTORS, DetectOptions, ProposeScope};
+use chereme_corpus::{ALL_DETECTORS, DetectOptions, ProposeScope};
 use eframe::egui::{Align2, Button, Id, Key, Label, Modifiers, Ui, Window, vec2};
 
-use super::edit::Scene;
-use super::{Timeline, proposals};
-use crate::context::Outbox;
-use crate::words::{fill, shell, timeline as words};
+use super::timeline_edit::TimelineScene;
+use super::{TimelinePane, proposals};
+use crate::context::CommandOutbox;
+use crate::words::{fill_text_braces, shell, timeline as words};
 use crate::work::analysis;
 
 /// The list while it is open.
@@ -16,7 +16,12 @@ pub(super) struct ChooseDetector {
 }
 
 /// Shows the list, and runs the chosen detector.
-pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+pub(super) fn show_detector_list(
+    timeline: &mut TimelinePane,
+    ui: &mut Ui,
+    scene: &TimelineScene<'_>,
+    out: &mut CommandOutbox,
+) {
     let Some(mut list) = timeline.boxes.detectors.take() else {
         return;
     };
@@ -25,13 +30,13 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     let (enter, escape) = (pressed(Key::Enter), pressed(Key::Escape));
     list.chosen = match (up, down) {
         (true, _) => list.chosen.saturating_sub(1),
-        (_, true) => (list.chosen + 1).min(DETECTORS.len().saturating_sub(1)),
+        (_, true) => (list.chosen + 1).min(ALL_DETECTORS.len().saturating_sub(1)),
         _ => list.chosen,
     };
     let mut done = enter.then_some(list.chosen);
     let mut closed = escape;
-    let scope = proposals::scope(scene);
-    Window::new(scene.seen.say(words::DETECT_TITLE))
+    let scope = proposals::current_propose_scope(scene);
+    Window::new(scene.seen.say_text(words::DETECT_TITLE))
         .id(Id::unique("timeline detectors"))
         .collapsible(false)
         .resizable(false)
@@ -43,12 +48,15 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                 ProposeScope::Span(..) => words::DETECT_SPAN,
                 ProposeScope::Recording(_) | ProposeScope::All => words::DETECT_RECORDING,
             };
-            ui.add(Label::new(scene.seen.say(text)).wrap());
-            for (at, detector) in DETECTORS.iter().enumerate() {
-                let finds = detector.description().finds.of(scene.seen.language);
-                let text = fill(
-                    scene.seen.say(words::DETECTOR),
-                    &[("name", &detector.name()), ("finds", &finds)],
+            ui.add(Label::new(scene.seen.say_text(text)).wrap());
+            for (at, detector) in ALL_DETECTORS.iter().enumerate() {
+                let finds = detector
+                    .detector_description()
+                    .finds
+                    .text_in_language(scene.seen.language);
+                let text = fill_text_braces(
+                    scene.seen.say_text(words::DETECTOR),
+                    &[("name", &detector.detector_name()), ("finds", &finds)],
                 );
                 let button = Button::selectable(at == list.chosen, text)
                     .wrap()
@@ -57,15 +65,15 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                     done = Some(at);
                 }
             }
-            closed |= ui.button(scene.seen.say(shell::CANCEL)).clicked();
+            closed |= ui.button(scene.seen.say_text(shell::CANCEL)).clicked();
         });
-    match done.and_then(|at| DETECTORS.get(at)) {
+    match done.and_then(|at| ALL_DETECTORS.get(at)) {
         Some(detector) => {
             let options = DetectOptions {
-                detector: detector.name().to_owned(),
+                detector: detector.detector_name().to_owned(),
                 scope,
             };
-            let work = out.work(analysis::detect(options, scene.seen.language));
+            let work = out.request_work(analysis::run_detector_job(options, scene.seen.language));
             timeline.asked.proposing = Some(work);
         }
         None if !closed => timeline.boxes.detectors = Some(list),

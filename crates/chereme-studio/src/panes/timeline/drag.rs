@@ -2,82 +2,85 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::snap::{Catch, Guides};
-use chereme_corpus::{Contents, requests};
-use chereme_motion::{Instant, Span};
+use chereme_corpus::snap::{SnapGuides, SnapTarget};
+use chereme_corpus::{RecordingContents, requests};
+use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::{CursorIcon, Key, Modifiers, Pos2, Rect, Ui};
 
 use super::dragged::{self, DraggedAnnotations};
-use super::edit::Scene;
-use super::gesture::{Dragging, Gesture};
-use super::spans::{Grip, Item};
-use super::ui::Drawing;
-use super::{Ghost, Then, tier_list};
-use crate::command::Command;
+use super::gesture::{AnnotationDrag, TimelineGesture};
+use super::tier_spans::{DragGrip, SpanItem};
+use super::timeline_edit::TimelineScene;
+use super::timeline_ui::TimelineDrawing;
+use super::{ChangeFollowUp, GhostAnnotation, tier_list};
+use crate::command::WindowCommand;
 use crate::words::timeline as words;
 
 /// The distance within which a time snaps, in points.
-const REACH: f64 = 8.0;
+const TIME_SNAP_REACH_POINTS: f64 = 8.0;
 
 /// The visible effect of a gesture.
 #[derive(Debug, Default)]
-pub(super) struct Sight {
-    pub(super) ghosts: Vec<Ghost>,
+pub(super) struct GestureSight {
+    pub(super) ghosts: Vec<GhostAnnotation>,
     /// Whether the annotations cannot be there.
     pub(super) refused: bool,
     /// The span whose times are shown beside the pointer.
     pub(super) times: Option<(i64, i64)>,
     /// The time that snapped, and what it snapped to.
-    pub(super) caught: Option<(i64, Catch)>,
+    pub(super) caught: Option<(i64, SnapTarget)>,
     pub(super) band: Option<Rect>,
 }
 
-impl Drawing<'_, '_> {
+impl TimelineDrawing<'_, '_> {
     /// Continues a gesture, ends it when the button is released, and returns its visible effect.
-    pub(super) fn gesture(&mut self, ui: &Ui, contents: &Contents, area: Rect) -> Sight {
+    pub(super) fn continue_timeline_gesture(
+        &mut self,
+        ui: &Ui,
+        contents: &RecordingContents,
+        area: Rect,
+    ) -> GestureSight {
         let Some(mut gesture) = self.timeline.gesture.take() else {
-            return Sight::default();
+            return GestureSight::default();
         };
         let (pointer, down) = ui.input(|input| {
             let pointer = &input.pointer;
             (pointer.latest_pos(), pointer.primary_down())
         });
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-            if let Gesture::Select { .. } = gesture {
-                self.out.send(Command::Span(None));
+            if let TimelineGesture::Select { .. } = gesture {
+                self.out.send_command(WindowCommand::Span(None));
             }
             self.follow_with(self.timeline.mark);
-            gesture = Gesture::Off;
+            gesture = TimelineGesture::Off;
         }
         let Some(pointer) = pointer else {
-            return Sight::default();
+            return GestureSight::default();
         };
         let lane = area.with_min_x(area.left() + self.names);
         self.pan_at_edges(ui, lane, pointer);
-        let time = self.window.micros(pointer.x - lane.left()).round() as i64;
+        let time = self.window.points_to_micros(pointer.x - lane.left()).round() as i64;
         let sight = match &mut gesture {
-            Gesture::Off => Sight::default(),
-            Gesture::Select { from } => self.select_on(contents, *from, time),
-            Gesture::Create { from, tier, span } => {
+            TimelineGesture::Off => GestureSight::default(),
+            TimelineGesture::Select { from } => self.select_on(contents, *from, time),
+            TimelineGesture::Create { from, tier, span } => {
                 let (found, sight) = self.create_on(contents, *tier, *from, time);
                 *span = found;
                 sight
             }
-            Gesture::Drag(dragging) => {
+            TimelineGesture::Drag(dragging) => {
                 ui.set_cursor_icon(match dragging.grip {
-                    Grip::Whole => CursorIcon::Grabbing,
+                    DragGrip::Whole => CursorIcon::Grabbing,
                     _ => CursorIcon::ResizeHorizontal,
                 });
                 self.drag_on(contents, dragging, time, pointer)
             }
-            Gesture::Band { from, time: origin } => {
-                self.band_on(contents, *from, *origin, pointer, time)
-            }
+            TimelineGesture::Band { from, time: origin } => self.band_on(contents, *from, *origin, pointer, time),
         };
         if down {
             self.timeline.gesture = Some(gesture);
         } else {
-            self.let_go(contents, gesture);
+            self.finish_timeline_gesture(contents, gesture);
         }
         sight
     }
@@ -86,20 +89,20 @@ impl Drawing<'_, '_> {
     fn pan_at_edges(&mut self, ui: &Ui, lane: Rect, pointer: Pos2) {
         let past = (pointer.x - lane.right()).max(0.0) - (lane.left() - pointer.x).max(0.0);
         if past != 0.0 && self.timeline.view.window.is_some() {
-            let whole = self.seen.shown.player.whole;
-            self.window = self.window.panned(past * 0.2, whole, lane.width());
+            let whole_span = self.seen.shown.player.whole;
+            self.window = self.window.panned_window(past * 0.2, whole_span, lane.width());
             self.timeline.view.window = Some(self.window);
             ui.ctx().request_repaint();
         }
     }
 
-    fn settle(
+    fn snap_dragged_time(
         &self,
-        contents: &Contents,
+        contents: &RecordingContents,
         except: &BTreeSet<i64>,
         time: i64,
-    ) -> (i64, Option<Catch>) {
-        let scene = Scene {
+    ) -> (i64, Option<SnapTarget>) {
+        let scene = TimelineScene {
             contents,
             seen: self.seen,
         };
@@ -107,78 +110,81 @@ impl Drawing<'_, '_> {
         // back.
         let marks = [self.timeline.mark];
         let snaps = self.seen.settings.timeline.snaps;
-        let reach = (REACH * self.window.scale) as i64;
+        let reach = (TIME_SNAP_REACH_POINTS * self.window.scale) as i64;
         let minima = if snaps.minima {
             self.timeline
                 .curves
-                .minima(time - 4 * reach, time + 4 * reach)
+                .wrist_speed_minima(time - 4 * reach, time + 4 * reach)
         } else {
             Vec::new()
         };
-        let guides = Guides {
+        let guides = SnapGuides {
             snaps,
             tiers: &contents.tiers,
             except,
             marks: &marks,
             minima: &minima,
-            frames: scene.frames(),
+            frames: scene.recording_frame_times(),
             reach,
         };
-        guides.settle(time)
+        guides.snap_time(time)
     }
 
     /// Shows the moment of a dragged boundary on the stage, as in ELAN, unless something plays.
     fn follow_with(&mut self, at: i64) {
         let player = &self.seen.shown.player;
-        if !player.is_playing() && player.playhead().micros() != at {
-            self.out.seek(Instant::from_micros(at));
+        if !player.is_playing() && player.player_playhead().instant_micros() != at {
+            self.out.send_seek(RecordingInstant::from_micros(at));
         }
     }
 
-    fn within(&self, time: i64) -> i64 {
-        let whole = self.seen.shown.player.whole;
-        time.clamp(whole.start().micros(), whole.end().micros())
+    fn clamp_to_recording(&self, time: i64) -> i64 {
+        let whole_span = self.seen.shown.player.whole;
+        time.clamp(
+            whole_span.span_start_instant().instant_micros(),
+            whole_span.span_end_instant().instant_micros(),
+        )
     }
 
-    fn select_on(&mut self, contents: &Contents, from: i64, time: i64) -> Sight {
+    fn select_on(&mut self, contents: &RecordingContents, from: i64, time: i64) -> GestureSight {
         let none = BTreeSet::new();
-        let (from, _) = self.settle(contents, &none, from);
-        let (to, caught) = self.settle(contents, &none, time);
-        let (from, to) = (self.within(from), self.within(to));
-        let micros = Instant::from_micros;
-        let span = Some(Span::between(micros(from), micros(to))).filter(|it| !it.is_empty());
-        self.out.send(Command::Span(span));
+        let (from, _) = self.snap_dragged_time(contents, &none, from);
+        let (to, caught) = self.snap_dragged_time(contents, &none, time);
+        let (from, to) = (self.clamp_to_recording(from), self.clamp_to_recording(to));
+        let micros = RecordingInstant::from_micros;
+        let span = Some(TimeSpan::span_between(micros(from), micros(to))).filter(|span| !span.is_empty());
+        self.out.send_command(WindowCommand::Span(span));
         self.follow_with(to);
-        Sight {
+        GestureSight {
             times: span.map(|_| (from.min(to), from.max(to))),
             caught: caught.map(|why| (to, why)),
-            ..Sight::default()
+            ..GestureSight::default()
         }
     }
 
     fn create_on(
         &mut self,
-        contents: &Contents,
+        contents: &RecordingContents,
         tier: i64,
         from: i64,
         time: i64,
-    ) -> ((i64, i64), Sight) {
+    ) -> ((i64, i64), GestureSight) {
         let none = BTreeSet::new();
-        let (from, _) = self.settle(contents, &none, from);
-        let (to, caught) = self.settle(contents, &none, time);
-        let (from, to) = (self.within(from), self.within(to));
+        let (from, _) = self.snap_dragged_time(contents, &none, from);
+        let (to, caught) = self.snap_dragged_time(contents, &none, time);
+        let (from, to) = (self.clamp_to_recording(from), self.clamp_to_recording(to));
         self.follow_with(to);
         let wanted = (from.min(to), from.max(to));
-        let found = contents.tiers.iter().find(|it| it.row.id == tier);
-        let room = found.and_then(|tier| dragged::room(contents, tier, wanted));
+        let target_tier = contents.tiers.iter().find(|candidate| candidate.row.id == tier);
+        let room = target_tier.and_then(|tier| dragged::room_for_annotation(contents, tier, wanted));
         let (start, end) = room.unwrap_or(wanted);
-        let ghost = Ghost {
+        let ghost = GhostAnnotation {
             tier,
             id: None,
             start,
             end,
         };
-        let sight = Sight {
+        let sight = GestureSight {
             ghosts: vec![ghost],
             refused: room.is_none(),
             times: Some((start, end)),
@@ -190,15 +196,15 @@ impl Drawing<'_, '_> {
 
     fn drag_on(
         &mut self,
-        contents: &Contents,
-        it: &mut Dragging,
+        contents: &RecordingContents,
+        it: &mut AnnotationDrag,
         time: i64,
         pointer: Pos2,
-    ) -> Sight {
+    ) -> GestureSight {
         let wanted = time - it.from;
         // The boundary that is nearest to a mark snaps; the others move along.
         let settled = it.edges.iter().map(|edge| {
-            let (at, why) = self.settle(contents, &it.except, edge + wanted);
+            let (at, why) = self.snap_dragged_time(contents, &it.except, edge + wanted);
             (at - edge, at, why)
         });
         let best = settled.min_by_key(|(by, _, why)| (why.is_none(), *why, (by - wanted).abs()));
@@ -207,17 +213,14 @@ impl Drawing<'_, '_> {
         it.changed = it
             .held
             .iter()
-            .map(|held| held.dragged(it.grip, by, mode))
+            .map(|held| held.drag_annotations(it.grip, by, mode))
             .collect();
         it.to = self.other_tier(contents, it, pointer);
         if let Some((to, _)) = it.to {
-            let moved = |held: &DraggedAnnotations| -> Vec<Item> {
-                let chosen = held
-                    .items
-                    .iter()
-                    .filter(|item| held.chosen.contains(&item.id));
+            let moved = |held: &DraggedAnnotations| -> Vec<SpanItem> {
+                let chosen = held.items.iter().filter(|item| held.chosen.contains(&item.id));
                 chosen
-                    .map(|item| Item {
+                    .map(|item| SpanItem {
                         start: item.start + by,
                         end: item.end + by,
                         ..*item
@@ -225,34 +228,35 @@ impl Drawing<'_, '_> {
                     .collect()
             };
             it.changed = it.held.iter().map(moved).collect();
-            let scene = Scene {
+            let scene = TimelineScene {
                 contents,
                 seen: self.seen,
             };
-            let items: Vec<Item> = it.changed.iter().flatten().copied().collect();
+            let items: Vec<SpanItem> = it.changed.iter().flatten().copied().collect();
             let chosen = items.iter().map(|item| item.id).collect();
             let fits = scene.tier_of(to).is_some_and(|tier| {
-                tier_list::unfit(&scene, tier, &items).is_none()
-                    && !requests::has_below(contents, &chosen)
+                tier_list::tier_misfit_reason(&scene, tier, &items).is_none() && !requests::has_below(contents, &chosen)
             });
             it.to = Some((to, fits));
         }
         let pairs = it.held.iter().zip(&it.changed);
-        let ghosts: Vec<Ghost> = pairs
+        let ghosts: Vec<GhostAnnotation> = pairs
             .flat_map(|(held, changed)| {
                 let tier = it.to.map_or(held.tier, |(to, _)| to);
-                changed.iter().map(move |item| Ghost::of(tier, item))
+                changed
+                    .iter()
+                    .map(move |item| GhostAnnotation::ghost_from_item(tier, item))
             })
             .collect();
-        let own = ghosts.iter().find(|ghost| ghost.id == Some(it.id));
-        match (own, it.grip) {
-            (Some(own), Grip::Start) => self.follow_with(own.start),
-            (Some(own), Grip::End) => self.follow_with(own.end),
+        let dragged_ghost = ghosts.iter().find(|ghost| ghost.id == Some(it.id));
+        match (dragged_ghost, it.grip) {
+            (Some(own), DragGrip::Start) => self.follow_with(own.start),
+            (Some(own), DragGrip::End) => self.follow_with(own.end),
             _ => {}
         }
-        let there = own.is_some_and(|own| own.start == at || own.end == at);
-        Sight {
-            times: own.map(|own| (own.start, own.end)),
+        let there = dragged_ghost.is_some_and(|own| own.start == at || own.end == at);
+        GestureSight {
+            times: dragged_ghost.map(|own| (own.start, own.end)),
             caught: why.filter(|_| there).map(|why| (at, why)),
             refused: it.to.is_some_and(|(_, fits)| !fits),
             ghosts,
@@ -261,23 +265,23 @@ impl Drawing<'_, '_> {
     }
 
     /// Returns the tier under the pointer, if whole annotations of one other tier are dragged.
-    fn other_tier(&self, contents: &Contents, it: &Dragging, pointer: Pos2) -> Option<(i64, bool)> {
-        if it.grip != Grip::Whole || it.held.iter().any(|held| held.tier != it.tier) {
+    fn other_tier(&self, contents: &RecordingContents, it: &AnnotationDrag, pointer: Pos2) -> Option<(i64, bool)> {
+        if it.grip != DragGrip::Whole || it.held.iter().any(|held| held.tier != it.tier) {
             return None;
         }
-        let at = self.timeline.layout.tier_at(pointer.y)?;
-        let tier = contents.tiers.get(at)?.row.id;
+        let tier_index = self.timeline.layout.tier_at(pointer.y)?;
+        let tier = contents.tiers.get(tier_index)?.row.id;
         (tier != it.tier).then_some((tier, true))
     }
 
     fn band_on(
         &mut self,
-        contents: &Contents,
+        contents: &RecordingContents,
         from: Pos2,
         time: i64,
         pointer: Pos2,
         now: i64,
-    ) -> Sight {
+    ) -> GestureSight {
         let band = Rect::from_two_pos(from, pointer);
         let (start, end) = (time.min(now), time.max(now));
         let mut all = BTreeSet::new();
@@ -289,74 +293,84 @@ impl Drawing<'_, '_> {
                 continue;
             };
             let columns = &tier.annotations;
-            let first = columns.ends.partition_point(|it| *it <= start);
-            let last = columns.starts.partition_point(|it| *it < end).max(first);
+            let first = columns.ends.partition_point(|other_end| *other_end <= start);
+            let last = columns
+                .starts
+                .partition_point(|other_start| *other_start < end)
+                .max(first);
             all.extend(columns.ids[first..last].iter().copied());
         }
-        self.out.send(Command::Annotations(all));
-        Sight {
+        self.out.send_command(WindowCommand::Annotations(all));
+        GestureSight {
             band: Some(band),
-            ..Sight::default()
+            ..GestureSight::default()
         }
     }
 
-    fn let_go(&mut self, contents: &Contents, gesture: Gesture) {
-        let scene = Scene {
+    fn finish_timeline_gesture(&mut self, contents: &RecordingContents, gesture: TimelineGesture) {
+        let scene = TimelineScene {
             contents,
             seen: self.seen,
         };
         match gesture {
-            Gesture::Create { tier, span, .. } if span.1 > span.0 => {
+            TimelineGesture::Create { tier, span, .. } if span.1 > span.0 => {
                 if let Some(tier) = scene.tier_of(tier) {
                     self.begin_value(tier, span);
                 }
             }
-            Gesture::Drag(it) => self.drop_at(&scene, &it),
+            TimelineGesture::Drag(it) => self.drop_at(&scene, &it),
             _ => {}
         }
     }
 
-    fn drop_at(&mut self, scene: &Scene<'_>, it: &Dragging) {
+    fn drop_at(&mut self, scene: &TimelineScene<'_>, it: &AnnotationDrag) {
         if let Some((to, fits)) = it.to {
-            let items: Vec<Item> = it.changed.iter().flatten().copied().collect();
+            let items: Vec<SpanItem> = it.changed.iter().flatten().copied().collect();
             if !fits {
                 let chosen = items.iter().map(|item| item.id).collect();
                 let below = requests::has_below(scene.contents, &chosen);
                 let tier = scene.tier_of(to);
-                let unfit = tier.and_then(|tier| tier_list::unfit(scene, tier, &items));
+                let unfit = tier.and_then(|tier| tier_list::tier_misfit_reason(scene, tier, &items));
                 let why = unfit.filter(|_| !below).unwrap_or(words::HAS_BELOW);
-                return self.hint(why);
+                return self.show_gesture_hint(why);
             }
             let asked = requests::to_tier(scene.contents, &items, to, true);
-            let ghosts = items.iter().map(|item| Ghost::of(to, item)).collect();
-            let then = Then {
+            let ghosts = items
+                .iter()
+                .map(|item| GhostAnnotation::ghost_from_item(to, item))
+                .collect();
+            let then = ChangeFollowUp {
                 select: items.len() == 1,
                 ghosts,
-                ..Then::default()
+                ..ChangeFollowUp::default()
             };
-            self.out.send(Command::Tier(Some(to)));
-            self.timeline.change(asked, then, self.out);
+            self.out.send_command(WindowCommand::Tier(Some(to)));
+            self.timeline.request_annotation_changes(asked, then, self.out);
             return;
         }
         let mut asked = Vec::new();
         let mut ghosts = Vec::new();
         for (held, changed) in it.held.iter().zip(&it.changed) {
-            asked.extend(requests::respan(&held.asked(changed)));
-            ghosts.extend(changed.iter().map(|item| Ghost::of(held.tier, item)));
+            asked.extend(requests::set_times_changes(&held.requested_drag_changes(changed)));
+            ghosts.extend(
+                changed
+                    .iter()
+                    .map(|item| GhostAnnotation::ghost_from_item(held.tier, item)),
+            );
         }
         if asked.is_empty() {
             return;
         }
-        let own = ghosts.iter().find(|ghost| ghost.id == Some(it.id));
-        if let Some(own) = own {
-            let micros = Instant::from_micros;
-            let span = Span::between(micros(own.start), micros(own.end));
-            self.out.send(Command::Span(Some(span)));
+        let dragged_ghost = ghosts.iter().find(|ghost| ghost.id == Some(it.id));
+        if let Some(own) = dragged_ghost {
+            let micros = RecordingInstant::from_micros;
+            let span = TimeSpan::span_between(micros(own.start), micros(own.end));
+            self.out.send_command(WindowCommand::Span(Some(span)));
         }
-        let then = Then {
+        let then = ChangeFollowUp {
             ghosts,
-            ..Then::default()
+            ..ChangeFollowUp::default()
         };
-        self.timeline.change(asked, then, self.out);
+        self.timeline.request_annotation_changes(asked, then, self.out);
     }
 }

@@ -5,29 +5,29 @@ use std::collections::BTreeSet;
 use chereme_corpus::tier_values::TierValues;
 use chereme_corpus::{StoredInventory, TierContents, requests};
 use eframe::egui::{
-    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, Ui, Vec2, WidgetInfo, pos2,
-    text::CCursor, text::CCursorRange, vec2,
+    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, Ui, Vec2, WidgetInfo, pos2, text::CCursor,
+    text::CCursorRange, vec2,
 };
 use serde::{Deserialize, Serialize};
 
-use super::edit::{self, Scene};
-use super::{Timeline, select, value_list};
+use super::timeline_edit::{self, TimelineScene};
+use super::{TimelinePane, select, value_list};
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::Outbox;
+use crate::command::WindowCommand;
+use crate::context::CommandOutbox;
 use crate::panes::stage;
-use crate::pickers::{self, Picker};
-use crate::script::edit as edit_text;
-use crate::words::{Text, fill, timeline as words};
+use crate::pickers::{self, ValuePicker};
+use crate::script::script_edit as edit_text;
+use crate::words::{InterfaceText, fill_text_braces, timeline as words};
 
-const WIDTH: f32 = 260.0;
+const VALUE_FIELD_WIDTH_POINTS: f32 = 260.0;
 /// The height of the field with its list, in points.
-const ROOM: f32 = 260.0;
+const VALUE_FIELD_HEIGHT_POINTS: f32 = 260.0;
 
 /// The target of a typed value.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Target {
+pub(crate) enum EditTarget {
     /// Existing annotations.
     Of(BTreeSet<i64>),
     /// A new annotation, stored when the value is kept.
@@ -43,10 +43,10 @@ pub(crate) enum Target {
 
 /// A value that is being typed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Editing {
+pub(crate) struct ValueEditing {
     /// The recording's row id.
     pub(crate) recording: i64,
-    pub(crate) target: Target,
+    pub(crate) target: EditTarget,
     pub(crate) text: String,
     /// The text when the field was opened.
     #[serde(default)]
@@ -71,8 +71,8 @@ pub(crate) struct Editing {
     aside: bool,
 }
 
-impl Editing {
-    pub(super) fn new(recording: i64, target: Target, text: String) -> Self {
+impl ValueEditing {
+    pub(super) fn new(recording: i64, target: EditTarget, text: String) -> Self {
         Self {
             recording,
             target,
@@ -93,7 +93,7 @@ impl Editing {
     }
 
     /// Returns the same value for a field that opens again with the restored text.
-    pub(super) fn again(self) -> Self {
+    pub(super) fn reopened_editing(self) -> Self {
         Self {
             begun: false,
             again: true,
@@ -102,22 +102,22 @@ impl Editing {
     }
 
     /// Returns the tier of the annotations.
-    pub(super) fn tier<'a>(&self, scene: &Scene<'a>) -> Option<&'a TierContents> {
+    pub(super) fn editing_tier<'a>(&self, scene: &TimelineScene<'a>) -> Option<&'a TierContents> {
         match &self.target {
-            Target::New { tier, .. } => scene.tier_of(*tier),
-            Target::Of(annotations) => {
+            EditTarget::New { tier, .. } => scene.tier_of(*tier),
+            EditTarget::Of(annotations) => {
                 let first = annotations.first()?;
-                Some(scene.seen.snapshot.annotation(*first)?.tier)
+                Some(scene.seen.snapshot.find_open_annotation(*first)?.tier)
             }
         }
     }
 
     /// Returns the span of the first annotation in microseconds.
-    pub(super) fn span(&self, scene: &Scene<'_>) -> Option<(i64, i64)> {
+    pub(super) fn editing_span_micros(&self, scene: &TimelineScene<'_>) -> Option<(i64, i64)> {
         match &self.target {
-            Target::New { start, end, .. } => Some((*start, *end)),
-            Target::Of(annotations) => {
-                let it = scene.seen.snapshot.annotation(*annotations.first()?)?;
+            EditTarget::New { start, end, .. } => Some((*start, *end)),
+            EditTarget::Of(annotations) => {
+                let it = scene.seen.snapshot.find_open_annotation(*annotations.first()?)?;
                 let columns = &it.tier.annotations;
                 Some((columns.starts[it.at], columns.ends[it.at]))
             }
@@ -134,20 +134,20 @@ enum FieldKey {
 }
 
 /// Shows the field below `below`, and carries out its keys.
-pub(super) fn show(
-    timeline: &mut Timeline,
+pub(super) fn show_value_field(
+    timeline: &mut TimelinePane,
     ui: &mut Ui,
-    scene: &Scene<'_>,
+    scene: &TimelineScene<'_>,
     below: Rect,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
-    let Some(mut editing) = timeline.entry.take() else {
+    let Some(mut editing) = timeline.entry.take_open_editing() else {
         timeline.entry.left = false;
         return;
     };
     if editing.recording != scene.contents.recording.id {
         let text = editing.text.trim().to_owned();
-        edit::keep(timeline, editing, &text, out);
+        timeline_edit::store_typed_value(timeline, editing, &text, out);
         return;
     }
     if editing.again && !editing.begun {
@@ -156,54 +156,52 @@ pub(super) fn show(
             None => return,
         }
     }
-    let Some(tier) = editing.tier(scene) else {
+    let Some(tier) = editing.editing_tier(scene) else {
         editing.again = true;
         find_place(editing, scene, out);
         return;
     };
-    let choices = scene.choices(tier);
+    let choices = scene.scene_tier_values(tier);
     if std::mem::take(&mut timeline.entry.left) {
-        if let Some(value) = choices.kept(&editing.text, editing.marked) {
-            return done(timeline, (editing, tier), FieldKey::Keep(value, false), out);
+        if let Some(value) = choices.value_to_store(&editing.text, editing.marked) {
+            return carry_out_field_key(timeline, (editing, tier), FieldKey::Keep(value, false), out);
         }
         editing.aside = true;
     }
-    let digits = timeline.entry.digits.of(tier.row.id, &choices).to_vec();
-    let stored = scene.inventory(tier);
-    let pictured = stored.filter(|it| editing.pictures && edit::has_pictures(&it.inventory));
+    let digits = timeline
+        .entry
+        .digits
+        .digit_values_of_tier(tier.row.id, &choices)
+        .to_vec();
+    let stored = scene.scene_tier_inventory(tier);
+    let pictured = stored.filter(|stored| editing.pictures && timeline_edit::has_pictures(&stored.inventory));
     if let Some(stored) = pictured {
-        let asked = pictures(
-            timeline,
-            ui,
-            scene,
-            (&mut editing, stored),
-            (&choices, &digits, below),
-        );
-        timeline.entry.picker.inspect(scene.seen, out);
-        return done(timeline, (editing, tier), asked, out);
+        let asked = show_value_pictures(timeline, ui, scene, (&mut editing, stored), (&choices, &digits, below));
+        timeline.entry.picker.inspect_requested_value(scene.seen, out);
+        return carry_out_field_key(timeline, (editing, tier), asked, out);
     }
-    let asked = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
-    done(timeline, (editing, tier), asked, out);
+    let asked = draw_value_field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
+    carry_out_field_key(timeline, (editing, tier), asked, out);
 }
 
 /// Carries out a key of the field.
-fn done(
-    timeline: &mut Timeline,
-    (editing, tier): (Editing, &TierContents),
+fn carry_out_field_key(
+    timeline: &mut TimelinePane,
+    (editing, tier): (ValueEditing, &TierContents),
     asked: FieldKey,
-    out: &mut Outbox,
+    out: &mut CommandOutbox,
 ) {
     match asked {
         FieldKey::Nothing => timeline.entry.editing = Some(editing),
         FieldKey::Drop => {}
         FieldKey::Keep(value, on) => {
             let next = if on { next(&editing, tier) } else { None };
-            let same = matches!(&editing.target, Target::Of(all) if all.len() == 1);
+            let same = matches!(&editing.target, EditTarget::Of(all) if all.len() == 1);
             if !same || value != editing.before {
-                edit::keep(timeline, editing, &value, out);
+                timeline_edit::store_typed_value(timeline, editing, &value, out);
             }
             if let Some(at) = next {
-                select::select(tier, at, out);
+                select::select_tier_annotation(tier, at, out);
                 timeline.asked.to_select.clear();
                 timeline.edit_at(tier, at);
             }
@@ -212,11 +210,11 @@ fn done(
 }
 
 /// Returns the index of the annotation after the edited one.
-fn next(editing: &Editing, tier: &TierContents) -> Option<usize> {
+fn next(editing: &ValueEditing, tier: &TierContents) -> Option<usize> {
     let columns = &tier.annotations;
     let next = match &editing.target {
-        Target::New { end, .. } => columns.starts.partition_point(|start| start < end),
-        Target::Of(all) => {
+        EditTarget::New { end, .. } => columns.starts.partition_point(|start| start < end),
+        EditTarget::Of(all) => {
             let last = columns.ids.iter().rposition(|id| all.contains(id))?;
             last + 1
         }
@@ -224,10 +222,10 @@ fn next(editing: &Editing, tier: &TierContents) -> Option<usize> {
     (next < columns.len()).then_some(next)
 }
 
-fn field(
+fn draw_value_field(
     ui: &mut Ui,
-    scene: &Scene<'_>,
-    (editing, tier): (&mut Editing, &TierContents),
+    scene: &TimelineScene<'_>,
+    (editing, tier): (&mut ValueEditing, &TierContents),
     (choices, digits): (&TierValues, &[String]),
     below: Rect,
 ) -> FieldKey {
@@ -242,42 +240,35 @@ fn field(
     } else {
         &editing.text
     };
-    let fitting = choices.fitting(filter);
-    value_list::step(editing, &fitting, up, down);
+    let fitting = choices.matching_value_indices(filter);
+    value_list::step_value_mark(editing, &fitting, up, down);
     let mut asked = FieldKey::Nothing;
     let mut turn = false;
     let opened = editing.begun;
-    let pictured = scene.inventory(tier);
-    let pictured = pictured.is_some_and(|it| edit::has_pictures(&it.inventory));
-    let height = value_list::height(ui, fitting.len(), pictured);
-    let (area, width) = area(ui, below, vec2(WIDTH, height));
+    let stored_inventory = scene.scene_tier_inventory(tier);
+    let pictured = stored_inventory.is_some_and(|stored| timeline_edit::has_pictures(&stored.inventory));
+    let height = value_list::value_list_height(ui, fitting.len(), pictured);
+    let (area, width) = area(ui, below, vec2(VALUE_FIELD_WIDTH_POINTS, height));
     let shown = area.show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(width);
             let before = editing.text.clone();
-            let label = fill(scene.seen.say(words::VALUE_ON), &[("tier", &tier.row.name)]);
+            let label = fill_text_braces(scene.seen.say_text(words::VALUE_ON), &[("tier", &tier.row.name)]);
             text_field(ui, editing, &label);
-            let stored = scene.inventory(tier);
-            if stored.is_some_and(|it| edit::has_pictures(&it.inventory)) {
-                turn = switch(ui, scene, words::BY_PICTURE);
+            let stored = scene.scene_tier_inventory(tier);
+            if stored.is_some_and(|stored| timeline_edit::has_pictures(&stored.inventory)) {
+                turn = show_pictures_switch(ui, scene, words::BY_PICTURE);
             }
-            let typed = editing
-                .text
-                .strip_prefix(before.as_str())
-                .unwrap_or_default();
-            if let Some(value) = value_list::picked(&before, typed, choices, digits) {
+            let typed = editing.text.strip_prefix(before.as_str()).unwrap_or_default();
+            if let Some(value) = value_list::value_of_typed_digit(&before, typed, choices, digits) {
                 asked = FieldKey::Keep(value.to_owned(), false);
             }
             if editing.text != before {
                 editing.marked = None;
             }
-            if let Some(value) = value_list::show(
-                ui,
-                scene,
-                (editing, &fitting),
-                (stored, choices, digits),
-                up || down,
-            ) {
+            if let Some(value) =
+                value_list::show_matching_values(ui, scene, (editing, &fitting), (stored, choices, digits), up || down)
+            {
                 asked = FieldKey::Keep(value, false);
             }
         });
@@ -289,8 +280,8 @@ fn field(
     if escape {
         return FieldKey::Drop;
     }
-    if enter || tab || opened && elsewhere(ui, shown.response.rect) {
-        return match choices.kept(&editing.text, editing.marked) {
+    if enter || tab || opened && is_pressed_elsewhere(ui, shown.response.rect) {
+        return match choices.value_to_store(&editing.text, editing.marked) {
             Some(value) => FieldKey::Keep(value, tab),
             None => FieldKey::Nothing,
         };
@@ -299,11 +290,11 @@ fn field(
 }
 
 /// Shows the values as pictures in place of the field.
-fn pictures(
-    timeline: &mut Timeline,
+fn show_value_pictures(
+    timeline: &mut TimelinePane,
     ui: &mut Ui,
-    scene: &Scene<'_>,
-    (editing, stored): (&mut Editing, &StoredInventory),
+    scene: &TimelineScene<'_>,
+    (editing, stored): (&mut ValueEditing, &StoredInventory),
     (choices, digits, below): (&TierValues, &[String], Rect),
 ) -> FieldKey {
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
@@ -312,17 +303,18 @@ fn pictures(
     let opened = std::mem::replace(&mut editing.pictured, true);
     if !opened {
         // A digit picks the same value among the pictures as in the list.
-        timeline.entry.picker = Picker::fresh();
+        timeline.entry.picker = ValuePicker::new_focused_picker();
         timeline.entry.picker.digits = digits.to_vec();
     }
     let inventory = &stored.inventory;
     let screen = ui.ctx().content_rect();
-    let width = pickers::data::width(pickers::data::kind(inventory));
-    let width = width.min(screen.width() - 48.0);
+    let full_width =
+        pickers::pickers_data::picker_width_points(pickers::pickers_data::inventory_picker_form(inventory));
+    let width = full_width.min(screen.width() - 48.0);
     let mut asked = FieldKey::Nothing;
     let mut back = false;
-    let height = pickers::data::height(pickers::data::kind(inventory));
-    let free = stage::place(ui.ctx()).and_then(|it| column(it, screen, below));
+    let height = pickers::pickers_data::picker_height_points(pickers::pickers_data::inventory_picker_form(inventory));
+    let free = stage::visible_stage_rect(ui.ctx()).and_then(|stage_rect| free_side_column(stage_rect, screen, below));
     let (area, size) = match free {
         Some(free) => in_column(free, vec2(width, height)),
         None => {
@@ -334,15 +326,11 @@ fn pictures(
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(size.x);
             ui.set_max_height(size.y);
-            back = switch(ui, scene, words::BY_TEXT);
-            let chosen = inventory.find(&editing.text).map(|value| value.id.as_str());
-            let picked = pickers::pick(
-                ui,
-                &mut timeline.entry.picker,
-                scene.seen,
-                inventory,
-                chosen,
-            );
+            back = show_pictures_switch(ui, scene, words::BY_TEXT);
+            let chosen = inventory
+                .find_inventory_value(&editing.text)
+                .map(|value| value.id.as_str());
+            let picked = pickers::show_inventory_picker(ui, &mut timeline.entry.picker, scene.seen, inventory, chosen);
             if let Some(value) = picked {
                 asked = FieldKey::Keep(value, false);
             }
@@ -351,8 +339,8 @@ fn pictures(
     if back {
         editing.turn_to_pictures();
     }
-    if matches!(asked, FieldKey::Nothing) && opened && elsewhere(ui, shown.response.rect) {
-        return match choices.kept(&editing.text, None) {
+    if matches!(asked, FieldKey::Nothing) && opened && is_pressed_elsewhere(ui, shown.response.rect) {
+        return match choices.value_to_store(&editing.text, None) {
             Some(value) => FieldKey::Keep(value, false),
             None => FieldKey::Nothing,
         };
@@ -368,15 +356,17 @@ fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
     let width = size.x;
     let screen = ui.ctx().content_rect();
     let (under, over) = (screen.bottom() - below.bottom(), below.top() - screen.top());
-    let (corner, at, width) = if under < ROOM && over > under {
-        let at = below.left_top() - vec2(0.0, 2.0);
-        let reached = |it: &Rect| it.top() < at.y && it.bottom() > at.y - size.y;
-        let stage = stage::place(ui.ctx()).filter(reached);
-        let (left, width) = stage.map_or((at.x, width), |it| beside(at.x, width, it, screen));
-        (Align2::LEFT_BOTTOM, pos2(left, at.y), width)
+    let (corner, at, width) = if under < VALUE_FIELD_HEIGHT_POINTS && over > under {
+        let corner = below.left_top() - vec2(0.0, 2.0);
+        let reached = |rect: &Rect| rect.top() < corner.y && rect.bottom() > corner.y - size.y;
+        let stage = stage::visible_stage_rect(ui.ctx()).filter(reached);
+        let (left, width) = stage.map_or((corner.x, width), |stage_rect| {
+            place_beside_stage(corner.x, width, stage_rect, screen)
+        });
+        (Align2::LEFT_BOTTOM, pos2(left, corner.y), width)
     } else {
-        let at = below.left_bottom() + vec2(0.0, 2.0);
-        (Align2::LEFT_TOP, at, width)
+        let corner = below.left_bottom() + vec2(0.0, 2.0);
+        (Align2::LEFT_TOP, corner, width)
     };
     let area = Area::new(Id::unique("timeline value").with(corner.0))
         .order(Order::Foreground)
@@ -387,14 +377,14 @@ fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
 }
 
 /// The space between the edge of a column beside the stage and the contents of an area in it, in points.
-const EDGE: f32 = 18.0;
+const SIDE_COLUMN_EDGE_POINTS: f32 = 18.0;
 
 /// Returns the free part of the screen left or right of the stage, whichever is wider: below the menus, and above the
 /// line of the annotation with the name of its tier, if that leaves enough. `None` if it is too small for pictures.
-fn column(stage: Rect, screen: Rect, annotation: Rect) -> Option<Rect> {
+fn free_side_column(stage: Rect, screen: Rect, annotation: Rect) -> Option<Rect> {
     /// The height of the menus, and the least useful size, in points.
-    const MENUS: f32 = 30.0;
-    const LEAST: Vec2 = vec2(290.0, 340.0);
+    const MENU_HEIGHT_POINTS: f32 = 30.0;
+    const MIN_SIDE_COLUMN_POINTS: Vec2 = vec2(290.0, 340.0);
     let left = screen.left()..=stage.left();
     let right = stage.right()..=screen.right();
     let across = if left.end() - left.start() >= right.end() - right.start() {
@@ -402,18 +392,18 @@ fn column(stage: Rect, screen: Rect, annotation: Rect) -> Option<Rect> {
     } else {
         right
     };
-    let whole = Rect::from_x_y_ranges(across, screen.top() + MENUS..=screen.bottom());
-    let above = whole.with_max_y(annotation.top());
-    let aside = annotation.x_range().intersection(whole.x_range()).span() <= 0.0;
-    let fits = |it: &Rect| it.width() >= LEAST.x && it.height() >= LEAST.y;
-    let free = Some(above).filter(fits).or(aside.then_some(whole));
+    let column_rect = Rect::from_x_y_ranges(across, screen.top() + MENU_HEIGHT_POINTS..=screen.bottom());
+    let above = column_rect.with_max_y(annotation.top());
+    let aside = annotation.x_range().intersection(column_rect.x_range()).span() <= 0.0;
+    let fits = |rect: &Rect| rect.width() >= MIN_SIDE_COLUMN_POINTS.x && rect.height() >= MIN_SIDE_COLUMN_POINTS.y;
+    let free = Some(above).filter(fits).or(aside.then_some(column_rect));
     free.filter(fits)
 }
 
 /// Returns an area at the lower end of a column, as near to the timeline as possible, and the size of its
 /// contents, which are higher in a narrower column.
 fn in_column(free: Rect, wanted: Vec2) -> (Area, Vec2) {
-    let most = free.size() - vec2(EDGE, EDGE);
+    let most = free.size() - vec2(SIDE_COLUMN_EDGE_POINTS, SIDE_COLUMN_EDGE_POINTS);
     let width = wanted.x.min(most.x);
     let size = vec2(width, (wanted.y * wanted.x / width).min(most.y));
     let area = Area::new(Id::unique("timeline value").with("column"))
@@ -426,24 +416,27 @@ fn in_column(free: Rect, wanted: Vec2) -> (Area, Vec2) {
 
 /// Returns the left edge and the width of an area that does not cover the middle of the stage, where the signer is;
 /// without room for that, returns `left` and `width` unchanged.
-fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
+fn place_beside_stage(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
     /// The least useful width, in points.
-    const LEAST: f32 = 260.0;
+    const MIN_WIDTH_BESIDE_POINTS: f32 = 260.0;
     let half = (stage.width() * 0.5).min(stage.height() * 0.55).min(150.0);
     let (from, to) = (stage.center().x - half, stage.center().x + half);
-    if left + width + EDGE <= from || left >= to {
+    if left + width + SIDE_COLUMN_EDGE_POINTS <= from || left >= to {
         return (left, width);
     }
-    let (before, after) = (from - screen.left() - EDGE, screen.right() - to - EDGE);
+    let (before, after) = (
+        from - screen.left() - SIDE_COLUMN_EDGE_POINTS,
+        screen.right() - to - SIDE_COLUMN_EDGE_POINTS,
+    );
     let before_it = || {
         let width = width.min(before);
-        (from - width - EDGE, width)
+        (from - width - SIDE_COLUMN_EDGE_POINTS, width)
     };
     match (before >= width, after >= width) {
         (true, true) if to - left < left + width - from => (to, width),
         (true, _) => before_it(),
         (false, true) => (to, width),
-        _ if before.max(after) < LEAST => (left, width),
+        _ if before.max(after) < MIN_WIDTH_BESIDE_POINTS => (left, width),
         _ if before >= after => before_it(),
         _ => (to, after),
     }
@@ -451,27 +444,27 @@ fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
 
 /// Returns whether the mouse was pressed outside of `rect`. Callers ignore the field's first frame, since the tap that
 /// opened the field may end within it.
-fn elsewhere(ui: &Ui, rect: Rect) -> bool {
+fn is_pressed_elsewhere(ui: &Ui, rect: Rect) -> bool {
     ui.input(|input| {
-        let at = input.pointer.interact_pos();
-        input.pointer.any_pressed() && at.is_some_and(|at| !rect.contains(at))
+        let press_position = input.pointer.interact_pos();
+        input.pointer.any_pressed() && press_position.is_some_and(|at| !rect.contains(at))
     })
 }
 
 /// Shows the button that switches between pictures and text.
-fn switch(ui: &mut Ui, scene: &Scene<'_>, text: Text) -> bool {
-    let button = ui.small_button(scene.seen.say(text));
-    let keys = scene.seen.keys.text(Action::PictureValue);
+fn show_pictures_switch(ui: &mut Ui, scene: &TimelineScene<'_>, text: InterfaceText) -> bool {
+    let button = ui.small_button(scene.seen.say_text(text));
+    let keys = scene.seen.keys.action_keys_text(Action::PictureValue);
     button.on_hover_text(keys).clicked()
 }
 
-fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
+fn text_field(ui: &mut Ui, editing: &mut ValueEditing, label: &str) -> Response {
     let id = Id::unique("timeline value field");
     // The field requests the focus before it is shown, so that it receives the text typed in this frame.
     if !editing.aside {
         ui.memory_mut(|memory| memory.request_focus(id));
     }
-    let mut output = edit_text::line(ui, &mut editing.text, |field| {
+    let mut output = edit_text::draw_text_line(ui, &mut editing.text, |field| {
         field.id(id).desired_width(f32::INFINITY).lock_focus(true)
     });
     let response = output.response.response.clone();
@@ -493,38 +486,35 @@ fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
 
 /// Finds a place for typed text whose target was removed or stored meanwhile: the stored annotation, or a notice if
 /// there is no place for it. Returns `None` for text that was stored as typed.
-fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<Editing> {
-    if let Target::New { tier, start, end } = editing.target
+fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> Option<ValueEditing> {
+    if let EditTarget::New { tier, start, end } = editing.target
         && let Some(columns) = scene.tier_of(tier).map(|tier| &tier.annotations)
     {
-        let at = columns.starts.partition_point(|it| *it < start);
-        let there = at < columns.len() && (columns.starts[at], columns.ends[at]) == (start, end);
+        let index = columns.starts.partition_point(|other_start| *other_start < start);
+        let there = index < columns.len() && (columns.starts[index], columns.ends[index]) == (start, end);
         if !there {
             return Some(editing);
         }
-        let before = requests::typed(columns, at);
-        let target = Target::Of(BTreeSet::from([columns.ids[at]]));
-        return (before != editing.text).then_some(Editing {
+        let before = requests::typed_annotation_value(columns, index);
+        let target = EditTarget::Of(BTreeSet::from([columns.ids[index]]));
+        return (before != editing.text).then_some(ValueEditing {
             target,
             before,
             ..editing
         });
     }
-    if let Target::Of(all) = &editing.target {
-        let mut found = all
+    if let EditTarget::Of(all) = &editing.target {
+        let mut found_annotations = all
             .iter()
-            .filter_map(|id| scene.seen.snapshot.annotation(*id));
-        if let Some(it) = found.next() {
-            let stored = requests::typed(&it.tier.annotations, it.at) == editing.text;
+            .filter_map(|id| scene.seen.snapshot.find_open_annotation(*id));
+        if let Some(it) = found_annotations.next() {
+            let stored = requests::typed_annotation_value(&it.tier.annotations, it.at) == editing.text;
             return (!stored || all.len() > 1).then_some(editing);
         }
     }
     if !editing.text.trim().is_empty() {
-        let text = fill(
-            scene.seen.say(words::DRAFT_LOST),
-            &[("text", &editing.text)],
-        );
-        out.send(Command::Notify(text, words::DRAFT_LOST_REMEDY));
+        let text = fill_text_braces(scene.seen.say_text(words::DRAFT_LOST), &[("text", &editing.text)]);
+        out.send_command(WindowCommand::Notify(text, words::DRAFT_LOST_REMEDY));
     }
     None
 }
@@ -533,8 +523,8 @@ fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<E
 mod tests {
     use super::*;
 
-    fn editing() -> Editing {
-        Editing::new(1, Target::Of(BTreeSet::from([1])), "A".into())
+    fn editing() -> ValueEditing {
+        ValueEditing::new(1, EditTarget::Of(BTreeSet::from([1])), "A".into())
     }
 
     #[test]
@@ -550,11 +540,11 @@ mod tests {
             (true, false, Some(4)),
             (true, false, None),
         ] {
-            value_list::step(&mut it, &fitting, up, down);
+            value_list::step_value_mark(&mut it, &fitting, up, down);
             assert_eq!(it.marked, want);
         }
         it.marked = Some(9);
-        value_list::step(&mut it, &fitting, false, false);
+        value_list::step_value_mark(&mut it, &fitting, false, false);
         assert_eq!(it.marked, None);
     }
 
@@ -563,7 +553,7 @@ mod tests {
         let mut it = editing();
         it.text = "école".into();
         let text = serde_json::to_string(&it).expect("written");
-        let read: Editing = serde_json::from_str(&text).expect("read");
+        let read: ValueEditing = serde_json::from_str(&text).expect("read");
         assert_eq!(read, it);
     }
 
@@ -574,16 +564,13 @@ mod tests {
         let clear = |(left, width): (f32, f32)| left + width <= 520.0 || left >= 820.0;
         for left in [100.0, 300.0, 412.0, 600.0, 700.0, 900.0] {
             for width in [260.0, 574.0] {
-                let (at, wide) = beside(left, width, stage, screen);
-                assert!(
-                    clear((at, wide)) && wide >= 260.0 && at >= 0.0,
-                    "{left} {width}"
-                );
+                let (at, wide) = place_beside_stage(left, width, stage, screen);
+                assert!(clear((at, wide)) && wide >= 260.0 && at >= 0.0, "{left} {width}");
                 assert!(at + wide <= 1280.0 || at == left);
             }
         }
         let small = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
-        assert_eq!(beside(50.0, 260.0, small, small), (50.0, 260.0));
+        assert_eq!(place_beside_stage(50.0, 260.0, small, small), (50.0, 260.0));
     }
 
     #[test]
@@ -599,14 +586,17 @@ mod tests {
             for left in [210.0, 600.0, 1100.0] {
                 let lane = size.y - 130.0;
                 let below = Rect::from_min_max(pos2(left, lane), pos2(left + 60.0, lane + 22.0));
-                let free = column(stage, screen, below).expect("room");
+                let free = free_side_column(stage, screen, below).expect("room");
                 assert!(!free.intersects(stage.shrink(1.0)) && !free.intersects(below.shrink(1.0)));
                 assert!(screen.contains_rect(free) && free.width() > 300.0);
                 let (_, inside) = in_column(free, vec2(780.0, 560.0));
-                assert!(inside.x <= free.width() - EDGE && inside.y <= free.height() - EDGE);
+                assert!(
+                    inside.x <= free.width() - SIDE_COLUMN_EDGE_POINTS
+                        && inside.y <= free.height() - SIDE_COLUMN_EDGE_POINTS
+                );
             }
         }
         let small = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
-        assert_eq!(column(small, small, small), None);
+        assert_eq!(free_side_column(small, small, small), None);
     }
 }

@@ -1,19 +1,17 @@
 //! The field that goes to a typed time.
 
-use chereme_corpus::Moment;
-use chereme_corpus::snap::Frames;
-use chereme_motion::{Instant, Span};
-use eframe::egui::{
-    Align2, Id, Key, Label, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
-};
+use chereme_corpus::TableMoment;
+use chereme_corpus::snap::RecordingFrameTimes;
+use chereme_motion::{RecordingInstant, TimeSpan};
+use eframe::egui::{Align2, Id, Key, Label, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2};
 
-use super::Timeline;
-use super::data::time_text;
-use super::edit::Scene;
-use crate::command::Command;
-use crate::context::Outbox;
-use crate::script::edit;
-use crate::words::{fill, shell, timeline as words};
+use super::TimelinePane;
+use super::timeline_data::time_text;
+use super::timeline_edit::TimelineScene;
+use crate::command::WindowCommand;
+use crate::context::CommandOutbox;
+use crate::script::script_edit;
+use crate::words::{fill_text_braces, shell, timeline as words};
 
 /// The field while it is open.
 #[derive(Debug, Default)]
@@ -23,12 +21,15 @@ pub(super) struct GoBox {
 
 /// Returns the time that a text describes, in microseconds: a time, `f512` for a frame as the stage counts frames, `+2`
 /// and `-0.5` relative to `now` in seconds, `50%` of the whole. Returns `None` for other text.
-fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i64> {
+fn parse_time_target(text: &str, now: i64, whole: TimeSpan, frames: Option<RecordingFrameTimes>) -> Option<i64> {
     let text = text.trim().to_lowercase().replace(',', ".");
-    let (from, end) = (whole.start().micros(), whole.end().micros());
+    let (from, end) = (
+        whole.span_start_instant().instant_micros(),
+        whole.span_end_instant().instant_micros(),
+    );
     if let Some(share) = text.strip_suffix('%') {
-        let share: f64 = share.trim().parse().ok()?;
-        let share = Some(share).filter(|it| (0.0..=100.0).contains(it))?;
+        let typed_share: f64 = share.trim().parse().ok()?;
+        let share = Some(typed_share).filter(|share| (0.0..=100.0).contains(share))?;
         return Some(from + ((end - from) as f64 * share / 100.0) as i64);
     }
     let (sign, rest) = match text.as_bytes().first()? {
@@ -38,40 +39,45 @@ fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i
     };
     let named = ["frame", "image", "#"]
         .into_iter()
-        .find_map(|it| rest.strip_prefix(it));
-    let moment: Moment = match named {
+        .find_map(|prefix| rest.strip_prefix(prefix));
+    let moment: TableMoment = match named {
         Some(number) => format!("f{}", number.trim()).parse().ok()?,
         None => rest.parse().ok()?,
     };
     match (moment, sign) {
-        (Moment::Time(at), None) => Some(at.micros()),
-        (Moment::Time(by), Some(sign)) => now.checked_add(by.micros().checked_mul(sign)?),
-        (Moment::Frame(at), None) => {
+        (TableMoment::Time(at), None) => Some(at.instant_micros()),
+        (TableMoment::Time(by), Some(sign)) => now.checked_add(by.instant_micros().checked_mul(sign)?),
+        (TableMoment::Frame(at), None) => {
             let frames = frames?;
-            let at = usize::try_from(at.checked_sub(1)?).ok()?;
-            Some(frames.rate.instant(at).micros() + frames.offset)
+            let frame_index = usize::try_from(at.checked_sub(1)?).ok()?;
+            Some(frames.rate.frame_start_instant(frame_index).instant_micros() + frames.offset)
         }
-        (Moment::Frame(by), Some(sign)) => {
-            let by = i64::try_from(by).ok().filter(|it| *it < 1 << 40)?;
-            Some(frames?.stepped(now, by * sign))
+        (TableMoment::Frame(by), Some(sign)) => {
+            let by = i64::try_from(by).ok().filter(|count| *count < 1 << 40)?;
+            Some(frames?.stepped_frame_start(now, by * sign))
         }
     }
 }
 
 /// Shows the field, and moves the playhead to the entered time.
-pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+pub(super) fn show_go_to_time(
+    timeline: &mut TimelinePane,
+    ui: &mut Ui,
+    scene: &TimelineScene<'_>,
+    out: &mut CommandOutbox,
+) {
     let Some(mut shown) = timeline.boxes.go_box.take() else {
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (mut go, mut drop) = (pressed(Key::Enter), pressed(Key::Escape));
-    let (say, frames) = (|text| scene.seen.say(text), scene.frames());
+    let (say, frames) = (|text| scene.seen.say_text(text), scene.recording_frame_times());
     let player = scene.seen.shown.on_stage();
-    let (whole, now) = (player.whole, player.playhead().micros());
+    let (whole, now) = (player.whole, player.player_playhead().instant_micros());
     let made = scene.seen.shown.made.as_ref();
     let frames = match made {
-        Some(showing) => Some(Frames {
-            rate: showing.made.clip.rate(),
+        Some(showing) => Some(RecordingFrameTimes {
+            rate: showing.made.clip.clip_frame_rate(),
             offset: 0,
         }),
         None => frames,
@@ -88,24 +94,25 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                 .id(Id::unique("timeline go field"))
                 .hint_text(say(words::GO_FIELD))
                 .desired_width(f32::INFINITY);
-            let response = edit::edged(ui, |ui| ui.add(field));
+            let response = script_edit::draw_with_text_edge(ui, |ui| ui.add(field));
             let label = say(words::GO_FIELD);
             response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
             response.request_focus();
-            to = target(&shown.text, now, whole, frames);
-            let inside =
-                to.is_none_or(|at| at >= whole.start().micros() && at <= whole.end().micros());
+            to = parse_time_target(&shown.text, now, whole, frames);
+            let inside = to.is_none_or(|at| {
+                at >= whole.span_start_instant().instant_micros() && at <= whole.span_end_instant().instant_micros()
+            });
             match to {
                 Some(_) if !inside => {
-                    let text = fill(say(words::GO_BEYOND), &[("time", &time_text(whole.end()))]);
-                    ui.colored_label(scene.seen.colours().trouble, text);
+                    let text =
+                        fill_text_braces(say(words::GO_BEYOND), &[("time", &time_text(whole.span_end_instant()))]);
+                    ui.colored_label(scene.seen.pane_colours().trouble, text);
                 }
-                Some(at) => drop_label(ui, &there(scene, at)),
+                Some(at) => drop_label(ui, &format_stage_time(scene, at)),
                 None if shown.text.trim().is_empty() => drop_label(ui, say(words::GO_HOW)),
                 None => {
                     let text = Label::new(
-                        eframe::egui::RichText::new(say(words::GO_HOW))
-                            .color(scene.seen.colours().trouble),
+                        eframe::egui::RichText::new(say(words::GO_HOW)).color(scene.seen.pane_colours().trouble),
                     );
                     ui.add(text.wrap());
                 }
@@ -119,7 +126,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
             });
         });
     match to.filter(|_| go) {
-        Some(at) => out.send(Command::Cue(Instant::from_micros(at))),
+        Some(at) => out.send_command(WindowCommand::Cue(RecordingInstant::from_micros(at))),
         None if !drop => timeline.boxes.go_box = Some(shown),
         None => {}
     }
@@ -130,27 +137,30 @@ fn drop_label(ui: &mut Ui, text: &str) {
 }
 
 /// Returns a time in the format of the stage.
-fn there(scene: &Scene<'_>, at: i64) -> String {
-    let time = time_text(Instant::from_micros(at));
-    let Some(frames) = scene.frames() else {
+fn format_stage_time(scene: &TimelineScene<'_>, at: i64) -> String {
+    let time = time_text(RecordingInstant::from_micros(at));
+    let Some(frames) = scene.recording_frame_times() else {
         return time;
     };
-    let own = Instant::from_micros((at - frames.offset).max(0));
-    let frame = frames.rate.frame_at(own) + 1;
+    let clip_time = RecordingInstant::from_micros((at - frames.offset).max(0));
+    let frame = frames.rate.nearest_frame_at(clip_time) + 1;
     let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("frame", &frame)];
-    fill(scene.seen.say(words::GO_THERE), &values)
+    fill_text_braces(scene.seen.say_text(words::GO_THERE), &values)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_motion::Rate;
+    use chereme_motion::FrameRate;
 
     #[test]
     fn times_frames_percentages_and_relative_times_are_read() {
-        let whole = Span::between(Instant::ZERO, Instant::from_micros(100_000_000));
-        let frames = Frames {
-            rate: Rate::new(50, 1).expect("a rate"),
+        let whole = TimeSpan::span_between(
+            RecordingInstant::RECORDING_START,
+            RecordingInstant::from_micros(100_000_000),
+        );
+        let frames = RecordingFrameTimes {
+            rate: FrameRate::new(50, 1).expect("a rate"),
             offset: 1_000_000,
         };
         for (text, want) in [
@@ -168,9 +178,9 @@ mod tests {
             ("soon", None),
             ("f99999999999999999999", None),
         ] {
-            let found = target(text, 10_000_000, whole, Some(frames));
+            let found = parse_time_target(text, 10_000_000, whole, Some(frames));
             assert_eq!(found, want, "{text}");
         }
-        assert_eq!(target("f3", 0, whole, None), None);
+        assert_eq!(parse_time_target("f3", 0, whole, None), None);
     }
 }

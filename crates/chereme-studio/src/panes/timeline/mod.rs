@@ -21,35 +21,35 @@
 
 mod above;
 pub(crate) mod bar;
-pub(crate) mod data;
 mod detector_list;
 mod drag;
 mod dragged;
-mod edit;
 mod editor;
 mod gesture;
 mod go_to_time;
 mod lane_shape;
-pub(crate) mod lanes;
 mod lanes_ui;
 mod menu;
-mod names;
 mod neighbours;
-mod overview;
-mod paint;
-mod parts;
-mod paste;
 mod paste_box;
 mod proposals;
-mod rows;
 mod select;
 pub(crate) mod tier_box;
 mod tier_list;
-mod tiers;
-mod ui;
+pub(crate) mod timeline_data;
+mod timeline_edit;
+pub(crate) mod timeline_lanes;
+mod timeline_names;
+mod timeline_overview;
+mod timeline_paint;
+mod timeline_parts;
+mod timeline_paste;
+mod timeline_rows;
+mod timeline_tiers;
+mod timeline_ui;
+mod timeline_values;
+mod timeline_view_settings;
 mod value_list;
-mod values;
-mod view_settings;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -58,49 +58,47 @@ use eframe::egui::{Context, Id};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::command::Command;
-use crate::context::{Outbox, PaneInput};
-use crate::panes::{Acted, Pane};
-use crate::player::Player;
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::panes::{ActionOutcome, PaneInterface};
+use crate::player::StagePlayer;
 use crate::words::timeline as words;
-use crate::work::{Ended, Outcome, WorkId, editing};
-use chereme_sign::tier::spans::{self, Item};
-use data::Window;
-use edit::Scene;
-use editor::{Editing, Target};
-use parts::{Asked, Boxes, Entry, View};
-pub(crate) use view_settings::TimelineSettings;
+use crate::work::{WorkId, WorkOutcome, WorkResult, editing};
+use chereme_sign::tier::tier_spans::{self, SpanItem};
+use editor::{EditTarget, ValueEditing};
+use timeline_data::TimeWindow;
+use timeline_edit::TimelineScene;
+use timeline_parts::{RequestedChanges, TimelineBoxes, TimelineView, ValueEntry};
+pub(crate) use timeline_view_settings::TimelineSettings;
 
 /// Returns a recording with one tier of annotations, each given as id, start and end.
 #[cfg(test)]
-pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Contents {
-    let with_parents = annotations
-        .iter()
-        .map(|(id, start, end)| (*id, *start, *end, None));
+pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::RecordingContents {
+    let with_parents = annotations.iter().map(|(id, start, end)| (*id, *start, *end, None));
     let all: Vec<_> = with_parents.collect();
     dragged::tests::contents(&[(1, None, "", &all)])
 }
 
 /// The pane.
 #[derive(Default)]
-pub(crate) struct Timeline {
-    view: View,
-    asked: Asked,
-    entry: Entry,
-    boxes: Boxes,
+pub(crate) struct TimelinePane {
+    view: TimelineView,
+    asked: RequestedChanges,
+    entry: ValueEntry,
+    boxes: TimelineBoxes,
     /// The running gesture of the mouse, and the playhead at its beginning.
-    gesture: Option<gesture::Gesture>,
+    gesture: Option<gesture::TimelineGesture>,
     mark: i64,
     /// The tier that is being dragged by its name.
     tier_held: Option<i64>,
-    curves: lanes::Curves,
-    overview: overview::Overview,
-    layout: ui::Layout,
+    curves: timeline_lanes::MeasuredCurves,
+    overview: timeline_overview::TimelineOverview,
+    layout: timeline_ui::TimelineLayout,
 }
 
 /// An annotation that was begun at a time and not ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Begun {
+pub(crate) struct BegunAnnotation {
     pub(crate) recording: i64,
     pub(crate) tier: i64,
     pub(crate) start: i64,
@@ -109,7 +107,7 @@ pub(crate) struct Begun {
 
 /// An annotation at its future place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Ghost {
+struct GhostAnnotation {
     tier: i64,
     /// `None` for a new one.
     id: Option<i64>,
@@ -117,8 +115,8 @@ struct Ghost {
     end: i64,
 }
 
-impl Ghost {
-    fn of(tier: i64, item: &Item) -> Self {
+impl GhostAnnotation {
+    fn ghost_from_item(tier: i64, item: &SpanItem) -> Self {
         Self {
             tier,
             id: Some(item.id),
@@ -130,24 +128,24 @@ impl Ghost {
 
 /// Steps that follow a requested change.
 #[derive(Debug, Clone, Default)]
-struct Then {
+struct ChangeFollowUp {
     /// Select the added annotations.
     select: bool,
     /// Open the value field of the added annotation.
     edit: bool,
     /// The annotations at their future places.
-    ghosts: Vec<Ghost>,
+    ghosts: Vec<GhostAnnotation>,
     /// The proposals that it accepts.
     proposals: BTreeSet<i64>,
     /// The text typed for the change; restored if the change is refused.
-    typed: Option<Editing>,
+    typed: Option<ValueEditing>,
 }
 
-impl Then {
-    fn added(tier: i64, (start, end): (i64, i64)) -> Self {
+impl ChangeFollowUp {
+    fn follow_up_for_addition(tier: i64, (start, end): (i64, i64)) -> Self {
         Self {
             select: true,
-            ghosts: vec![Ghost {
+            ghosts: vec![GhostAnnotation {
                 tier,
                 id: None,
                 start,
@@ -161,14 +159,14 @@ impl Then {
 /// Unfinished work, which is restored when the corpus is opened again.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct Draft {
-    pub(crate) editing: Option<Editing>,
-    pub(crate) begun: Option<Begun>,
+pub(crate) struct AnnotationDraft {
+    pub(crate) editing: Option<ValueEditing>,
+    pub(crate) begun: Option<BegunAnnotation>,
 }
 
-impl Timeline {
+impl TimelinePane {
     /// Switches to a recording; returns whether it is shown for the first time.
-    fn turn_to(&mut self, recording: i64) -> bool {
+    fn turn_timeline_to_recording(&mut self, recording: i64) -> bool {
         if self.view.of == Some(recording) {
             return false;
         }
@@ -177,54 +175,55 @@ impl Timeline {
             self.layout.scroll_to = Some(0.0);
         }
         self.gesture = None;
-        self.view.turn_to(recording)
+        self.view.turn_view_to_recording(recording)
     }
 
     /// Requests changes as one operation.
-    fn change(
+    fn request_annotation_changes(
         &mut self,
         changes: Vec<chereme_corpus::AnnotationChange>,
-        then: Then,
-        out: &mut Outbox,
-    ) -> Acted {
+        then: ChangeFollowUp,
+        out: &mut CommandOutbox,
+    ) -> ActionOutcome {
         self.asked.ghosts.extend_from_slice(&then.ghosts);
-        let id = out.work(editing::annotate(changes));
+        let id = out.request_work(editing::annotate_corpus_job(changes));
         self.asked.pending.insert(id, then);
-        Acted::Yes
+        ActionOutcome::Yes
     }
 
     /// Opens the value of annotations for typing.
-    fn edit(&mut self, scene: &Scene<'_>, annotations: BTreeSet<i64>) {
-        let found = annotations
+    fn edit_annotation_values(&mut self, scene: &TimelineScene<'_>, annotations: BTreeSet<i64>) {
+        let first_annotation = annotations
             .first()
-            .and_then(|id| scene.seen.snapshot.annotation(*id));
-        let text = found.map(|it| requests::typed(&it.tier.annotations, it.at));
+            .and_then(|id| scene.seen.snapshot.find_open_annotation(*id));
+        let text = first_annotation
+            .map(|annotation| requests::typed_annotation_value(&annotation.tier.annotations, annotation.at));
         let recording = scene.contents.recording.id;
-        let target = Target::Of(annotations);
-        self.open_field(Editing::new(recording, target, text.unwrap_or_default()));
+        let target = EditTarget::Of(annotations);
+        self.open_field(ValueEditing::new(recording, target, text.unwrap_or_default()));
     }
 
     /// Opens the value of the annotation at that index of a tier.
     fn edit_at(&mut self, tier: &TierContents, at: usize) {
-        let text = requests::typed(&tier.annotations, at);
-        let target = Target::Of(BTreeSet::from([tier.annotations.ids[at]]));
-        self.open_field(Editing::new(tier.row.recording_id, target, text));
+        let text = requests::typed_annotation_value(&tier.annotations, at);
+        let target = EditTarget::Of(BTreeSet::from([tier.annotations.ids[at]]));
+        self.open_field(ValueEditing::new(tier.row.recording_id, target, text));
     }
 
     /// Opens the value of an annotation that does not exist yet.
-    fn edit_new(&mut self, tier: &TierContents, (start, end): (i64, i64)) -> Acted {
-        if edit::holds_proposals(tier) {
-            return Acted::Cannot(words::HOLDS_PROPOSALS);
+    fn edit_new(&mut self, tier: &TierContents, (start, end): (i64, i64)) -> ActionOutcome {
+        if timeline_edit::holds_proposals(tier) {
+            return ActionOutcome::Cannot(words::HOLDS_PROPOSALS);
         }
         let recording = tier.row.recording_id;
         let tier = tier.row.id;
-        let target = Target::New { tier, start, end };
-        self.open_field(Editing::new(recording, target, String::new()));
-        Acted::Yes
+        let target = EditTarget::New { tier, start, end };
+        self.open_field(ValueEditing::new(recording, target, String::new()));
+        ActionOutcome::Yes
     }
 
     /// Opens the field for a value, with its tier in sight.
-    fn open_field(&mut self, editing: Editing) {
+    fn open_field(&mut self, editing: ValueEditing) {
         self.entry.editing = Some(editing);
         self.show_tier();
     }
@@ -246,14 +245,14 @@ impl Timeline {
 
     /// Returns whether a widget is an annotation or the name of a tier, in the rows.
     pub(crate) fn has_row_widget(&self, ctx: &Context, widget: Id) -> bool {
-        let widget = ctx.read_response(widget).map(|it| it.interact_rect);
+        let widget = ctx.read_response(widget).map(|response| response.interact_rect);
         let rows = self.layout.area.zip(widget);
         rows.is_some_and(|(rows, widget)| rows.contains_rect(widget))
     }
 
     /// Returns whether a value is being typed, so that letters are not shortcuts.
     pub(crate) fn is_typing(&self) -> bool {
-        self.is_open() && self.view.drawn
+        self.is_timeline_box_open() && self.view.drawn
     }
 
     /// Takes the text to paste.
@@ -267,105 +266,110 @@ impl Timeline {
     }
 
     /// Returns the visible part of each recording that is not shown as a whole.
-    pub(crate) fn windows(&self) -> BTreeMap<i64, Window> {
-        self.view.windows()
+    pub(crate) fn timeline_windows(&self) -> BTreeMap<i64, TimeWindow> {
+        self.view.recording_view_windows()
     }
 
     /// Sets the visible part of each recording from the settings.
-    pub(crate) fn remember(&mut self, windows: &BTreeMap<i64, Window>) {
-        self.view.remember(windows);
+    pub(crate) fn remember_timeline_windows(&mut self, windows: &BTreeMap<i64, TimeWindow>) {
+        self.view.remember_view_windows(windows);
     }
 
     /// Returns whether a field or a list is open.
-    fn is_open(&self) -> bool {
+    fn is_timeline_box_open(&self) -> bool {
         self.entry.editing.is_some() || self.boxes.is_any_open()
     }
 
     /// Returns the unfinished work, including typed text that is not stored yet.
-    pub(crate) fn draft(&self) -> Option<Draft> {
-        self.entry.draft(self.asked.typed())
+    pub(crate) fn timeline_draft(&self) -> Option<AnnotationDraft> {
+        self.entry.entry_draft(self.asked.newest_typed_text())
     }
 
     /// Returns the recording with unfinished work.
-    pub(crate) fn wants(&self) -> Option<i64> {
-        self.entry.recording()
+    pub(crate) fn draft_recording_id(&self) -> Option<i64> {
+        self.entry.entry_recording_id()
     }
 
     /// Restores unfinished work.
-    pub(crate) fn restore(&mut self, draft: Draft) {
-        self.entry.restore(draft);
+    pub(crate) fn restore_timeline_draft(&mut self, draft: AnnotationDraft) {
+        self.entry.restore_entry_draft(draft);
     }
 }
 
 /// Returns whether the tier that edits apply to holds glosses.
 pub(crate) fn is_on_gloss(seen: &PaneInput<'_>) -> bool {
-    let tier = Scene::of(seen).and_then(|scene| scene.tier());
+    let tier = TimelineScene::scene_from_input(seen).and_then(|scene| scene.edited_tier());
     tier.is_some_and(|tier| tier.row.role == TierRole::Gloss)
 }
 
 /// Returns whether an action takes the time of the playhead while it moves.
-pub(crate) fn is_timed(action: Action, player: &Player) -> bool {
-    let marks = action == Action::BeginEndAnnotation || edit::DIGITS.contains(&action);
+pub(crate) fn is_timed(action: Action, player: &StagePlayer) -> bool {
+    let marks = action == Action::BeginEndAnnotation || timeline_edit::DIGIT_ACTIONS.contains(&action);
     marks && player.plays_on()
 }
 
-impl Pane for Timeline {
-    fn leave(&mut self) {
+impl PaneInterface for TimelinePane {
+    fn release_pane_keyboard(&mut self) {
         self.entry.left = self.entry.editing.is_some();
     }
 
-    fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         self.view.drawn = true;
-        ui::show(self, ui, seen, out);
+        timeline_ui::show_timeline_pane(self, ui, seen, out);
     }
 
-    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
+    fn carry_out_pane_action(
+        &mut self,
+        action: Action,
+        seen: &PaneInput<'_>,
+        out: &mut CommandOutbox,
+    ) -> ActionOutcome {
         match action {
-            Action::ZoomIn => self.view.zoom(0.6, seen),
-            Action::ZoomOut => self.view.zoom(1.0 / 0.6, seen),
+            Action::ZoomIn => self.view.zoom_timeline_view(0.6, seen),
+            Action::ZoomOut => self.view.zoom_timeline_view(1.0 / 0.6, seen),
             Action::ZoomAll => self.view.window = None,
-            Action::PageBack => self.view.page(-0.9, seen),
-            Action::PageForward => self.view.page(0.9, seen),
+            Action::PageBack => self.view.page_timeline_view(-0.9, seen),
+            Action::PageForward => self.view.page_timeline_view(0.9, seen),
             other => {
-                if let Some(settings) = seen.settings.timeline.after(other) {
-                    view_settings::change(seen, out, settings);
-                    return Acted::Yes;
+                if let Some(settings) = seen.settings.timeline.settings_after_action(other) {
+                    timeline_view_settings::change_timeline_settings(seen, out, settings);
+                    return ActionOutcome::Yes;
                 }
-                let Some(scene) = Scene::of(seen) else {
-                    return Acted::No;
+                let Some(scene) = TimelineScene::scene_from_input(seen) else {
+                    return ActionOutcome::No;
                 };
                 if other == Action::GoToTime {
                     self.boxes.go_box = Some(go_to_time::GoBox::default());
                     if !self.view.drawn {
-                        out.send(Command::Do(Action::ShowTimeline));
+                        out.send_command(WindowCommand::Do(Action::ShowTimeline));
                     }
-                    return Acted::Yes;
+                    return ActionOutcome::Yes;
                 }
                 let acted = [
-                    proposals::act,
-                    select::act,
-                    edit::act,
-                    tiers::act,
-                    paste::act,
-                    neighbours::act,
+                    proposals::carry_out_proposal_action,
+                    select::carry_out_selection_action,
+                    timeline_edit::carry_out_edit_action,
+                    timeline_tiers::carry_out_tier_action,
+                    timeline_paste::carry_out_clipboard_action,
+                    neighbours::carry_out_neighbour_action,
                 ]
                 .into_iter()
                 .map(|act| act(self, other, &scene, out))
-                .find(|acted| *acted != Acted::No);
-                if self.is_open() && !self.view.drawn {
-                    out.send(Command::Do(Action::ShowTimeline));
+                .find(|acted| *acted != ActionOutcome::No);
+                if self.is_timeline_box_open() && !self.view.drawn {
+                    out.send_command(WindowCommand::Do(Action::ShowTimeline));
                 }
-                return acted.unwrap_or(Acted::No);
+                return acted.unwrap_or(ActionOutcome::No);
             }
         }
-        Acted::Yes
+        ActionOutcome::Yes
     }
 
-    fn hear(&mut self, id: WorkId, ended: &Ended) {
-        self.curves.hear(id, ended);
+    fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {
+        self.curves.receive_curve_piece(id, ended);
         if let Some((_, tier)) = self.boxes.tier_asked.take_if(|(asked, _)| *asked == id) {
             match ended {
-                Ok(_) => self.boxes.tier_named = tier.added(),
+                Ok(_) => self.boxes.tier_named = tier.added_tier_name(),
                 Err(_) => self.boxes.tier_box = Some(tier),
             }
         }
@@ -376,7 +380,7 @@ impl Pane for Timeline {
             return;
         };
         match ended {
-            Ok(Outcome::Annotated(report)) if then.select => {
+            Ok(WorkOutcome::Annotated(report)) if then.select => {
                 self.asked.to_select = report.annotations.iter().copied().collect();
                 self.asked.to_edit = then.edit;
             }
@@ -386,7 +390,7 @@ impl Pane for Timeline {
                 self.asked.ghosts.clear();
                 self.asked.refused.extend(then.proposals);
                 if let Some(typed) = then.typed {
-                    self.entry.refuse(typed);
+                    self.entry.reopen_refused_value(typed);
                 }
             }
         }

@@ -1,58 +1,61 @@
 //! Annotations created, merged and stretched beside the selected one, and created below it.
 
 use chereme_corpus::{
-    AnnotationAction, AnnotationChange, AnnotationName, TierContents, TierName, paste, requests,
+    AnnotationAction, AnnotationChange, AnnotationName, TierContents, TierRequestName, annotate_paste, requests,
 };
 
 use super::dragged::{self, TierTiming};
-use super::edit::{self, Scene};
-use super::spans::{Grip, Item};
-use super::{Ghost, Then, Timeline};
+use super::tier_spans::{DragGrip, SpanItem};
+use super::timeline_edit::{self, TimelineScene};
+use super::{ChangeFollowUp, GhostAnnotation, TimelinePane};
 use crate::action::Action;
-use crate::context::Outbox;
-use crate::panes::Acted;
+use crate::context::CommandOutbox;
+use crate::panes::ActionOutcome;
 use crate::words::{shell, timeline as words};
 
 /// Carries out an action that concerns the annotations beside or below the selected one.
-pub(super) fn act(
-    timeline: &mut Timeline,
+pub(super) fn carry_out_neighbour_action(
+    timeline: &mut TimelinePane,
     action: Action,
-    scene: &Scene<'_>,
-    out: &mut Outbox,
-) -> Acted {
+    scene: &TimelineScene<'_>,
+    out: &mut CommandOutbox,
+) -> ActionOutcome {
     match action {
         Action::NewBefore => new(timeline, scene, false, out),
         Action::NewAfter => new(timeline, scene, true, out),
         Action::NewBelow => new_below(timeline, scene, out),
         Action::MergePrevious => merge_previous(timeline, scene, out),
-        Action::StartToNeighbour => stretch(timeline, scene, Grip::Start, out),
-        Action::EndToNeighbour => stretch(timeline, scene, Grip::End, out),
-        _ => Acted::No,
+        Action::StartToNeighbour => stretch_to_neighbours(timeline, scene, DragGrip::Start, out),
+        Action::EndToNeighbour => stretch_to_neighbours(timeline, scene, DragGrip::End, out),
+        _ => ActionOutcome::No,
     }
 }
 
 /// Returns the annotation that is selected alone, else the one of the tier at the playhead.
-fn found<'a>(scene: &Scene<'a>) -> Option<(&'a TierContents, usize)> {
-    let it = scene.seen.snapshot.annotation(edit::alone(scene)?)?;
+fn find_lone_annotation<'a>(scene: &TimelineScene<'a>) -> Option<(&'a TierContents, usize)> {
+    let it = scene
+        .seen
+        .snapshot
+        .find_open_annotation(timeline_edit::annotation_selected_alone(scene)?)?;
     Some((it.tier, it.at))
 }
 
 /// Begins a new annotation in the gap before or after the selected one, of the same length if there is room. On a tier
 /// without gaps it takes half of the selected one; on a tier of lists it is inserted beside it.
-fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox) -> Acted {
-    let Some((tier, at)) = found(scene) else {
-        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool, out: &mut CommandOutbox) -> ActionOutcome {
+    let Some((tier, at)) = find_lone_annotation(scene) else {
+        return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     };
     let columns = &tier.annotations;
     let parent = columns.parents[at];
-    let kind = TierTiming::of(&tier.row);
+    let kind = TierTiming::timing_of_tier(&tier.row);
     match kind {
-        TierTiming::Listed if paste::is_association(tier) => Acted::Cannot(words::ONLY_ONE),
+        TierTiming::Listed if annotate_paste::is_association(tier) => ActionOutcome::Cannot(words::ONLY_ONE),
         TierTiming::Listed => {
-            let family = columns.parents[..at].iter().filter(|it| **it == parent);
+            let family = columns.parents[..at].iter().filter(|other| **other == parent);
             let place = family.count() + usize::from(after);
             let add = AnnotationAction::Add {
-                tier: TierName::Number(tier.row.id),
+                tier: TierRequestName::Number(tier.row.id),
                 start: None,
                 end: None,
                 parent: parent.map(AnnotationName::Number),
@@ -60,35 +63,31 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
                 value: String::new(),
                 confidence: None,
             };
-            let then = Then {
+            let then = ChangeFollowUp {
                 select: true,
                 edit: true,
-                ..Then::default()
+                ..ChangeFollowUp::default()
             };
-            timeline.change(vec![add.into()], then, out)
+            timeline.request_annotation_changes(vec![add.into()], then, out)
         }
         _ => {
             let here = (columns.starts[at], columns.ends[at]);
             let span = if kind == TierTiming::Tiled {
-                let middle = scene.stepped((here.0 + here.1) / 2, 0);
-                let half = if after {
-                    (middle, here.1)
-                } else {
-                    (here.0, middle)
-                };
+                let middle = scene.step_by_frames((here.0 + here.1) / 2, 0);
+                let half = if after { (middle, here.1) } else { (here.0, middle) };
                 Some(half).filter(|half| half.0 < half.1 && *half != here)
             } else {
-                let gap = gap(scene, tier, at, after);
+                let gap = free_span_beside(scene, tier, at, after);
                 let length = here.1 - here.0;
                 Some(if after {
                     (gap.0, gap.1.min(gap.0 + length))
                 } else {
                     (gap.0.max(gap.1 - length), gap.1)
                 })
-                .filter(|it| it.1 - it.0 >= dragged::LEAST)
+                .filter(|range| range.1 - range.0 >= dragged::MIN_ANNOTATION_US)
             };
             let Some(span) = span else {
-                return Acted::Cannot(words::NO_ROOM_BESIDE);
+                return ActionOutcome::Cannot(words::NO_ROOM_BESIDE);
             };
             timeline.edit_new(tier, span)
         }
@@ -97,132 +96,134 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
 
 /// Returns the free span before or after an annotation, in microseconds: up to its neighbour, the end of the parent
 /// annotation, or the end of the recording.
-fn gap(scene: &Scene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, i64) {
+fn free_span_beside(scene: &TimelineScene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, i64) {
     let columns = &tier.annotations;
-    let mut limits = dragged::limits(scene.contents, scene.frames().is_some());
+    let mut limits = dragged::annotation_time_limits(scene.contents, scene.recording_frame_times().is_some());
     if limits.to > scene.contents.recording.duration_us {
         limits.to = scene.contents.recording.duration_us.max(columns.ends[at]);
     }
-    let above = columns.parents[at].and_then(|id| scene.seen.snapshot.annotation(id));
-    let above = above.map(|it| {
+    let parent_annotation = columns.parents[at].and_then(|id| scene.seen.snapshot.find_open_annotation(id));
+    let above = parent_annotation.map(|annotation| {
         (
-            it.tier.annotations.starts[it.at],
-            it.tier.annotations.ends[it.at],
+            annotation.tier.annotations.starts[annotation.at],
+            annotation.tier.annotations.ends[annotation.at],
         )
     });
     let (from, to) = above.unwrap_or((limits.from, limits.to));
     if after {
-        let next = columns.starts.get(at + 1).map_or(to, |it| (*it).min(to));
+        let next = columns
+            .starts
+            .get(at + 1)
+            .map_or(to, |next_start| (*next_start).min(to));
         (columns.ends[at], next)
     } else {
-        let previous = at
-            .checked_sub(1)
-            .map_or(from, |it| columns.ends[it].max(from));
+        let previous = at.checked_sub(1).map_or(from, |index| columns.ends[index].max(from));
         (previous, columns.starts[at])
     }
 }
 
 /// Adds an empty annotation on every tier below the selected annotations that has none there, down to the deepest
 /// tiers.
-fn new_below(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+fn new_below(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutcome {
     let mut chosen = scene.seen.shown.annotations.clone();
     if chosen.is_empty() {
-        chosen.extend(edit::alone(scene));
+        chosen.extend(timeline_edit::annotation_selected_alone(scene));
     }
     if chosen.is_empty() {
-        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+        return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     }
     let adds = requests::missing_below(&scene.contents.tiers, &chosen);
     if adds.is_empty() {
-        return Acted::Cannot(words::NOTHING_BELOW);
+        return ActionOutcome::Cannot(words::NOTHING_BELOW);
     }
-    let ghosts = adds.iter().map(|(tier, span)| Ghost {
+    let ghosts = adds.iter().map(|(tier, span)| GhostAnnotation {
         tier: *tier,
         id: None,
         start: span.0,
         end: span.1,
     });
-    let then = Then {
+    let then = ChangeFollowUp {
         ghosts: ghosts.collect(),
-        ..Then::default()
+        ..ChangeFollowUp::default()
     };
     let asked = adds
         .iter()
-        .map(|(tier, span)| requests::add(*tier, *span, ""));
-    timeline.change(asked.collect(), then, out)
+        .map(|(tier, span)| requests::add_annotation_change(*tier, *span, ""));
+    timeline.request_annotation_changes(asked.collect(), then, out)
 }
 
-fn merge_previous(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+fn merge_previous(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutcome {
     let chosen = &scene.seen.shown.annotations;
-    let first = match scene.tier() {
-        Some(tier) if chosen.len() > 1 => dragged::places(tier, chosen).next().map(|at| (tier, at)),
-        _ => found(scene),
+    let first = match scene.edited_tier() {
+        Some(tier) if chosen.len() > 1 => dragged::chosen_annotation_indices(tier, chosen)
+            .next()
+            .map(|at| (tier, at)),
+        _ => find_lone_annotation(scene),
     };
     let Some((tier, at)) = first else {
-        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+        return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     };
     let Some(before) = at.checked_sub(1) else {
-        return Acted::Cannot(words::NO_PREVIOUS);
+        return ActionOutcome::Cannot(words::NO_PREVIOUS);
     };
     let ids = &tier.annotations.ids;
     let mut both = chosen.clone();
     both.extend([ids[before], ids[at]]);
-    let closed = scene.inventory(tier).is_some();
-    let then = Then {
+    let closed = scene.scene_tier_inventory(tier).is_some();
+    let then = ChangeFollowUp {
         select: true,
-        ..Then::default()
+        ..ChangeFollowUp::default()
     };
-    match requests::merge(tier, &both, closed) {
-        Some(changes) => timeline.change(changes, then, out),
-        None => Acted::Cannot(words::NO_PREVIOUS),
+    match requests::merge_annotation_changes(tier, &both, closed) {
+        Some(changes) => timeline.request_annotation_changes(changes, then, out),
+        None => ActionOutcome::Cannot(words::NO_PREVIOUS),
     }
 }
 
 /// Moves the starts or ends of the selected annotations to their neighbours, or to the ends of their parents.
-fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Outbox) -> Acted {
+fn stretch_to_neighbours(
+    timeline: &mut TimelinePane,
+    scene: &TimelineScene<'_>,
+    grip: DragGrip,
+    out: &mut CommandOutbox,
+) -> ActionOutcome {
     let mut chosen = scene.seen.shown.annotations.clone();
     if chosen.is_empty() {
-        chosen.extend(edit::alone(scene));
+        chosen.extend(timeline_edit::annotation_selected_alone(scene));
     }
     if chosen.is_empty() {
-        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+        return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     }
     let mut changed: Vec<AnnotationChange> = Vec::new();
     let mut ghosts = Vec::new();
     for tier in &scene.contents.tiers {
-        let kind = TierTiming::of(&tier.row);
+        let kind = TierTiming::timing_of_tier(&tier.row);
         let columns = &tier.annotations;
-        for at in dragged::places(tier, &chosen) {
-            let last = if grip == Grip::End {
-                columns.len() - 1
-            } else {
-                0
-            };
-            if !matches!(kind, TierTiming::Root | TierTiming::Inside)
-                || (kind == TierTiming::Root && at == last)
-            {
+        for at in dragged::chosen_annotation_indices(tier, &chosen) {
+            let last = if grip == DragGrip::End { columns.len() - 1 } else { 0 };
+            if !matches!(kind, TierTiming::Root | TierTiming::Inside) || (kind == TierTiming::Root && at == last) {
                 continue;
             }
-            let gap = gap(scene, tier, at, grip == Grip::End);
+            let gap = free_span_beside(scene, tier, at, grip == DragGrip::End);
             if gap.0 >= gap.1 {
                 continue;
             }
             let (start, end) = (columns.starts[at], columns.ends[at]);
-            let item = Item {
+            let item = SpanItem {
                 id: columns.ids[at],
                 start: start.min(gap.0),
                 end: end.max(gap.1),
             };
-            changed.extend(requests::respan(&[item]));
-            ghosts.push(Ghost::of(tier.row.id, &item));
+            changed.extend(requests::set_times_changes(&[item]));
+            ghosts.push(GhostAnnotation::ghost_from_item(tier.row.id, &item));
         }
     }
     if changed.is_empty() {
-        return Acted::Cannot(words::NO_NEIGHBOUR);
+        return ActionOutcome::Cannot(words::NO_NEIGHBOUR);
     }
-    let then = Then {
+    let then = ChangeFollowUp {
         ghosts,
-        ..Then::default()
+        ..ChangeFollowUp::default()
     };
-    timeline.change(changed, then, out)
+    timeline.request_annotation_changes(changed, then, out)
 }

@@ -1,16 +1,16 @@
 //! The list of pasted lines without a place, shown before anything is pasted.
 
-use chereme_corpus::paste::PastePlan;
+use chereme_corpus::annotate_paste::PastePlan;
 use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
 
-use super::Timeline;
-use super::edit::Scene;
-use super::paste;
-use crate::context::Outbox;
-use crate::words::{fill, shell, timeline as words};
+use super::TimelinePane;
+use super::timeline_edit::TimelineScene;
+use super::timeline_paste;
+use crate::context::CommandOutbox;
+use crate::words::{fill_text_braces, shell, timeline as words};
 
 /// The most lines in the list.
-const MOST: usize = 200;
+const MAX_PASTE_LIST_LINES: usize = 200;
 
 /// The list while it is open.
 #[derive(Debug)]
@@ -19,13 +19,18 @@ pub(super) struct PasteBox {
 }
 
 /// Shows the list, and pastes the other lines if the user agrees.
-pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+pub(super) fn show_paste_box(
+    timeline: &mut TimelinePane,
+    ui: &mut Ui,
+    scene: &TimelineScene<'_>,
+    out: &mut CommandOutbox,
+) {
     let Some(shown) = timeline.boxes.paste_box.take() else {
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (mut keep, mut drop) = (pressed(Key::Enter), pressed(Key::Escape));
-    let say = |text| scene.seen.say(text);
+    let say = |text| scene.seen.say_text(text);
     let PasteBox { plan } = &shown;
     Window::new(say(words::PASTE_TITLE))
         .id(Id::unique("timeline paste"))
@@ -40,26 +45,25 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                 .auto_shrink(false)
                 .max_height(room)
                 .show(ui, |ui| {
-                    for odd in plan.odd.iter().take(MOST) {
-                        let what = paste::odd_text(scene, odd);
-                        let values: [(&str, &dyn std::fmt::Display); 2] =
-                            [("n", &odd.line), ("what", &what)];
-                        ui.add(Label::new(fill(say(words::PASTE_LINE), &values)).wrap());
+                    for odd in plan.odd.iter().take(MAX_PASTE_LIST_LINES) {
+                        let what = timeline_paste::odd_text(scene, odd);
+                        let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &odd.line), ("what", &what)];
+                        ui.add(Label::new(fill_text_braces(say(words::PASTE_LINE), &values)).wrap());
                     }
-                    if let Some(more) = plan.odd.len().checked_sub(MOST + 1) {
-                        ui.weak(fill(say(words::PASTE_MORE), &[("n", &(more + 1))]));
+                    if let Some(more) = plan.odd.len().checked_sub(MAX_PASTE_LIST_LINES + 1) {
+                        ui.weak(fill_text_braces(say(words::PASTE_MORE), &[("n", &(more + 1))]));
                     }
                 });
             ui.horizontal(|ui| {
                 if !plan.adds.is_empty() {
-                    let rest = fill(say(words::PASTE_REST), &[("n", &plan.adds.len())]);
+                    let rest = fill_text_braces(say(words::PASTE_REST), &[("n", &plan.adds.len())]);
                     keep |= ui.button(rest).clicked();
                 }
                 drop |= ui.button(say(shell::CANCEL)).clicked();
             });
         });
     if keep && !plan.adds.is_empty() {
-        paste::put(timeline, &plan.adds, out);
+        timeline_paste::add_pasted_annotations(timeline, &plan.adds, out);
     } else if !drop && !keep {
         timeline.boxes.paste_box = Some(shown);
     }

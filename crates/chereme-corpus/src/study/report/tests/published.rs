@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::{chosen, person, plan_of, rated, realism, trial};
-use crate::study::report::{Compared, ReportOptions, TestName, report};
+use crate::study::report::{GroupComparison, ReportOptions, TestName, make_study_report};
 
 fn vectors() -> Option<Value> {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
@@ -29,13 +29,11 @@ fn spread(counts: &Value, people: usize) -> Vec<(usize, usize, i64)> {
         std::iter::repeat_n(value, count)
     });
     let placed = values.enumerate();
-    placed
-        .map(|(at, value)| (at % people, at / people, value))
-        .collect()
+    placed.map(|(at, value)| (at % people, at / people, value)).collect()
 }
 
 /// Makes a study with one part for each pair of published groups, and its report.
-fn reported(pairs: &[Value], analysed: usize, recruited: usize) -> Vec<Compared> {
+fn reported(pairs: &[Value], analysed: usize, recruited: usize) -> Vec<GroupComparison> {
     let mut trials = Vec::new();
     let mut answers: Vec<Vec<Value>> = vec![Vec::new(); analysed];
     for (number, pair) in pairs.iter().enumerate() {
@@ -68,11 +66,8 @@ fn reported(pairs: &[Value], analysed: usize, recruited: usize) -> Vec<Compared>
         resamples: 200,
         ..ReportOptions::default()
     };
-    let report = report(&plan, &people, &options);
-    assert_eq!(
-        (report.people.recruited, report.people.analysed),
-        (recruited, analysed)
-    );
+    let report = make_study_report(&plan, &people, &options);
+    assert_eq!((report.people.recruited, report.people.analysed), (recruited, analysed));
     assert_eq!(report.people.excluded[0].count, recruited - analysed);
     report.comparisons
 }
@@ -84,9 +79,7 @@ fn pooled_answers_give_the_published_numbers_two_sided() {
     };
     let pairs = all["pairs"].as_array().expect("pairs");
     let (of_171, of_39) = pairs.split_at(3);
-    let compared = reported(of_171, 57, 75)
-        .into_iter()
-        .chain(reported(of_39, 39, 53));
+    let compared = reported(of_171, 57, 75).into_iter().chain(reported(of_39, 39, 53));
     for (compared, want) in compared.zip(pairs) {
         let what = want["what"].as_str().expect("a text");
         let near = |own: f64, key: &Value| {
@@ -97,34 +90,24 @@ fn pooled_answers_give_the_published_numbers_two_sided() {
             );
         };
         for (n, group) in compared.groups.iter().enumerate() {
-            let own = group.description.found().expect(what);
+            let own = group.description.found_result().expect(what);
             near(own.mean, &want["mean"][n]);
             near(own.sd.expect(what), &want["sd_sample"][n]);
-            assert_eq!(
-                own.n as u64,
-                want["published"]["n"][n].as_u64().expect("n"),
-                "{what}"
-            );
+            assert_eq!(own.n as u64, want["published"]["n"][n].as_u64().expect("n"), "{what}");
         }
         let pair = &compared.pairs[0];
-        let pooled = pair.pooled.found().expect(what);
+        let pooled = pair.pooled.found_result().expect(what);
         near(pooled.statistic.expect(what), &want["U1"]);
-        near(
-            pair.effect.found().expect(what).delta,
-            &want["cliffs_delta"],
-        );
+        near(pair.effect.found_result().expect(what).delta, &want["cliffs_delta"]);
         // Up to 100 answers a group p is exact, which the vectors have for those groups.
         let key = want.get("p_exact_conditional_two_sided");
         near(pooled.p, key.unwrap_or(&want["p_two_sided_continuity"]));
         assert_eq!(
-            pair.people.found().expect(what).test,
+            pair.people.found_result().expect(what).test,
             TestName::Wilcoxon,
             "{what}"
         );
-        assert!(
-            !compared.is_one_sided() && compared.conclusion.is_none(),
-            "{what}"
-        );
+        assert!(!compared.is_one_sided() && compared.conclusion.is_none(), "{what}");
     }
 }
 
@@ -161,7 +144,7 @@ fn shares_of_recognition_give_the_published_percentages() {
         .enumerate()
         .map(|(n, own)| person(n, "good", own))
         .collect();
-    let report = report(&plan, &people, &ReportOptions::default());
+    let report = make_study_report(&plan, &people, &ReportOptions::default());
     let shares = report.questions[0]
         .conditions
         .iter()
@@ -169,14 +152,10 @@ fn shares_of_recognition_give_the_published_percentages() {
     let shares: Vec<f64> = shares.map(|it| (it.share * 1e4).floor() / 100.0).collect();
     assert_eq!(shares, [63.15, 85.96]);
     let pair = &report.comparisons[0].pairs[0];
-    let pooled = pair.pooled.found().expect("a test");
+    let pooled = pair.pooled.found_result().expect("a test");
     // Fisher's exact p of 108 of 171 against 245 of 285, by scipy.
-    assert!(
-        (pooled.p / 3.408_364_735_191_808e-8 - 1.0).abs() < 1e-9,
-        "{}",
-        pooled.p
-    );
-    let effect = pair.effect.found().expect("an effect");
+    assert!((pooled.p / 3.408_364_735_191_808e-8 - 1.0).abs() < 1e-9, "{}", pooled.p);
+    let effect = pair.effect.found_result().expect("an effect");
     assert!(
         (effect.delta - (108.0 / 171.0 - 245.0 / 285.0)).abs() < 1e-12,
         "a difference of shares"

@@ -1,12 +1,14 @@
 //! Who is left out, what cannot be computed, and files.
 
-use chereme_analysis::statistics::Undefined;
+use chereme_analysis::statistics::UndefinedStatistic;
 use serde_json::{Value, json};
 
 use super::{chosen, person, plan_of, rated, realism, trial};
-use crate::study::plan::Exclusion;
-use crate::study::report::{Because, Outcome, Reason, ReportOptions, TestName, Verdict, report};
-use crate::words::Language;
+use crate::study::report::{
+    ExclusionReason, HypothesisVerdict, ReportOptions, StatsOutcome, TestName, VerdictReason, make_study_report,
+};
+use crate::study::study_plan::ExclusionRule;
+use crate::words::InterfaceLanguage;
 
 fn options() -> ReportOptions {
     ReportOptions {
@@ -52,22 +54,22 @@ fn people_are_left_out_by_the_first_rule_that_applies() {
     people[4].finished = false;
     people[5].consent.insert("analysis".to_owned(), false);
     people[6].profile.clear();
-    let found = report(&plan, &people, &options());
-    let reasons: Vec<(Reason, usize)> = found
+    let found = make_study_report(&plan, &people, &options());
+    let reasons: Vec<(ExclusionReason, usize)> = found
         .people
         .excluded
         .into_iter()
         .map(|it| (it.reason, it.count))
         .collect();
-    let filter = Reason::Filter {
+    let filter = ExclusionReason::Filter {
         question: "level".to_owned(),
     };
     let want = [
-        (Reason::NoConsent, 1),
+        (ExclusionReason::NoConsent, 1),
         (filter, 2),
-        (Reason::Rule(Exclusion::Unfinished), 1),
-        (Reason::Rule(Exclusion::ChecksWrong(0)), 1),
-        (Reason::Rule(Exclusion::OneValue), 1),
+        (ExclusionReason::Rule(ExclusionRule::Unfinished), 1),
+        (ExclusionReason::Rule(ExclusionRule::ChecksWrong(0)), 1),
+        (ExclusionReason::Rule(ExclusionRule::OneValue), 1),
     ];
     assert_eq!(reasons, want);
     assert_eq!(found.people.analysed, 1);
@@ -76,10 +78,7 @@ fn people_are_left_out_by_the_first_rule_that_applies() {
         .iter()
         .map(|it| (it.option.as_deref(), it.recruited, it.analysed))
         .collect();
-    assert_eq!(
-        rows,
-        [(Some("beginner"), 1, 0), (Some("good"), 5, 1), (None, 1, 0)]
-    );
+    assert_eq!(rows, [(Some("beginner"), 1, 0), (Some("good"), 5, 1), (None, 1, 0)]);
 }
 
 #[test]
@@ -87,21 +86,15 @@ fn answers_that_cannot_be_compared_say_why() {
     let trials = [trial("", "CAT", "a"), trial("", "CAT", "b")];
     let plan = plan_of(&trials, json!([realism()]), json!({}));
     assert!(
-        report(&plan, &[], &options()).comparisons.is_empty(),
+        make_study_report(&plan, &[], &options()).comparisons.is_empty(),
         "nobody answered"
     );
-    let same = |number| {
-        person(
-            number,
-            "",
-            &[rated("", "CAT", "a", 3), rated("", "CAT", "b", 3)],
-        )
-    };
-    let found = report(&plan, &[same(1), same(2), same(3)], &options());
+    let same = |number| person(number, "", &[rated("", "CAT", "a", 3), rated("", "CAT", "b", 3)]);
+    let found = make_study_report(&plan, &[same(1), same(2), same(3)], &options());
     let pair = &found.comparisons[0].pairs[0];
-    assert_eq!(pair.pooled.found().expect("a test").p, 1.0);
-    let why = Outcome::Nothing {
-        why: Undefined::NoDifference,
+    assert_eq!(pair.pooled.found_result().expect("a test").p, 1.0);
+    let why = StatsOutcome::Nothing {
+        why: UndefinedStatistic::NoDifference,
     };
     assert_eq!(pair.people, why);
     let json = serde_json::to_value(&found).expect("JSON");
@@ -112,11 +105,7 @@ fn answers_that_cannot_be_compared_say_why() {
     let model = &json["questions"][0]["models"][0]["model"];
     assert_eq!(*model, json!({"why": "no-spread"}));
     // Numbers outside the scale are not counted.
-    let odd = report(
-        &plan,
-        &[person(1, "", &[rated("", "CAT", "a", 77)])],
-        &options(),
-    );
+    let odd = make_study_report(&plan, &[person(1, "", &[rated("", "CAT", "a", 77)])], &options());
     assert_eq!(odd.questions[0].conditions[0].answers, 0);
     assert_eq!(odd.questions[0].conditions[0].cannot_say, 1);
 }
@@ -128,11 +117,7 @@ fn few_people_or_equal_answers_show_no_sameness() {
     let hypotheses = [json!("difference"), json!({"same-within": 0.3})].map(
         |expects| json!({"name": "H", "question": "realism", "compares": {"between": groups}, "expects": expects}),
     );
-    let plan = plan_of(
-        &trials,
-        json!([realism()]),
-        json!({"hypotheses": hypotheses}),
-    );
+    let plan = plan_of(&trials, json!([realism()]), json!({"hypotheses": hypotheses}));
     let people = |count: usize, spread: usize| -> Vec<_> {
         let answers = |n: usize| {
             let value = 3 + i64::from(n.is_multiple_of(4)) * spread as i64;
@@ -142,24 +127,25 @@ fn few_people_or_equal_answers_show_no_sameness() {
         (0..count).map(|n| person(n, "", &answers(n))).collect()
     };
     for (count, spread, verdict, because) in [
-        (3, 0, Verdict::Undecided, Because::NoTest(Undefined::TooFew)),
+        (
+            3,
+            0,
+            HypothesisVerdict::Undecided,
+            VerdictReason::NoTest(UndefinedStatistic::TooFew),
+        ),
         (
             40,
             0,
-            Verdict::Undecided,
-            Because::NoTest(Undefined::NoSpread),
+            HypothesisVerdict::Undecided,
+            VerdictReason::NoTest(UndefinedStatistic::NoSpread),
         ),
-        (40, 1, Verdict::Supported, Because::WithinBounds),
+        (40, 1, HypothesisVerdict::Supported, VerdictReason::WithinBounds),
     ] {
-        let found = report(&plan, &people(count, spread), &options());
+        let found = make_study_report(&plan, &people(count, spread), &options());
         let same = found.comparisons[1].conclusion.expect("a conclusion");
-        assert_eq!(
-            (same.verdict, same.because),
-            (verdict, because),
-            "{count} {spread}"
-        );
+        assert_eq!((same.verdict, same.because), (verdict, because), "{count} {spread}");
         let other = found.comparisons[0].conclusion.expect("a conclusion");
-        assert_ne!(other.verdict, Verdict::Supported, "{count} {spread}");
+        assert_ne!(other.verdict, HypothesisVerdict::Supported, "{count} {spread}");
     }
 }
 
@@ -169,16 +155,12 @@ fn people_of_two_groups_are_compared_with_each_other() {
     let plan = plan_of(&trials, json!([realism()]), json!({}));
     let people: Vec<_> = (0..12)
         .map(|n| {
-            let (condition, value) = if n % 2 == 0 {
-                ("a", 1 + n / 6)
-            } else {
-                ("b", 3 + n / 6)
-            };
+            let (condition, value) = if n % 2 == 0 { ("a", 1 + n / 6) } else { ("b", 3 + n / 6) };
             person(n as usize, "", &[rated("", "CAT", condition, value)])
         })
         .collect();
-    let pair = report(&plan, &people, &options()).comparisons[0].pairs[0].clone();
-    let test = *pair.people.found().expect("a test");
+    let pair = make_study_report(&plan, &people, &options()).comparisons[0].pairs[0].clone();
+    let test = *pair.people.found_result().expect("a test");
     assert_eq!(
         (test.test, test.n, pair.mean_difference),
         (TestName::MannWhitney, [6, 6], None)
@@ -192,13 +174,8 @@ fn one_right_answer_each_is_tested_by_mcnemar() {
         own["right"] = json!({"place": "x"});
         own
     };
-    let place =
-        json!({"name": "place", "kind": {"choice": {"options": [{"name": "x"}, {"name": "y"}]}}});
-    let plan = plan_of(
-        &[right("CAT", "a"), right("CAT", "b")],
-        json!([place]),
-        json!({}),
-    );
+    let place = json!({"name": "place", "kind": {"choice": {"options": [{"name": "x"}, {"name": "y"}]}}});
+    let plan = plan_of(&[right("CAT", "a"), right("CAT", "b")], json!([place]), json!({}));
     let people: Vec<_> = (0..10)
         .map(|n| {
             person(
@@ -211,14 +188,11 @@ fn one_right_answer_each_is_tested_by_mcnemar() {
             )
         })
         .collect();
-    let pair = report(&plan, &people, &options()).comparisons[0].pairs[0].clone();
-    let test = *pair.people.found().expect("a test");
+    let pair = make_study_report(&plan, &people, &options()).comparisons[0].pairs[0].clone();
+    let test = *pair.people.found_result().expect("a test");
     assert_eq!(test.test, TestName::Mcnemar);
-    assert!(
-        (test.p - 2.0 / 32.0).abs() < 1e-12,
-        "five of five in one direction"
-    );
-    assert_eq!(pair.effect.found().expect("an effect").delta, 0.5);
+    assert!((test.p - 2.0 / 32.0).abs() < 1e-12, "five of five in one direction");
+    assert_eq!(pair.effect.found_result().expect("an effect").delta, 0.5);
 }
 
 #[test]
@@ -230,18 +204,15 @@ fn files_are_written_together_and_not_over_others() {
             person(
                 n as usize,
                 "",
-                &[
-                    rated("", "CAT", "a", 1 + n % 3),
-                    rated("", "CAT", "b", 2 + n % 3),
-                ],
+                &[rated("", "CAT", "a", 1 + n % 3), rated("", "CAT", "b", 2 + n % 3)],
             )
         })
         .collect();
-    let found = report(&plan, &people, &options());
+    let found = make_study_report(&plan, &people, &options());
     let place = tempfile::tempdir().expect("a folder");
     let folder = place.path().join("report");
     let files = found
-        .write(&folder, false, Language::English)
+        .write_study_report(&folder, false, InterfaceLanguage::English)
         .expect("written");
     assert_eq!(files.len(), 7);
     let groups = std::fs::read_to_string(folder.join("groups.csv")).expect("a table");
@@ -252,29 +223,25 @@ fn files_are_written_together_and_not_over_others() {
     let tests = std::fs::read_to_string(folder.join("tests.csv")).expect("a table");
     let mut table = csv::Reader::from_reader(tests.as_bytes());
     let rows: Vec<csv::StringRecord> = table.records().map(|it| it.expect("a full row")).collect();
-    assert_eq!(
-        (rows.len(), &rows[0][6], &rows[0][13]),
-        (1, "mann-whitney", "wilcoxon")
-    );
+    assert_eq!((rows.len(), &rows[0][6], &rows[0][13]), (1, "mann-whitney", "wilcoxon"));
     std::fs::remove_file(folder.join("report.html")).expect("removed");
     assert!(
-        found.write(&folder, false, Language::English).is_err(),
+        found
+            .write_study_report(&folder, false, InterfaceLanguage::English)
+            .is_err(),
         "nothing is replaced"
     );
-    assert!(
-        !folder.join("report.html").exists(),
-        "nor written beside what is there"
-    );
+    assert!(!folder.join("report.html").exists(), "nor written beside what is there");
     found
-        .write(&folder, true, Language::English)
+        .write_study_report(&folder, true, InterfaceLanguage::English)
         .expect("replaced");
     let page = place.path().join("one.html");
     assert_eq!(
         found
-            .write(&page, false, Language::French)
+            .write_study_report(&page, false, InterfaceLanguage::French)
             .expect("written"),
         [page]
     );
-    let error = found.write(&place.path().join("one.pdf"), false, Language::French);
-    assert!(error.is_err_and(|it| it.remedy().is_some()));
+    let error = found.write_study_report(&place.path().join("one.pdf"), false, InterfaceLanguage::French);
+    assert!(error.is_err_and(|it| it.error_remedy().is_some()));
 }

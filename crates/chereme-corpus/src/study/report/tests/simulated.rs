@@ -1,27 +1,22 @@
 //! Simulated answers with known effects lead to the right conclusions.
 
-use chereme_analysis::random::Random;
-use chereme_analysis::statistics::Equivalence;
+use chereme_analysis::random::RandomNumbers;
+use chereme_analysis::statistics::EquivalenceConclusion;
 use serde_json::{Value, json};
 
 use super::{person, plan_of, rated, realism, trial};
-use crate::study::answers::Participant;
-use crate::study::plan::Plan;
-use crate::study::report::{Because, Report, ReportOptions, Verdict, report};
-use crate::words::Language;
+use crate::study::report::{HypothesisVerdict, ReportOptions, StudyReport, VerdictReason, make_study_report};
+use crate::study::study_answers::StudyParticipant;
+use crate::study::study_plan::StudyPlan;
+use crate::words::InterfaceLanguage;
 
 /// The items of a simulated study; each is shown in every condition.
 const ITEMS: [&str; 4] = ["CAT", "SNAIL", "SLUG", "BOWL"];
 
 /// Simulates people who differ in strictness; each condition moves their answers by its effect, in deviations of the
 /// noise. Answers are cut at the ends of a scale of five.
-fn simulated(
-    effects: &[(&str, f64)],
-    people: usize,
-    more: Value,
-    seed: u64,
-) -> (Plan, Vec<Participant>) {
-    let mut random = Random::new(seed);
+fn simulated(effects: &[(&str, f64)], people: usize, more: Value, seed: u64) -> (StudyPlan, Vec<StudyParticipant>) {
+    let mut random = RandomNumbers::new(seed);
     let mut trials = Vec::new();
     for item in ITEMS {
         for (condition, effect) in effects {
@@ -31,11 +26,11 @@ fn simulated(
         }
     }
     let people = (0..people).map(|number| {
-        let strictness = random.normal();
+        let strictness = random.random_normal();
         let mut answers = Vec::new();
         for item in ITEMS {
             for (condition, effect) in effects {
-                let value = (3.0 + strictness + effect + random.normal())
+                let value = (3.0 + strictness + effect + random.random_normal())
                     .round()
                     .clamp(1.0, 5.0);
                 answers.push(rated("", item, condition, value as i64));
@@ -47,12 +42,12 @@ fn simulated(
     (plan_of(&trials, json!([realism()]), more), people)
 }
 
-fn quick(plan: &Plan, people: &[Participant]) -> Report {
+fn quick(plan: &StudyPlan, people: &[StudyParticipant]) -> StudyReport {
     let options = ReportOptions {
         resamples: 500,
         ..ReportOptions::default()
     };
-    report(plan, people, &options)
+    make_study_report(plan, people, &options)
 }
 
 fn hypothesis(name: &str, compares: Value, expects: Value, alpha: f64) -> Value {
@@ -60,46 +55,23 @@ fn hypothesis(name: &str, compares: Value, expects: Value, alpha: f64) -> Value 
 }
 
 fn conditions(names: &[&str]) -> Value {
-    names
-        .iter()
-        .map(|name| json!({"conditions": [name]}))
-        .collect()
+    names.iter().map(|name| json!({"conditions": [name]})).collect()
 }
 
 #[test]
 fn conclusions_follow_the_simulated_effects() {
-    let effects = [
-        ("captured", 0.0),
-        ("twin", 0.0),
-        ("slerp", -0.7),
-        ("linear", -1.5),
-    ];
+    let effects = [("captured", 0.0), ("twin", 0.0), ("slerp", -0.7), ("linear", -1.5)];
     let pair = |a: &str, b: &str| json!({"between": conditions(&[a, b])});
     let hypotheses = json!([
-        hypothesis(
-            "differs",
-            pair("captured", "linear"),
-            json!("difference"),
-            0.01
-        ),
-        hypothesis(
-            "same",
-            pair("captured", "twin"),
-            json!({"same-within": 0.147}),
-            0.05
-        ),
+        hypothesis("differs", pair("captured", "linear"), json!("difference"), 0.01),
+        hypothesis("same", pair("captured", "twin"), json!({"same-within": 0.147}), 0.05),
         hypothesis(
             "not the same",
             pair("captured", "linear"),
             json!({"same-within": 0.147}),
             0.05
         ),
-        hypothesis(
-            "no difference",
-            pair("captured", "twin"),
-            json!("difference"),
-            0.05
-        ),
+        hypothesis("no difference", pair("captured", "twin"), json!("difference"), 0.05),
         hypothesis(
             "rises",
             json!({"trend": conditions(&["linear", "slerp", "captured"])}),
@@ -118,18 +90,8 @@ fn conclusions_follow_the_simulated_effects() {
             json!("difference"),
             0.01
         ),
-        hypothesis(
-            "follows",
-            json!({"measure": "distance"}),
-            json!("difference"),
-            0.01
-        ),
-        hypothesis(
-            "empty",
-            pair("captured", "unknown"),
-            json!("difference"),
-            0.01
-        ),
+        hypothesis("follows", json!({"measure": "distance"}), json!("difference"), 0.01),
+        hypothesis("empty", pair("captured", "unknown"), json!("difference"), 0.01),
     ]);
     let (plan, people) = simulated(&effects, 150, json!({"hypotheses": hypotheses}), 5);
     let found = quick(&plan, &people);
@@ -138,20 +100,20 @@ fn conclusions_follow_the_simulated_effects() {
         (name, it.conclusion.map(|it| it.verdict))
     });
     let want = [
-        ("differs", Verdict::Supported),
-        ("same", Verdict::Supported),
-        ("not the same", Verdict::NotSupported),
-        ("no difference", Verdict::NotSupported),
-        ("rises", Verdict::Supported),
-        ("falls", Verdict::NotSupported),
-        ("any", Verdict::Supported),
-        ("follows", Verdict::Supported),
-        ("empty", Verdict::Undecided),
+        ("differs", HypothesisVerdict::Supported),
+        ("same", HypothesisVerdict::Supported),
+        ("not the same", HypothesisVerdict::NotSupported),
+        ("no difference", HypothesisVerdict::NotSupported),
+        ("rises", HypothesisVerdict::Supported),
+        ("falls", HypothesisVerdict::NotSupported),
+        ("any", HypothesisVerdict::Supported),
+        ("follows", HypothesisVerdict::Supported),
+        ("empty", HypothesisVerdict::Undecided),
     ];
     let want = want.map(|(name, verdict)| (name, Some(verdict)));
     assert_eq!(verdicts.collect::<Vec<_>>(), want);
     let follows = found.comparisons[7].measure.as_ref().expect("a measure");
-    assert!(follows.spearman.found().expect("rho").coefficient < -0.8);
+    assert!(follows.spearman.found_result().expect("rho").coefficient < -0.8);
 }
 
 #[test]
@@ -169,10 +131,10 @@ fn a_test_that_is_not_significant_with_few_people_decides_nothing() {
     );
     for compared in quick(&plan, &people).comparisons {
         let conclusion = compared.conclusion.expect("a conclusion");
-        assert_eq!(conclusion.verdict, Verdict::Undecided);
-        assert_eq!(conclusion.because, Because::WideInterval);
-        let sameness = compared.pairs[0].sameness.found().expect("an interval");
-        assert_eq!(sameness.result, Equivalence::Undecided);
+        assert_eq!(conclusion.verdict, HypothesisVerdict::Undecided);
+        assert_eq!(conclusion.because, VerdictReason::WideInterval);
+        let sameness = compared.pairs[0].sameness.found_result().expect("an interval");
+        assert_eq!(sameness.result, EquivalenceConclusion::Undecided);
         assert!((sameness.ends.level - 0.98).abs() < 1e-12, "1 - 2 alpha");
     }
 }
@@ -185,23 +147,20 @@ fn without_hypotheses_all_pairs_are_compared_and_nothing_is_concluded() {
         panic!("one comparison of conditions, one with a measure")
     };
     let measure = follows.measure.as_ref().expect("a measure");
-    assert_eq!(
-        (measure.measure.as_str(), measure.points.len()),
-        ("distance", 12)
-    );
+    assert_eq!((measure.measure.as_str(), measure.points.len()), ("distance", 12));
     assert!(follows.conclusion.is_none());
     let places: Vec<[usize; 2]> = compared.pairs.iter().map(|it| it.groups).collect();
     assert_eq!(places, [[0, 1], [0, 2], [1, 2]]);
     assert!(compared.conclusion.is_none() && !compared.is_one_sided());
     for pair in &compared.pairs {
-        let [pooled, people] = [&pair.pooled, &pair.people].map(|it| it.found().expect("a test"));
+        let [pooled, people] = [&pair.pooled, &pair.people].map(|it| it.found_result().expect("a test"));
         assert!(pooled.p_holm >= pooled.p && people.p_holm >= people.p);
-        let effect = pair.effect.found().expect("an effect");
-        let ends = effect.interval.found().expect("an interval");
+        let effect = pair.effect.found_result().expect("an effect");
+        let ends = effect.interval.found_result().expect("an interval");
         assert!(ends.low <= effect.delta && effect.delta <= ends.high);
     }
     let overall = compared.overall.as_ref().expect("tests of three groups");
-    let p = overall.people.found().expect("Friedman").p;
+    let p = overall.people.found_result().expect("Friedman").p;
     assert!(p < 0.01, "{p}");
 }
 
@@ -211,10 +170,10 @@ fn plan_and_answers_alone_decide_every_byte() {
     let mut shuffled = people.clone();
     shuffled.reverse();
     let (one, two) = (quick(&plan, &people), quick(&plan, &shuffled));
-    let json = |it: &Report| serde_json::to_string(it).expect("JSON");
+    let json = |it: &StudyReport| serde_json::to_string(it).expect("JSON");
     assert_eq!(json(&one), json(&two), "the order of import does not count");
-    for language in [Language::English, Language::French] {
-        assert_eq!(one.page(language), two.page(language));
+    for language in [InterfaceLanguage::English, InterfaceLanguage::French] {
+        assert_eq!(one.report_page_html(language), two.report_page_html(language));
     }
     let other = json!({"design": {"seed": 99}});
     let (reseeded, _) = simulated(&[("a", 0.0), ("b", 0.5)], 1, other, 4);
@@ -232,15 +191,15 @@ fn the_page_is_whole_and_alone() {
     let found = quick(&plan, &people);
     for (language, words) in [
         (
-            Language::English,
+            InterfaceLanguage::English,
             ["<html lang=\"en\">", "How to read this", "median"],
         ),
         (
-            Language::French,
+            InterfaceLanguage::French,
             ["<html lang=\"fr\">", "Comment lire ce rapport", "médiane"],
         ),
     ] {
-        let page = found.page(language);
+        let page = found.report_page_html(language);
         for text in words {
             assert!(page.contains(text), "{text}");
         }
@@ -250,11 +209,8 @@ fn the_page_is_whole_and_alone() {
             assert!(!page.contains(text), "{text}");
         }
         assert!(page.contains("&lt;b&gt;"), "names are escaped");
-        for tag in [
-            "svg", "table", "div", "figure", "details", "text", "p", "tr", "td",
-        ] {
-            let opened = page.matches(&format!("<{tag}>")).count()
-                + page.matches(&format!("<{tag} ")).count();
+        for tag in ["svg", "table", "div", "figure", "details", "text", "p", "tr", "td"] {
+            let opened = page.matches(&format!("<{tag}>")).count() + page.matches(&format!("<{tag} ")).count();
             assert_eq!(opened, page.matches(&format!("</{tag}>")).count(), "{tag}");
         }
     }

@@ -1,0 +1,72 @@
+//! The detector of actions of face and head.
+
+use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_sign::words::InterfaceText;
+use chereme_sign::{ComponentField, SignComponent};
+
+use super::{AnnotationDetector, DetectedStretch, DetectorDescription, ObservedSigner, SignerPart};
+use crate::nonmanuals::{PROPOSED_FACE_FEATURES, propose_face_actions};
+
+/// Detector of actions of brows, lids, gaze, mouth and head, by the rules of [`nonmanuals`](crate::nonmanuals).
+#[derive(Debug, Clone, Copy)]
+pub struct NonmanualDetector;
+
+impl AnnotationDetector for NonmanualDetector {
+    fn detector_name(&self) -> &'static str {
+        "nonmanuals"
+    }
+
+    fn detector_description(&self) -> &'static DetectorDescription {
+        const NONMANUAL_DESCRIPTION: DetectorDescription = DetectorDescription {
+            finds: InterfaceText::new(
+                "actions of brows, lids, gaze, mouth and head, from the curves of the face",
+                "actions des sourcils, des paupières, du regard, de la bouche et de la tête, d’après les courbes du visage",
+            ),
+            messages: &[
+                InterfaceText::new(
+                    "{peak} above the median; {threshold} is enough, for less than {time} s",
+                    "{peak} au-dessus de la médiane ; {threshold} suffit, pendant moins de {time} s",
+                ),
+                InterfaceText::new(
+                    "{peak} above the median; {threshold} is enough",
+                    "{peak} au-dessus de la médiane ; {threshold} suffit",
+                ),
+                InterfaceText::new(
+                    "{count} half swings of {mean} degrees; {fewest} of {least} are enough",
+                    "{count} demi-balancements de {mean} degrés ; {fewest} de {least} suffisent",
+                ),
+            ],
+        };
+        &NONMANUAL_DESCRIPTION
+    }
+
+    fn examines(&self) -> &'static [SignerPart] {
+        &[SignerPart::Face]
+    }
+
+    fn detected_fields(&self) -> Vec<ComponentField> {
+        PROPOSED_FACE_FEATURES.map(nonmanual_field).to_vec()
+    }
+
+    fn detect_annotations(&self, observed: &ObservedSigner<'_>) -> Vec<DetectedStretch> {
+        let Some(curves) = &observed.face else {
+            return Vec::new();
+        };
+        let frame_instant = |frame: usize| RecordingInstant::from_seconds(frame as f64 / curves.rate);
+        let raw_proposals = propose_face_actions(curves).into_iter();
+        raw_proposals
+            .map(|proposal| DetectedStretch {
+                span: TimeSpan::span_between(frame_instant(proposal.frames.start), frame_instant(proposal.frames.end)),
+                field: nonmanual_field(proposal.feature),
+                value: proposal.value.to_owned(),
+                confidence: proposal.confidence,
+                why: proposal.why,
+            })
+            .collect()
+    }
+}
+
+/// Returns the field of a part of face or head.
+fn nonmanual_field(feature: &str) -> ComponentField {
+    ComponentField::new(SignComponent::NonManual).with_field_feature(feature)
+}

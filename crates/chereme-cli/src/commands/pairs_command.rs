@@ -1,0 +1,93 @@
+//! `chereme pairs`: counts the minimal pairs of a lexicon.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{EmptyCellTreatment, PairOptions};
+use clap::ValueEnum;
+use serde_json::json;
+
+use crate::args::CommandLine;
+use crate::output::CommandOutput;
+
+/// Count the minimal pairs of a lexicon
+///
+/// Two signs are a minimal pair if exactly one of the fields differs. Fields are columns of an imported
+/// table, whose cells are compared as written, or fields of queries such as dominant.configuration,
+/// by which citation forms are compared.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PairsArgs {
+    /// The corpus
+    corpus: PathBuf,
+    /// The fields to compare, separated by commas, or a set of Signbank's columns: S13, F8, F7, F5, C3
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
+    fields: Vec<String>,
+    /// The treatment of empty fields
+    #[arg(long, value_enum, default_value_t = EmptyWord::Value)]
+    empty: EmptyWord,
+    /// List the pairs
+    #[arg(long)]
+    list: bool,
+}
+
+/// The treatment of empty fields, as the word for it in an argument.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum EmptyWord {
+    /// An empty field is a value like any other
+    Value,
+    /// An empty field is unknown: signs with an empty field do not count
+    Unknown,
+}
+
+impl From<EmptyWord> for EmptyCellTreatment {
+    fn from(word: EmptyWord) -> Self {
+        match word {
+            EmptyWord::Value => Self::Value,
+            EmptyWord::Unknown => Self::Unknown,
+        }
+    }
+}
+
+pub(super) fn run(cli: &CommandLine, args: &PairsArgs, output: &mut CommandOutput) -> Result<()> {
+    let corpus = cli.open_cli_corpus(&args.corpus)?;
+    let pair_report = corpus.minimal_pairs(&PairOptions {
+        fields: args.fields.clone(),
+        empty: args.empty.into(),
+    })?;
+    output.filled_line(
+        "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both \
+         values are given",
+        &[
+            &pair_report.total,
+            &pair_report.signs,
+            &pair_report.entries,
+            &pair_report.fields.join(", "),
+            &pair_report.certain,
+        ],
+    )?;
+    output.filled_line(
+        "homonyms: {n} pairs in {groups} groups of {signs} signs; {forms} forms",
+        &[
+            &pair_report.homonyms,
+            &pair_report.homonym_groups,
+            &pair_report.homonym_signs,
+            &pair_report.forms,
+        ],
+    )?;
+    let field_counts = pair_report.by_field.iter();
+    let counts: Vec<String> = field_counts.map(|(field, count)| format!("{field} {count}")).collect();
+    output.filled_line("by field: {list}", &[&counts.join(", ")])?;
+    let densest_signs = pair_report.densest.iter();
+    let dense: Vec<String> = densest_signs
+        .map(|sign| format!("{} {}", sign.gloss, sign.pairs))
+        .collect();
+    output.filled_line("in most pairs: {list}", &[&dense.join(", ")])?;
+    let mut document = serde_json::to_value(&pair_report)?;
+    if args.list {
+        let row = |pair: &chereme_corpus::MinimalPair| vec![pair.a.clone(), pair.b.clone(), pair.field.clone()];
+        let rows: Vec<Vec<String>> = pair_report.list.iter().map(row).collect();
+        output.write_titled_table(&["sign", "partner", "differs in"], &rows)?;
+        document["pairs"] = json!(pair_report.list);
+    }
+    output.set_json_document(document)
+}

@@ -1,0 +1,272 @@
+//! `chereme search`: finds the tokens that answer a query, counts them, and saves queries.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{
+    Corpus, CorpusError, FACET_VALUES, HitOrder, KeptSearch, ProgressReceiver, ProgressStep, SearchHit, SearchOptions,
+    TallyRow, components_text,
+};
+use clap::ValueEnum;
+
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
+
+/// Find the tokens that answer a query
+///
+/// A query finds lexicon entries like captured tokens. Quote it for your shell, for example 'right.configuration=U
+/// placement=chin' or 'gloss:BO* not weak.configuration=S'. Any query can contain @NAME for a search that was saved
+/// with --keep NAME; `chereme list CORPUS searches` lists the saved ones.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = chereme_corpus::QUERY_HELP)]
+pub(crate) struct SearchArgs {
+    /// The corpus
+    corpus: PathBuf,
+    /// The query; all of its conditions must hold. @NAME stands for a saved search
+    #[arg(required_unless_present = "forget", value_name = "QUERY")]
+    query: Vec<String>,
+    /// Save the query in the corpus as @NAME
+    #[arg(long, value_name = "NAME")]
+    keep: Option<String>,
+    /// Replace the search that is saved under that name
+    #[arg(long, requires = "keep")]
+    replace: bool,
+    /// Delete the saved search NAME
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["query", "keep"])]
+    forget: Option<String>,
+    /// Show at most N tokens
+    #[arg(long, value_name = "N")]
+    limit: Option<usize>,
+    /// Skip the first N tokens
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    offset: usize,
+    /// The order of the results
+    #[arg(long, value_enum, default_value_t = SearchOrderWord::Rank)]
+    sort: SearchOrderWord,
+    /// Leave out the counts of values
+    #[arg(long)]
+    no_facets: bool,
+    /// The number of values of each field whose counts are shown, or all
+    #[arg(long, value_name = "N|all", value_parser = facet_count)]
+    facets: Option<usize>,
+    /// Count the values of a field among all tokens found, such as placement or signer
+    #[arg(long, value_name = "FIELD", conflicts_with = "cross")]
+    count: Option<String>,
+    /// Count them for each value of another field, too, such as signer
+    #[arg(long, value_name = "FIELD", requires = "count")]
+    by: Option<String>,
+    /// Count how often each pair of values of two fields occurs, such as dominant.configuration placement
+    #[arg(long, num_args = 2, value_names = ["ROWS", "COLUMNS"])]
+    cross: Vec<String>,
+    /// Write the table of --count or --cross with commas or tabs between its cells
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    table: TableFormat,
+}
+
+fn facet_count(text: &str) -> Result<usize, String> {
+    match text {
+        "all" => Ok(usize::MAX),
+        _ => text.parse().map_err(|_| "write a number, or all".to_owned()),
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum TableFormat {
+    /// A table for people to read
+    Text,
+    /// Commas between the cells
+    Csv,
+    /// Tabs between the cells
+    Tsv,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SearchOrderWord {
+    /// The best first if the query ranks, otherwise by recording and time
+    Rank,
+    /// By gloss
+    Gloss,
+    /// By recording and time
+    Place,
+    /// The longest first
+    Duration,
+}
+
+/// The number of values of a field that are shown without `--facets`.
+const TABLE_FACETS: usize = 8;
+
+/// The number of rows of a table without `--limit`.
+const TABLE_ROWS: usize = 50;
+
+pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    if let Some(name) = &args.forget {
+        let forgotten = corpus.forget_search(name)?;
+        output.filled_line(
+            "saved search @{name} deleted: {query}",
+            &[&forgotten.name, &forgotten.query],
+        )?;
+        return output.set_json_document(forgotten);
+    }
+    let fields: Vec<String> = match &args.count {
+        Some(field) => [field].into_iter().chain(&args.by).cloned().collect(),
+        None => args.cross.clone(),
+    };
+    if !fields.is_empty() {
+        return print_token_tally(&mut corpus, args, &fields, output);
+    }
+    if args.table != TableFormat::Text {
+        let error = CorpusError::from_wrong_message("there is no table to write");
+        return Err(error.with_advice("name its fields with --count or --cross").into());
+    }
+    let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
+    let order = match args.sort {
+        SearchOrderWord::Rank => HitOrder::Rank,
+        SearchOrderWord::Gloss => HitOrder::Gloss,
+        SearchOrderWord::Place => HitOrder::Place,
+        SearchOrderWord::Duration => HitOrder::Duration,
+    };
+    let options = SearchOptions {
+        limit,
+        offset: args.offset,
+        facets: !args.no_facets,
+        facet_values: args.facets.unwrap_or(FACET_VALUES),
+        order,
+    };
+    let query = args.query.join(" ");
+    let mut answer = corpus.search_tokens(&query, &options)?;
+    if answer.total == 0
+        && let Some(meant) = corpus.guess_query_meaning(&query)?
+    {
+        answer.notes.push(format!("did you mean {meant}?"));
+    }
+    if let Some(name) = &args.keep {
+        answer.notes.push(save_named_query(&mut corpus, args, name, query)?);
+    }
+    let rows: Vec<Vec<String>> = answer.hits.iter().map(search_hit_cells).collect();
+    if !rows.is_empty() {
+        output.write_titled_table(
+            &["token", "gloss", "recording", "start", "length", "origin", "components"],
+            &rows,
+        )?;
+    }
+    let more = answer.total.saturating_sub(rows.len());
+    match (answer.total, more) {
+        (1, 0) => output.filled_line("1 token: {query}", &[&answer.query])?,
+        (0, 0) => output.filled_line("0 tokens: {query}", &[&answer.query])?,
+        (total, 0) => output.filled_line("{n} tokens: {query}", &[&total, &answer.query])?,
+        (total, _) => output.filled_line(
+            "{n} tokens, {shown} shown: {query}",
+            &[&total, &rows.len(), &answer.query],
+        )?,
+    }
+    let shown = args.facets.unwrap_or(TABLE_FACETS);
+    for (field, values) in &answer.facets {
+        let counts: Vec<String> = values
+            .iter()
+            .take(shown)
+            .map(|(value, count)| format!("{value} {count}"))
+            .collect();
+        let left_out = answer.facets_left_out.get(field).copied().unwrap_or(0);
+        let more = match values.len().saturating_sub(shown) + left_out {
+            0 => String::new(),
+            more => format!(", and {more} more (--facets all)"),
+        };
+        output.write_output_line(format!("  {field}: {}{more}", counts.join(", ")))?;
+    }
+    for finding in &answer.findings {
+        output.write_note(&finding.finding_message())?;
+    }
+    for note in &answer.notes {
+        output.write_note(note)?;
+    }
+    output.set_json_document(answer)
+}
+
+/// Prints the number of tokens found for each value of one field, or for each pair of values of two.
+fn print_token_tally(
+    corpus: &mut Corpus,
+    args: &SearchArgs,
+    fields: &[String],
+    output: &mut CommandOutput,
+) -> Result<()> {
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let mut progress = ProgressReceiver::new(&mut hear);
+    let tally = corpus.tally_values(&args.query.join(" "), fields, &mut progress)?;
+    let columns: Vec<&str> = match tally.columns.is_empty() {
+        true => vec!["tokens"],
+        false => tally.columns.iter().map(String::as_str).collect(),
+    };
+    let title = match &tally.fields[..] {
+        [rows, columns] => format!("{rows} / {columns}"),
+        _ => tally.fields.concat(),
+    };
+    let mut header = vec![title.as_str()];
+    header.extend(columns);
+    if tally.fields.len() > 1 {
+        header.push("all");
+    }
+    let row = |row: &TallyRow| -> Vec<String> {
+        let counts = row.counts.iter().chain([&row.total]);
+        [row.value.clone()]
+            .into_iter()
+            .chain(counts.map(ToString::to_string))
+            .collect()
+    };
+    let rows: Vec<Vec<String>> = tally.rows.iter().map(row).collect();
+    match args.table {
+        TableFormat::Text => {
+            output.write_named_columns(&header, &rows)?;
+            output.filled_line("{n} tokens: {query}", &[&tally.total, &tally.query])?;
+        }
+        separated => {
+            let tabs = separated == TableFormat::Tsv;
+            let head: Vec<String> = header.iter().map(|cell| (*cell).to_owned()).collect();
+            for cells in [head].iter().chain(&rows) {
+                output.line_as_is(&separated_line(cells, tabs))?;
+            }
+        }
+    }
+    output.set_json_document(tally)
+}
+
+/// Returns cells as a line of a CSV or TSV table.
+pub(super) fn separated_line(cells: &[String], tabs: bool) -> String {
+    let separator = if tabs { "\t" } else { "," };
+    let quoted = |cell: &String| {
+        let plain = !cell.contains(['"', '\n', '\r']) && !cell.contains(separator);
+        match plain {
+            true => cell.clone(),
+            false => format!("\"{}\"", cell.replace('"', "\"\"")),
+        }
+    };
+    let cells: Vec<String> = cells.iter().map(quoted).collect();
+    cells.join(separator)
+}
+
+/// Saves a query in the corpus, and reports its name.
+fn save_named_query(corpus: &mut Corpus, args: &SearchArgs, name: &str, query: String) -> Result<String> {
+    let name = name.trim().trim_start_matches('@').to_owned();
+    let message = format!("saved: @{name} stands for this query");
+    let search = KeptSearch { name, query };
+    match args.replace {
+        true => corpus.keep_searches(&[search])?,
+        false => corpus.keep_new_search(&search)?,
+    }
+    Ok(message)
+}
+
+fn search_hit_cells(hit: &SearchHit) -> Vec<String> {
+    let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
+    let length = hit.start_us.zip(hit.end_us).map(|(start, end)| seconds(end - start));
+    vec![
+        hit.token.to_string(),
+        hit.gloss.clone(),
+        hit.recording.clone().unwrap_or_default(),
+        hit.start_us.map(seconds).unwrap_or_default(),
+        length.unwrap_or_default(),
+        hit.origin.record_origin_name().to_owned(),
+        components_text(&hit.components),
+    ]
+}

@@ -1,0 +1,380 @@
+//! The parts of `chereme annotate` that change tiers, recordings, signers and signs.
+
+use anyhow::Result;
+use chereme_corpus::words::InterfaceLanguage;
+use chereme_corpus::{
+    AnnotatedHands, CopiedAnnotations, Corpus, CorpusAddress, NewTier, RecordOrigin, RecordingChange, RowName,
+    SignChange, SignerChange, TierPropertyChange, TierRequestName, TierScheme, TierStereotype, TierTopic,
+    TierValueSource,
+};
+use clap::{Subcommand, ValueEnum};
+
+use super::annotate;
+use crate::args::SideWord;
+use crate::output::CommandOutput;
+use crate::words::tier_roles_help;
+
+#[derive(Debug, Subcommand)]
+pub(super) enum TierCommand {
+    /// Add a tier to the recording named by --in
+    AddTier {
+        /// Its name
+        name: String,
+        #[arg(long, default_value = "free", help = tier_roles_help(InterfaceLanguage::English))]
+        role: TierTopic,
+        /// The hand of the annotations, if the role does not name it
+        #[arg(long, value_enum)]
+        hand: Option<HandWord>,
+        /// The parent tier
+        #[arg(long, requires = "stereotype")]
+        parent: Option<String>,
+        /// Its relation to the parent: Time_Subdivision, Included_In, Symbolic_Subdivision or Symbolic_Association
+        #[arg(long, requires = "parent", value_parser = parse_tier_stereotype)]
+        stereotype: Option<TierStereotype>,
+        /// The inventory of its values; without it the usual one of its component
+        #[arg(long)]
+        inventory: Option<String>,
+        #[command(flatten)]
+        people: TierPeople,
+    },
+    /// Add the usual tiers to the recording named by --in, or those of another recording
+    ///
+    /// The usual tiers: gloss and translation; below the gloss handshape, placement, movement with its direction, palm
+    /// and finger direction of either hand, mouth, brows and head; and a comment. If a tier of that name exists, it
+    /// stays as it is.
+    AddTiers {
+        /// The recording whose tiers are copied, without their annotations
+        #[arg(long, value_name = "RECORDING")]
+        like: Option<String>,
+    },
+    /// Change a tier: its name, subject, hand, inventory, people or language
+    Tier {
+        /// The tier
+        tier: String,
+        /// Its new name
+        #[arg(long)]
+        name: Option<String>,
+        /// The subject of its annotations; the word before the dot, as in right.placement, is their hand
+        #[arg(long)]
+        role: Option<TierTopic>,
+        /// The hand of the annotations, if the role does not name it
+        #[arg(long, value_enum)]
+        hand: Option<HandWord>,
+        /// The inventory of its values
+        #[arg(long)]
+        inventory: Option<String>,
+        #[command(flatten)]
+        people: TierPeople,
+    },
+    /// Copy a tier under another name
+    CopyTier {
+        /// The tier
+        tier: String,
+        /// The name of the copy
+        name: String,
+        /// Leave out the values of its annotations
+        #[arg(long, conflicts_with_all = ["bare", "holding"])]
+        blank: bool,
+        /// Leave out its annotations
+        #[arg(long, conflicts_with = "holding")]
+        bare: bool,
+        /// Take only annotations whose value contains this text, ignoring case and accents
+        #[arg(long, value_name = "TEXT")]
+        holding: Option<String>,
+    },
+    /// Remove a tier, the tiers below it, and all their annotations
+    RemoveTier {
+        /// The tier
+        tier: String,
+    },
+    /// Change the recording named by --in: its name, signer or remarks
+    Recording {
+        /// Its new name
+        #[arg(long)]
+        name: Option<String>,
+        /// The signer who moves
+        #[arg(long)]
+        signer: Option<String>,
+        /// The origin: captured, made or generated
+        #[arg(long)]
+        origin: Option<String>,
+        /// The terms under which it may be used
+        #[arg(long)]
+        licence: Option<String>,
+        /// Remarks
+        #[arg(long)]
+        notes: Option<String>,
+    },
+    /// Change a signer: name, handedness or remarks
+    Signer {
+        /// The signer
+        signer: String,
+        /// The new name
+        #[arg(long)]
+        name: Option<String>,
+        /// The dominant hand
+        #[arg(long, value_enum)]
+        handedness: Option<SideWord>,
+    },
+    /// Change a sign: its gloss, remarks and translations
+    Sign {
+        /// The gloss
+        sign: String,
+        /// The new gloss
+        #[arg(long)]
+        gloss: Option<String>,
+        /// Remarks
+        #[arg(long)]
+        notes: Option<String>,
+        /// Add a translation, such as fr=escargot
+        #[arg(long, value_name = "LANGUAGE=TEXT", value_parser = parse_language_text)]
+        add: Vec<(String, String)>,
+        /// Remove a translation
+        #[arg(long, value_name = "LANGUAGE=TEXT", value_parser = parse_language_text)]
+        drop: Vec<(String, String)>,
+    },
+    /// Make a token the citation form of its sign
+    Cite {
+        /// The token, such as token:41
+        token: String,
+    },
+}
+
+/// The person and the language of a tier; an empty text removes the old one.
+#[derive(Debug, clap::Args)]
+pub(super) struct TierPeople {
+    /// The signer who is annotated, whom `signer=` finds; "" removes the name
+    #[arg(long, value_name = "NAME")]
+    participant: Option<String>,
+    /// The annotator; "" removes the name
+    #[arg(long, value_name = "NAME")]
+    annotator: Option<String>,
+    /// The language of its values, such as de; "" removes it
+    #[arg(long)]
+    language: Option<String>,
+}
+
+/// Returns the text; `None` if it is empty or blank.
+fn non_blank_text(text: &Option<String>) -> Option<String> {
+    let text = text.as_deref().map(str::trim);
+    text.filter(|text| !text.is_empty()).map(str::to_owned)
+}
+
+/// Returns the hand that a role or an option names; `None` if neither does.
+fn hand_of(topic: Option<&TierTopic>, word: Option<HandWord>) -> Result<Option<Option<AnnotatedHands>>> {
+    let asked = word.map(HandWord::to_tier_hands);
+    match (topic.and_then(|topic| topic.hand), asked) {
+        (Some(own), Some(asked)) if Some(own) != asked => {
+            let other = asked.map_or("none", AnnotatedHands::annotated_hands_name);
+            let wrong = format!("--role names the {own} hand, and --hand says {other}");
+            Err(chereme_corpus::CorpusError::from_wrong_message(wrong)
+                .with_advice("name the hand once")
+                .into())
+        }
+        (Some(own), _) => Ok(Some(Some(own))),
+        (None, asked) => Ok(asked),
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum HandWord {
+    Right,
+    Left,
+    Dominant,
+    Weak,
+    Both,
+    /// No hand
+    None,
+}
+
+impl HandWord {
+    fn to_tier_hands(self) -> Option<AnnotatedHands> {
+        use chereme_sign::HandRef;
+        Some(match self {
+            Self::Right => AnnotatedHands::One(HandRef::Right),
+            Self::Left => AnnotatedHands::One(HandRef::Left),
+            Self::Dominant => AnnotatedHands::One(HandRef::Dominant),
+            Self::Weak => AnnotatedHands::One(HandRef::Weak),
+            Self::Both => AnnotatedHands::Both,
+            Self::None => return None,
+        })
+    }
+}
+
+fn parse_tier_stereotype(text: &str) -> Result<TierStereotype, String> {
+    let names: Vec<&str> = TierStereotype::ALL_TIER_STEREOTYPES
+        .iter()
+        .map(|kind| kind.elan_name())
+        .collect();
+    TierStereotype::from_elan_name(text).ok_or_else(|| format!("write one of {}", names.join(", ")))
+}
+
+fn parse_language_text(text: &str) -> Result<(String, String), String> {
+    let (language, text) = text.split_once('=').ok_or("write LANGUAGE=TEXT, such as fr=escargot")?;
+    Ok((language.to_owned(), text.to_owned()))
+}
+
+pub(super) fn run(
+    corpus: &mut Corpus,
+    action: &TierCommand,
+    recording: Option<&RowName>,
+    output: &mut CommandOutput,
+) -> Result<()> {
+    let needed = || {
+        recording.cloned().ok_or_else(|| {
+            chereme_corpus::CorpusError::from_wrong_message("which recording?").with_advice("name it with --in")
+        })
+    };
+    match action {
+        TierCommand::AddTier {
+            name,
+            role,
+            hand,
+            parent,
+            stereotype,
+            inventory,
+            people,
+        } => {
+            let mut tier = NewTier::new(needed()?, name.clone(), role.role.clone());
+            tier.hand = hand_of(Some(role), *hand)?.flatten();
+            tier.participant = non_blank_text(&people.participant);
+            tier.annotator = non_blank_text(&people.annotator);
+            tier.language = non_blank_text(&people.language);
+            tier.parent = parent.clone().zip(*stereotype);
+            if let Some(inventory) = inventory {
+                tier.values = TierValueSource::Inventory(inventory.clone());
+            }
+            let row = corpus.add_tier(&tier)?;
+            output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
+            output.set_json_document(row)
+        }
+        TierCommand::AddTiers { like } => {
+            let scheme = match like {
+                Some(other) => TierScheme::Like(annotate::parse_annotated_recording(other)?),
+                None => TierScheme::Usual,
+            };
+            let rows = corpus.add_tiers(&needed()?, &scheme)?;
+            for row in &rows {
+                output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
+            }
+            output.set_json_document(rows)
+        }
+        TierCommand::Tier {
+            tier,
+            name,
+            role,
+            hand,
+            inventory,
+            people,
+        } => {
+            let change = TierPropertyChange {
+                name: name.clone(),
+                role: role.as_ref().map(|topic| topic.role.clone()),
+                hand: hand_of(role.as_ref(), *hand)?,
+                values: inventory.clone().map(TierValueSource::Inventory),
+                participant: people.participant.clone().map(Some),
+                annotator: people.annotator.clone().map(Some),
+                language: people.language.clone().map(Some),
+                ..TierPropertyChange::default()
+            };
+            let row = corpus.change_tier_properties(&TierRequestName::parse_tier_name(tier, recording)?, &change)?;
+            output.filled_line("changed tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
+            output.set_json_document(row)
+        }
+        TierCommand::CopyTier {
+            tier,
+            name,
+            blank,
+            bare,
+            holding,
+        } => {
+            let copied = match (blank, bare, holding) {
+                (_, _, Some(text)) => CopiedAnnotations::Holding(text.clone()),
+                (true, ..) => CopiedAnnotations::Times,
+                (_, true, _) => CopiedAnnotations::Nothing,
+                _ => CopiedAnnotations::All,
+            };
+            let row = corpus.copy_tier(&TierRequestName::parse_tier_name(tier, recording)?, name, &copied)?;
+            output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
+            output.set_json_document(row)
+        }
+        TierCommand::RemoveTier { tier } => {
+            let removed = corpus.remove_tier(&TierRequestName::parse_tier_name(tier, recording)?)?;
+            let (names, count) = (removed.tiers.join(", "), removed.annotations);
+            let count = output.format_counted_noun(count, "annotations");
+            output.filled_line("removed {names} with {n}", &[&names, &count])?;
+            output.set_json_document(removed)
+        }
+        TierCommand::Recording {
+            name,
+            signer,
+            origin,
+            licence,
+            notes,
+        } => {
+            let change = RecordingChange {
+                name: name.clone(),
+                signer: signer.clone().map(Some),
+                origin: origin
+                    .as_deref()
+                    .map(RecordOrigin::parse_recording_origin)
+                    .transpose()?,
+                licence: licence.clone().map(Some),
+                notes: notes.clone().map(Some),
+            };
+            let row = corpus.change_recording(&needed()?, &change)?;
+            output.filled_line(
+                "changed recording:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
+            output.set_json_document(row)
+        }
+        TierCommand::Signer {
+            signer,
+            name,
+            handedness,
+        } => {
+            let change = SignerChange {
+                name: name.clone(),
+                handedness: handedness.map(|word| Some(word.to_body_side())),
+                notes: None,
+            };
+            let named = match signer.parse()? {
+                CorpusAddress::Signer(name) => name,
+                _ => annotate::parse_annotated_recording(signer)?,
+            };
+            let row = corpus.change_signer(&named, &change)?;
+            output.filled_line(
+                "changed signer:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
+            output.set_json_document(row)
+        }
+        TierCommand::Sign {
+            sign,
+            gloss,
+            notes,
+            add,
+            drop,
+        } => {
+            let change = SignChange {
+                gloss: gloss.clone(),
+                notes: notes.clone().map(Some),
+                add_texts: add.clone(),
+                remove_texts: drop.clone(),
+            };
+            let named = match sign.parse()? {
+                CorpusAddress::Sign(name) => name,
+                _ => RowName::Text(sign.clone()),
+            };
+            let gloss = corpus.change_sign(&named, &change)?;
+            output.filled_line("changed {gloss}", &[&gloss])?;
+            output.set_json_document(serde_json::json!({ "gloss": gloss }))
+        }
+        TierCommand::Cite { token } => {
+            let row = corpus.set_citation(&token.parse()?)?;
+            output.filled_line("token:{id} is the citation form of {gloss}", &[&row.id, &row.gloss])?;
+            output.set_json_document(row)
+        }
+    }
+}

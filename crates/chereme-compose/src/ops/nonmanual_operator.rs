@@ -1,0 +1,325 @@
+//! `nonmanual from`: takes head and face from another sign.
+
+use std::sync::Arc;
+
+use chereme_sign::SignComponent;
+use chereme_sign::words::InterfaceText;
+
+use crate::error::StepError;
+use crate::ops::retarget::{self, TargetBody};
+use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
+use crate::sources::MovementMaterial;
+use crate::work::{JointGroup, WorkingClip, find_joint_groups};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_motion::BodySide;
+use chereme_sign::SignerHandedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::check;
+use crate::contact::{ContactEffect, ContactsToKeep};
+use crate::error::RecipeError;
+use crate::ops::cut::CutEnds;
+use crate::ops::{
+    FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, expression_operator,
+};
+use crate::recipe::SpanSettings;
+use crate::resolve::{ExpressionInput, MaterialInput};
+use crate::text::{ParsedText, QuotedName, RecipeParser, write_separated_list};
+use crate::units::RecipeSeconds;
+
+/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of `nonmanual wh
+/// from recording:3 over 0.4s..1.9s by phases`: an expression transferred phase by phase.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NonmanualSettings {
+    /// The other sign's address.
+    pub from: String,
+    /// The function of the expression, such as `wh`; `None` for the only expression at the address.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub function: Option<String>,
+    /// The part of this movement for the expression; `None` for all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<ExpressionTimes>,
+    /// Whether each phase of the expression is stretched to the same phase here; otherwise the whole is stretched
+    /// evenly.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub by_phases: bool,
+}
+
+/// The times of an expression in a movement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ExpressionTimes {
+    /// Over the signs of this part, `0.4s..1.9s`: the milestones follow from them.
+    Part(SpanSettings),
+    /// With these milestones M1 to M5, `0s, 0.4s, 1.2s, 1.9s, 2.4s`; M3 is M2 if one sign is spanned.
+    At([RecipeSeconds; 5]),
+}
+
+/// The other sign.
+const NONMANUAL_DONOR_SLOT: AnswerSlot<MaterialInput> = AnswerSlot::new("nonmanual/from");
+/// The transferred expression.
+const EXPRESSION_SLOT: AnswerSlot<ExpressionInput> = AnswerSlot::new("nonmanual/expression");
+
+impl NonmanualSettings {
+    /// Returns head and face of a whole sign, fitted to this one's time.
+    #[must_use]
+    pub fn nonmanual_from_sign(from: impl Into<String>) -> Self {
+        Self {
+            from: from.into(),
+            ..Self::default()
+        }
+    }
+
+    /// Returns whether it transfers an expression with milestones, instead of a whole sign.
+    #[must_use]
+    pub fn is_expression(&self) -> bool {
+        self.by_phases || self.over.is_some() || self.function.is_some()
+    }
+}
+
+impl OperatorSyntax for NonmanualSettings {
+    const OPERATOR_NAME: &'static str = "nonmanual";
+    const OPERATOR_KEYWORDS: &'static [&'static str] = &["over", "phases"];
+    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
+        title: InterfaceText::new("Face and head", "Visage et tête"),
+        hint: InterfaceText::new("head and face of another sign", "tête et visage d’un autre signe"),
+        examples: &[
+            (
+                "nonmanual from BOL",
+                InterfaceText::new("head and face of another sign", "tête et visage d’un autre signe"),
+            ),
+            (
+                "nonmanual wh from BOL over 0.4s..1.9s by phases",
+                InterfaceText::new(
+                    "an expression, fitted to a part by its milestones",
+                    "une expression, ajustée à une partie par ses jalons",
+                ),
+            ),
+        ],
+        messages: &[
+            InterfaceText::new(
+                "{n} joints of the head from {sign} ({own} s stretched to {time} s)",
+                "{n} articulations de la tête d’après {sign} ({own} s étirées à {time} s)",
+            ),
+            InterfaceText::new(
+                "{function} from {sign}: {own} onto {target}",
+                "{function} d’après {sign} : {own} sur {target}",
+            ),
+            InterfaceText::new("the name of the function is empty", "le nom de la fonction est vide"),
+            InterfaceText::new(
+                "milestones decrease; write M1 to M5 in order of time",
+                "les jalons reculent ; écrivez M1 à M5 dans l’ordre du temps",
+            ),
+            InterfaceText::new(
+                "a part such as 0.4s..1.9s, or five times with commas between",
+                "une partie comme 0.4s..1.9s, ou cinq temps séparés par des virgules",
+            ),
+            InterfaceText::new(
+                "the mouth keeps its own movement",
+                "la bouche garde son propre mouvement",
+            ),
+            InterfaceText::new(
+                "the first {time} s lie before the movement and are not seen",
+                "les premières {time} s sont avant le mouvement et ne se voient pas",
+            ),
+            InterfaceText::new(
+                "the last {time} s lie after the movement and are not seen",
+                "les dernières {time} s sont après le mouvement et ne se voient pas",
+            ),
+            InterfaceText::new(
+                "{head} joints of the head and {trunk} of the trunk",
+                "{head} articulations de la tête et {trunk} du tronc",
+            ),
+        ],
+    };
+
+    fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
+        let function = match parser.current_word() {
+            Some("from") => None,
+            _ => Some(parser.parse_recipe_name("\"from\" and a sign")?),
+        };
+        parser.expect_word("from", "\"from\" and a sign")?;
+        let from = parser.parse_recipe_name("a sign")?;
+        let over = parser
+            .accept_word("over")
+            .then(|| parse_expression_times(parser))
+            .transpose()?;
+        let by_phases = parser.accept_word("by");
+        if by_phases {
+            parser.expect_word("phases", "\"phases\"")?;
+        }
+        Ok(Self {
+            from,
+            function,
+            over,
+            by_phases,
+        })
+    }
+
+    fn default_operator() -> Self {
+        Self::default()
+    }
+}
+
+/// Reads a part of a movement, or the five milestones of an expression.
+fn parse_expression_times(parser: &mut RecipeParser<'_>) -> ParsedText<ExpressionTimes> {
+    let start = parser.parser_position();
+    let mut times: Vec<RecipeSeconds> = Vec::new();
+    while times.len() < 5 {
+        let Ok(time) = parser.parse_quantity("a part such as 0.4s..1.9s, or five times with commas between") else {
+            break;
+        };
+        times.push(time);
+        if times.len() < 5 && !parser.accept_comma() {
+            break;
+        }
+    }
+    if let Ok(times) = times.try_into() {
+        return Ok(ExpressionTimes::At(times));
+    }
+    parser.back_to(start);
+    parser.parse_time_span().map(ExpressionTimes::Part)
+}
+
+impl Display for NonmanualSettings {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("nonmanual ")?;
+        if let Some(function) = &self.function {
+            write!(f, "{} ", QuotedName(function))?;
+        }
+        write!(f, "from {}", QuotedName(&self.from))?;
+        match &self.over {
+            None => {}
+            Some(ExpressionTimes::Part(cut)) => write!(f, " over {}", CutEnds(cut))?,
+            Some(ExpressionTimes::At(times)) => {
+                f.write_str(" over ")?;
+                write_separated_list(f, times, ", ")?;
+            }
+        }
+        f.write_str(if self.by_phases { " by phases" } else { "" })
+    }
+}
+
+impl StepOperator for NonmanualSettings {
+    fn check_operator_settings(&self) -> Result<(), RecipeError> {
+        let (step, function) = (Self::OPERATOR_NAME, self.function.as_deref());
+        check::check_named_text(step, &self.from, "the name of the sign is empty")?;
+        check::check_optional_text(function, step, "the name of the function is empty")?;
+        match &self.over {
+            None => Ok(()),
+            Some(ExpressionTimes::Part(cut)) => check::check_movement_part(step, cut),
+            Some(ExpressionTimes::At(times)) => {
+                for at in times {
+                    check::check_step_range(
+                        step,
+                        "a milestone",
+                        at.0,
+                        -check::MAX_RECIPE_SECONDS,
+                        check::MAX_RECIPE_SECONDS,
+                    )?;
+                }
+                if times.windows(2).any(|pair| pair[0].0 > pair[1].0) {
+                    let what = "milestones decrease; write M1 to M5 in order of time";
+                    return Err(RecipeError::Empty { step, what });
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn resolve_operator_inputs(&self, ask: &mut CorpusAsker<'_>, _setting: &MaterialSigner) -> Result<(), StepError> {
+        let material = if self.is_expression() {
+            let function = self.function.as_deref();
+            let donor_expression = ask.sources.find_face_expression(&self.from, function)?;
+            let input = ExpressionInput {
+                function: donor_expression.function,
+                milestones: donor_expression.milestones,
+            };
+            ask.put_answer(&EXPRESSION_SLOT, input);
+            donor_expression.material
+        } else {
+            ask.sources.find_material(&self.from)?
+        };
+        ask.keep_movement(&NONMANUAL_DONOR_SLOT, material).map(|_| ())
+    }
+
+    fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
+        let donor = given.answered_material(&NONMANUAL_DONOR_SLOT)?;
+        let did = match given.get_answer(&EXPRESSION_SLOT) {
+            Some(found) => expression_operator::transfer_expression(work, donor, self, found, given.text)?,
+            None => transfer_nonmanuals(work, donor, given.text)?,
+        };
+        Ok(did.into())
+    }
+
+    fn contact_effect_for(&self, _handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
+        Some((ContactEffect::Same, ContactsToKeep::All(&BodySide::BOTH_SIDES)))
+    }
+
+    fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let field = OperatorField::Sign(&mut self.from);
+        vec![FieldSetting::new(InterfaceText::new("from sign", "du signe"), field)]
+    }
+}
+
+/// Gives head, neck, jaw and eyes their movement from another sign, stretched to this one's time.
+pub(crate) fn transfer_nonmanuals(
+    work: &mut WorkingClip,
+    donor: &MovementMaterial,
+    operator: &str,
+) -> Result<Vec<String>, StepError> {
+    let mut other = WorkingClip::working_clip_from(donor);
+    let (seconds, own) = (
+        other.working_clip_span().span_seconds(),
+        work.working_clip_span().span_seconds(),
+    );
+    if other.skeleton != work.skeleton {
+        other = retarget::retarget_movement(&other, &TargetBody::at_rest(&work.skeleton, &work.anatomy))?;
+    } else {
+        other.skeleton = Arc::clone(&work.skeleton);
+    }
+    let last = (other.frames - 1) as f64 / work.frames.saturating_sub(1).max(1) as f64;
+    let sample_positions: Vec<f64> = (0..work.frames).map(|frame| frame as f64 * last).collect();
+    other.resample_channels(&sample_positions);
+    let groups = find_joint_groups(&work.skeleton, &work.anatomy);
+    let head: Vec<usize> = (0..groups.len()).filter(|&j| groups[j] == JointGroup::Head).collect();
+    if head.is_empty() {
+        return Err(StepError::NoHead);
+    }
+    for &joint in &head {
+        work.channels[joint] = other.channels[joint].clone();
+    }
+    let is_nonmanual = |note: &GeneratedNote| matches!(note.about, NoteSubject::Component(SignComponent::NonManual, _));
+    work.notes.retain(|note| !is_nonmanual(note));
+    let stretch = own / seconds.max(1e-9);
+    let scaled = |instant: chereme_motion::RecordingInstant| {
+        chereme_motion::RecordingInstant::from_seconds(instant.instant_seconds() * stretch).min(work.working_clip_end())
+    };
+    let notes: Vec<GeneratedNote> = other
+        .notes
+        .iter()
+        .filter(|note| is_nonmanual(note))
+        .map(|note| GeneratedNote {
+            span: chereme_motion::TimeSpan::span_between(
+                scaled(note.span.span_start_instant()),
+                scaled(note.span.span_end_instant()),
+            ),
+            ..note.clone()
+        })
+        .collect();
+    work.notes.extend(notes);
+    // Trunk and shoulders keep this sign's movement.
+    let of_body = |curve: &GeneratedCurve| ["body.", "shoulders."].iter().any(|part| curve.name.starts_with(part));
+    work.curves.retain(of_body);
+    work.curves
+        .extend(other.curves.into_iter().filter(|curve| !of_body(curve)));
+    work.note_changed_groups([JointGroup::Head], operator);
+    Ok(vec![format!(
+        "{} joints of the head from {} ({seconds:.2} s stretched to {own:.2} s)",
+        head.len(),
+        donor.address
+    )])
+}

@@ -1,0 +1,230 @@
+//! Prints the tree as text.
+
+use std::fmt::{self, Display, Formatter};
+
+use crate::recipe::*;
+use crate::units::{BodyDirection, HandChoice, RecipeLength};
+
+impl Display for Recipe {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.root)
+    }
+}
+
+impl Display for RecipeNode {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sign(address) => write!(f, "{}", QuotedName(address)),
+            Self::Spell(spell) => write!(f, "{spell}"),
+            Self::Point(point) => write!(f, "{point}"),
+            Self::Cue(cue) => write!(f, "{cue}"),
+            Self::Hamnosys(notation) => write!(f, "hamnosys {notation}"),
+            Self::Sigml(notation) => write!(f, "sigml {notation}"),
+            Self::Pipe(pipe) => {
+                write_node_within(f, &pipe.of, matches!(*pipe.of, Self::Then(_)))?;
+                pipe.steps.iter().try_for_each(|step| write!(f, " | {step}"))
+            }
+            Self::Then(then) => {
+                write_node_within(f, &then.first, false)?;
+                then.next.iter().try_for_each(|joined| {
+                    write!(f, " then{} ", joined.via)?;
+                    write_node_within(f, &joined.node, matches!(joined.node, Self::Then(_)))
+                })
+            }
+        }
+    }
+}
+
+fn write_node_within(f: &mut Formatter<'_>, node: &RecipeNode, parentheses: bool) -> fmt::Result {
+    if parentheses {
+        write!(f, "({node})")
+    } else {
+        write!(f, "{node}")
+    }
+}
+
+/// Words with a meaning in several places; as names they are quoted, and so are the words of operators.
+const RESERVED_RECIPE_WORDS: [&str; 14] = [
+    "then",
+    "via",
+    "with",
+    "on",
+    "hold",
+    "by",
+    "at",
+    "_",
+    "best",
+    "in",
+    "out",
+    "about",
+    "forwards",
+    "backwards",
+];
+
+/// Returns whether a word has a meaning somewhere in recipes.
+fn is_reserved(word: &str) -> bool {
+    let mut operators = Step::SPELLINGS.iter();
+    RESERVED_RECIPE_WORDS.contains(&word)
+        || RecipeNode::SOURCE_FIRST_WORDS.contains(&word)
+        || operators.any(|(words, keywords)| words.contains(&word) || keywords.contains(&word))
+}
+
+/// A name in the spelling of recipes: plain if possible, else quoted.
+pub(crate) struct QuotedName<'a>(pub(crate) &'a str);
+
+impl Display for QuotedName<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let name = self.0;
+        if is_plain(name) || is_address(name) {
+            return f.write_str(name);
+        }
+        f.write_str("\"")?;
+        for c in name.chars() {
+            if c == '"' || c == '\\' {
+                f.write_str("\\")?;
+            }
+            write!(f, "{c}")?;
+        }
+        f.write_str("\"")
+    }
+}
+
+fn is_plain(name: &str) -> bool {
+    let special = |c: char| c.is_whitespace() || "|,()\"".contains(c);
+    !name.is_empty()
+        && !name.contains(special)
+        && !is_reserved(name)
+        && BodyDirection::from_word(name).is_none()
+        && HandChoice::from_word(name).is_none()
+}
+
+/// Returns whether `name` is an address with a quoted end, such as `recording:"NGT Thanks"`.
+fn is_address(name: &str) -> bool {
+    let Some((kind, quoted)) = name.split_once(":\"") else {
+        return false;
+    };
+    let Some(inside) = quoted.strip_suffix('"') else {
+        return false;
+    };
+    let mut escaped = false;
+    let closed_early = inside.chars().any(|c| {
+        let closes = c == '"' && !escaped;
+        escaped = c == '\\' && !escaped;
+        closes
+    });
+    is_plain(kind) && !closed_early && !escaped
+}
+
+impl Display for PostureTransition {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.is_default() {
+            return Ok(());
+        }
+        f.write_str(" via")?;
+        write_option(f, "", self.profile.map(TransitionProfile::transition_profile_name))?;
+        write_option(f, "", self.time)
+    }
+}
+
+pub(crate) fn write_option(f: &mut Formatter<'_>, word: &str, value: Option<impl Display>) -> fmt::Result {
+    match value {
+        Some(value) if word.is_empty() => write!(f, " {value}"),
+        Some(value) => write!(f, " {word} {value}"),
+        None => Ok(()),
+    }
+}
+
+impl Display for SpellSettings {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "spell {} {}", QuotedName(&self.word), self.hand.hand_choice_name())?;
+        write_option(f, "with", self.alphabet.as_deref().map(QuotedName))?;
+        write_option(f, "hold", self.hold)?;
+        write!(f, "{}", self.via)?;
+        write_option(f, "on", self.on.as_deref().map(QuotedName))
+    }
+}
+
+impl Display for CueSettings {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "cue {} {}", QuotedName(&self.text), self.hand.hand_choice_name())?;
+        write_option(f, "as", self.phones.as_deref().map(QuotedName))?;
+        write_option(f, "with", self.code.as_deref().map(QuotedName))?;
+        for variant in &self.variants {
+            write!(f, " variant {}", QuotedName(variant))?;
+        }
+        write_option(
+            f,
+            "by",
+            Some(self.phase.phase_rule_name()).filter(|_| !self.phase.is_default()),
+        )?;
+        write_option(f, "pace", self.pace)?;
+        write_option(f, "on", self.on.as_deref().map(QuotedName))
+    }
+}
+
+impl Display for NotationSettings {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", QuotedName(&self.of))?;
+        write_option(f, "with", self.language.as_deref().map(QuotedName))?;
+        write_option(f, "on", self.on.as_deref().map(QuotedName))
+    }
+}
+
+impl Display for PointSettings {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "point {} at {}", self.hand.hand_choice_name(), self.at)?;
+        write_option(f, "with", self.with.as_ref())?;
+        write_option(f, "hold", self.hold)?;
+        write!(f, "{}", self.via)?;
+        write_option(f, "on", self.on.as_deref().map(QuotedName))
+    }
+}
+
+impl Display for ValueChoice {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Keep => f.write_str("_"),
+            Self::Value(value) => write!(f, "{}", QuotedName(value)),
+            Self::From(address) => write!(f, "from {}", QuotedName(address)),
+            Self::Best(query) => write!(f, "best({query})"),
+        }
+    }
+}
+
+impl Display for SigningSpot {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Me => f.write_str("me"),
+            Self::You => f.write_str("you"),
+            Self::Towards(directions) => {
+                write_separated_list(f, directions.iter().map(|d| d.body_direction_name()), " ")
+            }
+            Self::Value(value) => write!(f, "{}", QuotedName(value)),
+            Self::Point(point) => point_text(f, point),
+        }
+    }
+}
+
+pub(crate) fn point_text(f: &mut Formatter<'_>, point: &[RecipeLength; 3]) -> fmt::Result {
+    write_separated_list(f, point, ",")
+}
+
+pub(crate) fn write_separated_list(
+    f: &mut Formatter<'_>,
+    items: impl IntoIterator<Item = impl Display>,
+    between: &str,
+) -> fmt::Result {
+    for (n, item) in items.into_iter().enumerate() {
+        let before = if n > 0 { between } else { "" };
+        write!(f, "{before}{item}")?;
+    }
+    Ok(())
+}
+
+impl Display for StraightLeg {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write_separated_list(f, self.towards.iter().map(|d| d.body_direction_name()), " ")?;
+        write!(f, " {}", self.distance)?;
+        write_option(f, "in", self.time)
+    }
+}

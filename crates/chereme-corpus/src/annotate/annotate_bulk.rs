@@ -1,0 +1,153 @@
+//! Changes of annotations from a table.
+
+use chereme_formats::table::TableError;
+use chereme_formats::table::annotations::{self, ChangeAction, ChangeRow, ChangeRowFault};
+use chereme_sign::ErrorRemedy;
+
+use super::{AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, TierRequestName};
+use crate::Corpus;
+use crate::address::{CorpusAddress, RowName};
+use crate::db::stored_recordings;
+use crate::error::{CorpusError, CorpusResult};
+use crate::import::ReportFinding;
+use crate::progress::ProgressReceiver;
+
+impl Corpus {
+    /// Applies the changes in a table (CSV or TSV) of annotations, as one operation.
+    ///
+    /// `name` is the name of the table in errors. Rows without a recording apply to `recording`, or to the only one of
+    /// the corpus. An annotation named by its id must be in the recording and on the tier that its row names. The format
+    /// is that of [`chereme_formats::table::annotations::read_change_table`].
+    ///
+    /// # Errors
+    /// [`CorpusError::Several`] with every row that cannot be carried out; nothing is changed then.
+    pub fn annotate_table(
+        &mut self,
+        bytes: &[u8],
+        name: &str,
+        recording: Option<&RowName>,
+        options: &AnnotateOptions,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<(AnnotateReport, Vec<ReportFinding>)> {
+        let (table, findings) = annotations::read_change_table(bytes, options.unit).map_err(|error| {
+            let wrong = CorpusError::from_wrong_message(error.to_string()).with_error_place(name);
+            match error {
+                TableError::Implausible { .. } => wrong.with_advice(ErrorRemedy::command_remedy(
+                    "or name the unit with the table: --unit ms, --unit s or --unit frames",
+                )),
+                _ => wrong,
+            }
+        })?;
+        let all_recordings = stored_recordings::load_recording_rows(self.store.read_connection())?;
+        let only = match all_recordings.as_slice() {
+            [one] => Some(RowName::Number(one.id)),
+            _ => None,
+        };
+        let recording = recording.cloned().or(only);
+        let mut faults: Vec<CorpusError> = table
+            .faults
+            .iter()
+            .map(|problem| change_file_error(name, problem))
+            .collect();
+        let mut changes = Vec::with_capacity(table.rows.len());
+        for row in &table.rows {
+            let place = format!("{name}, line {}", row.line);
+            match change_from_row(row, recording.as_ref(), &place) {
+                Ok(change) => changes.push(change),
+                Err(error) => faults.push(error.with_error_place(place)),
+            }
+        }
+        if changes.is_empty() && faults.is_empty() {
+            return Err(CorpusError::from_wrong_message("the table asks for nothing")
+                .with_error_place(name)
+                .with_advice("write a row for each change below the row of column names"));
+        }
+        let report = match self.annotate_all(&changes, options, faults, progress) {
+            Err(error @ (CorpusError::Wrong { .. } | CorpusError::Follows(_))) => {
+                return Err(CorpusError::Several { errors: vec![error] });
+            }
+            Err(CorpusError::Several { mut errors }) => {
+                // A column that was not recognised may be the one that the rows lack.
+                let unused = findings.iter().filter(|finding| finding.line == Some(1));
+                errors.extend(unused.map(|finding| {
+                    CorpusError::from_wrong_message(finding.message.clone())
+                        .with_error_place(format!("{name}, line 1"))
+                        .with_advice("the columns are recording, tier, start, end, duration, value, action, id, parent")
+                }));
+                errors.sort_by_key(error_line_number);
+                return Err(CorpusError::Several { errors });
+            }
+            other => other?,
+        };
+        Ok((report, findings.into_iter().map(ReportFinding::from).collect()))
+    }
+}
+
+fn error_line_number(error: &CorpusError) -> Option<u64> {
+    error.error_place()?.rsplit_once(' ')?.1.parse().ok()
+}
+
+fn change_file_error(name: &str, fault: &ChangeRowFault) -> CorpusError {
+    CorpusError::from_wrong_message(format!("{}: {}", fault.column, fault.message))
+        .with_error_place(format!("{name}, line {}", fault.line))
+}
+
+fn change_from_row(row: &ChangeRow, recording: Option<&RowName>, place: &str) -> CorpusResult<AnnotationChange> {
+    let row_recording = row.recording.as_deref().map(recording_name);
+    let recording = row_recording.as_ref().or(recording);
+    let tier = |text: &str| TierRequestName::parse_tier_name(text, recording);
+    let named = || match (&row.id, &row.tier, row.start) {
+        (Some(id), tier, _) => {
+            let annotation = AnnotationName::Placed {
+                annotation: Box::new(AnnotationName::parse_annotation_name(id, recording)),
+                recording: row_recording.clone(),
+                tier: tier.clone(),
+            };
+            Ok((annotation, row.start))
+        }
+        (None, Some(text), Some(start)) => {
+            let tier = tier(text)?;
+            Ok((AnnotationName::At { tier, start }, None))
+        }
+        _ => Err(CorpusError::from_wrong_message(
+            "name the annotation by its id, or by its tier and start",
+        )),
+    };
+    let action = match row.action {
+        ChangeAction::Add => AnnotationAction::Add {
+            tier: tier(row.tier.as_deref().unwrap_or_default())?,
+            start: row.start,
+            end: row.end,
+            parent: row
+                .parent
+                .as_deref()
+                .map(|id| AnnotationName::parse_annotation_name(id, recording)),
+            order: None,
+            value: row.value.clone().unwrap_or_default(),
+            confidence: None,
+        },
+        ChangeAction::Remove => AnnotationAction::Remove { annotation: named()?.0 },
+        ChangeAction::Set => {
+            let (annotation, start) = named()?;
+            AnnotationAction::Set {
+                annotation,
+                start,
+                end: row.end,
+                value: row.value.clone(),
+            }
+        }
+    };
+    let label = row.id.clone().filter(|_| row.action == ChangeAction::Add);
+    Ok(AnnotationChange {
+        place: Some(place.to_owned()),
+        label,
+        action,
+    })
+}
+
+fn recording_name(text: &str) -> RowName {
+    match text.parse() {
+        Ok(CorpusAddress::Recording(name)) => name,
+        _ => RowName::Text(text.to_owned()),
+    }
+}

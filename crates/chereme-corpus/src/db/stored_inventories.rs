@@ -1,0 +1,146 @@
+//! Rows of inventories and their values.
+
+use rusqlite::{Connection, OptionalExtension, params};
+
+use crate::error::CorpusResult;
+
+/// An inventory as stored: its own document, without its values.
+pub(crate) struct InventoryRow {
+    pub(crate) id: i64,
+    pub(crate) key: String,
+    pub(crate) component: String,
+    pub(crate) feature: Option<String>,
+    pub(crate) document: String,
+    /// Key and document of each value, in order.
+    pub(crate) values: Vec<(String, String)>,
+}
+
+/// Returns all inventories with their values, or those of the tiers of a recording, oldest first.
+pub(crate) fn load_inventory_rows(connection: &Connection, recording: Option<i64>) -> CorpusResult<Vec<InventoryRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, key, component, feature, document FROM inventory
+         WHERE ?1 IS NULL OR id IN (SELECT inventory_id FROM tier WHERE recording_id = ?1)
+         ORDER BY id",
+    )?;
+    let mut inventories = statement
+        .query_map([recording], |row| {
+            Ok(InventoryRow {
+                id: row.get(0)?,
+                key: row.get(1)?,
+                component: row.get(2)?,
+                feature: row.get(3)?,
+                document: row.get(4)?,
+                values: Vec::new(),
+            })
+        })?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    let mut statement = connection
+        .prepare_cached("SELECT key, document FROM inventory_value WHERE inventory_id = ?1 ORDER BY position, id")?;
+    for inventory in &mut inventories {
+        inventory.values = statement
+            .query_map([inventory.id], |row| Ok((row.get(0)?, row.get(1)?)))?
+            .collect::<rusqlite::Result<_>>()?;
+    }
+    Ok(inventories)
+}
+
+/// Returns the row of the inventory with this key.
+pub(crate) fn find_inventory_row(connection: &Connection, key: &str) -> CorpusResult<Option<i64>> {
+    Ok(connection
+        .prepare_cached("SELECT id FROM inventory WHERE key = ?1")?
+        .query_row([key], |row| row.get(0))
+        .optional()?)
+}
+
+/// Writes an inventory or a new version of its document, and returns its row; `id` and `values` are not used.
+pub(crate) fn store_inventory_row(connection: &Connection, row: &InventoryRow) -> CorpusResult<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO inventory (key, component, feature, document) VALUES (?1, ?2, ?3, ?4)
+             ON CONFLICT (key) DO UPDATE SET document = excluded.document
+             WHERE document <> excluded.document",
+        )?
+        .execute(params![row.key, row.component, row.feature, row.document])?;
+    Ok(find_inventory_row(connection, &row.key)?.unwrap_or_default())
+}
+
+/// Writes a value of an inventory, or a new version of its document.
+pub(crate) fn store_value(
+    connection: &Connection,
+    inventory: i64,
+    position: usize,
+    key: &str,
+    document: &str,
+) -> CorpusResult<()> {
+    connection
+        .prepare_cached(
+            "INSERT INTO inventory_value (inventory_id, key, position, document)
+             VALUES (?1, ?2, ?3, ?4)
+             ON CONFLICT (inventory_id, key) DO UPDATE SET document = excluded.document
+             WHERE document <> excluded.document",
+        )?
+        .execute(params![inventory, key, position as i64, document])?;
+    Ok(())
+}
+
+/// Deletes a value of an inventory.
+pub(crate) fn delete_value(connection: &Connection, inventory: i64, key: &str) -> CorpusResult<()> {
+    connection
+        .prepare_cached("DELETE FROM inventory_value WHERE inventory_id = ?1 AND key = ?2")?
+        .execute(params![inventory, key])?;
+    Ok(())
+}
+
+/// Replaces a value of an inventory by another one in the entries of lexicons, and returns the number of changes.
+pub(crate) fn replace_lexicon_value(
+    connection: &Connection,
+    inventory: i64,
+    from: &str,
+    into: &str,
+) -> CorpusResult<u64> {
+    let changed = connection
+        .prepare_cached(
+            "UPDATE token_value SET value = ?3
+             WHERE inventory_id = ?1 AND value = ?2 AND annotation_id IS NULL",
+        )?
+        .execute(params![inventory, from, into])?;
+    Ok(changed as u64)
+}
+
+/// Returns the distinct values of the annotations on tiers whose values come from an inventory.
+pub(crate) fn list_inventory_tier_values(connection: &Connection, inventory: i64) -> CorpusResult<Vec<String>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT a.value FROM annotation a JOIN tier t ON t.id = a.tier_id
+         WHERE t.inventory_id = ?1 AND a.state = 'value' ORDER BY a.value",
+    )?;
+    let texts = statement
+        .query_map([inventory], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(texts)
+}
+
+/// Replaces a value by another one on the tiers of an inventory, and returns the number of changed annotations.
+pub(crate) fn replace_inventory_tier_value(
+    connection: &Connection,
+    inventory: i64,
+    old: &str,
+    new: &str,
+) -> CorpusResult<u64> {
+    let changed = connection
+        .prepare_cached(
+            "UPDATE annotation SET value = ?3 WHERE state = 'value' AND value = ?2
+             AND tier_id IN (SELECT id FROM tier WHERE inventory_id = ?1)",
+        )?
+        .execute(params![inventory, old, new])?;
+    Ok(changed as u64)
+}
+
+/// Returns the recordings with tiers whose values come from an inventory.
+pub(crate) fn recordings_with(connection: &Connection, inventory: i64) -> CorpusResult<Vec<i64>> {
+    let mut statement =
+        connection.prepare_cached("SELECT DISTINCT recording_id FROM tier WHERE inventory_id = ?1 ORDER BY 1")?;
+    let recordings = statement
+        .query_map([inventory], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(recordings)
+}

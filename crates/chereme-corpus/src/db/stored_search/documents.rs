@@ -1,0 +1,470 @@
+//! Tokens in the form in which the search index stores them; if all are wanted they are read in one pass.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use chereme_sign::text::fold_text;
+use chereme_sign::tier as sign_tier;
+use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
+use rusqlite::{Connection, OptionalExtension, Row, Rows};
+
+use super::search_terms::{TokenProperty, hand_codes, phase_code, reading_term, reading_text};
+use crate::db::stored_columns::{self, read_word_column, word_or_null};
+use crate::error::CorpusResult;
+
+/// A token in the form in which the index stores it; texts are folded.
+#[derive(Default)]
+pub(crate) struct TokenDocument {
+    pub(crate) id: i64,
+    pub(crate) sign: i64,
+    pub(crate) recording: Option<i64>,
+    pub(crate) signer: Option<i64>,
+    pub(crate) gloss: Rc<str>,
+    pub(crate) translations: Vec<Rc<str>>,
+    pub(crate) comments: Vec<Rc<str>>,
+    pub(crate) readings: Vec<Rc<ReadingTerms>>,
+    pub(crate) marks: Vec<Rc<str>>,
+    /// The hands by their part in signing: `dominant`, `weak` or `both`.
+    pub(crate) hand: Option<&'static str>,
+    /// Start and end.
+    pub(crate) time: Option<(i64, i64)>,
+}
+
+/// The terms of a row of values in the index.
+pub(crate) struct ReadingTerms {
+    pub(crate) terms: Vec<String>,
+    /// `right.configuration=U`, if the row has a value.
+    pub(crate) facet: Option<String>,
+}
+
+/// Calls `take` with each of the tokens in `only`, or with all of them.
+pub(crate) fn visit_token_documents(
+    connection: &Connection,
+    only: Option<&[i64]>,
+    mut take: impl FnMut(TokenDocument) -> CorpusResult<()>,
+) -> CorpusResult<()> {
+    let mut reader = TokenDocumentReader::new(connection);
+    match only {
+        Some(tokens) => {
+            let mut statement = connection.prepare_cached(&format!("{SELECT_DOCUMENT_TOKENS_SQL} WHERE t.id = ?1"))?;
+            let mut values =
+                connection.prepare_cached(&format!("{SELECT_DOCUMENT_VALUES_SQL} WHERE token_id = ?1 ORDER BY id"))?;
+            for &token in tokens {
+                let fields = statement
+                    .query_row([token], TokenFields::read_token_fields)
+                    .optional()?;
+                if let Some(found) = fields {
+                    let mut values = TokenValueCursor::new(values.query([token])?);
+                    take(reader.read_token_document(&found, &mut values)?)?;
+                }
+            }
+        }
+        None => {
+            let mut statement = connection.prepare(&format!("{SELECT_DOCUMENT_TOKENS_SQL} ORDER BY t.id"))?;
+            let mut value_statement =
+                connection.prepare(&format!("{SELECT_DOCUMENT_VALUES_SQL} ORDER BY token_id, id"))?;
+            let mut values = TokenValueCursor::new(value_statement.query([])?);
+            let mut rows = statement.query([])?;
+            while let Some(row) = rows.next()? {
+                let fields = TokenFields::read_token_fields(row)?;
+                take(reader.read_token_document(&fields, &mut values)?)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+const SELECT_DOCUMENT_TOKENS_SQL: &str = "
+    SELECT t.id, t.sign_id, t.recording_id, t.start_us, t.end_us, t.origin, t.hand, a.tier_id,
+        p.id, p.handedness
+    FROM token t LEFT JOIN annotation a ON a.id = t.annotation_id
+    LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant";
+
+const SELECT_DOCUMENT_VALUES_SQL: &str = "
+    SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id
+    FROM token_value";
+
+struct TokenFields {
+    id: i64,
+    sign: i64,
+    recording: Option<i64>,
+    time: Option<(i64, i64)>,
+    origin: String,
+    hand: Option<sign_tier::AnnotatedHands>,
+    tier: Option<i64>,
+    /// The participant of its tier, if that is a signer, and whether that signer is left-handed.
+    participant: Option<(i64, bool)>,
+}
+
+impl TokenFields {
+    fn read_token_fields(row: &Row<'_>) -> rusqlite::Result<Self> {
+        let start: Option<i64> = row.get(3)?;
+        Ok(Self {
+            id: row.get(0)?,
+            sign: row.get(1)?,
+            recording: row.get(2)?,
+            time: start.zip(row.get(4)?),
+            origin: row.get(5)?,
+            hand: word_or_null(row, 6)?,
+            tier: row.get(7)?,
+            participant: row
+                .get::<_, Option<i64>>(8)?
+                .zip(Some(row.get_ref(9)?.as_str() == Ok("left"))),
+        })
+    }
+}
+
+/// Rows of values ordered by token; returns those of one token at a time.
+struct TokenValueCursor<'s> {
+    rows: Rows<'s>,
+    /// The token of the row at the cursor.
+    token: Option<i64>,
+    started: bool,
+}
+
+impl<'s> TokenValueCursor<'s> {
+    fn new(rows: Rows<'s>) -> Self {
+        Self {
+            rows,
+            token: None,
+            started: false,
+        }
+    }
+
+    fn advance_cursor(&mut self) -> rusqlite::Result<()> {
+        self.started = true;
+        FallibleStreamingIterator::advance(&mut self.rows)?;
+        self.token = FallibleStreamingIterator::get(&self.rows)
+            .map(|row| row.get(0))
+            .transpose()?;
+        Ok(())
+    }
+
+    /// Calls `take` with each row of `token`; skips rows of lesser tokens.
+    fn visit_values_of_token(
+        &mut self,
+        token: i64,
+        mut take: impl FnMut(&Row<'_>) -> rusqlite::Result<()>,
+    ) -> rusqlite::Result<()> {
+        if !self.started {
+            self.advance_cursor()?;
+        }
+        while let Some(next) = self.token.filter(|next| *next <= token) {
+            if next == token
+                && let Some(row) = FallibleStreamingIterator::get(&self.rows)
+            {
+                take(row)?;
+            }
+            self.advance_cursor()?;
+        }
+        Ok(())
+    }
+}
+
+/// Cache of data that many tokens share; each part is emptied when it has grown too large.
+struct TokenDocumentReader<'c> {
+    connection: &'c Connection,
+    signs: HashMap<i64, Rc<SignTexts>>,
+    recordings: HashMap<i64, Rc<RecordingContext>>,
+    tiers: HashMap<i64, Rc<str>>,
+    inventories: HashMap<i64, Rc<str>>,
+    marks: HashMap<(TokenProperty, String), Rc<str>>,
+    terms: HashMap<String, Rc<ReadingTerms>>,
+    key: String,
+}
+
+const MOST_SIGNS: usize = 100_000;
+const MOST_RECORDINGS: usize = 64;
+const MOST_TERMS: usize = 100_000;
+
+struct SignTexts {
+    gloss: Rc<str>,
+    notes: Option<Rc<str>>,
+    translations: Vec<Rc<str>>,
+}
+
+/// The hands of a token: the hand for which it is annotated, otherwise those that have coded values.
+#[derive(Default)]
+struct TokenHandRoles {
+    dominant: bool,
+    weak: bool,
+}
+
+impl TokenHandRoles {
+    fn add_tier_hands(&mut self, hand: Option<sign_tier::AnnotatedHands>, left_handed: bool) {
+        let codes = hand_codes(hand, left_handed);
+        self.dominant |= codes.contains(&'d');
+        self.weak |= codes.contains(&'w');
+    }
+
+    fn hand_role_names(&self, left_handed: bool) -> &'static [&'static str] {
+        match (self.dominant, self.weak, left_handed) {
+            (true, true, _) => &["both"],
+            (true, false, false) => &["right", "dominant"],
+            (true, false, true) => &["left", "dominant"],
+            (false, true, false) => &["left", "weak"],
+            (false, true, true) => &["right", "weak"],
+            (false, false, _) => &[],
+        }
+    }
+}
+
+/// The context of a recording: its signer, its translations and its remarks, by time.
+struct RecordingContext {
+    signer: Option<i64>,
+    left_handed: bool,
+    translations: Vec<TimedText>,
+    comments: Vec<TimedText>,
+}
+
+struct TimedText {
+    start: i64,
+    end: i64,
+    text: Rc<str>,
+}
+
+impl<'c> TokenDocumentReader<'c> {
+    fn new(connection: &'c Connection) -> Self {
+        Self {
+            connection,
+            signs: HashMap::new(),
+            recordings: HashMap::new(),
+            tiers: HashMap::new(),
+            inventories: HashMap::new(),
+            marks: HashMap::new(),
+            terms: HashMap::new(),
+            key: String::new(),
+        }
+    }
+
+    fn read_token_document(
+        &mut self,
+        token: &TokenFields,
+        values: &mut TokenValueCursor<'_>,
+    ) -> CorpusResult<TokenDocument> {
+        let sign = self.shared_sign_texts(token.sign)?;
+        let around = token
+            .recording
+            .map(|id| self.shared_recording_context(id))
+            .transpose()?;
+        let surroundings = around.as_ref();
+        let left_handed = match token.participant {
+            Some((_, left_handed)) => left_handed,
+            None => surroundings.is_some_and(|around| around.left_handed),
+        };
+        let signer = token.participant.map(|(signer, _)| signer);
+        let mut document = TokenDocument {
+            id: token.id,
+            sign: token.sign,
+            recording: token.recording,
+            signer: signer.or(surroundings.and_then(|around| around.signer)),
+            gloss: sign.gloss.clone(),
+            translations: sign.translations.clone(),
+            comments: sign.notes.iter().cloned().collect(),
+            time: token.time,
+            ..TokenDocument::default()
+        };
+        if let (Some(around), Some(time)) = (&around, token.time) {
+            add_overlapping(&around.translations, time, &mut document.translations);
+            add_overlapping(&around.comments, time, &mut document.comments);
+        }
+        self.add_marks(token, &mut document)?;
+        let (mut inventories, mut coded) = (Vec::new(), TokenHandRoles::default());
+        values.visit_values_of_token(token.id, |row| {
+            document.readings.push(self.terms_of(row, left_handed)?);
+            if row.get_ref(6)?.as_str() == Ok("value") {
+                coded.add_tier_hands(word_or_null(row, 1)?, left_handed);
+            }
+            let inventory: Option<i64> = row.get(8)?;
+            inventories.extend(inventory.filter(|id| !inventories.contains(id)));
+            Ok(())
+        })?;
+        for id in inventories {
+            let name = self.shared_inventory_key(id)?;
+            document
+                .marks
+                .push(self.shared_mark_term(TokenProperty::Inventory, &name));
+        }
+        if let Some(hand) = token.hand {
+            coded = TokenHandRoles::default();
+            coded.add_tier_hands(Some(hand), left_handed);
+        }
+        let names = coded.hand_role_names(left_handed);
+        document.hand = names.last().copied();
+        for name in names {
+            document.marks.push(self.shared_mark_term(TokenProperty::Hand, name));
+        }
+        Ok(document)
+    }
+
+    fn add_marks(&mut self, token: &TokenFields, document: &mut TokenDocument) -> CorpusResult<()> {
+        let mut marks = vec![self.shared_mark_term(TokenProperty::Origin, &token.origin)];
+        if let Some(tier) = token.tier {
+            let name = self.shared_tier_name(tier)?;
+            marks.push(self.shared_mark_term(TokenProperty::Tier, &name));
+        }
+        if !document.translations.is_empty() {
+            marks.push(self.shared_mark_term(TokenProperty::Has, "translation"));
+        }
+        if !document.comments.is_empty() {
+            marks.push(self.shared_mark_term(TokenProperty::Has, "comment"));
+        }
+        document.marks = marks;
+        Ok(())
+    }
+
+    fn shared_mark_term(&mut self, mark: TokenProperty, value: &str) -> Rc<str> {
+        if self.marks.len() > MOST_TERMS {
+            self.marks.clear();
+        }
+        let made = self.marks.entry((mark, value.to_owned()));
+        made.or_insert_with(|| mark.property_value_term(value).into()).clone()
+    }
+
+    fn shared_sign_texts(&mut self, id: i64) -> CorpusResult<Rc<SignTexts>> {
+        if let Some(known) = self.signs.get(&id) {
+            return Ok(known.clone());
+        }
+        let (gloss, notes): (String, Option<String>) = self
+            .connection
+            .prepare_cached("SELECT gloss, notes FROM sign WHERE id = ?1")?
+            .query_row([id], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        let mut statement = self
+            .connection
+            .prepare_cached("SELECT text FROM sign_text WHERE sign_id = ?1 ORDER BY id")?;
+        let mut texts = SignTexts {
+            gloss: fold_text(&gloss).into(),
+            notes: notes.map(|notes| fold_text(&notes).into()),
+            translations: Vec::new(),
+        };
+        let mut rows = statement.query([id])?;
+        while let Some(row) = rows.next()? {
+            texts
+                .translations
+                .push(fold_text(row.get_ref(0)?.as_str().unwrap_or_default()).into());
+        }
+        if self.signs.len() > MOST_SIGNS {
+            self.signs.clear();
+        }
+        let texts = Rc::new(texts);
+        self.signs.insert(id, texts.clone());
+        Ok(texts)
+    }
+
+    fn shared_recording_context(&mut self, id: i64) -> CorpusResult<Rc<RecordingContext>> {
+        if let Some(known) = self.recordings.get(&id) {
+            return Ok(known.clone());
+        }
+        let (signer, handedness) = self
+            .connection
+            .prepare_cached(
+                "SELECT r.signer_id, g.handedness FROM recording r
+                 LEFT JOIN signer g ON g.id = r.signer_id WHERE r.id = ?1",
+            )?
+            .query_row([id], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?)))?;
+        let around = Rc::new(RecordingContext {
+            signer,
+            left_handed: handedness.as_deref() == Some("left"),
+            translations: self.timed_texts(id, "translation")?,
+            comments: self.timed_texts(id, "comment")?,
+        });
+        if self.recordings.len() > MOST_RECORDINGS {
+            self.recordings.clear();
+        }
+        self.recordings.insert(id, around.clone());
+        Ok(around)
+    }
+
+    fn timed_texts(&self, recording: i64, role: &str) -> CorpusResult<Vec<TimedText>> {
+        let mut statement = self.connection.prepare_cached(
+            "SELECT a.start_us, a.end_us, a.value FROM tier i JOIN annotation a ON a.tier_id = i.id
+             WHERE i.recording_id = ?1 AND i.role = ?2 AND a.state = 'value' AND a.value <> ''
+             ORDER BY a.start_us, i.position, a.id",
+        )?;
+        let rows = statement.query_map((recording, role), |row| {
+            Ok(TimedText {
+                start: row.get(0)?,
+                end: row.get(1)?,
+                text: fold_text(row.get_ref(2)?.as_str().unwrap_or_default()).into(),
+            })
+        })?;
+        Ok(rows.collect::<rusqlite::Result<_>>()?)
+    }
+
+    fn shared_tier_name(&mut self, id: i64) -> CorpusResult<Rc<str>> {
+        load_shared_name(
+            self.connection,
+            &mut self.tiers,
+            "SELECT name FROM tier WHERE id = ?1",
+            id,
+        )
+    }
+
+    fn shared_inventory_key(&mut self, id: i64) -> CorpusResult<Rc<str>> {
+        let sql = "SELECT key FROM inventory WHERE id = ?1";
+        load_shared_name(self.connection, &mut self.inventories, sql, id)
+    }
+
+    fn terms_of(&mut self, row: &Row<'_>, left_handed: bool) -> rusqlite::Result<Rc<ReadingTerms>> {
+        let column_text = |column: usize| row.get_ref(column)?.as_str_or_null().map_err(Into::into);
+        let text = |column| -> rusqlite::Result<Option<&str>> { column_text(column) };
+        let (hand, component, part, phase) = (text(1)?, text(2)?, text(3)?, text(4)?);
+        let position: i64 = row.get(5)?;
+        let (state, value) = (text(6)?, text(7)?);
+        self.key.clear();
+        for piece in [hand, component, part, phase, state, value] {
+            self.key.push_str(piece.unwrap_or("\u{2}"));
+            self.key.push('\u{1}');
+        }
+        self.key.push(if left_handed { 'l' } else { 'r' });
+        self.key.push_str(&position.to_string());
+        if let Some(known) = self.terms.get(&self.key) {
+            return Ok(known.clone());
+        }
+        let component = component.unwrap_or_default();
+        let reading = reading_text(read_word_column(row, 6)?, value);
+        let phase = phase_code(stored_columns::read_phase_columns(row, 4)?);
+        let codes = hand_codes(word_or_null(row, 1)?, left_handed).iter();
+        let made = Rc::new(ReadingTerms {
+            terms: codes
+                .map(|&hand| reading_term(component, hand, &phase, part, reading))
+                .collect(),
+            facet: value.map(|value| {
+                let place = hand.map_or(String::new(), |hand| format!("{hand}."));
+                let part = part.map_or(String::new(), |part| format!(".{part}"));
+                format!("{place}{component}{part}={value}")
+            }),
+        });
+        if self.terms.len() > MOST_TERMS {
+            self.terms.clear();
+        }
+        self.terms.insert(self.key.clone(), made.clone());
+        Ok(made)
+    }
+}
+
+fn load_shared_name(
+    connection: &Connection,
+    known: &mut HashMap<i64, Rc<str>>,
+    sql: &str,
+    id: i64,
+) -> CorpusResult<Rc<str>> {
+    if let Some(name) = known.get(&id) {
+        return Ok(name.clone());
+    }
+    let stored_name: String = connection
+        .prepare_cached(sql)?
+        .query_row([id], |row| row.get(0))
+        .optional()?
+        .unwrap_or_default();
+    let name: Rc<str> = stored_name.into();
+    known.insert(id, name.clone());
+    Ok(name)
+}
+
+/// Adds the texts that overlap a token in time; `timed` is ordered by start.
+fn add_overlapping(timed: &[TimedText], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
+    let until = timed.partition_point(|text| text.start < end);
+    let during = timed[..until].iter().filter(|text| text.end > start);
+    texts.extend(during.map(|text| text.text.clone()));
+}

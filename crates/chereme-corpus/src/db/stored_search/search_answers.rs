@@ -1,0 +1,228 @@
+//! Rows that search results read in addition to the index.
+
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{SignComponent, SignPhase, TierRole};
+use rusqlite::{Connection, OptionalExtension, Row};
+
+use crate::db::stored_columns::{
+    RecordOrigin, ValueState, read_phase_columns, read_role_columns, read_word_column, word_or_null,
+};
+use crate::error::CorpusResult;
+
+/// Returns two numbers that change whenever any connection changes a row.
+pub(crate) fn database_versions(connection: &Connection) -> CorpusResult<(i64, u64)> {
+    let others = connection
+        .prepare_cached("PRAGMA data_version")?
+        .query_row([], |row| row.get(0))?;
+    Ok((others, connection.total_changes()))
+}
+
+/// Rows that have a name.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum NamedRowKind {
+    Signer,
+    Recording,
+    Sign,
+}
+
+/// Returns row and name of all such rows, by row.
+pub(crate) fn list_row_names(connection: &Connection, named: NamedRowKind) -> CorpusResult<Vec<(i64, String)>> {
+    let sql = match named {
+        NamedRowKind::Signer => "SELECT id, name FROM signer ORDER BY id",
+        NamedRowKind::Recording => "SELECT id, name FROM recording ORDER BY id",
+        NamedRowKind::Sign => "SELECT id, gloss FROM sign ORDER BY id",
+    };
+    let mut statement = connection.prepare_cached(sql)?;
+    let names = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(names)
+}
+
+/// Returns the name of a row.
+pub(crate) fn find_row_name(connection: &Connection, named: NamedRowKind, id: i64) -> CorpusResult<Option<String>> {
+    let sql = match named {
+        NamedRowKind::Signer => "SELECT name FROM signer WHERE id = ?1",
+        NamedRowKind::Recording => "SELECT name FROM recording WHERE id = ?1",
+        NamedRowKind::Sign => "SELECT gloss FROM sign WHERE id = ?1",
+    };
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([id], |row| row.get(0))
+        .optional()?)
+}
+
+/// A token as a search result shows it.
+pub(crate) struct HitRow {
+    pub(crate) gloss: String,
+    pub(crate) recording: Option<String>,
+    pub(crate) start_us: Option<i64>,
+    pub(crate) end_us: Option<i64>,
+    pub(crate) origin: RecordOrigin,
+}
+
+/// Returns the token of that row.
+pub(crate) fn find_hit_row(connection: &Connection, token: i64) -> CorpusResult<Option<HitRow>> {
+    Ok(connection
+        .prepare_cached(
+            "SELECT s.gloss, r.name, t.start_us, t.end_us, t.origin
+             FROM token t JOIN sign s ON s.id = t.sign_id
+             LEFT JOIN recording r ON r.id = t.recording_id WHERE t.id = ?1",
+        )?
+        .query_row([token], |row| {
+            Ok(HitRow {
+                gloss: row.get(0)?,
+                recording: row.get(1)?,
+                start_us: row.get(2)?,
+                end_us: row.get(3)?,
+                origin: read_word_column(row, 4)?,
+            })
+        })
+        .optional()?)
+}
+
+/// An annotation or value over a span of a recording or token.
+pub(crate) struct CodedRow<'r> {
+    /// Start and end; a lexicon entry has none.
+    pub(crate) span: Option<(i64, i64)>,
+    pub(crate) hand: Option<AnnotatedHands>,
+    /// The component; an annotation of a tier that codes no component has none.
+    pub(crate) component: Option<SignComponent>,
+    pub(crate) part: Option<&'r str>,
+    pub(crate) phase: Option<SignPhase>,
+    pub(crate) state: ValueState,
+    pub(crate) value: Option<&'r str>,
+}
+
+impl<'r> CodedRow<'r> {
+    fn coded_row_from_columns(row: &'r Row<'_>) -> rusqlite::Result<Self> {
+        let text = |column: usize| -> rusqlite::Result<Option<&'r str>> { Ok(row.get_ref(column)?.as_str_or_null()?) };
+        let start: Option<i64> = row.get(0)?;
+        Ok(Self {
+            span: start.zip(row.get(1)?),
+            hand: word_or_null(row, 2)?,
+            component: word_or_null(row, 3)?,
+            part: text(4)?,
+            phase: read_phase_columns(row, 5)?,
+            state: read_word_column(row, 7)?,
+            value: text(8)?,
+        })
+    }
+}
+
+fn each_coded(
+    connection: &Connection,
+    sql: &str,
+    params: impl rusqlite::Params,
+    mut take: impl FnMut(CodedRow<'_>),
+) -> CorpusResult<()> {
+    let mut statement = connection.prepare_cached(sql)?;
+    let mut rows = statement.query(params)?;
+    while let Some(row) = rows.next()? {
+        take(CodedRow::coded_row_from_columns(row)?);
+    }
+    Ok(())
+}
+
+/// Calls `take` with the values of a token, in the order in which they were written.
+pub(crate) fn coded_of_token(connection: &Connection, token: i64, take: impl FnMut(CodedRow<'_>)) -> CorpusResult<()> {
+    let sql = "SELECT NULL, NULL, hand, component, feature, phase, position, state, value
+        FROM token_value WHERE token_id = ?1 ORDER BY id";
+    each_coded(connection, sql, [token], take)
+}
+
+/// Calls `take` with the readings of a component in a recording: the annotations of its tiers, and the values of tokens
+/// that come from no annotation. With `phases` it is called with the values of tokens instead, each over the span
+/// of its annotation, or of its token if it has none.
+pub(crate) fn coded_in_recording(
+    connection: &Connection,
+    recording: i64,
+    component: &str,
+    phases: bool,
+    take: impl FnMut(CodedRow<'_>),
+) -> CorpusResult<()> {
+    let sql = if phases {
+        "SELECT coalesce(a.start_us, t.start_us), coalesce(a.end_us, t.end_us), v.hand, v.component,
+             v.feature, v.phase, v.position, v.state, v.value
+         FROM token t JOIN token_value v ON v.token_id = t.id
+         LEFT JOIN annotation a ON a.id = v.annotation_id
+         WHERE t.recording_id = ?1 AND v.component = ?2"
+    } else {
+        "SELECT a.start_us, a.end_us, i.hand, i.component, i.feature, NULL, 0, a.state, a.value
+         FROM tier i JOIN annotation a ON a.tier_id = i.id
+         WHERE i.recording_id = ?1 AND i.role = 'component' AND i.component = ?2
+         UNION ALL
+         SELECT t.start_us, t.end_us, v.hand, v.component, v.feature, v.phase, v.position, v.state,
+             v.value
+         FROM token t JOIN token_value v ON v.token_id = t.id
+         WHERE t.recording_id = ?1 AND v.component = ?2 AND v.annotation_id IS NULL"
+    };
+    each_coded(connection, sql, (recording, component), take)
+}
+
+/// Returns whether the signer of a recording is left-handed.
+pub(crate) fn left_handed(connection: &Connection, recording: i64) -> CorpusResult<bool> {
+    let is_left = connection
+        .prepare_cached(
+            "SELECT g.handedness = 'left' FROM recording r JOIN signer g ON g.id = r.signer_id
+             WHERE r.id = ?1",
+        )?
+        .query_row([recording], |row| row.get::<_, Option<bool>>(0))
+        .optional()?;
+    Ok(is_left.flatten().unwrap_or(false))
+}
+
+/// Returns the tiers of a recording, in their order, as row, name and role.
+pub(crate) fn list_recording_tier_roles(
+    connection: &Connection,
+    recording: i64,
+) -> CorpusResult<Vec<(i64, String, TierRole)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, name, role, component, feature FROM tier WHERE recording_id = ?1 ORDER BY position, id",
+    )?;
+    let tiers = statement
+        .query_map([recording], |row| {
+            Ok((row.get(0)?, row.get(1)?, read_role_columns(row, 2)?))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(tiers)
+}
+
+/// Returns the names of all tiers, each once, by name.
+pub(crate) fn tier_names(connection: &Connection) -> CorpusResult<Vec<String>> {
+    let mut statement = connection.prepare_cached("SELECT DISTINCT name FROM tier ORDER BY name")?;
+    let names = statement
+        .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(names)
+}
+
+/// Calls `take` with the annotations of a tier.
+pub(crate) fn on_tier(connection: &Connection, tier: i64, take: impl FnMut(CodedRow<'_>)) -> CorpusResult<()> {
+    let sql = "SELECT start_us, end_us, NULL, NULL, NULL, NULL, 0, state, value
+        FROM annotation WHERE tier_id = ?1 ORDER BY start_us";
+    each_coded(connection, sql, [tier], take)
+}
+
+/// Returns the translations and remarks for a token: those of its sign, and the annotations that overlap it.
+pub(crate) fn texts_of_token(connection: &Connection, token: i64) -> CorpusResult<(Vec<String>, Vec<String>)> {
+    let of_sign = "SELECT 'translation', x.text FROM token t
+            JOIN sign_text x ON x.sign_id = t.sign_id WHERE t.id = ?1
+        UNION ALL SELECT 'comment', s.notes FROM token t
+            JOIN sign s ON s.id = t.sign_id WHERE t.id = ?1 AND s.notes IS NOT NULL
+        UNION ALL SELECT i.role, a.value FROM token t
+            JOIN tier i ON i.recording_id = t.recording_id
+            JOIN annotation a ON a.tier_id = i.id
+            WHERE t.id = ?1 AND i.role IN ('translation', 'comment')
+              AND a.state = 'value' AND a.value <> ''
+              AND a.start_us < t.end_us AND a.end_us > t.start_us";
+    let mut statement = connection.prepare_cached(of_sign)?;
+    let mut rows = statement.query([token])?;
+    let (mut translations, mut comments) = (Vec::new(), Vec::new());
+    while let Some(row) = rows.next()? {
+        let translation = row.get_ref(0)?.as_str().is_ok_and(|role| role == "translation");
+        let texts = if translation { &mut translations } else { &mut comments };
+        texts.push(row.get(1)?);
+    }
+    Ok((translations, comments))
+}

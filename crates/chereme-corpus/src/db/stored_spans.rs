@@ -1,0 +1,92 @@
+//! Annotations of captured movement by time, for measurements.
+
+use chereme_sign::tier::AnnotatedHands;
+use rusqlite::{Connection, params};
+
+use super::stored_columns::word_or_null;
+use crate::error::CorpusResult;
+
+/// An annotation about the movement of a hand in a captured recording.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct MovementSpan {
+    pub(crate) recording_id: i64,
+    pub(crate) hand: Option<AnnotatedHands>,
+    pub(crate) feature: Option<String>,
+    pub(crate) start_us: i64,
+    pub(crate) end_us: i64,
+    pub(crate) value: String,
+    pub(crate) inventory_id: Option<i64>,
+}
+
+/// The movement that a lexicon entry states for a captured token of the same sign.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct LexiconMovement {
+    pub(crate) token: i64,
+    /// The entry's token.
+    pub(crate) entry: i64,
+    pub(crate) recording_id: i64,
+    pub(crate) start_us: i64,
+    pub(crate) end_us: i64,
+    pub(crate) feature: Option<String>,
+    pub(crate) value: String,
+}
+
+/// Returns up to `most` annotated movements with their size, manner and phases, in captured recordings,
+/// by recording and time.
+///
+/// Annotations by the program itself (a detector, a recipe) are left out.
+pub(crate) fn movement_spans(connection: &Connection, most: usize) -> CorpusResult<Vec<MovementSpan>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.recording_id, t.hand, t.feature, a.start_us, a.end_us, a.value, t.inventory_id
+         FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id
+         WHERE t.component = 'movement' AND r.origin = 'captured' AND a.state = 'value'
+           AND (t.feature IS NULL OR t.feature IN ('size', 'manner', 'phase'))
+           AND a.origin IN ('file', 'human')
+         ORDER BY t.recording_id, a.start_us, t.position, a.id LIMIT ?1",
+    )?;
+    let rows = statement
+        .query_map([i64::try_from(most).unwrap_or(i64::MAX)], |row| {
+            Ok(MovementSpan {
+                recording_id: row.get(0)?,
+                hand: word_or_null(row, 1)?,
+                feature: row.get(2)?,
+                start_us: row.get(3)?,
+                end_us: row.get(4)?,
+                value: row.get(5)?,
+                inventory_id: row.get(6)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns up to `most` values of movement that lexicon entries state for captured tokens of the same sign that have no
+/// value of their own; by token, entry and place in the entry.
+pub(crate) fn lexicon_movements(connection: &Connection, most: usize) -> CorpusResult<Vec<LexiconMovement>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.id, l.id, t.recording_id, t.start_us, t.end_us, v.feature, v.value
+         FROM token t JOIN token l ON l.sign_id = t.sign_id AND l.origin = 'lexicon'
+              JOIN token_value v ON v.token_id = l.id
+         WHERE t.origin = 'captured' AND t.recording_id IS NOT NULL
+           AND v.component = 'movement' AND v.state = 'value'
+           AND (v.hand IS NULL OR v.hand IN ('dominant', 'right', 'both'))
+           AND NOT EXISTS (SELECT 1 FROM token_value o
+                           WHERE o.token_id = t.id AND o.component = 'movement')
+         ORDER BY t.id, l.id, v.id LIMIT ?1",
+    )?;
+    let most = i64::try_from(most).unwrap_or(i64::MAX);
+    let rows = statement
+        .query_map(params![most], |row| {
+            Ok(LexiconMovement {
+                token: row.get(0)?,
+                entry: row.get(1)?,
+                recording_id: row.get(2)?,
+                start_us: row.get(3)?,
+                end_us: row.get(4)?,
+                feature: row.get(5)?,
+                value: row.get(6)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

@@ -1,0 +1,234 @@
+//! Imports notation files (SiGML, or lines of HamNoSys): each sign becomes a lexicon entry with its notation and the
+//! components derived from it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use chereme_formats::{ImportFinding, ReaderCorrection};
+use chereme_sign::hamnosys::NotatedSign;
+use serde_json::json;
+
+use super::import_notation::{NotationValueMapper, lost_notation_finding, notated_sign_document, uncoded_text_finding};
+use super::import_report::ReportFinding;
+use super::{FileReport, FileStatus, ImportJob};
+use crate::db::notations::{self, NotationRow};
+use crate::db::signs::{self, TokenRow};
+use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_recordings::SourceFileRow;
+use crate::error::CorpusResult;
+use crate::notation::{self, NotationFormat};
+use crate::paths::legible_path_text;
+use crate::progress::ProgressReceiver;
+
+/// Reads a file of SiGML.
+pub(super) fn import_sigml(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
+    import_notated_signs(job, NotationFormat::Sigml, progress)
+}
+
+/// Reads a file of lines of HamNoSys.
+pub(super) fn import_lines(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
+    import_notated_signs(job, NotationFormat::Lines, progress)
+}
+
+fn import_notated_signs(
+    job: &mut ImportJob<'_>,
+    form: NotationFormat,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<FileReport> {
+    let earlier_report = job.report_unchanged_file();
+    if let Some(report) = &earlier_report
+        && is_known_by_name(job)
+    {
+        return Ok(report.clone());
+    }
+    let bytes = job.read_job_bytes()?;
+    let (entries, findings) = notation::read_signs(&bytes, form)?;
+    // Signs without a gloss are called as their file: under another name the same bytes are other signs.
+    if let Some(report) = earlier_report
+        && entries.iter().all(|(sign, _)| !sign.gloss.is_empty())
+    {
+        return Ok(report);
+    }
+    let mut report = FileReport::new(job.path, FileStatus::Imported);
+    // The names given to these signs are reported below.
+    let named = |finding: &ImportFinding| finding.mend != Some(ReaderCorrection::Gloss);
+    let findings = findings.into_iter().filter(named);
+    report.findings.extend(findings.map(ReportFinding::from));
+    let earlier = load_earlier_tokens(job, &mut report)?;
+    if !earlier.0.is_empty() {
+        report.status = FileStatus::Updated;
+    }
+    let file = job.keep_source_file(None, Some(&bytes))?;
+    let inventories = job.inventories.clone();
+    let words = NotationValueMapper::new(&inventories);
+    let mut place = NotationFile {
+        file,
+        form,
+        several: entries.len() > 1,
+        earlier,
+        unnamed: Vec::new(),
+    };
+    for (done, (sign, line)) in entries.iter().enumerate() {
+        if done % 64 == 63 {
+            job.report_progress(progress)?;
+        }
+        import_sign(job, sign, *line, &words, &mut place, &mut report)?;
+    }
+    if let Some(finding) = place.unnamed_signs() {
+        report.findings.push(finding);
+    }
+    let left = place.earlier.0.values().map(Vec::len).sum::<usize>();
+    if left > 0 {
+        report.findings.push(ReportFinding::finding_warning(
+            format!("signs of an earlier file of this name that are missing here, and were kept: {left}"),
+            "undo the earlier import, if the new file is to take its place",
+        ));
+    }
+    Ok(report)
+}
+
+/// Returns whether a file of the same bytes and of this name, the ending apart, was imported before.
+fn is_known_by_name(job: &ImportJob<'_>) -> bool {
+    let stem = |row: &SourceFileRow| Path::new(&row.name).file_stem().map(legible_path_text);
+    let mut same = job.places.files_with_hash(&job.hash);
+    same.any(|row| row.kind == job.kind && stem(row).as_ref() == Some(&job.stem))
+}
+
+/// Returns the tokens of an earlier import of this file. Tokens of a file of the same name in another folder are other
+/// signs; a note says so.
+fn load_earlier_tokens(job: &ImportJob<'_>, report: &mut FileReport) -> CorpusResult<EarlierSignTokens> {
+    let mut files = BTreeSet::new();
+    let mut elsewhere = None;
+    for row in job.places.files_of_same_name(&job.file_name) {
+        if row.name != job.file_name || row.kind != job.kind {
+            continue;
+        }
+        match &row.path {
+            Some(path) if *path != job.place => elsewhere = Some(path),
+            _ => {
+                files.insert(row.id);
+            }
+        }
+    }
+    let mut rows = notations::of_file(job.connection, &job.file_name)?;
+    rows.retain(|row| row.source_file_id.is_some_and(|id| files.contains(&id)));
+    if let Some(path) = elsewhere.filter(|_| files.is_empty()) {
+        report.findings.push(ReportFinding::finding_note(format!(
+            "another file of this name, {path}, was imported before; the signs of this one stand next \
+             to those, also where they have the same gloss"
+        )));
+    }
+    Ok(EarlierSignTokens::new(rows))
+}
+
+/// Tokens of earlier imports of the file, by gloss, in reverse order.
+struct EarlierSignTokens(BTreeMap<String, Vec<i64>>);
+
+impl EarlierSignTokens {
+    fn new(rows: Vec<NotationRow>) -> Self {
+        let mut tokens: BTreeMap<String, Vec<i64>> = BTreeMap::new();
+        for row in rows.into_iter().rev() {
+            tokens.entry(row.gloss).or_default().push(row.token_id);
+        }
+        Self(tokens)
+    }
+
+    /// Returns the next token with this gloss.
+    fn next(&mut self, gloss: &str) -> Option<i64> {
+        self.0.get_mut(gloss)?.pop()
+    }
+}
+
+/// The file from which signs come.
+struct NotationFile {
+    file: i64,
+    form: NotationFormat,
+    several: bool,
+    earlier: EarlierSignTokens,
+    /// Lines and names of signs without a gloss.
+    unnamed: Vec<(u64, String)>,
+}
+
+impl NotationFile {
+    /// Returns a note with the names given to signs without a gloss.
+    fn unnamed_signs(&self) -> Option<ReportFinding> {
+        const NAMELESS_SIGN_REMEDY: &str = "give each sign a gloss in the file, and import it again";
+        let message = match self.unnamed.as_slice() {
+            [] => return None,
+            [(_, name)] => format!("the sign has no gloss: it is called {name:?}, as the file"),
+            [(_, first), .., (_, last)] => format!(
+                "{} signs have no gloss: they are called {first:?} to {last:?}, by the file and the line",
+                self.unnamed.len()
+            ),
+        };
+        let mut finding = ReportFinding::finding_warning(message, NAMELESS_SIGN_REMEDY);
+        finding.line = self.unnamed.first().map(|(line, _)| *line);
+        Some(finding)
+    }
+}
+
+fn import_sign(
+    job: &mut ImportJob<'_>,
+    sign: &NotatedSign,
+    line: u64,
+    words: &NotationValueMapper<'_>,
+    place: &mut NotationFile,
+    report: &mut FileReport,
+) -> CorpusResult<()> {
+    let gloss = match sign.gloss.as_str() {
+        "" if place.several => format!("{}-{line}", job.stem),
+        "" => job.stem.clone(),
+        gloss => gloss.to_owned(),
+    };
+    if sign.gloss.is_empty() {
+        place.unnamed.push((line, gloss.clone()));
+    }
+    let row = i64::try_from(line).ok();
+    let token = match place.earlier.next(&gloss) {
+        Some(token) => token,
+        None => insert_token(job, &gloss, row)?,
+    };
+    let mut mapped = words.map_notated_sign(sign);
+    let text = sign.text.as_deref().filter(|_| place.form == NotationFormat::Lines);
+    if let Some(finding) = text.and_then(|text| uncoded_text_finding(&gloss, line, text)) {
+        report.findings.push(finding);
+        mapped.values.clear();
+    }
+    signs::set_values(job.connection, token, &words.mapped_value_rows(&mapped))?;
+    let row = NotationRow {
+        token_id: token,
+        source_file_id: Some(place.file),
+        line: row,
+        system: match place.form {
+            NotationFormat::Sigml => "sigml",
+            NotationFormat::Lines => "hamnosys",
+        }
+        .to_owned(),
+        text: sign.text.clone(),
+        document: notated_sign_document(sign)?,
+        ..NotationRow::default()
+    };
+    let before = notations::find_token_notation(job.connection, token)?;
+    if before.is_some_and(|notation| (notation.text, notation.document) != (row.text.clone(), row.document.clone())) {
+        job.counts.count_changed_rows("notations", 1);
+    }
+    notations::set_token_notation(job.connection, &row)?;
+    report.findings.extend(lost_notation_finding(&gloss, line, &mapped));
+    Ok(())
+}
+
+fn insert_token(job: &mut ImportJob<'_>, gloss: &str, line: Option<i64>) -> CorpusResult<i64> {
+    let is_new = signs::find_sign(job.connection, gloss)?.is_none();
+    let sign = signs::sign_glossed(job.connection, gloss)?;
+    let row = TokenRow {
+        sign_id: sign,
+        origin: RecordOrigin::Lexicon,
+        citation: !signs::has_citation(job.connection, sign)?,
+        source: Some(json!({ "file": job.file_name, "line": line }).to_string()),
+        ..TokenRow::default()
+    };
+    job.count_created_rows("signs", usize::from(is_new));
+    job.count_created_rows("tokens", 1);
+    job.count_created_rows("notations", 1);
+    signs::insert_token(job.connection, &row)
+}

@@ -1,0 +1,360 @@
+//! The report of an import, file by file.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+
+use chereme_formats::{FindingSeverity, ImportFinding};
+use chereme_motion::RecordingInstant;
+use chereme_sign::ErrorRemedy;
+use serde::Serialize;
+
+use super::understood::FileInterpretation;
+use crate::error::CorpusError;
+use crate::paths::legible_path_text;
+use crate::words::effect::OperationEffect;
+
+/// The report of an import.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct ImportReport {
+    /// Number of created rows of each kind.
+    pub created: BTreeMap<&'static str, u64>,
+    /// Number of changed rows of each kind.
+    pub changed: BTreeMap<&'static str, u64>,
+    /// Number of removed rows of each kind.
+    pub removed: BTreeMap<&'static str, u64>,
+    /// The report of each file.
+    pub files: Vec<FileReport>,
+    /// Oddities of the import as a whole, such as a mapping that names no tier of any file.
+    pub findings: Vec<ReportFinding>,
+    /// Whether nothing was written because the caller asked for a dry run.
+    pub dry_run: bool,
+    #[serde(skip)]
+    pub(super) complete: bool,
+}
+
+/// The report of a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FileReport {
+    /// The file.
+    pub path: String,
+    /// The result: imported, unchanged, refused and so on.
+    pub status: FileStatus,
+    /// The recording that it became or was added to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recording: Option<String>,
+    /// Its interpretation: unit and axes, joint roles, tiers, columns.
+    #[serde(skip_serializing_if = "FileInterpretation::is_empty")]
+    pub understood: Box<FileInterpretation>,
+    /// Its oddities, or the reason why it was refused.
+    pub findings: Vec<ReportFinding>,
+    /// Edits in the corpus that the file contradicts, and the outcome of each. If the file is refused because of them,
+    /// it can be imported with another [`OwnEdits`](super::OwnEdits).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<OwnEdit>,
+}
+
+/// An annotation that was edited in the corpus, and that differs in a file imported again.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OwnEdit {
+    /// The name of the tier.
+    pub tier: String,
+    /// The annotation in the corpus; nothing if it was removed there.
+    pub mine: Option<AnnotationSide>,
+    /// The annotation in the file; nothing if the file no longer has it.
+    pub theirs: Option<AnnotationSide>,
+    /// The outcome.
+    pub outcome: EditOutcome,
+}
+
+/// The value of an annotation, and its time.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct AnnotationSide {
+    /// Its start in microseconds, in whole milliseconds as in files.
+    pub start_us: i64,
+    /// Its end in microseconds, in whole milliseconds.
+    pub end_us: i64,
+    /// Its value.
+    pub value: String,
+}
+
+/// The outcome of an edit in the corpus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EditOutcome {
+    /// The file's annotation replaces it; if the file is refused, it would replace it.
+    Lost,
+    /// It stays; the file did not change the annotation.
+    Kept,
+    /// It stays, though the file changed the same annotation.
+    Conflict,
+}
+
+impl OwnEdit {
+    /// Returns an annotation as text, with its times if those of the two sides differ.
+    fn side_as_text(&self, side: &AnnotationSide) -> String {
+        let times = |saying: &AnnotationSide| (saying.start_us, saying.end_us);
+        let both = self.mine.as_ref().zip(self.theirs.as_ref());
+        let differ = both.is_some_and(|(mine, theirs)| times(mine) != times(theirs));
+        let [start, end] = [side.start_us, side.end_us].map(RecordingInstant::from_micros);
+        if differ {
+            format!("{:?} (from {start} to {end})", side.value)
+        } else {
+            format!("{:?}", side.value)
+        }
+    }
+}
+
+impl fmt::Display for OwnEdit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let any = self.mine.as_ref().or(self.theirs.as_ref());
+        let start = RecordingInstant::from_micros(any.map_or(0, |saying| saying.start_us));
+        write!(f, "tier {:?} at {start}: ", self.tier)?;
+        let text = |side: &Option<AnnotationSide>| side.as_ref().map(|saying| self.side_as_text(saying));
+        let (mine, theirs) = (text(&self.mine), text(&self.theirs));
+        match (mine, theirs, self.outcome) {
+            (Some(mine), Some(theirs), EditOutcome::Lost) => {
+                write!(f, "your {mine} gives way to the file's {theirs}")
+            }
+            (Some(mine), None, EditOutcome::Lost) => {
+                write!(f, "your {mine} goes: the file does not have it")
+            }
+            (None, theirs, EditOutcome::Lost) => {
+                let theirs = theirs.unwrap_or_default();
+                write!(f, "the file's {theirs} comes back, which you removed")
+            }
+            (Some(mine), Some(theirs), EditOutcome::Kept) => {
+                write!(f, "your {mine} stays; the file still says {theirs}")
+            }
+            (Some(mine), Some(theirs), EditOutcome::Conflict) => {
+                write!(f, "both were changed: your {mine} stays, the file says {theirs}")
+            }
+            (Some(mine), None, _) => {
+                write!(f, "your {mine} stays, though the file has removed it")
+            }
+            (None, theirs, _) => {
+                let theirs = theirs.unwrap_or_default();
+                write!(
+                    f,
+                    "the file's {theirs} is left out: you removed it, or it overlaps what you changed"
+                )
+            }
+        }
+    }
+}
+
+/// Number of rows of each kind that a file created, changed and removed.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RowChangeCounts {
+    pub(super) created: BTreeMap<&'static str, u64>,
+    pub(super) changed: BTreeMap<&'static str, u64>,
+    pub(super) removed: BTreeMap<&'static str, u64>,
+}
+
+impl RowChangeCounts {
+    pub(super) fn count_added_rows(&mut self, what: &'static str, many: usize) {
+        *self.created.entry(what).or_default() += many as u64;
+    }
+
+    /// Returns the number of all rows.
+    pub(super) fn total_row_changes(&self) -> u64 {
+        let all = [&self.created, &self.changed, &self.removed];
+        all.into_iter().flat_map(|counts| counts.values()).sum()
+    }
+
+    pub(super) fn count_changed_rows(&mut self, what: &'static str, many: usize) {
+        *self.changed.entry(what).or_default() += many as u64;
+    }
+
+    pub(super) fn count_removed_rows(&mut self, what: &'static str, many: usize) {
+        *self.removed.entry(what).or_default() += many as u64;
+    }
+}
+
+/// The result for a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FileStatus {
+    /// The file was imported.
+    Imported,
+    /// The file was imported before and edited since; the corpus was updated.
+    Updated,
+    /// The file was imported before and has not changed.
+    Unchanged,
+    /// The file is of a kind that cannot be read.
+    Skipped,
+    /// The file could not be imported.
+    Refused,
+}
+
+/// Files of one kind that an import left alone.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct UnreadFileKind {
+    /// The ending of their names in lower case, without the dot.
+    pub ending: Option<String>,
+    /// The files.
+    pub files: Vec<String>,
+    /// The reason why they were not read.
+    pub why: String,
+    /// A way to make their contents readable.
+    pub remedy: Option<ErrorRemedy>,
+}
+
+/// A finding about a file for the user.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ReportFinding {
+    /// `finding_note`, `finding_warning` or `error`.
+    pub severity: &'static str,
+    /// The line of the file, from 1.
+    pub line: Option<u64>,
+    /// The finding.
+    pub message: String,
+    /// A remedy.
+    pub remedy: Option<ErrorRemedy>,
+}
+
+impl From<ImportFinding> for ReportFinding {
+    fn from(finding: ImportFinding) -> Self {
+        let severity = match finding.severity {
+            FindingSeverity::Note => "note",
+            FindingSeverity::Warning => "warning",
+        };
+        let ImportFinding {
+            line, message, remedy, ..
+        } = finding;
+        Self {
+            severity,
+            line,
+            message,
+            remedy,
+        }
+    }
+}
+
+impl ReportFinding {
+    pub(super) fn finding_note(message: impl Into<String>) -> Self {
+        Self {
+            severity: "note",
+            line: None,
+            message: message.into(),
+            remedy: None,
+        }
+    }
+
+    pub(super) fn finding_error(message: impl Into<String>, remedy: impl Into<ErrorRemedy>) -> Self {
+        Self {
+            severity: "error",
+            ..Self::finding_warning(message, remedy)
+        }
+    }
+
+    pub(super) fn finding_warning(message: impl Into<String>, remedy: impl Into<ErrorRemedy>) -> Self {
+        let remedy = Some(remedy.into());
+        Self {
+            severity: "warning",
+            line: None,
+            message: message.into(),
+            remedy,
+        }
+    }
+}
+
+impl FileReport {
+    pub(super) fn new(path: &Path, status: FileStatus) -> Self {
+        Self {
+            path: legible_path_text(path),
+            status,
+            recording: None,
+            understood: Box::default(),
+            findings: Vec::new(),
+            edits: Vec::new(),
+        }
+    }
+
+    /// Returns the report of a file that was skipped, with the reason.
+    pub(super) fn skipped_file_report(path: &Path, why: &CorpusError) -> Self {
+        let mut report = Self::new(path, FileStatus::Skipped);
+        report.findings.push(ReportFinding {
+            severity: "note",
+            line: None,
+            message: why.to_string(),
+            remedy: why.error_remedy(),
+        });
+        report
+    }
+
+    /// Returns the report of a file that the corpus already has; `earlier` is its earlier path, if that differs.
+    pub(super) fn unchanged_file_report(path: &Path, earlier: Option<&str>) -> Self {
+        let mut report = Self::new(path, FileStatus::Unchanged);
+        let message = match earlier {
+            Some(place) => format!("the same bytes were imported before, from {place}"),
+            None => "the same file was imported before".to_owned(),
+        };
+        report.findings.push(ReportFinding::finding_note(message));
+        report
+    }
+
+    pub(super) fn refused_file_report(path: &Path, error: &CorpusError) -> Self {
+        let mut report = Self::new(path, FileStatus::Refused);
+        let place = error.error_place().unwrap_or_default();
+        let line = place.strip_prefix("line ").and_then(|line| line.parse().ok());
+        report.findings.push(ReportFinding {
+            severity: "error",
+            line,
+            message: error.to_string(),
+            remedy: error.error_remedy(),
+        });
+        report
+    }
+}
+
+impl ImportReport {
+    /// Returns the kinds of files in the folders that were not read: their ending, the files, the reason, and a way to
+    /// make their contents readable.
+    #[must_use]
+    pub fn unread_file_kinds(&self) -> Vec<UnreadFileKind> {
+        let mut kinds: Vec<UnreadFileKind> = Vec::new();
+        for file in &self.files {
+            if file.status != FileStatus::Skipped {
+                continue;
+            }
+            let ending = super::readers::lower_file_ending(Path::new(&file.path));
+            let first = file.findings.first();
+            let why = first.map(|finding| finding.message.clone()).unwrap_or_default();
+            let same = |kind: &&mut UnreadFileKind| kind.ending == ending && kind.why == why;
+            if let Some(known) = kinds.iter_mut().find(same) {
+                known.files.push(file.path.clone());
+                continue;
+            }
+            kinds.push(UnreadFileKind {
+                ending,
+                files: vec![file.path.clone()],
+                why,
+                remedy: first.and_then(|finding| finding.remedy.clone()),
+            });
+        }
+        kinds
+    }
+
+    /// Returns whether a file was refused.
+    #[must_use]
+    pub fn has_refusals(&self) -> bool {
+        self.files.iter().any(|file| file.status == FileStatus::Refused)
+    }
+
+    pub(super) fn import_effect(&self) -> OperationEffect {
+        let imported = self
+            .files
+            .iter()
+            .filter(|file| matches!(file.status, FileStatus::Imported | FileStatus::Updated));
+        let names: Vec<&str> = imported
+            .filter_map(|file| Path::new(&file.path).file_name()?.to_str())
+            .collect();
+        let name = |name: Option<&&str>| name.map_or_else(String::new, ToString::to_string);
+        OperationEffect::Import {
+            count: names.len() as u64,
+            first: name(names.first()),
+            last: name(names.last()),
+        }
+    }
+}

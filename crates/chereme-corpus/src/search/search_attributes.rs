@@ -1,0 +1,125 @@
+//! Comparisons of attributes, answered from their rows.
+
+use std::collections::BTreeSet;
+
+use chereme_sign::query::{
+    AttributeTest, ComparisonOperator, MissingReason, QueryError, QueryTest, QueryValue, ValueComparison, WantedValue,
+    parse_plain_number,
+};
+use chereme_sign::text::{fold_text, nearest_candidate};
+
+use super::compile::{QueryContext, QueryResult};
+use super::probe::{IndexProbe, RowField};
+use super::search_plan::QueryPlan;
+use super::search_texts::TextGlob;
+use crate::db::stored_attributes::{self, AttributeRow};
+
+/// Returns the plan for the tokens whose attribute passes.
+///
+/// The name of an attribute is compared without regard to case, accents and characters other than letters and digits.
+///
+/// # Errors
+/// Fails if no entry of the corpus has an attribute of this name.
+pub(super) fn plan_attribute_test(
+    ask: &QueryContext<'_>,
+    test: &QueryTest,
+    name: &str,
+    wanted: &AttributeTest,
+) -> QueryResult<QueryPlan> {
+    let all = stored_attributes::list_attribute_names(ask.connection)?;
+    let names: Vec<String> = all
+        .iter()
+        .filter(|own| attribute_name_key(own) == attribute_name_key(name))
+        .cloned()
+        .collect();
+    if names.is_empty() {
+        return Err(unknown_attribute_error(test, name, &all).into());
+    }
+    let (passing, having) = stored_attributes::tokens_that(ask.connection, &names, |row| match wanted {
+        AttributeTest::Number(..) => row.number.is_some_and(|number| wanted.accepts_attribute_number(number)),
+        AttributeTest::Value(comparison) => comparison
+            .values
+            .iter()
+            .any(|value| is_attribute_match(row, value, comparison.operator)),
+    })?;
+    let tokens = |ids: BTreeSet<i64>| {
+        let ids = ids.into_iter().collect();
+        QueryPlan::Index(IndexProbe::Rows(RowField::Token, ids))
+    };
+    let comparison = match wanted {
+        AttributeTest::Number(..) => return Ok(tokens(passing)),
+        AttributeTest::Value(comparison) => comparison,
+    };
+    let unset = |value: &QueryValue| value.wanted == WantedValue::Missing(MissingReason::Unset);
+    let token_plan = match comparison.values.iter().any(unset) {
+        true => QueryPlan::disjoin_plans(vec![tokens(passing), tokens(having.clone()).negate_plan()]),
+        false => tokens(passing),
+    };
+    Ok(match comparison.operator {
+        ComparisonOperator::IsNot if names_one(comparison) => {
+            QueryPlan::conjoin_plans(vec![tokens(having), token_plan.negate_plan()])
+        }
+        ComparisonOperator::IsNot => token_plan.negate_plan(),
+        ComparisonOperator::Is | ComparisonOperator::Exactly => token_plan,
+    })
+}
+
+fn names_one(comparison: &ValueComparison) -> bool {
+    let named = |value: &QueryValue| matches!(value.wanted, WantedValue::Named(_));
+    comparison.values.iter().any(named)
+}
+
+fn is_attribute_match(row: &AttributeRow, value: &QueryValue, operator: ComparisonOperator) -> bool {
+    match &value.wanted {
+        WantedValue::Present => true,
+        WantedValue::Missing(_) | WantedValue::Features(_) | WantedValue::Steps(_) => false,
+        WantedValue::Named(pattern) if operator == ComparisonOperator::Exactly => {
+            TextGlob::from_exact_pattern(pattern).matches_whole_text(row.text.trim())
+        }
+        WantedValue::Named(pattern) => {
+            let wanted = pattern.as_literal().and_then(parse_plain_number);
+            let equal = wanted.zip(row.number).is_some_and(|(one, other)| one == other);
+            equal
+                || TextGlob::from_whole_pattern(pattern).fits_either_text(row.text.trim(), &fold_text(row.text.trim()))
+        }
+    }
+}
+
+fn attribute_name_key(name: &str) -> String {
+    fold_text(name).chars().filter(|c| c.is_alphanumeric()).collect()
+}
+
+fn unknown_attribute_error(test: &QueryTest, name: &str, all: &[String]) -> QueryError {
+    const MAX_NAMED_ATTRIBUTES: usize = 12;
+    let shown: Vec<&str> = all.iter().take(MAX_NAMED_ATTRIBUTES).map(String::as_str).collect();
+    let remedy = match all.len() {
+        0 => {
+            "the signs of this corpus have no attributes; columns of a lexicon table that are no components become some"
+                .to_owned()
+        }
+        count if count > MAX_NAMED_ATTRIBUTES => {
+            format!(
+                "the attributes are: {} and {} more",
+                shown.join(", "),
+                count - MAX_NAMED_ATTRIBUTES
+            )
+        }
+        _ => format!("the attributes are: {}", shown.join(", ")),
+    };
+    let fields = ["duration", "start", "end"];
+    let known_names = all.iter().map(String::as_str).chain(fields);
+    let suggestion = nearest_candidate(name, known_names).map(|meant| {
+        let plain = meant.chars().all(|c| c.is_alphanumeric() || "-_.".contains(c));
+        match plain {
+            _ if fields.contains(&meant) => meant.to_owned(),
+            true => format!("attribute.{meant}"),
+            false => format!("attribute({meant:?})"),
+        }
+    });
+    QueryError {
+        at: test.subject_at.char_range(),
+        message: format!("there is no field or attribute {name:?}"),
+        remedy: remedy.into(),
+        suggestion,
+    }
+}

@@ -1,0 +1,314 @@
+//! Frequency tables: the number of tokens found that have each value of one field, or of two.
+
+use std::collections::BTreeMap;
+
+use chereme_sign::query::{TestSubject, TextField, TokenQuery, WholeTokenProperty};
+use chereme_sign::{ComponentField, ComponentReading};
+use serde::Serialize;
+
+use super::compile::{QueryContext, QueryFailure, QueryResult};
+use super::docs::{self, DocumentList};
+use super::probe::{IndexDocument, IndexProbe, IndexTextField, RowField};
+use super::search_known::KnownReading;
+use super::{compile, search_plan, wrong_query_error};
+use crate::Corpus;
+use crate::db::stored_search::search_answers::{self, NamedRowKind};
+use crate::db::stored_search::search_terms::{TokenProperty, hands_of, phase_counts, reading_term_text};
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::ProgressReceiver;
+
+/// The largest number of cells in a cross table.
+const MAX_TALLY_CELLS: usize = 1_000_000;
+
+/// The row or column of the tokens that have no value of a field.
+pub const NO_VALUE: &str = "unset";
+/// The row or column of the tokens for which a field is coded as not applicable.
+const NOT_APPLICABLE: &str = "n/a";
+/// The row or column of the tokens for which a field is coded as unclear.
+const UNCLEAR_TALLY_LABEL: &str = "unclear";
+
+/// Number of tokens for each value of one field, or each pair of values of two fields.
+///
+/// A token with several values of a field is counted for each of them, as a query for each would match it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ValueTally {
+    /// The query in its canonical form.
+    pub query: String,
+    /// How many tokens it finds.
+    pub total: usize,
+    /// The fields, one or two, by their house names.
+    pub fields: Vec<String>,
+    /// The values of the second field, the most frequent first; empty if there is one field.
+    pub columns: Vec<String>,
+    /// A row for each value of the first field, the most frequent first; then those of `n/a` and `unclear`, and
+    /// [`NO_VALUE`] last. A value that is spelled like one of these is in quotation marks, as in a query.
+    pub rows: Vec<TallyRow>,
+}
+
+/// A row of a [`ValueTally`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TallyRow {
+    /// The value of the first field.
+    pub value: String,
+    /// How many tokens have it.
+    pub total: usize,
+    /// How many of them have each value of the second field.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub counts: Vec<usize>,
+}
+
+impl Corpus {
+    /// Counts the values of one or two fields among the tokens that a query finds.
+    ///
+    /// A field is a component (`placement`, `weak.configuration`), `gloss`, or a property such as
+    /// `signer`, `origin` or `recording`.
+    ///
+    /// # Errors
+    /// Those of [`search`](Self::search_tokens), [`CorpusError::Wrong`] if a field has no values to count, or the
+    /// table would be too large, and [`CorpusError::Stopped`].
+    pub fn tally_values(
+        &mut self,
+        query: &str,
+        fields: &[String],
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<ValueTally> {
+        let subject_results = fields.iter().map(|field| parse_tally_subject(field));
+        let subjects: Vec<TallySubject> = subject_results.collect::<CorpusResult<_>>()?;
+        if subjects.is_empty() || subjects.len() > 2 {
+            return Err(
+                CorpusError::from_wrong_message("values of one field or of two are counted")
+                    .with_advice("name for example placement, or placement and signer"),
+            );
+        }
+        self.evaluate_with_context(query, progress, &mut |ask, query| {
+            tally_query_subjects(ask, query, &subjects)
+        })
+    }
+}
+
+/// The subject of a count.
+enum TallySubject {
+    Component(ComponentField),
+    Property(WholeTokenProperty),
+    Gloss,
+}
+
+impl TallySubject {
+    fn tally_subject_name(&self) -> String {
+        match self {
+            Self::Component(field) => field.to_string(),
+            Self::Property(property) => property.property_name().to_owned(),
+            Self::Gloss => TextField::Gloss.text_field_name().to_owned(),
+        }
+    }
+}
+
+fn parse_tally_subject(name: &str) -> CorpusResult<TallySubject> {
+    let asked = format!("{}=*", name.trim());
+    let query = TokenQuery::parse_query(&asked).map_err(|error| {
+        // A time compares with times only, and has no values to count.
+        match TokenQuery::parse_query(&format!("{}>0s", name.trim())) {
+            Ok(_) => uncounted(name),
+            Err(_) => wrong_query_error(&asked, &error),
+        }
+    })?;
+    match query.query_tests()[..] {
+        [test] => match &test.what {
+            TestSubject::Component(field, _) => Ok(TallySubject::Component(field.clone())),
+            TestSubject::Property(property, _) => Ok(TallySubject::Property(*property)),
+            TestSubject::Whole(TextField::Gloss, _) => Ok(TallySubject::Gloss),
+            TestSubject::Attribute(own, _) if own == name.trim() => Err(CorpusError::from_wrong_message(format!(
+                "there is no field {name:?}, and attributes are not counted"
+            ))
+            .with_error_place(name)
+            .with_advice(COUNTED_FIELDS_REMEDY)),
+            _ => Err(uncounted(name)),
+        },
+        _ => Err(uncounted(name)),
+    }
+}
+
+/// The remedy for a field whose values are not counted.
+const COUNTED_FIELDS_REMEDY: &str = "count a component such as placement, or gloss, signer, recording, origin, hand";
+
+fn uncounted(name: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("values of {name:?} are not counted"))
+        .with_error_place(name)
+        .with_advice(COUNTED_FIELDS_REMEDY)
+}
+
+fn tally_query_subjects(
+    ask: &QueryContext<'_>,
+    query: &TokenQuery,
+    subjects: &[TallySubject],
+) -> QueryResult<ValueTally> {
+    let plan = compile::plan_expression(ask, &query.root)?;
+    let found = search_plan::evaluate_query_plan(ask, &plan, None)?;
+    let mut groups = subjects
+        .iter()
+        .map(|subject| group_documents_by_value(ask, &found, subject))
+        .collect::<QueryResult<Vec<_>>>()?
+        .into_iter();
+    let rows = groups.next().unwrap_or_default();
+    let columns = groups.next().unwrap_or_default();
+    if rows.len().saturating_mul(columns.len()) > MAX_TALLY_CELLS {
+        let message = format!("the table would have {} rows and {} columns", rows.len(), columns.len());
+        let remedy = "count fields of fewer values, or one field";
+        return Err(QueryFailure::Other(
+            CorpusError::from_wrong_message(message).with_advice(remedy),
+        ));
+    }
+    let mut of_doc: BTreeMap<IndexDocument, Vec<usize>> = BTreeMap::new();
+    for (number, (_, docs)) in columns.iter().enumerate() {
+        for doc in docs {
+            of_doc.entry(*doc).or_default().push(number);
+        }
+    }
+    let row = |(value, docs): (String, DocumentList)| {
+        let mut counts = vec![0; columns.len()];
+        for number in docs.iter().filter_map(|doc| of_doc.get(doc)).flatten() {
+            counts[*number] += 1;
+        }
+        TallyRow {
+            value,
+            total: docs.len(),
+            counts,
+        }
+    };
+    Ok(ValueTally {
+        query: query.to_string(),
+        total: found.len(),
+        fields: subjects.iter().map(TallySubject::tally_subject_name).collect(),
+        rows: rows.into_iter().map(row).collect(),
+        columns: columns.into_iter().map(|(value, _)| value).collect(),
+    })
+}
+
+/// Returns the values of a field with the documents that have each, the most frequent first.
+fn group_documents_by_value(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    subject: &TallySubject,
+) -> QueryResult<Vec<(String, DocumentList)>> {
+    let mut groups = match subject {
+        TallySubject::Component(field) => of_component(ask, found, field)?,
+        TallySubject::Gloss => of_rows(ask, found, RowField::Sign, NamedRowKind::Sign)?,
+        TallySubject::Property(property) => match property {
+            WholeTokenProperty::Signer => of_rows(ask, found, RowField::Signer, NamedRowKind::Signer)?,
+            WholeTokenProperty::Recording => of_rows(ask, found, RowField::Recording, NamedRowKind::Recording)?,
+            WholeTokenProperty::Sign => of_rows(ask, found, RowField::Sign, NamedRowKind::Sign)?,
+            WholeTokenProperty::Origin => of_mark(ask, found, TokenProperty::Origin)?,
+            WholeTokenProperty::Hand => of_mark(ask, found, TokenProperty::Hand)?,
+            WholeTokenProperty::Tier => of_mark(ask, found, TokenProperty::Tier)?,
+            WholeTokenProperty::Inventory => of_mark(ask, found, TokenProperty::Inventory)?,
+            _ => return Err(QueryFailure::Other(uncounted(property.property_name()))),
+        },
+    };
+    groups.retain(|(_, docs)| !docs.is_empty());
+    groups.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then_with(|| a.0.cmp(&b.0)));
+    for (value, _) in &mut groups {
+        if [NOT_APPLICABLE, UNCLEAR_TALLY_LABEL, NO_VALUE].contains(&value.as_str()) {
+            *value = format!("\"{value}\"");
+        }
+    }
+    let mut unset = DocumentList::new();
+    if let TallySubject::Component(field) = subject {
+        for (name, reading) in [
+            (NOT_APPLICABLE, ComponentReading::NotApplicable),
+            (UNCLEAR_TALLY_LABEL, ComponentReading::Unclear),
+        ] {
+            groups.push((name.to_owned(), documents_without_value(ask, found, field, &reading)?));
+        }
+        unset = documents_without_value(ask, found, field, &ComponentReading::Unset)?;
+    }
+    let mut all: DocumentList = groups.iter().flat_map(|(_, docs)| docs).copied().collect();
+    all.sort_unstable();
+    all.dedup();
+    unset.extend(docs::subtract_documents(found, &all));
+    unset.sort_unstable();
+    unset.dedup();
+    groups.push((NO_VALUE.to_owned(), unset));
+    groups.retain(|(_, docs)| !docs.is_empty());
+    Ok(groups)
+}
+
+fn of_component(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    field: &ComponentField,
+) -> QueryResult<Vec<(String, DocumentList)>> {
+    let readings = ask.known_component_readings(field.component)?;
+    let mut groups = Vec::new();
+    let values = readings.parts.get(&field.feature).into_iter();
+    for known in values.flat_map(|values| values.values()).flatten() {
+        if let ComponentReading::Value(value) = &known.reading {
+            groups.push((value.clone(), having(ask, found, field, known)?));
+        }
+    }
+    Ok(groups)
+}
+
+/// Returns the documents for which a field is coded as one of the readings without a value.
+fn documents_without_value(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    field: &ComponentField,
+    reading: &ComponentReading,
+) -> QueryResult<DocumentList> {
+    let readings = ask.known_component_readings(field.component)?;
+    let values = readings.parts.get(&field.feature);
+    let alike = values.and_then(|values| values.get(reading_term_text(reading)));
+    let known_reading = alike.and_then(|alike| alike.iter().find(|candidate| candidate.reading == *reading));
+    known_reading.map_or(Ok(DocumentList::new()), |known| having(ask, found, field, known))
+}
+
+/// Returns the documents that have a reading with the hand and the phase of a field.
+fn having(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    field: &ComponentField,
+    known: &KnownReading,
+) -> QueryResult<DocumentList> {
+    let hands = hands_of(field.hand);
+    let terms = known.terms.iter();
+    let field_terms = terms.filter(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
+    let texts: Vec<&str> = field_terms.map(|(_, _, term)| term.as_str()).collect();
+    let docs = ask.run(&IndexProbe::from_reading_terms(texts))?;
+    Ok(docs::intersect_documents(&docs, found))
+}
+
+fn of_mark(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    mark: TokenProperty,
+) -> QueryResult<Vec<(String, DocumentList)>> {
+    let prefix = mark.property_term_prefix();
+    let mut groups = Vec::new();
+    for term in ask.now.field_terms(IndexTextField::Reading, &prefix, &|_| true)? {
+        let docs = ask.run(&IndexProbe::from_reading_terms([&term]))?;
+        let value = term[prefix.len()..].to_owned();
+        groups.push((value, docs::intersect_documents(&docs, found)));
+    }
+    Ok(groups)
+}
+
+fn of_rows(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    field: RowField,
+    named: NamedRowKind,
+) -> QueryResult<Vec<(String, DocumentList)>> {
+    let rows = ask.now.open_row_column(field)?;
+    let mut by_row: BTreeMap<i64, DocumentList> = BTreeMap::new();
+    for doc in found {
+        if let Some(row) = rows.document_number(*doc) {
+            by_row.entry(row).or_default().push(*doc);
+        }
+    }
+    let mut groups = Vec::with_capacity(by_row.len());
+    for (row, docs) in by_row {
+        let name = search_answers::find_row_name(ask.connection, named, row)?;
+        groups.push((name.unwrap_or_default(), docs));
+    }
+    Ok(groups)
+}

@@ -1,0 +1,199 @@
+//! Sentences that describe the effects of operations, from the messages `history-…` of the files of words.
+
+use chereme_motion::RecordingInstant;
+use serde_json::{Value, json};
+
+use super::InterfaceLanguage;
+use super::count::format_noun_count;
+use super::effect::{AnnotationDeed, AnnotationEffect, OperationEffect};
+use super::phrases::BlankedPhrase;
+use super::sentences::{filled_sentence, load_message_patterns};
+use crate::{ChangeKind, ChangedRow, FieldChange};
+
+texts! {
+    TITLE: "History", "Historique";
+    EMPTY: "Nothing has been done yet.", "Rien n’a encore été fait.";
+    FILTER: "Who or what", "Qui ou quoi";
+    NONE_FIT: "Nothing like that was done.", "Rien de tel n’a été fait.";
+    NOW: "now", "maintenant";
+    UNDONE: "undone", "annulé";
+    GONE: "undone, and not to be done again", "annulé, et ne peut être rétabli";
+    BEGINNING: "The empty corpus", "Le corpus vide";
+    TIP_BACK: "Click to go back to just after this", "Cliquez pour revenir juste après ceci";
+    TIP_FORWARD: "Click to do it again, up to here", "Cliquez pour rétablir jusqu’ici";
+    WALK_BACK: "Undo {n} steps?", "Annuler {n} étapes ?";
+    WALK_FORWARD: "Do {n} steps again?", "Rétablir {n} étapes ?";
+    WALK_GO: "Yes", "Oui";
+    WALKED_BACK: "{n} steps undone.", "{n} étapes annulées.";
+    WALKED_FORWARD: "{n} steps done again.", "{n} étapes rétablies.";
+    UNDID: "undone: operation {id}, {what}", "annulé : opération {id}, {what}";
+    REDID: "done again: operation {id}, {what}", "rétabli : opération {id}, {what}";
+    ALL_UNDONE: "{count} undone, and nothing is left to undo ({asked} were asked for)", "annulé : {count}, et il ne reste rien à annuler ({asked} étaient demandées)";
+    ALL_REDONE: "{count} done again, and nothing is left to redo ({asked} were asked for)", "rétabli : {count}, et il ne reste rien à rétablir ({asked} étaient demandées)";
+    UNDO_OF: "undo of {id}: ", "annulation de {id} : ";
+    REDO_OF: "redo of {id}: ", "rétablissement de {id} : ";
+    NUMBER: "id", "n°";
+    WHEN: "when", "quand";
+    WHO: "who", "qui";
+    WHAT: "what", "quoi";
+    CHANGES: "changes", "modifications";
+    DONE_AGAIN: "Done again: {what}", "Rétabli : {what}";
+    BY_OTHERS: "{who} changed the corpus in another program: {what}", "{who} a modifié le corpus dans un autre programme : {what}";
+}
+
+/// Returns the effect of an operation, as a sentence.
+#[must_use]
+pub fn operation_sentence(effect: &OperationEffect, language: InterfaceLanguage) -> String {
+    let mut fields = effect.to_json();
+    let special = match effect {
+        OperationEffect::ChangeSign { former: Some(_), .. } => Some("rename-sign".to_owned()),
+        OperationEffect::FitMarkers { subject: Some(_), .. } => Some("fit-markers-of-person".to_owned()),
+        OperationEffect::SummaryOnly { name, .. } => {
+            let special = format!("summary-only-{}", name.replace(' ', "-"));
+            let is_known = load_message_patterns(language).contains_key(sentence_id(&special).as_str());
+            is_known.then_some(special)
+        }
+        _ => None,
+    };
+    if let Some(id) = special {
+        fields["does"] = id.into();
+    }
+    described_value(&fields, language)
+}
+
+/// Returns the effect of an operation in English, as programs get it.
+pub(super) fn operation_summary(effect: &OperationEffect) -> String {
+    let fields = effect.to_json();
+    BlankedPhrase::from_form(effect.summary_form()).fill_phrase_blanks(|name| {
+        let quoted = name.strip_prefix("quoted ").map(|name| &fields[name]);
+        match (name, quoted.unwrap_or(&fields[name])) {
+            ("changes", Value::Array(deeds)) => {
+                let deeds: Vec<String> = deeds.iter().map(summary_of_deed).collect();
+                deeds.join(", ")
+            }
+            ("annotations" | "conflicts" | "participants", Value::Number(count)) => {
+                format_noun_count(count.as_u64().unwrap_or_default(), name)
+            }
+            (_, Value::String(text)) if quoted.is_some() => format!("{text:?}"),
+            (_, field) => described_value(field, InterfaceLanguage::English),
+        }
+    })
+}
+
+fn summary_of_deed(deed: &Value) -> String {
+    match deed["does"].as_str() {
+        Some("annotations-added") => format!("{} added", deed["count"]),
+        Some("annotations-changed") => format!("{} changed", deed["count"]),
+        Some("annotations-removed") => format!("{} removed", deed["count"]),
+        _ => described_value(deed, InterfaceLanguage::English),
+    }
+}
+
+/// Returns the effect of undoing an operation, as a sentence: removed things are restored.
+#[must_use]
+pub fn undo_sentence(effect: &OperationEffect, language: InterfaceLanguage) -> String {
+    let mut fields = effect.to_json();
+    match effect {
+        OperationEffect::Delete { .. } => fields["does"] = "delete-undone".into(),
+        OperationEffect::Annotate(AnnotationEffect { changes, .. })
+            if matches!(changes[..], [AnnotationDeed::AnnotationsRemoved { .. }]) =>
+        {
+            fields["changes"][0]["does"] = "annotations-removed-undone".into();
+        }
+        _ => {
+            let what = operation_sentence(effect, language);
+            fields = json!({ "does": "undone", "what": what });
+        }
+    }
+    described_value(&fields, language)
+}
+
+/// Returns changes of annotations as a sentence, such as `2 annotations added, 1 annotation changed in X`.
+#[must_use]
+pub fn annotation_sentence(effect: &AnnotationEffect, language: InterfaceLanguage) -> String {
+    operation_sentence(&OperationEffect::Annotate(effect.clone()), language)
+}
+
+/// Returns the change of a row as a line of text.
+#[must_use]
+pub fn change_sentence(change: &ChangedRow, language: InterfaceLanguage) -> String {
+    let time = |name: &str| {
+        let field = change.fields.iter().find(|field| field.field == name)?;
+        let micros = field.from.as_i64().or_else(|| field.to.as_i64())?;
+        Some(RecordingInstant::from_micros(micros).to_string())
+    };
+    let place = match change.place_names.as_slice() {
+        [] => Value::Null,
+        [name] => json!({ "does": "row-place", "what": change.what, "name": name }),
+        [name, whole, ..] => json!({ "does": "row-place-of", "name": name, "whole": whole }),
+    };
+    let span = match time("start_us").zip(time("end_us")) {
+        Some((start, end)) => json!({ "does": "row-span", "start": start, "end": end }),
+        None => Value::Null,
+    };
+    let fields = change.fields.iter().map(|field| described_field(field, language));
+    let joined = |one: String, other: String| {
+        let both = json!({ "does": "row-fields", "one": one, "other": other });
+        described_value(&both, language)
+    };
+    let joined_fields = fields.reduce(joined);
+    let fields = joined_fields.map_or_else(|| json!({ "does": "row-order" }), Value::from);
+    let does = match change.kind {
+        ChangeKind::Added => "row-added",
+        ChangeKind::Removed => "row-removed",
+        ChangeKind::Changed => "row-changed",
+    };
+    let name = format!("{:?}", change.name);
+    let row =
+        json!({ "does": does, "what": change.what, "name": name, "place": place, "span": span, "fields": fields });
+    described_value(&row, language)
+}
+
+/// Returns a field before and after.
+fn described_field(change: &FieldChange, language: InterfaceLanguage) -> String {
+    let is_time = change.field.ends_with("_us");
+    let text = |value: &Value| match value {
+        Value::Null => json!({ "does": "row-nothing" }),
+        Value::String(text) => format!("{text:?}").into(),
+        Value::Number(number) if is_time => {
+            let micros = number.as_i64().unwrap_or_default();
+            RecordingInstant::from_micros(micros).to_string().into()
+        }
+        other => other.to_string().into(),
+    };
+    let field = change.field.trim_end_matches("_us").replace('_', " ");
+    let (from, to) = (text(&change.from), text(&change.to));
+    let field = json!({ "does": "row-field", "field": field, "from": from, "to": to });
+    described_value(&field, language)
+}
+
+/// Returns a stored value in words: an object by the message that its `does` names, a list by its items.
+fn described_value(value: &Value, language: InterfaceLanguage) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        Value::Array(items) => {
+            let items: Vec<String> = items.iter().map(|item| described_value(item, language)).collect();
+            items.join(", ")
+        }
+        Value::Object(fields) => {
+            let field = |name: &str| match fields.get(name) {
+                Some(value) => described_value(value, language),
+                None => format!("{{{name}}}"),
+            };
+            let stated_id = fields.get("does").and_then(Value::as_str);
+            let id = stated_id.unwrap_or_default();
+            let sentence = filled_sentence(&sentence_id(id), language, &field);
+            sentence.unwrap_or_else(|| id.to_owned())
+        }
+        other => other.to_string(),
+    }
+}
+
+fn sentence_id(id: &str) -> String {
+    format!("history-{id}")
+}
+
+#[cfg(test)]
+#[path = "tests/history.rs"]
+mod tests;

@@ -1,0 +1,559 @@
+//! Reads bytes into a raw document.
+
+use super::eaf_fields::{AttributeField, DocumentReader};
+use super::eaf_raw::*;
+use super::error::EafError;
+use super::xml::{XmlCursor, XmlStartTag};
+use crate::finding::ImportFinding;
+
+/// Reads an EAF document (or an `.etf` template) of any format version up to 3.0.
+///
+/// Attributes may come in any order. Parts beyond the schema are kept and reported as findings; a missing
+/// attribute is reported, too, and becomes an empty text. [`check_eaf_references`](super::eaf_raw::check_eaf_references) checks the references.
+///
+/// # Errors
+/// [`EafError`] if the bytes are not UTF-8 (see [`decode_eaf`](super::decode_eaf)), not XML, cut short, not EAF, declare a document type, or exceed
+/// the limits on depth and attributes.
+pub fn read_eaf_document(bytes: &[u8]) -> Result<(EafDocument<'_>, Vec<ImportFinding>), EafError> {
+    read_document_with_root(bytes, "ANNOTATION_DOCUMENT")
+}
+
+/// Reads an external controlled vocabulary (`.ecv`, root `CV_RESOURCE`); only the vocabularies,
+/// languages and external references of the document are filled.
+///
+/// # Errors
+/// The same as [`read_eaf_document`]'s.
+pub fn read_ecv(bytes: &[u8]) -> Result<(EafDocument<'_>, Vec<ImportFinding>), EafError> {
+    read_document_with_root(bytes, "CV_RESOURCE")
+}
+
+fn read_document_with_root<'a>(
+    bytes: &'a [u8],
+    root: &'static str,
+) -> Result<(EafDocument<'a>, Vec<ImportFinding>), EafError> {
+    let mut reader = DocumentReader {
+        cursor: XmlCursor::new(bytes)?,
+    };
+    let root = reader.cursor.read_root_tag(root)?;
+    let document = reader.read_eaf_root(&root)?;
+    reader.cursor.check_document_end()?;
+    Ok((document, reader.cursor.findings.finish_finding_tally()))
+}
+
+impl<'a> DocumentReader<'a> {
+    fn read_eaf_root(&mut self, tag: &XmlStartTag<'a>) -> Result<EafDocument<'a>, EafError> {
+        let mut doc = EafDocument::default();
+        let mut kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("AUTHOR", AttributeField::Text(&mut doc.author)),
+                ("DATE", AttributeField::Text(&mut doc.date)),
+                ("VERSION", AttributeField::Text(&mut doc.version)),
+                ("FORMAT", AttributeField::Optional(&mut doc.format)),
+                (
+                    "xsi:noNamespaceSchemaLocation",
+                    AttributeField::Optional(&mut doc.schema),
+                ),
+                ("xmlns:xsi", AttributeField::Ignored),
+            ],
+        )?;
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            match child.name {
+                "LICENSE" => doc.licenses.push(self.license(&child)?),
+                "HEADER" => self.read_eaf_header(&child, &mut doc.header)?,
+                "TIME_ORDER" => self.time_order(&child, &mut doc.time_order)?,
+                "TIER" => doc.tiers.push(self.read_eaf_tier(&child)?),
+                "LINGUISTIC_TYPE" => doc.linguistic_types.push(self.linguistic_type(&child)?),
+                "LOCALE" => doc.locales.push(self.read_eaf_locale(&child)?),
+                "LANGUAGE" => doc.languages.push(self.read_eaf_language(&child)?),
+                "CONSTRAINT" => doc.constraints.push(self.read_eaf_constraint(&child)?),
+                "CONTROLLED_VOCABULARY" => doc.vocabularies.push(self.read_eaf_vocabulary(&child)?),
+                "LEXICON_REF" => doc.lexicon_refs.push(self.lexicon_ref(&child)?),
+                "REF_LINK_SET" => doc.ref_link_sets.push(self.ref_link_set(&child)?),
+                "EXTERNAL_REF" => doc.external_refs.push(self.external_ref(&child)?),
+                _ => self.keep_unknown_child(tag, &child, &mut kept)?,
+            }
+        }
+        doc.kept = kept;
+        doc.source = tag.tag_source_text();
+        Ok(doc)
+    }
+
+    fn license(&mut self, tag: &XmlStartTag<'a>) -> Result<EafLicense<'a>, EafError> {
+        let mut license = EafLicense::default();
+        license.kept =
+            self.read_attribute_fields(tag, &mut [("LICENSE_URL", AttributeField::Text(&mut license.url))])?;
+        license.text = self.cursor.read_tag_text(tag)?;
+        Ok(license)
+    }
+
+    fn read_eaf_header(&mut self, tag: &XmlStartTag<'a>, header: &mut EafHeader<'a>) -> Result<(), EafError> {
+        let mut kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("MEDIA_FILE", AttributeField::Text(&mut header.media_file)),
+                ("TIME_UNITS", AttributeField::Optional(&mut header.time_units)),
+            ],
+        )?;
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            match child.name {
+                "MEDIA_DESCRIPTOR" => header.media.push(self.read_media_descriptor(&child)?),
+                "LINKED_FILE_DESCRIPTOR" => header.linked_files.push(self.linked_file(&child)?),
+                "PROPERTY" => header.properties.push(self.read_eaf_property(&child)?),
+                _ => self.keep_unknown_child(tag, &child, &mut kept)?,
+            }
+        }
+        header.kept = kept;
+        Ok(())
+    }
+
+    fn read_media_descriptor(&mut self, tag: &XmlStartTag<'a>) -> Result<MediaDescriptor<'a>, EafError> {
+        let mut media = MediaDescriptor::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("MEDIA_URL", AttributeField::Required(&mut media.url)),
+                ("MIME_TYPE", AttributeField::Required(&mut media.mime_type)),
+                ("RELATIVE_MEDIA_URL", AttributeField::Optional(&mut media.relative_url)),
+                ("TIME_ORIGIN", AttributeField::Time(&mut media.time_origin)),
+                ("EXTRACTED_FROM", AttributeField::Optional(&mut media.extracted_from)),
+            ],
+        )?;
+        media.kept = self.read_leaf_end(tag, kept)?;
+        Ok(media)
+    }
+
+    fn linked_file(&mut self, tag: &XmlStartTag<'a>) -> Result<LinkedFile<'a>, EafError> {
+        let mut file = LinkedFile::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("LINK_URL", AttributeField::Required(&mut file.url)),
+                ("MIME_TYPE", AttributeField::Required(&mut file.mime_type)),
+                ("RELATIVE_LINK_URL", AttributeField::Optional(&mut file.relative_url)),
+                ("TIME_ORIGIN", AttributeField::Time(&mut file.time_origin)),
+                ("ASSOCIATED_WITH", AttributeField::Optional(&mut file.associated_with)),
+            ],
+        )?;
+        file.kept = self.read_leaf_end(tag, kept)?;
+        Ok(file)
+    }
+
+    fn read_eaf_property(&mut self, tag: &XmlStartTag<'a>) -> Result<EafProperty<'a>, EafError> {
+        let mut property = EafProperty::default();
+        property.kept =
+            self.read_attribute_fields(tag, &mut [("NAME", AttributeField::Optional(&mut property.name))])?;
+        property.value = self.cursor.read_tag_text(tag)?;
+        Ok(property)
+    }
+
+    fn time_order(&mut self, tag: &XmlStartTag<'a>, slots: &mut Vec<TimeSlot<'a>>) -> Result<(), EafError> {
+        let kept = self.read_attribute_fields(tag, &mut [])?;
+        self.not_kept(tag, kept.as_deref());
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            if child.name == "TIME_SLOT" {
+                slots.push(self.time_slot(&child)?);
+            } else {
+                self.skip_unknown(tag, &child)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn time_slot(&mut self, tag: &XmlStartTag<'a>) -> Result<TimeSlot<'a>, EafError> {
+        let mut slot = TimeSlot {
+            at: tag.start_tag_position(),
+            ..TimeSlot::default()
+        };
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("TIME_SLOT_ID", AttributeField::Required(&mut slot.id)),
+                ("TIME_VALUE", AttributeField::Time(&mut slot.value)),
+            ],
+        )?;
+        slot.kept = self.read_leaf_end(tag, kept)?;
+        Ok(slot)
+    }
+
+    fn read_eaf_tier(&mut self, tag: &XmlStartTag<'a>) -> Result<EafTier<'a>, EafError> {
+        let mut tier = EafTier {
+            at: tag.start_tag_position(),
+            ..EafTier::default()
+        };
+        let mut kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("TIER_ID", AttributeField::Required(&mut tier.id)),
+                (
+                    "LINGUISTIC_TYPE_REF",
+                    AttributeField::Required(&mut tier.linguistic_type),
+                ),
+                ("PARTICIPANT", AttributeField::Optional(&mut tier.participant)),
+                ("ANNOTATOR", AttributeField::Optional(&mut tier.annotator)),
+                ("DEFAULT_LOCALE", AttributeField::Optional(&mut tier.locale)),
+                ("PARENT_REF", AttributeField::Optional(&mut tier.parent)),
+                ("EXT_REF", AttributeField::Optional(&mut tier.external_ref)),
+                ("LANG_REF", AttributeField::Optional(&mut tier.language)),
+            ],
+        )?;
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            if child.name == "ANNOTATION" {
+                self.read_eaf_annotations(&child, &mut tier.annotations)?;
+            } else {
+                self.keep_unknown_child(tag, &child, &mut kept)?;
+            }
+        }
+        tier.kept = kept;
+        Ok(tier)
+    }
+
+    fn read_eaf_annotations(
+        &mut self,
+        tag: &XmlStartTag<'a>,
+        into: &mut Vec<EafAnnotation<'a>>,
+    ) -> Result<(), EafError> {
+        let kept = self.read_attribute_fields(tag, &mut [])?;
+        self.not_kept(tag, kept.as_deref());
+        let mut count = 0;
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            let mut annotation = blank(&child);
+            match child.name {
+                "ALIGNABLE_ANNOTATION" => self.alignable(&child, &mut annotation)?,
+                "REF_ANNOTATION" => self.reference(&child, &mut annotation)?,
+                _ => {
+                    self.skip_unknown(tag, &child)?;
+                    continue;
+                }
+            }
+            into.push(annotation);
+            count += 1;
+        }
+        if count != 1 {
+            self.cursor
+                .findings
+                .add_limited_finding("ANNOTATION elements with none or several annotations", || {
+                    ImportFinding::new_warning_finding(
+                        tag.start_tag_line(),
+                        format!("this ANNOTATION holds {count} annotations instead of one"),
+                    )
+                });
+        }
+        Ok(())
+    }
+
+    fn alignable(&mut self, tag: &XmlStartTag<'a>, annotation: &mut EafAnnotation<'a>) -> Result<(), EafError> {
+        let (mut start, mut end) = (EafText::default(), EafText::default());
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("ANNOTATION_ID", AttributeField::Required(&mut annotation.id)),
+                ("TIME_SLOT_REF1", AttributeField::Required(&mut start)),
+                ("TIME_SLOT_REF2", AttributeField::Required(&mut end)),
+                ("CVE_REF", AttributeField::Optional(&mut annotation.entry)),
+                ("EXT_REF", AttributeField::Optional(&mut annotation.external_ref)),
+                ("LANG_REF", AttributeField::Optional(&mut annotation.language)),
+                ("SVG_REF", AttributeField::Optional(&mut annotation.svg)),
+            ],
+        )?;
+        annotation.anchor = AnnotationAnchor::Slots { start, end };
+        self.annotation_value(tag, annotation, kept)
+    }
+
+    fn reference(&mut self, tag: &XmlStartTag<'a>, annotation: &mut EafAnnotation<'a>) -> Result<(), EafError> {
+        let (mut parent, mut previous) = (EafText::default(), None);
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("ANNOTATION_ID", AttributeField::Required(&mut annotation.id)),
+                ("ANNOTATION_REF", AttributeField::Required(&mut parent)),
+                ("PREVIOUS_ANNOTATION", AttributeField::Optional(&mut previous)),
+                ("CVE_REF", AttributeField::Optional(&mut annotation.entry)),
+                ("EXT_REF", AttributeField::Optional(&mut annotation.external_ref)),
+                ("LANG_REF", AttributeField::Optional(&mut annotation.language)),
+            ],
+        )?;
+        annotation.anchor = AnnotationAnchor::Parent { parent, previous };
+        self.annotation_value(tag, annotation, kept)
+    }
+
+    fn annotation_value(
+        &mut self,
+        tag: &XmlStartTag<'a>,
+        annotation: &mut EafAnnotation<'a>,
+        mut kept: KeptContents<'a>,
+    ) -> Result<(), EafError> {
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            if child.name == "ANNOTATION_VALUE" {
+                let unknown = self.read_attribute_fields(&child, &mut [])?;
+                self.not_kept(&child, unknown.as_deref());
+                annotation.value = self.cursor.read_tag_text(&child)?;
+            } else {
+                self.keep_unknown_child(tag, &child, &mut kept)?;
+            }
+        }
+        annotation.kept = kept;
+        Ok(())
+    }
+
+    fn linguistic_type(&mut self, tag: &XmlStartTag<'a>) -> Result<LinguisticType<'a>, EafError> {
+        let mut kind = LinguisticType {
+            at: tag.start_tag_position(),
+            ..LinguisticType::default()
+        };
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("LINGUISTIC_TYPE_ID", AttributeField::Required(&mut kind.id)),
+                ("TIME_ALIGNABLE", AttributeField::Flag(&mut kind.time_alignable)),
+                ("CONSTRAINTS", AttributeField::Optional(&mut kind.constraints)),
+                ("GRAPHIC_REFERENCES", AttributeField::Flag(&mut kind.graphic_references)),
+                (
+                    "CONTROLLED_VOCABULARY_REF",
+                    AttributeField::Optional(&mut kind.vocabulary),
+                ),
+                ("EXT_REF", AttributeField::Optional(&mut kind.external_ref)),
+                ("LEXICON_REF", AttributeField::Optional(&mut kind.lexicon_ref)),
+            ],
+        )?;
+        kind.kept = self.read_leaf_end(tag, kept)?;
+        Ok(kind)
+    }
+
+    fn read_eaf_locale(&mut self, tag: &XmlStartTag<'a>) -> Result<EafLocale<'a>, EafError> {
+        let mut locale = EafLocale::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("LANGUAGE_CODE", AttributeField::Required(&mut locale.language)),
+                ("COUNTRY_CODE", AttributeField::Optional(&mut locale.country)),
+                ("VARIANT", AttributeField::Optional(&mut locale.variant)),
+            ],
+        )?;
+        locale.kept = self.read_leaf_end(tag, kept)?;
+        Ok(locale)
+    }
+
+    fn read_eaf_language(&mut self, tag: &XmlStartTag<'a>) -> Result<EafLanguage<'a>, EafError> {
+        let mut language = EafLanguage::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("LANG_ID", AttributeField::Required(&mut language.id)),
+                ("LANG_DEF", AttributeField::Optional(&mut language.definition)),
+                ("LANG_LABEL", AttributeField::Optional(&mut language.label)),
+            ],
+        )?;
+        language.kept = self.read_leaf_end(tag, kept)?;
+        Ok(language)
+    }
+
+    fn read_eaf_constraint(&mut self, tag: &XmlStartTag<'a>) -> Result<EafConstraint<'a>, EafError> {
+        let mut constraint = EafConstraint::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("STEREOTYPE", AttributeField::Required(&mut constraint.stereotype)),
+                ("DESCRIPTION", AttributeField::Optional(&mut constraint.description)),
+            ],
+        )?;
+        constraint.kept = self.read_leaf_end(tag, kept)?;
+        Ok(constraint)
+    }
+
+    fn read_eaf_vocabulary(&mut self, tag: &XmlStartTag<'a>) -> Result<EafVocabulary<'a>, EafError> {
+        let mut cv = EafVocabulary {
+            at: tag.start_tag_position(),
+            ..EafVocabulary::default()
+        };
+        let mut legacy = None;
+        let mut kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("CV_ID", AttributeField::Required(&mut cv.id)),
+                ("EXT_REF", AttributeField::Optional(&mut cv.external_ref)),
+                ("DESCRIPTION", AttributeField::Optional(&mut legacy)),
+            ],
+        )?;
+        cv.descriptions.extend(legacy.map(|text| VocabularyDescription {
+            text,
+            ..VocabularyDescription::default()
+        }));
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            match child.name {
+                "DESCRIPTION" => cv.descriptions.push(self.read_vocabulary_description(&child)?),
+                "CV_ENTRY_ML" => cv.entries.push(self.read_vocabulary_entry(&child)?),
+                "CV_ENTRY" => cv.entries.push(self.legacy_entry(&child)?),
+                "EXTERNAL_REF" => cv.external_refs.push(self.external_ref(&child)?),
+                _ => self.keep_unknown_child(tag, &child, &mut kept)?,
+            }
+        }
+        cv.kept = kept;
+        Ok(cv)
+    }
+
+    fn read_vocabulary_description(&mut self, tag: &XmlStartTag<'a>) -> Result<VocabularyDescription<'a>, EafError> {
+        let mut description = VocabularyDescription::default();
+        description.kept = self.read_attribute_fields(
+            tag,
+            &mut [("LANG_REF", AttributeField::Optional(&mut description.language))],
+        )?;
+        description.text = self.cursor.read_tag_text(tag)?;
+        Ok(description)
+    }
+
+    fn read_vocabulary_entry(&mut self, tag: &XmlStartTag<'a>) -> Result<EafVocabularyEntry<'a>, EafError> {
+        let mut entry = EafVocabularyEntry::default();
+        let mut kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("CVE_ID", AttributeField::Optional(&mut entry.id)),
+                ("EXT_REF", AttributeField::Optional(&mut entry.external_ref)),
+            ],
+        )?;
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            if child.name == "CVE_VALUE" {
+                let mut value = EafEntryValue::default();
+                value.kept = self.read_attribute_fields(
+                    &child,
+                    &mut [
+                        ("LANG_REF", AttributeField::Optional(&mut value.language)),
+                        ("DESCRIPTION", AttributeField::Optional(&mut value.description)),
+                    ],
+                )?;
+                value.value = self.cursor.read_tag_text(&child)?;
+                entry.values.push(value);
+            } else {
+                self.keep_unknown_child(tag, &child, &mut kept)?;
+            }
+        }
+        entry.kept = kept;
+        Ok(entry)
+    }
+
+    fn legacy_entry(&mut self, tag: &XmlStartTag<'a>) -> Result<EafVocabularyEntry<'a>, EafError> {
+        let mut entry = EafVocabularyEntry::default();
+        let mut value = EafEntryValue::default();
+        entry.kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("ID", AttributeField::Optional(&mut entry.id)),
+                ("EXT_REF", AttributeField::Optional(&mut entry.external_ref)),
+                ("DESCRIPTION", AttributeField::Optional(&mut value.description)),
+            ],
+        )?;
+        value.value = self.cursor.read_tag_text(tag)?;
+        entry.values.push(value);
+        Ok(entry)
+    }
+
+    fn lexicon_ref(&mut self, tag: &XmlStartTag<'a>) -> Result<LexiconRef<'a>, EafError> {
+        let mut lexicon = LexiconRef::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("LEX_REF_ID", AttributeField::Required(&mut lexicon.id)),
+                ("NAME", AttributeField::Text(&mut lexicon.name)),
+                ("TYPE", AttributeField::Text(&mut lexicon.kind)),
+                ("URL", AttributeField::Text(&mut lexicon.url)),
+                ("LEXICON_ID", AttributeField::Text(&mut lexicon.lexicon_id)),
+                ("LEXICON_NAME", AttributeField::Text(&mut lexicon.lexicon_name)),
+                ("DATCAT_ID", AttributeField::Optional(&mut lexicon.category_id)),
+                ("DATCAT_NAME", AttributeField::Optional(&mut lexicon.category_name)),
+            ],
+        )?;
+        lexicon.kept = self.read_leaf_end(tag, kept)?;
+        Ok(lexicon)
+    }
+
+    fn ref_link_set(&mut self, tag: &XmlStartTag<'a>) -> Result<RefLinkSet<'a>, EafError> {
+        let mut set = RefLinkSet::default();
+        let mut early = None;
+        let mut kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("LINK_SET_ID", AttributeField::Text(&mut set.id)),
+                ("LINKS_ID", AttributeField::Optional(&mut early)),
+                ("LINK_SET_NAME", AttributeField::Optional(&mut set.name)),
+                ("EXT_REF", AttributeField::Optional(&mut set.external_ref)),
+                ("LANG_REF", AttributeField::Optional(&mut set.language)),
+                ("CV_REF", AttributeField::Optional(&mut set.vocabulary)),
+            ],
+        )?;
+        if set.id.is_empty() {
+            set.id = early.unwrap_or_default();
+        }
+        while let Some(child) = self.cursor.next_child_tag(tag)? {
+            match child.name {
+                "CROSS_REF_LINK" | "GROUP_REF_LINK" => set.links.push(self.ref_link(&child)?),
+                _ => self.keep_unknown_child(tag, &child, &mut kept)?,
+            }
+        }
+        set.kept = kept;
+        Ok(set)
+    }
+
+    fn ref_link(&mut self, tag: &XmlStartTag<'a>) -> Result<RefLink<'a>, EafError> {
+        let mut link = RefLink::default();
+        let (mut from, mut to, mut refs) = (None, None, None);
+        let mut directionality = None;
+        link.kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("REF_LINK_ID", AttributeField::Required(&mut link.id)),
+                ("REF1", AttributeField::Optional(&mut from)),
+                ("REF2", AttributeField::Optional(&mut to)),
+                ("REFS", AttributeField::Optional(&mut refs)),
+                ("DIRECTIONALITY", AttributeField::Optional(&mut directionality)),
+                ("REF_LINK_NAME", AttributeField::Optional(&mut link.name)),
+                ("EXT_REF", AttributeField::Optional(&mut link.external_ref)),
+                ("LANG_REF", AttributeField::Optional(&mut link.language)),
+                ("CVE_REF", AttributeField::Optional(&mut link.entry)),
+                ("REF_TYPE", AttributeField::Optional(&mut link.kind)),
+            ],
+        )?;
+        link.ends = if tag.name == "CROSS_REF_LINK" {
+            let (from, to) = (from.unwrap_or_default(), to.unwrap_or_default());
+            LinkEnds::Cross {
+                from,
+                to,
+                directionality,
+            }
+        } else {
+            LinkEnds::Group(refs.unwrap_or_default())
+        };
+        link.text = self.cursor.read_tag_text(tag)?;
+        Ok(link)
+    }
+
+    fn external_ref(&mut self, tag: &XmlStartTag<'a>) -> Result<ExternalRef<'a>, EafError> {
+        let mut reference = ExternalRef::default();
+        let kept = self.read_attribute_fields(
+            tag,
+            &mut [
+                ("EXT_REF_ID", AttributeField::Required(&mut reference.id)),
+                ("TYPE", AttributeField::Text(&mut reference.kind)),
+                ("VALUE", AttributeField::Text(&mut reference.value)),
+            ],
+        )?;
+        reference.kept = self.read_leaf_end(tag, kept)?;
+        Ok(reference)
+    }
+}
+
+fn blank<'a>(tag: &XmlStartTag<'a>) -> EafAnnotation<'a> {
+    EafAnnotation {
+        id: EafText::default(),
+        anchor: AnnotationAnchor::Slots {
+            start: EafText::default(),
+            end: EafText::default(),
+        },
+        value: EafText::default(),
+        entry: None,
+        external_ref: None,
+        language: None,
+        svg: None,
+        kept: None,
+        at: tag.start_tag_position(),
+    }
+}

@@ -1,0 +1,251 @@
+//! The page: the query, the number of results and their form, the results, and facets.
+
+use chereme_corpus::meant_query_text;
+use chereme_sign::query::TokenQuery;
+use eframe::egui::{RichText, Ui, vec2};
+
+use super::{
+    ResultsView, SEARCH_PAUSE_SECONDS, SearchPane, panes_search_facets, results, search_rows, search_suggest,
+    search_symbols, side_column,
+};
+use crate::action::Action;
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+use crate::overlay::overlay_remedy;
+use crate::words::{InterfaceLanguage, fill_text_braces, search_words as words, translate_library_message};
+
+/// A pane wider than this, in points, has room for facets beside its results.
+const FACETS_BESIDE_WIDTH_POINTS: f32 = 520.0;
+/// If this much of the line is left, in points, all switches fit beside the number of results.
+const FULL_SWITCHES_WIDTH_POINTS: f32 = 340.0;
+
+impl SearchPane {
+    /// Draws the page, with the results `high` points high.
+    pub(super) fn draw_search_page(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, high: f32) {
+        let top = ui.cursor().top();
+        self.draw_search_question(ui, seen, out);
+        self.head = ui.cursor().top() - top + ui.spacing().interact_size.y;
+        if self.field.text.trim().is_empty() {
+            if let Some(query) = self.tiles.show_component_tiles(ui, seen, out) {
+                self.turn_to_query(query, out);
+            }
+            // The wall of all signs is shown below.
+            if self.found.is_none() && self.asked.is_none() && self.wrong.is_none() && !self.stopped {
+                self.search_present_text(out);
+            }
+        } else if self.found.is_none() && self.asked.is_none() {
+            return;
+        }
+        self.draw_search_status(ui, seen, out);
+        self.head = ui.cursor().top() - top;
+        let size = vec2(ui.available_width(), high);
+        ui.allocate_ui(size, |ui| {
+            ui.set_width(size.x);
+            ui.set_max_height(size.y);
+            self.show_movement_hint(ui, seen, out);
+            self.draw_search_answer(ui, seen, out);
+        });
+    }
+
+    /// Draws the query: its text, its rows, and the buttons for it.
+    fn draw_search_question(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        let now = ui.input(|input| input.time);
+        let wrong_from = self.wrong.as_ref().and_then(|wrong| wrong.from);
+        let wrong = wrong_from.filter(|_| self.query == self.field.text);
+        if std::mem::take(&mut self.come) {
+            self.field.take_focus();
+        }
+        let typed = self.field.ui(ui, seen, wrong);
+        if typed.changed {
+            self.changed = Some(now);
+            self.rows = search_rows::ConditionRows::default();
+        }
+        if typed.entered {
+            if let Some(query) = search_suggest::kept_query(&self.field.text, seen.snapshot) {
+                self.field.set_query_text(query.to_owned());
+                self.rows = search_rows::ConditionRows::default();
+            } else if let Some(query) = meant_query_text(&self.field.text, &seen.snapshot.overview.inventories) {
+                self.field.set_query_text(query);
+                self.rows = search_rows::ConditionRows::default();
+            }
+            self.field.take_focus();
+            // Entering a text hides the rows if there is not enough room for them and the results.
+            self.built &= !self.low;
+            self.aside.remember_recent_query(&self.field.text, seen, out);
+            self.search_present_text(out);
+        }
+        if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
+            self.move_cursor_to_hit(self.at);
+        }
+        // The field itself reports text that is not a valid query.
+        let text = &self.field.text;
+        let faulty = TokenQuery::parse_query(text).is_err() || search_suggest::is_unkept(text, seen.snapshot);
+        if let Some(wrong) = self.wrong.as_ref().filter(|_| self.query == self.field.text && !faulty) {
+            let trouble = seen.pane_colours().trouble;
+            let translation = translate_library_message(&wrong.error, seen.language);
+            if seen.language != InterfaceLanguage::English && translation == wrong.error {
+                ui.label(seen.say_text(crate::words::trouble_words::QUERY_WRONG));
+            }
+            ui.label(RichText::new(translation).small().color(trouble));
+            let remedy = wrong.remedy.as_ref();
+            if let Some(remedy) = remedy.and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language)) {
+                ui.label(RichText::new(remedy).small());
+            }
+            let mended = wrong.mended.clone();
+            if let Some((meant, query)) = mended {
+                let text = fill_text_braces(seen.say_text(words::MEND), &[("text", &meant)]);
+                if ui.small_button(text).clicked() {
+                    self.turn_to_query(query, out);
+                }
+            }
+        }
+        self.draw_search_tools(ui, seen, out);
+        self.examples.look_up_unknown_examples(&self.field.text, seen, out);
+        let with = (&self.examples, &mut *out);
+        if self.built && search_rows::show_condition_rows(ui, &mut self.rows, seen, &mut self.field.text, with) {
+            self.search_present_text(out);
+        }
+        for picker in self.rows.pickers.values_mut() {
+            picker.inspect_requested_value(seen, out);
+        }
+        let settled = self.changed.is_some_and(|when| now - when >= SEARCH_PAUSE_SECONDS);
+        let error = TokenQuery::parse_query(&self.field.text).err();
+        let end = self.field.text.trim_end().chars().count();
+        if settled && !typed.unfinished && error.is_none() {
+            self.search_present_text(out);
+        } else if settled && error.is_some_and(|error| error.at.start < end) {
+            // The old answer does not belong to the new query.
+            (self.found, self.changed) = (None, None);
+        } else if self.changed.is_some() {
+            ui.ctx().request_repaint_after_secs(SEARCH_PAUSE_SECONDS as f32);
+        }
+    }
+
+    fn draw_search_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        ui.horizontal_wrapped(|ui| {
+            if ui.available_width() < FACETS_BESIDE_WIDTH_POINTS {
+                // In a narrow pane the buttons are narrower, so that all of them fit into one line.
+                ui.spacing_mut().item_spacing.x = 3.0;
+                ui.spacing_mut().button_padding.x = 5.0;
+            }
+            let rows = ui.selectable_label(self.built, seen.say_text(words::ROWS));
+            if rows.clicked() {
+                self.built = !self.built;
+            }
+            let turned = self.aside.draw_query_menus(ui, seen, out, &self.field.text);
+            let asked = search_symbols::show_symbol_search(ui, seen, &mut self.symbols);
+            if let Some(query) = turned.or(asked) {
+                self.turn_to_query(query, out);
+            }
+        });
+    }
+
+    /// Draws the number of results, and the switches for their form.
+    fn draw_search_status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        let mut counted = self.is_showing_facets(ui);
+        ui.horizontal_wrapped(|ui| {
+            if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
+                ui.spinner();
+                ui.label(seen.say_text(words::SEARCHING));
+                if let Some(far) = seen.work_progress(running).filter(|far| far.done > 0) {
+                    ui.weak(fill_text_braces(seen.say_text(words::LOOKED_AT), &[("n", &far.done)]));
+                }
+                if ui.button(seen.say_text(words::STOP)).clicked() {
+                    out.send_command(WindowCommand::Stop(running));
+                }
+            } else if self.stopped {
+                ui.strong(seen.say_text(words::STOPPED));
+                if ui.button(seen.say_text(words::SEARCH_AGAIN)).clicked() {
+                    self.search_present_text(out);
+                }
+            } else if let Some(found) = &self.found {
+                ui.strong(fill_text_braces(seen.say_text(words::FOUND), &[("n", &found.total)]));
+            }
+            for (view, name) in [(ResultsView::Grid, words::GRID), (ResultsView::Table, words::TABLE)] {
+                if ui
+                    .selectable_label(self.view == view, seen.say_text(name))
+                    .on_hover_text(seen.keys.action_keys_text(Action::SearchView))
+                    .clicked()
+                {
+                    self.view = view;
+                }
+            }
+            let wide = ui.available_size_before_wrap().x > FULL_SWITCHES_WIDTH_POINTS;
+            if wide {
+                self.form_switches(ui, seen, &mut counted);
+            } else {
+                // A second line would take its height from the results.
+                ui.menu_button(seen.say_text(words::DISPLAY), |ui| {
+                    self.form_switches(ui, seen, &mut counted)
+                });
+            }
+        });
+    }
+
+    /// Draws the switches for the form of the results.
+    fn form_switches(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, counted: &mut bool) {
+        if self.view == ResultsView::Grid {
+            ui.checkbox(&mut self.playing, seen.say_text(words::LOOPING));
+            ui.checkbox(&mut self.close, seen.say_text(words::CLOSE_UP));
+        }
+        let facets = ui.checkbox(counted, seen.say_text(words::FACETS));
+        if facets.on_hover_text(seen.say_text(words::FACETS_TIP)).changed() {
+            self.counted = Some(*counted);
+        }
+    }
+
+    /// Returns whether facets are shown: by default beside the results if there is room, above them only on request.
+    fn is_showing_facets(&self, ui: &Ui) -> bool {
+        self.counted
+            .unwrap_or(ui.available_width() > FACETS_BESIDE_WIDTH_POINTS)
+    }
+
+    fn draw_search_answer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        let Some(found) = &self.found else { return };
+        for note in &found.notes {
+            ui.label(
+                RichText::new(translate_library_message(note, seen.language))
+                    .small()
+                    .weak(),
+            );
+        }
+        if let Some(query) = side_column::show_answer_findings(ui, seen, found, &self.query) {
+            return self.turn_to_query(query, out);
+        }
+        if found.total == 0 {
+            if let Some(query) = self.aside.report_empty_results(ui, seen, out, &self.query) {
+                self.turn_to_query(query, out);
+            }
+            return;
+        }
+        if !self.is_showing_facets(ui) {
+            return results::show_search_results(self, ui, seen, out);
+        }
+        let wide = ui.available_width() > FACETS_BESIDE_WIDTH_POINTS;
+        let facets = found.facets.clone();
+        let query = self.field.text.clone();
+        let mut wanted = None;
+        if wide {
+            let room = ui.available_size();
+            ui.horizontal_top(|ui| {
+                let side = (room.x * 0.28).clamp(150.0, 220.0);
+                ui.allocate_ui(vec2(room.x - side - 10.0, room.y), |ui| {
+                    ui.set_width(room.x - side - 10.0);
+                    ui.vertical(|ui| results::show_search_results(self, ui, seen, out));
+                });
+                let of = (query.as_str(), &mut self.conditions);
+                ui.vertical(|ui| wanted = panes_search_facets::show_search_facets(ui, seen, &facets, of, room.y, out));
+            });
+        } else {
+            let high = (ui.available_height() * 0.35).min(150.0);
+            ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
+                let of = (query.as_str(), &mut self.conditions);
+                wanted = panes_search_facets::show_search_facets(ui, seen, &facets, of, high, out);
+            });
+            results::show_search_results(self, ui, seen, out);
+        }
+        if let Some(query) = wanted {
+            self.turn_to_query(query, out);
+        }
+    }
+}

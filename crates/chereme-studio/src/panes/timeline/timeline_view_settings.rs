@@ -1,0 +1,119 @@
+//! Settings of the timeline: stored, and changed by actions.
+
+use std::collections::BTreeSet;
+
+use chereme_corpus::snap::SnapKinds;
+use serde::{Deserialize, Serialize};
+
+use super::tier_spans::NeighbourMode;
+use super::timeline_lanes::CurveLane;
+use crate::action::Action;
+use crate::command::WindowCommand;
+use crate::context::{CommandOutbox, PaneInput};
+
+/// Settings of the timeline.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct TimelineSettings {
+    /// How an edit treats neighbouring annotations.
+    pub(crate) mode: NeighbourMode,
+    /// The kinds of times that drags snap to.
+    pub(crate) snaps: SnapKinds,
+    /// The visible lanes of movement.
+    pub(crate) lanes: BTreeSet<CurveLane>,
+    /// The lanes that are folded to their names.
+    pub(crate) folded_lanes: BTreeSet<CurveLane>,
+    /// Whether a strip shows the whole recording while only a part is visible.
+    pub(crate) overview: bool,
+    /// Names of tiers whose children are folded.
+    pub(crate) folded: BTreeSet<String>,
+    /// Names of hidden tiers.
+    pub(crate) hidden: BTreeSet<String>,
+}
+
+impl Default for TimelineSettings {
+    fn default() -> Self {
+        Self {
+            mode: NeighbourMode::default(),
+            snaps: SnapKinds::default(),
+            lanes: BTreeSet::new(),
+            folded_lanes: BTreeSet::new(),
+            overview: true,
+            folded: BTreeSet::new(),
+            hidden: BTreeSet::new(),
+        }
+    }
+}
+
+impl TimelineSettings {
+    /// Returns the settings after an action; `None` if the action does not change them.
+    pub(crate) fn settings_after_action(&self, action: Action) -> Option<Self> {
+        let mut settings = self.clone();
+        match action {
+            Action::ModeNormal => settings.mode = NeighbourMode::Normal,
+            Action::ModeBulldozer => settings.mode = NeighbourMode::Bulldozer,
+            Action::ModeShift => settings.mode = NeighbourMode::Shift,
+            Action::SnapFrames => settings.snaps.frames = !settings.snaps.frames,
+            Action::SnapBoundaries => settings.snaps.boundaries = !settings.snaps.boundaries,
+            Action::SnapMinima => settings.snaps.minima = !settings.snaps.minima,
+            Action::Overview => settings.overview = !settings.overview,
+            Action::ShowTiers => settings.hidden.clear(),
+            _ => {
+                let (lane, ..) = CurveLane::ALL_CURVE_LANES
+                    .into_iter()
+                    .find(|(_, of, _)| *of == action)?;
+                toggle_in_set(&mut settings.lanes, lane);
+            }
+        }
+        Some(settings)
+    }
+
+    /// Returns whether the setting that an action switches or chooses is on; `false` for other actions.
+    pub(crate) fn is_on(&self, action: Action) -> bool {
+        match action {
+            Action::ModeNormal => self.mode == NeighbourMode::Normal,
+            Action::ModeBulldozer => self.mode == NeighbourMode::Bulldozer,
+            Action::ModeShift => self.mode == NeighbourMode::Shift,
+            Action::SnapFrames => self.snaps.frames,
+            Action::SnapBoundaries => self.snaps.boundaries,
+            Action::SnapMinima => self.snaps.minima,
+            Action::Overview => self.overview,
+            _ => CurveLane::ALL_CURVE_LANES
+                .iter()
+                .any(|(lane, of, _)| *of == action && self.lanes.contains(lane)),
+        }
+    }
+}
+
+/// Adds a thing to a set, or removes it.
+pub(crate) fn toggle_in_set<T: Ord>(set: &mut BTreeSet<T>, it: T) {
+    if !set.remove(&it) {
+        set.insert(it);
+    }
+}
+
+/// Changes the timeline's settings.
+pub(crate) fn change_timeline_settings(seen: &PaneInput<'_>, out: &mut CommandOutbox, timeline: TimelineSettings) {
+    let mut settings = seen.settings.clone();
+    settings.timeline = timeline;
+    out.send_command(WindowCommand::Settings(Box::new(settings)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn switches_toggle_and_modes_exclude_each_other() {
+        let mut settings = TimelineSettings::default();
+        for action in [Action::SnapMinima, Action::LaneSpeed, Action::ModeShift] {
+            assert!(!settings.is_on(action));
+            settings = settings.settings_after_action(action).expect("its own");
+            assert!(settings.is_on(action), "{action:?}");
+        }
+        assert!(!settings.is_on(Action::ModeNormal));
+        settings = settings.settings_after_action(Action::LaneSpeed).expect("its own");
+        assert!(!settings.is_on(Action::LaneSpeed));
+        assert_eq!(settings.settings_after_action(Action::Undo), None);
+    }
+}

@@ -1,0 +1,92 @@
+//! Jobs that describe, show and delete recordings, their signers and their signs.
+
+use chereme_corpus::{
+    CorpusAddress, DeleteOptions, FitOptions, MediaChange, ObjectDetails, RecordingChange, RowName, SignChange,
+    SignerChange, TrackChange,
+};
+
+use super::{CorpusJob, JobAbout, WorkOutcome};
+use crate::panes::inspector::InspectedThing;
+use crate::words::shell;
+
+/// Changes a recording.
+pub(crate) fn change_recording(name: RowName, change: RecordingChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_recording(&name, &change))
+}
+
+/// Changes the media files of a recording.
+pub(crate) fn change_media(recording: RowName, change: MediaChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_media(&recording, &change))
+}
+
+/// Changes a track of a recording, for example its place on the clock.
+pub(crate) fn change_track(recording: RowName, track: String, change: TrackChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_track(&recording, &track, &change))
+}
+
+/// Changes a signer.
+pub(crate) fn change_signer(name: RowName, change: SignerChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_signer(&name, &change))
+}
+
+/// Changes a sign.
+pub(crate) fn change_sign(name: RowName, change: SignChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_sign(&name, &change))
+}
+
+/// Makes a token the citation form of its sign.
+pub(crate) fn set_citation(token: CorpusAddress) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.set_citation(&token))
+}
+
+/// Deletes recordings and signs, or reports what would be deleted.
+pub(crate) fn delete_recordings_job(what: Vec<CorpusAddress>, options: DeleteOptions) -> CorpusJob {
+    CorpusJob::new(JobAbout::EDIT_JOB_ABOUT, move |corpus, progress| {
+        let deleted = corpus.delete_objects(&what, options, progress);
+        deleted.map(WorkOutcome::Deleted)
+    })
+}
+
+/// Returns the people to whom the markers of a recording belong.
+pub(crate) fn marker_people(recording: RowName) -> CorpusJob {
+    let about = JobAbout {
+        task: shell::TASK_FIT,
+        quiet: false,
+        ..JobAbout::ASK_JOB_ABOUT
+    };
+    CorpusJob::new(about, move |corpus, _| {
+        let people = corpus.marker_people(&recording, None);
+        people.map(WorkOutcome::People)
+    })
+}
+
+/// Fits a body to the markers of a recording, or to those of one person in it.
+pub(crate) fn fit_markers(recording: RowName, subject: Option<String>) -> CorpusJob {
+    CorpusJob::new_long_job(shell::TASK_FIT, move |corpus, _| {
+        let options = FitOptions {
+            subject: subject.as_deref(),
+            ..FitOptions::default()
+        };
+        let report = corpus.fit_markers(&recording, &options)?;
+        Ok(WorkOutcome::Fitted(Box::new(report)))
+    })
+}
+
+/// Returns all details of something.
+pub(crate) fn look_up_details_job(thing: InspectedThing) -> CorpusJob {
+    CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, _| {
+        let details = match thing {
+            InspectedThing::Token(id) => {
+                ObjectDetails::Token(Box::new(corpus.token_details(&CorpusAddress::Token(id))?))
+            }
+            InspectedThing::Sign(id) => ObjectDetails::Sign(corpus.sign_details(&RowName::Number(id))?),
+            InspectedThing::Signer(id) => ObjectDetails::Signer(corpus.signer_details(&RowName::Number(id))?),
+            InspectedThing::Recording(id) => ObjectDetails::Recording(corpus.recording_details(&RowName::Number(id))?),
+            InspectedThing::Value(inventory, value) => {
+                let uses = corpus.value_uses(inventory, &value)?;
+                ObjectDetails::Value(inventory, value, uses)
+            }
+        };
+        Ok(WorkOutcome::Looked(details))
+    })
+}
