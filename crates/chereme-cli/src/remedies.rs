@@ -147,10 +147,13 @@ fn remedies_of_the_command_line_are_typed_as_such() {
         for (before, text) in source_string_literals(&file.text) {
             let trimmed_before = before.trim_end().trim_end_matches("format!(").trim_end();
             let opened = trimmed_before.trim_end_matches("Cow::Borrowed(").trim_end();
-            let choice = opened.trim_end_matches(',').rsplit("Remedy::choice(").next();
-            let of_choice = choice.is_some_and(|opening| opening.trim().starts_with("Choice::"));
-            let is_typed = opened.ends_with("Remedy::command(")
-                || opened.ends_with("Remedy::Command(")
+            let choice = opened
+                .trim_end_matches(',')
+                .rsplit("ErrorRemedy::choice_remedy(")
+                .next();
+            let of_choice = choice.is_some_and(|opening| opening.trim().starts_with("RemedyChoice::"));
+            let is_typed = opened.ends_with("ErrorRemedy::command_remedy(")
+                || opened.ends_with("ErrorRemedy::Command(")
                 || of_choice && choice.is_some_and(|opening| !opening.contains(';'));
             match names_the_command_line(&text) {
                 true if is_typed => typed += 1,

@@ -4,7 +4,7 @@ use crate::ops::OperatorNeighbours;
 use crate::recipe::*;
 
 impl Recipe {
-    /// Returns the recipe for the same sign with the fewest operators: pairs of `reverse` or `swap_arm_movements` are removed,
+    /// Returns the recipe for the same sign with the fewest operators: pairs of `reverse` or `swap` are removed,
     /// displacements of the same hands are merged, and operators without effect are left out.
     ///
     /// Evaluation performs the same reduced steps, so that moving hands out of reach and back loses nothing.

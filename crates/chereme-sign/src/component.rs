@@ -270,7 +270,7 @@ impl ComponentField {
         self
     }
 
-    /// Returns this field with `signer_dominant_side` and `weak` turned into `right` and `left`.
+    /// Returns this field with `dominant` and `weak` turned into `right` and `left`.
     #[must_use]
     pub fn resolve_field_hand(mut self, handedness: SignerHandedness) -> Self {
         self.hand = self.hand.map(|hand| hand.resolve_hand_ref(handedness).into());

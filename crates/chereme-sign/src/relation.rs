@@ -219,7 +219,7 @@ pub enum RelationError {
         /// The relation nearest to it.
         nearest: Option<String>,
     },
-    /// The text after `parse_within_words` is not a distance and a place.
+    /// The text after `within` is not a distance and a place.
     #[error("{text:?}: after \"within\" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end")]
     Distance {
         /// The text as written.

@@ -25,7 +25,7 @@ pub(crate) struct CompletionsArgs {
     shell: Shell,
 }
 
-/// Write the manual pages for the program `write_man_pages`
+/// Write the manual pages for the program `man`
 #[derive(Debug, clap::Args)]
 pub(crate) struct ManArgs {
     /// The folder for the pages, one for each command; without it the page of the whole program goes to standard output

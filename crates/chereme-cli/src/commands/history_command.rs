@@ -1,4 +1,4 @@
-//! `chereme undo`, `redo` and `print_operation_log`: the history of a corpus, backwards, forwards and as a list.
+//! `chereme undo`, `redo` and `log`: the history of a corpus, backwards, forwards and as a list.
 
 use std::path::PathBuf;
 

@@ -77,13 +77,14 @@ fn every_note_behind_an_example_has_a_french_form() {
 #[test]
 fn every_line_and_error_of_a_command_has_a_french_form() {
     let opened = [
-        ".line(",
+        ".write_output_line(",
         ".filled_line(",
         "bail!(",
         "anyhow!(",
-        "Error::wrong(",
-        ".advise(",
-        "Remedy::command(",
+        "CorpusError::from_wrong_message(",
+        ".write_remedy(",
+        ".with_advice(",
+        "ErrorRemedy::command_remedy(",
         ".context(",
     ];
     let (mut found, mut missing) = (0, Vec::new());

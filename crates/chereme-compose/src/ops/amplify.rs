@@ -1,4 +1,4 @@
-//! `amplify_hand_paths`: enlarges or shrinks the hands' paths about their middles.
+//! `amplify`: enlarges or shrinks the hands' paths about their middles.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};

@@ -1,4 +1,4 @@
-//! `span` and `trim_resting_ends`: cut a part out of the movement, or remove rest at its ends.
+//! `span` and `trim`: cut a part out of the movement, or remove rest at its ends.
 
 use std::ops::Range;
 

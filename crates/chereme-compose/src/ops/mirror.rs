@@ -1,4 +1,4 @@
-//! `swap_arm_movements` and `mirror_arm_movement`: give one arm the movement of the other, mirrored at the body's sagittal plane.
+//! `swap` and `mirror`: give one arm the movement of the other, mirrored at the body's sagittal plane.
 //!
 //! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its counterpart, all in
 //! model space, and a zero for the rest pose, the movement of j relative to the trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`.

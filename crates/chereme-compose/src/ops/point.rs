@@ -1,4 +1,4 @@
-//! `point_at_target`: generates a pointing gesture from a body at rest and back.
+//! `point`: generates a pointing gesture from a body at rest and back.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{BodyPart, BodySide, FingerAngles, HandAngles, HandFinger, ModelPose, ThumbAngles};

@@ -1,4 +1,4 @@
-//! `retime_movement`: makes movement faster or slower, as a whole or phase by phase.
+//! `retime`: makes movement faster or slower, as a whole or phase by phase.
 
 use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::SignComponent;

@@ -1,4 +1,4 @@
-//! `spell_letters`: generates a word in a manual alphabet, on a body at rest.
+//! `spell`: generates a word in a manual alphabet, on a body at rest.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{BodySide, TimeSpan};

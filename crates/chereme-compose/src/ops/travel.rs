@@ -1,4 +1,4 @@
-//! `travel_along_path`: carries the hands along straight legs or a smooth curve.
+//! `travel`: carries the hands along straight legs or a smooth curve.
 
 use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;

@@ -203,7 +203,7 @@ pub struct UnreadFileKind {
 /// A finding about a file for the user.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ReportFinding {
-    /// `finding_note`, `finding_warning` or `error`.
+    /// `note`, `warning` or `error`.
     pub severity: &'static str,
     /// The line of the file, from 1.
     pub line: Option<u64>,

@@ -117,7 +117,7 @@ impl PhrasePair {
 pub(super) struct PhraseBook {
     /// Messages, those with most words of their own first: a text that two of them fit is the one that says more of it.
     pub(super) messages: Vec<PhrasePair>,
-    /// The forms of texts by kind (`help`, `title`, `translate_guide`, `line` or `message`) and English form.
+    /// The forms of texts by kind (`help`, `title`, `guide`, `line` or `message`) and English form.
     fixed_texts: BTreeMap<(String, String), String>,
 }
 

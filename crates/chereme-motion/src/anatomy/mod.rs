@@ -19,7 +19,7 @@
 //! |---|---|
 //! | `part` | the parts of the body and their names |
 //! | `names` | the meaning of joint names, in common conventions |
-//! | `detect_anatomy` | parts found by name |
+//! | `detect` | parts found by name |
 //! | `markers` | optical markers beside a skeleton, which are not parts |
 //! | `topology` | parts found by the hierarchy of joints |
 //! | `roles` | the user's assignment of joints to parts |

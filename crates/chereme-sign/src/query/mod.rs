@@ -29,13 +29,13 @@
 //! | attribute | `attribute.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
-//! | property | `origin_from_word` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
+//! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
 //! | textfield | `gloss` `translation` `comment` `text` |
 //! | timefield | `duration` `start` `end` |
 //! | values | *value* { `,` *value* } |
 //! | value | *text*, `/`*regular expression*`/`, `*`, `unset`, `n/a`, `unclear`, `[` { \[`-`\] *feature* } `]`; of a component also *step* `>` *step* { `>` *step* } |
 //! | step | *text*, `*`, `[` { \[`-`\] *feature* } `]` |
-//! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `is_single_number_comparison` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
+//! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `equals` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
 //! | example | `like` (`token:`*text*, `sign:`*text*, *text*) \[`on` *component*\[`:`*weight*\] { `,` *component*\[`:`*weight*\] }\] \[`above` *number*\] |
 //! | saved | `@`*text* |
 //! | time | *number* (`s` `ms` `min`) |

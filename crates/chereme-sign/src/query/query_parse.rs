@@ -285,7 +285,7 @@ fn free_text(word: QueryWord) -> Result<QueryExpression, QueryError> {
     }))
 }
 
-/// Reads the distance and the kind of relation after `parse_within_relation`.
+/// Reads the distance and the kind of relation after `within`.
 fn parse_within_relation(cursor: &mut QueryCursor<'_>, at: QueryPlace) -> Result<TimeRelation, QueryError> {
     const WITHIN_REMEDY: &str = "write within 0.5s around, within 0.5s of-begin or within 0.5s of-end";
     cursor.skip_blanks();

@@ -24,7 +24,7 @@ use crate::output::{CommandOutput, CommandProgressBar};
 ///
 /// A study shows clips of the corpus to people and asks about them. `new` stores a plan, `build` makes a folder with one
 /// page and its films. The page works in a browser without a network, in English and French, by mouse or keyboard;
-/// people answer it and send back the file that it saves. `import_study_answers` brings the files into the corpus, and `report`
+/// people answer it and send back the file that it saves. `import` brings the files into the corpus, and `report`
 /// says what the answers show.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
