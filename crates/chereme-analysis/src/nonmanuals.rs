@@ -8,11 +8,11 @@
 //! turns.
 //!
 //! ```
-//! use chereme_analysis::nonmanuals::{Curves, proposals};
+//! use chereme_analysis::nonmanuals::{ObservedFaceCurves, propose_face_actions};
 //!
 //! let blink: Vec<f64> = (0..60).map(|n| if (30..36).contains(&n) { 1.0 } else { 0.0 }).collect();
-//! let curves = Curves { rate: 30.0, eye_close: [Some(&blink), Some(&blink)], ..Curves::default() };
-//! let found = proposals(&curves);
+//! let curves = ObservedFaceCurves { rate: 30.0, eye_close: [Some(&blink), Some(&blink)], ..ObservedFaceCurves::default() };
+//! let found = propose_face_actions(&curves);
 //! assert_eq!((found[0].feature, found[0].value, found[0].frames.clone()), ("lids", "blink", 30..36));
 //! ```
 

@@ -6,11 +6,11 @@
 //! algorithm 1; R's `dtw` with the step pattern `asymmetric` and a Sakoe-Chiba window of 10 frames.
 //!
 //! ```
-//! use chereme_analysis::phases::{Options, Phased, score};
+//! use chereme_analysis::phases::{PhasedScoreOptions, PhasedPerformance, score_phased_candidate};
 //!
-//! let gold = Phased::new(&[vec![0.0, 1.0, 1.0, 0.5, 0.0, 0.0]], [0, 1, 3, 4, 6], 0.2)?;
-//! let slow = Phased::new(&[vec![0.0, 0.0, 1.0, 1.0, 1.0, 0.5, 0.0]], [0, 2, 5, 6, 7], 0.25)?;
-//! let found = score(&gold, &slow, 0.2, &Options::default())?;
+//! let gold = PhasedPerformance::new(&[vec![0.0, 1.0, 1.0, 0.5, 0.0, 0.0]], [0, 1, 3, 4, 6], 0.2)?;
+//! let slow = PhasedPerformance::new(&[vec![0.0, 0.0, 1.0, 1.0, 1.0, 0.5, 0.0]], [0, 2, 5, 6, 7], 0.25)?;
+//! let found = score_phased_candidate(&gold, &slow, 0.2, &PhasedScoreOptions::default())?;
 //! assert_eq!(found.score, 0.0, "the same but for its tempo");
 //! assert!((found.stretch - 0.8).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

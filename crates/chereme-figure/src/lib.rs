@@ -10,14 +10,14 @@
 //! use std::ops::ControlFlow;
 //! use chereme_figure::sheet::{SheetOptions, contact_sheet};
 //! use chereme_figure::writer::write_png;
-//! use chereme_motion::{Anatomy, Clip, Joint, Rate, Skeleton, glam::DVec3};
+//! use chereme_motion::{BodyAnatomy, Clip, SkeletonJoint, FrameRate, Skeleton, glam::DVec3};
 //!
 //! let skeleton = Skeleton::new(vec![
-//!     Joint::new("root", None, DVec3::ZERO),
-//!     Joint::new("stick", Some(0), DVec3::Y).with_tip(DVec3::X),
+//!     SkeletonJoint::new("root", None, DVec3::ZERO),
+//!     SkeletonJoint::new("stick", Some(0), DVec3::Y).with_tip(DVec3::X),
 //! ])?;
-//! let anatomy = Anatomy::detect(&skeleton);
-//! let clip = Clip::still(skeleton.into(), Rate::new(25, 1)?, 50);
+//! let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
+//! let clip = Clip::from_rest_pose(skeleton.into(), FrameRate::new(25, 1)?, 50);
 //! let options = SheetOptions { title: "a stick".into(), ..SheetOptions::default() };
 //! let mut progress = |_done, _total| ControlFlow::Continue(());
 //! let sheet = contact_sheet(&clip, &anatomy, &options, &mut progress)?;

@@ -36,7 +36,9 @@ mod tests;
 pub mod textgrid;
 pub mod timecode;
 pub mod tracks;
+pub mod transcript;
 pub mod trc;
+mod windows_1252;
 
 pub use finding::{FindingSeverity, ImportFinding, ReaderCorrection};
 pub use markup::MarkupError;

@@ -10,10 +10,10 @@ use std::fmt::Write as _;
 
 use chereme_motion::{RecordingInstant, TimeSpan};
 
-use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 use crate::finding::ImportFinding;
 use crate::table::{TableError, decode_table_bytes};
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 
 /// The name of the tier of cues without a voice.
 pub const VOICELESS_TIER_NAME: &str = "subtitles";

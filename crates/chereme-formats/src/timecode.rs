@@ -165,9 +165,9 @@ fn leaves_out(codes: &[VideoTimecode], base: f64) -> bool {
 /// ```
 /// use chereme_formats::timecode::time_of_day;
 ///
-/// let at = time_of_day("01:00:02:05@25", 100.0).map(|at| at.micros());
+/// let at = time_of_day("01:00:02:05@25", 100.0).map(|at| at.instant_micros());
 /// assert_eq!(at, Some(3_602_200_000));
-/// assert_eq!(time_of_day("01:00:02:05", 100.0).map(|at| at.micros()), at);
+/// assert_eq!(time_of_day("01:00:02:05", 100.0).map(|at| at.instant_micros()), at);
 /// assert_eq!(time_of_day("25:00:00:00", 30.0), None);
 /// ```
 #[must_use]

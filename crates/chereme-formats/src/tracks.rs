@@ -9,9 +9,9 @@ use chereme_motion::{
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 use glam::DVec3;
 
-use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 
 /// The contents of a file of captured points or numbers.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -146,10 +146,10 @@ impl FacePosture {
     /// Adds a share of another face; a field beyond its range stays at the end of it.
     ///
     /// ```
-    /// use chereme_motion::Face;
-    /// let open = Face { jaw: 0.8, ..Face::default() };
-    /// let mut face = Face { brows: [1.0, 1.0], ..Face::default() };
-    /// face.add(&open, 0.5);
+    /// use chereme_motion::FacePosture;
+    /// let open = FacePosture { jaw: 0.8, ..FacePosture::default() };
+    /// let mut face = FacePosture { brows: [1.0, 1.0], ..FacePosture::default() };
+    /// face.add_face_share(&open, 0.5);
     /// assert_eq!((face.jaw, face.brows), (0.4, [1.0, 1.0]));
     /// ```
     pub fn add_face_share(&mut self, other: &Self, weight: f64) {

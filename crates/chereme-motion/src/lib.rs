@@ -5,15 +5,15 @@
 //! No function reads files, depends on sign language, or uses unseeded randomness.
 //!
 //! ```
-//! use chereme_motion::{Clip, Joint, Rate, Skeleton, glam::DVec3};
+//! use chereme_motion::{Clip, SkeletonJoint, FrameRate, Skeleton, glam::DVec3};
 //!
 //! let skeleton = Skeleton::new(vec![
-//!     Joint::new("hips", None, DVec3::ZERO),
-//!     Joint::new("chest", Some(0), DVec3::new(0.0, 0.4, 0.0)),
+//!     SkeletonJoint::new("hips", None, DVec3::ZERO),
+//!     SkeletonJoint::new("chest", Some(0), DVec3::new(0.0, 0.4, 0.0)),
 //! ])?;
-//! let clip = Clip::still(skeleton.into(), Rate::new(120, 1)?, 240);
-//! assert_eq!(clip.span().seconds(), 2.0);
-//! assert_eq!(clip.model_pose(0).position(1), DVec3::new(0.0, 0.4, 0.0));
+//! let clip = Clip::from_rest_pose(skeleton.into(), FrameRate::new(120, 1)?, 240);
+//! assert_eq!(clip.clip_span().span_seconds(), 2.0);
+//! assert_eq!(clip.model_pose(0).model_joint_position(1), DVec3::new(0.0, 0.4, 0.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -5,23 +5,23 @@
 //! ask for them by field. Everything here is plain data and pure functions on it.
 //!
 //! ```
-//! use chereme_motion::{Instant, Span};
-//! use chereme_sign::{AnnotationId, Change, Field, Tier, TierId, TierSet, inventory, plan};
+//! use chereme_motion::{RecordingInstant, TimeSpan};
+//! use chereme_sign::{AnnotationId, AskedTierChange, ComponentField, Tier, TierId, TierSet, inventory, plan_tier_change};
 //!
-//! let shapes = inventory::builtin_for(&"right.handshape".parse::<Field>()?).expect("built in");
-//! assert_eq!(shapes.find("bent-B").map(|shape| shape.name("fr")), Some("main plate pliée à la base"));
+//! let shapes = inventory::builtin_for(&"right.handshape".parse::<ComponentField>()?).expect("built in");
+//! assert_eq!(shapes.find_inventory_value("bent-B").map(|shape| shape.value_name_in("fr")), Some("main plate pliée à la base"));
 //!
-//! let mut tiers = TierSet::new([Tier::root(TierId(1), "gloss")], []);
-//! let span = |from, to| Span::between(Instant::from_millis(from), Instant::from_millis(to));
-//! let add = |from, to| Change::Add { tier: TierId(1), span: span(from, to), value: "BOL".into() };
+//! let mut tiers = TierSet::new([Tier::root_tier(TierId(1), "gloss")], []);
+//! let span = |from, to| TimeSpan::span_between(RecordingInstant::from_millis(from), RecordingInstant::from_millis(to));
+//! let add = |from, to| AskedTierChange::Add { tier: TierId(1), span: span(from, to), value: "BOL".into() };
 //! let mut ids = 0;
 //! let mut fresh = || {
 //!     ids += 1;
 //!     AnnotationId(ids)
 //! };
-//! let edits = plan(&tiers, &add(0, 400), &mut fresh)?;
-//! tiers.apply(edits);
-//! let error = plan(&tiers, &add(300, 700), &mut fresh).expect_err("annotations never overlap");
+//! let edits = plan_tier_change(&tiers, &add(0, 400), &mut fresh)?;
+//! tiers.apply_edits(edits);
+//! let error = plan_tier_change(&tiers, &add(300, 700), &mut fresh).expect_err("annotations never overlap");
 //! assert!(error.to_string().contains("start it at 0.400s or after"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

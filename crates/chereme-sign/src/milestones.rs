@@ -7,12 +7,12 @@
 //! section 3.
 //!
 //! ```
-//! use chereme_motion::{Instant, Span};
-//! use chereme_sign::milestones::{EDGE, Function, milestones};
+//! use chereme_motion::{RecordingInstant, TimeSpan};
+//! use chereme_sign::milestones::{UTTERANCE_EDGE_MICROS, ExpressionFunction, find_expression_milestones};
 //!
-//! let sign = |from, to| Span::between(Instant::from_millis(from), Instant::from_millis(to));
+//! let sign = |from, to| TimeSpan::span_between(RecordingInstant::from_millis(from), RecordingInstant::from_millis(to));
 //! let signs = [sign(0, 400), sign(520, 800), sign(900, 1300), sign(1400, 2100), sign(2260, 2600)];
-//! let found = milestones(&signs, 1..4, &Function::of("negation"), EDGE).expect("signs");
+//! let found = find_expression_milestones(&signs, 1..4, &ExpressionFunction::from_function_name("negation"), UTTERANCE_EDGE_MICROS).expect("signs");
 //! assert_eq!(found.to_string(), "0.400s 0.520s 0.900s 2.100s 2.260s");
 //! ```
 

@@ -48,10 +48,10 @@ pub fn owning_token_index(annotation: TimeSpan, tokens: &[TimeSpan]) -> Option<u
 /// then by time.
 ///
 /// ```
-/// use chereme_motion::{Instant, Span};
-/// use chereme_sign::token::{ComponentSpan, readings};
+/// use chereme_motion::{RecordingInstant, TimeSpan};
+/// use chereme_sign::token::{ComponentSpan, component_readings};
 ///
-/// let span = |a, b| Span::between(Instant::from_millis(a), Instant::from_millis(b));
+/// let span = |a, b| TimeSpan::span_between(RecordingInstant::from_millis(a), RecordingInstant::from_millis(b));
 /// let says = |field: &str, span, value: &str| ComponentSpan {
 ///     field: field.parse().expect("a field"),
 ///     span,
@@ -63,7 +63,7 @@ pub fn owning_token_index(annotation: TimeSpan, tokens: &[TimeSpan]) -> Option<u
 ///     says("right.configuration", span(20, 610), "U"),
 ///     says("right.configuration", span(600, 900), "S"),
 /// ];
-/// let found = readings(span(0, 600), &[span(620, 900)], None, &around);
+/// let found = component_readings(span(0, 600), &[span(620, 900)], None, &around);
 /// let said = |(field, place): &(_, usize)| format!("{field}={}", around[*place].reading);
 /// let found: Vec<String> = found.iter().map(said).collect();
 /// assert_eq!(

@@ -5,11 +5,11 @@
 //!
 //! #[derive(Deserialize)]
 //! struct Steps {
-//!     #[serde(deserialize_with = "chereme_sign::tuned::number")]
+//!     #[serde(deserialize_with = "chereme_sign::tuned::read_tuned_number")]
 //!     length: f64,
 //! }
 //!
-//! let steps: Steps = chereme_sign::tuned::read(r#"{"length": [0.7, "m", "usual step of a person"]}"#)?;
+//! let steps: Steps = chereme_sign::tuned::read_tuned_document(r#"{"length": [0.7, "m", "usual step of a person"]}"#)?;
 //! assert_eq!(steps.length, 0.7);
 //! # Ok::<(), serde_json::Error>(())
 //! ```

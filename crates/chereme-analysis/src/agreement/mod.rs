@@ -17,11 +17,11 @@
 //! The alignment of three or more annotators is exact, or refused if the search is too long. Staccato is left out.
 //!
 //! ```
-//! use chereme_analysis::agreement::{items::Counts, Undefined};
+//! use chereme_analysis::agreement::{items::AgreementCounts, UndefinedAgreement};
 //!
-//! let counts = Counts::of(&[(0, 0), (0, 1), (1, 1), (1, 1)]);
-//! assert_eq!(counts.cohen(), Ok(0.5));
-//! assert_eq!(Counts::of(&[(0, 0)]).cohen(), Err(Undefined::OneValue));
+//! let counts = AgreementCounts::from_value_pairs(&[(0, 0), (0, 1), (1, 1), (1, 1)]);
+//! assert_eq!(counts.cohen_kappa(), Ok(0.5));
+//! assert_eq!(AgreementCounts::from_value_pairs(&[(0, 0)]).cohen_kappa(), Err(UndefinedAgreement::OneValue));
 //! ```
 
 pub mod agreement_resample;

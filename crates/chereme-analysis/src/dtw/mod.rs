@@ -6,12 +6,12 @@
 //! the best of many.
 //!
 //! ```
-//! use chereme_analysis::dtw::{Options, Series, StepPattern, align};
+//! use chereme_analysis::dtw::{DtwOptions, ChannelSeries, StepPattern, align_series};
 //!
-//! let query = Series::from_rows(&[[0.0], [5.0]])?;
-//! let reference = Series::from_rows(&[[0.0], [9.0], [5.0]])?;
-//! let options = Options { pattern: StepPattern::Asymmetric, ..Options::default() };
-//! let alignment = align(&query, &reference, &options)?;
+//! let query = ChannelSeries::from_rows(&[[0.0], [5.0]])?;
+//! let reference = ChannelSeries::from_rows(&[[0.0], [9.0], [5.0]])?;
+//! let options = DtwOptions { pattern: StepPattern::Asymmetric, ..DtwOptions::default() };
+//! let alignment = align_series(&query, &reference, &options)?;
 //! assert_eq!((alignment.cost.distance, alignment.path), (0.0, vec![(0, 0), (1, 2)]));
 //! # Ok::<(), chereme_analysis::dtw::DtwError>(())
 //! ```

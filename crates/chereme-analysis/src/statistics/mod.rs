@@ -17,13 +17,13 @@
 //! | a model of answers on a scale | [`ordinal::fit_ordinal_model`] |
 //!
 //! ```
-//! use chereme_analysis::statistics::{Alternative, Effect, mann_whitney};
+//! use chereme_analysis::statistics::{TestAlternative, GroupEffect, mann_whitney};
 //!
 //! let (playback, synthesis) = ([3.0, 4.0, 2.0, 5.0], [4.0, 5.0, 5.0, 4.0]);
-//! let test = mann_whitney(&playback, &synthesis, Alternative::TwoSided, None)?;
+//! let test = mann_whitney(&playback, &synthesis, TestAlternative::TwoSided, None)?;
 //! assert_eq!(test.u, 4.0);
-//! assert_eq!(Effect::of(&playback, &synthesis)?.delta, -0.5);
-//! # Ok::<(), chereme_analysis::statistics::Undefined>(())
+//! assert_eq!(GroupEffect::measure_group_effect(&playback, &synthesis)?.delta, -0.5);
+//! # Ok::<(), chereme_analysis::statistics::UndefinedStatistic>(())
 //! ```
 
 use serde::{Deserialize, Serialize};

@@ -1,15 +1,14 @@
 //! Converts tracks to tiers.
 
-use super::ELEMENT_TIER_TYPE;
 use super::anvil_place::{PlacedTrack, place_anvil_tracks};
 use super::anvil_raw::{AnvilDocument, AnvilElement, AnvilTrack};
-use crate::eaf::eaf_convert::{
-    AnnotationAddress, AnnotationTiming, AnnotationTranscript, TranscriptMedia, TranscriptTier,
-};
 use crate::finding::ImportFinding;
 use crate::markup::{UniqueNames, media_from_url, new_timed_annotation, stable_annotation_id};
 use crate::tally::FindingTally;
-use crate::textgrid::POINT_TIER_KIND;
+use crate::transcript::{
+    AnnotationAddress, AnnotationTiming, AnnotationTranscript, ELEMENT_TIER_TYPE, POINT_TIER_KIND, TranscriptMedia,
+    TranscriptTier,
+};
 use chereme_motion::TimeSpan;
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};

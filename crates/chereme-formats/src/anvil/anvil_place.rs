@@ -1,10 +1,10 @@
 //! Places the elements of tracks in time, and below the elements that they refer to.
 
 use super::anvil_raw::{AnvilDocument, AnvilElement, AnvilText, AnvilTrack};
-use crate::eaf::eaf_convert::AnnotationTiming;
 use crate::finding::ImportFinding;
 use crate::markup::{MAX_TIER_LANES, TimedAnnotation, arrange_tier_lanes, parse_decimal_seconds, report_split_lanes};
 use crate::tally::FindingTally;
+use crate::transcript::AnnotationTiming;
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, BTreeSet, HashMap};

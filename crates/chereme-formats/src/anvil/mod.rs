@@ -13,12 +13,11 @@ pub mod anvil_raw;
 #[cfg(test)]
 mod tests;
 
-use crate::eaf::AnnotationTranscript;
+use crate::transcript::AnnotationTranscript;
+
 use crate::finding::ImportFinding;
 use crate::markup::{MarkupError, MarkupTool};
-
-/// The tier type of a tier that holds the elements of a track whose attributes have tiers of their own.
-pub const ELEMENT_TIER_TYPE: &str = "ANVIL track";
+pub use crate::transcript::ELEMENT_TIER_TYPE;
 
 pub(crate) const ANVIL_TOOL: MarkupTool = MarkupTool {
     name: "ANVIL",

@@ -67,7 +67,7 @@ fn tracks_of_all_types_become_tiers() {
 #[test]
 fn an_attribute_states_the_role_of_its_tier_else_the_track_does() {
     let (transcript, _) = read_anvil(WHOLE.as_bytes()).expect("a file");
-    let topics = |transcript: &crate::eaf::AnnotationTranscript| -> Vec<String> {
+    let topics = |transcript: &crate::transcript::AnnotationTranscript| -> Vec<String> {
         let guesses = guess_tiers(transcript, &TierMapping::default());
         let topic = |it: &crate::roles::TierGuess| it.guessed_tier_topic().map_or("-".to_owned(), |it| it.to_string());
         guesses.iter().map(topic).collect()
@@ -226,7 +226,7 @@ fn points_and_intervals_come_back_from_a_text_grid() {
     let (again, _) = textgrid::read_textgrid_file(text.as_bytes()).expect("a grid");
     for tier in transcript.tiers.iter().filter(|it| it.kind != super::ELEMENT_TIER_TYPE) {
         let other = again.tiers.iter().find(|it| it.name == tier.name).expect(&tier.name);
-        let parts = |tier: &crate::eaf::eaf_convert::TranscriptTier| -> Vec<_> {
+        let parts = |tier: &crate::transcript::TranscriptTier| -> Vec<_> {
             tier.annotations.iter().map(|it| (it.span, it.value.clone())).collect()
         };
         assert_eq!(parts(tier), parts(other), "{}", tier.name);
@@ -242,7 +242,7 @@ fn ids_stay_when_other_elements_come() {
         .replacen("type=\"primary\">", more, 1)
         .replace("<el index=\"0\" start=\"0.2\"", "<el index=\"9\" start=\"0.2\"");
     let (after, _) = read_anvil(text.as_bytes()).expect("a file");
-    let ids = |tier: usize, all: &crate::eaf::AnnotationTranscript| -> Vec<String> {
+    let ids = |tier: usize, all: &crate::transcript::AnnotationTranscript| -> Vec<String> {
         all.tiers[tier].annotations.iter().map(|it| it.id.clone()).collect()
     };
     assert_eq!(ids(1, &before), ids(1, &after)[1..]);

@@ -2,7 +2,7 @@
 
 use super::loose::{LooseAnnotation, TranscriptPieces};
 use super::{ComparedAnnotation, ReferredAnnotation, TranscriptDifference, TranscriptTierChange};
-use crate::eaf::AnnotationTranscript;
+use crate::transcript::AnnotationTranscript;
 use std::collections::BTreeMap;
 
 /// Applies `difference` to `a`. The result has the same meaning as the document that [`diff_transcripts`](super::diff_transcripts) compared `a`

@@ -10,8 +10,8 @@ use super::{
     ComparedAnnotation, ReferredAnnotation, compared_annotation_at, diff_transcripts, is_symbolic,
     list_annotation_addresses,
 };
-use crate::eaf::AnnotationTranscript;
-use crate::eaf::eaf_convert::{AnnotationAddress, TranscriptAnnotation};
+use crate::transcript::AnnotationTranscript;
+use crate::transcript::{AnnotationAddress, TranscriptAnnotation};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -167,9 +167,9 @@ pub fn with_candidates(merged: &MergedTranscript) -> AnnotationTranscript {
         let name = format!("{} (theirs)", conflict.tier);
         if pieces.find_loose_tier(&name).is_none() {
             pieces.tiers.push((
-                crate::eaf::eaf_convert::TranscriptTier {
+                crate::transcript::TranscriptTier {
                     name: name.clone(),
-                    ..crate::eaf::eaf_convert::TranscriptTier::default()
+                    ..crate::transcript::TranscriptTier::default()
                 },
                 None,
             ));
@@ -177,7 +177,7 @@ pub fn with_candidates(merged: &MergedTranscript) -> AnnotationTranscript {
         let mut it = theirs.whole.clone();
         it.parent = None;
         it.entry = None;
-        it.timing = crate::eaf::eaf_convert::AnnotationTiming::Own;
+        it.timing = crate::transcript::AnnotationTiming::Own;
         it.id = String::new();
         pieces.add_loose_annotation(super::loose::LooseAnnotation {
             it,
@@ -495,7 +495,7 @@ impl TranscriptMergeWork<'_> {
             !base.properties.contains(property) || theirs.properties.iter().any(|that| that.0 == property.0)
         };
         own.properties.retain(kept);
-        let gone = |vocabulary: &crate::eaf::eaf_convert::ControlledVocabulary| {
+        let gone = |vocabulary: &crate::transcript::ControlledVocabulary| {
             base.vocabularies.contains(vocabulary) && theirs.vocabularies.iter().all(|that| that.id != vocabulary.id)
         };
         own.vocabularies.retain(|vocabulary| !gone(vocabulary));
@@ -511,7 +511,7 @@ impl TranscriptMergeWork<'_> {
                     let all_entries = vocabulary.entries.iter();
                     let more = all_entries.filter(|entry| {
                         let is_same =
-                            |other_entry: &crate::eaf::eaf_convert::VocabularyEntry| other_entry.values == entry.values;
+                            |other_entry: &crate::transcript::VocabularyEntry| other_entry.values == entry.values;
                         !mine.entries.iter().any(is_same) && !old.is_some_and(|old| old.entries.iter().any(is_same))
                     });
                     let more: Vec<_> = more.cloned().collect();
@@ -561,7 +561,7 @@ impl TranscriptMergeWork<'_> {
 }
 
 /// Reports whether the annotations of a tier have a place below a parent instead of times.
-fn is_chained(tier: &crate::eaf::eaf_convert::TranscriptTier) -> bool {
+fn is_chained(tier: &crate::transcript::TranscriptTier) -> bool {
     tier.stereotype.is_some_and(|stereotype| !stereotype.is_alignable())
 }
 

@@ -1,8 +1,8 @@
 //! Matches the annotations and tiers of one document with those of another.
 
 use super::{TIME_TOLERANCE_MICROS, compared_annotation_at, is_symbolic, list_annotation_addresses};
-use crate::eaf::AnnotationTranscript;
-use crate::eaf::eaf_convert::{AnnotationAddress, TranscriptAnnotation};
+use crate::transcript::AnnotationTranscript;
+use crate::transcript::{AnnotationAddress, TranscriptAnnotation};
 use std::collections::{BTreeMap, HashMap};
 
 /// The annotations and tiers that two documents share.

@@ -1,8 +1,8 @@
 //! A document whose annotations refer to each other by id, so that they can be added and removed one by one.
 
 use super::tier_without_annotations;
-use crate::eaf::AnnotationTranscript;
-use crate::eaf::eaf_convert::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
+use crate::transcript::AnnotationTranscript;
+use crate::transcript::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
 use chereme_motion::TimeSpan;
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap, HashSet};

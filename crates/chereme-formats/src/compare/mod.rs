@@ -13,8 +13,8 @@ mod tests;
 pub use apply::apply_difference;
 pub use compare_merge::{MergeConflict, MergedTranscript, merge_transcripts, merge_two, with_candidates};
 
-use crate::eaf::AnnotationTranscript;
-use crate::eaf::eaf_convert::{AnnotationAddress, TranscriptAnnotation, TranscriptTier};
+use crate::transcript::AnnotationTranscript;
+use crate::transcript::{AnnotationAddress, TranscriptAnnotation, TranscriptTier};
 use chereme_sign::TierStereotype;
 use identity::{TranscriptMatching, match_transcripts, matched_tiers};
 use serde::Serialize;

@@ -4,8 +4,8 @@ mod unchanged_side;
 
 use super::{MergedTranscript, TranscriptDifference, apply_difference, diff_transcripts, merge_two, with_candidates};
 use crate::compare::merge_transcripts;
-use crate::eaf::AnnotationTranscript;
-use crate::eaf::eaf_convert::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
+use crate::transcript::AnnotationTranscript;
+use crate::transcript::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
 use proptest::prelude::*;

@@ -1,11 +1,11 @@
 //! Converts a transcript to a raw document.
 
 use super::eaf_convert::annotation_number;
-use super::eaf_model::{
+use super::eaf_raw::{self, AnnotationAnchor, EafDocument, EafText, ElementStart};
+use crate::transcript::{
     AnnotationAddress, AnnotationTiming, AnnotationTranscript, ControlledVocabulary, TranscriptAnnotation,
     TranscriptMedia, TranscriptTier,
 };
-use super::eaf_raw::{self, AnnotationAnchor, EafDocument, EafText, ElementStart};
 use chereme_motion::RecordingInstant;
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, BTreeSet, HashMap};

@@ -1,7 +1,7 @@
 //! Converts a raw document to its meaning.
 
 pub use super::back::to_raw;
-pub use super::eaf_model::{
+pub use crate::transcript::{
     AnnotationAddress, AnnotationTiming, AnnotationTranscript, ControlledVocabulary, TranscriptAnnotation,
     TranscriptMedia, TranscriptTier, VocabularyEntry, VocabularyEntryValue,
 };

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::error::EafError;
 use super::xml::{MAX_XML_BYTES, declared_encoding, line_at_byte};
 use crate::finding::ImportFinding;
-use crate::table::{WINDOWS_1252_CHARS, decode_windows_byte};
+use crate::windows_1252::{WINDOWS_1252_CHARS, decode_windows_byte};
 
 /// How the characters of a file are written as bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

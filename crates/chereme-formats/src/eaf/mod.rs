@@ -11,17 +11,16 @@
 //!       <ANNOTATION_VALUE>CHIEN</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>
 //!   <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="gloss" TIME_ALIGNABLE="true"/>
 //! </ANNOTATION_DOCUMENT>"#;
-//! let (transcript, findings) = chereme_formats::eaf::read(text)?;
+//! let (transcript, findings) = chereme_formats::eaf::read_eaf(text)?;
 //! assert_eq!(transcript.tiers[0].annotations[0].value, "CHIEN");
 //! assert!(findings.is_empty());
-//! # Ok::<(), chereme_formats::eaf::Error>(())
+//! # Ok::<(), chereme_formats::eaf::EafError>(())
 //! ```
 
 mod back;
 mod eaf_check;
 mod eaf_fields;
 mod eaf_layout;
-mod eaf_model;
 mod eaf_output;
 mod eaf_read;
 mod eaf_write;

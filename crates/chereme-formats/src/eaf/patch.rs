@@ -11,10 +11,10 @@ use super::EafError;
 use super::back::to_raw;
 use super::eaf_convert::from_raw_placed;
 use super::eaf_layout::{EafLayout, TextEdits};
-use super::eaf_model::{AnnotationAddress, AnnotationTiming, AnnotationTranscript, TranscriptAnnotation};
 use super::eaf_raw::{self, EafDocument};
 use super::encoding::decode_eaf;
 use super::style::EafSpelling;
+use crate::transcript::{AnnotationAddress, AnnotationTiming, AnnotationTranscript, TranscriptAnnotation};
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 

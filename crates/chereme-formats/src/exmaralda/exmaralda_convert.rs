@@ -1,13 +1,13 @@
 //! Converts a timeline and its events to tiers.
 
 use super::exmaralda_raw::{ExmaraldaDocument, ExmaraldaTier as RawTier, TimelinePoint};
-use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptTier};
 use crate::finding::ImportFinding;
 use crate::markup::{
     TimedAnnotation, UniqueNames, arrange_tier_lanes, media_from_url, new_timed_annotation, parse_decimal_seconds,
     report_split_lanes, stable_annotation_id,
 };
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptTier};
 use chereme_motion::RecordingInstant;
 use std::collections::HashMap;
 

@@ -9,9 +9,9 @@ pub mod exmaralda_raw;
 #[cfg(test)]
 mod tests;
 
-use crate::eaf::AnnotationTranscript;
 use crate::finding::ImportFinding;
 use crate::markup::{MarkupError, MarkupTool};
+use crate::transcript::AnnotationTranscript;
 
 pub(crate) const EXMARALDA_TOOL: MarkupTool = MarkupTool {
     name: "EXMARaLDA",

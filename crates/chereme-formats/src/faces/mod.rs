@@ -5,17 +5,17 @@
 //! them.
 //!
 //! ```
-//! use chereme_formats::faces::System;
-//! use chereme_motion::{Column, Curve, Curves, Rate, Times};
+//! use chereme_formats::faces::FaceSystem;
+//! use chereme_motion::{FrameNumberColumn, ScalarCurve, CurveTrack, FrameRate, FrameTimes};
 //!
-//! let channel = |name, value| Curve::new(name, Column::doubles(vec![value]));
+//! let channel = |name, value| ScalarCurve::new(name, FrameNumberColumn::from_double_floats(vec![value]));
 //! let shapes = ["JawOpen", "BrowInnerUp", "EyeBlinkLeft", "MouthClose"];
 //! let curves = shapes.map(|name| channel(name, 0.5)).to_vec();
-//! let curves = Curves::new(Times::Even(Rate::new(60, 1)?), curves)?;
-//! let arkit = System::of(&curves).expect("these are shapes of ARKit");
-//! let view = arkit.view(&curves);
+//! let curves = CurveTrack::new(FrameTimes::Even(FrameRate::new(60, 1)?), curves)?;
+//! let arkit = FaceSystem::system_of_curves(&curves).expect("these are shapes of ARKit");
+//! let view = arkit.derive_face_view(&curves);
 //! assert_eq!((arkit.id.as_str(), view.faces[0].jaw), ("arkit", 0.5));
-//! assert_eq!(view.value("tongue_left"), None, "it has no such channel");
+//! assert_eq!(view.face_number_values("tongue_left"), None, "it has no such channel");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -5,16 +5,16 @@
 //! one frame, the size of its pictures.
 //!
 //! ```
-//! use chereme_formats::keypoints::{self, Reader};
-//! use chereme_motion::Rate;
+//! use chereme_formats::keypoints::{self, KeypointReader};
+//! use chereme_motion::FrameRate;
 //!
 //! let frame = br#"{"version":1.3,"people":[{"pose_keypoints_2d":[10.5,20,0.9, 0,0,0]}]}"#;
 //! assert!(keypoints::is_keypoints(frame));
-//! let mut reader = Reader::default();
-//! reader.push(Some(0), frame)?;
-//! let (tracks, _) = reader.finish(Rate::new(25, 1).ok())?;
+//! let mut reader = KeypointReader::default();
+//! reader.push_keypoint_document(Some(0), frame)?;
+//! let (tracks, _) = reader.finish_keypoint_tracks(FrameRate::new(25, 1).ok())?;
 //! assert_eq!(tracks.tracks.len(), 1);
-//! # Ok::<(), keypoints::Error>(())
+//! # Ok::<(), keypoints::KeypointError>(())
 //! ```
 
 mod cloud;

@@ -9,11 +9,11 @@
 //!
 //! ```
 //! use chereme_formats::lexicon;
-//! use chereme_formats::roles::Mapping;
+//! use chereme_formats::roles::TierMapping;
 //!
 //! let text = b"NL gloss\tEN gloss\tHandshape strong\tLocation\nPET\tCAP\tB\tforehead > head\n";
-//! let (lexicon, _) = lexicon::read(text, &Mapping::default())?;
-//! let codings: Vec<String> = lexicon.entries[0].codings.iter().map(|it| format!("{}={}", it.field(), it.reading)).collect();
+//! let (lexicon, _) = lexicon::read_lexicon(text, &TierMapping::default())?;
+//! let codings: Vec<String> = lexicon.entries[0].codings.iter().map(|it| format!("{}={}", it.coding_field(), it.reading)).collect();
 //! assert_eq!(codings, ["dominant.configuration=B", "initial.placement=forehead", "final.placement=head"]);
 //! # Ok::<(), chereme_formats::table::TableError>(())
 //! ```

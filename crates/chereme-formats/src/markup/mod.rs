@@ -9,10 +9,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::eaf;
-use crate::eaf::eaf_convert::{AnnotationTiming, TranscriptAnnotation, TranscriptMedia};
 use crate::eaf::xml::{XmlCursor, XmlStartTag};
 use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTiming, TranscriptAnnotation, TranscriptMedia};
 use chereme_motion::{RecordingInstant, TimeSpan};
 
 pub use error::MarkupError;

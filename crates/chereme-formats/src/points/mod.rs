@@ -7,10 +7,10 @@
 //! use chereme_formats::points;
 //!
 //! let table = b"time,wrist_x,wrist_y,wrist_z\n0,0.1,1.2,0.3\n0.01,0.1,1.3,0.3\n";
-//! assert_eq!(points::PointFile::of(table), Some(points::PointFile::Plain));
-//! let (tracks, _) = points::read(table, None)?;
+//! assert_eq!(points::PointFile::detect_point_file(table), Some(points::PointFile::Plain));
+//! let (tracks, _) = points::read_point_table(table, None)?;
 //! assert_eq!(tracks.tracks[0].name, "markers");
-//! # Ok::<(), points::Error>(())
+//! # Ok::<(), points::PointTableError>(())
 //! ```
 
 mod lines;

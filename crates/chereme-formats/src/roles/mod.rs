@@ -10,10 +10,8 @@ pub use chereme_sign::AnnotatedHands;
 pub use mapping::{MappingError, MappingTarget, TierMapping};
 pub(crate) use roles_words::normalize_tier_name;
 
-use crate::anvil;
-use crate::eaf::AnnotationTranscript;
-use crate::eaf::eaf_convert::TranscriptTier;
-use crate::textgrid::POINT_TIER_KIND;
+use crate::transcript::AnnotationTranscript;
+use crate::transcript::{ELEMENT_TIER_TYPE, POINT_TIER_KIND, TranscriptTier};
 use chereme_sign::text::fold_text;
 use chereme_sign::{HandRef, SignComponent, TierRole, TierStereotype, TierTopic};
 use roles_words::{ROLE_WORD_TABLE, RoleWordMatch};
@@ -84,7 +82,7 @@ fn anvil_track_tiers(transcript: &AnnotationTranscript) -> BTreeSet<usize> {
     let child = |tier: &TranscriptTier| tier.parent.filter(|above| is_attribute(tier, *above, tiers));
     let above: BTreeSet<usize> = tiers.iter().filter_map(child).collect();
     let is_track = |at: &usize| {
-        tiers[*at].kind == anvil::ELEMENT_TIER_TYPE
+        tiers[*at].kind == ELEMENT_TIER_TYPE
             || tiers[*at]
                 .annotations
                 .iter()
@@ -99,7 +97,7 @@ fn is_attribute(tier: &TranscriptTier, above: usize, tiers: &[TranscriptTier]) -
         return false;
     };
     let name_rest = tier.name.strip_prefix(&above.name);
-    let is_track = above.kind == anvil::ELEMENT_TIER_TYPE || above.kind == POINT_TIER_KIND;
+    let is_track = above.kind == ELEMENT_TIER_TYPE || above.kind == POINT_TIER_KIND;
     is_track && name_rest.and_then(|own| own.strip_prefix('.')) == Some(&*tier.kind)
 }
 

@@ -9,11 +9,11 @@
 //! let text = br#"<sigml><hamgestural_sign gloss="TWO"><sign_manual>
 //!   <handconfig handshape="finger23spread"/><handconfig extfidir="u"/><handconfig palmor="u"/>
 //! </sign_manual></hamgestural_sign></sigml>"#;
-//! let (signs, findings) = chereme_formats::sigml::read(text)?;
+//! let (signs, findings) = chereme_formats::sigml::read_sigml_signs(text)?;
 //! assert!(findings.is_empty());
 //! let again = chereme_formats::sigml::write_gestural(signs.iter().map(|entry| &entry.sign));
-//! assert_eq!(chereme_formats::sigml::read(&again)?.0, signs);
-//! # Ok::<(), chereme_formats::sigml::Error>(())
+//! assert_eq!(chereme_formats::sigml::read_sigml_signs(&again)?.0, signs);
+//! # Ok::<(), chereme_formats::sigml::SigmlError>(())
 //! ```
 
 mod error;

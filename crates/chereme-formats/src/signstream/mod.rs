@@ -8,9 +8,9 @@ pub mod signstream_raw;
 #[cfg(test)]
 mod tests;
 
-use crate::eaf::AnnotationTranscript;
 use crate::finding::ImportFinding;
 use crate::markup::{MarkupError, MarkupTool};
+use crate::transcript::AnnotationTranscript;
 
 /// The name of the tier of utterances.
 pub const UTTERANCE_TIER_NAME: &str = "utterance";

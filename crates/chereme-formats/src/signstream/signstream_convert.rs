@@ -2,13 +2,13 @@
 
 use super::UTTERANCE_TIER_NAME;
 use super::signstream_raw::{SignstreamDocument, SignstreamField, SignstreamItem, SignstreamText, SignstreamUtterance};
-use crate::eaf::eaf_convert::{AnnotationTranscript, TranscriptTier};
 use crate::finding::ImportFinding;
 use crate::markup::{
     MarkupError, TimedAnnotation, UniqueNames, arrange_tier_lanes, media_from_url, new_timed_annotation,
     parse_decimal_millis, report_split_lanes, stable_annotation_id,
 };
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTranscript, TranscriptTier};
 use chereme_motion::RecordingInstant;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

@@ -10,7 +10,7 @@ mod table_rows;
 
 pub use table_cells::TableError;
 pub(crate) use table_cells::{
-    MAX_PADDED_CELLS, MAX_TABLE_COLUMNS, TableCells, TableRow, WINDOWS_1252_CHARS, decode_table_bytes,
-    decode_windows_byte, is_gap, join_column_names, lines_above_titles,
+    MAX_PADDED_CELLS, MAX_TABLE_COLUMNS, TableCells, TableRow, decode_table_bytes, is_gap, join_column_names,
+    lines_above_titles,
 };
 pub use table_rows::{tab_rows, write_tab_rows};

@@ -2,6 +2,7 @@
 
 use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
+use crate::windows_1252;
 use std::borrow::Cow;
 
 /// The most columns of a table.
@@ -255,20 +256,6 @@ fn fit_row_width(mut row: TableRow, width: usize, findings: &mut FindingTally) -
     row
 }
 
-/// The characters of the bytes 0x80 to 0x9F in Windows-1252; its other bytes are Latin-1.
-pub(crate) const WINDOWS_1252_CHARS: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’',
-    '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
-
-/// Returns the character of a byte in Windows-1252.
-pub(crate) fn decode_windows_byte(byte: u8) -> char {
-    match byte {
-        0x80..=0x9f => WINDOWS_1252_CHARS[usize::from(byte - 0x80)],
-        _ => char::from(byte),
-    }
-}
-
 /// Returns the text of bytes in UTF-8, in UTF-16 with a byte order mark, or otherwise in Windows-1252.
 pub(crate) fn decode_table_bytes<'b>(bytes: &'b [u8], findings: &mut FindingTally) -> Result<Cow<'b, str>, TableError> {
     let read_unit: Option<fn([u8; 2]) -> u16> = match bytes {
@@ -289,7 +276,10 @@ pub(crate) fn decode_table_bytes<'b>(bytes: &'b [u8], findings: &mut FindingTall
         Ok(text) => printable(text.into()),
         Err(error) => {
             let line = table_line_at(bytes, error.valid_up_to());
-            let western_text: String = bytes.iter().map(|byte| decode_windows_byte(*byte)).collect();
+            let western_text: String = bytes
+                .iter()
+                .map(|byte| windows_1252::decode_windows_byte(*byte))
+                .collect();
             let text = printable(western_text.into())?;
             findings.add_limited_finding("another encoding", || {
                 ImportFinding::new_warning_finding(

@@ -7,9 +7,9 @@ mod codings;
 use chereme_motion::{Clip, CurveTrack, MarkerTrack};
 
 use crate::ImportFinding;
-use crate::eaf::AnnotationTranscript;
 use crate::golden::put;
 use crate::tracks::{CapturedTrackContent, CapturedTracks};
+use crate::transcript::AnnotationTranscript;
 
 /// Writes down findings, one on each line.
 pub(crate) fn findings(out: &mut String, all: &[ImportFinding]) {
@@ -141,8 +141,8 @@ pub(crate) fn scene_file(out: &mut String, file: &[u8]) {
 
 /// Returns a line for each tier of a transcript: its name, type and relation, and its annotations, each after the letter
 /// of the one above it.
-pub(crate) fn tiers_as_lines(transcript: &crate::eaf::AnnotationTranscript) -> Vec<String> {
-    let line = |tier: &crate::eaf::eaf_convert::TranscriptTier| {
+pub(crate) fn tiers_as_lines(transcript: &crate::transcript::AnnotationTranscript) -> Vec<String> {
+    let line = |tier: &crate::transcript::TranscriptTier| {
         let mut line = format!("{} [{}]", tier.name, tier.kind);
         if let (Some(stereotype), Some(above)) = (tier.stereotype, tier.parent) {
             line += &format!(" {stereotype} of {}", transcript.tiers[above].name);

@@ -14,15 +14,15 @@ use std::fmt::Write as _;
 
 use chereme_motion::{RecordingInstant, TimeSpan};
 
-use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+pub use crate::transcript::POINT_TIER_KIND;
+
 use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 use textgrid_raw::{GridTier, GridTierItem, RawTextGrid};
 
 pub use textgrid_raw::{TextGridError, TextGridForm};
 
-/// The kind of a tier whose annotations are points in time.
-pub const POINT_TIER_KIND: &str = "TextTier";
 /// The kind of a tier of intervals.
 pub const INTERVAL_TIER_KIND: &str = "IntervalTier";
 

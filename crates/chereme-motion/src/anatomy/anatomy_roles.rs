@@ -14,10 +14,10 @@ use crate::skeleton::Skeleton;
 /// such part; or it is a JSON object with the same contents:
 ///
 /// ```
-/// use chereme_motion::anatomy::{Part, Roles};
+/// use chereme_motion::anatomy::{BodyPart, AssignedJointRoles};
 ///
-/// let roles: Roles = "# our rig\nright hand = wrist_7\njaw =".parse()?;
-/// assert_eq!(roles.0[&Part::Jaw], "");
+/// let roles: AssignedJointRoles = "# our rig\nright hand = wrist_7\njaw =".parse()?;
+/// assert_eq!(roles.0[&BodyPart::Jaw], "");
 /// assert_eq!(roles, r#"{"right hand": "wrist_7", "jaw": ""}"#.parse()?);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -1,17 +1,17 @@
 //! The parts of the body that a skeleton's joints stand for, and the measures and directions that follow.
 //!
 //! ```
-//! use chereme_motion::anatomy::{Anatomy, Part};
-//! use chereme_motion::{Joint, Side, Skeleton, glam::DVec3};
+//! use chereme_motion::anatomy::{BodyAnatomy, BodyPart};
+//! use chereme_motion::{SkeletonJoint, BodySide, Skeleton, glam::DVec3};
 //!
 //! let skeleton = Skeleton::new(vec![
-//!     Joint::new("mixamorig:RightArm", None, DVec3::ZERO),
-//!     Joint::new("mixamorig:RightForeArm", Some(0), DVec3::new(-0.28, 0.0, 0.0)),
-//!     Joint::new("mixamorig:RightHand", Some(1), DVec3::new(-0.25, 0.0, 0.0)),
+//!     SkeletonJoint::new("mixamorig:RightArm", None, DVec3::ZERO),
+//!     SkeletonJoint::new("mixamorig:RightForeArm", Some(0), DVec3::new(-0.28, 0.0, 0.0)),
+//!     SkeletonJoint::new("mixamorig:RightHand", Some(1), DVec3::new(-0.25, 0.0, 0.0)),
 //! ])?;
-//! let anatomy = Anatomy::detect(&skeleton);
-//! assert_eq!(anatomy.joint(Part::Hand(Side::Right)), Some(2));
-//! assert!(anatomy.arm(Side::Right).is_some() && anatomy.arm(Side::Left).is_none());
+//! let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
+//! assert_eq!(anatomy.part_joint(BodyPart::Hand(BodySide::Right)), Some(2));
+//! assert!(anatomy.arm_chain(BodySide::Right).is_some() && anatomy.arm_chain(BodySide::Left).is_none());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -1,15 +1,15 @@
 //! Columns of numbers exactly as a file gives them: decimals of text, floats, integers with a scale; gaps stay gaps.
 //!
 //! ```
-//! use chereme_motion::column::{Column, Number};
+//! use chereme_motion::column::{FrameNumberColumn, FileNumber};
 //!
-//! let text = ["1.50", "", "3e-3"].map(|cell| Number::parse(cell.as_bytes()).ok());
-//! let column = Column::decimals(text);
-//! assert_eq!([column.value(0), column.value(1), column.value(2)], [Some(1.5), None, Some(0.003)]);
-//! assert_eq!(column.text(0).as_deref(), Some("1.500"));
+//! let text = ["1.50", "", "3e-3"].map(|cell| FileNumber::parse_file_number(cell.as_bytes()).ok());
+//! let column = FrameNumberColumn::from_decimals(text);
+//! assert_eq!([column.column_value_at(0), column.column_value_at(1), column.column_value_at(2)], [Some(1.5), None, Some(0.003)]);
+//! assert_eq!(column.column_text_at(0).as_deref(), Some("1.500"));
 //!
-//! let raw = Column::integers(vec![-8067, 2868], 0.0, 0.1)?;
-//! assert_eq!(raw.value(1), Some(2868.0 * 0.1));
+//! let raw = FrameNumberColumn::from_scaled_integers(vec![-8067, 2868], 0.0, 0.1)?;
+//! assert_eq!(raw.column_value_at(1), Some(2868.0 * 0.1));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -26,8 +26,8 @@ pub fn gloss_cue_key(placement: &str, shape: u8) -> String {
 /// Returns the placement and the shape that a gloss names; `None` if it is not the gloss of a key.
 ///
 /// ```
-/// use chereme_sign::cue::{gloss, of_gloss};
-/// assert_eq!(of_gloss(&gloss("side-down", 5)), Some(("side-down", 5)));
+/// use chereme_sign::cue::{gloss_cue_key, of_gloss};
+/// assert_eq!(of_gloss(&gloss_cue_key("side-down", 5)), Some(("side-down", 5)));
 /// assert_eq!(of_gloss("CHAT-5"), None);
 /// ```
 #[must_use]

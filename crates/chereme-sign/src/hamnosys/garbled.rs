@@ -15,10 +15,10 @@ const GARBLED_SYMBOL_TRACES: [char; 3] = ['î', 'ï', 'Ã'];
 /// if it holds no such symbols.
 ///
 /// ```
-/// use chereme_sign::hamnosys::mended;
+/// use chereme_sign::hamnosys::repair_garbled_symbols;
 ///
-/// assert_eq!(mended("î\u{80}\u{81}î€\u{a0}").as_deref(), Some("\u{e001}\u{e020}"));
-/// assert_eq!(mended("maître"), None);
+/// assert_eq!(repair_garbled_symbols("î\u{80}\u{81}î€\u{a0}").as_deref(), Some("\u{e001}\u{e020}"));
+/// assert_eq!(repair_garbled_symbols("maître"), None);
 /// ```
 #[must_use]
 pub fn repair_garbled_symbols(text: &str) -> Option<String> {

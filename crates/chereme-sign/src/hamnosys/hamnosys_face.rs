@@ -21,9 +21,9 @@ impl FacialExpression {
     /// listed.
     ///
     /// ```
-    /// use chereme_sign::hamnosys::face::Expression;
-    /// let raised = Expression::of("brows", "RB").expect("both brows are raised");
-    /// assert_eq!(raised.at(0.5).brows, [1.0, 1.0]);
+    /// use chereme_sign::hamnosys::face::FacialExpression;
+    /// let raised = FacialExpression::from_nonmanual_code("brows", "RB").expect("both brows are raised");
+    /// assert_eq!(raised.expression_face_at(0.5).brows, [1.0, 1.0]);
     /// ```
     #[must_use]
     pub fn from_nonmanual_code(part: &str, code: &str) -> Option<Self> {

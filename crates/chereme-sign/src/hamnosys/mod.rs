@@ -5,13 +5,13 @@
 //! act by a symmetry, the notation describes the dominant hand.
 //!
 //! ```
-//! use chereme_sign::hamnosys::{parse, parse_lenient, print};
+//! use chereme_sign::hamnosys::{parse_hamnosys, parse_lenient, print_hamnosys};
 //!
-//! let read = parse("hamsymmlr hamflathand hamextfingero hampalmd hamchest hammovel hamfast")?;
+//! let read = parse_hamnosys("hamsymmlr hamflathand hamextfingero hampalmd hamchest hammovel hamfast")?;
 //! assert_eq!(read.sign.parts[0].actions.len(), 1);
-//! assert_eq!(print(&read.sign).text, "\u{e0e9}\u{e001}\u{e029}\u{e03c}\u{e052}\u{e086}\u{e0c8}");
+//! assert_eq!(print_hamnosys(&read.sign).text, "\u{e0e9}\u{e001}\u{e029}\u{e03c}\u{e052}\u{e086}\u{e0c8}");
 //!
-//! let error = parse("hamfist hamsmallmod").expect_err("a size of nothing");
+//! let error = parse_hamnosys("hamfist hamsmallmod").expect_err("a size of nothing");
 //! assert!(error.to_string().starts_with("symbol 2 is hamsmallmod, but expected a movement"));
 //! assert_eq!(parse_lenient("hamfist hamsmallmod").sign.parts.len(), 1);
 //! # Ok::<(), chereme_sign::hamnosys::HamnosysError>(())

@@ -5,12 +5,12 @@
 //! that may follow at a cursor.
 //!
 //! ```
-//! use chereme_sign::query::Query;
+//! use chereme_sign::query::TokenQuery;
 //!
-//! let query: Query = r#"right.handshape=U  placement="chin""#.parse()?;
+//! let query: TokenQuery = r#"right.handshape=U  placement="chin""#.parse()?;
 //! assert_eq!(query.to_string(), "right.configuration=U placement=chin");
 //!
-//! let error = "right.confguration=U".parse::<Query>().unwrap_err();
+//! let error = "right.confguration=U".parse::<TokenQuery>().unwrap_err();
 //! assert_eq!(error.at, 6..18);
 //! assert_eq!(error.suggestion.as_deref(), Some("configuration"));
 //! # Ok::<(), chereme_sign::query::QueryError>(())

@@ -11,11 +11,11 @@ use crate::component::ComponentField;
 /// query gets the condition at its end, so that nothing typed is lost.
 ///
 /// ```
-/// use chereme_sign::query::{narrow, without};
+/// use chereme_sign::query::{add_query_condition, remove_query_condition};
 ///
-/// let narrowed = narrow("gloss=A or gloss=B", "placement==chin");
+/// let narrowed = add_query_condition("gloss=A or gloss=B", "placement==chin");
 /// assert_eq!(narrowed, "(gloss=A or gloss=B) placement==chin");
-/// assert_eq!(without(&narrowed, "placement==chin"), "gloss=A or gloss=B");
+/// assert_eq!(remove_query_condition(&narrowed, "placement==chin"), "gloss=A or gloss=B");
 /// ```
 #[must_use]
 pub fn add_query_condition(query: &str, condition: &str) -> String {

@@ -12,12 +12,12 @@ enum NumberMark {
 /// The spelling of numbers in one column: whether commas and points part thousands.
 ///
 /// ```
-/// use chereme_sign::query::Numerals;
+/// use chereme_sign::query::NumberSpelling;
 ///
-/// let column = Numerals::of(["1,234", "7", "1,000,000"]);
-/// assert_eq!(column.number("1,234"), Some(1234.0));
-/// assert_eq!(Numerals::of(["1,234", "0,5"]).number("1,234"), Some(1.234));
-/// assert_eq!(Numerals::of(["12 %"]).number("12 %"), Some(12.0));
+/// let column = NumberSpelling::from_column_cells(["1,234", "7", "1,000,000"]);
+/// assert_eq!(column.parse_cell_number("1,234"), Some(1234.0));
+/// assert_eq!(NumberSpelling::from_column_cells(["1,234", "0,5"]).parse_cell_number("1,234"), Some(1.234));
+/// assert_eq!(NumberSpelling::from_column_cells(["12 %"]).parse_cell_number("12 %"), Some(12.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NumberSpelling {

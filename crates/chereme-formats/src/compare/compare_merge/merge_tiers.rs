@@ -2,7 +2,7 @@
 
 use super::{TranscriptMergeWork, take_their_value};
 use crate::compare::{TranscriptDifference, TranscriptTierChange};
-use crate::eaf::eaf_convert::TranscriptTier;
+use crate::transcript::TranscriptTier;
 
 impl TranscriptMergeWork<'_> {
     /// Renames, adds and changes tiers as theirs did, and notes the present name of each.

@@ -3,7 +3,7 @@
 use super::{TranscriptMergeWork, is_chained};
 use crate::compare::identity::has_same_times;
 use crate::compare::{ComparedAnnotation, compared_annotation_at, is_symbolic};
-use crate::eaf::eaf_convert::AnnotationAddress;
+use crate::transcript::AnnotationAddress;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl TranscriptMergeWork<'_> {

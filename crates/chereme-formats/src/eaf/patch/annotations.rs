@@ -1,10 +1,10 @@
 //! Annotations and tiers that were changed, removed and added.
 
 use super::{EafPatchWork, SlotReferences, is_alignable};
-use crate::eaf::eaf_model::{AnnotationAddress, AnnotationTranscript};
 use crate::eaf::eaf_output::render_eaf_elements;
 use crate::eaf::eaf_raw::{self, AnnotationAnchor, EafDocument, ElementStart};
 use crate::eaf::eaf_write;
+use crate::transcript::{AnnotationAddress, AnnotationTranscript};
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 

@@ -2,11 +2,11 @@
 
 use super::EafPatchWork;
 use crate::eaf::eaf_layout::EafLayout;
-use crate::eaf::eaf_model::ControlledVocabulary;
 use crate::eaf::eaf_output::{XmlOutput, render_eaf_elements};
 use crate::eaf::eaf_raw::{self, EafDocument};
 use crate::eaf::eaf_write;
 use crate::eaf::style::EafSpelling;
+use crate::transcript::ControlledVocabulary;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 

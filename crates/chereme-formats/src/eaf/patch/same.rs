@@ -1,7 +1,7 @@
 //! Compares what two transcripts mean, whatever their files look like.
 
 use super::{annotation_end_millis, annotations_by_id, is_alignable};
-use crate::eaf::eaf_model::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
+use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 use chereme_sign::TierStereotype;
 use std::collections::BTreeMap;
 

@@ -1,10 +1,10 @@
 //! Time slots: those of moved ends, those that nothing uses any more, and those of new annotations.
 
 use super::{EafPatchWork, SlotReferences, annotation_end_millis, is_alignable};
-use crate::eaf::eaf_model::AnnotationAddress;
 use crate::eaf::eaf_output::render_eaf_elements;
 use crate::eaf::eaf_raw::{AnnotationAnchor, TimeSlot};
 use crate::eaf::eaf_write;
+use crate::transcript::AnnotationAddress;
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 

@@ -8,10 +8,10 @@ use super::super::table_cells::{TableCells, TableError};
 use super::super::table_rows::write_tab_rows;
 use super::annotations_columns::ChangeTableColumns;
 use super::{ChangeRow, TableMoment, read_change_table};
-use crate::eaf::eaf_convert::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 use crate::finding::ImportFinding;
 use crate::roles::normalize_tier_name;
 use crate::tally::FindingTally;
+use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier};
 
 /// The name of the tier type of all tiers; ELAN exports no types.
 const EXPORTED_TIER_TYPE: &str = "annotation";

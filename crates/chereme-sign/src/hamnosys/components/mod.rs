@@ -6,16 +6,16 @@
 //! other by a symmetry has values of its own.
 //!
 //! ```
-//! use chereme_sign::hamnosys::components::Mapper;
-//! use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Each, Form, HandClass, Handshape};
-//! use chereme_sign::hamnosys::{Manual, Notated, Place, Posture, Sign, Site};
+//! use chereme_sign::hamnosys::components::SignMapper;
+//! use chereme_sign::hamnosys::{BodyLocation, BodyPlace, PlaceContact, EachHand, HandshapeForm, HandClass, Handshape};
+//! use chereme_sign::hamnosys::{ManualPart, NotatedSign, HandPlace, NotatedPosture, HamnosysSign, SidedLocation};
 //!
-//! let shape = Handshape { form: Form { class: HandClass::Flat, ..Form::default() }, ..Handshape::default() };
-//! let chin = Site { at: BodyLocation::Chin, side: None, approx: false };
-//! let place = BodyPlace { site: Some(chin), contact: Some(Contact::Touch), ..BodyPlace::default() };
-//! let posture = Posture { shape: Each::Shared(shape), place: Some(Place::Body(place)), ..Posture::default() };
-//! let sign = Sign { parts: vec![Manual { posture, ..Manual::default() }] };
-//! let mapped = Mapper::new(chereme_sign::inventory::builtin()).map(&Notated { sign, ..Notated::default() });
+//! let shape = Handshape { form: HandshapeForm { class: HandClass::Flat, ..HandshapeForm::default() }, ..Handshape::default() };
+//! let chin = SidedLocation { at: BodyLocation::Chin, side: None, approx: false };
+//! let place = BodyPlace { site: Some(chin), contact: Some(PlaceContact::Touch), ..BodyPlace::default() };
+//! let posture = NotatedPosture { shape: EachHand::Shared(shape), place: Some(HandPlace::Body(place)), ..NotatedPosture::default() };
+//! let sign = HamnosysSign { parts: vec![ManualPart { posture, ..ManualPart::default() }] };
+//! let mapped = SignMapper::new(chereme_sign::inventory::builtin_inventories()).map_sign_components(&NotatedSign { sign, ..NotatedSign::default() });
 //! let said: Vec<String> = mapped.values.iter().map(|it| format!("{}={}", it.field, it.value)).collect();
 //! assert_eq!(said, ["dominant.configuration=flat", "dominant.placement=chin", "dominant.movement=hold"]);
 //! ```

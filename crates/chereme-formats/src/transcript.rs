@@ -1,8 +1,14 @@
-//! The meaning of an EAF document, independent of the spelling in the file.
+//! The tiers of a recording with their annotations, independent of the format that they come from.
 
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
 use serde::Serialize;
+
+/// The tier type of a tier that holds the elements of a track whose attributes have tiers of their own.
+pub const ELEMENT_TIER_TYPE: &str = "ANVIL track";
+
+/// The kind of a tier whose annotations are points in time.
+pub const POINT_TIER_KIND: &str = "TextTier";
 
 /// The tiers of one recording with what belongs to them.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
