@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn every_text_that_the_pages_name_exists() {
         let source = include_str!("pages.rs");
-        let names = source.split("spoken(\"").skip(1);
+        let names = source.split("page_text_all_languages(\"").skip(1);
         let names: Vec<&str> = names.filter_map(|rest| rest.split('"').next()).collect();
         assert!(names.len() > 8, "{names:?}");
         for name in names {

@@ -23,7 +23,7 @@ fn first(names: &str) -> ManualPart {
 
 /// Returns whether some part remembers its spelling.
 fn remembers(sign: &HamnosysSign) -> bool {
-    format!("{sign:?}").contains("Written(Some(")
+    format!("{sign:?}").contains("WrittenSymbols(Some(")
 }
 
 #[test]
