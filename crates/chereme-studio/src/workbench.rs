@@ -52,7 +52,7 @@ fn focused_in(ui: &Ui, part: Rect) -> Option<Response> {
 impl TileWorkbench<'_> {
     /// Leaves the cursor in the text field of a pane if a button of the pane was pressed; the pane reported what happened
     /// to its widgets after `before` other reports.
-    fn keep_cursor(&mut self, ui: &Ui, part: Rect, (pane, before): (PaneKind, usize)) {
+    fn keep_cursor(&mut self, ui: &Ui, part: Rect, pane: PaneKind, before: usize) {
         if ui.memory(|memory| memory.focused()).is_some() {
             let field = focused_in(ui, part).filter(|_| ui.ctx().text_edit_focused());
             match (field, &self.cursor) {
@@ -100,7 +100,7 @@ impl Behavior<PaneKind> for TileWorkbench<'_> {
             let before = ui.output(|output| output.events.len());
             self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
             ui.allocate_space(ui.available_size());
-            self.keep_cursor(ui, rect, (*kind, before));
+            self.keep_cursor(ui, rect, *kind, before);
             if *self.pane == Some(*kind) {
                 let stroke = Stroke::new(1.5, self.seen.pane_colours().accent);
                 let around = rect.expand(PANE_MARGIN_POINTS - 1.0);

@@ -296,7 +296,7 @@ impl MiniatureDrawer {
         };
         let image = match (&key.source, ready) {
             (MiniatureSource::Hand(left, angles), _) => hand_alone(*left, angles, size, theme),
-            (_, Some(ready)) => Some(self.draw_signer_picture(ready, index, key.focus, (size, &style))),
+            (_, Some(ready)) => Some(self.draw_signer_picture(ready, index, key.focus, size, &style)),
             _ => None,
         };
         image.map_or_else(
@@ -310,7 +310,8 @@ impl MiniatureDrawer {
         ready: &DrawableMovement,
         index: usize,
         focus: MiniatureFocus,
-        (size, style): ([usize; 2], &FigureStyle),
+        size: [usize; 2],
+        style: &FigureStyle,
     ) -> RasterImage {
         let pose = &ready.poses[index];
         let (of, mesh) = &mut self.mesh;

@@ -99,7 +99,8 @@ impl MiniatureFigures {
         &self,
         ui: &Ui,
         language: InterfaceLanguage,
-        (made, clock): (&Arc<GeneratedClip>, f64),
+        made: &Arc<GeneratedClip>,
+        clock: f64,
         rect: Rect,
         focus: MiniatureFocus,
     ) {
@@ -126,13 +127,14 @@ impl MiniatureFigures {
         &self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        (side, angles): (BodySide, &HandAngles),
+        side: BodySide,
+        angles: &HandAngles,
         size: Vec2,
         name: &str,
     ) -> Response {
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
-        self.paint_hand(ui, seen.language, (side, angles), rect);
+        self.paint_hand(ui, seen.language, side, angles, rect);
         paint_cell_edge(ui, &response, rect);
         response
     }
@@ -142,7 +144,8 @@ impl MiniatureFigures {
         &self,
         ui: &Ui,
         language: InterfaceLanguage,
-        (side, angles): (BodySide, &HandAngles),
+        side: BodySide,
+        angles: &HandAngles,
         rect: Rect,
     ) {
         if !ui.is_rect_visible(rect) {

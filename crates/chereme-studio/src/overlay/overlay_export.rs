@@ -183,7 +183,7 @@ impl ExportWindow {
             ScrollArea::vertical().max_height(high).show(ui, |ui| {
                 // The bar that scrolls covers no field.
                 ui.set_max_width(ui.available_width() - EXPORT_SCROLL_BAR_WIDTH);
-                self.show_export_form(ui, seen, (settings, corpus), out);
+                self.show_export_form(ui, seen, settings, corpus, out);
             });
         });
         self.open = open && !(self.asked.is_none() && super::take_escape_key(ctx));
@@ -193,7 +193,8 @@ impl ExportWindow {
         &mut self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        (settings, corpus): (&StudioSettings, &Path),
+        settings: &StudioSettings,
+        corpus: &Path,
         out: &mut CommandOutbox,
     ) {
         let choices = self.exportable_objects(seen);
@@ -249,7 +250,7 @@ impl ExportWindow {
         }
         ui.checkbox(&mut self.replace, seen.say_text(words::REPLACE));
         ui.add_space(4.0);
-        self.show_export_buttons(ui, seen, settings, (&what, entered), out);
+        self.show_export_buttons(ui, seen, settings, &what, entered, out);
         if let Some(wrong) = &self.wrong {
             let lines = wrong.lines().map(|line| translate_library_message(line, seen.language));
             let joined_lines = lines.collect::<Vec<_>>().join("\n");
@@ -277,7 +278,8 @@ impl ExportWindow {
         ui: &mut Ui,
         seen: &PaneInput<'_>,
         settings: &StudioSettings,
-        (what, entered): (&ExportObject, bool),
+        what: &ExportObject,
+        entered: bool,
         out: &mut CommandOutbox,
     ) {
         let running = self.asked.and_then(|id| seen.running.get(&id));

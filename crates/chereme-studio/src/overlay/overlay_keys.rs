@@ -72,7 +72,7 @@ impl KeysHelp {
                         }
                         ui.add_space(6.0);
                         ui.strong(title.text_in_language(language));
-                        self.show_menu_keys_table(ui, (menu, &rows), keys, settings);
+                        self.show_menu_keys_table(ui, menu, &rows, keys, settings);
                         if all {
                             mouse(ui, menu, language);
                         }
@@ -109,7 +109,8 @@ impl KeysHelp {
     fn show_menu_keys_table(
         &mut self,
         ui: &mut Ui,
-        (menu, rows): (ActionMenu, &[&ActionRow]),
+        menu: ActionMenu,
+        rows: &[&ActionRow],
         keys: &ActionKeys,
         settings: &StudioSettings,
     ) {

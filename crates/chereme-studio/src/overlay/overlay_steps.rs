@@ -123,7 +123,7 @@ impl StepLoop {
         painter.rect_filled(rect, 6.0, ui.visuals().extreme_bg_color);
         let film = |rect: Rect, clock: f64, focus: MiniatureFocus| {
             if let Some(sign) = sign {
-                little.paint_made(ui, language, (sign, clock), rect, focus);
+                little.paint_made(ui, language, sign, clock, rect, focus);
             }
         };
         match self {
@@ -149,12 +149,7 @@ impl StepLoop {
             }
             Self::Hand => {
                 let shape = (share * 3.0) as usize;
-                little.paint_hand(
-                    ui,
-                    language,
-                    (BodySide::Right, &hand_with_straight_fingers(shape)),
-                    rect,
-                );
+                little.paint_hand(ui, language, BodySide::Right, &hand_with_straight_fingers(shape), rect);
             }
             Self::Two => {
                 let right = MiniatureFocus::Hand(BodySide::Right);

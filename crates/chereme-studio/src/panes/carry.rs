@@ -118,7 +118,9 @@ impl TabSpring {
 pub(crate) fn show_sign_menu(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (token, gloss, recording): (i64, &str, Option<i64>),
+    token: i64,
+    gloss: &str,
+    recording: Option<i64>,
     out: &mut CommandOutbox,
 ) {
     let mut entry = |name: &str, command: WindowCommand, keys: String| {

@@ -211,7 +211,7 @@ pub(crate) fn scrolled_to(at: usize, height: f32, now: f32, room: f32) -> f32 {
 
 /// Shows a row of a list: a name, with a text below; it reacts to a click, or to Enter with the focus.
 pub(crate) fn list_row(ui: &mut Ui, height: f32, chosen: bool, name: &str, about: &str) -> Response {
-    list_row_after(ui, (height, 0.0), chosen, name, about)
+    list_row_after(ui, height, 0.0, chosen, name, about)
 }
 
 /// Returns the widget with the keyboard focus.
@@ -238,22 +238,17 @@ pub(crate) fn reach_focus(ui: &Ui) {
 }
 
 /// Shows a row of a list with a width of `lead` left free at its start, for a picture.
-pub(crate) fn list_row_after(
-    ui: &mut Ui,
-    (height, lead): (f32, f32),
-    chosen: bool,
-    name: &str,
-    about: &str,
-) -> Response {
+pub(crate) fn list_row_after(ui: &mut Ui, height: f32, lead: f32, chosen: bool, name: &str, about: &str) -> Response {
     let id = ui.next_auto_id();
-    list_row_at(ui, id, (height, lead), chosen, (name, about))
+    list_row_at(ui, id, height, lead, chosen, (name, about))
 }
 
 /// Shows the same row under the caller's id; it can be dragged.
 pub(crate) fn list_row_at(
     ui: &mut Ui,
     id: Id,
-    (height, lead): (f32, f32),
+    height: f32,
+    lead: f32,
     chosen: bool,
     (name, about): (&str, &str),
 ) -> Response {

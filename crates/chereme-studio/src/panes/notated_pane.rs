@@ -62,7 +62,8 @@ impl AnimatedNotations {
     pub(crate) fn choose_notated_sign(
         &mut self,
         moves: SignMovement,
-        (token, gloss): (i64, &str),
+        token: i64,
+        gloss: &str,
         out: &mut CommandOutbox,
     ) {
         match moves {

@@ -28,7 +28,8 @@ pub(crate) fn show_movement_absence(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (token, gloss): (i64, &str),
+    token: i64,
+    gloss: &str,
     bare: &MovementAbsence,
 ) {
     // The panel is below the list, so that the list does not move.
@@ -49,7 +50,7 @@ pub(crate) fn show_movement_absence(
         };
         if low {
             ui.horizontal(|ui| {
-                show_absence_actions(ui, seen, out, (token, gloss), bare);
+                show_absence_actions(ui, seen, out, token, gloss, bare);
                 let full_text = format!("{text}\n{why}");
                 ui.add(Label::new(&text).truncate()).on_hover_text(full_text.trim_end());
             });
@@ -59,7 +60,7 @@ pub(crate) fn show_movement_absence(
         if !why.is_empty() {
             ui.label(RichText::new(why).small().weak());
         }
-        ui.horizontal_wrapped(|ui| show_absence_actions(ui, seen, out, (token, gloss), bare));
+        ui.horizontal_wrapped(|ui| show_absence_actions(ui, seen, out, token, gloss, bare));
     });
 }
 
@@ -68,7 +69,8 @@ fn show_absence_actions(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (token, gloss): (i64, &str),
+    token: i64,
+    gloss: &str,
     bare: &MovementAbsence,
 ) {
     let (name, recipe) = match bare {

@@ -208,7 +208,8 @@ pub(super) fn find_computed_areas(
 /// Paints all areas, or one of them, over the picture in `rect`.
 pub(super) fn paint_picture_areas(
     painter: &Painter,
-    (key, areas): (u64, &PictureAreas),
+    key: u64,
+    areas: &PictureAreas,
     zone: Option<usize>,
     colour: Color32,
     rect: Rect,

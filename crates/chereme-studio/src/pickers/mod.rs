@@ -302,7 +302,7 @@ fn draw_hand_pictures(
             let (rect, _) = ui.allocate_exact_size(vec2(room, PREVIEW_BELOW_WIDTH_POINTS), Sense::hover());
             let square = Rect::from_min_size(rect.min, vec2(PREVIEW_BELOW_WIDTH_POINTS, PREVIEW_BELOW_WIDTH_POINTS));
             let text = Rect::from_min_max(square.right_top() + vec2(6.0, 4.0), rect.max);
-            worn_hand(ui, (square, text), picker, cells, shown);
+            worn_hand(ui, square, text, picker, cells, shown);
             return picked;
         }
         return draw_value_grid(ui, picker, cells, shown, PickerForm::Hands);
@@ -320,14 +320,14 @@ fn draw_hand_pictures(
         );
         let square = Rect::from_min_size(rect.min, vec2(PREVIEW_HAND_WIDTH_POINTS, PREVIEW_HAND_WIDTH_POINTS));
         let text = Rect::from_min_max(square.left_bottom() + vec2(4.0, 6.0), rect.max);
-        worn_hand(ui, (square, text), picker, cells, shown);
+        worn_hand(ui, square, text, picker, cells, shown);
         picked
     })
     .inner
 }
 
 /// Draws the preview hand in a square, and its name in another rectangle.
-fn worn_hand(ui: &Ui, (square, text): (Rect, Rect), picker: &ValuePicker, cells: &PickerCells<'_>, shown: &[usize]) {
+fn worn_hand(ui: &Ui, square: Rect, text: Rect, picker: &ValuePicker, cells: &PickerCells<'_>, shown: &[usize]) {
     let value_id = picker.at.as_deref().or(cells.chosen);
     let marked_value = value_id.and_then(|id| cells.inventory.value_by_id(id));
     let first = || shown.first().and_then(|at| cells.inventory.values.get(*at));

@@ -353,7 +353,7 @@ fn panel_zones(
     }
     let colours = cells.seen.pane_colours();
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    areas::paint_picture_areas(&painter, (key, &areas), None, colours.accent, rect);
+    areas::paint_picture_areas(&painter, key, &areas, None, colours.accent, rect);
     for (nth, zone) in areas.zones.iter().enumerate() {
         let value = &inventory.values[zone.value];
         let on = |id: &str| inventory.is_within_value(&value.id, id);
@@ -365,7 +365,7 @@ fn panel_zones(
             _ => Color32::TRANSPARENT,
         };
         if lit || chosen {
-            areas::paint_picture_areas(&painter, (key, &areas), Some(nth), colour, rect);
+            areas::paint_picture_areas(&painter, key, &areas, Some(nth), colour, rect);
         }
         let spot = Rect::from_center_size(rect.min + zone.centre.to_vec2(), Vec2::splat(FOCUS_POINT_SIZE_POINTS));
         let name = ui.scope_id().with(("zone", &value.id, view.1));

@@ -54,7 +54,7 @@ pub(super) fn paint_value_picture(
             paint_hand_picture(ui, rect, seen.dark, &angles);
             true
         }),
-        PickerForm::Body | PickerForm::Faces => paint_small_picture(ui, rect, seen, (inventory, value)),
+        PickerForm::Body | PickerForm::Faces => paint_small_picture(ui, rect, seen, inventory, value),
         PickerForm::Rose => rose::paint_direction_arrow(ui.painter(), rect, value, colour),
         PickerForm::Glyphs => glyph::paint_movement_glyph(ui.painter(), rect, &value.id, colour),
         PickerForm::Names => false,
@@ -177,7 +177,8 @@ fn paint_small_picture(
     ui: &Ui,
     rect: Rect,
     seen: &PaneInput<'_>,
-    (inventory, value): (&ComponentInventory, &InventoryValue),
+    inventory: &ComponentInventory,
+    value: &InventoryValue,
 ) -> bool {
     let face = facial_expression_of_value(inventory, value);
     if value.landmark.is_none() && face.is_none() {

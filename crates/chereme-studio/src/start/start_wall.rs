@@ -100,7 +100,7 @@ pub(super) fn show_sign_wall(
     for (at, made) in signs.iter().take(columns * rows).enumerate() {
         let place = wall_picture_place(at, columns, signs.len());
         let rect = Rect::from_min_size(first + place * step, Vec2::splat(side));
-        if show_wall_picture(ui, little, language, (at, made), rect).clicked() {
+        if show_wall_picture(ui, little, language, at, made, rect).clicked() {
             chosen = Some(made.name.clone());
         }
     }
@@ -119,7 +119,8 @@ fn show_wall_picture(
     ui: &mut Ui,
     little: &MiniatureFigures,
     language: InterfaceLanguage,
-    (at, made): (usize, &Arc<GeneratedClip>),
+    at: usize,
+    made: &Arc<GeneratedClip>,
     rect: Rect,
 ) -> Response {
     let cell_rect = rect.with_max_y(rect.bottom() + WALL_GLOSS_HEIGHT_POINTS);
@@ -128,7 +129,7 @@ fn show_wall_picture(
     let name = fill_text_braces(words::START_SIGN.text_in_language(language), &[("gloss", &made.name)]);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
     let clock = miniatures::figure_loop_clock(ui);
-    little.paint_made(ui, language, (made, clock), rect, MiniatureFocus::Signing);
+    little.paint_made(ui, language, made, clock, rect, MiniatureFocus::Signing);
     let colours = ThemeColours::colours_for_theme(theme::is_dark(ui.ctx()));
     let lit = response.hovered() || response.has_focus();
     let stroke = if lit {

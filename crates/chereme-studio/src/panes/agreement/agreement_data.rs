@@ -141,7 +141,8 @@ pub(super) fn disagreement_key(it: &ValueDisagreement) -> DisagreementKey {
 pub(super) fn disagreement_rows(
     found: &AnnotatorAgreement,
     names: &[String; 2],
-    (kinds, order): (DisagreementKinds, DisagreementOrder),
+    kinds: DisagreementKinds,
+    order: DisagreementOrder,
     language: InterfaceLanguage,
 ) -> Vec<DisagreementRow> {
     let is_wanted = |disagreement: &ValueDisagreement| match kinds {

@@ -49,7 +49,8 @@ impl AgreementPane {
         &mut self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        (found, names): (&AnnotatorAgreement, &[String; 2]),
+        found: &AnnotatorAgreement,
+        names: &[String; 2],
         out: &mut CommandOutbox,
     ) {
         if found.list.is_empty() {
@@ -128,7 +129,7 @@ impl AgreementPane {
                 let row = &rows[at];
                 let chosen = self.at == Some(at);
                 let text = (row.name.as_str(), row.about.as_str());
-                let response = list_row_at(ui, row_id(at), (height, 0.0), chosen, text);
+                let response = list_row_at(ui, row_id(at), height, 0.0, chosen, text);
                 if self.reach == Some(at) {
                     reached = Some(response.rect);
                 }

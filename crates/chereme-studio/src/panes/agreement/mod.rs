@@ -167,7 +167,7 @@ impl AgreementPane {
         if same {
             return;
         }
-        self.rows = agreement_data::disagreement_rows(found, names, (self.kinds, self.order), language);
+        self.rows = agreement_data::disagreement_rows(found, names, self.kinds, self.order, language);
         self.at = self.chosen.and_then(|chosen| {
             let is = |row: &DisagreementRow| agreement_data::disagreement_key(&found.list[row.place]) == chosen;
             self.rows.iter().position(is)
@@ -465,7 +465,7 @@ impl PaneInterface for AgreementPane {
             let height = ui.available_height().max(MIN_AGREEMENT_LIST_HEIGHT);
             let width = ui.available_width();
             ui.allocate_ui(eframe::egui::vec2(width, height), |ui| match self.view {
-                AgreementView::Disagreements => self.show_disagreement_list(ui, seen, (&found, &names), out),
+                AgreementView::Disagreements => self.show_disagreement_list(ui, seen, &found, &names, out),
                 AgreementView::Values => agreement_tables::show_value_agreement(ui, seen, &found),
                 AgreementView::Confusion => agreement_tables::show_value_confusion(ui, seen, &found),
                 AgreementView::Measures => agreement_tables::every_measure(ui, seen, &found),

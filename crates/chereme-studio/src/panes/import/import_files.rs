@@ -20,7 +20,8 @@ pub(super) fn show_file_report(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     file: &FileReport,
-    (open, dry): (bool, bool),
+    open: bool,
+    dry: bool,
     out: &mut CommandOutbox,
 ) {
     let name = Path::new(&file.path).file_name().unwrap_or_default().to_string_lossy();

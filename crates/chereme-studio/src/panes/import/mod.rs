@@ -196,7 +196,7 @@ impl ImportPane {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let open = report.files.len() <= 2;
             for file in import_data::files_by_attention(&report) {
-                import_files::show_file_report(&mut self.corrections, ui, seen, file, (open, report.dry_run), out);
+                import_files::show_file_report(&mut self.corrections, ui, seen, file, open, report.dry_run, out);
             }
         });
         self.report = Some(report);

@@ -366,7 +366,8 @@ pub(super) fn show_inventory_value(
     it: &mut InspectorPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (inventory, id): (i64, &str),
+    inventory: i64,
+    id: &str,
     uses: u64,
     out: &mut CommandOutbox,
 ) {

@@ -128,7 +128,7 @@ pub(super) fn show_thing_details(
         Some(Ok(ObjectDetails::Signer(signer))) => signer_more(it, ui, seen, &signer),
         Some(Ok(ObjectDetails::Recording(recording))) => recording_more(ui, seen, &recording, out),
         Some(Ok(ObjectDetails::Value(inventory, value, uses))) => {
-            about::show_inventory_value(it, ui, seen, (inventory, &value), uses, out);
+            about::show_inventory_value(it, ui, seen, inventory, &value, uses, out);
         }
     }
 }

@@ -77,7 +77,7 @@ impl LibraryPane {
                 ui.horizontal(|ui| {
                     for at in line * columns..((line + 1) * columns).min(total) {
                         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-                        self.show_wall_cell(ui, seen, out, (list, at), rect);
+                        self.show_wall_cell(ui, seen, out, list, at, rect);
                     }
                 });
             }
@@ -90,7 +90,8 @@ impl LibraryPane {
         ui: &mut Ui,
         seen: &PaneInput<'_>,
         out: &mut CommandOutbox,
-        (list, at): (LibraryList, usize),
+        list: LibraryList,
+        at: usize,
         rect: Rect,
     ) {
         let picture = rect.with_max_y(rect.bottom() - WALL_TEXT_HEIGHT);
@@ -101,7 +102,7 @@ impl LibraryPane {
                     return;
                 };
                 let chosen = seen.shown.recording == Some(row.id);
-                let response = draw_figure_frame(ui, seen, rect, (at, chosen), (&row.name, &row.about));
+                let response = draw_figure_frame(ui, seen, rect, at, chosen, &row.name, &row.about);
                 self.focus_library_row(ui, &response, at);
                 let span = self.rows.first.get(&row.id).copied().unwrap_or(row.whole);
                 let motion = row.moves.then_some(MiniatureMotion::Span(row.id, span));
@@ -116,7 +117,7 @@ impl LibraryPane {
                     .chosen
                     .as_ref()
                     .is_some_and(|chosen_sign| chosen_sign.gloss == row.gloss);
-                let response = draw_figure_frame(ui, seen, rect, (at, chosen), (&row.gloss, &row.about));
+                let response = draw_figure_frame(ui, seen, rect, at, chosen, &row.gloss, &row.about);
                 self.focus_library_row(ui, &response, at);
                 let motion = match (row.moves, row.token) {
                     (SignMovement::Recorded(recording, span), _) => Some(MiniatureMotion::Span(recording, span)),
@@ -127,7 +128,7 @@ impl LibraryPane {
                     _ => None,
                 };
                 show_looped_motion(ui, seen, out, motion.clone(), picture);
-                self.on_sign(seen, out, (&row, motion), &response);
+                self.on_sign(seen, out, &row, motion, &response);
             }
         }
     }
@@ -170,8 +171,10 @@ fn draw_figure_frame(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     rect: Rect,
-    (at, chosen): (usize, bool),
-    (name, about): (&str, &str),
+    at: usize,
+    chosen: bool,
+    name: &str,
+    about: &str,
 ) -> Response {
     let response = ui.interact(rect, row_id(at), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));

@@ -168,7 +168,7 @@ impl LibraryPane {
     fn choose_library_sign(&mut self, row: &LibrarySignRow, out: &mut CommandOutbox) {
         self.chosen = Some(row.clone());
         let Some(token) = row.token else { return };
-        self.notated.choose_notated_sign(row.moves, (token, &row.gloss), out);
+        self.notated.choose_notated_sign(row.moves, token, &row.gloss, out);
     }
 
     /// Shows the chosen notated sign on the stage once it is animated, even if another pane covers this one.
@@ -187,7 +187,7 @@ impl LibraryPane {
             SignMovement::Not => Some(MovementAbsence::Coded),
         };
         if let Some(bare) = bare {
-            without_movement::show_movement_absence(ui, seen, out, (token, &row.gloss), &bare);
+            without_movement::show_movement_absence(ui, seen, out, token, &row.gloss, &bare);
         }
     }
 
@@ -251,7 +251,7 @@ impl LibraryPane {
                 let chosen = seen.shown.recording == Some(row.id);
                 let lead = height - 4.0;
                 let texts = (row.name.as_str(), row.about.as_str());
-                let response = super::list_row_at(ui, row_id(at), (height, lead), chosen, texts);
+                let response = super::list_row_at(ui, row_id(at), height, lead, chosen, texts);
                 self.focus_library_row(ui, &response, at);
                 if row.moves {
                     let motion = MiniatureMotion::Span(row.id, row.whole);
@@ -298,7 +298,7 @@ impl LibraryPane {
         let area = self.library_scroll_area(ui, height + ui.spacing().item_spacing.y);
         let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
             for at in range {
-                self.show_one_sign_row(ui, seen, out, (at, &rows[at]), height);
+                self.show_one_sign_row(ui, seen, out, at, &rows[at], height);
             }
         });
         self.scrolled = shown.state.clamped_offset().y;
@@ -310,7 +310,8 @@ impl LibraryPane {
         ui: &mut Ui,
         seen: &PaneInput<'_>,
         out: &mut CommandOutbox,
-        (at, row): (usize, &LibrarySignRow),
+        at: usize,
+        row: &LibrarySignRow,
         height: f32,
     ) {
         let chosen = self
@@ -319,7 +320,7 @@ impl LibraryPane {
             .is_some_and(|chosen_sign| chosen_sign.gloss == row.gloss);
         let lead = height - 4.0;
         let texts = (row.gloss.as_str(), row.about.as_str());
-        let response = super::list_row_at(ui, row_id(at), (height, lead), chosen, texts);
+        let response = super::list_row_at(ui, row_id(at), height, lead, chosen, texts);
         self.focus_library_row(ui, &response, at);
         let motion = match (row.moves, row.token) {
             (SignMovement::Recorded(recording, span), _) => Some(MiniatureMotion::Span(recording, span)),
@@ -332,7 +333,7 @@ impl LibraryPane {
         if let Some(motion) = &motion {
             show_row_figure(ui, seen, out, motion.clone(), &response, lead);
         }
-        self.on_sign(seen, out, (row, motion), &response);
+        self.on_sign(seen, out, row, motion, &response);
     }
 
     /// Handles clicks on a sign, and drags.
@@ -340,7 +341,8 @@ impl LibraryPane {
         &mut self,
         seen: &PaneInput<'_>,
         out: &mut CommandOutbox,
-        (row, motion): (&LibrarySignRow, Option<MiniatureMotion>),
+        row: &LibrarySignRow,
+        motion: Option<MiniatureMotion>,
         response: &Response,
     ) {
         if let Some(carried) = carried_sign_of(row) {
@@ -356,7 +358,7 @@ impl LibraryPane {
         response.context_menu(|ui| {
             let gloss = row.gloss.as_str();
             if let Some(token) = row.token {
-                super::carry::show_sign_menu(ui, seen, (token, gloss, recording), out);
+                super::carry::show_sign_menu(ui, seen, token, gloss, recording, out);
                 ui.separator();
             }
             self.delete_entry(ui, seen, || library_delete::sign_deletion_target(gloss), out);

@@ -324,7 +324,7 @@ impl MapPane {
             return out.send_command(WindowCommand::Inspect(InspectedThing::Token(token)));
         };
         self.notated
-            .choose_notated_sign(SignMovement::movement_of_sign(sign), (token, &sign.gloss), out);
+            .choose_notated_sign(SignMovement::movement_of_sign(sign), token, &sign.gloss, out);
     }
 
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.

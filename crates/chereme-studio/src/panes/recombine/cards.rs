@@ -85,7 +85,7 @@ pub(super) fn show_recipe_cards(pane: &mut RecombinePane, ui: &mut Ui, seen: &Pa
         });
         places.push(inner.response.rect);
     }
-    drop_between(ui, seen, (stack, &places), &mut did);
+    drop_between(ui, seen, stack, &places, &mut did);
     let changed = did.iter().any(|action| !matches!(action, CardStackAction::Choose(_)));
     for did in did {
         match did {
@@ -334,7 +334,7 @@ fn show_results(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Opt
 }
 
 /// Shows the dragged card at the pointer.
-fn show_dragged_card(ui: &Ui, seen: &PaneInput<'_>, stack: &CardStack, (id, at): (u64, eframe::egui::Pos2)) {
+fn show_dragged_card(ui: &Ui, seen: &PaneInput<'_>, stack: &CardStack, id: u64, at: eframe::egui::Pos2) {
     let Some(place) = stack.find_card_position(id) else {
         return;
     };
@@ -352,12 +352,7 @@ fn show_dragged_card(ui: &Ui, seen: &PaneInput<'_>, stack: &CardStack, (id, at):
 }
 
 /// Shows the place where a dragged card would go, and drops it there.
-fn drop_between(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    (stack, places): (&CardStack, &[Rect]),
-    did: &mut Vec<CardStackAction>,
-) {
+fn drop_between(ui: &mut Ui, seen: &PaneInput<'_>, stack: &CardStack, places: &[Rect], did: &mut Vec<CardStackAction>) {
     let Some(dragged) = DragAndDrop::payload::<DraggedCard>(ui.ctx()) else {
         return;
     };
@@ -371,7 +366,7 @@ fn drop_between(
     };
     let stroke = Stroke::new(3.0, seen.pane_colours().accent);
     ui.painter().hline(first.x_range(), y, stroke);
-    show_dragged_card(ui, seen, stack, (dragged.0, at));
+    show_dragged_card(ui, seen, stack, dragged.0, at);
     // Near the edge, the list scrolls.
     let clip = ui.clip_rect();
     let beyond = (clip.top() + CARD_SCROLL_EDGE_POINTS - at.y).max(0.0)

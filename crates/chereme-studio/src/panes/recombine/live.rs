@@ -76,7 +76,8 @@ impl RecipePreview {
         &mut self,
         stack: &CardStack,
         text: &str,
-        (generation, now): (i64, f64),
+        generation: i64,
+        now: f64,
         out: &mut CommandOutbox,
     ) {
         if std::mem::take(&mut self.fresh) {
@@ -236,19 +237,19 @@ mod tests {
             let all = out.take_commands().into_iter();
             all.filter(|it| matches!(it, WindowCommand::Stop(_))).count()
         };
-        live.evaluate_changed_recipe(&stack, "A", (1, 0.0), &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 0.1), &mut out);
+        live.evaluate_changed_recipe(&stack, "A", 1, 0.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.1, &mut out);
         assert_eq!(stops(&mut out), 0, "it may be ready soon");
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 0.2), &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 0.3), &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.2, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.3, &mut out);
         assert_eq!(stops(&mut out), 1);
         assert!(live.receive_preview_result(WorkId(1), &Err(CorpusError::Stopped)));
         assert!(live.trouble.is_none());
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 0.3), &mut out);
-        live.evaluate_changed_recipe(&stack, "A | reverse", (1, 0.9), &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.3, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | reverse", 1, 0.9, &mut out);
         assert_eq!(stops(&mut out), 0, "not twice in a row");
         assert!(live.receive_preview_result(WorkId(2), &Err(CorpusError::from_wrong_message("no A"))));
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 1.0), &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 1.0, &mut out);
         assert!(out.take_commands().is_empty(), "it is known already");
         live.reload_recipe_preview();
         let recipe = "A | swap".to_owned();
@@ -259,7 +260,7 @@ mod tests {
         let again = true;
         assert_eq!(live.next(&wish), Some(OpenRecipeDraft { recipe, again }));
         live.reload_recipe_preview();
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 1.0), &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 1.0, &mut out);
         assert!(matches!(out.take_commands()[..], [WindowCommand::Work(..)]));
     }
 
@@ -267,9 +268,9 @@ mod tests {
     fn one_recipe_is_evaluated_at_a_time_and_the_newest_next() {
         let (mut live, mut out) = (RecipePreview::default(), CommandOutbox::default());
         let stack = stack("A");
-        live.evaluate_changed_recipe(&stack, "A", (1, 0.0), &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap", (1, 0.0), &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap | reverse", (1, 0.0), &mut out);
+        live.evaluate_changed_recipe(&stack, "A", 1, 0.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap | reverse", 1, 0.0, &mut out);
         assert_eq!(out.take_commands().len(), 1);
         let failed = Err(CorpusError::Step(Box::new(FailedStep {
             step: "A".to_owned(),
@@ -282,9 +283,9 @@ mod tests {
         assert!(live.receive_preview_result(WorkId(1), &failed));
         let trouble = live.trouble.clone().expect("trouble");
         assert_eq!(trouble.text, "A: there is none");
-        live.evaluate_changed_recipe(&stack, "A | swap | reverse", (1, 0.0), &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap | reverse", 1, 0.0, &mut out);
         assert_eq!(out.take_commands().len(), 1);
-        live.evaluate_changed_recipe(&stack, "", (1, 0.0), &mut out);
+        live.evaluate_changed_recipe(&stack, "", 1, 0.0, &mut out);
         assert!(live.trouble.is_none());
     }
 }

@@ -276,7 +276,7 @@ impl RecombinePane {
         if self.wrong.is_none() {
             let text = self.stack.used_recipe_text();
             self.live
-                .evaluate_changed_recipe(&self.stack, &text, (generation, now), out);
+                .evaluate_changed_recipe(&self.stack, &text, generation, now, out);
         }
         self.show_on_stage(seen, out);
         let handle = self.chosen_placement_handle();

@@ -251,7 +251,8 @@ const DRAWING_CARD_KEY: &str = "path drawn on the stage";
 pub(super) fn show_travel_path(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (id, card): (Id, u64),
+    id: Id,
+    card: u64,
     travel: &mut TravelSettings,
 ) -> bool {
     let on = drawing_card_id(ui.ctx()) == Some(card);

@@ -76,7 +76,7 @@ fn show_source_settings(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, nod
                 let button = button_width(ui, seen.say_text(crate::words::hamnosys_words::BOARD));
                 let width = ui.available_width() - button - 3.0 * ui.spacing().item_spacing.x;
                 let name = seen.say_text(words::HAMNOSYS_SYMBOLS);
-                changed |= wide_line(ui, (name, ""), width, &mut it.of);
+                changed |= wide_line(ui, name, "", width, &mut it.of);
                 changed |= board::draw_symbol_board_button(ui, seen, &mut it.of);
             });
             pickers_hamnosys::of_text(ui, seen, &it.of, pickers_hamnosys::DEFAULT_SYMBOL_EM_POINTS);
@@ -102,11 +102,11 @@ fn show_source_settings(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, nod
 
 pub(super) fn show_recipe_text_line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> bool {
     let width = (ui.available_width() - 8.0).min(260.0);
-    wide_line(ui, (name, hint), width, text)
+    wide_line(ui, name, hint, width, text)
 }
 
 /// Shows a line of that width, in points.
-fn wide_line(ui: &mut Ui, (name, hint): (&str, &str), width: f32, text: &mut String) -> bool {
+fn wide_line(ui: &mut Ui, name: &str, hint: &str, width: f32, text: &mut String) -> bool {
     let field = script_edit::draw_text_line(ui, text, |field| field.hint_text(hint).desired_width(width));
     let response = field.response.response;
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
@@ -241,7 +241,7 @@ fn show_operator_settings(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, s
         Step::Travel(it) => {
             let mut changed = false;
             ui.horizontal_wrapped(|ui| changed |= recombine_fields::show_hands_choice(ui, seen, &mut it.hand, true));
-            changed |= recombine_path::show_travel_path(ui, seen, (at.id, at.card), it);
+            changed |= recombine_path::show_travel_path(ui, seen, at.id, at.card, it);
             return changed | show_card_transition(ui, seen, at, &mut it.via);
         }
         Step::Retime(it) => return operators::show_retime_settings(ui, seen, it),

@@ -294,7 +294,7 @@ impl SearchPane {
             Some(MovementAbsence::Coded)
         };
         if let Some(bare) = bare {
-            without_movement::show_movement_absence(ui, seen, out, (hit.token, &hit.gloss), &bare);
+            without_movement::show_movement_absence(ui, seen, out, hit.token, &hit.gloss, &bare);
         }
     }
 

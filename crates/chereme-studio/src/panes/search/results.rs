@@ -185,7 +185,7 @@ fn show_hit_menu(response: &Response, seen: &PaneInput<'_>, hit: &SearchHit, out
     {
         out.send_command(WindowCommand::Recipe(recipe, Some(name)));
     }
-    response.context_menu(|ui| carry::show_sign_menu(ui, seen, (hit.token, &hit.gloss, recording), out));
+    response.context_menu(|ui| carry::show_sign_menu(ui, seen, hit.token, &hit.gloss, recording, out));
 }
 
 /// Returns the recording that contains a hit.

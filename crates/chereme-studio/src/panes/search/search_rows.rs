@@ -61,7 +61,7 @@ pub(super) fn show_condition_rows(
                 if has_pictures(seen, condition) {
                     ui.set_row_height(36.0);
                 }
-                show_condition_row(ui, rows, seen, (at, condition), (examples, out));
+                show_condition_row(ui, rows, seen, at, condition, examples, out);
                 let name = fill_text_braces(seen.say_text(words::REMOVE), &[("row", &(at + 1))]);
                 let remove = ui.small_button("×").on_hover_text(&name);
                 remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
@@ -241,15 +241,17 @@ fn show_condition_row(
     ui: &mut Ui,
     rows: &mut ConditionRows,
     seen: &PaneInput<'_>,
-    (at, condition): (usize, &mut QueryCondition),
-    (examples, out): (&KnownExamples, &mut CommandOutbox),
+    at: usize,
+    condition: &mut QueryCondition,
+    examples: &KnownExamples,
+    out: &mut CommandOutbox,
 ) {
     match condition {
         QueryCondition::Values(subject, how, values) => {
             let name = subject_ui(ui, seen, subject);
             how_ui(ui, seen, how, &name);
             if !matches!(how, ConditionRelation::Has | ConditionRelation::Missing(_)) {
-                values_ui(ui, rows, seen, at, (subject, &name), values);
+                values_ui(ui, rows, seen, at, subject, &name, values);
             }
         }
         QueryCondition::Words(field, values) => {
@@ -277,7 +279,8 @@ fn show_condition_row(
                 seen,
                 out,
                 examples.find_known_example(example, seen),
-                (weights, above),
+                weights,
+                above,
             );
         }
         QueryCondition::Written(expr) => {
@@ -386,7 +389,8 @@ fn values_ui(
     rows: &mut ConditionRows,
     seen: &PaneInput<'_>,
     at: usize,
-    (subject, name): (&ConditionSubject, &str),
+    subject: &ConditionSubject,
+    name: &str,
     values: &mut Vec<TextPattern>,
 ) {
     let inventory = match subject {
@@ -540,7 +544,8 @@ fn like_ui(
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
     example: Option<TokenSign>,
-    (weights, above): (&mut [f64; 5], &mut Option<f64>),
+    weights: &mut [f64; 5],
+    above: &mut Option<f64>,
 ) {
     let example = example.unwrap_or_default();
     if let Some((recording, span)) = example.place {

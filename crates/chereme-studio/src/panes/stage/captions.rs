@@ -85,7 +85,7 @@ pub(super) fn chip_on(painter: &egui::Painter, ui: &Ui, at: egui::Pos2, anchor: 
 }
 
 /// Shows notes about the whole stage, for example that a moment is being loaded, or that the hands have no fingers.
-pub(super) fn show_stage_notes(stage: &StagePane, ui: &Ui, seen: &PaneInput<'_>, (whole, parts): (Rect, &[StagePart])) {
+pub(super) fn show_stage_notes(stage: &StagePane, ui: &Ui, seen: &PaneInput<'_>, whole: Rect, parts: &[StagePart]) {
     let note_position = whole.center_bottom() - vec2(0.0, 8.0);
     let without_fingers = stage
         .signer

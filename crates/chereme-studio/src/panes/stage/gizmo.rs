@@ -142,7 +142,8 @@ pub(super) fn snap_gizmo_length(metres: f64, step: Option<f64>) -> f64 {
 pub(super) fn step_gizmo_value(
     value: [f64; 3],
     [right, up, away]: [f64; 3],
-    (projection, axes): (&CameraProjection, DMat3),
+    projection: &CameraProjection,
+    axes: DMat3,
 ) -> [f64; 3] {
     let seen = [0, 1, 2].map(|nth| projection.to_picture_axes(axes.col(nth).as_vec3()));
     const AXIS_ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -302,7 +303,7 @@ mod tests {
                 half_height: 1.0,
                 near: 0.0,
             };
-            step_gizmo_value([0.0; 3], keys, (&camera.camera_projection(400, 400), OWN))
+            step_gizmo_value([0.0; 3], keys, &camera.camera_projection(400, 400), OWN)
         };
         let (up, middle) = (Vec3::Y, Vec3::new(0.0, 1.0, 0.0));
         let addressee = Vec3::new(0.0, 1.0, 7.0);

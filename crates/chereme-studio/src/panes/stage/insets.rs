@@ -33,7 +33,8 @@ pub(super) fn show_stage_insets(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (insets, before): (&[StageInset], usize),
+    insets: &[StageInset],
+    before: usize,
 ) {
     if stage.textures.len() != before + insets.len() {
         return;

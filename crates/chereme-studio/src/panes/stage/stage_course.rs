@@ -53,7 +53,9 @@ pub(super) fn show_stage_path(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (pane, projection, pose): (&StagePart, CameraProjection, &ModelPose),
+    pane: &StagePart,
+    projection: CameraProjection,
+    pose: &ModelPose,
 ) {
     let (Some(course), Some(showing)) = (&seen.shown.course, &seen.shown.made) else {
         stage.pull = None;

@@ -84,7 +84,9 @@ pub(super) fn show_stage_handles(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (pane, projection, pose): (&Pane, CameraProjection, &ModelPose),
+    pane: &Pane,
+    projection: CameraProjection,
+    pose: &ModelPose,
 ) {
     let (Some(handle), Some(showing)) = (&seen.shown.handle, &seen.shown.made) else {
         stage.holding.grab = None;
@@ -119,7 +121,7 @@ pub(super) fn show_stage_handles(
             whole: Some(side) == first,
             id: handle_widget_id(ui, pane, side),
         };
-        show_hand_handle(&mut stage.holding, ui, seen, out, &view_handle, (&made.anatomy, pose));
+        show_hand_handle(&mut stage.holding, ui, seen, out, &view_handle, &made.anatomy, pose);
     }
 }
 
@@ -136,7 +138,8 @@ fn show_hand_handle(
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
     held: &HandleInView<'_>,
-    (anatomy, pose): (&BodyAnatomy, &ModelPose),
+    anatomy: &BodyAnatomy,
+    pose: &ModelPose,
 ) {
     let Some(wrist) = anatomy.part_joint(Joint::Hand(held.side)) else {
         return;
@@ -204,7 +207,7 @@ fn show_hand_handle(
     handle_gizmo_keys(holding, ui, out, held, &response);
     let grabbed = holding.grab.as_ref().filter(|grab| grab.side == held.side);
     let dragged = grabbed.map(|grab| (grab.begun.part, grab.begun.origin));
-    paint_stage_handle(ui, seen, held, &laid, (lit, response.has_focus(), dragged));
+    paint_stage_handle(ui, seen, held, &laid, lit, response.has_focus(), dragged);
     if lit.is_some() || response.has_focus() {
         let pointer = ui.input(|input| input.pointer.hover_pos());
         let near = pointer.filter(|_| dragged.is_some()).unwrap_or(middle);
@@ -451,7 +454,7 @@ fn handle_gizmo_keys(
         let axes = held.directions.axes;
         send_handle_value(
             held,
-            gizmo::step_gizmo_value(held.value, offset, (&held.projection, axes)),
+            gizmo::step_gizmo_value(held.value, offset, &held.projection, axes),
             out,
         );
     } else if escape {
@@ -469,7 +472,9 @@ fn paint_stage_handle(
     seen: &PaneInput<'_>,
     held: &HandleInView<'_>,
     laid: &GizmoLayout,
-    (lit, focus, dragged): (Option<HandlePart>, bool, Option<(HandlePart, DVec3)>),
+    lit: Option<HandlePart>,
+    focus: bool,
+    dragged: Option<(HandlePart, DVec3)>,
 ) {
     let colours = seen.pane_colours();
     let painter = ui.painter().with_clip_rect(held.pane);
@@ -490,7 +495,7 @@ fn paint_stage_handle(
         for (nth, end) in laid.ends.iter().enumerate() {
             let Some(end) = end.map(spot) else { continue };
             let on = lit == Some(HandlePart::Axis(nth));
-            paint_handle_arrow(&painter, [middle, end], (hues[nth], paper), on);
+            paint_handle_arrow(&painter, [middle, end], hues[nth], paper, on);
             let letter = letters.get(nth).copied().unwrap_or(' ');
             let small = TextStyle::Small.resolve(ui.style());
             let font = FontId::new(small.size, small.family);
@@ -511,7 +516,7 @@ fn paint_stage_handle(
 }
 
 /// Draws a line with a disc at its end for a letter.
-fn paint_handle_arrow(painter: &egui::Painter, [from, to]: [Pos2; 2], (hue, paper): (Color32, Color32), on: bool) {
+fn paint_handle_arrow(painter: &egui::Painter, [from, to]: [Pos2; 2], hue: Color32, paper: Color32, on: bool) {
     let width = if on { 4.0 } else { 2.5 };
     painter.line_segment([from, to], Stroke::new(width + 2.0, paper.gamma_multiply(0.7)));
     painter.line_segment([from, to], Stroke::new(width, hue));

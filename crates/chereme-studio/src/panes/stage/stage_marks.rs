@@ -121,7 +121,9 @@ pub(super) fn show_body_marks(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (rect, projection, scale): (Rect, &CameraProjection, f32),
+    rect: Rect,
+    projection: &CameraProjection,
+    scale: f32,
     marks: &[BodyMark],
 ) {
     let colours = seen.pane_colours();

@@ -169,7 +169,8 @@ impl StageSubject {
     pub(super) fn build_trail_mesh(
         &mut self,
         movement: PostureSource<'_>,
-        (at, end): (RecordingInstant, RecordingInstant),
+        at: RecordingInstant,
+        end: RecordingInstant,
         reach: f64,
         paper: RgbColour,
     ) -> TriangleMesh {
@@ -425,7 +426,7 @@ mod tests {
         let mut trails = |at: i64, reach: f64| {
             let at = RecordingInstant::from_micros(at);
             let paper = PaperTheme::Light.theme_paper_colour();
-            subject.build_trail_mesh(PostureSource::Clip(&clip, &[]), (at, end), reach, paper)
+            subject.build_trail_mesh(PostureSource::Clip(&clip, &[]), at, end, reach, paper)
         };
         let (short, long) = (trails(1_000_000, 0.2), trails(1_000_000, 0.4));
         assert!(short.vertices.len() < long.vertices.len());

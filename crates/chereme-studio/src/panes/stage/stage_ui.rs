@@ -174,8 +174,8 @@ fn show_stage_parts(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, ou
         dragged |= response.dragged();
     }
     let insets = insets::stage_insets(stage, &parts);
-    let poses = update_stage_pictures(stage, ui, seen, (&parts, &insets), dragged);
-    insets::show_stage_insets(stage, ui, seen, out, (&insets, parts.len()));
+    let poses = update_stage_pictures(stage, ui, seen, &parts, &insets, dragged);
+    insets::show_stage_insets(stage, ui, seen, out, &insets, parts.len());
     insets::show_inset_proposal(ui, seen, &insets);
     let many = stage.eyes.len() > 1;
     stage.holding.forget_handle_widgets();
@@ -197,7 +197,7 @@ fn show_stage_parts(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, ou
             ui.painter().rect_stroke(part.rect, 2.0, stroke, StrokeKind::Inside);
         }
     }
-    show_stage_notes(stage, ui, seen, (whole, &parts));
+    show_stage_notes(stage, ui, seen, whole, &parts);
 }
 
 fn eye_name(stage: &StagePane, seen: &PaneInput<'_>, part: &StagePart) -> &'static str {
@@ -239,7 +239,8 @@ fn update_stage_pictures(
     stage: &mut StagePane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (parts, insets): (&[StagePart], &[StageInset]),
+    parts: &[StagePart],
+    insets: &[StageInset],
     dragged: bool,
 ) -> Option<ModelPose> {
     stage.artist.get_or_insert_with(|| {
@@ -388,7 +389,7 @@ fn send_picture_request(stage: &mut StagePane, seen: &PaneInput<'_>, look: Stage
     let points = points.map(std::sync::Arc::new);
     let trails = look.shows.trails.map(|reach| {
         let paper = theme.theme_paper_colour();
-        let mesh = signer.build_trail_mesh(stage_movement_source(seen), (look.at, end), reach, paper);
+        let mesh = signer.build_trail_mesh(stage_movement_source(seen), look.at, end, reach, paper);
         std::sync::Arc::new(mesh)
     });
     if let Some(grab) = &stage.holding.grab {
@@ -587,8 +588,8 @@ fn handled(
 ) {
     let before = stage.holding.grab.is_some();
     if let Some(projection) = part_projection(stage, part, pose) {
-        stage_handle::show_stage_handles(stage, ui, seen, out, (part, projection, pose));
-        stage_course::show_stage_path(stage, ui, seen, out, (part, projection, pose));
+        stage_handle::show_stage_handles(stage, ui, seen, out, part, projection, pose);
+        stage_course::show_stage_path(stage, ui, seen, out, part, projection, pose);
         let panned = std::mem::take(&mut stage.holding.panned) / part.rect.height().max(1.0);
         stage.eyes[part.eye].pan_eye([panned.x, panned.y]);
     }
@@ -628,5 +629,5 @@ fn show_part_marks(
         })
     };
     let marks = stage_marks::body_marks(signer, pose, zones, name);
-    stage_marks::show_body_marks(ui, seen, out, (part.rect, &projection, 1.0), &marks);
+    stage_marks::show_body_marks(ui, seen, out, part.rect, &projection, 1.0, &marks);
 }

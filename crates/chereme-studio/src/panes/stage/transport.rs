@@ -31,18 +31,18 @@ pub(super) fn show_transport_bar(
     ui.horizontal_wrapped(|ui| {
         let player = seen.shown.on_stage();
         let playing = player.is_playing();
-        show_transport_button(ui, seen, out, (TransportIcon::Start, Action::ToStart), None);
-        show_transport_button(ui, seen, out, (TransportIcon::Back, Action::FrameBack), None);
+        show_transport_button(ui, seen, out, TransportIcon::Start, Action::ToStart, None);
+        show_transport_button(ui, seen, out, TransportIcon::Back, Action::FrameBack, None);
         let (icon, text) = if playing {
             (TransportIcon::Pause, words::PAUSE)
         } else {
             (TransportIcon::Play, words::PLAY)
         };
-        show_transport_button(ui, seen, out, (icon, Action::Play), Some(text));
-        show_transport_button(ui, seen, out, (TransportIcon::Forward, Action::FrameForward), None);
-        show_transport_button(ui, seen, out, (TransportIcon::End, Action::ToEnd), None);
+        show_transport_button(ui, seen, out, icon, Action::Play, Some(text));
+        show_transport_button(ui, seen, out, TransportIcon::Forward, Action::FrameForward, None);
+        show_transport_button(ui, seen, out, TransportIcon::End, Action::ToEnd, None);
         let looping = TransportIcon::Loop(player.looping);
-        show_transport_button(ui, seen, out, (looping, Action::Loop), Some(words::LOOP));
+        show_transport_button(ui, seen, out, looping, Action::Loop, Some(words::LOOP));
         show_speed_menu(ui, seen, out);
         let rate = playback_frame_rate(seen);
         let (now, all) = (
@@ -255,7 +255,8 @@ fn show_transport_button(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
-    (icon, action): (TransportIcon, Action),
+    icon: TransportIcon,
+    action: Action,
     text: Option<InterfaceText>,
 ) {
     let name = seen.say_text(text.unwrap_or(action.action_row().name));

@@ -95,7 +95,7 @@ pub(super) fn show_study_answers(
     let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &list.rows.len()), ("of", &found.rows.len())];
     ui.weak(fill_text_braces(seen.say_text(words::ANSWERS_SHOWN), &values));
     pane.show_clip_progress(ui, seen);
-    show_answer_rows(pane, ui, seen, (it, &found), out);
+    show_answer_rows(pane, ui, seen, it, &found, out);
     let proposed = format!("{}-answers.csv", studies_data::file_stem(&it.plan.name));
     let named = (words::ANSWERS_TABLE, words::SAVE_ANSWERS, ChooserPurpose::AnswersTable);
     let saved = &mut pane.forms.list.saved;
@@ -163,7 +163,8 @@ fn show_answer_rows(
     pane: &mut StudiesPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (study, found): (&StudyOverview, &AnswerList),
+    study: &StudyOverview,
+    found: &AnswerList,
     out: &mut CommandOutbox,
 ) {
     let height = ui.spacing().interact_size.y * 1.9;

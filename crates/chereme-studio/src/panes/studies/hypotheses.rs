@@ -101,7 +101,7 @@ pub(super) fn show_draft_hypotheses(ui: &mut Ui, seen: &PaneInput<'_>, draft: &m
                         removed = Some(at);
                     }
                 });
-                show_one_hypothesis(ui, seen, (&name, it), &plan);
+                show_one_hypothesis(ui, seen, &name, it, &plan);
             });
         }
         if ui.button(seen.say_text(words::ADD_HYPOTHESIS)).clicked() {
@@ -123,7 +123,7 @@ pub(super) fn remove_empty_texts(texts: &mut LocalizedTexts) {
     texts.retain(|_, text| !text.is_empty());
 }
 
-fn show_one_hypothesis(ui: &mut Ui, seen: &PaneInput<'_>, (title, it): (&str, &mut StudyHypothesis), plan: &StudyPlan) {
+fn show_one_hypothesis(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, it: &mut StudyHypothesis, plan: &StudyPlan) {
     let named = |text| format!("{title}: {}", seen.say_text(text));
     show_draft_text_line(ui, &named(words::HYPOTHESIS_NAME), "", &mut it.name);
     let language = seen.language.language_code();

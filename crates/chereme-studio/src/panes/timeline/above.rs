@@ -45,7 +45,7 @@ impl TimelineDrawing<'_, '_> {
             timeline_paint::paint_ghost_annotation(&painter, row, &self.window, span, what, (self.seen, &font));
         }
         let pointer = ui.input(|input| input.pointer.latest_pos());
-        timeline_paint::paint_gesture_sight(&painter, lane, &self.window, (sight, pointer), self.seen);
+        timeline_paint::paint_gesture_sight(&painter, lane, &self.window, sight, pointer, self.seen);
     }
 
     /// Returns the annotation that is being typed, or created during playback.

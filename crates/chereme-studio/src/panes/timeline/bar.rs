@@ -45,14 +45,14 @@ pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mu
         let spare = ui.available_width() - timeline_tools_width(ui, seen, &tiers_title);
         if spare >= 0.0 {
             for (action, text) in TIMELINE_MODE_ACTIONS {
-                show_tool_switch(ui, seen, (action, text), out);
+                show_tool_switch(ui, seen, action, text, out);
             }
             ui.separator();
             if spare >= tool_button_width(ui, seen.say_text(words::SNAPS_TO)) {
                 ui.weak(seen.say_text(words::SNAPS_TO));
             }
             for (action, text) in SNAP_MODE_ACTIONS {
-                show_tool_switch(ui, seen, (action, text), out);
+                show_tool_switch(ui, seen, action, text, out);
             }
             ui.separator();
         } else {
@@ -99,12 +99,7 @@ fn tool_button_width(ui: &Ui, text: &str) -> f32 {
     galley.size().x + 2.0 * ui.spacing().button_padding.x + TIMELINE_TOOL_GAP_POINTS
 }
 
-fn show_tool_switch(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    (action, text): (Action, InterfaceText),
-    out: &mut CommandOutbox,
-) {
+fn show_tool_switch(ui: &mut Ui, seen: &PaneInput<'_>, action: Action, text: InterfaceText, out: &mut CommandOutbox) {
     let on = seen.settings.timeline.is_on(action);
     let button = ui.add(Button::selectable(on, seen.say_text(text)));
     let keys = seen.keys.action_keys_text(action);

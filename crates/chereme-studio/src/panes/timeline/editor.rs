@@ -164,7 +164,7 @@ pub(super) fn show_value_field(
     let choices = scene.scene_tier_values(tier);
     if std::mem::take(&mut timeline.entry.left) {
         if let Some(value) = choices.value_to_store(&editing.text, editing.marked) {
-            return carry_out_field_key(timeline, (editing, tier), FieldKey::Keep(value, false), out);
+            return carry_out_field_key(timeline, editing, tier, FieldKey::Keep(value, false), out);
         }
         editing.aside = true;
     }
@@ -178,16 +178,17 @@ pub(super) fn show_value_field(
     if let Some(stored) = pictured {
         let asked = show_value_pictures(timeline, ui, scene, (&mut editing, stored), (&choices, &digits, below));
         timeline.entry.picker.inspect_requested_value(scene.seen, out);
-        return carry_out_field_key(timeline, (editing, tier), asked, out);
+        return carry_out_field_key(timeline, editing, tier, asked, out);
     }
-    let asked = draw_value_field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
-    carry_out_field_key(timeline, (editing, tier), asked, out);
+    let asked = draw_value_field(ui, scene, &mut editing, tier, &choices, &digits, below);
+    carry_out_field_key(timeline, editing, tier, asked, out);
 }
 
 /// Carries out a key of the field.
 fn carry_out_field_key(
     timeline: &mut TimelinePane,
-    (editing, tier): (ValueEditing, &TierContents),
+    editing: ValueEditing,
+    tier: &TierContents,
     asked: FieldKey,
     out: &mut CommandOutbox,
 ) {
@@ -225,8 +226,10 @@ fn next(editing: &ValueEditing, tier: &TierContents) -> Option<usize> {
 fn draw_value_field(
     ui: &mut Ui,
     scene: &TimelineScene<'_>,
-    (editing, tier): (&mut ValueEditing, &TierContents),
-    (choices, digits): (&TierValues, &[String]),
+    editing: &mut ValueEditing,
+    tier: &TierContents,
+    choices: &TierValues,
+    digits: &[String],
     below: Rect,
 ) -> FieldKey {
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));

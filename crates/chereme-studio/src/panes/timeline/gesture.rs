@@ -183,7 +183,7 @@ impl TimelineDrawing<'_, '_> {
         }
         match (hit, id) {
             (Some((found, grip)), Some(id)) if is_chosen || modifiers.alt => {
-                self.take_hold(contents, at, found, (id, grip, from));
+                self.take_hold(contents, at, found, id, grip, from);
             }
             (None, _) if modifiers.alt => {
                 self.out.send_command(WindowCommand::Annotations(BTreeSet::new()));
@@ -197,13 +197,7 @@ impl TimelineDrawing<'_, '_> {
         }
     }
 
-    fn take_hold(
-        &mut self,
-        contents: &RecordingContents,
-        at: usize,
-        found: usize,
-        (id, grip, from): (i64, DragGrip, i64),
-    ) {
+    fn take_hold(&mut self, contents: &RecordingContents, at: usize, found: usize, id: i64, grip: DragGrip, from: i64) {
         let columns = &contents.tiers[at].annotations;
         let mut chosen = self.seen.shown.annotations.clone();
         if !chosen.contains(&id) || grip != DragGrip::Whole {

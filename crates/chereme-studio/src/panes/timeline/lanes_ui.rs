@@ -82,7 +82,7 @@ impl TimelineDrawing<'_, '_> {
                 for (lane, _, name) in all {
                     let name = self.seen.say_text(name);
                     if is_open(lane) {
-                        self.one_lane(ui, scene, (lane, height), name);
+                        self.one_lane(ui, scene, lane, height, name);
                     } else {
                         self.folded_lane(ui, scene, lane, name);
                     }
@@ -194,7 +194,7 @@ impl TimelineDrawing<'_, '_> {
         }
     }
 
-    fn one_lane(&mut self, ui: &mut Ui, scene: &TimelineScene<'_>, (lane, height): (CurveLane, f32), name: &str) {
+    fn one_lane(&mut self, ui: &mut Ui, scene: &TimelineScene<'_>, lane: CurveLane, height: f32, name: &str) {
         let size = vec2(ui.available_width(), height);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let area = rect.with_min_x(rect.left() + self.names);
@@ -262,7 +262,7 @@ impl TimelineDrawing<'_, '_> {
         let curves = &self.timeline.curves;
         let short = [words::RIGHT_SHORT, words::LEFT_SHORT];
         let hand = |hand: usize| {
-            let value = curves.curve_value_at((lane, hand), at)?;
+            let value = curves.curve_value_at(lane, hand, at)?;
             let text = match lane {
                 CurveLane::Palm => self.seen.say_text(curves.palm_direction_at(hand, at)?).to_owned(),
                 CurveLane::Speed => format!("{value:.2} m/s"),

@@ -382,7 +382,7 @@ fn nudge(
     };
     let edge = if grip == DragGrip::End { first.end } else { first.start };
     let by = scene.step_by_frames(edge, frames) - edge;
-    move_dragged_annotations(timeline, scene, &all, (grip, by), out)
+    move_dragged_annotations(timeline, scene, &all, grip, by, out)
 }
 
 /// Moves a boundary of the selected annotation to the playhead.
@@ -398,7 +398,7 @@ fn move_boundary_to_playhead(
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     };
     let edge = if grip == DragGrip::End { first.end } else { first.start };
-    move_dragged_annotations(timeline, scene, &all, (grip, scene.scene_playhead_micros() - edge), out)
+    move_dragged_annotations(timeline, scene, &all, grip, scene.scene_playhead_micros() - edge, out)
 }
 
 fn first_of(held: &DraggedAnnotations) -> Option<SpanItem> {
@@ -410,7 +410,8 @@ fn move_dragged_annotations(
     timeline: &mut TimelinePane,
     scene: &TimelineScene<'_>,
     all: &[DraggedAnnotations],
-    (grip, by): (DragGrip, i64),
+    grip: DragGrip,
+    by: i64,
     out: &mut CommandOutbox,
 ) -> ActionOutcome {
     if all.iter().all(|held| held.kind == TierTiming::Listed) {

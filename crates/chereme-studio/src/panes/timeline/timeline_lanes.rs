@@ -322,7 +322,7 @@ impl MeasuredCurves {
     }
 
     /// Returns the number of a curve at a time.
-    pub(super) fn curve_value_at(&self, (lane, hand): (CurveLane, usize), micros: i64) -> Option<f32> {
+    pub(super) fn curve_value_at(&self, lane: CurveLane, hand: usize, micros: i64) -> Option<f32> {
         let frame = self.source?.movement_frame_at(micros);
         let piece = self.pieces.get(&(frame / LANE_PIECE_FRAMES))?;
         piece
@@ -458,7 +458,7 @@ mod tests {
         assert!(columns[10].is_some() && columns[90].is_none());
         assert_eq!(curves.curve_column_ranges((CurveLane::Speed, 1), &past, 1), [None]);
         assert_eq!(curves.largest_lane_value(CurveLane::Speed), 9.0);
-        assert_eq!(curves.curve_value_at((CurveLane::Speed, 0), 50_030_000), Some(9.0));
+        assert_eq!(curves.curve_value_at(CurveLane::Speed, 0, 50_030_000), Some(9.0));
     }
 
     #[test]

@@ -68,7 +68,8 @@ impl TimelineDrawing<'_, '_> {
             self.show_tier_fold(
                 ui,
                 row,
-                (tier.row.id, &tier.row.name),
+                tier.row.id,
+                &tier.row.name,
                 Rect::from_x_y_ranges(left..=left + 14.0, name.y_range()),
             );
         }
@@ -102,7 +103,7 @@ impl TimelineDrawing<'_, '_> {
         }
     }
 
-    fn show_tier_fold(&mut self, ui: &mut Ui, row: &TimelineRow, (id, name): (i64, &str), rect: Rect) {
+    fn show_tier_fold(&mut self, ui: &mut Ui, row: &TimelineRow, id: i64, name: &str, rect: Rect) {
         let words = if row.folded { words::UNFOLD } else { words::FOLD };
         let label = fill_text_braces(self.seen.say_text(words), &[("name", &name)]);
         let response = ui.interact(rect, Id::unique(("fold", id)), Sense::click());

@@ -72,9 +72,11 @@ pub(super) fn bar_text(tier: &TierContents, bar: &AnnotationBar, seen: &PaneInpu
 pub(super) fn paint_annotation_bar(
     painter: &Painter,
     rect: Rect,
-    (tier, bar): (&TierContents, &AnnotationBar),
+    tier: &TierContents,
+    bar: &AnnotationBar,
     seen: &PaneInput<'_>,
-    (font, faint): (&FontId, bool),
+    font: &FontId,
+    faint: bool,
 ) {
     let colours = seen.pane_colours();
     let id = tier.annotations.ids[bar.at];
@@ -199,7 +201,8 @@ pub(super) fn paint_gesture_sight(
     painter: &Painter,
     lane: Rect,
     window: &TimeWindow,
-    (sight, at): (&GestureSight, Option<Pos2>),
+    sight: &GestureSight,
+    at: Option<Pos2>,
     seen: &PaneInput<'_>,
 ) {
     let colours = seen.pane_colours();
@@ -219,12 +222,12 @@ pub(super) fn paint_gesture_sight(
         painter.extend(dashes);
     }
     if let (Some((start, end)), Some(at)) = (sight.times, at) {
-        paint_drag_times(painter, lane, (start, end), at, seen);
+        paint_drag_times(painter, lane, start, end, at, seen);
     }
 }
 
 /// Paints start, end and duration of a drag above the pointer.
-fn paint_drag_times(painter: &Painter, lane: Rect, (start, end): (i64, i64), at: Pos2, seen: &PaneInput<'_>) {
+fn paint_drag_times(painter: &Painter, lane: Rect, start: i64, end: i64, at: Pos2, seen: &PaneInput<'_>) {
     let visuals = painter.ctx().global_style().visuals.clone();
     let time = |micros| timeline_data::time_text(RecordingInstant::from_micros(micros));
     let text = format!(

@@ -378,7 +378,7 @@ impl TimelineDrawing<'_, '_> {
         }
         let shown = scroll.show_rows(ui, TIER_ROW_HEIGHT_POINTS, all.len(), |ui, range| {
             for (at, row) in all[range.clone()].iter().enumerate() {
-                self.show_tier_row(ui, contents, (range.start + at, row), &moving);
+                self.show_tier_row(ui, contents, range.start + at, row, &moving);
             }
         });
         self.timeline.layout.top = shown.state.clamped_offset().y;
@@ -440,7 +440,8 @@ impl TimelineDrawing<'_, '_> {
         &mut self,
         ui: &mut Ui,
         contents: &RecordingContents,
-        (number, row): (usize, &TimelineRow),
+        number: usize,
+        row: &TimelineRow,
         moving: &BTreeSet<i64>,
     ) {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), TIER_ROW_HEIGHT_POINTS), Sense::hover());
@@ -477,7 +478,7 @@ impl TimelineDrawing<'_, '_> {
             let rect = timeline_paint::bar_rect(lane, &self.window, bar);
             let id = tier.annotations.ids[bar.at];
             let faint = bar.count == 1 && moving.contains(&id);
-            timeline_paint::paint_annotation_bar(&painter, rect, (tier, bar), self.seen, (&font, faint));
+            timeline_paint::paint_annotation_bar(&painter, rect, tier, bar, self.seen, &font, faint);
             let chosen = self.seen.shown.annotations.contains(&id);
             if bar.count == 1 && (rect.width() >= NAMED_ANNOTATION_WIDTH_POINTS || chosen) {
                 let here = rect.intersect(lane);

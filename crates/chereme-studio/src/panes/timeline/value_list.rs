@@ -111,7 +111,8 @@ fn by_picture(
     let about = choice.name.as_deref().unwrap_or_default();
     let response = list_row_after(
         ui,
-        (PICTURE_ROW_HEIGHT_POINTS, PICTURE_ROW_HEIGHT_POINTS),
+        PICTURE_ROW_HEIGHT_POINTS,
+        PICTURE_ROW_HEIGHT_POINTS,
         chosen,
         &choice.value,
         about,
