@@ -16,7 +16,8 @@ use crate::view::{ClipFraming, FigureView};
 /// # Errors
 /// [`FigureError`] if there is no face or no frame, or the table would be too large.
 pub fn face_sheet(
-    (clip, anatomy): (&Clip, &BodyAnatomy),
+    clip: &Clip,
+    anatomy: &BodyAnatomy,
     faces: &[(String, FacePosture)],
     columns: usize,
     size: usize,
@@ -29,7 +30,7 @@ pub fn face_sheet(
     let pose = clip.model_pose(0);
     let camera = framing.framing_camera(FigureView::Face, 1.0, &pose, anatomy);
     let (style, mut raster, mut mesh) = (FigureStyle::default(), FigureRaster::default(), TriangleMesh::default());
-    draw_cell_table(faces, (columns, size, style.theme), |face, cell| {
+    draw_cell_table(faces, columns, size, style.theme, |face, cell| {
         body.shape_body_mesh(&pose, &mut mesh);
         body.apply_face_expression(&pose, face, &mut mesh);
         raster.draw_mesh_picture(&mesh, &camera, cell, &style)

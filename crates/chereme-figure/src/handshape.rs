@@ -116,14 +116,17 @@ pub fn handshape_sheet(
         return Err(FigureError::Nothing { what: "handshape" });
     }
     let mut artist = HandArtist::new(options);
-    let layout = (columns, options.size, options.style.theme);
-    draw_cell_table(shapes, layout, |angles, cell| artist.draw_hand_angles(angles, cell))
+    draw_cell_table(shapes, columns, options.size, options.style.theme, |angles, cell| {
+        artist.draw_hand_angles(angles, cell)
+    })
 }
 
 /// Draws named things as a table of square cells with this number of columns, cell size and paper.
 pub(crate) fn draw_cell_table<T>(
     things: &[(String, T)],
-    (columns, size, theme): (usize, usize, PaperTheme),
+    columns: usize,
+    size: usize,
+    theme: PaperTheme,
     mut draw: impl FnMut(&T, [usize; 2]) -> RasterImage,
 ) -> Result<RasterImage, FigureError> {
     let cell = checked_view(size, size)?;

@@ -21,7 +21,7 @@ pub(super) fn draw_face_sheet(to: &Path, options: &PictureOptions) -> CorpusResu
     let faces: Vec<_> = FacialExpression::listed_expression_codes().filter_map(face).collect();
     let (clip, anatomy) = built_in_body()?;
     let size = options.height.unwrap_or(FACE_PICTURE_SIZE_PX);
-    let image = face_sheet((&clip, &anatomy), &faces, 8, size).map_err(picture_figure_error)?;
+    let image = face_sheet(&clip, &anatomy, &faces, 8, size).map_err(picture_figure_error)?;
     let bytes = write_atomically(to, options.force, |out| {
         write_png(&image, out).map_err(picture_figure_error)
     })?;

@@ -135,7 +135,7 @@ impl<'a> BodyBuilder<'a> {
             self.rig.arms[place_of] = Some(arm);
             let hand = self.rig.add_follower(SkinFollower::Hand(place_of));
             let cuff = self.rig.add_follower(SkinFollower::Fore(place_of, 1.0));
-            self.add_fitted_hand(side, (axes, seat), [hand, cuff]);
+            self.add_fitted_hand(side, axes, seat, [hand, cuff]);
             return;
         }
         let Some(wrist) = self.joint_of_part(BodyPart::Hand(side)) else {
@@ -163,10 +163,10 @@ impl<'a> BodyBuilder<'a> {
             None => hand.clone(),
         };
         let (hand, cuff) = (self.rig.add_follower(hand), self.rig.add_follower(cuff));
-        self.add_fitted_hand(side, (axes, seat), [hand, cuff]);
+        self.add_fitted_hand(side, axes, seat, [hand, cuff]);
     }
 
-    fn add_fitted_hand(&mut self, side: BodySide, (axes, seat): (HandAxes, HandSeat), [hand, cuff]: [usize; 2]) {
+    fn add_fitted_hand(&mut self, side: BodySide, axes: HandAxes, seat: HandSeat, [hand, cuff]: [usize; 2]) {
         let colours = hand_colours_of(self.palette, side);
         HandFit {
             skeleton: self.skeleton,
@@ -185,8 +185,7 @@ impl<'a> BodyBuilder<'a> {
         let measures = self.anatomy.anatomy_measures();
         let trunk = measures.map_or(0.5, |measures| measures.trunk as f32);
         let wide = measures.map_or(0.344, |measures| measures.shoulder_width as f32);
-        let trunk_measures = (self.size, trunk);
-        let trunk_rig = TrunkRig::from_trunk_joints(self.skeleton, self.anatomy, self.rest, trunk_measures);
+        let trunk_rig = TrunkRig::from_trunk_joints(self.skeleton, self.anatomy, self.rest, self.size, trunk);
         let arms = BodySide::BOTH_SIDES.map(|side| {
             let shoulder = Vec3::X * (wide * 0.5 * side.side_sign() as f32);
             ArmRig::from_arm_joints(self.anatomy, side, self.rest, shoulder)
@@ -229,7 +228,7 @@ impl<'a> BodyBuilder<'a> {
             hips: hips.clamp(self.size, self.size * 1.4),
             neck: neck.clone(),
         };
-        self.clothes(&shape, [pelvis, chest, head], (legs, shoulders), &limbs);
+        self.clothes(&shape, [pelvis, chest, head], legs, shoulders, &limbs);
         if let Some(neck) = neck {
             self.neck(&neck, [chest, head]);
         }
@@ -243,7 +242,7 @@ impl<'a> BodyBuilder<'a> {
                 wrist,
                 axes: hand_seat(side),
             };
-            self.add_fitted_hand(side, (axes, seat), [limbs[side_index].hand, limbs[side_index].fore[3]]);
+            self.add_fitted_hand(side, axes, seat, [limbs[side_index].hand, limbs[side_index].fore[3]]);
         }
     }
 
@@ -289,7 +288,8 @@ impl<'a> BodyBuilder<'a> {
         &mut self,
         shape: &ClothesShape,
         [pelvis, chest, head]: [usize; 3],
-        (legs, shoulders): ([usize; 2], [usize; 2]),
+        legs: [usize; 2],
+        shoulders: [usize; 2],
         limbs: &[ArmFollowers; 2],
     ) {
         let clothed = CanonicalClothes::shared_clothes();

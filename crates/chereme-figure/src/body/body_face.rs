@@ -338,13 +338,13 @@ fn direction_from_flat(at: Vec2) -> Vec3 {
 
 /// Returns the point of the surface in a direction from the middle of the head.
 fn surface_point_towards(field: &dyn Fn(Vec3) -> f32, towards: Vec3) -> Vec3 {
-    find_surface_crossing(field, HEAD_MIDDLE, towards, (0.1, 0.9), 18)
+    find_surface_crossing(field, HEAD_MIDDLE, towards, 0.1, 0.9, 18)
 }
 
 /// Returns the point of the surface at a height, in a horizontal direction from the middle of the head.
 fn surface_point_at_height(field: &dyn Fn(Vec3) -> f32, towards: Vec3, y: f32) -> Vec3 {
     let from = Vec3::new(0.0, y, HEAD_MIDDLE.z);
-    find_surface_crossing(field, from, towards, (0.05, 0.7), 18)
+    find_surface_crossing(field, from, towards, 0.05, 0.7, 18)
 }
 
 fn from_front(field: &dyn Fn(Vec3) -> f32, x: f32, y: f32) -> f32 {

@@ -70,6 +70,24 @@ struct FittedHandBone {
     scale: Vec3,
 }
 
+/// The way from model space, with the hand in the posture in which it was built, to bind space.
+struct HandBinding<'a> {
+    bind: &'a ModelPose,
+    wrist: Vec3,
+    frame: Mat3,
+    seat: HandSeat,
+}
+
+impl HandBinding<'_> {
+    fn bind_place(&self, at: Vec3) -> Vec3 {
+        self.seat.wrist + self.seat.axes * (self.frame.transpose() * (at - self.wrist))
+    }
+
+    fn bind_rotation(&self) -> Quat {
+        Quat::from_mat3(&(self.seat.axes * self.frame.transpose())).normalize()
+    }
+}
+
 /// A fit of the canonical hand to one side, to be added to a skin.
 #[derive(Debug)]
 pub(super) struct HandFit<'a> {
@@ -104,14 +122,15 @@ impl HandFit<'_> {
         };
         let turned = posed_joint_rotation(&bind, wrist);
         let hand_frame = hand_axes_frame(self.side, turned * self.axes.along, turned * self.axes.palm);
-        // From model space, with the hand in the posture in which it was built, to bind space.
-        let to_bind = |at: Vec3| {
-            self.seat.wrist + self.seat.axes * (hand_frame.transpose() * (at - posed_joint_position(&bind, wrist)))
+        let binding = HandBinding {
+            bind: &bind,
+            wrist: posed_joint_position(&bind, wrist),
+            frame: hand_frame,
+            seat: self.seat,
         };
-        let turn = Quat::from_mat3(&(self.seat.axes * hand_frame.transpose())).normalize();
         let (bones, size) = self.fit_hand_bones(glove, &bind, wrist, hand_frame);
         let first = rig.followers.len();
-        self.followers(rig, glove, &bones, (&bind, turn), &to_bind, first);
+        self.followers(rig, glove, &bones, &binding, first);
         let warp = PalmWarp::new(glove, &bones);
         let base = mesh.vertices.len() as u32;
         for skin in &glove.skins {
@@ -138,7 +157,7 @@ impl HandFit<'_> {
                 skinned_place += part_place * weight;
             }
             let shares = skin.weights.map(|(follower, weight)| (first + follower, weight));
-            bound.push(BoundSkinVertex::new(to_bind(skinned_place), &shares));
+            bound.push(BoundSkinVertex::new(binding.bind_place(skinned_place), &shares));
             mesh.vertices.push(MeshVertex {
                 position: skinned_place,
                 normal: Vec3::Y,
@@ -278,14 +297,14 @@ impl HandFit<'_> {
         rig: &mut SkinRig,
         glove: &CanonicalHand,
         bones: &[FittedHandBone; HAND_BONE_COUNT],
-        (bind, turn): (&ModelPose, Quat),
-        to_bind: &impl Fn(Vec3) -> Vec3,
+        binding: &HandBinding<'_>,
         first: usize,
     ) {
+        let (bind, turn) = (binding.bind, binding.bind_rotation());
         let of = |joint: usize| SkinFollower::Joint {
             joint,
             turn: posed_joint_rotation(bind, joint).inverse() * turn.inverse(),
-            at: to_bind(posed_joint_position(bind, joint)),
+            at: binding.bind_place(posed_joint_position(bind, joint)),
         };
         let mut all: Vec<SkinFollower> = Vec::with_capacity(HAND_FOLLOWER_COUNT);
         all.push(SkinFollower::Same(self.hand));
@@ -293,7 +312,7 @@ impl HandFit<'_> {
             all.push(fitted.joint.map_or(SkinFollower::Same(first + bone_before(index)), of));
         }
         for (index, fitted) in bones.iter().enumerate() {
-            let bone_place = to_bind(fitted.from);
+            let bone_place = binding.bind_place(fitted.from);
             all.push(if index == PALM_BONE {
                 SkinFollower::Half {
                     parent: self.cuff,

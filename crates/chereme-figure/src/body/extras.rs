@@ -24,7 +24,7 @@ pub(super) fn add_head_extras(
     for side in 0..2 {
         let sign = if side == 0 { -1.0 } else { 1.0 };
         add_eyeball(mesh, features, sign, side, palette);
-        brow(mesh, features, canon, (sign, side), palette);
+        brow(mesh, features, canon, sign, side, palette);
         ear(mesh, sign, palette);
         nostril(mesh, features, canon, sign, palette);
     }
@@ -86,7 +86,8 @@ fn brow(
     mesh: &mut TriangleMesh,
     features: &FaceFeatures,
     canon: &CanonicalHead,
-    (sign, side): (f32, usize),
+    sign: f32,
+    side: usize,
     palette: &FigurePalette,
 ) {
     const BROW_SEGMENTS: usize = 9;

@@ -288,8 +288,8 @@ fn follower_to_bone(rig: &SkinRig, index: usize, skeleton: &Skeleton) -> Portabl
             rig.trunk.as_ref().map_or(Vec3::ZERO, TrunkRig::chest_place),
         ),
         SkinFollower::Shoulder(side) => keyed(chest(), arm(side, 0)),
-        SkinFollower::Upper(side, share) => arm_share_bone(rig, index, (side, share), false, arm(side, 0)),
-        SkinFollower::Fore(side, share) => arm_share_bone(rig, index, (side, share), true, arm(side, 1)),
+        SkinFollower::Upper(side, share) => arm_share_bone(rig, index, side, share, false, arm(side, 0)),
+        SkinFollower::Fore(side, share) => arm_share_bone(rig, index, side, share, true, arm(side, 1)),
         SkinFollower::Hand(side) => keyed(
             find(&|follower| matches!(follower, SkinFollower::Fore(own, share) if *own == side && *share == 1.0)),
             arm(side, 2),
@@ -308,7 +308,7 @@ fn follower_to_bone(rig: &SkinRig, index: usize, skeleton: &Skeleton) -> Portabl
 }
 
 /// Returns a part of an arm with a share of its rotation: the ends of the row are keyed, the others lie between them.
-fn arm_share_bone(rig: &SkinRig, index: usize, (side, share): (usize, f32), fore: bool, at: Vec3) -> PortableBone {
+fn arm_share_bone(rig: &SkinRig, index: usize, side: usize, share: f32, fore: bool, at: Vec3) -> PortableBone {
     let row = |wanted: f32| {
         rig.followers.iter().position(|follower| match follower {
             SkinFollower::Upper(own, share) => !fore && *own == side && *share == wanted,

@@ -118,7 +118,7 @@ pub(super) fn cast_skin_ray(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Ve
         }
         far += (-away * 0.7).max(step * 0.2);
     }
-    find_surface_crossing(field, from, towards, ((far - step * 2.0).max(0.0), far), 12)
+    find_surface_crossing(field, from, towards, (far - step * 2.0).max(0.0), far, 12)
 }
 
 /// Returns the point on the surface between two distances along a line, by bisection: the field is below 0 at the first
@@ -127,7 +127,8 @@ pub(super) fn find_surface_crossing(
     field: &dyn Fn(Vec3) -> f32,
     from: Vec3,
     towards: Vec3,
-    (mut low, mut high): (f32, f32),
+    mut low: f32,
+    mut high: f32,
     rounds: usize,
 ) -> Vec3 {
     for _ in 0..rounds {

@@ -66,7 +66,8 @@ impl TrunkRig {
         skeleton: &Skeleton,
         anatomy: &BodyAnatomy,
         rest: &ModelPose,
-        (size, trunk): (f32, f32),
+        size: f32,
+        trunk: f32,
     ) -> Option<Self> {
         let joint = |part| anatomy.part_joint(part);
         let pair = |part: fn(BodySide) -> BodyPart| match BodySide::BOTH_SIDES.map(|side| joint(part(side))) {

@@ -64,8 +64,8 @@ impl LaidOutLine {
                 }
                 LinePiece::Outlines(font, placed) => {
                     let base = at[1] as f32 + BASE_LINE_DOTS * scale as f32;
-                    let place = (SYSTEM_FONT_SIZE_DOTS * scale as f32, [x as f32, base]);
-                    outline::fill_text_outlines(font, placed, place, &mut paint);
+                    let size = SYSTEM_FONT_SIZE_DOTS * scale as f32;
+                    outline::fill_text_outlines(font, placed, size, [x as f32, base], &mut paint);
                 }
             }
         }

@@ -51,7 +51,8 @@ pub(super) fn shape_text_outlines(font: &FontFile, text: &str, from_right: bool)
 pub(super) fn fill_text_outlines(
     font: &FontFile,
     placed: &[PlacedOutline],
-    (size, at): (f32, [f32; 2]),
+    size: f32,
+    at: [f32; 2],
     mut paint: impl FnMut(i64, i64, f32),
 ) {
     let Some(tables) = font.font_tables() else {
