@@ -70,7 +70,7 @@ pub fn read_hns(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<ImportFinding>), HnsE
         match HnsLineParts::split_hns_line(text) {
             Some(parts) => {
                 let gloss = choose_line_gloss(line, &parts, glosses, &mut findings);
-                entries.push(read_hns_entry(line, (gloss, parts.symbols), &mut findings));
+                entries.push(read_hns_entry(line, gloss, parts.symbols, &mut findings));
             }
             None if text.trim().is_empty() => {}
             None => findings.add_limited_finding("lines without HamNoSys", || {
@@ -311,7 +311,7 @@ fn parting(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | ':' | '=' | '|' | '"')
 }
 
-fn read_hns_entry(line: u64, (gloss, text): (&str, &str), findings: &mut FindingTally) -> HnsSign {
+fn read_hns_entry(line: u64, gloss: &str, text: &str, findings: &mut FindingTally) -> HnsSign {
     let (gloss, text) = (gloss.trim_matches(parting), text.trim().trim_end_matches('"'));
     let read = parse_lenient(text);
     for found in read.findings {

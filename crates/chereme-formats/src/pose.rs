@@ -161,8 +161,7 @@ pub fn read_pose_file(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding
     for (number, person) in (1..).zip(people) {
         for is_world in [false, true] {
             let picked = |component: &PoseComponent| component.name.contains("WORLD") == is_world;
-            let of_person = (&body, person);
-            let track = build_pose_track(&header, of_person, picked, is_world, &mut findings).map(|space| {
+            let track = build_pose_track(&header, &body, person, picked, is_world, &mut findings).map(|space| {
                 space.and_then(|(space, points, limbs)| {
                     MarkerTrack::new(FrameTimes::Even(rate), space, points)
                         .and_then(|markers| markers.with_marker_limbs(limbs))
@@ -386,7 +385,8 @@ type PoseTrackParts = (MarkerSpace, Vec<MotionMarker>, Vec<[usize; 2]>);
 /// Returns the points of the picked components, if any.
 fn build_pose_track(
     header: &PoseFileHeader,
-    of_person: (&PoseFileBody, &PosePerson),
+    body: &PoseFileBody,
+    person: &PosePerson,
     picked: impl Fn(&PoseComponent) -> bool,
     is_world: bool,
     findings: &mut FindingTally,
@@ -427,7 +427,7 @@ fn build_pose_track(
                 .map(|[a, b]| [a + first, b + first]),
         );
         for (at, name) in names.into_iter().enumerate() {
-            points.push(build_pose_marker(of_person, (begin + at, all), count, group, name));
+            points.push(build_pose_marker(body, person, begin + at, all, count, group, name));
         }
         begin += component.points.len();
     }
@@ -443,8 +443,10 @@ fn build_pose_track(
 }
 
 fn build_pose_marker(
-    (body, person): (&PoseFileBody, &PosePerson),
-    (point, points): (usize, usize),
+    body: &PoseFileBody,
+    person: &PosePerson,
+    point: usize,
+    points: usize,
     coordinates: usize,
     group: &str,
     name: String,

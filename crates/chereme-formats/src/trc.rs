@@ -118,7 +118,7 @@ pub fn read_trc_file(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding>
         return Err(TrcError::Empty);
     }
     let is_counted = markers.is_none_or(|count| count == names.len());
-    let mut rows = read_trc_rows(&table, (names.len(), is_counted), labels.has_times)?;
+    let mut rows = read_trc_rows(&table, names.len(), is_counted, labels.has_times)?;
     if rows.times.is_empty() {
         return Err(TrcError::Empty);
     }
@@ -229,11 +229,7 @@ struct TrcRows {
 }
 
 /// Reads the rows of `markers` markers, whose count `is_counted` in the file too.
-fn read_trc_rows(
-    table: &TrcTable<'_>,
-    (markers, is_counted): (usize, bool),
-    has_times: bool,
-) -> Result<TrcRows, TrcError> {
+fn read_trc_rows(table: &TrcTable<'_>, markers: usize, is_counted: bool, has_times: bool) -> Result<TrcRows, TrcError> {
     let first = 1 + usize::from(has_times);
     let expected = first + 3 * markers;
     let has_cells = is_counted || table.width + 3 > expected;

@@ -236,7 +236,7 @@ impl<'d> TrackPlacing<'d> {
                 (AnvilTrackKind::Point, _, Some(point)) => TimedAnnotation::timed_at_point(point),
                 (_, Some((start, end)), _) => {
                     let line = || self.document.anvil_line_at(element.at);
-                    TimedAnnotation::timed_between_instants(start, end, (&track.name, line), findings)
+                    TimedAnnotation::timed_between_instants(start, end, &track.name, line, findings)
                 }
                 (_, None, Some(point)) if element.time.is_some() => TimedAnnotation::timed_at_point(point),
                 _ => {
@@ -317,7 +317,7 @@ impl<'d> TrackPlacing<'d> {
             let line = || self.document.anvil_line_at(element.at);
             all.push(FoundElement {
                 element: at,
-                time: TimedAnnotation::timed_between_instants(start, end, (&track.name, line), findings),
+                time: TimedAnnotation::timed_between_instants(start, end, &track.name, line, findings),
                 timing: AnnotationTiming::Own,
                 parent: None,
             });
@@ -459,7 +459,9 @@ impl<'d> TrackPlacing<'d> {
         }
         let of_times: &[usize] = if placed.below.is_none() { &of } else { &[] };
         report_split_lanes(
-            (&track.name, of_times, crowded),
+            &track.name,
+            of_times,
+            crowded,
             || self.document.anvil_line_at(track.at),
             findings,
         );

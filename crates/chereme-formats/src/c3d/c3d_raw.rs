@@ -247,7 +247,9 @@ impl C3dDocument {
     pub fn c3d_analog_sample(
         &self,
         bytes: &[u8],
-        (frame, sample, channel): (usize, usize, usize),
+        frame: usize,
+        sample: usize,
+        channel: usize,
         is_unsigned: bool,
     ) -> Option<f32> {
         let words = self.points * 4 + sample * self.channels + channel;

@@ -131,12 +131,7 @@ pub fn write_c3d(markers: &MarkerTrack, offset: RecordingInstant) -> Result<Vec<
     let last = first + frames.max(1) - 1;
     let scale = residual_scale(markers, factor);
     let labels = written_marker_labels(markers);
-    let mut head = build_c3d_parameters(
-        &labels,
-        (frames, rate.per_second() as f32),
-        (unit, scale),
-        convention.axes,
-    );
+    let mut head = build_c3d_parameters(&labels, frames, rate.per_second() as f32, unit, scale, convention.axes);
     head.link_parameter_record();
     head.bytes.extend([0, 0]);
     head.bytes
@@ -144,7 +139,7 @@ pub fn write_c3d(markers: &MarkerTrack, offset: RecordingInstant) -> Result<Vec<
     let blocks = (head.bytes.len() + 4) / C3D_WRITE_BLOCK_BYTES;
     let data = usize::from(PARAMETER_START_BLOCK) + blocks;
     let word = |number: usize| (number.min(usize::from(u16::MAX)) as u16).to_le_bytes();
-    set_start(&mut head.bytes, data, (first, last));
+    set_start(&mut head.bytes, data, first, last);
     let mut out = vec![0u8; C3D_WRITE_BLOCK_BYTES];
     out[0] = PARAMETER_START_BLOCK;
     out[1] = 0x50;
@@ -230,8 +225,10 @@ fn written_marker_labels(markers: &MarkerTrack) -> Vec<String> {
 
 fn build_c3d_parameters(
     labels: &[String],
-    (frames, rate): (usize, f32),
-    (unit, scale): (&str, f32),
+    frames: usize,
+    rate: f32,
+    unit: &str,
+    scale: f32,
     axes: SignerAxes,
 ) -> C3dParameterWriter {
     let mut it = C3dParameterWriter::default();
@@ -271,7 +268,7 @@ fn build_c3d_parameters(
 }
 
 /// Writes the numbers that are known only after the parameters have their final length.
-fn set_start(bytes: &mut [u8], data: usize, (first, last): (usize, usize)) {
+fn set_start(bytes: &mut [u8], data: usize, first: usize, last: usize) {
     let mut set = |name: &str, words: &[u16]| {
         let name_start = bytes.windows(name.len()).position(|window| window == name.as_bytes());
         let Some(at) = name_start else { return };

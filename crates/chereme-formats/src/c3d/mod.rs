@@ -315,8 +315,7 @@ impl C3dReader<'_> {
             let mut values = Vec::with_capacity(document.frames * document.samples);
             for frame in 0..document.frames {
                 for sample in 0..document.samples {
-                    let sample_address = (frame, sample, channel);
-                    values.push(document.c3d_analog_sample(self.bytes, sample_address, is_unsigned)?);
+                    values.push(document.c3d_analog_sample(self.bytes, frame, sample, channel, is_unsigned)?);
                 }
             }
             let unit = general * scales.get(channel).copied().unwrap_or(1.0);

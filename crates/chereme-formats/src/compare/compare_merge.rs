@@ -141,7 +141,7 @@ pub fn merge_two(mine: &AnnotationTranscript, theirs: &AnnotationTranscript) -> 
         .collect();
     for (id, annotation) in differ {
         let own_place = places.get(id.as_str());
-        let own_annotation = own_place.map(|place| super::to_compared_annotation((mine, None), *place));
+        let own_annotation = own_place.map(|place| super::to_compared_annotation(mine, None, *place));
         merged.conflicts.push(MergeConflict {
             tier: own_annotation
                 .as_ref()
@@ -326,7 +326,7 @@ impl TranscriptMergeWork<'_> {
         };
         let mut fails = false;
         if moved.is_some() {
-            fails |= self.move_one(&mut loose_own, (&old, &new), before.as_ref());
+            fails |= self.move_one(&mut loose_own, &old, &new, before.as_ref());
         }
         if let Some(annotation) = revalued {
             let (value, entry) = (&old.value, &old.entry);
@@ -355,7 +355,8 @@ impl TranscriptMergeWork<'_> {
     fn move_one(
         &self,
         own: &mut super::loose::LooseAnnotation,
-        (old, new): (&TranscriptAnnotation, &ComparedAnnotation),
+        old: &TranscriptAnnotation,
+        new: &ComparedAnnotation,
         before: Option<&ComparedAnnotation>,
     ) -> bool {
         let near = |a: i64, b: i64| a.abs_diff(b) <= super::TIME_TOLERANCE_MICROS.unsigned_abs();
@@ -541,7 +542,7 @@ impl TranscriptMergeWork<'_> {
 
     fn state_in_base(&self, id: &str) -> Option<ComparedAnnotation> {
         let place = self.places.get(id)?;
-        Some(super::to_compared_annotation((self.base, None), *place))
+        Some(super::to_compared_annotation(self.base, None, *place))
     }
 
     /// Returns the current state of an annotation in the merged document.

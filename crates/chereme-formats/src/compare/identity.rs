@@ -43,9 +43,9 @@ pub(super) fn match_transcripts(a: &AnnotationTranscript, b: &AnnotationTranscri
     for at in compared_tiers_parents_first(a) {
         if let Some(other) = matching.tiers[at] {
             if is_symbolic(a, at) {
-                by_place(a, b, (at, other), &mut matching);
+                by_place(a, b, at, other, &mut matching);
             } else {
-                by_time(a, b, (at, other), &mut matching);
+                by_time(a, b, at, other, &mut matching);
             }
         }
     }
@@ -219,7 +219,8 @@ fn match_transcript_tiers(
 fn by_time(
     a: &AnnotationTranscript,
     b: &AnnotationTranscript,
-    (tier, other): (usize, usize),
+    tier: usize,
+    other: usize,
     matching: &mut TranscriptMatching,
 ) {
     let left = |transcript: &AnnotationTranscript,
@@ -285,7 +286,8 @@ fn by_time(
 fn by_place(
     a: &AnnotationTranscript,
     b: &AnnotationTranscript,
-    (tier, other): (usize, usize),
+    tier: usize,
+    other: usize,
     matching: &mut TranscriptMatching,
 ) {
     let mut below: HashMap<AnnotationAddress, Vec<AnnotationAddress>> = HashMap::new();

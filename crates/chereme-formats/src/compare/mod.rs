@@ -166,14 +166,14 @@ pub fn diff_transcripts(a: &AnnotationTranscript, b: &AnnotationTranscript) -> T
     compare_transcript_tiers(a, b, &matching, &mut difference);
     for place in list_annotation_addresses(a) {
         let Some(other) = matching.pairs.get(&place) else {
-            difference.removed.push(to_compared_annotation((a, None), place));
+            difference.removed.push(to_compared_annotation(a, None, place));
             continue;
         };
-        compare_annotation_pair((a, place), (b, *other), &matching, &mut difference);
+        compare_annotation_pair(a, place, b, *other, &matching, &mut difference);
     }
     for place in list_annotation_addresses(b) {
         if !matching.back.contains_key(&place) {
-            let added_annotation = to_compared_annotation((b, Some((a, &matching))), place);
+            let added_annotation = to_compared_annotation(b, Some((a, &matching)), place);
             difference.added.push(added_annotation);
         }
     }
@@ -192,20 +192,22 @@ pub fn renamed_tiers(a: &AnnotationTranscript, b: &AnnotationTranscript) -> Vec<
 }
 
 fn compare_annotation_pair(
-    (a, old): (&AnnotationTranscript, AnnotationAddress),
-    (b, new): (&AnnotationTranscript, AnnotationAddress),
+    a: &AnnotationTranscript,
+    old: AnnotationAddress,
+    b: &AnnotationTranscript,
+    new: AnnotationAddress,
     matching: &TranscriptMatching,
     difference: &mut TranscriptDifference,
 ) {
     let (x, y) = (compared_annotation_at(a, old), compared_annotation_at(b, new));
-    let now = to_compared_annotation((b, Some((a, matching))), new);
-    let before = to_compared_annotation((a, None), old);
+    let now = to_compared_annotation(b, Some((a, matching)), new);
+    let before = to_compared_annotation(a, None, old);
     let symbolic = is_symbolic(b, new.tier);
     let parent = |annotation: &TranscriptAnnotation| annotation.parent;
     let elsewhere = matching.tiers[old.tier] != Some(new.tier);
     let moved = if symbolic {
         let above = parent(x).and_then(|place| matching.pairs.get(&place));
-        above.copied() != parent(y) || !same_neighbour((a, old), (b, new), matching)
+        above.copied() != parent(y) || !same_neighbour(a, old, b, new, matching)
     } else {
         let far = |p: i64, q: i64| p.abs_diff(q) > TIME_TOLERANCE_MICROS.unsigned_abs();
         far(before.start_us, now.start_us) || far(before.end_us, now.end_us)
@@ -237,8 +239,10 @@ fn compare_annotation_pair(
 
 /// Returns whether an annotation still follows the same sibling as before; siblings of one document alone do not count.
 fn same_neighbour(
-    (a, old): (&AnnotationTranscript, AnnotationAddress),
-    (b, new): (&AnnotationTranscript, AnnotationAddress),
+    a: &AnnotationTranscript,
+    old: AnnotationAddress,
+    b: &AnnotationTranscript,
+    new: AnnotationAddress,
     matching: &TranscriptMatching,
 ) -> bool {
     let chain =
@@ -382,10 +386,8 @@ fn describe_part_changes(
 
 /// Returns an annotation as a [`ComparedAnnotation`]; its references name annotations of the first document if that is given.
 fn to_compared_annotation(
-    (it, of): (
-        &AnnotationTranscript,
-        Option<(&AnnotationTranscript, &TranscriptMatching)>,
-    ),
+    it: &AnnotationTranscript,
+    of: Option<(&AnnotationTranscript, &TranscriptMatching)>,
     place: AnnotationAddress,
 ) -> ComparedAnnotation {
     let compared_annotation = compared_annotation_at(it, place);

@@ -35,7 +35,7 @@ pub fn patch_eaf(bytes: &[u8], after: &AnnotationTranscript) -> Result<Option<Ve
     if same_meaning(&before, after) {
         return Ok(Some(bytes.to_vec()));
     }
-    let Some(changed) = patch_document_text(&document, (&before, &places), after) else {
+    let Some(changed) = patch_document_text(&document, &before, &places, after) else {
         return Ok(None);
     };
     let changed = decoded.encoding.encode_xml_text(&changed);
@@ -45,7 +45,8 @@ pub fn patch_eaf(bytes: &[u8], after: &AnnotationTranscript) -> Result<Option<Ve
 
 fn patch_document_text(
     document: &EafDocument<'_>,
-    (before, places): (&AnnotationTranscript, &[Option<AnnotationAddress>]),
+    before: &AnnotationTranscript,
+    places: &[Option<AnnotationAddress>],
     after: &AnnotationTranscript,
 ) -> Option<String> {
     let layout = EafLayout::layout_from_text(document.source.0)?;

@@ -40,7 +40,7 @@ pub(super) fn transcript_from_exmaralda(
             times: &times,
             points: &points,
         }
-        .convert_event_tiers(tier, (&mut names, &mut ids), &mut findings);
+        .convert_event_tiers(tier, &mut names, &mut ids, &mut findings);
         transcript.tiers.extend(tiers);
     }
     (transcript, findings.finish_finding_tally())
@@ -144,7 +144,8 @@ impl TranscriptionEvents<'_> {
     fn convert_event_tiers(
         &self,
         tier: &RawTier<'_>,
-        (names, ids): (&mut UniqueNames, &mut UniqueNames),
+        names: &mut UniqueNames,
+        ids: &mut UniqueNames,
         findings: &mut FindingTally,
     ) -> Vec<TranscriptTier> {
         let speaker = tier.speaker.as_deref().filter(|name| !name.is_empty());
@@ -175,7 +176,7 @@ impl TranscriptionEvents<'_> {
                 continue;
             };
             let line = || self.document.exmaralda_line_at(event.at);
-            let time = TimedAnnotation::timed_between_instants(start.0, end.0, (&wanted, line), findings);
+            let time = TimedAnnotation::timed_between_instants(start.0, end.0, &wanted, line, findings);
             let timing = match (start.1, end.1) {
                 (true, true) => AnnotationTiming::Own,
                 (start, end) => AnnotationTiming::Proposed {
@@ -188,7 +189,9 @@ impl TranscriptionEvents<'_> {
         let mut times: Vec<TimedAnnotation> = placed_events.iter().map(|(_, time, _)| *time).collect();
         let (of, crowded) = arrange_tier_lanes(&mut times);
         report_split_lanes(
-            (&wanted, &of, crowded),
+            &wanted,
+            &of,
+            crowded,
             || self.document.exmaralda_line_at(tier.at),
             findings,
         );

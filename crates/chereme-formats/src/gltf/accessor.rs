@@ -64,12 +64,12 @@ impl<'a> GltfData<'a> {
         let numbers = number_count.ok_or_else(|| fault("has too many elements"))?;
         self.left.set(self.left.get() - numbers);
         let mut values = match accessor.buffer_view {
-            Some(view) => self.dense(index, accessor, (view, width))?,
+            Some(view) => self.dense(index, accessor, view, width)?,
             // Without a view all numbers are zero.
             None => vec![0.0; numbers],
         };
         if let Some(sparse) = &accessor.sparse {
-            self.overlay_sparse_values(index, accessor, sparse, (&mut values, width))?;
+            self.overlay_sparse_values(index, accessor, sparse, &mut values, width)?;
         }
         if values.iter().any(|value| !value.is_finite()) {
             return Err(fault("holds numbers that are not finite"));
@@ -99,12 +99,7 @@ impl<'a> GltfData<'a> {
         ))
     }
 
-    fn dense(
-        &self,
-        index: usize,
-        accessor: &GltfAccessor,
-        (view, width): (usize, usize),
-    ) -> Result<Vec<f32>, GltfError> {
+    fn dense(&self, index: usize, accessor: &GltfAccessor, view: usize, width: usize) -> Result<Vec<f32>, GltfError> {
         let fault = |problem: &str| GltfError::gltf_element_error("accessors", index, problem);
         let (bytes, stride) = self.buffer_view_bytes(view)?;
         let size =
@@ -133,7 +128,8 @@ impl<'a> GltfData<'a> {
         index: usize,
         accessor: &GltfAccessor,
         sparse: &SparseAccessor,
-        (values, width): (&mut [f32], usize),
+        values: &mut [f32],
+        width: usize,
     ) -> Result<(), GltfError> {
         let fault = |problem: &str| GltfError::gltf_element_error("accessors", index, problem);
         let index_size =

@@ -30,7 +30,8 @@ impl TimedAnnotation {
     pub(crate) fn timed_between_instants(
         start: RecordingInstant,
         end: RecordingInstant,
-        (tier, line): (&str, impl FnOnce() -> u64),
+        tier: &str,
+        line: impl FnOnce() -> u64,
         findings: &mut FindingTally,
     ) -> Self {
         if start == end {
@@ -96,7 +97,9 @@ pub(crate) fn arrange_tier_lanes(times: &mut [TimedAnnotation]) -> (Vec<usize>, 
 
 /// Reports annotations of a tier that lie on other lanes than the first.
 pub(crate) fn report_split_lanes(
-    (tier, of, crowded): (&str, &[usize], u64),
+    tier: &str,
+    of: &[usize],
+    crowded: u64,
     line: impl Fn() -> u64,
     findings: &mut FindingTally,
 ) {

@@ -48,7 +48,8 @@ pub(super) fn read_sample_defaults(moov: InnerBox<'_>, track: u32) -> Result<Sam
 pub(super) fn add_fragment_frames(
     moof: InnerBox<'_>,
     start: u64,
-    (track, defaults): (u32, SampleDefaults),
+    track: u32,
+    defaults: SampleDefaults,
     clock: &mut FragmentClock,
     shape: &mut FrameListBuilder,
 ) -> Result<(), Mp4Error> {
@@ -88,7 +89,7 @@ pub(super) fn add_fragment_frames(
         }
         let mut next = base;
         for trun in traf.child_boxes(0).filter(|child| child.kind == *b"trun") {
-            next = run(trun, (base, next), fragment_defaults, clock, shape)?;
+            next = run(trun, base, next, fragment_defaults, clock, shape)?;
         }
     }
     Ok(())
@@ -97,7 +98,8 @@ pub(super) fn add_fragment_frames(
 /// Adds the frames of a run, and returns the byte at which the next run begins unless it states another one.
 fn run(
     trun: InnerBox<'_>,
-    (base, next): (u64, u64),
+    base: u64,
+    next: u64,
     own: SampleDefaults,
     clock: &mut FragmentClock,
     shape: &mut FrameListBuilder,

@@ -83,7 +83,7 @@ pub fn read_mp4_index(input: &mut (impl Read + Seek)) -> Result<(Mp4Container, V
             at: piece.from,
             bytes: &bytes,
         };
-        fragments::add_fragment_frames(moof, piece.at, (id, defaults), &mut clock, &mut shape)?;
+        fragments::add_fragment_frames(moof, piece.at, id, defaults, &mut clock, &mut shape)?;
         if shape.frames.len() > MAX_FRAMES {
             break;
         }

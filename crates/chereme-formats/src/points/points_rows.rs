@@ -172,7 +172,7 @@ impl PointTableRows {
             return Err(PointTableError::Empty);
         }
         if !lines.is_whole && end.is_none() && last < before {
-            report_cut_row(&rows, (before, last), findings);
+            report_cut_row(&rows, before, last, findings);
         }
         Ok(rows)
     }
@@ -238,7 +238,7 @@ pub(super) fn parse_point_number(
 }
 
 /// Reports a last row without the end of its line that has fewer cells than the row before.
-fn report_cut_row(rows: &PointTableRows, (before, last): (usize, usize), findings: &mut FindingTally) {
+fn report_cut_row(rows: &PointTableRows, before: usize, last: usize, findings: &mut FindingTally) {
     findings.push_counted_finding(
         ImportFinding::new_warning_finding(
             rows.lines.last().copied(),

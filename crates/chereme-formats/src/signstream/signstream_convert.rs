@@ -115,7 +115,8 @@ impl<'d> SignstreamRows<'d> {
             let utterance_time = TimedAnnotation::timed_between_instants(
                 instant_from_micros(start),
                 instant_from_micros(end),
-                (UTTERANCE_TIER_NAME, line),
+                UTTERANCE_TIER_NAME,
+                line,
                 findings,
             );
             self.add_tier_row(
@@ -134,7 +135,7 @@ impl<'d> SignstreamRows<'d> {
                     let line = || document.signstream_line_at(item.at);
                     let [from, to] = [from, to].map(|offset| instant_from_micros(start.saturating_add(offset)));
                     let name = self.fields.get(track.field.trim()).map_or("", |field| &field.0.name);
-                    let time = TimedAnnotation::timed_between_instants(from, to, (name, line), findings);
+                    let time = TimedAnnotation::timed_between_instants(from, to, name, line, findings);
                     let value = self.signstream_item_text(&track.field, item, findings);
                     self.add_tier_row(
                         (track.participant.trim(), track.field.trim()),
@@ -233,7 +234,7 @@ fn build_signstream_tiers(
         };
         let mut times: Vec<TimedAnnotation> = rows.iter().map(|row| row.time).collect();
         let (of, crowded) = arrange_tier_lanes(&mut times);
-        report_split_lanes((&wanted, &of, crowded), || 1, findings);
+        report_split_lanes(&wanted, &of, crowded, || 1, findings);
         let first = all.len();
         all.extend((0..=of.iter().max().copied().unwrap_or(0)).map(|_| TranscriptTier {
             name: names.give_unique_name(&wanted),

@@ -48,7 +48,7 @@ fn grid_to_transcript(grid: &RawTextGrid, findings: &mut FindingTally) -> Annota
     let (mut empty, mut next_id) = (0u64, 1u64);
     for (at, tier) in grid.tiers.iter().enumerate() {
         let name = unique_tier_name(&tier.name, at, &mut names, findings);
-        let annotations = read_grid_annotations(tier, &name, (&mut empty, &mut next_id), findings);
+        let annotations = read_grid_annotations(tier, &name, &mut empty, &mut next_id, findings);
         transcript.tiers.push(TranscriptTier {
             name,
             kind: if tier.is_points {
@@ -97,7 +97,8 @@ fn unique_tier_name(name: &str, at: usize, names: &mut BTreeSet<String>, finding
 fn read_grid_annotations(
     tier: &GridTier,
     name: &str,
-    (empty, next_id): (&mut u64, &mut u64),
+    empty: &mut u64,
+    next_id: &mut u64,
     findings: &mut FindingTally,
 ) -> Vec<TranscriptAnnotation> {
     let mut items: Vec<(TimeSpan, &GridTierItem)> = Vec::with_capacity(tier.items.len());
@@ -185,7 +186,7 @@ pub fn write_textgrid(
     let tiers = transcript
         .tiers
         .iter()
-        .map(|tier| grid_tier(tier, (first, last), &mut empty, &mut findings))
+        .map(|tier| grid_tier(tier, first, last, &mut empty, &mut findings))
         .collect();
     if empty > 0 {
         findings.push_counted_finding(ImportFinding::new_warning_finding(
@@ -213,7 +214,8 @@ pub fn write_textgrid(
 /// Returns a tier of intervals without gaps and overlaps, or one of points; counts annotations that become gaps.
 fn grid_tier(
     tier: &TranscriptTier,
-    (first, last): (RecordingInstant, RecordingInstant),
+    first: RecordingInstant,
+    last: RecordingInstant,
     empty: &mut u64,
     findings: &mut FindingTally,
 ) -> GridTier {

@@ -8,6 +8,16 @@ use crate::transcript::{AnnotationAddress, AnnotationTranscript};
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 
+/// An annotation of the file that remains: its element, its places before and after, and the ids of the annotations that
+/// it followed and follows in a chain below one parent.
+struct KeptAnnotation<'t> {
+    element: usize,
+    old: AnnotationAddress,
+    new: AnnotationAddress,
+    old_previous: Option<&'t str>,
+    new_previous: Option<&'t str>,
+}
+
 impl<'w> EafPatchWork<'w, '_> {
     /// Changes and removes annotations of the file, and adds new ones to its tiers.
     pub(super) fn patch_file_annotations(&mut self, refs: &SlotReferences) -> Option<()> {
@@ -19,8 +29,14 @@ impl<'w> EafPatchWork<'w, '_> {
             match self.kept_annotation_place(old) {
                 Some(new) => {
                     elements.insert(new, around);
-                    let chain = (previous.get(&old).copied(), next.get(&new).copied());
-                    self.patch_kept_annotation(element, raw, (old, new), refs.get(&new), chain)?;
+                    let kept = KeptAnnotation {
+                        element,
+                        old,
+                        new,
+                        old_previous: previous.get(&old).copied(),
+                        new_previous: next.get(&new).copied(),
+                    };
+                    self.patch_kept_annotation(&kept, raw, refs.get(&new))?;
                 }
                 None if self.tiers[old.tier].is_none() => {}
                 None => {
@@ -56,12 +72,11 @@ impl<'w> EafPatchWork<'w, '_> {
     /// Changes an annotation that remains.
     fn patch_kept_annotation(
         &mut self,
-        element: usize,
+        kept: &KeptAnnotation<'_>,
         raw: &eaf_raw::EafAnnotation<'_>,
-        (old, new): (AnnotationAddress, AnnotationAddress),
         refs: Option<&[String; 2]>,
-        (previous, next): (Option<&str>, Option<&str>),
     ) -> Option<()> {
+        let KeptAnnotation { element, old, new, .. } = *kept;
         let (before, after) = (self.before.annotation_at(old)?, self.wanted_annotation(new));
         if before.value != after.value {
             match self.layout.first_child_named(element, "ANNOTATION_VALUE") {
@@ -97,8 +112,8 @@ impl<'w> EafPatchWork<'w, '_> {
                 if above(self.before, old) != parent {
                     self.patch_element_attribute(element, "ANNOTATION_REF", Some(parent?));
                 }
-                if previous != next {
-                    self.patch_element_attribute(element, "PREVIOUS_ANNOTATION", next);
+                if kept.old_previous != kept.new_previous {
+                    self.patch_element_attribute(element, "PREVIOUS_ANNOTATION", kept.new_previous);
                 }
             }
             _ => return None,

@@ -16,6 +16,12 @@ struct TwoSpellings {
     written: String,
 }
 
+/// A list of elements of one kind before and after a change.
+struct ChangedList {
+    before: Vec<TwoSpellings>,
+    after: Vec<TwoSpellings>,
+}
+
 type XmlBufferOutput<'x> = XmlOutput<'x, Vec<u8>>;
 
 impl EafPatchWork<'_, '_> {
@@ -32,7 +38,10 @@ impl EafPatchWork<'_, '_> {
                 let all = document.header.media.iter();
                 self.rendered(&indent, all, eaf_write::write_media_descriptor)
             };
-            let (before, after) = (media(old)?, media(new)?);
+            let descriptors = ChangedList {
+                before: media(old)?,
+                after: media(new)?,
+            };
             let counts = self.has_counter(header);
             let property = |document: &eaf_raw::EafDocument<'_>| {
                 let all = document.header.properties.iter();
@@ -40,10 +49,13 @@ impl EafPatchWork<'_, '_> {
                 let all = all.filter(|property| counts || property.name.as_deref() != counter);
                 self.rendered(&indent, all, eaf_write::write_eaf_property)
             };
-            let properties = (property(old)?, property(new)?);
-            self.patch_keyed_list(header, ("MEDIA_DESCRIPTOR", "MEDIA_URL"), (before, after), &[])?;
+            let properties = ChangedList {
+                before: property(old)?,
+                after: property(new)?,
+            };
+            self.patch_keyed_list(header, "MEDIA_DESCRIPTOR", "MEDIA_URL", descriptors, &[])?;
             let places = ["MEDIA_DESCRIPTOR", "LINKED_FILE_DESCRIPTOR"];
-            self.patch_keyed_list(header, ("PROPERTY", "NAME"), properties, &places)?;
+            self.patch_keyed_list(header, "PROPERTY", "NAME", properties, &places)?;
         } else if old.header != new.header {
             return None;
         }
@@ -64,23 +76,24 @@ impl EafPatchWork<'_, '_> {
         let indent = self.indent_in(root);
         macro_rules! both {
             ($field:ident, $write:path) => {
-                (
-                    self.rendered(&indent, old.$field.iter(), $write)?,
-                    self.rendered(&indent, new.$field.iter(), $write)?,
-                )
+                ChangedList {
+                    before: self.rendered(&indent, old.$field.iter(), $write)?,
+                    after: self.rendered(&indent, new.$field.iter(), $write)?,
+                }
             };
         }
         let kinds = both!(linguistic_types, eaf_write::linguistic_type);
         self.patch_keyed_list(
             root,
-            ("LINGUISTIC_TYPE", "LINGUISTIC_TYPE_ID"),
+            "LINGUISTIC_TYPE",
+            "LINGUISTIC_TYPE_ID",
             kinds,
             &ROOT_CHILD_ORDER[..2],
         )?;
         let locales = both!(locales, eaf_write::write_eaf_locale);
-        self.patch_keyed_list(root, ("LOCALE", "LANGUAGE_CODE"), locales, &ROOT_CHILD_ORDER[..3])?;
+        self.patch_keyed_list(root, "LOCALE", "LANGUAGE_CODE", locales, &ROOT_CHILD_ORDER[..3])?;
         let languages = both!(languages, eaf_write::write_eaf_language);
-        self.patch_keyed_list(root, ("LANGUAGE", "LANG_ID"), languages, &ROOT_CHILD_ORDER[..4])?;
+        self.patch_keyed_list(root, "LANGUAGE", "LANG_ID", languages, &ROOT_CHILD_ORDER[..4])?;
         self.constraints(root, old, new, &ROOT_CHILD_ORDER[..5])?;
         if old.vocabularies != new.vocabularies {
             let legacy = (0..self.layout.elements.len())
@@ -89,11 +102,11 @@ impl EafPatchWork<'_, '_> {
                 self.old_vocabularies(root)?;
             } else {
                 let all = both!(vocabularies, eaf_write::write_eaf_vocabulary);
-                self.patch_keyed_list(root, ("CONTROLLED_VOCABULARY", "CV_ID"), all, &ROOT_CHILD_ORDER[..6])?;
+                self.patch_keyed_list(root, "CONTROLLED_VOCABULARY", "CV_ID", all, &ROOT_CHILD_ORDER[..6])?;
             }
         }
         let references = both!(external_refs, eaf_write::external_ref);
-        self.patch_keyed_list(root, ("EXTERNAL_REF", "EXT_REF_ID"), references, &ROOT_CHILD_ORDER)
+        self.patch_keyed_list(root, "EXTERNAL_REF", "EXT_REF_ID", references, &ROOT_CHILD_ORDER)
     }
 
     /// Adds entries to vocabularies of a format before 2.8, one line for each; other changes are more than lines.
@@ -165,7 +178,11 @@ impl EafPatchWork<'_, '_> {
         let all_constraints = new.constraints.iter();
         let all = all_constraints.filter(|constraint| needed.iter().any(|name| constraint.stereotype == name.as_str()));
         let parts = self.rendered(&self.indent_in(root), all, eaf_write::write_eaf_constraint)?;
-        self.patch_keyed_list(root, ("CONSTRAINT", "STEREOTYPE"), (Vec::new(), parts), places)
+        let added = ChangedList {
+            before: Vec::new(),
+            after: parts,
+        };
+        self.patch_keyed_list(root, "CONSTRAINT", "STEREOTYPE", added, places)
     }
 
     fn has_counter(&self, header: usize) -> bool {
@@ -196,14 +213,16 @@ impl EafPatchWork<'_, '_> {
     fn patch_keyed_list(
         &mut self,
         container: usize,
-        (name, key): (&str, &str),
-        (old, new): (Vec<TwoSpellings>, Vec<TwoSpellings>),
+        name: &str,
+        key: &str,
+        list: ChangedList,
         places: &[&str],
     ) -> Option<()> {
-        if old
+        let ChangedList { before, after } = list;
+        if before
             .iter()
             .map(|part| &part.plain)
-            .eq(new.iter().map(|part| &part.plain))
+            .eq(after.iter().map(|part| &part.plain))
         {
             return Some(());
         }
@@ -213,8 +232,8 @@ impl EafPatchWork<'_, '_> {
             let all: BTreeMap<String, TwoSpellings> = keyed_parts.collect();
             (all.len() == count).then_some(all)
         };
-        let order: Vec<String> = new.iter().map(|part| key_of(&part.plain, key)).collect();
-        let (old, new) = (keyed(old)?, keyed(new)?);
+        let order: Vec<String> = after.iter().map(|part| key_of(&part.plain, key)).collect();
+        let (old, new) = (keyed(before)?, keyed(after)?);
         let mut there: BTreeMap<String, usize> = BTreeMap::new();
         let child_elements: Vec<usize> = self.layout.children_named(container, name).collect();
         for element in child_elements {
@@ -288,8 +307,11 @@ impl EafPatchWork<'_, '_> {
             };
             children.map(text).map(part).collect()
         };
-        let both = (entries(&before), entries(&after));
-        self.patch_keyed_list(element, ("CV_ENTRY_ML", "CVE_ID"), both, &["DESCRIPTION"])
+        let values = ChangedList {
+            before: entries(&before),
+            after: entries(&after),
+        };
+        self.patch_keyed_list(element, "CV_ENTRY_ML", "CVE_ID", values, &["DESCRIPTION"])
     }
 
     /// Changes the attributes of a tier.

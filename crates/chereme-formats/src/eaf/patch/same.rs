@@ -51,7 +51,7 @@ fn same_annotations(a: &AnnotationTranscript, b: &AnnotationTranscript) -> bool 
                 return false;
             };
             let pair = a.annotation_at(*place).zip(b.annotation_at(*other));
-            pair.is_some_and(|(x, y)| is_same_annotation(a, b, place.tier, (x, y)))
+            pair.is_some_and(|(x, y)| is_same_annotation(a, b, place.tier, x, y))
         })
 }
 
@@ -59,7 +59,8 @@ fn is_same_annotation(
     a: &AnnotationTranscript,
     b: &AnnotationTranscript,
     tier: usize,
-    (x, y): (&TranscriptAnnotation, &TranscriptAnnotation),
+    x: &TranscriptAnnotation,
+    y: &TranscriptAnnotation,
 ) -> bool {
     let above = |transcript: &AnnotationTranscript, it: &TranscriptAnnotation| {
         let place = it.parent?;
