@@ -152,7 +152,7 @@ impl ClipLapses {
         for frame in 0..clip.clip_frame_count() {
             model.set_local_pose(clip.clip_skeleton(), &clip.clip_pose_at(frame));
             for path in &mut paths {
-                path.push_limb_frame((clip, anatomy), &model, frame);
+                path.push_limb_frame(clip, anatomy, &model, frame);
             }
         }
         for path in &paths {
@@ -266,7 +266,7 @@ impl LimbPath {
         })
     }
 
-    fn push_limb_frame(&mut self, (clip, anatomy): (&Clip, &BodyAnatomy), model: &ModelPose, frame: usize) {
+    fn push_limb_frame(&mut self, clip: &Clip, anatomy: &BodyAnatomy, model: &ModelPose, frame: usize) {
         let skeleton = clip.clip_skeleton();
         let (origin, turned) = match self.base {
             Some(base) => (

@@ -97,14 +97,15 @@ impl HandFrame {
             metacarpals: HandFinger::ALL_FINGERS.map(|finger| anatomy.part_joint(BodyPart::Finger(side, finger, 0))),
         };
         frame.thumb = frame.straight_joint_rotations(
-            (anatomy, skeleton),
+            anatomy,
+            skeleton,
             hand,
             [0, 1, 2].map(|n| anatomy.part_joint(BodyPart::Thumb(side, n))),
             true,
         );
         for finger in HandFinger::ALL_FINGERS {
             let joints = [1, 2, 3].map(|n| anatomy.part_joint(BodyPart::Finger(side, finger, n)));
-            frame.fingers[finger.index()] = frame.straight_joint_rotations((anatomy, skeleton), hand, joints, false);
+            frame.fingers[finger.index()] = frame.straight_joint_rotations(anatomy, skeleton, hand, joints, false);
         }
         Some(frame)
     }
@@ -112,7 +113,8 @@ impl HandFrame {
     /// Returns the rotations of a digit's joints when it is straight along the hand.
     fn straight_joint_rotations(
         &self,
-        (anatomy, skeleton): (&BodyAnatomy, &Skeleton),
+        anatomy: &BodyAnatomy,
+        skeleton: &Skeleton,
         hand: usize,
         joints: [Option<usize>; 3],
         thumb: bool,
@@ -125,7 +127,7 @@ impl HandFrame {
             };
             let (start, turned) = in_hand(skeleton, hand, joint);
             let next = joints[place + 1..].iter().flatten().next();
-            let bone = bone_end((anatomy, skeleton), hand, joint, next.copied())
+            let bone = bone_end(anatomy, skeleton, hand, joint, next.copied())
                 .and_then(|end| (end - start).try_normalize())
                 .or(before.map(|(_, bone)| bone))
                 .unwrap_or(self.along);
@@ -183,7 +185,8 @@ pub(super) fn in_hand(skeleton: &Skeleton, hand: usize, joint: usize) -> (DVec3,
 
 /// Returns the end of the bone of `joint`: the digit's next joint, its tip, or its only child.
 fn bone_end(
-    (anatomy, skeleton): (&BodyAnatomy, &Skeleton),
+    anatomy: &BodyAnatomy,
+    skeleton: &Skeleton,
     hand: usize,
     joint: usize,
     next: Option<usize>,

@@ -228,16 +228,17 @@ pub fn fit_skeleton(
         Some(_) => others.into_iter().filter(|is_other| *is_other).count(),
         None => 0,
     };
-    let fitted = finish_skeleton_fit(
-        markers,
-        skeleton,
-        (scale, measured * measures.stature),
-        rate,
-        (used, unused, unturned),
-        &shown,
-        moved,
-    )?;
-    Ok(FittedSkeleton { others, ..fitted })
+    let skeleton = Arc::new(skeleton);
+    Ok(FittedSkeleton {
+        clip: fitted_clip(&skeleton, rate, &moved.poses)?,
+        scale,
+        stature: measured * measures.stature,
+        markers: measure_fitted_markers(markers, &used, &shown, &skeleton, &moved.poses),
+        unused,
+        others,
+        held: moved.held,
+        unturned,
+    })
 }
 
 /// Returns the places of a frame; a place at exactly 0 0 0 in the file is a gap that a program wrote so.
@@ -460,20 +461,25 @@ fn infer_marker_rate(markers: &MarkerTrack) -> Result<FrameRate, RateError> {
     FrameRate::new(per_second.clamp(1.0, 4e9) as u32, 1000)
 }
 
-fn finish_skeleton_fit(
+fn fitted_clip(skeleton: &Arc<Skeleton>, rate: FrameRate, poses: &[LocalPose]) -> Result<Clip, FitError> {
+    let channels = (0..skeleton.len()).map(|joint| JointChannel {
+        rotations: poses.iter().map(|pose| pose.rotations[joint]).collect(),
+        translations: (joint == 0).then(|| poses.iter().map(|pose| pose.translations[0]).collect()),
+    });
+    Ok(Clip::new(skeleton.clone(), rate, channels.collect())?)
+}
+
+/// Returns for each used marker how far from its place on the fitted body it was recorded.
+fn measure_fitted_markers(
     markers: &MarkerTrack,
-    skeleton: Skeleton,
-    (scale, stature): (f64, f64),
-    rate: FrameRate,
-    (used, unused, unturned): (Vec<UsedMarker>, Vec<String>, Vec<BodySide>),
+    used: &[UsedMarker],
     shown: &[Vec<Option<DVec3>>],
-    moved: FittedMotion,
-) -> Result<FittedSkeleton, FitError> {
-    let skeleton = Arc::new(skeleton);
-    let models: Vec<ModelPose> = moved
-        .poses
+    skeleton: &Skeleton,
+    poses: &[LocalPose],
+) -> Vec<FittedMarker> {
+    let models: Vec<ModelPose> = poses
         .iter()
-        .map(|pose| ModelPose::from_local_pose(&skeleton, pose))
+        .map(|pose| ModelPose::from_local_pose(skeleton, pose))
         .collect();
     let fitted = used.iter().map(|marker| {
         let distances: Vec<f64> = shown
@@ -502,21 +508,7 @@ fn finish_skeleton_fit(
             distances,
         }
     });
-    let fitted = fitted.collect();
-    let channels = (0..skeleton.len()).map(|joint| JointChannel {
-        rotations: moved.poses.iter().map(|pose| pose.rotations[joint]).collect(),
-        translations: (joint == 0).then(|| moved.poses.iter().map(|pose| pose.translations[0]).collect()),
-    });
-    Ok(FittedSkeleton {
-        clip: Clip::new(skeleton.clone(), rate, channels.collect())?,
-        scale,
-        stature,
-        markers: fitted,
-        unused,
-        others: 0,
-        held: moved.held,
-        unturned,
-    })
+    fitted.collect()
 }
 
 /// Returns the name of a marker with its subject: `Anna:LSHO`.
