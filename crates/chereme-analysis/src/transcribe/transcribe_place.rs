@@ -397,9 +397,17 @@ impl<'a> PosedBody<'a> {
         symmetric: bool,
     ) -> DVec3 {
         let scene = self.scene;
-        let spot_region = (spot.region_for(contact), spot.lateral, spot.beside);
+        let region = spot.region_for(contact);
         let lengths = [scene.arm, scene.shoulders];
-        let hand = HandAt::hand_at_place(spot_region, contact, scene.language, lengths, ahead);
+        let hand = HandAt::hand_at_place(
+            region,
+            spot.lateral,
+            spot.beside,
+            contact,
+            scene.language,
+            lengths,
+            ahead,
+        );
         let apart = if symmetric && spot.lateral == 0.0 {
             let side_sign = if n == 0 { -1.0 } else { 1.0 };
             side_sign * scene.language.hands_apart * scene.shoulders

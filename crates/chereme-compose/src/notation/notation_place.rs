@@ -361,8 +361,9 @@ impl NotationSigner<'_> {
     /// Returns the position of a hand before a place, if its point is this far ahead of its wrist (m).
     fn position_before_place(&self, site: &PlacedSite, contact: Option<PlaceContact>, ahead: f64) -> DVec3 {
         let (stage, l) = (self.stage, self.language);
-        let site_region = (site.site.region_for(contact), site.site.lateral, site.site.beside);
-        match HandAt::hand_at_place(site_region, contact, l, [stage.arm, stage.shoulders], ahead) {
+        let (region, lateral, beside) = (site.site.region_for(contact), site.site.lateral, site.site.beside);
+        let lengths = [stage.arm, stage.shoulders];
+        match HandAt::hand_at_place(region, lateral, beside, contact, l, lengths, ahead) {
             HandAt::Place => site.at,
             HandAt::Off { out, left } => site.at + site.out * out + stage.left * left,
             HandAt::Front { left, forward } => {

@@ -62,8 +62,8 @@ impl DraggedAnnotations {
     pub fn drag_annotations(&self, grip: DragGrip, by: i64, mode: NeighbourMode) -> Vec<SpanItem> {
         match self.kind {
             TierTiming::Listed => Vec::new(),
-            TierTiming::Tiled => tier_spans::drag_tiled_spans(&self.items, &self.chosen, (grip, by), self.limits),
-            _ => tier_spans::drag_spans(&self.items, &self.chosen, (grip, by), mode, self.limits),
+            TierTiming::Tiled => tier_spans::drag_tiled_spans(&self.items, &self.chosen, grip, by, self.limits),
+            _ => tier_spans::drag_spans(&self.items, &self.chosen, grip, by, mode, self.limits),
         }
     }
 
@@ -196,7 +196,7 @@ pub fn room_for_annotation(
         .iter()
         .find(|candidate| Some(candidate.row.id) == tier.row.parent_id);
     let Some(parent) = parent.filter(|_| kind != TierTiming::Root) else {
-        return tier_spans::longest_free_span(&tier_items, wanted);
+        return tier_spans::longest_free_span(&tier_items, wanted.0, wanted.1);
     };
     let mut best: Option<(i64, i64)> = None;
     for above in timed_annotation_items(parent, None) {
@@ -205,7 +205,7 @@ pub fn room_for_annotation(
             continue;
         }
         let free_room = match kind {
-            TierTiming::Inside => tier_spans::longest_free_span(&tier_items, inside),
+            TierTiming::Inside => tier_spans::longest_free_span(&tier_items, inside.0, inside.1),
             TierTiming::Listed => Some((above.start, above.end)),
             _ => tiled_room(&tier_items, above, inside),
         };

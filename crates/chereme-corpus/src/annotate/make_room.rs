@@ -41,7 +41,7 @@ impl AnnotationChangeRun<'_> {
         for (grip, by) in steps {
             let items = self.sibling_annotations(tier, row.parent_id)?;
             let chosen = BTreeSet::from([row.id]);
-            let changed = tier_spans::drag_spans(&items, &chosen, (grip, by), mode, limits);
+            let changed = tier_spans::drag_spans(&items, &chosen, grip, by, mode, limits);
             self.respan_annotations(tier, &tier_spans::order_span_changes(&items, &changed))?;
         }
         let now = rows::load_annotation_row(self.connection, row.id)?;

@@ -601,7 +601,7 @@ fn motion_strategy() -> BoxedStrategy<NotatedMotion> {
         posture: Box::new(posture),
     });
     let plain_leaf = prop_oneof![5 => simple_motion_strategy(), 1 => digits, 1 => change];
-    let leaf = (plain_leaf, manner_strategy()).prop_map(with_manner);
+    let leaf = (plain_leaf, manner_strategy()).prop_map(|(kind, manner)| with_manner(kind, manner));
     leaf.prop_recursive(3, 12, 3, |inner| {
         let boxed = inner.clone().prop_map(Box::new);
         let group = prop_oneof![
@@ -620,7 +620,7 @@ fn motion_strategy() -> BoxedStrategy<NotatedMotion> {
                     _ => {}
                 }
                 MotionKind::Target {
-                    motion: Some(Box::new(with_manner((kind, manner)))),
+                    motion: Some(Box::new(with_manner(kind, manner))),
                     posture: Box::new(NotatedPosture {
                         place: Some(place),
                         ..NotatedPosture::default()
@@ -634,15 +634,15 @@ fn motion_strategy() -> BoxedStrategy<NotatedMotion> {
             repetition_strategy(),
         )
             .prop_map(|(kind, manner, repetition)| MotionKind::Repeated {
-                motion: Box::new(with_manner((kind, manner))),
+                motion: Box::new(with_manner(kind, manner)),
                 repetition,
             });
-        (prop_oneof![group, target, repeated], manner_strategy()).prop_map(with_manner)
+        (prop_oneof![group, target, repeated], manner_strategy()).prop_map(|(kind, manner)| with_manner(kind, manner))
     })
     .boxed()
 }
 
-fn with_manner((kind, manner): (MotionKind, MotionManner)) -> NotatedMotion {
+fn with_manner(kind: MotionKind, manner: MotionManner) -> NotatedMotion {
     NotatedMotion {
         manner,
         ..NotatedMotion::new(kind)

@@ -51,14 +51,14 @@ impl BodySite {
     /// Returns the part of the body that determines the distance of a hand with this contact.
     #[must_use]
     pub fn region_for(&self, contact: Option<PlaceContact>) -> BodyRegion {
-        region_for((self.region, self.level), contact)
+        region_for(self.region, self.level, contact)
     }
 }
 
 /// Returns the part of the body that determines the distance of a hand with a contact, from a place's region and
 /// whether it is a height of the space before the body.
 #[must_use]
-pub fn region_for((region, level): (BodyRegion, bool), contact: Option<PlaceContact>) -> BodyRegion {
+pub fn region_for(region: BodyRegion, level: bool, contact: Option<PlaceContact>) -> BodyRegion {
     match contact {
         None | Some(PlaceContact::Close | PlaceContact::ArmExtended) if level => BodyRegion::Trunk,
         _ => region,
@@ -114,7 +114,9 @@ impl HandAt {
     /// have to go behind the back for a nearer place stays beside the trunk.
     #[must_use]
     pub fn hand_at_place(
-        (region, lateral, beside): (BodyRegion, f64, bool),
+        region: BodyRegion,
+        lateral: f64,
+        beside: bool,
         contact: Option<PlaceContact>,
         language: &BodyLanguage,
         [arm, shoulders]: [f64; 2],
@@ -390,12 +392,17 @@ mod tests {
     #[test]
     fn a_hand_that_points_away_is_farther_before_the_trunk() {
         let language = BodyLanguage::default_body_language();
-        let forward = |contact, ahead| {
-            let place = (BodyRegion::Trunk, 0.0, false);
-            match HandAt::hand_at_place(place, contact, language, [0.5, 0.4], ahead) {
-                HandAt::Front { forward, .. } => forward,
-                other => panic!("{other:?}"),
-            }
+        let forward = |contact, ahead| match HandAt::hand_at_place(
+            BodyRegion::Trunk,
+            0.0,
+            false,
+            contact,
+            language,
+            [0.5, 0.4],
+            ahead,
+        ) {
+            HandAt::Front { forward, .. } => forward,
+            other => panic!("{other:?}"),
         };
         for (contact, far) in [
             (None, language.medium_trunk),
@@ -413,12 +420,17 @@ mod tests {
     #[test]
     fn an_arm_is_extended_beside_the_trunk_as_far_as_before_it() {
         let language = BodyLanguage::default_body_language();
-        let forward = |beside, contact| {
-            let place = (BodyRegion::Trunk, 0.8, beside);
-            match HandAt::hand_at_place(place, contact, language, [0.5, 0.4], 0.0) {
-                HandAt::Front { forward, .. } => forward,
-                other => panic!("{other:?}"),
-            }
+        let forward = |beside, contact| match HandAt::hand_at_place(
+            BodyRegion::Trunk,
+            0.8,
+            beside,
+            contact,
+            language,
+            [0.5, 0.4],
+            0.0,
+        ) {
+            HandAt::Front { forward, .. } => forward,
+            other => panic!("{other:?}"),
         };
         let stretched = Some(PlaceContact::ArmExtended);
         assert_eq!(forward(true, stretched), forward(false, stretched));

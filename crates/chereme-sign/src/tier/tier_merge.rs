@@ -156,7 +156,7 @@ impl EditPlan<'_> {
                 }
                 Some(stereotype) => {
                     let tiles = stereotype == TierStereotype::TimeSubdivision;
-                    self.join_aligned(&left, &right, (id, span, tiles), seam)?;
+                    self.join_aligned(&left, &right, id, span, tiles, seam)?;
                 }
             }
         }
@@ -200,7 +200,9 @@ impl EditPlan<'_> {
         &mut self,
         left: &[&TierAnnotation],
         right: &[&TierAnnotation],
-        (parent, span, tiles): (AnnotationId, TimeSpan, bool),
+        parent: AnnotationId,
+        span: TimeSpan,
+        tiles: bool,
         seam: MergeSeam,
     ) -> PlanResult {
         let meets = |a: &TierAnnotation, b: &TierAnnotation| {

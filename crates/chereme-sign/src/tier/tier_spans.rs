@@ -59,7 +59,8 @@ pub struct SpanLimits {
 pub fn drag_spans(
     items: &[SpanItem],
     chosen: &BTreeSet<i64>,
-    (grip, by): (DragGrip, i64),
+    grip: DragGrip,
+    by: i64,
     mode: NeighbourMode,
     limits: SpanLimits,
 ) -> Vec<SpanItem> {
@@ -98,7 +99,8 @@ pub fn drag_spans(
 pub fn drag_tiled_spans(
     items: &[SpanItem],
     chosen: &BTreeSet<i64>,
-    (grip, by): (DragGrip, i64),
+    grip: DragGrip,
+    by: i64,
     limits: SpanLimits,
 ) -> Vec<SpanItem> {
     let chosen_index = items.iter().position(|item| chosen.contains(&item.id));
@@ -173,7 +175,7 @@ pub fn order_span_changes(items: &[SpanItem], changed: &[SpanItem]) -> Vec<SpanI
 
 /// Returns the longest part of `from..to` without annotations.
 #[must_use]
-pub fn longest_free_span(items: &[SpanItem], (from, to): (i64, i64)) -> Option<(i64, i64)> {
+pub fn longest_free_span(items: &[SpanItem], from: i64, to: i64) -> Option<(i64, i64)> {
     let first = items.partition_point(|item| item.end <= from);
     let inside = items[first..].iter().take_while(|item| item.start < to);
     let mut begin = from;
@@ -384,12 +386,12 @@ mod tests {
             (2, Whole, -90, Shift, &[(2, 100, 200), (3, 250, 350)]),
         ];
         for (id, grip, by, mode, want) in cases {
-            let found = drag_spans(&all, &BTreeSet::from([id]), (grip, by), mode, LIMITS);
+            let found = drag_spans(&all, &BTreeSet::from([id]), grip, by, mode, LIMITS);
             let found: Vec<_> = found.iter().map(|it| (it.id, it.start, it.end)).collect();
             assert_eq!(found, want, "{id} {grip:?} {by} {mode:?}");
         }
         let both = BTreeSet::from([1, 2]);
-        let found = drag_spans(&all, &both, (Whole, 90), Normal, LIMITS);
+        let found = drag_spans(&all, &both, Whole, 90, Normal, LIMITS);
         assert_eq!(found, items(&[(50, 150), (200, 300)]));
     }
 
@@ -403,7 +405,7 @@ mod tests {
             ((260, 900), Some((400, 900))),
             ((500, 500), None),
         ] {
-            assert_eq!(longest_free_span(&all, wanted), want, "{wanted:?}");
+            assert_eq!(longest_free_span(&all, wanted.0, wanted.1), want, "{wanted:?}");
         }
     }
 
@@ -460,7 +462,7 @@ mod tests {
             mode in prop::sample::select(vec![NeighbourMode::Normal, NeighbourMode::Bulldozer, NeighbourMode::Shift]),
             by in -2000..2000_i64,
         ) {
-            let changed = drag_spans(&all, &picked, (grip, by), mode, LIMITS);
+            let changed = drag_spans(&all, &picked, grip, by, mode, LIMITS);
             let mut now = all.clone();
             let to = LIMITS.to.max(all[all.len() - 1].end);
             for new in order_span_changes(&all, &changed) {
@@ -480,8 +482,8 @@ mod tests {
         fn an_annotation_shifted_there_and_back_is_unchanged(all in any_items(), by in 0..200_i64) {
             let picked = BTreeSet::from([1]);
             let limits = SpanLimits { to: 100_000, ..LIMITS };
-            let gone = drag_spans(&all, &picked, (DragGrip::Whole, by), NeighbourMode::Shift, limits);
-            let back = drag_spans(&gone, &picked, (DragGrip::Whole, -by), NeighbourMode::Shift, limits);
+            let gone = drag_spans(&all, &picked, DragGrip::Whole, by, NeighbourMode::Shift, limits);
+            let back = drag_spans(&gone, &picked, DragGrip::Whole, -by, NeighbourMode::Shift, limits);
             prop_assert!(by == 0 || back == all);
         }
     }

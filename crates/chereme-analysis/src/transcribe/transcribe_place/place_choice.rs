@@ -61,7 +61,7 @@ pub(super) struct BodySpot {
 impl BodySpot {
     /// Returns the part of the body that determines the distance of a hand with a contact.
     pub(super) fn region_for(&self, contact: Option<PlaceContact>) -> BodyRegion {
-        region_for((self.region, self.level), contact)
+        region_for(self.region, self.level, contact)
     }
 
     /// Returns the same for a hand that touches nothing.
