@@ -32,7 +32,7 @@ fn tiers() -> AnnotationContinuum {
         let moved = random.random_below(80) as i64;
         second.push(AnnotatedUnit::new(start + moved, end, other));
     }
-    AnnotationContinuum::new((0, end), vec![first, second])
+    AnnotationContinuum::new(0..end, vec![first, second])
 }
 
 #[divan::bench]

@@ -196,7 +196,6 @@ pub fn score_as(
         }
     }
     let uncaptured = (a.uncaptured, b.uncaptured);
-    let (a, b) = ((a.clip, a.anatomy), (b.clip, b.anatomy));
     let (mut first, mut second) = (extract_component_features(a), extract_component_features(b));
     let left_out = keep_common(&mut first, &mut second, uncaptured);
     if first.is_empty() {
@@ -222,7 +221,7 @@ pub fn score_as(
         let all = sides.iter().flat_map(|&side| anatomy.finger_joints(side));
         all.collect()
     };
-    let still = [fingers(a.1, uncaptured.0), fingers(b.1, uncaptured.1)];
+    let still = [fingers(a.anatomy, uncaptured.0), fingers(b.anatomy, uncaptured.1)];
     let mut seen = pairs.clone();
     seen.retain(|(left, right)| !still[0].contains(left) && !still[1].contains(right));
     let largest = largest_error(a, b, &seen, &aligned.path);
@@ -239,14 +238,14 @@ pub fn score_as(
         components: component_parts(&first, &query, &reference, &aligned),
         max_joint_error_m: largest.map(|(error, ..)| error),
         worst: largest.map(|(_, joint, frames)| WorstJoint {
-            joint: name(a.0, joint),
+            joint: name(a.clip, joint),
             frames,
         }),
         alignment: aligned.path,
         made: aligned.cost.made,
         left_out,
-        only_in_first: unpaired(a.0, &|j| pairs.iter().any(|pair| pair.0 == j)),
-        only_in_second: unpaired(b.0, &|j| pairs.iter().any(|pair| pair.1 == j)),
+        only_in_first: unpaired(a.clip, &|j| pairs.iter().any(|pair| pair.0 == j)),
+        only_in_second: unpaired(b.clip, &|j| pairs.iter().any(|pair| pair.1 == j)),
     })
 }
 
@@ -260,7 +259,8 @@ const MANUAL_COMPONENTS: [SignComponent; 4] = [
     SignComponent::Orientation,
 ];
 
-fn extract_component_features((clip, anatomy): (&Clip, &BodyAnatomy)) -> ComponentFeatures {
+fn extract_component_features(performed: PerformedClip<'_>) -> ComponentFeatures {
+    let PerformedClip { clip, anatomy, .. } = performed;
     let mut features = ComponentFeatures::new();
     let mut model = clip.model_pose(0);
     let mut rows: BTreeMap<(SignComponent, BodySide), Vec<Option<Vec<f64>>>> = BTreeMap::new();
@@ -355,15 +355,19 @@ fn keep_common(
     uncaptured: (&[BodySide], &[BodySide]),
 ) -> Vec<UncomparedComponent> {
     let mut left_out = Vec::new();
-    let drop = |features: &mut ComponentFeatures, sides: &[BodySide], (component, side): (SignComponent, BodySide)| {
-        component == SignComponent::Configuration
-            && sides.contains(&side)
-            && features.remove(&(component, side)).is_some()
+    let drop_handshape = |features: &mut ComponentFeatures, sides: &[BodySide], side: BodySide| {
+        sides.contains(&side) && features.remove(&(SignComponent::Configuration, side)).is_some()
     };
     for component in MANUAL_COMPONENTS {
         for side in BodySide::BOTH_SIDES {
             let key = (component, side);
-            let uncaptured = (drop(first, uncaptured.0, key), drop(second, uncaptured.1, key));
+            let uncaptured = match component {
+                SignComponent::Configuration => (
+                    drop_handshape(first, uncaptured.0, side),
+                    drop_handshape(second, uncaptured.1, side),
+                ),
+                _ => (false, false),
+            };
             let shown = (first.contains_key(&key), second.contains_key(&key));
             if shown != (true, true) {
                 first.remove(&key);
@@ -422,10 +426,10 @@ fn component_parts(
 
 /// Returns the corresponding joints of both clips: all of them if the skeletons have the same joints, else
 /// those of the same part of the body, else of the same name.
-fn pairs_of(a: (&Clip, &BodyAnatomy), b: (&Clip, &BodyAnatomy)) -> Vec<(usize, usize)> {
+fn pairs_of(a: PerformedClip<'_>, b: PerformedClip<'_>) -> Vec<(usize, usize)> {
     let (first, second) = (
-        a.0.clip_skeleton().skeleton_joints(),
-        b.0.clip_skeleton().skeleton_joints(),
+        a.clip.clip_skeleton().skeleton_joints(),
+        b.clip.clip_skeleton().skeleton_joints(),
     );
     let same = first.len() == second.len()
         && first
@@ -441,11 +445,11 @@ fn pairs_of(a: (&Clip, &BodyAnatomy), b: (&Clip, &BodyAnatomy)) -> Vec<(usize, u
         .rev()
         .map(|(j, joint)| (joint.name.as_str(), j))
         .collect();
-    let counterpart = |j: usize| match a.1.part_of(j) {
-        Some(part) => b.1.part_joint(part),
+    let counterpart = |j: usize| match a.anatomy.part_of(j) {
+        Some(part) => b.anatomy.part_joint(part),
         None => {
             let other = names.get(first[j].name.as_str()).copied();
-            other.filter(|&other| b.1.part_of(other).is_none())
+            other.filter(|&other| b.anatomy.part_of(other).is_none())
         }
     };
     (0..first.len()).filter_map(|j| Some((j, counterpart(j)?))).collect()
@@ -454,27 +458,27 @@ fn pairs_of(a: (&Clip, &BodyAnatomy), b: (&Clip, &BodyAnatomy)) -> Vec<(usize, u
 /// Returns the largest distance of paired joints or tips, with the first clip's joint and frames. Tips of fingers that
 /// point elsewhere than their fingers are turned first; a pair with a tip without a length is left out.
 fn largest_error(
-    (a, of_a): (&Clip, &BodyAnatomy),
-    (b, of_b): (&Clip, &BodyAnatomy),
+    a: PerformedClip<'_>,
+    b: PerformedClip<'_>,
     pairs: &[(usize, usize)],
     path: &[(usize, usize)],
 ) -> Option<(f64, usize, (usize, usize))> {
     let frame_by_frame: Vec<(usize, usize)>;
-    let path = if a.clip_frame_count() == b.clip_frame_count() {
-        frame_by_frame = (0..a.clip_frame_count()).map(|i| (i, i)).collect();
+    let path = if a.clip.clip_frame_count() == b.clip.clip_frame_count() {
+        frame_by_frame = (0..a.clip.clip_frame_count()).map(|i| (i, i)).collect();
         &frame_by_frame
     } else {
         path
     };
     let ended = pairs.iter().map(|&(left, right)| {
         let tips = (
-            of_a.joint_tip(a.clip_skeleton(), left),
-            of_b.joint_tip(b.clip_skeleton(), right),
+            a.anatomy.joint_tip(a.clip.clip_skeleton(), left),
+            b.anatomy.joint_tip(b.clip.clip_skeleton(), right),
         );
         ((left, right), tips)
     });
     let ended: Vec<_> = ended.collect();
-    let (mut first, mut second) = (PostureWalker::new(a), PostureWalker::new(b));
+    let (mut first, mut second) = (PostureWalker::new(a.clip), PostureWalker::new(b.clip));
     let mut largest: Option<(f64, usize, (usize, usize))> = None;
     for &(i, j) in path {
         let (x, y) = (first.pose_at_frame(i), second.pose_at_frame(j));

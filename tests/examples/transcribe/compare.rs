@@ -50,8 +50,7 @@ pub(crate) fn compare(written: &ManualPart, again: &Again) -> Vec<Verdict> {
     let off = |a: &BodyPlace, b: Option<&BodyPlace>| -> Option<(f64, f64)> {
         let feature = again.found.features.first()?;
         let options = TranscribeOptions::synthesised_options();
-        let places = (a, b);
-        off_place(&again.clip, &again.anatomy, &options, feature.frame, places, symmetric).ok()?
+        off_place(&again.clip, &again.anatomy, &options, feature.frame, a, b, symmetric).ok()?
     };
     place(&written.posture, &found.posture, &off, &mut say);
     movement(written, found, &mut say);

@@ -204,7 +204,7 @@ fn search_unit_groups(
         for at in 0..tier.len() {
             let mut group: AlignedUnits = vec![None; tiers.len()];
             group[first] = Some(at);
-            extend_unit_group(&mut group, first + 1, (tiers, costs), &mut groups, &mut steps)?;
+            extend_unit_group(&mut group, first + 1, tiers, costs, &mut groups, &mut steps)?;
         }
     }
     // Each group under its first unit, and the least share of each unit.
@@ -249,7 +249,8 @@ fn search_unit_groups(
 fn extend_unit_group(
     group: &mut AlignedUnits,
     from: usize,
-    (tiers, costs): (&[Vec<AnnotatedUnit>], &AlignmentCosts<'_>),
+    tiers: &[Vec<AnnotatedUnit>],
+    costs: &AlignmentCosts<'_>,
     groups: &mut Vec<(AlignedUnits, f64)>,
     steps: &mut u64,
 ) -> Result<(), UndefinedAgreement> {
@@ -260,7 +261,7 @@ fn extend_unit_group(
         }
         return Ok(());
     }
-    extend_unit_group(group, from + 1, (tiers, costs), groups, steps)?;
+    extend_unit_group(group, from + 1, tiers, costs, groups, steps)?;
     let annotators = tiers.len() as f64;
     let pairs = annotators * (annotators - 1.0) / 2.0;
     for at in 0..tiers[from].len() {
@@ -276,7 +277,7 @@ fn extend_unit_group(
             continue;
         }
         group[from] = Some(at);
-        extend_unit_group(group, from + 1, (tiers, costs), groups, steps)?;
+        extend_unit_group(group, from + 1, tiers, costs, groups, steps)?;
         group[from] = None;
     }
     Ok(())
@@ -582,6 +583,6 @@ impl RandomUnitSource {
             (0..count).map(unit).collect()
         };
         let tiers = like.annotator_tiers().iter().map(tier).collect();
-        AnnotationContinuum::new((0, 0), tiers)
+        AnnotationContinuum::new(0..0, tiers)
     }
 }

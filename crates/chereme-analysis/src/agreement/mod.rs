@@ -34,6 +34,7 @@ pub mod segments;
 mod tests;
 pub mod unitizing;
 
+use std::ops::Range;
 use thiserror::Error;
 
 /// A figure, or the reason why it is undefined.
@@ -116,7 +117,7 @@ impl AnnotationContinuum {
     /// Units are put in the order of time; units without length are left out; the stretch is extended to hold every
     /// unit.
     #[must_use]
-    pub fn new((start, end): (i64, i64), tiers: Vec<Vec<AnnotatedUnit>>) -> Self {
+    pub fn new(stretch: Range<i64>, tiers: Vec<Vec<AnnotatedUnit>>) -> Self {
         let within = |time: i64| time.clamp(-MOST_TIME, MOST_TIME);
         let cleaned = |units: Vec<AnnotatedUnit>| {
             let clipped_units = units.into_iter().map(|unit| AnnotatedUnit {
@@ -129,7 +130,7 @@ impl AnnotationContinuum {
             units
         };
         let tiers: Vec<Vec<AnnotatedUnit>> = tiers.into_iter().map(cleaned).collect();
-        let (mut start, mut end) = (within(start), within(end));
+        let (mut start, mut end) = (within(stretch.start), within(stretch.end));
         for unit in tiers.iter().flatten() {
             start = start.min(unit.start);
             end = end.max(unit.end);

@@ -67,7 +67,7 @@ fn undefined_figures_have_a_reason() {
         Err(UndefinedAgreement::NoPair)
     );
     assert_eq!(items::item_gwet_ac1(&apart), Err(UndefinedAgreement::NoPair));
-    let nothing = AnnotationContinuum::new((0, 4000), vec![vec![], vec![]]);
+    let nothing = AnnotationContinuum::new(0..4000, vec![vec![], vec![]]);
     assert_eq!(unitizing::alpha_u(&nothing), Err(UndefinedAgreement::BothEmpty));
     assert_eq!(unitizing::u_alpha(&nothing).all, Err(UndefinedAgreement::BothEmpty));
     assert_eq!(
@@ -105,7 +105,7 @@ fn tiers(most: usize) -> impl Strategy<Value = Vec<AnnotatedUnit>> {
 
 /// Returns every figure of two tiers but ELAN's ratio and gamma.
 fn figures(first: &[AnnotatedUnit], second: &[AnnotatedUnit]) -> Vec<AgreementMeasure> {
-    let continuum = AnnotationContinuum::new((0, 8000), vec![first.to_vec(), second.to_vec()]);
+    let continuum = AnnotationContinuum::new(0..8000, vec![first.to_vec(), second.to_vec()]);
     let pairs = matching::match_overlapping_units(first, second, 0.6);
     let table = HolleReinTable::from_matching_rows(matching::build_matching_rows(first, second, &pairs), 3);
     let frames = unitizing::measure_frame_agreement(&continuum, 10);
@@ -189,7 +189,7 @@ proptest! {
 
     #[test]
     fn the_assignment_is_the_least_of_all(a in tiers(6), b in tiers(6)) {
-        let continuum = AnnotationContinuum::new((0, 1), vec![a.clone(), b.clone()]);
+        let continuum = AnnotationContinuum::new(0..1, vec![a.clone(), b.clone()]);
         let costs = AlignmentCosts::default();
         if let Ok(found) = align_continuum(&continuum, &costs) {
             let wanted = least(&a, &b, 0, &costs);
@@ -201,8 +201,8 @@ proptest! {
 
     #[test]
     fn a_silent_third_annotator_adds_the_same_to_every_group(a in tiers(5), b in tiers(5)) {
-        let two = AnnotationContinuum::new((0, 1), vec![a.clone(), b.clone()]);
-        let three = AnnotationContinuum::new((0, 1), vec![a, vec![], b]);
+        let two = AnnotationContinuum::new(0..1, vec![a.clone(), b.clone()]);
+        let three = AnnotationContinuum::new(0..1, vec![a, vec![], b]);
         let costs = AlignmentCosts::default();
         if let (Ok(two), Ok(three)) = (align_continuum(&two, &costs), align_continuum(&three, &costs)) {
             // Two of the three pairs of a group have a silent side.
@@ -217,7 +217,7 @@ proptest! {
         b in proptest::collection::vec((any::<i64>(), any::<i64>(), 0_usize..3), 0..6),
     ) {
         let units = |all: &[(i64, i64, usize)]| all.iter().map(|it| AnnotatedUnit::new(it.0, it.1, it.2)).collect();
-        let continuum = AnnotationContinuum::new((i64::MIN, i64::MAX), vec![units(&a), units(&b)]);
+        let continuum = AnnotationContinuum::new(i64::MIN..i64::MAX, vec![units(&a), units(&b)]);
         let [first, second] = continuum.annotator_tiers() else { unreachable!() };
         for found in figures(first, second).into_iter().flatten() {
             prop_assert!(found.is_finite(), "{found}");
@@ -232,7 +232,7 @@ fn gamma_is_one_less_the_share_of_chance_and_repeats_by_seed() {
     let mut second = first.clone();
     second[3].value = 3;
     second[7].start += 90;
-    let continuum = [AnnotationContinuum::new((0, 6000), vec![first, second])];
+    let continuum = [AnnotationContinuum::new(0..6000, vec![first, second])];
     let (costs, sampling) = (AlignmentCosts::default(), GammaSampling::default());
     let run = |sampling: &GammaSampling| {
         measure_gamma_agreement::<UndefinedAgreement>(&continuum, &costs, sampling, |_| Ok(())).expect("gamma")
@@ -252,7 +252,7 @@ fn gamma_is_one_less_the_share_of_chance_and_repeats_by_seed() {
     let value = found.gamma.expect("gamma");
     assert!(interval.low < value && value < interval.high);
     let turned: Vec<Vec<AnnotatedUnit>> = continuum[0].annotator_tiers().iter().rev().cloned().collect();
-    let turned = [AnnotationContinuum::new((0, 6000), turned)];
+    let turned = [AnnotationContinuum::new(0..6000, turned)];
     let other = measure_gamma_agreement::<UndefinedAgreement>(&turned, &costs, &sampling, |_| Ok(())).expect("gamma");
     near(other.gamma, value);
     let stopped = measure_gamma_agreement(&continuum, &costs, &sampling, |_| Err(UndefinedAgreement::TooMany));
@@ -262,7 +262,7 @@ fn gamma_is_one_less_the_share_of_chance_and_repeats_by_seed() {
 #[test]
 fn recordings_one_after_another_are_one_continuum() {
     let one = AnnotationContinuum::new(
-        (1000, 3000),
+        1000..3000,
         vec![
             vec![AnnotatedUnit::new(1000, 2000, 0)],
             vec![AnnotatedUnit::new(1100, 2000, 1)],
@@ -283,7 +283,7 @@ fn very_many_overlapping_units_are_refused_and_as_many_in_a_row_are_aligned() {
         (0..2100).map(unit).collect()
     };
     let align = |step: i64| {
-        let continuum = AnnotationContinuum::new((0, 0), vec![tier(step), tier(step)]);
+        let continuum = AnnotationContinuum::new(0..0, vec![tier(step), tier(step)]);
         align_continuum(&continuum, &AlignmentCosts::default()).map(|it| it.groups.len())
     };
     assert_eq!(align(1), Err(UndefinedAgreement::TooMany));

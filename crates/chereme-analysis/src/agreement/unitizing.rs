@@ -290,7 +290,7 @@ pub fn u_alpha(continuum: &AnnotationContinuum) -> UAlphaAgreement {
     }
     let merge = |tier: &Vec<AnnotatedUnit>| tier.iter().map(|unit| AnnotatedUnit { value: 0, ..*unit }).collect();
     let merged_tiers = continuum.annotator_tiers().iter().map(merge).collect();
-    let merged = AnnotationContinuum::new((continuum.continuum_start(), continuum.continuum_end()), merged_tiers);
+    let merged = AnnotationContinuum::new(continuum.continuum_start()..continuum.continuum_end(), merged_tiers);
     let shares = IntersectionShares::from_unit_intersections(continuum);
     UAlphaAgreement {
         all: shares.intersection_alpha(),

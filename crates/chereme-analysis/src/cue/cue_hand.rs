@@ -348,14 +348,14 @@ impl HandModel {
             .iter()
             .map(|direction| {
                 let rates = self.levers.unscale_hand_angles(direction);
-                self.marker_position_slopes(&angles, &rates, (turn, &local))
+                self.marker_position_slopes(&angles, &rates, turn, &local)
             })
             .collect();
         (points, slopes)
     }
 
     /// Returns the derivative of each marker's position if the angles change at the given `rates`.
-    fn marker_position_slopes(&self, angles: &[f64], rates: &[f64], (turn, local): (DMat3, &[DVec3])) -> Vec<DVec3> {
+    fn marker_position_slopes(&self, angles: &[f64], rates: &[f64], turn: DMat3, local: &[DVec3]) -> Vec<DVec3> {
         const ANGLE_DIFFERENCE_STEP: f64 = 1e-6;
         let later: Vec<f64> = (0..3).map(|k| angles[k] + ANGLE_DIFFERENCE_STEP * rates[k]).collect();
         let turning = (turn_of(&later) - turn) * (1.0 / ANGLE_DIFFERENCE_STEP);

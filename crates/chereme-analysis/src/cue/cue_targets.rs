@@ -1,5 +1,7 @@
 //! Finds the target frames of keys by monotone dynamic programming, and the phases that follow from them.
 
+use std::ops::RangeInclusive;
+
 use chereme_motion::InterpolationKind;
 
 /// A key whose target is to be found.
@@ -124,8 +126,8 @@ pub(super) const MAX_END_OVERRUN_FRAMES: f64 = 3.0;
 /// The fewest frames to which a movement is fitted.
 pub(super) const MIN_FITTED_FRAMES: usize = 6;
 
-/// Fits the minimum-jerk movement that explains most of the change of `row` over the frames `from..=to`, with rest
-/// before and after it. A frame without numbers is ignored.
+/// Fits the minimum-jerk movement that explains most of the change of `row` over some frames, with rest before
+///  and after it. A frame without numbers is ignored.
 ///
 /// The two end points of the movement follow from its times by least squares; the times are searched on a grid and
 /// refined to a twentieth of a frame. Returns nothing if fewer than six frames have numbers, or if the numbers do not
@@ -133,11 +135,11 @@ pub(super) const MIN_FITTED_FRAMES: usize = 6;
 #[must_use]
 pub fn fit_movement<'a>(
     row: impl Fn(usize) -> Option<&'a [f64]>,
-    range: (usize, usize),
+    frames: RangeInclusive<usize>,
     frame_time: f64,
 ) -> Option<MovementFit> {
     let rows = |frame| row(frame).map(|row| [row, row]);
-    handed_over(rows, range, frame_time, InterpolationKind::MinimumJerk)
+    handed_over(rows, frames, frame_time, InterpolationKind::MinimumJerk)
 }
 
 /// Fits a movement that one point begins and another ends, as when the middle finger points first and the index finger
@@ -146,11 +148,12 @@ pub fn fit_movement<'a>(
 #[must_use]
 pub fn handed_over<'a>(
     rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
-    (from, to): (usize, usize),
+    frames: RangeInclusive<usize>,
     frame_time: f64,
     course: InterpolationKind,
 ) -> Option<MovementFit> {
-    let seen: Vec<(f64, [&[f64]; 2])> = (from..=to)
+    let seen: Vec<(f64, [&[f64]; 2])> = frames
+        .clone()
         .filter_map(|frame| Some((frame as f64, rows(frame)?)))
         .collect();
     let width = seen.first()?.1[0].len();
@@ -158,7 +161,7 @@ pub fn handed_over<'a>(
     if seen.len() < MIN_FITTED_FRAMES || seen.iter().any(|(_, rows)| uneven(rows)) {
         return None;
     }
-    let (first, last) = (from as f64, to as f64 + MAX_END_OVERRUN_FRAMES);
+    let (first, last) = (*frames.start() as f64, *frames.end() as f64 + MAX_END_OVERRUN_FRAMES);
     let shortest = MIN_FITTED_MOVEMENT_SECONDS / frame_time;
     let mut best = (TimedMovementFit::NO_MOVEMENT_FIT, first, last);
     let better = |best: &mut (TimedMovementFit, f64, f64), start: f64, end: f64| {

@@ -575,14 +575,16 @@ struct GestureWindow {
 /// the next target; a target found in the middle of a movement is corrected by this.
 fn fit_target_movement<'a>(
     rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
-    (from, to, most): (usize, usize, usize),
+    from: usize,
+    to: usize,
+    most: usize,
     frame_time: f64,
     course: InterpolationKind,
 ) -> Option<MovementFit> {
     const EXTRA_MOVEMENT_FRAMES: usize = 3;
     let mut to = to;
     loop {
-        let fit = handed_over(&rows, (from, to), frame_time, course)?;
+        let fit = handed_over(&rows, from..=to, frame_time, course)?;
         let at_its_limit = fit.end / frame_time >= to as f64 + MAX_END_OVERRUN_FRAMES - 0.5;
         if !at_its_limit || to >= most {
             return Some(fit);
@@ -612,7 +614,7 @@ fn measure_key_gesture<'a>(
     };
     let from = before.map_or(earliest, |before| before.max(arrived).max(earliest));
     let most = after.unwrap_or(last).min(last);
-    let movement_fit = fit_target_movement(rows, (from, (frame + 2).min(most), most), frame_time, course);
+    let movement_fit = fit_target_movement(rows, from, (frame + 2).min(most), most, frame_time, course);
     let still = MovementFit {
         start: frame as f64 * frame_time,
         end: frame as f64 * frame_time,

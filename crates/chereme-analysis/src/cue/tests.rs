@@ -388,7 +388,7 @@ fn the_start_and_end_of_a_minimum_jerk_movement_are_recovered() {
             .collect();
         let found = fit_movement(
             |frame| rows.get(frame).map(Vec::as_slice),
-            (20, 80),
+            20..=80,
             1.0 / GENERATED_FRAME_RATE,
         )
         .expect("a way");
@@ -397,13 +397,13 @@ fn the_start_and_end_of_a_minimum_jerk_movement_are_recovered() {
         assert!((found.length - 30.4).abs() < 1.0 && found.explained > 0.98, "{found:?}");
     }
     assert_eq!(
-        fit_movement(|_| Some(&[1.0][..]), (0, 50), 1.0 / GENERATED_FRAME_RATE),
+        fit_movement(|_| Some(&[1.0][..]), 0..=50, 1.0 / GENERATED_FRAME_RATE),
         None,
         "nothing moves"
     );
-    assert_eq!(fit_movement(|_| None, (0, 50), 1.0 / GENERATED_FRAME_RATE), None);
+    assert_eq!(fit_movement(|_| None, 0..=50, 1.0 / GENERATED_FRAME_RATE), None);
     assert_eq!(
-        fit_movement(|_| Some(&[f64::NAN][..]), (0, 50), 1.0 / GENERATED_FRAME_RATE),
+        fit_movement(|_| Some(&[f64::NAN][..]), 0..=50, 1.0 / GENERATED_FRAME_RATE),
         None
     );
     assert_eq!(

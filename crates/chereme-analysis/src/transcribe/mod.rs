@@ -381,11 +381,14 @@ pub fn off_place(
     anatomy: &BodyAnatomy,
     options: &TranscribeOptions,
     frame: usize,
-    places: (&BodyPlace, Option<&BodyPlace>),
+    place: &BodyPlace,
+    other: Option<&BodyPlace>,
     symmetric: bool,
 ) -> Result<Option<(f64, f64)>, TranscribeError> {
     let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, options)?;
-    Ok(transcribe_tree::off_place(&scene, options, frame, places, symmetric))
+    Ok(transcribe_tree::off_place(
+        &scene, options, frame, place, other, symmetric,
+    ))
 }
 
 /// The best of many candidates, with its residual and the runner-up.

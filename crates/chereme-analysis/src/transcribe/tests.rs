@@ -570,7 +570,7 @@ fn the_residual_of_a_location_is_the_distance_of_the_hand_from_it() {
     };
     let location = found.features.iter().find(|it| it.kind == FeatureKind::Location);
     let location = location.expect("a location");
-    let (off, apart) = off_place(&clip, &anatomy, &options, location.frame, (place, Some(place)), false)
+    let (off, apart) = off_place(&clip, &anatomy, &options, location.frame, place, Some(place), false)
         .expect("it has a body")
         .expect("it has the place");
     assert!(

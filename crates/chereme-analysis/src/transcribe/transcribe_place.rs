@@ -128,7 +128,7 @@ impl<'a> PosedBody<'a> {
     ) -> Option<Self> {
         let model = scene.clip.model_pose(frame);
         let axes = LevelSignerAxes::read_signer_axes(scene.anatomy, scene.alone, &model, scene.dominant)?;
-        let hands = [0, 1].map(|n| PosedHand::read_posed_hand(scene, &axes, &model, (n, frame), shapes[n]));
+        let hands = [0, 1].map(|n| PosedHand::read_posed_hand(scene, &axes, &model, n, frame, shapes[n]));
         Some(Self {
             scene,
             axes,
@@ -249,7 +249,7 @@ impl<'a> PosedBody<'a> {
         let mut all = Vec::new();
         let choices = self.place_choices(n).iter();
         for choice in choices.filter(|choice| wide == PlaceScope::Yes || !choice.far) {
-            self.weigh_place_choice(n, hand, (choice, wide), symmetric, &mut all);
+            self.weigh_place_choice(n, hand, choice, wide, symmetric, &mut all);
         }
         all
     }
@@ -259,7 +259,8 @@ impl<'a> PosedBody<'a> {
         &self,
         n: usize,
         hand: &'c PosedHand,
-        (choice, wide): (&'c PlaceChoice, PlaceScope),
+        choice: &'c PlaceChoice,
+        wide: PlaceScope,
         symmetric: bool,
         all: &mut Vec<PlaceCandidate<'c>>,
     ) {
@@ -273,7 +274,7 @@ impl<'a> PosedBody<'a> {
             let near = contact == Some(PlaceContact::Close);
             let small = touching || (near && !trunk);
             let ahead = if small { 0.0 } else { hand.ahead };
-            let goal = self.hand_point_goal(spot, contact, (n, ahead), symmetric);
+            let goal = self.hand_point_goal(spot, contact, n, ahead, symmetric);
             let within = goal.distance(hand.palm) < 1.2 * scene.hand;
             if touching && !within {
                 continue;
@@ -299,7 +300,7 @@ impl<'a> PosedBody<'a> {
                 };
             let hand_spot = if small { meant_spot } else { hand.palm_middle_spot() };
             // A named part of the hand is at the place itself.
-            let part = self.hand_point_goal(spot, contact, (n, 0.0), symmetric);
+            let part = self.hand_point_goal(spot, contact, n, 0.0, symmetric);
             let mut add = |at: DVec3, named_parts: Option<&'c [NotatedHandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
                 let far = distance > tuned().place.touch[usize::from(trunk)] * scene.arm;
@@ -385,7 +386,7 @@ impl<'a> PosedBody<'a> {
             (None, Some(hand)) => hand.ahead,
             _ => 0.0,
         };
-        Some(self.hand_point_goal(&spot, place.contact, (n, ahead), symmetric))
+        Some(self.hand_point_goal(&spot, place.contact, n, ahead, symmetric))
     }
 
     /// Returns the goal of a point of hand `n` that is this far ahead of its wrist (m).
@@ -393,7 +394,8 @@ impl<'a> PosedBody<'a> {
         &self,
         spot: &BodySpot,
         contact: Option<PlaceContact>,
-        (n, ahead): (usize, f64),
+        n: usize,
+        ahead: f64,
         symmetric: bool,
     ) -> DVec3 {
         let scene = self.scene;

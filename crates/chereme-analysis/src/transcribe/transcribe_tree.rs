@@ -109,7 +109,8 @@ pub(super) fn off_place(
     scene: &SignerScene<'_>,
     options: &TranscribeOptions,
     frame: usize,
-    (place, other): (&BodyPlace, Option<&BodyPlace>),
+    place: &BodyPlace,
+    other: Option<&BodyPlace>,
     symmetric: bool,
 ) -> Option<(f64, f64)> {
     let sight = SceneReadings::new(scene, options);
@@ -196,13 +197,13 @@ impl<'a> NotationWriter<'a> {
             (other, others)
         });
         if let Some((other, others)) = others.filter(|(_, others)| !others.is_empty()) {
-            actions.extend(self.write_split_acts(first, (track, &all), (other, &others)));
+            actions.extend(self.write_split_acts(first, track, &all, other, &others));
         } else {
             let mut before = first;
             for (n, act) in all.iter().enumerate() {
                 self.begin_recorded_stage(Some(n + 1), (*act.frames.start(), act.until + 1));
                 let idle = act.frames.start().saturating_sub(before);
-                let motion = self.write_act_motion(lead, track, (act, idle), &relation);
+                let motion = self.write_act_motion(lead, track, act, idle, &relation);
                 self.end_recorded_stage(None, transcribe_words::motion_hamnosys(&motion));
                 actions.push(motion);
                 before = act.until;
@@ -303,8 +304,10 @@ impl<'a> NotationWriter<'a> {
     fn write_split_acts(
         &mut self,
         first: usize,
-        (track, own): (&HandTrajectory, &[TranscribedAct]),
-        (other, others): (&HandTrajectory, &[TranscribedAct]),
+        track: &HandTrajectory,
+        own: &[TranscribedAct],
+        other: &HandTrajectory,
+        others: &[TranscribedAct],
     ) -> Vec<NotatedMotion> {
         let alone = HandRelation {
             kind: RelationKind::Unlike { moves: true },
@@ -319,7 +322,7 @@ impl<'a> NotationWriter<'a> {
                     self.begin_recorded_stage(Some(n + 1), (*act.frames.start(), act.until + 1));
                     let idle = act.frames.start().saturating_sub(before);
                     before = act.until;
-                    let motion = self.write_act_motion(lead, track, (act, idle), &alone);
+                    let motion = self.write_act_motion(lead, track, act, idle, &alone);
                     self.end_recorded_stage(Some(track.side), transcribe_words::motion_hamnosys(&motion));
                     motion
                 })
@@ -350,7 +353,8 @@ impl<'a> NotationWriter<'a> {
         &mut self,
         hand: usize,
         track: &HandTrajectory,
-        (act, idle): (&TranscribedAct, usize),
+        act: &TranscribedAct,
+        idle: usize,
         relation: &HandRelation,
     ) -> NotatedMotion {
         let (first, last) = (*act.frames.start(), *act.frames.end());

@@ -103,7 +103,7 @@ pub(super) fn read_tier_pairs(corpus: &Corpus, options: &AgreeOptions) -> Corpus
                 renumber(units, rows, &sorted);
             }
             TierPair {
-                continuum: AnnotationContinuum::new(extent, tiers),
+                continuum: AnnotationContinuum::new(extent.0..extent.1, tiers),
                 recording,
                 a,
                 b,

@@ -143,7 +143,7 @@ fn tiers_of(case: &Value) -> Tiers {
             .collect()
     });
     let extent: (i64, i64) = serde_json::from_value(case["extent_ms"].clone()).expect("an extent");
-    let continuum = AnnotationContinuum::new(extent, all.collect());
+    let continuum = AnnotationContinuum::new(extent.0..extent.1, all.collect());
     Tiers {
         names: tiers.keys().cloned().collect(),
         values,

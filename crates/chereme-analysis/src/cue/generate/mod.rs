@@ -437,7 +437,7 @@ fn animate_generated_take(
         keys,
     };
     if settings.hidden > 0.0 {
-        noise::hide_random_markers(&mut take, (settings.hidden, settings.swapped), random);
+        noise::hide_random_markers(&mut take, settings.hidden, settings.swapped, random);
     }
     take
 }

@@ -33,7 +33,7 @@ pub(super) fn add_marker_noise(
 
 /// Hides markers for runs of frames: neighbours on one finger, tips of bent fingers, the face behind the hand, and some
 /// at random.
-pub(super) fn hide_random_markers(take: &mut GeneratedTake, (often, swapped): (f64, f64), random: &mut RandomNumbers) {
+pub(super) fn hide_random_markers(take: &mut GeneratedTake, often: f64, swapped: f64, random: &mut RandomNumbers) {
     let frames = take.hand.len();
     let runs = (frames as f64 / GENERATED_FRAME_RATE * 1.2 * often) as usize;
     for _ in 0..runs {

@@ -36,7 +36,8 @@ pub(in crate::transcribe) fn replace_transcribed_actions(
             restate(
                 &mut stage_features,
                 stage,
-                (stated_act_values(old, several), stated_act_values(new, several)),
+                stated_act_values(old, several),
+                stated_act_values(new, several),
                 [before, after],
             );
         }
@@ -78,7 +79,8 @@ pub(in crate::transcribe) fn list_single_acts(actions: &[NotatedMotion]) -> Vec<
 fn restate(
     own: &mut Vec<NotationFeature>,
     stage: &TranscriptionStage,
-    (old, new): (Vec<StatedValue>, Vec<StatedValue>),
+    old: Vec<StatedValue>,
+    new: Vec<StatedValue>,
     [before, after]: [f64; 2],
 ) {
     let of = |all: &[StatedValue], kind: FeatureKind| -> Vec<WordsAndSymbols> {

@@ -41,7 +41,7 @@ impl TrialResynthesis<'_, '_> {
         };
         let inferred = self.deviations(at, vec![part.actions.clone()]);
         let (first, _) = inferred.into_iter().next()?;
-        let mut best = self.replace_action_properties(at, (first, part.actions.clone()));
+        let mut best = self.replace_action_properties(at, first, part.actions.clone());
         // If the hands begin elsewhere, a place at the end of a path leads them astray.
         let free: Vec<NotatedMotion> = part
             .actions
@@ -49,8 +49,8 @@ impl TrialResynthesis<'_, '_> {
             .map(resynthesis_actions::without_target_place)
             .collect();
         if best.0 >= numbers.exact && free != part.actions {
-            let from = self.deviations(at, vec![free]);
-            let others = from.into_iter().map(|from| self.replace_action_properties(at, from));
+            let freed = self.deviations(at, vec![free]).into_iter();
+            let others = freed.map(|(deviation, actions)| self.replace_action_properties(at, deviation, actions));
             best = others.fold(best, |best, other| if other.0 < best.0 { other } else { best });
         }
         let (least, mut actions) = best;
@@ -74,7 +74,8 @@ impl TrialResynthesis<'_, '_> {
     fn replace_action_properties(
         &self,
         at: &ReadingTrial,
-        (mut least, mut actions): (f64, Vec<NotatedMotion>),
+        mut least: f64,
+        mut actions: Vec<NotatedMotion>,
     ) -> (f64, Vec<NotatedMotion>) {
         let numbers = &tuned().resynthesis;
         let posture = at.apply_trial_places(&self.inferred).parts.swap_remove(0).posture;
@@ -122,7 +123,7 @@ impl TrialResynthesis<'_, '_> {
         let mut all = Vec::new();
         for (k, action) in actions.iter().enumerate() {
             let stage = self.stages.iter().find(|stage| stage.action == Some(k + 1));
-            let ends = stage.map(|stage| self.likeliest_end_places(action, stage.frames));
+            let ends = stage.map(|stage| self.likeliest_end_places(action, stage.frames.0, stage.frames.1));
             for place in ends.into_iter().flatten() {
                 if let Some(motion) = resynthesis_actions::with_target_place(action, &place) {
                     let mut other = actions.to_vec();
@@ -135,7 +136,7 @@ impl TrialResynthesis<'_, '_> {
     }
 
     /// Returns the likeliest places at the end of an action between two frames.
-    fn likeliest_end_places(&self, action: &NotatedMotion, (first, end): (usize, usize)) -> Vec<HandPlace> {
+    fn likeliest_end_places(&self, action: &NotatedMotion, first: usize, end: usize) -> Vec<HandPlace> {
         let [sites, pairs] = tuned().resynthesis.targets;
         let lead = match self.begun.stand {
             PlaceNotation::One(n, _) => n,

@@ -42,7 +42,8 @@ impl PosedHand {
         scene: &SignerScene<'_>,
         axes: &LevelSignerAxes,
         model: &ModelPose,
-        (n, frame): (usize, usize),
+        n: usize,
+        frame: usize,
         shape: Option<&Handshape>,
     ) -> Option<Self> {
         let track = scene.hands[n].as_ref()?;

@@ -233,7 +233,7 @@ impl PosedBody<'_> {
         let mut placed = self.place_given_hand(0, &PosedHand::spot_between_hands(at, ahead), false)?;
         placed.place.by = None;
         let neutral = self.body_spot_at(0, &NEUTRAL_SPACE_SITE)?;
-        let off = at - self.hand_point_goal(&neutral, None, (0, ahead), false);
+        let off = at - self.hand_point_goal(&neutral, None, 0, ahead, false);
         let score = self.spread.free_hand_penalty(off, FreeHandKind::Between, false) + tuned().choice.neutral;
         if score > placed.score {
             return Some(placed);
