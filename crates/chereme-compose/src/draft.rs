@@ -199,7 +199,8 @@ impl KeptStages {
     /// Stores the movement after a part, with the report on that part.
     pub(crate) fn keep_draft_stage(
         &mut self,
-        (resolved, base): (&ResolvedRecipe, &str),
+        resolved: &ResolvedRecipe,
+        base: &str,
         part: DraftPart,
         work: &WorkingClip,
         report: GenerationReport,

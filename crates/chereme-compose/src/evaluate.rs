@@ -250,7 +250,7 @@ impl<'a> RecipeEvaluator<'a> {
             contacts: self.report.contacts[mark.contacts..].to_vec(),
             warnings: self.report.warnings[mark.warnings..].to_vec(),
         };
-        kept.keep_draft_stage((self.resolved, path.as_str()), part, work, report);
+        kept.keep_draft_stage(self.resolved, path.as_str(), part, work, report);
     }
 
     /// Returns the contacts in the movement after the last step; they are computed once.

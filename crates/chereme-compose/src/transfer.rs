@@ -27,9 +27,11 @@ pub struct TransferredMovement {
 /// # Errors
 /// [`StepError::NoArm`] if the body has an arm that the movement lacks.
 pub fn on_body(
-    (clip, anatomy): (&Clip, &Arc<BodyAnatomy>),
+    clip: &Clip,
+    anatomy: &Arc<BodyAnatomy>,
     handedness: SignerHandedness,
-    (skeleton, of_body): (&Arc<Skeleton>, &Arc<BodyAnatomy>),
+    skeleton: &Arc<Skeleton>,
+    body_anatomy: &Arc<BodyAnatomy>,
 ) -> Result<TransferredMovement, StepError> {
     let work = WorkingClip {
         skeleton: Arc::clone(clip.clip_skeleton()),
@@ -43,7 +45,7 @@ pub fn on_body(
         curves: Vec::new(),
         from: BTreeMap::new(),
     };
-    let done = retarget::retarget_with_contacts(&work, &TargetBody::at_rest(skeleton, of_body), "another body")?;
+    let done = retarget::retarget_with_contacts(&work, &TargetBody::at_rest(skeleton, body_anatomy), "another body")?;
     Ok(TransferredMovement {
         clip: done.work.into_clip()?,
         contacts: done.contacts,
@@ -65,9 +67,14 @@ mod tests {
             let skeleton = Arc::new(skeleton(axes, size));
             let anatomy = Arc::new(BodyAnatomy::detect_anatomy(&skeleton));
             for (gloss, material) in &materials {
-                let from = (&material.clip, &material.anatomy);
-                let made = on_body(from, material.handedness, (&skeleton, &anatomy));
-                let made = made.unwrap_or_else(|error| panic!("{gloss}: {error}"));
+                let made = on_body(
+                    &material.clip,
+                    &material.anatomy,
+                    material.handedness,
+                    &skeleton,
+                    &anatomy,
+                )
+                .unwrap_or_else(|error| panic!("{gloss}: {error}"));
                 assert_eq!(made.clip.clip_frame_count(), material.clip.clip_frame_count());
                 assert_eq!(made.clip.clip_skeleton(), &skeleton);
                 assert!(made.lost.is_empty(), "{gloss}: {:?}", made.lost);

@@ -161,8 +161,13 @@ impl DialectBody {
 
     /// Returns the largest angle by which a bone of foot or thumb points elsewhere on another body, and its name.
     fn turned_on(&self, other: &Self) -> Result<(f64, String)> {
-        let onto = (other.clip.clip_skeleton(), &other.anatomy);
-        let made = on_body((&self.clip, &self.anatomy), SignerHandedness::Right, onto)?;
+        let made = on_body(
+            &self.clip,
+            &self.anatomy,
+            SignerHandedness::Right,
+            other.clip.clip_skeleton(),
+            &other.anatomy,
+        )?;
         let mut worst = (0.0, String::new());
         for frame in 0..FRAMES {
             let before = bones(self.clip.clip_skeleton(), &self.anatomy, &self.clip.model_pose(frame));

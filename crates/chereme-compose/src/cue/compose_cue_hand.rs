@@ -20,9 +20,10 @@ pub(super) fn move_cueing_hand(
     side: BodySide,
     head: &CueHeadSpace,
     targets: &[CueTarget],
-    (shapes, code): (&[(u8, HandPose)], &CueCode),
+    shapes: &[(u8, HandPose)],
+    code: &CueCode,
 ) -> Result<f64, StepError> {
-    let reaches = move_cue_fingers(work, side, targets, (shapes, code))?;
+    let reaches = move_cue_fingers(work, side, targets, shapes, code)?;
     let turns: Vec<DQuat> = targets
         .iter()
         .map(|target| cue_hand_rotation(work, side, head, &target.spot))
@@ -75,7 +76,8 @@ fn move_cue_fingers(
     work: &mut WorkingClip,
     side: BodySide,
     targets: &[CueTarget],
-    (shapes, code): (&[(u8, HandPose)], &CueCode),
+    shapes: &[(u8, HandPose)],
+    code: &CueCode,
 ) -> Result<Vec<DVec3>, StepError> {
     let mut shape_joints = Vec::with_capacity(shapes.len());
     for (number, pose) in shapes {

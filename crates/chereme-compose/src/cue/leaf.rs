@@ -79,7 +79,7 @@ pub(crate) fn generate_cue_movement(
         work,
         StepOutcome {
             warnings,
-            ..(done.did, done.residual).into()
+            ..StepOutcome::with_residual(done.did, done.residual)
         },
     ))
 }

@@ -126,8 +126,8 @@ pub(crate) fn perform_cues(
     work.resample_channels(&vec![0.0; frames]);
     work.notes.clear();
     work.curves = mouth::mouth_sound_curves(&read, lead, frames, frame_time);
-    let residual = compose_cue_hand::move_cueing_hand(work, side, &head, &targets, (shapes, &read.code))?;
-    write_cue_notes(work, side, settings, &read, (&targets, lead));
+    let residual = compose_cue_hand::move_cueing_hand(work, side, &head, &targets, shapes, &read.code)?;
+    write_cue_notes(work, side, settings, &read, &targets, lead);
     let mut warnings: Vec<String> = read.findings.iter().map(ToString::to_string).collect();
     let clear = lips(work, side, &head, &targets, &read.code);
     if let Some((least, frame)) = clear
@@ -283,7 +283,8 @@ fn write_cue_notes(
     side: BodySide,
     settings: &CueSettings,
     read: &CuedUtterance,
-    (targets, lead): (&[CueTarget], f64),
+    targets: &[CueTarget],
+    lead: f64,
 ) {
     let full_span = work.working_clip_span();
     // A copy stands with every note.

@@ -44,13 +44,13 @@ pub(super) fn mouth_sound_curves(
                     curves.len() - 1
                 }
             };
-            raise_lip_curve(&mut curves[curve_index].values, (start, start + each), frame_time);
+            raise_lip_curve(&mut curves[curve_index].values, start, start + each, frame_time);
         }
     }
     curves
 }
 
-fn raise_lip_curve(values: &mut [f64], (start, end): (f64, f64), frame_time: f64) {
+fn raise_lip_curve(values: &mut [f64], start: f64, end: f64, frame_time: f64) {
     let first = ((start - LIP_LEAD_S) / frame_time).floor().max(0.0) as usize;
     let raw_last = ((end - LIP_LEAD_S + LIP_CHANGE_S) / frame_time).ceil().max(0.0) as usize;
     let last = raw_last.min(values.len());

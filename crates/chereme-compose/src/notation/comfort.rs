@@ -376,9 +376,9 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
+        let language = BodyLanguage::default_body_language();
         let shifted = |room: f64, along: &str, palm: &str| {
-            let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+            let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
             let who = [Some(planner.signer.own_frame()), None];
             let place = at(BodyLocation::Chest, None);
             let begun = posture(HandClass::Flat, along, palm, Some(place));
@@ -417,14 +417,14 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
+        let language = BodyLanguage::default_body_language();
         let at_hand = HandPlace::Hand(HandSite {
             at: Some(HandLocation::Palm),
             ..HandSite::default()
         });
         let chest = || Some(Box::new(at(BodyLocation::Chest, None)));
         for (other, moves) in [(chest(), true), (Some(Box::new(at_hand)), false), (None, true)] {
-            let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+            let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
             let who = [Some(planner.signer.own_frame()), None];
             let place = at(BodyLocation::Chest, None);
             let begun = posture(HandClass::Flat, "d", "l", Some(place));

@@ -20,6 +20,15 @@ const ARM_PLANES_DEGREES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
 /// Candidate shrugs if the hand's orientation would suffer, as shares of the largest.
 const SHRUG_SHARES: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 
+/// A posture of the arm to be tried: its bearing, its joints, and its cost whatever the hand's orientation, with the part of
+/// it that stems from an upper arm in the trunk.
+#[derive(Clone, Copy)]
+struct TriedPosture {
+    bearing: ArmBearing,
+    posed: ArmPosture,
+    held: (f64, f64),
+}
+
 /// A candidate posture of the arm at one moment.
 #[derive(Clone, Copy)]
 pub(crate) struct ArmPostureChoice {
@@ -87,7 +96,7 @@ impl ArmSolver<'_> {
                 let posed = self
                     .solver_arm_rig()
                     .shrug_arm_posture(posed_arms[n], wrist, bearing, self.limits);
-                let strained = self.hand_rotation_cost((wrist, turned), &posed, off, least - shrugged);
+                let strained = self.hand_rotation_cost(wrist, turned, &posed, off, least - shrugged);
                 least = least.min(strained + shrugged);
             }
             least
@@ -103,7 +112,7 @@ impl ArmSolver<'_> {
 
     /// Returns the same as `best_posture_cost`, for one posture whose plane costs `plane`; infinite if the cost surely exceeds
     /// `most`.
-    fn hand_rotation_cost(&self, (wrist, turned): (DVec3, DQuat), posed: &ArmPosture, plane: f64, most: f64) -> f64 {
+    fn hand_rotation_cost(&self, wrist: DVec3, turned: DQuat, posed: &ArmPosture, plane: f64, most: f64) -> f64 {
         let rig = self.solver_arm_rig();
         let missed = posed.wrist.distance(wrist) / rig.rig_arm_length();
         let held_strain = 0.3 * plane
@@ -144,8 +153,9 @@ impl ArmSolver<'_> {
     fn bent_wrist_cost(&self, angles: &WristAngles) -> f64 {
         let limits = &self.limits.wrist;
         let folded = angles.flexion.abs() / limits.flexion[usize::from(angles.flexion > 0.0)];
-        let over = |share: f64, (free, cost): (f64, f64)| cost * (share - free).max(0.0).powi(2);
-        over(angles.wrist_bend_share(limits), tuned().freedom.bent) + over(folded, tuned().freedom.folded)
+        let over = |share: f64, free: f64, cost: f64| cost * (share - free).max(0.0).powi(2);
+        let (bent, fold) = (tuned().freedom.bent, tuned().freedom.folded);
+        over(angles.wrist_bend_share(limits), bent.0, bent.1) + over(folded, fold.0, fold.1)
     }
 
     /// Returns the cost of a deviation from the notated orientation (rad).
@@ -258,16 +268,25 @@ impl ArmSolver<'_> {
         let rule = line.posture_in_plane(0.0);
         let usual = self.usual_elbow_height(wrist, &rule);
         let bearing = ArmBearing::default();
-        let rule_strain = self.held_posture_cost(&rule, bearing, usual);
-        let rule = self.arm_posture_choice(want, (bearing, rule, rule_strain), (false, leeway), usual);
+        let on_rule = TriedPosture {
+            bearing,
+            posed: rule,
+            held: self.held_posture_cost(&rule, bearing, usual),
+        };
+        let rule = self.arm_posture_choice(want, on_rule, false, leeway, usual);
         let tried = candidate_arm_planes().map(|plane| {
             let bearing = ArmBearing { plane, shrug: 0.0 };
             let posed = line.posture_in_plane(plane);
-            (bearing, posed, self.held_posture_cost(&posed, bearing, usual))
+            TriedPosture {
+                bearing,
+                posed,
+                held: self.held_posture_cost(&posed, bearing, usual),
+            }
         });
         let tried: Vec<_> = tried.collect();
         for high in [false, true] {
-            for (n, &(bearing, posed, held)) in tried.iter().enumerate() {
+            for (n, &on_plane) in tried.iter().enumerate() {
+                let TriedPosture { bearing, posed, held } = on_plane;
                 if high && !choices[n].over {
                     continue;
                 }
@@ -285,7 +304,7 @@ impl ArmSolver<'_> {
                         cost: held.0,
                         ..rule
                     },
-                    false => self.arm_posture_choice(want, (bearing, posed, held), (high, leeway), usual),
+                    false => self.arm_posture_choice(want, on_plane, high, leeway, usual),
                 });
             }
         }
@@ -330,9 +349,12 @@ impl ArmSolver<'_> {
                 let posed = self
                     .solver_arm_rig()
                     .shrug_arm_posture(posed, wrist, bearing, self.limits);
-                let posture_strain = self.held_posture_cost(&posed, bearing, usual);
-                let tried = (bearing, posed, posture_strain);
-                choices.push(self.arm_posture_choice(want, tried, (choice.high, leeway), usual));
+                let shrugged = TriedPosture {
+                    bearing,
+                    posed,
+                    held: self.held_posture_cost(&posed, bearing, usual),
+                };
+                choices.push(self.arm_posture_choice(want, shrugged, choice.high, leeway, usual));
             }
         }
     }
@@ -344,10 +366,12 @@ impl ArmSolver<'_> {
     fn arm_posture_choice(
         &self,
         want: &WantedHand<'_>,
-        (bearing, posed, held): (ArmBearing, ArmPosture, (f64, f64)),
-        (high, leeway): (bool, HandLeeway),
+        tried: TriedPosture,
+        high: bool,
+        leeway: HandLeeway,
         usual: f64,
     ) -> ArmPostureChoice {
+        let TriedPosture { bearing, posed, held } = tried;
         let given = match leeway {
             HandLeeway { free: true, .. } => 0.02,
             HandLeeway { away: true, .. } => tuned().freedom.away,
@@ -360,7 +384,7 @@ impl ArmSolver<'_> {
             (2, [HandOutline::EMPTY_HAND_OUTLINE; 2])
         };
         let coarse = WantedHand { outlines, ..*want };
-        let hung_hand = self.hang_from(posed, &coarse, (bearing, high), tries);
+        let hung_hand = self.hang_from(posed, &coarse, bearing, high, tries);
         let twist = (hung_hand.angles.forearm_turn_share(&self.limits.wrist) - tuned().freedom.twisted.0).max(0.0);
         let apart = hung_hand.rotation.angle_between(want.turned);
         let missed = hung_hand.residual / self.solver_arm_rig().rig_arm_length();

@@ -122,8 +122,8 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
-        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+        let language = BodyLanguage::default_body_language();
+        let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
         let who = match both {
             true => planner.acting_part_hands(mirrored()),
             false => [Some(planner.signer.own_frame()), None],
@@ -161,8 +161,8 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
-        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+        let language = BodyLanguage::default_body_language();
+        let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
         let who = [Some(planner.signer.own_frame()), None];
         let chest = Some(at(BodyLocation::Chest, None));
         planner.assume_posture(&posture(HandClass::Flat, "d", "l", chest), who, false);
@@ -189,8 +189,8 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
-        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+        let language = BodyLanguage::default_body_language();
+        let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
         let who = [Some(planner.signer.own_frame()), None];
         let before = planner.state.clone();
         let chest = Some(at(BodyLocation::Chest, None));

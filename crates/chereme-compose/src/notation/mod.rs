@@ -171,8 +171,8 @@ pub fn animate_signs(
     let body = StandingBody::body_from_material(stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
     let rate = settings.rate.per_second();
     let paces = PaceTables::pace_tables_from_language(&settings.language);
-    let language = (&settings.language, &paces);
-    let planner = || SignPlanner::new(&body, language, stage.handedness, rate);
+    let language = &settings.language;
+    let planner = || SignPlanner::new(&body, language, &paces, stage.handedness, rate);
     let limits = planner().signer.limits;
     let (mut plan, asked) = duration::plan_timed(signs, |signs| planner().plan_signs(signs));
     let sides = plan.sides;
@@ -193,7 +193,7 @@ pub fn animate_signs(
     let mut wanted = wanted.map(Some);
     let made_tracks = [0, 1].map(|n| {
         let (hand, wanted) = (hands[n]?, wanted[n].take()?);
-        let made = notation_track::SolvedFrames::solve_hand_frames(&body, hand, (&plan, n), wanted, &limits, &timing);
+        let made = notation_track::SolvedFrames::solve_hand_frames(&body, hand, &plan, n, wanted, &limits, &timing);
         Some(made)
     });
     let arms: Vec<&notation_track::SolvedFrames<'_>> = made_tracks.iter().flatten().collect();
@@ -210,7 +210,7 @@ pub fn animate_signs(
     let least = approach::unhurried_step_factors(&plan, solved, rate, longest);
     let anchors = approach::approach_end_frames(&plan, rate);
     let fastest = fastest(&settings.language, &body);
-    let warp = TimeWarp::warp_within_speeds(&moved, rate, &fastest, (least, &anchors), |arm, n| {
+    let warp = TimeWarp::warp_within_speeds(&moved, rate, &fastest, least, &anchors, |arm, n| {
         arms[arm].fastest_step_motion(n)
     });
     let mut tracks = made_tracks.map(|made| made.map(|made| made.into_stretched_track(&warp)));

@@ -29,8 +29,8 @@ fn sign_phases(sign: &NotatedSign) -> Vec<HandPhase> {
     let material = stage(Axes::Plain);
     let body = StandingBody::body_from_material(&material).expect("a body");
     let paces = pace::PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-    let language = (BodyLanguage::default_body_language(), &paces);
-    let planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+    let language = BodyLanguage::default_body_language();
+    let planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
     planner.plan_signs(&[sign]).phases
 }
 

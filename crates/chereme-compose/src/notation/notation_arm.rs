@@ -280,17 +280,19 @@ impl ArmBoneRig {
         if bearing.shrug == 0.0 {
             return posed;
         }
-        let shrugged = self.shrugged(&posed, bearing.shrug, limits);
-        self.line_from(wrist, shrugged, limits).posture_in_plane(bearing.plane)
+        let (shoulder, help) = self.shrugged(&posed, bearing.shrug, limits);
+        self.line_from(wrist, shoulder, help, limits)
+            .posture_in_plane(bearing.plane)
     }
 
     /// Computes everything about the arm that a position of the wrist decides whatever the arm's plane.
     pub(crate) fn fix_wrist_position(&self, wrist: DVec3, limits: &ArmLimits) -> FixedWristArm {
-        self.line_from(wrist, self.shoulder_for(wrist, limits), limits)
+        let (shoulder, help) = self.shoulder_for(wrist, limits);
+        self.line_from(wrist, shoulder, help, limits)
     }
 
     /// Computes the same from a given position of the shoulder and turn of the collar bone.
-    fn line_from(&self, wrist: DVec3, (shoulder, help): (DVec3, DQuat), limits: &ArmLimits) -> FixedWristArm {
+    fn line_from(&self, wrist: DVec3, shoulder: DVec3, help: DQuat, limits: &ArmLimits) -> FixedWristArm {
         let to_wrist = self.not_too_near(wrist - shoulder, limits);
         let along = to_wrist.normalize_or(self.forward);
         let reach = self.soften(to_wrist.length());

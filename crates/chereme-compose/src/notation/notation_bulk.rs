@@ -229,7 +229,7 @@ impl<'a> PlacedHand<'a> {
     }
 
     /// Returns the least distance of the outline from a plane through a point with a normal, in the normal's direction.
-    pub(super) fn least_plane_distance(&self, (point, normal): (DVec3, DVec3)) -> f64 {
+    pub(super) fn least_plane_distance(&self, point: DVec3, normal: DVec3) -> f64 {
         let local_normal = self.turned.inverse() * normal;
         let points = self.outline.points.iter();
         let least = points.map(|at| at.dot(local_normal)).fold(0.0, f64::min);

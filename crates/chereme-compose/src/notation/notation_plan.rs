@@ -246,7 +246,8 @@ pub(crate) fn iterate_acting_hands(who: ActingHands) -> impl Iterator<Item = (us
 impl<'a> SignPlanner<'a> {
     pub(crate) fn new(
         stage: &'a StandingBody,
-        (language, paces): (&'a BodyLanguage, &'a PaceTables),
+        language: &'a BodyLanguage,
+        paces: &'a PaceTables,
         handedness: SignerHandedness,
         rate: f64,
     ) -> Self {

@@ -237,7 +237,7 @@ impl<'a> ArmSolver<'a> {
         let posed = self
             .solver_arm_rig()
             .reach_wrist_position(want.wanted_wrist_position(), bearing, self.limits);
-        self.hang_from(posed, want, (bearing, high), tries)
+        self.hang_from(posed, want, bearing, high, tries)
     }
 
     /// Does the same from the arm's posture for the wrist that the goal asks for.
@@ -245,7 +245,8 @@ impl<'a> ArmSolver<'a> {
         &self,
         mut posed: ArmPosture,
         want: &WantedHand<'_>,
-        (bearing, high): (ArmBearing, bool),
+        bearing: ArmBearing,
+        high: bool,
         tries: usize,
     ) -> AdaptedHand {
         let rig = self.solver_arm_rig();

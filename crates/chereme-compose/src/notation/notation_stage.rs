@@ -245,9 +245,9 @@ impl StandingBody {
                 hand.along * (along * hand.base) + (hand.palm * palm + hand.radial * radial) * hand.length
             }
             NotatedHandPoint::Wrist(face) => self.faced(hand, face, hand.along) * (from_bone(point)[0] * hand.length),
-            NotatedHandPoint::Tip(digit, face) => self.on_digit(hand, shape, (digit, 3, face), from_bone(point)),
-            NotatedHandPoint::Middle(digit, face) => self.on_digit(hand, shape, (digit, 2, face), from_bone(point)),
-            NotatedHandPoint::Base(digit, face) => self.on_digit(hand, shape, (digit, 1, face), from_bone(point)),
+            NotatedHandPoint::Tip(digit, face) => self.on_digit(hand, shape, digit, 3, face, from_bone(point)),
+            NotatedHandPoint::Middle(digit, face) => self.on_digit(hand, shape, digit, 2, face, from_bone(point)),
+            NotatedHandPoint::Base(digit, face) => self.on_digit(hand, shape, digit, 1, face, from_bone(point)),
             NotatedHandPoint::Elbow => -hand.along * hand.rig.lengths[1],
             NotatedHandPoint::Forearm => -hand.along * (0.5 * hand.rig.lengths[1]),
             NotatedHandPoint::UpperArm => -hand.along * (1.3 * hand.rig.lengths[1]),
@@ -304,7 +304,9 @@ impl StandingBody {
         &self,
         hand: &StagedHand,
         shape: &FingerShape,
-        (digit, which, face): (HandDigit, u8, DigitFace),
+        digit: HandDigit,
+        which: u8,
+        face: DigitFace,
         [out, back]: [f64; 2],
     ) -> DVec3 {
         let digit_end = self.digit_joint_position(hand, shape, digit, which);

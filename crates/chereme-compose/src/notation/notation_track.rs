@@ -197,7 +197,8 @@ impl<'a> SolvedFrames<'a> {
     pub(crate) fn solve_hand_frames(
         stage: &'a StandingBody,
         hand: &'a StagedHand,
-        (plan, n): (&'a SignPlan, usize),
+        plan: &'a SignPlan,
+        n: usize,
         wanted: HandGoalFrames<'a>,
         limits: &'a ArmLimits,
         timing: &AnimationTiming<'_>,
@@ -225,9 +226,9 @@ impl<'a> SolvedFrames<'a> {
         for (frame, (got, row)) in got.iter().zip(&rows).enumerate() {
             let time = frame as f64 / timing.rate;
             let turned = fit.turned;
-            let written = (row.turned * wanted.leans[frame].inverse(), !free[frame]);
             if !wanted.away[frame] {
-                fit.include_sign_frame(got, written);
+                let notated = (!free[frame]).then(|| row.turned * wanted.leans[frame].inverse());
+                fit.include_sign_frame(got, notated);
             }
             fit.include_contact_frame(got, &plan.contacts[n], [time, 1.0 / timing.rate]);
             if fit.turned > turned.max(REPORTED_ORIENTATION_ERROR_RAD) {
@@ -369,12 +370,12 @@ impl<'a> SolvedFrames<'a> {
 }
 
 impl HandGoalFit {
-    /// Includes a frame of a sign; `given` if the hand's orientation is notated for it.
-    fn include_sign_frame(&mut self, got: &SolvedArmFrame, (written, given): (DQuat, bool)) {
+    /// Includes a frame of a sign, with the hand's orientation if it is notated for it.
+    fn include_sign_frame(&mut self, got: &SolvedArmFrame, notated: Option<DQuat>) {
         self.pushed = self.pushed.max(got.pushed);
         self.residual = self.residual.max(got.residual);
-        if given {
-            self.turned = self.turned.max(got.rotation.angle_between(written));
+        if let Some(notated) = notated {
+            self.turned = self.turned.max(got.rotation.angle_between(notated));
         }
     }
 

@@ -44,7 +44,7 @@ pub(crate) fn keep_hands_own_side(
             }
             let both = [0, 1].map(|n| {
                 let hand = PlacedHand::place_hand_at_frame(wanted[n], frame);
-                let reach = hand.map(|hand| hand.least_plane_distance((middle, outwards[n])));
+                let reach = hand.map(|hand| hand.least_plane_distance(middle, outwards[n]));
                 reach.map_or(0.0, |least| FINGER_FLESH * length - least)
             });
             both[0].max(both[1]).max(0.0)

@@ -78,8 +78,8 @@ impl SignPerformer {
     /// [`NotationError`] if the movement would be too long.
     pub fn perform_first_posture(&self, sign: &NotatedSign) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
-        let language = (&self.settings.language, &self.paces);
-        let planner = || SignPlanner::new(body, language, self.stage.handedness, rate);
+        let language = &self.settings.language;
+        let planner = || SignPlanner::new(body, language, &self.paces, self.stage.handedness, rate);
         let limits = planner().signer.limits;
         let (plan, _) = duration::plan_timed(&[sign], |signs| planner().plan_signs(signs));
         let sides = plan.sides;

@@ -48,7 +48,8 @@ impl TimeWarp {
         arms: &[impl AsRef<[MovingArm]>],
         rate: f64,
         fastest: &TopArmSpeeds,
-        (least, anchors): (Vec<f64>, &[usize]),
+        least: Vec<f64>,
+        anchors: &[usize],
         hasty: impl Fn(usize, usize) -> [f64; 2],
     ) -> Self {
         let arms: Vec<&[MovingArm]> = arms.iter().map(AsRef::as_ref).collect();
@@ -256,7 +257,8 @@ mod tests {
             &[along(&[0.0, 0.01, 0.02, 0.02])],
             100.0,
             &FASTEST,
-            (Vec::new(), &[]),
+            Vec::new(),
+            &[],
             |_, _| [0.0; 2],
         );
         assert!(warp.is_none());
@@ -268,7 +270,7 @@ mod tests {
     fn an_instant_jump_takes_the_least_possible_time() {
         let mut places = vec![0.0; 20];
         places.extend(vec![0.5; 20]);
-        let warp = TimeWarp::warp_within_speeds(&[along(&places)], 100.0, &FASTEST, (Vec::new(), &[]), |_, _| [0.0; 2]);
+        let warp = TimeWarp::warp_within_speeds(&[along(&places)], 100.0, &FASTEST, Vec::new(), &[], |_, _| [0.0; 2]);
         assert!(
             (warp.stretched_time_at(0.2) - warp.stretched_time_at(0.19) - 0.16).abs() < 1e-12,
             "0.5 m at 5 m/s, and the bow about the joints"
@@ -290,7 +292,7 @@ mod tests {
     fn steps_last_at_least_the_requested_time() {
         let least = vec![1.0, 2.0, 1.0];
         let still = [along(&[0.0; 4])];
-        let warp = TimeWarp::warp_within_speeds(&still, 100.0, &FASTEST, (least, &[3]), |_, _| [0.0; 2]);
+        let warp = TimeWarp::warp_within_speeds(&still, 100.0, &FASTEST, least, &[3], |_, _| [0.0; 2]);
         assert!(warp.stretched_time_at(0.02) - warp.stretched_time_at(0.01) >= 0.02 - 1e-12);
         let frames = warp.stretched_time_at(0.03) * 100.0;
         assert!((frames - frames.round()).abs() < 1e-9, "{frames} frames");
@@ -319,7 +321,7 @@ mod tests {
         let mut least = vec![1.0; 11];
         least[5] = 2.0;
         let still = [along(&[0.0; 12])];
-        let warp = TimeWarp::warp_within_speeds(&still, 100.0, &FASTEST, (least, &[]), |_, _| [0.0; 2]);
+        let warp = TimeWarp::warp_within_speeds(&still, 100.0, &FASTEST, least, &[], |_, _| [0.0; 2]);
         let lasts = [1.0, 1.0, 1.25, 1.5, 1.75, 2.0, 1.75, 1.5, 1.25, 1.0, 1.0];
         let mut now = 0.0;
         for (n, last) in lasts.into_iter().enumerate() {

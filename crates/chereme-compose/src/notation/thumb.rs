@@ -85,10 +85,9 @@ fn pose_thumb_across(
         }
         _ => return None,
     };
-    let start = thumb_angle_values(angles);
     let mut best: Option<(f64, FingerShape)> = None;
     for goal in goals {
-        let (missed, shape) = brought(stage, (side, hand), angles, (start, goal));
+        let (missed, shape) = brought(stage, side, hand, angles, goal);
         if best.as_ref().is_none_or(|(least, _)| missed < *least) {
             best = Some((missed, shape));
         }
@@ -102,9 +101,10 @@ fn pose_thumb_across(
 /// Returns the shape with the thumb's pad as near to a goal as possible, and the remaining distance (m).
 fn brought(
     stage: &StandingBody,
-    (side, hand): (BodySide, &StagedHand),
+    side: BodySide,
+    hand: &StagedHand,
     angles: &HandAngles,
-    (start, goal): ([f64; 5], DVec3),
+    goal: DVec3,
 ) -> (f64, FingerShape) {
     let length = hand.staged_hand_length();
     let miss = |shape: &FingerShape, level: f64| {
@@ -119,7 +119,7 @@ fn brought(
         [off.x, off.y, off.z, level * (goal - joint).dot(hand.palm)]
     };
     let squares = |off: [f64; 4]| off.iter().map(|off| off * off).sum::<f64>();
-    let mut now = start;
+    let mut now = thumb_angle_values(angles);
     let mut posed = stage.finger_shape(side, &with_thumb_angles(angles, now));
     let mut damping = 0.05 * length;
     for round in 0..THUMB_ROUNDS {

@@ -208,8 +208,8 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
-        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, RATE);
+        let language = BodyLanguage::default_body_language();
+        let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, RATE);
         let who = planner.acting_part_hands(mirrored());
         let rest = planner.state.clone();
         let begun = posture(HandClass::Flat, "u", "l", Some(at(place, None)));

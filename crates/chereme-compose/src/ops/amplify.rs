@@ -82,7 +82,7 @@ impl StepOperator for AmplifySettings {
     }
 
     fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
-        Ok(amplify_hand_paths(work, self, given.text)?.into())
+        amplify_hand_paths(work, self, given.text)
     }
 
     fn contact_effect_for(&self, handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
@@ -113,11 +113,11 @@ pub(crate) fn amplify_hand_paths(
     work: &mut WorkingClip,
     settings: &AmplifySettings,
     operator: &str,
-) -> Result<(Vec<String>, f64), StepError> {
+) -> Result<StepOutcome, StepError> {
     let sides = settings.hand.chosen_sides(work.handedness);
     let factor = settings.by.0;
     if factor == 1.0 {
-        return Ok((vec!["nothing to do".into()], 0.0));
+        return Ok(StepOutcome::with_residual(vec!["nothing to do".into()], 0.0));
     }
     let rest = SignStroke::of_work(work)?.describe_rests(work);
     let reach = scale_wrist_paths(work, sides, factor)?;
@@ -129,7 +129,7 @@ pub(crate) fn amplify_hand_paths(
     let mut did = vec![format!("the hands' paths are {:.0}% as large", factor * 100.0)];
     did.extend(rest);
     did.extend(describe_reach(&reach));
-    Ok((did, reach.residual))
+    Ok(StepOutcome::with_residual(did, reach.residual))
 }
 
 /// Scales the wrists' paths, each about its own middle, so that parallel paths stay parallel and a resting hand rests.

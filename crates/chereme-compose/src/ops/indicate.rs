@@ -20,6 +20,7 @@ use crate::ops::travel::{STILL_WRIST_MOVEMENT_M, withdraw_moved_notes, wrist_pat
 use crate::ops::{
     FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, say_operator,
 };
+use crate::outcome::NoteSubject;
 use crate::recipe::{ArmSolverMethod, SigningSpot};
 use crate::resolve::PlaceInput;
 use crate::stroke::SignStroke;
@@ -135,7 +136,7 @@ impl StepOperator for IndicateSettings {
 
     fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
         let places = INDICATE_END_SLOTS.each_ref().map(|slot| given.get_answer(slot));
-        Ok(indicate_places(work, self, places, given.text)?.into())
+        indicate_places(work, self, places, given.text)
     }
 
     fn contact_effect_for(&self, handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
@@ -225,7 +226,7 @@ pub(crate) fn indicate_places(
     settings: &IndicateSettings,
     places: [Option<&PlaceInput>; 2],
     operator: &str,
-) -> Result<(Vec<String>, f64), StepError> {
+) -> Result<StepOutcome, StepError> {
     let stroke = SignStroke::of_work(work)?;
     let ends = [stroke.frames.start, stroke.frames.end - 1];
     let hands = sent(work, settings.hand.chosen_sides(work.handedness), ends)?;
@@ -294,7 +295,7 @@ pub(crate) fn indicate_places(
         let Some(value) = value else { continue };
         for &side in &sides {
             let frames = still_stroke_frames(work, side, &stroke, at == 1)?;
-            let what = (SignComponent::Placement, None);
+            let what = NoteSubject::Component(SignComponent::Placement, None);
             say_operator::record_component_value(work, side, what, value, frames, operator);
         }
     }
@@ -305,7 +306,7 @@ pub(crate) fn indicate_places(
     ));
     did.extend(stroke.describe_rests(work));
     did.extend(describe_reach(&worst));
-    Ok((did, worst.residual))
+    Ok(StepOutcome::with_residual(did, worst.residual))
 }
 
 /// Returns the frames at the start, or at the end, of the stroke in which a wrist keeps its position.

@@ -135,8 +135,9 @@ impl From<Vec<String>> for StepOutcome {
     }
 }
 
-impl From<(Vec<String>, f64)> for StepOutcome {
-    fn from((did, residual): (Vec<String>, f64)) -> Self {
+impl StepOutcome {
+    /// Returns the outcome of a step that did this and missed its goal by `residual` metres or radians at most.
+    pub(crate) fn with_residual(did: Vec<String>, residual: f64) -> Self {
         Self {
             did,
             residual: Some(residual),

@@ -113,7 +113,7 @@ impl NotationSpelling {
             language: spoken,
             hands: hands.unwrap_or_default(),
             warnings: made.report.warnings.clone(),
-            ..(did, residual).into()
+            ..StepOutcome::with_residual(did, residual)
         };
         Ok((WorkingClip::from_generated_movement(made, given.text), done))
     }

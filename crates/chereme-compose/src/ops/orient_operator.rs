@@ -9,6 +9,7 @@ use crate::arm::{self, WristReach};
 use crate::body::SignerFrame;
 use crate::error::StepError;
 use crate::ops::{OperatorDescription, place_operator, say_operator};
+use crate::outcome::NoteSubject;
 use crate::recipe::ArmSolverMethod;
 use crate::stroke::SignStroke;
 use crate::units::mean_of_directions;
@@ -177,7 +178,7 @@ impl StepOperator for OrientSettings {
     }
 
     fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
-        Ok(orient_hands(work, self, given.text)?.into())
+        orient_hands(work, self, given.text)
     }
 
     fn contact_effect_for(&self, handedness: SignerHandedness) -> Option<(ContactEffect, ContactsToKeep)> {
@@ -197,7 +198,7 @@ pub(crate) fn orient_hands(
     work: &mut WorkingClip,
     settings: &OrientSettings,
     operator: &str,
-) -> Result<(Vec<String>, f64), StepError> {
+) -> Result<StepOutcome, StepError> {
     let sides = settings.hand.chosen_sides(work.handedness);
     let frame = place_operator::signer_body_frame(work, sides)?;
     let stroke = SignStroke::of_work(work)?;
@@ -233,7 +234,7 @@ pub(crate) fn orient_hands(
     }
     did.extend(stroke.describe_rests(work));
     work.note_changed_groups(sides.iter().map(|&side| JointGroup::Arm(side)), operator);
-    Ok((did, worst.residual))
+    Ok(StepOutcome::with_residual(did, worst.residual))
 }
 
 /// The largest rotation away from the hand's directions in the middle of the sign, in radians, at which the values of
@@ -267,8 +268,8 @@ fn record_directions(work: &mut WorkingClip, frame: &SignerFrame, middle: usize,
         ),
     ];
     for (feature, value) in values {
-        let what = (SignComponent::Orientation, Some(feature));
         if let Some(value) = value {
+            let what = NoteSubject::Component(SignComponent::Orientation, Some(feature.to_owned()));
             say_operator::record_component_value(work, side, what, &value, start..end.max(start + 1), operator);
         }
     }

@@ -559,7 +559,7 @@ fn place_working_hands(
     let one = shifts.first().filter(|_| !apart);
     Ok(StepOutcome {
         moved: one.map(|shift| frame.to_body(shift.by).to_array()),
-        ..(did, reach.residual).into()
+        ..StepOutcome::with_residual(did, reach.residual)
     })
 }
 

@@ -67,7 +67,7 @@ pub(crate) fn generate_pointing(
         reaches: learned.and_then(|learned| learned.reaches.as_ref()),
     };
     let done = point_at_target(&mut work, settings, &point_inputs, &course)?;
-    Ok((work, done.into()))
+    Ok((work, done))
 }
 
 /// The usual time of reaching, and of retraction, in seconds, if the corpus shows too few reaches.
@@ -97,7 +97,7 @@ pub(crate) fn point_at_target(
     settings: &PointSettings,
     given: &PointInputs<'_>,
     courses: &TransitionCourses,
-) -> Result<(Vec<String>, f64), StepError> {
+) -> Result<StepOutcome, StepError> {
     let sides = settings.hand.chosen_sides(work.handedness);
     let frame = place_operator::signer_body_frame(work, sides)?;
     let step = work.rate.frame_time();
@@ -163,7 +163,7 @@ pub(crate) fn point_at_target(
     });
     let changed = sides.iter().flat_map(|&s| [JointGroup::Arm(s), JointGroup::Fingers(s)]);
     work.note_changed_groups(changed.collect::<Vec<_>>(), &settings.to_string());
-    Ok((did, 0.0))
+    Ok(StepOutcome::with_residual(did, 0.0))
 }
 
 /// Carries arms and hands from the posture of each frame to that of `apex`; `out` is the share of a reach at a frame.

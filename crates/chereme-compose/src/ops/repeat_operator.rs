@@ -268,7 +268,7 @@ fn note_repetition_count(work: &mut WorkingClip, times: usize, operator: &str) {
         .filter(|&side| side == dominant || moves(side))
         .collect();
     for side in sides {
-        let what = (SignComponent::Movement, Some("repetition"));
+        let what = NoteSubject::Component(SignComponent::Movement, Some("repetition".to_owned()));
         say_operator::record_component_value(work, side, what, value, 0..work.frames, operator);
     }
 }

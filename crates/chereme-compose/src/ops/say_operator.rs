@@ -42,12 +42,11 @@ pub(crate) fn withdraw_hand_notes(
 pub(crate) fn record_component_value(
     work: &mut WorkingClip,
     side: BodySide,
-    (component, feature): (SignComponent, Option<&str>),
+    about: NoteSubject,
     value: &str,
     frames: Range<usize>,
     operator: &str,
 ) {
-    let about = NoteSubject::Component(component, feature.map(str::to_owned));
     let span = work.rate.frame_range_span(frames);
     let mut left = Vec::with_capacity(work.notes.len() + 2);
     for note in std::mem::take(&mut work.notes) {
@@ -107,7 +106,7 @@ pub(crate) fn record_hand_place(
         note.origin = format!("{} | {operator}", note.origin);
     }
     if let Some(value) = value.filter(|_| !recorded) {
-        let what = (SignComponent::Placement, None);
+        let what = NoteSubject::Component(SignComponent::Placement, None);
         record_component_value(work, side, what, value, frames, operator);
     }
 }

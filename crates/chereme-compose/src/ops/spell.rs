@@ -68,7 +68,7 @@ pub(crate) fn generate_spelling(
     let course = given.transition_courses(&SPELL_COURSE_SLOT, &settings.via, TransitionProfile::Sigmoid)?;
     let times = LetterTimes::letter_times_from(settings, given.get_answer(&SPELL_TIMES_SLOT));
     let done = spell_letters(&mut work, settings, letters, &times, &course)?;
-    Ok((work, done.into()))
+    Ok((work, done))
 }
 
 /// The usual time of a held letter, in seconds.
@@ -135,7 +135,7 @@ pub(crate) fn spell_letters(
     letters: &[LetterInput],
     times: &LetterTimes,
     courses: &TransitionCourses,
-) -> Result<(Vec<String>, f64), StepError> {
+) -> Result<StepOutcome, StepError> {
     let sides = settings.hand.chosen_sides(work.handedness);
     let frame = place_operator::signer_body_frame(work, sides)?;
     let shown: Vec<Vec<LetterShow>> = sides
@@ -170,7 +170,7 @@ pub(crate) fn spell_letters(
         .iter()
         .map(|l| format!("{} from {}", l.letter.letter, l.pose.origin));
     let report = from.chain(times.report.iter().cloned());
-    Ok((report.collect(), residual))
+    Ok(StepOutcome::with_residual(report.collect(), residual))
 }
 
 fn plan_letter_shows(

@@ -11,6 +11,7 @@ use crate::curve::MeasuredSpline;
 use crate::error::StepError;
 use crate::ops::place_operator::{self, describe_reach};
 use crate::ops::{retime, say_operator};
+use crate::outcome::NoteSubject;
 use crate::recipe::{ArmSolverMethod, StraightLeg};
 use crate::stroke::SignStroke;
 use crate::units::{RecipeLength, RecipeSeconds};
@@ -232,7 +233,7 @@ impl StepOperator for TravelSettings {
         let sides = self.hand.chosen_sides(work.handedness);
         let parts = self.travel_parts(&place_operator::signer_body_frame(work, sides)?);
         let warnings = parts.iter().filter_map(TravelPart::part_speed_warning).collect();
-        let mut done: StepOutcome = travel_along_path(work, self, &course.arms, given.text)?.into();
+        let mut done = travel_along_path(work, self, &course.arms, given.text)?;
         if parts.len() > 1 && parts.iter().any(|part| part.time.is_some()) {
             let leg_times = travel_part_times(&parts, SignStroke::of_work(work)?.stroke_seconds(work));
             let times: Vec<String> = leg_times.iter().map(|time| format!("{time:.2} s")).collect();
@@ -339,7 +340,7 @@ pub(crate) fn travel_along_path(
     settings: &TravelSettings,
     course: &TransitionCourse,
     operator: &str,
-) -> Result<(Vec<String>, f64), StepError> {
+) -> Result<StepOutcome, StepError> {
     let sides = settings.hand.chosen_sides(work.handedness);
     let frame = place_operator::signer_body_frame(work, sides)?;
     let curve = body_space_curve(&frame, &settings.through);
@@ -365,13 +366,7 @@ pub(crate) fn travel_along_path(
     let still = sides.iter().all(|&side| is_still(&before, side, &stroke));
     withdraw_moved_notes(work, sides, operator);
     if still {
-        note_drawn_path(
-            work,
-            (&frame, &stroke),
-            sides,
-            (&settings.path, curve.as_ref()),
-            operator,
-        );
+        note_drawn_path(work, &frame, &stroke, sides, &settings.path, curve.as_ref(), operator);
     }
     let legs = settings.path.iter();
     let length: f64 = legs.map(|leg| leg.distance.length_in_metres(frame.arm)).sum();
@@ -386,7 +381,7 @@ pub(crate) fn travel_along_path(
     let mut did = vec![path];
     did.extend(stroke.describe_rests(work));
     did.extend(describe_reach(&reach));
-    Ok((did, reach.residual))
+    Ok(StepOutcome::with_residual(did, reach.residual))
 }
 
 /// Returns the curve through points of body space, in model space; `None` without points.
@@ -454,9 +449,11 @@ fn is_still(work: &WorkingClip, side: BodySide, stroke: &SignStroke) -> bool {
 /// Notes the new path of hands that were still before: straight if it has one leg, else the shape of the curve.
 fn note_drawn_path(
     work: &mut WorkingClip,
-    (frame, stroke): (&SignerFrame, &SignStroke),
+    frame: &SignerFrame,
+    stroke: &SignStroke,
     sides: &[BodySide],
-    (path, curve): (&[StraightLeg], Option<&MeasuredSpline>),
+    path: &[StraightLeg],
+    curve: Option<&MeasuredSpline>,
     operator: &str,
 ) {
     let all = stroke.frames.clone();
@@ -470,10 +467,10 @@ fn note_drawn_path(
             _ => None,
         };
         let shape = shape.unwrap_or(if one.is_some() { "straight" } else { "path" });
-        let movement = SignComponent::Movement;
-        say_operator::record_component_value(work, side, (movement, None), shape, all.clone(), operator);
+        let movement = |part: Option<&str>| NoteSubject::Component(SignComponent::Movement, part.map(str::to_owned));
+        say_operator::record_component_value(work, side, movement(None), shape, all.clone(), operator);
         if let Some(direction) = one {
-            let what = (movement, Some("direction"));
+            let what = movement(Some("direction"));
             say_operator::record_component_value(work, side, what, &direction, all.clone(), operator);
         }
     }

@@ -260,9 +260,9 @@ fn feet_and_thumbs_point_alike_on_every_body() {
     ];
     for from in &bodies {
         for onto in &bodies {
-            let body = (onto.clip.clip_skeleton(), &onto.anatomy);
-            let made = crate::on_body((&from.clip, &from.anatomy), from.handedness, body);
-            let made = made.expect("moved");
+            let skeleton = onto.clip.clip_skeleton();
+            let made =
+                crate::on_body(&from.clip, &from.anatomy, from.handedness, skeleton, &onto.anatomy).expect("moved");
             for frame in (0..made.clip.clip_frame_count()).step_by(29) {
                 let pair = [(from, from.clip.model_pose(frame)), (onto, made.clip.model_pose(frame))];
                 let [before, after] = pair.map(|(body, model)| bones(body, &model));

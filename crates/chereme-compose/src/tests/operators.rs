@@ -270,8 +270,8 @@ fn touches_stay_touches_on_another_body() {
     for (axes, size) in [(Axes::Plain, 0.8), (Axes::Odd, 1.1)] {
         let body = Arc::new(skeleton(axes, size));
         let anatomy = Arc::new(BodyAnatomy::detect_anatomy(&body));
-        let from = (&touching.clip, &touching.anatomy);
-        let moved = crate::on_body(from, SignerHandedness::Right, (&body, &anatomy)).expect("moved");
+        let handedness = SignerHandedness::Right;
+        let moved = crate::on_body(&touching.clip, &touching.anatomy, handedness, &body, &anatomy).expect("moved");
         assert!(moved.contacts > 0, "{size}");
         assert_eq!(moved.lost, Vec::<String>::new(), "{size}");
     }

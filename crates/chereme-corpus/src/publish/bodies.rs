@@ -111,7 +111,7 @@ impl DictionaryBodies {
         let Some((skeleton, own)) = &self.own else {
             return Ok(Some((clip, anatomy, false)));
         };
-        match on_body((&clip, &anatomy), handedness, (skeleton, own)) {
+        match on_body(&clip, &anatomy, handedness, skeleton, own) {
             Ok(done) => Ok(Some((done.clip, Arc::clone(own), !done.lost.is_empty()))),
             Err(StepError::NoArm(_)) => Ok(None),
             Err(error) => Err(CorpusError::from_wrong_message(error.to_string())),

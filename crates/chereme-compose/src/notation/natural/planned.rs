@@ -15,8 +15,8 @@ fn planned(body: &StandingBody, place: &str, movements: &str) -> notation_plan::
         ..NotatedSign::default()
     };
     let paces = pace::PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-    let language = (BodyLanguage::default_body_language(), &paces);
-    SignPlanner::new(body, language, SignerHandedness::Right, 60.0).plan_signs(&[&sign])
+    let language = BodyLanguage::default_body_language();
+    SignPlanner::new(body, language, &paces, SignerHandedness::Right, 60.0).plan_signs(&[&sign])
 }
 
 /// Returns the strokes of the right hand.
@@ -149,8 +149,8 @@ fn the_skin_limits_hands_in_front_of_it_and_not_hands_behind_the_body() {
     let material = stage(Axes::Plain);
     let body = StandingBody::body_from_material(&material).expect("a body");
     let paces = pace::PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-    let language = (BodyLanguage::default_body_language(), &paces);
-    let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+    let language = BodyLanguage::default_body_language();
+    let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
     let who = planner.signer.own_frame();
     let touch = at(BodyLocation::Chest, Some(PlaceContact::Touch));
     planner.assume_posture(&flat_hand_posture(Some(touch)), [Some(who), None], false);

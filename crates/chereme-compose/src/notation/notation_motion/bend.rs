@@ -140,8 +140,8 @@ mod tests {
         let material = stage(Axes::Plain);
         let body = StandingBody::body_from_material(&material).expect("a body");
         let paces = PaceTables::pace_tables_from_language(BodyLanguage::default_body_language());
-        let language = (BodyLanguage::default_body_language(), &paces);
-        let mut planner = SignPlanner::new(&body, language, SignerHandedness::Right, 60.0);
+        let language = BodyLanguage::default_body_language();
+        let mut planner = SignPlanner::new(&body, language, &paces, SignerHandedness::Right, 60.0);
         let who = planner.acting_part_hands(hands);
         let place = at(BodyLocation::Chest, contact);
         let part = ManualPart {
