@@ -3,7 +3,7 @@
 mod commands_study_answers;
 mod study_report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -209,7 +209,7 @@ pub(super) fn run(cli: &CommandLine, args: &StudyArgs, output: &mut CommandOutpu
                 columns: columns.transpose()?,
                 dry_run: *dry_run,
             };
-            import_study_answers(cli, (corpus, name), (files, &options), output)
+            import_study_answers(cli, corpus, name, files, &options, output)
         }
         other => run_study_action(cli, other, output).map(|()| ExitCode::SUCCESS),
     }
@@ -290,8 +290,10 @@ fn run_study_action(cli: &CommandLine, action: &StudyCommand, output: &mut Comma
 /// Imports answers; nothing but refused files is a failure.
 fn import_study_answers(
     cli: &CommandLine,
-    (corpus, name): (&PathBuf, &str),
-    (files, options): (&[PathBuf], &AnswersOptions),
+    corpus: &Path,
+    name: &str,
+    files: &[PathBuf],
+    options: &AnswersOptions,
     output: &mut CommandOutput,
 ) -> Result<ExitCode> {
     let mut bar = CommandProgressBar::new();
