@@ -9,8 +9,8 @@ use std::path::Path;
 use chereme_analysis::cue::cue_labels;
 use chereme_analysis::cue::generate::{CueGeneratorSettings, GENERATED_FRAME_RATE, generate_text_take};
 use chereme_corpus::{
-    Corpus, CueCosts, CueOptions, CuedOptions, ImportOptions, ProgressReceiver, RestoreOptions, RowName, SearchOptions,
-    TrackContent, ignore_progress_step,
+    Corpus, CueCosts, CueOptions, CuedOptions, DictionaryCueOptions, ImportOptions, ProgressReceiver, RestoreOptions,
+    RowName, SearchOptions, TrackContent, ignore_progress_step,
 };
 use chereme_motion::glam::DVec3;
 
@@ -196,8 +196,13 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     assert!(script.covered < 1.0 && !script.worth.is_empty());
 
     // A sentence from which the dictionary was cut is reproduced from it.
-    let (how, costs) = (CueOptions::default(), CueCosts::default());
-    let again = corpus.cue_from_dictionary(&text, (&how, &options), (costs, &[]), Some("AGAIN"), &mut progress)?;
+    let request = DictionaryCueOptions {
+        cue: &CueOptions::default(),
+        cued: &options,
+        costs: CueCosts::default(),
+        recordings: &[],
+    };
+    let again = corpus.cue_from_dictionary(&text, &request, Some("AGAIN"), &mut progress)?;
     assert!(
         again.shapes_read.is_some_and(|share| share > 0.8),
         "{:?}",
@@ -254,25 +259,27 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
             .is_err_and(|error| error.to_string().contains("klingon"))
     );
     // Without captured takes, movement that the program generates replaces the dictionary, with a finding.
-    let (how, costs) = (CueOptions::default(), CueCosts::default());
-    let done = corpus.cue_from_dictionary("le chat", (&how, &options), (costs, &[]), None, &mut progress)?;
+    let request = DictionaryCueOptions {
+        cue: &CueOptions::default(),
+        cued: &options,
+        costs: CueCosts::default(),
+        recordings: &[],
+    };
+    let done = corpus.cue_from_dictionary("le chat", &request, None, &mut progress)?;
     assert!(done.without_dictionary && done.keys == 2, "{done:?}");
-    let long = corpus.cue_from_dictionary(
-        &"le chat ".repeat(20_000),
-        (&how, &options),
-        (costs, &[]),
-        None,
-        &mut progress,
-    );
+    let long = corpus.cue_from_dictionary(&"le chat ".repeat(20_000), &request, None, &mut progress);
     let error = long.expect_err("hours").to_string();
     assert!(error.starts_with("the text takes"), "{error}");
-    let costs = CueCosts {
-        join: f64::NAN,
-        ..costs
+    let request = DictionaryCueOptions {
+        costs: CueCosts {
+            join: f64::NAN,
+            ..request.costs
+        },
+        ..request
     };
     assert!(
         corpus
-            .cue_from_dictionary("le chat", (&how, &options), (costs, &[]), None, &mut progress)
+            .cue_from_dictionary("le chat", &request, None, &mut progress)
             .is_err()
     );
     Ok(())

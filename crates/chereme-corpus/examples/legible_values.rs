@@ -107,7 +107,7 @@ fn set_of_places<'a>(
             let mut next = || (random.next() * most) as f32;
             camera = turned_camera(&camera, [next(), next()]);
         }
-        scene.place_from((inventory, value), &camera, size, PaperTheme::Light)
+        scene.place_from(inventory, value, &camera, size, PaperTheme::Light)
     };
     Set {
         name,

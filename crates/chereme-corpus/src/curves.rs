@@ -40,7 +40,8 @@ pub(crate) fn store_generated_curves(
     connection: &Connection,
     recording: i64,
     curves: &[GeneratedCurve],
-    (rate, frames): (FrameRate, usize),
+    rate: FrameRate,
+    frames: usize,
 ) -> CorpusResult<()> {
     if curves.is_empty() {
         return Ok(());

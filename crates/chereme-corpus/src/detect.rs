@@ -146,7 +146,7 @@ impl Corpus {
             };
             let span = within.unwrap_or_else(|| whole_recording_span(row));
             proposals.retain(|proposal| span_overlaps_times(span, proposal.start_us, proposal.end_us));
-            changes.take_proposals(connection, row.id, span, (detector, &proposals))?;
+            changes.take_proposals(connection, row.id, span, detector, &proposals)?;
             if !proposals.is_empty() {
                 detected.found.push(DetectedIn {
                     recording: row.name.clone(),
@@ -172,8 +172,8 @@ impl Corpus {
             origin: AnnotationOrigin::Detector,
             ..AnnotateOptions::default()
         };
-        let work = (changes.changes.as_slice(), &options);
-        let report = self.annotate_with(OperationEffect::Propose, &changes.tiers, work, progress)?;
+        let propose = OperationEffect::Propose;
+        let report = self.annotate_with(propose, &changes.tiers, &changes.changes, &options, progress)?;
         Ok(report.recordings)
     }
 }
@@ -231,9 +231,11 @@ pub(crate) fn propose_for_recording(
             in_pieces(
                 connection,
                 detector,
-                (&track, groups),
+                &track,
+                groups,
                 face,
-                (DETECTION_PIECE_US, DETECTION_MARGIN_US),
+                DETECTION_PIECE_US,
+                DETECTION_MARGIN_US,
             )?
         }
         false => detector.detect_annotations(&ObservedSigner {
@@ -255,9 +257,11 @@ pub(crate) fn propose_for_recording(
 fn in_pieces(
     connection: &Connection,
     detector: &dyn AnnotationDetector,
-    (track, groups): (&MotionTrack, &[ChannelGroup]),
+    track: &MotionTrack,
+    groups: &[ChannelGroup],
     face: Option<&FaceCurves>,
-    (piece, around): (i64, i64),
+    piece: i64,
+    around: i64,
 ) -> CorpusResult<Vec<DetectedStretch>> {
     let anatomy = track.track_anatomy(connection)?;
     let first = track.row.offset_us;
@@ -341,7 +345,8 @@ impl ProposalChanges {
         connection: &Connection,
         recording: i64,
         within: TimeSpan,
-        (detector, proposals): (&dyn AnnotationDetector, &[ProposedAnnotation]),
+        detector: &dyn AnnotationDetector,
+        proposals: &[ProposedAnnotation],
     ) -> CorpusResult<()> {
         let tier_rows = stored_tiers::load_tier_rows(connection, recording)?;
         for field in detector.detected_fields() {
@@ -432,8 +437,7 @@ mod tests {
         let strokes = find_detector("strokes").expect("a detector");
         let found = |piece: i64, around: i64| {
             let groups = [ChannelGroup::RightArm, ChannelGroup::LeftArm];
-            let of = (&track, &groups[..]);
-            in_pieces(connection, strokes, of, None, (piece, around)).expect("examined")
+            in_pieces(connection, strokes, &track, &groups, None, piece, around).expect("examined")
         };
         let whole = found(DETECTION_PIECE_US, DETECTION_MARGIN_US);
         assert!(whole.len() > 4, "{whole:?}");

@@ -132,7 +132,7 @@ pub(crate) fn load_hand_corrections(
     let mut ranges = [HandRange::default(), HandRange::default()];
     let anatomy = own_track.track_anatomy(connection)?;
     let sound = kept.usable_take(connection, row)?.frames;
-    observe_hand_ranges(connection, (&own_track, &anatomy), &sound, &mut ranges)?;
+    observe_hand_ranges(connection, &own_track, &anatomy, &sound, &mut ranges)?;
     let mut alike = Vec::new();
     if row.signer_id.is_some() {
         for other in stored_recordings::load_recording_rows(connection)? {
@@ -159,7 +159,7 @@ pub(crate) fn load_hand_corrections(
         }
         let anatomy = track.track_anatomy(connection)?;
         let sound = kept.usable_take(connection, &other)?.frames;
-        observe_hand_ranges(connection, (&track, &anatomy), &sound, &mut ranges)?;
+        observe_hand_ranges(connection, &track, &anatomy, &sound, &mut ranges)?;
         takes += 1;
     }
     let corrections = ranges.map(|range| range.suggest_hand_correction());
@@ -240,7 +240,8 @@ fn equal(a: &HandBoneLengths, b: &HandBoneLengths) -> bool {
 /// Adds the sound frames of a take to the ranges.
 fn observe_hand_ranges(
     connection: &Connection,
-    (track, anatomy): (&MotionTrack, &BodyAnatomy),
+    track: &MotionTrack,
+    anatomy: &BodyAnatomy,
     sound: &Range<usize>,
     ranges: &mut [HandRange; 2],
 ) -> CorpusResult<()> {

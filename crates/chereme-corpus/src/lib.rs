@@ -120,9 +120,9 @@ pub use cue::{
 };
 pub use cued::{
     CueConfusion, CueCosts, CuePhaseRow, CuePhaseStatistics, CueRecognition, CueSlip, CueSlips, CueTargets,
-    CuedMarkers, CuedOptions, DictionaryReport, DikeyDictionaryReport, FoundKey, FromDictionary, MarkerSet, MisreadKey,
-    MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, ScriptCoverage, SentencePiece, SlipKind,
-    WorthRecording, read_marker_labels,
+    CuedMarkers, CuedOptions, DictionaryCueOptions, DictionaryReport, DikeyDictionaryReport, FoundKey, FromDictionary,
+    MarkerSet, MisreadKey, MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, ScriptCoverage, SentencePiece,
+    SlipKind, WorthRecording, read_marker_labels,
 };
 pub use db::file_identity::FileIdentity;
 pub use db::signs::TokenRow;

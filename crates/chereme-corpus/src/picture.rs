@@ -563,7 +563,7 @@ fn draw_scenes(
         }
         ("gif", _) => {
             let height = options.height.unwrap_or(MOVEMENT_PICTURE_HEIGHT_PX);
-            let mut strip = side_by_side_strip(scenes, options, (height, None))?;
+            let mut strip = side_by_side_strip(scenes, options, height, None)?;
             let mut hear = |done: usize, total: usize| match report(done, total) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
@@ -577,7 +577,7 @@ fn draw_scenes(
         ("mp4", _) => {
             let rate = options.rate.clamp(1, 120);
             let height = options.height.unwrap_or(FILM_HEIGHT_PX);
-            let mut strip = side_by_side_strip(scenes, options, (height, Some(rate)))?;
+            let mut strip = side_by_side_strip(scenes, options, height, Some(rate))?;
             let shape = WrittenFilmShape { rate };
             let mut frames = 0;
             let bytes = write_atomically(to, options.force, |out| {
@@ -633,7 +633,8 @@ fn sheet(
 fn side_by_side_strip<'a>(
     scenes: &[SideBySideScene<'a>],
     options: &PictureOptions,
-    (height, rate): (usize, Option<u32>),
+    height: usize,
+    rate: Option<u32>,
 ) -> CorpusResult<AnimationStrip<'a>> {
     let mut views = match scenes {
         [_] => vec![FigureView::Addressee, FigureView::Left],

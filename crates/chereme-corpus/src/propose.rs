@@ -237,9 +237,8 @@ impl Corpus {
                 origin: AnnotationOrigin::Detector,
                 ..AnnotateOptions::default()
             };
-            let work = (changes.as_slice(), &options);
             report.recordings = self
-                .annotate_with(OperationEffect::Propose, &new, work, progress)?
+                .annotate_with(OperationEffect::Propose, &new, &changes, &options, progress)?
                 .recordings;
         }
         Ok(report)
@@ -442,7 +441,7 @@ impl Corpus {
             count: annotations.count_removed(),
             annotations,
         };
-        self.annotate_with(accepted, &new, (&changes, &options), progress)
+        self.annotate_with(accepted, &new, &changes, &options, progress)
     }
 
     /// Returns the annotations to add, and the tiers for them that recordings lack.

@@ -413,7 +413,7 @@ fn store_movement(
             .collect();
         movement::store_block(connection, track, &numbers, first, rows.len(), &part)?;
     }
-    curves::store_generated_curves(connection, recording, &made.curves, (rate, clip.clip_frame_count()))?;
+    curves::store_generated_curves(connection, recording, &made.curves, rate, clip.clip_frame_count())?;
     Ok(())
 }
 

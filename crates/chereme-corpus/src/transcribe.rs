@@ -144,7 +144,7 @@ impl Corpus {
         let anatomy = track.track_anatomy(connection)?;
         let frames = match transcribe_again::generated_sign_frames(connection, &track, &stretch)? {
             Some(frames) => frames,
-            None => self.signed_frames((&track, &anatomy), &stretch)?,
+            None => self.signed_frames(&track, &anatomy, &stretch)?,
         };
         let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
         let usual = match stretch.recording.origin {

@@ -71,7 +71,8 @@ impl Corpus {
     /// Returns the frames of a stretch that are read: its usable ones, and of a whole recording those between its rests.
     pub(crate) fn signed_frames(
         &self,
-        (track, anatomy): (&MotionTrack, &BodyAnatomy),
+        track: &MotionTrack,
+        anatomy: &BodyAnatomy,
         stretch: &RecordingStretch,
     ) -> CorpusResult<Range<usize>> {
         let connection = self.store.read_connection();

@@ -211,7 +211,7 @@ fn accepting_ends_at_proposals_whose_places_are_taken() {
         .duration_us;
     let mut hear = ignore_progress_step;
     let mut progress = ProgressReceiver::new(&mut hear);
-    let whole = [requests::add_annotation_change(tier, (0, end), "stroke")];
+    let whole = [requests::add_annotation_change(tier, 0, end, "stroke")];
     let added = corpus.annotate_corpus(&whole, &Default::default(), &mut progress);
     added.expect("annotated");
     let mut window = window(StudioOptions {

@@ -351,8 +351,7 @@ fn paste_annotation_table(
     let mut bar = CommandProgressBar::new();
     let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
     let progress = &mut ProgressReceiver::new(&mut hear);
-    let text = (text.as_str(), name.as_str());
-    let (report, odd) = corpus.paste_annotations(recording, text, &options, progress)?;
+    let (report, odd) = corpus.paste_annotations(recording, &text, &name, &options, progress)?;
     drop(bar);
     for line in &odd {
         let fault_text = output.translate_message(&line.odd_line_fault());

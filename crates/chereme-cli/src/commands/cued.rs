@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::recipe::PhaseRule;
 use chereme_corpus::{
-    CueConfusion, CueCosts, CueOptions, CuedOptions, FromDictionary, ProgressReceiver, ProgressStep, RestoreOptions,
-    RowName, SlipKind, read_marker_labels,
+    CueConfusion, CueCosts, CueOptions, CuedOptions, DictionaryCueOptions, FromDictionary, ProgressReceiver,
+    ProgressStep, RestoreOptions, RowName, SlipKind, read_marker_labels,
 };
 use clap::Subcommand;
 
@@ -398,17 +398,16 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
             how.reading.pace = *pace;
             how.reading.code.clone_from(&options.code);
             how.reading.variants.clone_from(&options.variants);
-            let costs = CueCosts {
-                duration: *duration_cost,
-                join: *join_cost,
+            let request = DictionaryCueOptions {
+                cue: &how,
+                cued: &options,
+                costs: CueCosts {
+                    duration: *duration_cost,
+                    join: *join_cost,
+                },
+                recordings,
             };
-            let composed = corpus.cue_from_dictionary(
-                text,
-                (&how, &options),
-                (costs, recordings),
-                gloss.as_deref(),
-                &mut progress,
-            )?;
+            let composed = corpus.cue_from_dictionary(text, &request, gloss.as_deref(), &mut progress)?;
             drop(bar);
             print_comparison(&composed, output)?;
             output.set_json_document(composed)

@@ -68,8 +68,8 @@ impl Corpus {
             edits::defer_references(connection)?;
             for third in &all {
                 let written = AnnotateOptions::default();
-                let work = (third.changes.as_slice(), &written);
-                write_tiers(connection, std::slice::from_ref(&third.tier), work, progress)?;
+                let new = std::slice::from_ref(&third.tier);
+                write_tiers(connection, new, &third.changes, &written, progress)?;
                 let tiers = rows::load_tier_rows(connection, third.recording)?;
                 let Some(tier) = tiers.iter().find(|tier| tier.name == third.tier.name) else {
                     continue;

@@ -61,7 +61,8 @@ impl Corpus {
     pub fn paste_annotations(
         &mut self,
         recording: &RowName,
-        (text, name): (&str, &str),
+        text: &str,
+        name: &str,
         options: &PasteOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<(AnnotateReport, Vec<OddLine>)> {
@@ -102,7 +103,7 @@ impl Corpus {
                 .find(|candidate| Some(candidate.id) == tier.row.inventory_id);
             inventory_allows_value(stored, value)
         };
-        let mut plan = plan_paste(&contents, to, rows, (here, until), knows);
+        let mut plan = plan_paste(&contents, to, rows, here, until, knows);
         odd.append(&mut plan.odd);
         odd.sort_by_key(|odd_line| odd_line.line);
         if !odd.is_empty() && (!options.partly || plan.adds.is_empty()) {
@@ -123,7 +124,10 @@ impl Corpus {
         let changes: Vec<_> = plan
             .adds
             .iter()
-            .map(|addition| requests::add_annotation_change(addition.tier, addition.span, &addition.value))
+            .map(|addition| {
+                let (start, end) = addition.span;
+                requests::add_annotation_change(addition.tier, start, end, &addition.value)
+            })
             .collect();
         let report = self.annotate_corpus(&changes, &AnnotateOptions::default(), progress)?;
         Ok((report, odd))
@@ -148,7 +152,8 @@ pub fn plan_paste(
     contents: &RecordingContents,
     to: Option<&TierContents>,
     mut rows: Vec<CopiedAnnotation>,
-    (here, until): (Option<i64>, i64),
+    here: Option<i64>,
+    until: i64,
     knows: impl Fn(&TierContents, &str) -> bool,
 ) -> PastePlan {
     let names: BTreeSet<&str> = rows.iter().filter_map(|row| row.tier.as_deref()).collect();
@@ -185,7 +190,7 @@ pub fn plan_paste(
         let outcome = if !knows(tier, &row.value) {
             Err((OddReason::Value, row.value.clone(), None))
         } else {
-            fit_pasted_annotation(contents, tier, (row.start, row.end), until, &mut taken)
+            fit_pasted_annotation(contents, tier, row.start, row.end, until, &mut taken)
                 .map_err(|why| (why, begins.to_string(), Some(begins)))
         };
         match outcome {
@@ -231,7 +236,8 @@ fn taken_by(tier: &TierContents) -> OccupiedTierSpans {
 fn fit_pasted_annotation(
     contents: &RecordingContents,
     tier: &TierContents,
-    (start, end): (i64, i64),
+    start: i64,
+    end: i64,
     until: i64,
     taken: &mut BTreeMap<i64, OccupiedTierSpans>,
 ) -> std::result::Result<(i64, i64), OddReason> {
@@ -309,7 +315,7 @@ mod tests {
     /// Returns `(tier, start, end)` of the planned annotations, and the reasons for the refused lines.
     fn planned(to: usize, rows: Vec<CopiedAnnotation>, here: Option<i64>) -> (Vec<(i64, i64, i64)>, Vec<OddReason>) {
         let all = recording();
-        let plan = plan_paste(&all, Some(&all.tiers[to]), rows, (here, 1000), |_, _| true);
+        let plan = plan_paste(&all, Some(&all.tiers[to]), rows, here, 1000, |_, _| true);
         let adds = plan.adds.iter().map(|it| (it.tier, it.span.0, it.span.1));
         (adds.collect(), plan.odd.iter().map(|it| it.why).collect())
     }

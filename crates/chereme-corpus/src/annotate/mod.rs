@@ -213,11 +213,12 @@ impl Corpus {
         &mut self,
         effect: fn(AnnotationEffect) -> OperationEffect,
         new: &[NewTier],
-        (changes, options): (&[AnnotationChange], &AnnotateOptions),
+        changes: &[AnnotationChange],
+        options: &AnnotateOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<AnnotateReport> {
         let work = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
-            let report = write_tiers(connection, new, (changes, options), progress)?;
+            let report = write_tiers(connection, new, changes, options, progress)?;
             let effect = effect(report.effect.clone());
             Ok((report, effect))
         };
@@ -229,7 +230,8 @@ impl Corpus {
 pub(crate) fn write_tiers(
     connection: &Connection,
     new: &[NewTier],
-    (changes, options): (&[AnnotationChange], &AnnotateOptions),
+    changes: &[AnnotationChange],
+    options: &AnnotateOptions,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<AnnotateReport> {
     for tier in new {

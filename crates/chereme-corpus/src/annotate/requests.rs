@@ -17,7 +17,7 @@ fn moment_from_micros(micros: i64) -> TableMoment {
 
 /// Returns the change that adds an annotation.
 #[must_use]
-pub fn add_annotation_change(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange {
+pub fn add_annotation_change(tier: i64, start: i64, end: i64, value: &str) -> AnnotationChange {
     let action = AnnotationAction::Add {
         tier: TierRequestName::Number(tier),
         start: Some(moment_from_micros(start)),
@@ -119,7 +119,8 @@ pub fn to_tier(contents: &RecordingContents, items: &[SpanItem], to: i64, and_re
         });
         changes.push(add_annotation_change(
             to,
-            (item.start, item.end),
+            item.start,
+            item.end,
             &typed_value.unwrap_or_default(),
         ));
     }
@@ -276,7 +277,7 @@ mod tests {
             end: 410,
         };
         let copied = to_tier(&all, &[item], 2, false);
-        assert_eq!(copied, [add_annotation_change(2, (310, 410), "v5")]);
+        assert_eq!(copied, [add_annotation_change(2, 310, 410, "v5")]);
         assert_eq!(to_tier(&all, &[item], 2, true).len(), 2);
         assert!(has_below(&all, &BTreeSet::from([2])) && !has_below(&all, &BTreeSet::from([5])));
     }

@@ -105,7 +105,7 @@ pub(super) fn dikey_end_name(end: DikeyEnd) -> String {
 }
 
 /// Returns the name of a pair of keys in a dictionary.
-pub(super) fn pair_name((from, to): (DikeyEnd, DikeyEnd)) -> String {
+pub(super) fn pair_name(from: DikeyEnd, to: DikeyEnd) -> String {
     format!("{}>{}", dikey_end_name(from), dikey_end_name(to))
 }
 
@@ -166,8 +166,8 @@ impl Corpus {
         }
         let mut pairs: Vec<DikeyDictionaryReport> = pairs
             .into_iter()
-            .map(|(ends, sources)| DikeyDictionaryReport {
-                pair: pair_name(ends),
+            .map(|((from, to), sources)| DikeyDictionaryReport {
+                pair: pair_name(from, to),
                 count: sources.len() as u64,
                 sources,
             })
@@ -227,8 +227,8 @@ fn coverage(dictionary: &DikeyDictionary, script: &str, options: &CuedOptions) -
     let lacking: usize = missing.values().sum();
     let mut missing: Vec<MissingDikey> = missing
         .into_iter()
-        .map(|(ends, count)| MissingDikey {
-            pair: pair_name(ends),
+        .map(|((from, to), count)| MissingDikey {
+            pair: pair_name(from, to),
             count: count as u64,
         })
         .collect();

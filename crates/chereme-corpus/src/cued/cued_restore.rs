@@ -380,8 +380,8 @@ fn restored(
         findings: models.findings.clone(),
     };
     let mut points = Vec::new();
-    let (hand_mm, axis_mm) = add_restored_marker_set(take, &take.hand_points, &hand_of, (&mut report, &mut points));
-    let (face_mm, _) = add_restored_marker_set(take, &take.face_points, &face_of, (&mut report, &mut points));
+    let (hand_mm, axis_mm) = add_restored_marker_set(take, &take.hand_points, &hand_of, &mut report, &mut points);
+    let (face_mm, _) = add_restored_marker_set(take, &take.face_points, &face_of, &mut report, &mut points);
     report.hand_mm = hand_mm.map(|distance| round_to_decimals(distance, 2));
     report.hand_axis_mm = axis_mm.map(|distance| round_to_decimals(distance, 2));
     report.face_mm = face_mm.map(|distance| round_to_decimals(distance, 2));
@@ -430,7 +430,8 @@ fn add_restored_marker_set<'a>(
     take: &CuerTake,
     points: &[Option<usize>],
     predicted: &dyn Fn(usize) -> Option<(&'a [DVec3], &'a [f64])>,
-    (report, new): (&mut RestoredTake, &mut Vec<MotionMarker>),
+    report: &mut RestoredTake,
+    new: &mut Vec<MotionMarker>,
 ) -> (Option<f64>, Option<f64>) {
     let (mut sum, mut axes, mut count) = (0.0, 0.0, 0.0);
     let space = take.markers.marker_space();

@@ -41,6 +41,19 @@ pub struct CueCosts {
     pub join: f64,
 }
 
+/// How a sentence is composed from the movements of captured takes.
+#[derive(Debug, Clone, Copy)]
+pub struct DictionaryCueOptions<'a> {
+    /// How the sentence is read and its hand timed.
+    pub cue: &'a CueOptions,
+    /// The code and the markers of the takes.
+    pub cued: &'a CuedOptions,
+    /// The weights by which movements are selected.
+    pub costs: CueCosts,
+    /// The takes; without one all of them.
+    pub recordings: &'a [RowName],
+}
+
 impl Default for CueCosts {
     fn default() -> Self {
         let costs = DikeyCostWeights::default();
@@ -124,11 +137,16 @@ impl Corpus {
     pub fn cue_from_dictionary(
         &mut self,
         text: &str,
-        (how, options): (&CueOptions, &CuedOptions),
-        (costs, recordings): (CueCosts, &[RowName]),
+        request: &DictionaryCueOptions<'_>,
         gloss: Option<&str>,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<FromDictionary> {
+        let DictionaryCueOptions {
+            cue: how,
+            cued: options,
+            costs,
+            recordings,
+        } = *request;
         let fault = |error: UtteranceError| {
             CorpusError::from_wrong_message(error.to_string()).with_advice(error.utterance_error_remedy())
         };
@@ -176,11 +194,11 @@ impl Corpus {
             })?,
             _ => CuePhases::default(),
         };
-        let made = SentenceMovement::plan_sentence_movement(&book, &read, (how.phase, &measured), costs)?;
+        let made = SentenceMovement::plan_sentence_movement(&book, &read, how.phase, &measured, costs)?;
         let mut report = made.report_sentence_movement(text, &book, &read);
         if let Some(gloss) = gloss {
             let name = self.store.run_store_operation(|connection| {
-                let name = store_sentence_movement(connection, gloss, text, &made, (&book, &read))?;
+                let name = store_sentence_movement(connection, gloss, text, &made, &book, &read)?;
                 let effect = OperationEffect::CueFromDictionary {
                     gloss: gloss.to_owned(),
                     movements: report.pieces.len() as u64,
@@ -246,7 +264,8 @@ impl SentenceMovement {
     fn plan_sentence_movement(
         book: &DikeyBook,
         read: &CuedUtterance,
-        (rule, measured): (PhaseRule, &CuePhases),
+        rule: PhaseRule,
+        measured: &CuePhases,
         costs: CueCosts,
     ) -> CorpusResult<Self> {
         let sounds =
@@ -316,9 +335,9 @@ impl SentenceMovement {
             let (key, time) = self.wanted[n + 1];
             let frame = ((time * book.rate).round() as usize).min(last);
             let mut sentence_piece = SentencePiece {
-                wanted: pair_name(piece.wanted),
+                wanted: pair_name(piece.wanted.0, piece.wanted.1),
                 source: piece.source.clone(),
-                instead: piece.instead.map(pair_name),
+                instead: piece.instead.map(|(from, to)| pair_name(from, to)),
                 duration_cost: round_to_decimals(piece.duration_cost, 4),
                 join_cost: round_to_decimals(piece.join_cost, 4),
                 at_us: (time * 1e6).round() as i64,
@@ -377,7 +396,8 @@ fn store_sentence_movement(
     gloss: &str,
     text: &str,
     made: &SentenceMovement,
-    (book, read): (&DikeyBook, &CuedUtterance),
+    book: &DikeyBook,
+    read: &CuedUtterance,
 ) -> CorpusResult<String> {
     let gloss = gloss.trim();
     if gloss.is_empty() {
@@ -460,8 +480,9 @@ fn store_sentence_movement(
         .map(|(n, piece)| {
             let stands = piece
                 .instead
-                .map_or_else(String::new, |pair| format!(" by {}", pair_name(pair)));
-            let value = format!("{}{stands} from {}", pair_name(piece.wanted), piece.source);
+                .map_or_else(String::new, |(from, to)| format!(" by {}", pair_name(from, to)));
+            let (from, to) = piece.wanted;
+            let value = format!("{}{stands} from {}", pair_name(from, to), piece.source);
             row(micros(made.wanted[n].1), micros(made.wanted[n + 1].1), value)
         })
         .collect();

@@ -26,7 +26,7 @@ use crate::error::{CorpusError, CorpusResult};
 pub use capture::{CuedMarkers, MarkerSet, read_marker_labels};
 pub use cued_dictionary::{DictionaryReport, DikeyDictionaryReport, MissingDikey, ScriptCoverage, WorthRecording};
 pub use cued_restore::{RestoreOptions, RestoredMarker, RestoredTake};
-pub use cued_say::{CueCosts, FromDictionary, SentencePiece};
+pub use cued_say::{CueCosts, DictionaryCueOptions, FromDictionary, SentencePiece};
 pub use cued_targets::{CuePhaseRow, CuePhaseStatistics, CueTargets, FoundKey};
 pub use recognise::{CueConfusion, CueRecognition, MisreadKey};
 pub use slips::{CueSlip, CueSlips, SlipKind};

@@ -82,12 +82,7 @@ impl ChannelCourse {
 
     /// Returns whether the values pass a test for at least `lasting` microseconds without a break between two times: at
     /// both of them, and at the frames between them. A frame lasts until the next one, and before a gap for a usual step.
-    pub(crate) fn passes_lasting_test(
-        &self,
-        (start, end): (i64, i64),
-        lasting: i64,
-        test: impl Fn(f64) -> bool,
-    ) -> bool {
+    pub(crate) fn passes_lasting_test(&self, start: i64, end: i64, lasting: i64, test: impl Fn(f64) -> bool) -> bool {
         let place = |at: i64| self.frames.partition_point(|(own, _)| *own <= at);
         let inside_range = place(start)..self.frames.partition_point(|(own, _)| *own < end);
         let inside = self.frames.get(inside_range).unwrap_or_default().iter().copied();
@@ -229,7 +224,7 @@ mod tests {
         let course = course();
         let passes = |start: f64, end: f64, lasting: f64| {
             let micros = |seconds: f64| (seconds * 1e6) as i64;
-            course.passes_lasting_test((micros(start), micros(end)), micros(lasting), |it| it > 0.5)
+            course.passes_lasting_test(micros(start), micros(end), micros(lasting), |it| it > 0.5)
         };
         // Start and end of a token, the required time, and whether there is a run.
         for (start, end, lasting, expected) in [

@@ -171,7 +171,7 @@ impl Corpus {
                 RecordingInstant::RECORDING_START,
                 RecordingInstant::from_micros(row.duration_us),
             );
-            changes.take_proposals(connection, recording, full_span, (&NonmanualDetector, &proposals))?;
+            changes.take_proposals(connection, recording, full_span, &NonmanualDetector, &proposals)?;
             self.store_proposals(&changes, progress)?;
             written = changes.added;
         }

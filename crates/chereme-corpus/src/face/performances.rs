@@ -15,6 +15,7 @@ use super::expressions::{self, FaceExpression};
 use super::face_head::{self, HeadTrunkTurns};
 use super::{CorpusFits, captured_with, shelf, touched};
 use crate::curves;
+use crate::db::stored_recordings::RecordingRow;
 use crate::db::{stored_history, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
@@ -206,7 +207,7 @@ impl PerformancePool {
             _ => (read_all(connection, &key, progress)?, true),
         };
         if let Some(newest) = newest.filter(|_| many) {
-            shelf::write_cached_performances(connection, function, channels, (newest, &all));
+            shelf::write_cached_performances(connection, function, channels, newest, &all);
         }
         *self = Self {
             newest,
@@ -235,14 +236,7 @@ fn read_all(
                 unit: ProgressUnit::Items,
             })?;
         }
-        let recording_key = (row.id, row.name.as_str());
-        all.extend(load_recording_performances(
-            connection,
-            recording_key,
-            function,
-            channels,
-            &fits,
-        )?);
+        all.extend(load_recording_performances(connection, row, function, channels, &fits)?);
     }
     Ok(all)
 }
@@ -267,13 +261,8 @@ fn renew_touched_performances(
             }
         }
         if touched.contains(&row.id) {
-            let recording_key = (row.id, row.name.as_str());
             all.extend(load_recording_performances(
-                connection,
-                recording_key,
-                function,
-                channels,
-                &fits,
+                connection, &row, function, channels, &fits,
             )?);
         }
     }
@@ -282,16 +271,16 @@ fn renew_touched_performances(
 
 fn load_recording_performances(
     connection: &Connection,
-    (recording, name): (i64, &str),
+    row: &RecordingRow,
     function: &ExpressionFunction,
     channels: &[usize],
     fits: &CorpusFits,
 ) -> CorpusResult<Vec<FacePerformance>> {
-    let expressions = expressions::load_recording_expressions(connection, recording, Some(function), None)?;
+    let expressions = expressions::load_recording_expressions(connection, row.id, Some(function), None)?;
     let mut all = Vec::new();
     for it in &expressions {
         let address = super::face_milestones::address_of(it, &expressions);
-        all.extend(of_expression(connection, it, address, name, channels, fits)?);
+        all.extend(of_expression(connection, it, address, &row.name, channels, fits)?);
     }
     Ok(all)
 }

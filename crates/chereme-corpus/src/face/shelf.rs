@@ -46,7 +46,8 @@ pub(super) fn write_cached_performances(
     connection: &Connection,
     function: &ExpressionFunction,
     channels: &[usize],
-    (newest, all): (i64, &[FacePerformance]),
+    newest: i64,
+    all: &[FacePerformance],
 ) {
     if all.len() < MIN_CACHED_PERFORMANCES {
         return;

@@ -53,7 +53,7 @@ pub(super) fn draw_points_file(
             Ok(picture_report(to, title, bytes, frames))
         }
         "gif" => {
-            let mut film = points_animation(points, options, (MOVEMENT_PICTURE_HEIGHT_PX, None))?;
+            let mut film = points_animation(points, options, MOVEMENT_PICTURE_HEIGHT_PX, None)?;
             let bytes = write_atomically(to, options.force, |out| {
                 write_gif(&mut film, out, &mut hear).map_err(picture_figure_error)
             })?;
@@ -61,7 +61,7 @@ pub(super) fn draw_points_file(
         }
         "mp4" => {
             let rate = options.rate.clamp(1, 120);
-            let mut film = points_animation(points, options, (FILM_HEIGHT_PX, Some(rate)))?;
+            let mut film = points_animation(points, options, FILM_HEIGHT_PX, Some(rate))?;
             let shape = WrittenFilmShape { rate };
             let mut frames = 0;
             let bytes = write_atomically(to, options.force, |out| {
@@ -80,7 +80,8 @@ pub(super) fn draw_points_file(
 fn points_animation<'a>(
     points: &'a MarkerTrack,
     options: &PictureOptions,
-    (height, rate): (usize, Option<u32>),
+    height: usize,
+    rate: Option<u32>,
 ) -> CorpusResult<PointsAnimation<'a>> {
     let settings = PointsOptions {
         height: options.height.unwrap_or(height),

@@ -30,6 +30,15 @@ pub enum PlacePanel {
     Space,
 }
 
+/// A panel with the direction from which it is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct PanelView {
+    /// The panel.
+    pub panel: PlacePanel,
+    /// Whether the body is seen from its side.
+    pub turned: bool,
+}
+
 impl PlacePanel {
     /// Returns the ratio of width to height.
     #[must_use]
@@ -140,12 +149,8 @@ impl RestingBodyScene {
 
     /// Returns those of `values` that a panel shows; the others lie behind the body.
     #[must_use]
-    pub fn in_sight(
-        &self,
-        inventory: &ComponentInventory,
-        values: &[usize],
-        (panel, turned): (PlacePanel, bool),
-    ) -> Vec<usize> {
+    pub fn in_sight(&self, inventory: &ComponentInventory, values: &[usize], view: PanelView) -> Vec<usize> {
+        let PanelView { panel, turned } = view;
         let Some(camera) = self.panel_camera(panel, turned) else {
             return values.to_vec();
         };
@@ -274,14 +279,15 @@ impl RestingBodyScene {
         theme: PaperTheme,
     ) -> Option<RasterImage> {
         let camera = self.panel_camera(PlacePanel::panel_of_landmark(value.landmark.as_ref()?), false)?;
-        self.place_from((inventory, value), &camera, size, theme)
+        self.place_from(inventory, value, &camera, size, theme)
     }
 
     /// Draws the small picture of a place with another camera.
     #[must_use]
     pub fn place_from(
         &self,
-        (inventory, value): (&ComponentInventory, &InventoryValue),
+        inventory: &ComponentInventory,
+        value: &InventoryValue,
         camera: &FigureCamera,
         size: usize,
         theme: PaperTheme,

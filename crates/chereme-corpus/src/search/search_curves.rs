@@ -44,7 +44,7 @@ pub(super) fn plan_curve_test(ask: &QueryContext<'_>, test: &QueryTest, wanted: 
             continue;
         };
         let passes = |start: i64, end: i64| {
-            course.passes_lasting_test((start, end), wanted.lasting, |value| {
+            course.passes_lasting_test(start, end, wanted.lasting, |value| {
                 wanted.test.accepts_attribute_number(value)
             })
         };

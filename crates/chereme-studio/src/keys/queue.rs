@@ -266,9 +266,8 @@ mod tests {
         imported.expect("imported");
         let gloss = NewTier::new(RowName::Text("take".into()), "Gloss", TierRole::Gloss);
         let tier = corpus.add_tier(&gloss).expect("a tier").id;
-        let span = |at: i64| (at * 100_000, at * 100_000 + 80_000);
         let all: Vec<_> = (0..count)
-            .map(|at| requests::add_annotation_change(tier, span(at), "AIMER"))
+            .map(|at| requests::add_annotation_change(tier, at * 100_000, at * 100_000 + 80_000, "AIMER"))
             .collect();
         if !all.is_empty() {
             let added = corpus.annotate_corpus(&all, &Default::default(), &mut progress);

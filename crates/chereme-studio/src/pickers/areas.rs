@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use chereme_corpus::value_pictures::PlacePanel;
+use chereme_corpus::value_pictures::{PanelView, PlacePanel};
 use chereme_figure::PaperTheme;
 use chereme_sign::ComponentInventory;
 use eframe::egui::{
@@ -41,7 +41,7 @@ pub(super) struct PictureAreas {
 /// The request for areas: the panel and its direction of view, the places, and the size in points.
 #[derive(Debug, Clone)]
 pub(super) struct WantedAreas {
-    pub(super) view: (PlacePanel, bool),
+    pub(super) view: PanelView,
     pub(super) values: Vec<usize>,
     pub(super) size: Vec2,
 }
@@ -55,7 +55,7 @@ impl PictureAreas {
         let zones =
             pickers_places::place_panel_zones(scene, inventory, &values, wanted.view, rect, MIN_AREA_RADIUS_POINTS);
         let size = [wanted.size.x, wanted.size.y].map(|side| ((side / AREA_GRAIN_POINTS) as usize).max(1));
-        let picture = scene.draw_body_panel(wanted.view.0, wanted.view.1, size, PaperTheme::Light)?;
+        let picture = scene.draw_body_panel(wanted.view.panel, wanted.view.turned, size, PaperTheme::Light)?;
         let paper = PaperTheme::Light.theme_paper_colour();
         let body: Vec<bool> = picture.image_pixels().iter().map(|pixel| *pixel != paper).collect();
         Some(Self::areas_from_zones(zones, &body, size, wanted))
@@ -66,7 +66,7 @@ impl PictureAreas {
         zones.truncate(usize::from(u8::MAX));
         let high = wanted.size.y;
         let off = (OFF_BODY_REACH_SHARE * high).max(MIN_AREA_RADIUS_POINTS);
-        let (on, off) = match wanted.view.0 {
+        let (on, off) = match wanted.view.panel {
             PlacePanel::Space => (IN_SPACE * high, IN_SPACE * high),
             // Below the chin the body goes on, which the picture of the trunk shows.
             PlacePanel::Head => (ON_HEAD * high, off),
@@ -264,7 +264,7 @@ mod tests {
             let high = 330.0;
             let size = vec2(high * panel.panel_aspect_ratio(), high);
             let wanted = WantedAreas {
-                view: (panel, turned),
+                view: PanelView { panel, turned },
                 values,
                 size,
             };

@@ -3,7 +3,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use chereme_corpus::value_pictures::PlacePanel;
+use chereme_corpus::value_pictures::{PanelView, PlacePanel};
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{Align2, Color32, Painter, Rect, ScrollArea, Sense, TextStyle, TextureId, Ui, Vec2, pos2, vec2};
 
@@ -303,7 +303,11 @@ fn draw_place_pictures(
         if let Some(texture) = find_panel_picture(ui, *panel, *turned, cells.seen.dark) {
             paint_panel_texture(ui.painter(), texture, rect);
         }
-        let by = panel_zones(ui, picker, cells, shown, (*panel, *turned), rect);
+        let view = PanelView {
+            panel: *panel,
+            turned: *turned,
+        };
+        let by = panel_zones(ui, picker, cells, shown, view, rect);
         picked = picked.or(by);
     }
     picked
@@ -314,7 +318,7 @@ fn panel_zones(
     picker: &mut ValuePicker,
     cells: &PickerCells<'_>,
     shown: &[usize],
-    view: (PlacePanel, bool),
+    view: PanelView,
     rect: Rect,
 ) -> Option<String> {
     let inventory = cells.inventory;
@@ -368,7 +372,7 @@ fn panel_zones(
             areas::paint_picture_areas(&painter, key, &areas, Some(nth), colour, rect);
         }
         let spot = Rect::from_center_size(rect.min + zone.centre.to_vec2(), Vec2::splat(FOCUS_POINT_SIZE_POINTS));
-        let name = ui.scope_id().with(("zone", &value.id, view.1));
+        let name = ui.scope_id().with(("zone", &value.id, view.turned));
         let response = cells.make_zone_clickable(ui, spot, name, value);
         if response.hovered() && moved {
             picker.at = Some(value.id.clone());
@@ -384,19 +388,19 @@ fn panel_zones(
 fn is_place_in_panel(
     value: &InventoryValue,
     inventory: &chereme_sign::ComponentInventory,
-    (panel, turned): (PlacePanel, bool),
+    view: PanelView,
     depth: usize,
 ) -> bool {
     let Some(landmark) = &value.landmark else {
         return false;
     };
-    if PlacePanel::panel_of_landmark(landmark) != panel || is_part(inventory, &value.id) {
+    if PlacePanel::panel_of_landmark(landmark) != view.panel || is_part(inventory, &value.id) {
         return false;
     }
-    if panel != PlacePanel::Space {
+    if view.panel != PlacePanel::Space {
         return true;
     }
-    if turned {
+    if view.turned {
         // From the side, the middle column represents all three.
         return landmark.offset[0].abs() < 0.05;
     }

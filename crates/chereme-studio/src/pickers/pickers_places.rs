@@ -5,7 +5,7 @@
 
 use std::sync::OnceLock;
 
-use chereme_corpus::value_pictures::{PlacePanel, RestingBodyScene};
+use chereme_corpus::value_pictures::{PanelView, RestingBodyScene};
 use chereme_sign::ComponentInventory;
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{Pos2, Rect, Vec2, vec2};
@@ -47,11 +47,11 @@ pub(crate) fn place_panel_zones(
     scene: &RestingBodyScene,
     inventory: &ComponentInventory,
     values: &[usize],
-    (panel, turned): (PlacePanel, bool),
+    view: PanelView,
     rect: Rect,
     radius: f32,
 ) -> Vec<PanelZone> {
-    let Some(camera) = scene.panel_camera(panel, turned) else {
+    let Some(camera) = scene.panel_camera(view.panel, view.turned) else {
         return Vec::new();
     };
     let size = [rect.width().max(1.0) as usize, rect.height().max(1.0) as usize];
@@ -110,6 +110,7 @@ fn separate_zone_circles(zones: &mut [PanelZone], room: Rect, distance: f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chereme_corpus::value_pictures::PlacePanel;
     use chereme_sign::inventory::builtin_by_id;
     use eframe::egui::pos2;
 
@@ -152,7 +153,7 @@ mod tests {
                 .filter(|at| !is_part(placements(), &placements().values[*at].id))
                 .collect();
             for turned in [false, true] {
-                let zones = place_panel_zones(scene, placements(), &values, (panel, turned), rect, 8.0);
+                let zones = place_panel_zones(scene, placements(), &values, PanelView { panel, turned }, rect, 8.0);
                 assert_eq!(zones.len(), values.len());
                 for (at, zone) in zones.iter().enumerate() {
                     let id = &placements().values[zone.value].id;
@@ -174,7 +175,8 @@ mod tests {
         let high = 300.0;
         let rect = Rect::from_min_size(Pos2::ZERO, vec2(high * PlacePanel::Space.panel_aspect_ratio(), high));
         for turned in [false, true] {
-            let view = (PlacePanel::Space, turned);
+            let panel = PlacePanel::Space;
+            let view = PanelView { panel, turned };
             for zone in place_panel_zones(scene, placements(), &all(PlacePanel::Space), view, rect, 1.0) {
                 let id = &placements().values[zone.value].id;
                 let room = rect.shrink(0.06 * high);
@@ -189,7 +191,9 @@ mod tests {
         let rect = Rect::from_min_size(Pos2::ZERO, vec2(200.0, 250.0));
         let find = |id: &str| placements().values.iter().position(|it| it.id == id);
         let values: Vec<usize> = ["high-left", "low-right"].iter().filter_map(|id| find(id)).collect();
-        let zones = place_panel_zones(scene, placements(), &values, (PlacePanel::Space, false), rect, 8.0);
+        let panel = PlacePanel::Space;
+        let view = PanelView { panel, turned: false };
+        let zones = place_panel_zones(scene, placements(), &values, view, rect, 8.0);
         assert!(zones[0].centre.x > zones[1].centre.x + 20.0);
         assert!(zones[0].centre.y < zones[1].centre.y - 20.0);
     }

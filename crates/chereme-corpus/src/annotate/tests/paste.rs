@@ -7,7 +7,7 @@ fn paste(corpus: &mut Corpus, text: &str, options: &PasteOptions) -> CorpusResul
     let mut hear = ignore_progress_step;
     let progress = &mut ProgressReceiver::new(&mut hear);
     let name = RowName::Text(RECORDING.into());
-    let (report, odd) = corpus.paste_annotations(&name, (text, "copied.tsv"), options, progress)?;
+    let (report, odd) = corpus.paste_annotations(&name, text, "copied.tsv", options, progress)?;
     let odd = odd.iter().map(|it| format!("{}: {}", it.line, it.odd_line_fault()));
     Ok((report.added, odd.collect()))
 }

@@ -303,7 +303,7 @@ impl TimelineDrawing<'_, '_> {
 
     /// Opens the field for the value of a new annotation, or says why there can be none.
     pub(super) fn begin_value(&mut self, tier: &TierContents, span: (i64, i64)) {
-        if let ActionOutcome::Cannot(text) = self.timeline.edit_new(tier, span) {
+        if let ActionOutcome::Cannot(text) = self.timeline.edit_new(tier, span.0, span.1) {
             self.show_gesture_hint(text);
         }
     }

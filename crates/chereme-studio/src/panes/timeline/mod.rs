@@ -142,7 +142,7 @@ struct ChangeFollowUp {
 }
 
 impl ChangeFollowUp {
-    fn follow_up_for_addition(tier: i64, (start, end): (i64, i64)) -> Self {
+    fn follow_up_for_addition(tier: i64, start: i64, end: i64) -> Self {
         Self {
             select: true,
             ghosts: vec![GhostAnnotation {
@@ -211,7 +211,7 @@ impl TimelinePane {
     }
 
     /// Opens the value of an annotation that does not exist yet.
-    fn edit_new(&mut self, tier: &TierContents, (start, end): (i64, i64)) -> ActionOutcome {
+    fn edit_new(&mut self, tier: &TierContents, start: i64, end: i64) -> ActionOutcome {
         if timeline_edit::holds_proposals(tier) {
             return ActionOutcome::Cannot(words::HOLDS_PROPOSALS);
         }

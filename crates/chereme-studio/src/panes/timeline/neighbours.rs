@@ -86,10 +86,10 @@ fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool, out:
                 })
                 .filter(|range| range.1 - range.0 >= dragged::MIN_ANNOTATION_US)
             };
-            let Some(span) = span else {
+            let Some((start, end)) = span else {
                 return ActionOutcome::Cannot(words::NO_ROOM_BESIDE);
             };
-            timeline.edit_new(tier, span)
+            timeline.edit_new(tier, start, end)
         }
     }
 }
@@ -148,7 +148,7 @@ fn new_below(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut C
     };
     let asked = adds
         .iter()
-        .map(|(tier, span)| requests::add_annotation_change(*tier, *span, ""));
+        .map(|(tier, (start, end))| requests::add_annotation_change(*tier, *start, *end, ""));
     timeline.request_annotation_changes(asked.collect(), then, out)
 }
 

@@ -134,12 +134,12 @@ pub(super) fn carry_out_edit_action(
         Action::StartHere => move_boundary_to_playhead(timeline, scene, DragGrip::Start, out),
         Action::EndHere => move_boundary_to_playhead(timeline, scene, DragGrip::End, out),
         Action::ToSelection => to_selection(timeline, scene, out),
-        Action::StartEarlier => nudge(timeline, scene, (DragGrip::Start, -1), out),
-        Action::StartLater => nudge(timeline, scene, (DragGrip::Start, 1), out),
-        Action::EndEarlier => nudge(timeline, scene, (DragGrip::End, -1), out),
-        Action::EndLater => nudge(timeline, scene, (DragGrip::End, 1), out),
-        Action::ShiftEarlier => nudge(timeline, scene, (DragGrip::Whole, -1), out),
-        Action::ShiftLater => nudge(timeline, scene, (DragGrip::Whole, 1), out),
+        Action::StartEarlier => nudge(timeline, scene, DragGrip::Start, -1, out),
+        Action::StartLater => nudge(timeline, scene, DragGrip::Start, 1, out),
+        Action::EndEarlier => nudge(timeline, scene, DragGrip::End, -1, out),
+        Action::EndLater => nudge(timeline, scene, DragGrip::End, 1, out),
+        Action::ShiftEarlier => nudge(timeline, scene, DragGrip::Whole, -1, out),
+        Action::ShiftLater => nudge(timeline, scene, DragGrip::Whole, 1, out),
         Action::DeleteAnnotation | Action::ClearValue if chosen.is_empty() => {
             ActionOutcome::Cannot(shell::NEEDS_ANNOTATION)
         }
@@ -172,7 +172,7 @@ fn begin_new_annotation(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) 
         };
     };
     match dragged::room_for_annotation(scene.contents, tier, wanted) {
-        Some(span) => timeline.edit_new(tier, span),
+        Some((start, end)) => timeline.edit_new(tier, start, end),
         None => ActionOutcome::Cannot(no_room(tier)),
     }
 }
@@ -261,11 +261,11 @@ fn begin_or_end(
     };
     let wanted = (begun.start.min(here), begun.start.max(here));
     match dragged::room_for_annotation(scene.contents, tier, wanted) {
-        Some(span) => {
-            let add = requests::add_annotation_change(begun.tier, span, &begun.value);
+        Some((start, end)) => {
+            let add = requests::add_annotation_change(begun.tier, start, end, &begun.value);
             let then = ChangeFollowUp {
                 edit: begun.value.is_empty() && !scene.seen.shown.player.plays_on(),
-                ..ChangeFollowUp::follow_up_for_addition(begun.tier, span)
+                ..ChangeFollowUp::follow_up_for_addition(begun.tier, start, end)
             };
             timeline.request_annotation_changes(vec![add], then, out)
         }
@@ -307,11 +307,11 @@ fn by_digit(
         return ActionOutcome::Cannot(words::HOLDS_PROPOSALS);
     }
     match dragged::room_for_annotation(scene.contents, tier, wanted) {
-        Some(span) => {
-            let add = requests::add_annotation_change(tier.row.id, span, &value);
+        Some((start, end)) => {
+            let add = requests::add_annotation_change(tier.row.id, start, end, &value);
             timeline.request_annotation_changes(
                 vec![add],
-                ChangeFollowUp::follow_up_for_addition(tier.row.id, span),
+                ChangeFollowUp::follow_up_for_addition(tier.row.id, start, end),
                 out,
             )
         }
@@ -372,7 +372,8 @@ fn merge_selected_annotations(
 fn nudge(
     timeline: &mut TimelinePane,
     scene: &TimelineScene<'_>,
-    (grip, frames): (DragGrip, i64),
+    grip: DragGrip,
+    frames: i64,
     out: &mut CommandOutbox,
 ) -> ActionOutcome {
     let all = scene.held_annotations(&scene.seen.shown.annotations);
@@ -507,7 +508,7 @@ pub(super) fn store_typed_value(
                 end: *end,
             };
             (
-                vec![requests::add_annotation_change(*tier, (*start, *end), value)],
+                vec![requests::add_annotation_change(*tier, *start, *end, value)],
                 vec![ghost],
                 true,
             )

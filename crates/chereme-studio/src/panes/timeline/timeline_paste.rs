@@ -149,7 +149,10 @@ pub(super) fn add_pasted_annotations(
     }
     let asked: Vec<AnnotationChange> = adds
         .iter()
-        .map(|pasted| requests::add_annotation_change(pasted.tier, pasted.span, &pasted.value))
+        .map(|pasted| {
+            let (start, end) = pasted.span;
+            requests::add_annotation_change(pasted.tier, start, end, &pasted.value)
+        })
         .collect();
     let ghosts = adds.iter().map(|pasted| GhostAnnotation {
         tier: pasted.tier,
@@ -315,6 +318,6 @@ impl TimelineScene<'_> {
     fn plan_annotation_paste(&self, to: &TierContents, rows: Vec<CopiedAnnotation>, here: Option<i64>) -> PastePlan {
         let until = dragged::annotation_time_limits(self.contents, self.recording_frame_times().is_some()).to;
         let knows = |tier: &TierContents, value: &str| self.is_tier_value_known(tier, value);
-        plan_paste(self.contents, Some(to), rows, (here, until), knows)
+        plan_paste(self.contents, Some(to), rows, here, until, knows)
     }
 }
