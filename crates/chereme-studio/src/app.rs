@@ -128,7 +128,7 @@ impl Studio {
             folders,
             keys: ActionKeys::new(settings.keymap, &settings.keys, settings.language),
             waiting: KeyQueue::default(),
-            tree: layout::remembered_layout(settings.layout.as_ref(), (settings.busy, false)),
+            tree: layout::remembered_layout(settings.layout.as_ref(), settings.busy, false),
             small: false,
             saved,
             settings,
@@ -535,8 +535,8 @@ impl Studio {
             return;
         }
         self.small = small;
-        let before = (self.settings.busy, small);
-        self.tree = layout::remembered_layout(self.laid_out().as_ref(), before);
+        let busy = self.settings.busy;
+        self.tree = layout::remembered_layout(self.laid_out().as_ref(), busy, small);
         self.panes.timeline.show_tier();
         if let Some(pane) = self.pane {
             layout::bring_pane_to_front(&mut self.tree, pane);

@@ -157,7 +157,7 @@ fn tile_with_shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileI
 
 /// Returns the remembered layout if it contains every pane once, else the layout for the task `busy` and the window
 /// size.
-pub(crate) fn remembered_layout(tree: Option<&Tree<PaneKind>>, (busy, small): (BusyTask, bool)) -> Tree<PaneKind> {
+pub(crate) fn remembered_layout(tree: Option<&Tree<PaneKind>>, busy: BusyTask, small: bool) -> Tree<PaneKind> {
     let is_complete = |tree: &&Tree<PaneKind>| {
         PaneKind::ALL_PANE_KINDS.iter().all(|kind| {
             let is = |tile: &&Tile<PaneKind>| matches!(tile, Tile::Pane(pane) if pane == kind);
@@ -230,7 +230,7 @@ mod tests {
     use super::*;
 
     fn as_usual(tree: Option<&Tree<PaneKind>>) -> Tree<PaneKind> {
-        remembered_layout(tree, (BusyTask::Annotating, false))
+        remembered_layout(tree, BusyTask::Annotating, false)
     }
 
     #[test]

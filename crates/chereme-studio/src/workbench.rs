@@ -82,7 +82,7 @@ impl TileWorkbench<'_> {
 
 /// Returns the offset of a strip, `room` wide, that has the tab from `left` to `right` in sight and is nearest to
 /// the present one.
-fn offset_for((left, right): (f32, f32), room: f32, offset: f32) -> f32 {
+fn offset_for(left: f32, right: f32, room: f32, offset: f32) -> f32 {
     offset.max(right - room).min(left)
 }
 
@@ -154,7 +154,7 @@ impl Behavior<PaneKind> for TileWorkbench<'_> {
             && let Some((_, _, tab)) = titles.iter().find(|entry| Some(entry.0) == open)
         {
             let arrows = 2.0 * (TAB_STRIP_HEIGHT_POINTS + ui.spacing().item_spacing.x);
-            *offset = offset_for(*tab, ui.available_width() - arrows, *offset);
+            *offset = offset_for(tab.0, tab.1, ui.available_width() - arrows, *offset);
             ui.ctx().request_repaint();
         }
         let frames = frames.saturating_sub(1);
@@ -210,7 +210,7 @@ mod tests {
             // A tab wider than its strip shows its beginning.
             ((100.0, 400.0), 0.0, 100.0),
         ] {
-            let found: f32 = offset_for(tab, 200.0, offset);
+            let found: f32 = offset_for(tab.0, tab.1, 200.0, offset);
             assert!((found - wanted).abs() < 1e-3, "{tab:?} {offset}: {found}");
         }
     }

@@ -240,7 +240,7 @@ pub(crate) fn reach_focus(ui: &Ui) {
 /// Shows a row of a list with a width of `lead` left free at its start, for a picture.
 pub(crate) fn list_row_after(ui: &mut Ui, height: f32, lead: f32, chosen: bool, name: &str, about: &str) -> Response {
     let id = ui.next_auto_id();
-    list_row_at(ui, id, height, lead, chosen, (name, about))
+    list_row_at(ui, id, height, lead, chosen, name, about)
 }
 
 /// Shows the same row under the caller's id; it can be dragged.
@@ -250,7 +250,8 @@ pub(crate) fn list_row_at(
     height: f32,
     lead: f32,
     chosen: bool,
-    (name, about): (&str, &str),
+    name: &str,
+    about: &str,
 ) -> Response {
     let size = vec2(ui.available_width(), height);
     let (_, rect) = ui.allocate_space(size);

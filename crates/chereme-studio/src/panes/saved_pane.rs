@@ -32,17 +32,21 @@ impl SavedTo {
         &mut self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        (name, button, what): (InterfaceText, InterfaceText, ChooserPurpose),
+        file: SavedFile,
         proposed: &str,
         out: &mut CommandOutbox,
     ) -> Option<(PathBuf, bool)> {
         if self.to.is_empty() && !std::mem::replace(&mut self.proposed, true) {
             self.to = seen.path_beside_corpus(proposed).display().to_string();
         }
-        let path_state = (&mut self.paths, &mut self.to);
-        path_field(ui, seen, (name, ""), path_state, what, out);
+        let field = PathField {
+            name: file.name,
+            hint: "",
+            chooser: file.chooser,
+        };
+        field.show_path_line(ui, seen, &mut self.paths, &mut self.to, out);
         let ready = !self.to.trim().is_empty() && !seen.is_running(self.saving);
-        let save_button = ui.add_enabled(ready, Button::new(seen.say_text(button)));
+        let save_button = ui.add_enabled(ready, Button::new(seen.say_text(file.button)));
         let save = save_button.on_disabled_hover_text(seen.say_text(words::NEEDS_FILE));
         if let Some(path) = &self.own {
             ui.label(fill_text_braces(
@@ -64,23 +68,40 @@ impl SavedTo {
     }
 }
 
-/// Shows a field for a path with completions, and a button that opens the file chooser.
-pub(super) fn path_field(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    (name, hint): (InterfaceText, &str),
-    (paths, text): (&mut PathCompletions, &mut String),
-    what: ChooserPurpose,
-    out: &mut CommandOutbox,
-) {
-    ui.weak(seen.say_text(name));
-    let line = CompletionLine {
-        name: seen.say_text(name),
-        hint,
-        ..CompletionLine::default()
-    };
-    paths.show_path_field(ui, Id::unique(("study path", name.en)), line, text);
-    if ui.button(seen.say_text(words::CHOOSE)).clicked() {
-        out.send_command(WindowCommand::Choose(what));
+/// A file that a pane writes: its name, the text of the button that writes it, and the chooser of its path.
+#[derive(Clone, Copy)]
+pub(super) struct SavedFile {
+    pub(super) name: InterfaceText,
+    pub(super) button: InterfaceText,
+    pub(super) chooser: ChooserPurpose,
+}
+
+/// A field for a path: its name, the hint in the empty field, and the chooser that fills it.
+pub(super) struct PathField<'a> {
+    pub(super) name: InterfaceText,
+    pub(super) hint: &'a str,
+    pub(super) chooser: ChooserPurpose,
+}
+
+impl PathField<'_> {
+    /// Shows the field with completions, and a button that opens the file chooser.
+    pub(super) fn show_path_line(
+        &self,
+        ui: &mut Ui,
+        seen: &PaneInput<'_>,
+        paths: &mut PathCompletions,
+        text: &mut String,
+        out: &mut CommandOutbox,
+    ) {
+        ui.weak(seen.say_text(self.name));
+        let line = CompletionLine {
+            name: seen.say_text(self.name),
+            hint: self.hint,
+            ..CompletionLine::default()
+        };
+        paths.show_path_field(ui, Id::unique(("study path", self.name.en)), line, text);
+        if ui.button(seen.say_text(words::CHOOSE)).clicked() {
+            out.send_command(WindowCommand::Choose(self.chooser));
+        }
     }
 }

@@ -164,7 +164,7 @@ pub(crate) fn show_picker_button(
     name: &str,
 ) -> Option<String> {
     let response = draw_value_button(ui, seen, inventory, chosen, name);
-    show_picker_below(ui, &response, picker, seen, (inventory, chosen, name))
+    show_picker_below(ui, &response, picker, seen, inventory, chosen, name)
 }
 
 /// Opens the picker of an inventory below a clicked widget, and returns the id of the picked value; `chosen` and `name`
@@ -174,7 +174,9 @@ pub(crate) fn show_picker_below(
     response: &Response,
     picker: &mut ValuePicker,
     seen: &PaneInput<'_>,
-    (inventory, chosen, name): (&ComponentInventory, Option<&str>, &str),
+    inventory: &ComponentInventory,
+    chosen: Option<&str>,
+    name: &str,
 ) -> Option<String> {
     if response.clicked() {
         *picker = ValuePicker::new_focused_picker();

@@ -128,8 +128,7 @@ impl AgreementPane {
             for at in range {
                 let row = &rows[at];
                 let chosen = self.at == Some(at);
-                let text = (row.name.as_str(), row.about.as_str());
-                let response = list_row_at(ui, row_id(at), height, 0.0, chosen, text);
+                let response = list_row_at(ui, row_id(at), height, 0.0, chosen, &row.name, &row.about);
                 if self.reach == Some(at) {
                     reached = Some(response.rect);
                 }

@@ -12,7 +12,7 @@ use chereme_corpus::{AdjudicationResult, AgreeOptions, AnnotatorAgreement, Recor
 use eframe::egui::{Button, CollapsingHeader, DragValue, ProgressBar, Role, ScrollArea, Ui, WidgetInfo};
 
 use self::agreement_data::{AgreementChoices, DisagreementKey, DisagreementKinds, DisagreementOrder, DisagreementRow};
-use super::saved_pane::SavedTo;
+use super::saved_pane::{SavedFile, SavedTo};
 use super::{ActionOutcome, PaneInterface, combo, reach_focus};
 use crate::action::Action;
 use crate::command::WindowCommand;
@@ -278,8 +278,12 @@ impl AgreementPane {
     ) {
         let header = CollapsingHeader::new(seen.say_text(words::SAVE_TABLE)).id_salt("table");
         header.show(ui, |ui| {
-            let named = (words::TABLE_FILE, words::WRITE_TABLE, ChooserPurpose::Disagreements);
-            let to = self.saved.show_save_path(ui, seen, named, "disagreements.csv", out);
+            let file = SavedFile {
+                name: words::TABLE_FILE,
+                button: words::WRITE_TABLE,
+                chooser: ChooserPurpose::Disagreements,
+            };
+            let to = self.saved.show_save_path(ui, seen, file, "disagreements.csv", out);
             if let Some((to, force)) = to {
                 let job = comparing::write_disagreements_job(found.clone(), to, force);
                 self.saved.saving = Some(out.request_work(job));

@@ -21,6 +21,13 @@ const CANDIDATE_NAME_HEIGHT: f32 = 36.0;
 /// How many sentences are animated at the same time.
 const MAX_ANIMATED_SENTENCES: usize = 2;
 
+/// The lines below the figure of a candidate, and whether it is chosen.
+struct CandidateCaption<'a> {
+    name: &'a str,
+    score: &'a str,
+    chosen: bool,
+}
+
 impl FacesPane {
     /// Shows the sentence's own face and the candidates, side by side.
     pub(super) fn show_face_candidates(
@@ -42,7 +49,12 @@ impl FacesPane {
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing = Vec2::splat(gap);
             ui.horizontal_wrapped(|ui| {
-                self.show_candidate_figure(ui, seen, out, motion, side, (&own_label, "", false));
+                let caption = CandidateCaption {
+                    name: &own_label,
+                    score: "",
+                    chosen: false,
+                };
+                self.show_candidate_figure(ui, seen, out, motion, side, &caption);
                 for (n, it) in choice.ranking.iter().enumerate() {
                     let motion = match self.carried {
                         true => self.on_sentence(seen, it, choice, moment, out),
@@ -54,8 +66,12 @@ impl FacesPane {
                     let stretch = format!("{:.2}", it.parts.stretch);
                     let values: [(&str, &dyn std::fmt::Display); 2] = [("score", &score), ("stretch", &stretch)];
                     let shown_score = fill_text_braces(seen.say_text(words::SCORE), &values);
-                    let chosen = self.chosen.as_deref() == Some(&it.token);
-                    if self.show_candidate_figure(ui, seen, out, motion, side, (&name, &shown_score, chosen)) {
+                    let caption = CandidateCaption {
+                        name: &name,
+                        score: &shown_score,
+                        chosen: self.chosen.as_deref() == Some(&it.token),
+                    };
+                    if self.show_candidate_figure(ui, seen, out, motion, side, &caption) {
                         picked = Some(it.clone());
                     }
                 }
@@ -115,12 +131,13 @@ impl FacesPane {
         out: &mut CommandOutbox,
         motion: Option<(MiniatureMotion, f64)>,
         side: f32,
-        (name, shown_score, chosen): (&str, &str, bool),
+        caption: &CandidateCaption<'_>,
     ) -> bool {
+        let CandidateCaption { name, score, chosen } = *caption;
         let (rect, response) = ui.allocate_exact_size(vec2(side, side + CANDIDATE_NAME_HEIGHT), Sense::click());
-        let label = match shown_score.is_empty() {
+        let label = match score.is_empty() {
             true => name.to_owned(),
-            false => format!("{name}: {shown_score}"),
+            false => format!("{name}: {score}"),
         };
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
         if !ui.is_rect_visible(rect) {
@@ -151,7 +168,7 @@ impl FacesPane {
         let left = rect.left() + 4.0;
         let text_position = |below: f32| pos2(left, picture.bottom() + below);
         painter.text(text_position(10.0), Align2::LEFT_CENTER, name, body, strong);
-        painter.text(text_position(26.0), Align2::LEFT_CENTER, shown_score, small, weak);
+        painter.text(text_position(26.0), Align2::LEFT_CENTER, score, small, weak);
         if chosen || response.hovered() || response.has_focus() {
             let wide = if chosen { 2.0 } else { 1.0 };
             let stroke = Stroke::new(wide, seen.pane_colours().accent);

@@ -23,7 +23,8 @@ pub(super) fn show_corpus_merge(
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
     path: &Path,
-    (running, report): (Option<WorkId>, Option<&MergeReport>),
+    running: Option<WorkId>,
+    report: Option<&MergeReport>,
 ) -> Option<WorkId> {
     ui.label(seen.say_text(words::MERGE_ABOUT));
     if let Some((id, running)) = running.and_then(|id| Some((id, seen.running.get(&id)?))) {

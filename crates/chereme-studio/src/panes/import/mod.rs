@@ -211,8 +211,8 @@ impl PaneInterface for ImportPane {
             self.request_import(true, out);
         }
         if let Some(other) = &other {
-            let state = (self.asked, self.merged.as_ref());
-            if let Some(begun) = import_together::show_corpus_merge(ui, seen, out, other, state) {
+            let report = self.merged.as_ref();
+            if let Some(begun) = import_together::show_corpus_merge(ui, seen, out, other, self.asked, report) {
                 self.asked = Some(begun);
                 (self.merged, self.wrong, self.stopped) = (None, None, false);
             }

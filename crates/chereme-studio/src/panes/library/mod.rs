@@ -250,8 +250,7 @@ impl LibraryPane {
                 let row = &rows[at];
                 let chosen = seen.shown.recording == Some(row.id);
                 let lead = height - 4.0;
-                let texts = (row.name.as_str(), row.about.as_str());
-                let response = super::list_row_at(ui, row_id(at), height, lead, chosen, texts);
+                let response = super::list_row_at(ui, row_id(at), height, lead, chosen, &row.name, &row.about);
                 self.focus_library_row(ui, &response, at);
                 if row.moves {
                     let motion = MiniatureMotion::Span(row.id, row.whole);
@@ -319,8 +318,7 @@ impl LibraryPane {
             .as_ref()
             .is_some_and(|chosen_sign| chosen_sign.gloss == row.gloss);
         let lead = height - 4.0;
-        let texts = (row.gloss.as_str(), row.about.as_str());
-        let response = super::list_row_at(ui, row_id(at), height, lead, chosen, texts);
+        let response = super::list_row_at(ui, row_id(at), height, lead, chosen, &row.gloss, &row.about);
         self.focus_library_row(ui, &response, at);
         let motion = match (row.moves, row.token) {
             (SignMovement::Recorded(recording, span), _) => Some(MiniatureMotion::Span(recording, span)),

@@ -70,7 +70,8 @@ pub(super) fn show_search_facets(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     facets: &BTreeMap<String, Vec<(String, usize)>>,
-    (query, conditions): (&str, &mut FacetConditions),
+    query: &str,
+    conditions: &mut FacetConditions,
     height: f32,
     out: &mut CommandOutbox,
 ) -> Option<String> {
@@ -87,10 +88,15 @@ pub(super) fn show_search_facets(
                 let most = values.iter().map(|(_, count)| *count).max().unwrap_or(1);
                 let stored = find_facet_inventory(field, seen);
                 for (value, count) in values {
-                    let share = *count as f32 / most as f32;
-                    let on = conditions.has_facet_condition(query, field, value);
-                    let of = (field.as_str(), stored);
-                    let response = draw_facet_value(ui, seen, of, value, (share, *count), on);
+                    let drawn = DrawnFacetValue {
+                        field,
+                        stored,
+                        value,
+                        count: *count,
+                        share: *count as f32 / most as f32,
+                        on: conditions.has_facet_condition(query, field, value),
+                    };
+                    let response = draw_facet_value(ui, seen, &drawn);
                     let holding_inventory = stored.filter(|stored| stored.inventory.value_by_id(value).is_some());
                     let thing = holding_inventory.map(|stored| InspectedThing::Value(stored.id, value.clone()));
                     let asks = ui.input(|input| input.modifiers.command);
@@ -179,15 +185,28 @@ fn find_facet_inventory<'a>(field: &str, seen: &PaneInput<'a>) -> Option<&'a Sto
     })
 }
 
-/// Draws one value with its picture, its count, and a bar of a length proportional to the count.
-fn draw_facet_value(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    (field, stored): (&str, Option<&StoredInventory>),
-    value: &str,
-    (share, count): (f32, usize),
+/// A value of a facet as it is drawn.
+struct DrawnFacetValue<'a> {
+    field: &'a str,
+    stored: Option<&'a StoredInventory>,
+    value: &'a str,
+    count: usize,
+    /// The count as a share of the greatest one of the field.
+    share: f32,
+    /// Whether the query has a condition for it.
     on: bool,
-) -> Response {
+}
+
+/// Draws one value with its picture, its count, and a bar of a length proportional to the count.
+fn draw_facet_value(ui: &mut Ui, seen: &PaneInput<'_>, drawn: &DrawnFacetValue<'_>) -> Response {
+    let DrawnFacetValue {
+        field,
+        stored,
+        value,
+        count,
+        share,
+        on,
+    } = *drawn;
     let inventory = stored.map(|stored| &stored.inventory);
     let size = vec2(ui.available_width() - 4.0, 26.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());

@@ -101,8 +101,8 @@ impl SearchPane {
         }
         self.draw_search_tools(ui, seen, out);
         self.examples.look_up_unknown_examples(&self.field.text, seen, out);
-        let with = (&self.examples, &mut *out);
-        if self.built && search_rows::show_condition_rows(ui, &mut self.rows, seen, &mut self.field.text, with) {
+        let text = &mut self.field.text;
+        if self.built && search_rows::show_condition_rows(ui, &mut self.rows, seen, text, &self.examples, out) {
             self.search_present_text(out);
         }
         for picker in self.rows.pickers.values_mut() {
@@ -233,14 +233,17 @@ impl SearchPane {
                     ui.set_width(room.x - side - 10.0);
                     ui.vertical(|ui| results::show_search_results(self, ui, seen, out));
                 });
-                let of = (query.as_str(), &mut self.conditions);
-                ui.vertical(|ui| wanted = panes_search_facets::show_search_facets(ui, seen, &facets, of, room.y, out));
+                let conditions = &mut self.conditions;
+                ui.vertical(|ui| {
+                    wanted =
+                        panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, room.y, out);
+                });
             });
         } else {
             let high = (ui.available_height() * 0.35).min(150.0);
             ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
-                let of = (query.as_str(), &mut self.conditions);
-                wanted = panes_search_facets::show_search_facets(ui, seen, &facets, of, high, out);
+                let conditions = &mut self.conditions;
+                wanted = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
             });
             results::show_search_results(self, ui, seen, out);
         }

@@ -40,7 +40,8 @@ pub(super) fn show_condition_rows(
     rows: &mut ConditionRows,
     seen: &PaneInput<'_>,
     text: &mut String,
-    (examples, out): (&KnownExamples, &mut CommandOutbox),
+    examples: &KnownExamples,
+    out: &mut CommandOutbox,
 ) -> bool {
     let Ok(query) = TokenQuery::parse_query(text) else {
         ui.label(RichText::new(seen.say_text(words::NO_ROWS)).small().weak());

@@ -65,10 +65,9 @@ impl TilePickers {
             for (at, inventory) in tiles {
                 let (component, name, _) = &SAMPLE_TILES[at];
                 let name = seen.say_text(*name);
-                let response = tile(ui, seen, (at, inventory), name, width);
+                let response = tile(ui, seen, at, inventory, name, width);
                 let picker = &mut self.pickers[at];
-                let about = (inventory, None, name);
-                if let Some(value) = pickers::show_picker_below(ui, &response, picker, seen, about) {
+                if let Some(value) = pickers::show_picker_below(ui, &response, picker, seen, inventory, None, name) {
                     query = Some(with_value("", component.component_name(), &value));
                 }
                 picker.inspect_requested_value(seen, out);
@@ -90,7 +89,8 @@ fn largest_component_inventory<'a>(seen: &PaneInput<'a>, component: SignComponen
 fn tile(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (at, inventory): (usize, &ComponentInventory),
+    at: usize,
+    inventory: &ComponentInventory,
     name: &str,
     width: f32,
 ) -> Response {

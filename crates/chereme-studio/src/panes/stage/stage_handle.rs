@@ -202,7 +202,13 @@ fn show_hand_handle(
         if response.hovered() || response.dragged() {
             lit = Some(part);
         }
-        continue_handle_drag(holding, ui, seen, out, held, (part, response, handle_origin, pose));
+        let touched = TouchedHandle {
+            part,
+            response,
+            origin: handle_origin,
+            pose,
+        };
+        continue_handle_drag(holding, ui, seen, out, held, &touched);
     }
     handle_gizmo_keys(holding, ui, out, held, &response);
     let grabbed = holding.grab.as_ref().filter(|grab| grab.side == held.side);
@@ -319,14 +325,23 @@ fn value_text(seen: &PaneInput<'_>, held: &HandleInView<'_>) -> String {
     format!("{} cm", parts.join(" · "))
 }
 
+/// A part of a handle with what the pointer does to it, the middle of the handle, and the body's posture.
+struct TouchedHandle<'a> {
+    part: HandlePart,
+    response: &'a Response,
+    origin: DVec3,
+    pose: &'a ModelPose,
+}
+
 fn continue_handle_drag(
     holding: &mut HandleState,
     ui: &Ui,
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
     held: &HandleInView<'_>,
-    (part, response, at, pose): (HandlePart, &Response, DVec3, &ModelPose),
+    touched: &TouchedHandle<'_>,
 ) {
+    let (part, response) = (touched.part, touched.response);
     let ray = |place: Pos2| {
         let place = place - held.pane.min;
         SightRay::ray_through_point(&held.projection, [place.x, place.y])
@@ -344,12 +359,12 @@ fn continue_handle_drag(
         }
         holding.before = Some((held.handle.card, held.handle.to.clone()));
         holding.grab = Some(HandleGrab {
-            pose: pose.clone(),
+            pose: touched.pose.clone(),
             card: held.handle.card,
             side: held.side,
             begun: GizmoDragStart {
                 part,
-                origin: at,
+                origin: touched.origin,
                 value: held.value,
                 ray: ray(press),
                 sight: held.projection.sight_direction().as_dvec3(),

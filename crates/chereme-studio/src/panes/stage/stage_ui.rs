@@ -82,8 +82,8 @@ pub(super) fn show_stage_pane(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInp
             let foot = if next.is_some() { 44.0 } else { 0.0 };
             let above = whole.with_max_y(whole.bottom() - foot);
             miniatures::paint_text_placeholder(ui, above, seen.say_text(text));
-            if let Some(next) = next {
-                lead_on(ui, seen, out, whole, next);
+            if let Some((text, action)) = next {
+                lead_on(ui, seen, out, whole, text, action);
             }
         }
         None => show_stage_parts(stage, ui, seen, out, whole),
@@ -150,7 +150,8 @@ fn lead_on(
     seen: &PaneInput<'_>,
     out: &mut CommandOutbox,
     whole: Rect,
-    (text, action): (InterfaceText, Action),
+    text: InterfaceText,
+    action: Action,
 ) {
     let size = vec2(whole.width().min(200.0), 26.0);
     let place = Rect::from_center_size(whole.center_bottom() - vec2(0.0, 28.0), size);

@@ -6,7 +6,7 @@ use chereme_corpus::study::{AnswerFilter, AnswerList, AnswerListRow, Participant
 use eframe::egui::{Button, ScrollArea, Ui};
 
 use super::studies_draft::show_draft_text_line;
-use super::{SavedTo, StudiesPane, studies_data};
+use super::{SavedFile, SavedTo, StudiesPane, studies_data};
 use crate::context::{CommandOutbox, PaneInput};
 use crate::file_dialogs::ChooserPurpose;
 use crate::panes::{combo, list_row};
@@ -97,9 +97,13 @@ pub(super) fn show_study_answers(
     pane.show_clip_progress(ui, seen);
     show_answer_rows(pane, ui, seen, it, &found, out);
     let proposed = format!("{}-answers.csv", studies_data::file_stem(&it.plan.name));
-    let named = (words::ANSWERS_TABLE, words::SAVE_ANSWERS, ChooserPurpose::AnswersTable);
+    let file = SavedFile {
+        name: words::ANSWERS_TABLE,
+        button: words::SAVE_ANSWERS,
+        chooser: ChooserPurpose::AnswersTable,
+    };
     let saved = &mut pane.forms.list.saved;
-    if let Some((to, force)) = saved.show_save_path(ui, seen, named, &proposed, out) {
+    if let Some((to, force)) = saved.show_save_path(ui, seen, file, &proposed, out) {
         let job = studying::write_answers(it.plan.name.clone(), to, force);
         saved.saving = Some(out.request_work(job));
         pane.clear_study_results();

@@ -172,7 +172,7 @@ fn show_one_hypothesis(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, it: &mut 
                     let name = fill_text_braces(seen.say_text(words::GROUP), &[("n", &(at + 1))]);
                     ui.horizontal_wrapped(|ui| {
                         ui.weak(&name);
-                        toggles(ui, (title, &name), &mut group.conditions, &plan.main_conditions());
+                        toggles(ui, title, &name, &mut group.conditions, &plan.main_conditions());
                         if several && show_remove_line_button(ui, seen, &name) {
                             removed = Some(at);
                         }
@@ -181,7 +181,7 @@ fn show_one_hypothesis(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, it: &mut 
                     if parts.len() > 1 || !group.parts.is_empty() {
                         ui.horizontal_wrapped(|ui| {
                             ui.weak(seen.say_text(words::COLUMN_PART));
-                            toggles(ui, (title, &name), &mut group.parts, &parts);
+                            toggles(ui, title, &name, &mut group.parts, &parts);
                         });
                     }
                     let text = match group.items.len() {
@@ -191,7 +191,7 @@ fn show_one_hypothesis(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, it: &mut 
                     let header = CollapsingHeader::new(text).id_salt("items");
                     header.show(ui, |ui| {
                         ui.horizontal_wrapped(|ui| {
-                            toggles(ui, (title, &name), &mut group.items, &plan.main_items());
+                            toggles(ui, title, &name, &mut group.items, &plan.main_items());
                         });
                     });
                 });
@@ -207,7 +207,7 @@ fn show_one_hypothesis(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, it: &mut 
 }
 
 /// Shows a button for each name, which is pressed if the list has it; names that the plan lacks can be taken out.
-fn toggles(ui: &mut Ui, (title, group): (&str, &str), list: &mut Vec<String>, all: &[&str]) {
+fn toggles(ui: &mut Ui, title: &str, group: &str, list: &mut Vec<String>, all: &[&str]) {
     let unknown: Vec<String> = list
         .iter()
         .filter(|name| !all.contains(&name.as_str()))

@@ -23,7 +23,7 @@ use eframe::egui::{Button, CollapsingHeader, ProgressBar, ScrollArea, Ui};
 
 use self::drafted::{DraftedPlan, StudyDraft};
 use self::studies_trials::RequestedTrialClip;
-use super::saved_pane::{SavedTo, path_field};
+use super::saved_pane::{PathField, SavedFile, SavedTo};
 use super::{PaneInterface, list_row, reach_focus};
 use crate::command::WindowCommand;
 use crate::context::{CommandOutbox, PaneInput};
@@ -393,9 +393,13 @@ impl StudiesPane {
         let header = CollapsingHeader::new(seen.say_text(words::SAVE_PLAN)).id_salt("plan file");
         header.show(ui, |ui| {
             let proposed = format!("{}-plan.json", studies_data::file_stem(&it.plan.name));
-            let named = (words::PLAN_FILE, words::WRITE_PLAN, ChooserPurpose::SavePlan);
+            let file = SavedFile {
+                name: words::PLAN_FILE,
+                button: words::WRITE_PLAN,
+                chooser: ChooserPurpose::SavePlan,
+            };
             let form = &mut self.forms.plan;
-            if let Some((to, force)) = form.show_save_path(ui, seen, named, &proposed, out) {
+            if let Some((to, force)) = form.show_save_path(ui, seen, file, &proposed, out) {
                 let job = studying::write_plan(it.plan.name.clone(), to, force);
                 form.saving = Some(out.request_work(job));
                 self.clear_study_results();

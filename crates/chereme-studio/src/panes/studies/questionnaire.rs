@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use chereme_corpus::study::{BuiltQuestionnaire, QuestionnaireOptions, StudyOverview};
 use eframe::egui::{Button, DragValue, Ui};
 
-use super::{StudiesPane, path_field, progress, studies_data};
+use super::{PathField, StudiesPane, progress, studies_data};
 use crate::context::{CommandOutbox, PaneInput};
 use crate::file_dialogs::ChooserPurpose;
 use crate::panes::import::PathCompletions;
@@ -37,14 +37,12 @@ pub(super) fn show_questionnaire_form(
         form.to = seen.path_beside_corpus(&folder).display().to_string();
     }
     let options = form.options.get_or_insert_with(QuestionnaireOptions::default);
-    path_field(
-        ui,
-        seen,
-        (words::FOLDER, ""),
-        (&mut form.paths, &mut form.to),
-        ChooserPurpose::Questionnaire,
-        out,
-    );
+    let field = PathField {
+        name: words::FOLDER,
+        hint: "",
+        chooser: ChooserPurpose::Questionnaire,
+    };
+    field.show_path_line(ui, seen, &mut form.paths, &mut form.to, out);
     ui.horizontal_wrapped(|ui| {
         let label = ui.weak(seen.say_text(words::HEIGHT));
         ui.add(DragValue::new(&mut options.height).range(64..=1080))

@@ -7,7 +7,7 @@ use chereme_corpus::study::{AnswersOptions, AnswersReport, ColumnUse, NamedText,
 use eframe::egui::{Button, CollapsingHeader, Grid, ScrollArea, Ui};
 
 use super::studies_draft::{show_remove_line_button, text_block};
-use super::{StudiesPane, answer_list, path_field, progress};
+use super::{PathField, StudiesPane, answer_list, progress};
 use crate::command::WindowCommand;
 use crate::context::{CommandOutbox, PaneInput};
 use crate::file_dialogs::ChooserPurpose;
@@ -88,14 +88,12 @@ pub(super) fn show_answer_import(
     ];
     ui.label(fill_text_braces(seen.say_text(words::PEOPLE), &values));
     let form = &mut pane.forms.answers;
-    path_field(
-        ui,
-        seen,
-        (words::ANSWERS_PATH, seen.say_text(words::ANSWERS_HINT)),
-        (&mut form.paths, &mut form.path),
-        ChooserPurpose::Answers,
-        out,
-    );
+    let field = PathField {
+        name: words::ANSWERS_PATH,
+        hint: seen.say_text(words::ANSWERS_HINT),
+        chooser: ChooserPurpose::Answers,
+    };
+    field.show_path_line(ui, seen, &mut form.paths, &mut form.path, out);
     if form.path.trim().is_empty() {
         for path in form.several.iter().take(8) {
             ui.small(path.display().to_string());

@@ -111,7 +111,7 @@ fn show_question_figures(ui: &mut Ui, seen: &PaneInput<'_>, it: &QuestionReport)
     for (at, confusion) in it.confusions.iter().enumerate() {
         let fits = confusion.columns.len() <= MOST_OPTIONS && confusion.rows.len() <= MOST_OPTIONS;
         if fits && confusion.condition.is_none() {
-            confused(ui, seen, (&it.name, at), confusion);
+            confused(ui, seen, &it.name, at, confusion);
         }
     }
 }
@@ -228,7 +228,7 @@ fn show_right_answer_share(ui: &mut Ui, seen: &PaneInput<'_>, name: &str, group:
 }
 
 /// Shows the options that were chosen for each right option.
-fn confused(ui: &mut Ui, seen: &PaneInput<'_>, (name, at): (&str, usize), it: &ConfusionTable) {
+fn confused(ui: &mut Ui, seen: &PaneInput<'_>, name: &str, at: usize, it: &ConfusionTable) {
     ui.weak(reporting::CONFUSION.text_in_language(seen.language));
     let id = ("confusion", name, at);
     ScrollArea::horizontal().id_salt(id).show(ui, |ui| {

@@ -7,7 +7,7 @@ use chereme_corpus::study::StudyOverview;
 use chereme_corpus::study::report::StudyReport;
 use eframe::egui::{Button, Ui};
 
-use super::{StudiesPane, path_field, progress, studies_data, studies_figures};
+use super::{PathField, StudiesPane, progress, studies_data, studies_figures};
 use crate::context::{CommandOutbox, PaneInput};
 use crate::file_dialogs::ChooserPurpose;
 use crate::panes::import::PathCompletions;
@@ -57,14 +57,12 @@ pub(super) fn show_study_report(
         let name = format!("{}-report.html", studies_data::file_stem(&it.plan.name));
         shown.to = seen.path_beside_corpus(&name).display().to_string();
     }
-    path_field(
-        ui,
-        seen,
-        (words::REPORT_PATH, seen.say_text(words::REPORT_HINT)),
-        (&mut shown.paths, &mut shown.to),
-        ChooserPurpose::Report,
-        out,
-    );
+    let field = PathField {
+        name: words::REPORT_PATH,
+        hint: seen.say_text(words::REPORT_HINT),
+        chooser: ChooserPurpose::Report,
+    };
+    field.show_path_line(ui, seen, &mut shown.paths, &mut shown.to, out);
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
         let ready = !shown.to.trim().is_empty() && !seen.is_running(shown.saving);

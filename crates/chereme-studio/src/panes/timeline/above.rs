@@ -5,8 +5,9 @@ use eframe::egui::{Rangef, Rect, TextStyle, Ui};
 
 use super::drag::GestureSight;
 use super::timeline_edit::TimelineScene;
+use super::timeline_paint::{self, PaintedGhost};
 use super::timeline_ui::TimelineDrawing;
-use super::{GhostAnnotation, editor, timeline_paint};
+use super::{GhostAnnotation, editor};
 
 impl TimelineDrawing<'_, '_> {
     /// Paints annotations that are not in the snapshot: those at their future places, and those being dragged.
@@ -39,10 +40,14 @@ impl TimelineDrawing<'_, '_> {
             let text = ghost_annotation
                 .map(|annotation| requests::typed_annotation_value(&annotation.tier.annotations, annotation.at));
             let row = Rect::from_x_y_ranges(lane.x_range(), *y);
-            let tier = &contents.tiers[*at];
-            let what = (tier, text.unwrap_or_default(), *refused);
-            let span = (ghost.start, ghost.end);
-            timeline_paint::paint_ghost_annotation(&painter, row, &self.window, span, what, (self.seen, &font));
+            let painted = PaintedGhost {
+                start: ghost.start,
+                end: ghost.end,
+                tier: &contents.tiers[*at],
+                text: text.unwrap_or_default(),
+                refused: *refused,
+            };
+            timeline_paint::paint_ghost_annotation(&painter, row, &self.window, painted, self.seen, &font);
         }
         let pointer = ui.input(|input| input.pointer.latest_pos());
         timeline_paint::paint_gesture_sight(&painter, lane, &self.window, sight, pointer, self.seen);

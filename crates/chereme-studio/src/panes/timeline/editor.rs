@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::tier_values::TierValues;
-use chereme_corpus::{StoredInventory, TierContents, requests};
+use chereme_corpus::{TierContents, requests};
+use chereme_sign::ComponentInventory;
 use eframe::egui::{
     Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, Ui, Vec2, WidgetInfo, pos2, text::CCursor,
     text::CCursorRange, vec2,
@@ -11,7 +11,8 @@ use eframe::egui::{
 use serde::{Deserialize, Serialize};
 
 use super::timeline_edit::{self, TimelineScene};
-use super::{TimelinePane, select, value_list};
+use super::value_list::{self, OfferedValues};
+use super::{TimelinePane, select};
 use crate::action::Action;
 use crate::command::WindowCommand;
 use crate::context::CommandOutbox;
@@ -174,13 +175,18 @@ pub(super) fn show_value_field(
         .digit_values_of_tier(tier.row.id, &choices)
         .to_vec();
     let stored = scene.scene_tier_inventory(tier);
+    let offered = OfferedValues {
+        stored,
+        choices: &choices,
+        digits: &digits,
+    };
     let pictured = stored.filter(|stored| editing.pictures && timeline_edit::has_pictures(&stored.inventory));
     if let Some(stored) = pictured {
-        let asked = show_value_pictures(timeline, ui, scene, (&mut editing, stored), (&choices, &digits, below));
+        let asked = show_value_pictures(timeline, ui, scene, &mut editing, &stored.inventory, offered, below);
         timeline.entry.picker.inspect_requested_value(scene.seen, out);
         return carry_out_field_key(timeline, editing, tier, asked, out);
     }
-    let asked = draw_value_field(ui, scene, &mut editing, tier, &choices, &digits, below);
+    let asked = draw_value_field(ui, scene, &mut editing, tier, offered, below);
     carry_out_field_key(timeline, editing, tier, asked, out);
 }
 
@@ -228,10 +234,14 @@ fn draw_value_field(
     scene: &TimelineScene<'_>,
     editing: &mut ValueEditing,
     tier: &TierContents,
-    choices: &TierValues,
-    digits: &[String],
+    offered: OfferedValues<'_>,
     below: Rect,
 ) -> FieldKey {
+    let OfferedValues {
+        stored,
+        choices,
+        digits,
+    } = offered;
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (up, down) = (pressed(Key::ArrowUp), pressed(Key::ArrowDown));
     let (enter, tab, escape) = (pressed(Key::Enter), pressed(Key::Tab), pressed(Key::Escape));
@@ -248,8 +258,7 @@ fn draw_value_field(
     let mut asked = FieldKey::Nothing;
     let mut turn = false;
     let opened = editing.begun;
-    let stored_inventory = scene.scene_tier_inventory(tier);
-    let pictured = stored_inventory.is_some_and(|stored| timeline_edit::has_pictures(&stored.inventory));
+    let pictured = stored.is_some_and(|stored| timeline_edit::has_pictures(&stored.inventory));
     let height = value_list::value_list_height(ui, fitting.len(), pictured);
     let (area, width) = area(ui, below, vec2(VALUE_FIELD_WIDTH_POINTS, height));
     let shown = area.show(ui.ctx(), |ui| {
@@ -258,8 +267,7 @@ fn draw_value_field(
             let before = editing.text.clone();
             let label = fill_text_braces(scene.seen.say_text(words::VALUE_ON), &[("tier", &tier.row.name)]);
             text_field(ui, editing, &label);
-            let stored = scene.scene_tier_inventory(tier);
-            if stored.is_some_and(|stored| timeline_edit::has_pictures(&stored.inventory)) {
+            if pictured {
                 turn = show_pictures_switch(ui, scene, words::BY_PICTURE);
             }
             let typed = editing.text.strip_prefix(before.as_str()).unwrap_or_default();
@@ -269,9 +277,7 @@ fn draw_value_field(
             if editing.text != before {
                 editing.marked = None;
             }
-            if let Some(value) =
-                value_list::show_matching_values(ui, scene, (editing, &fitting), (stored, choices, digits), up || down)
-            {
+            if let Some(value) = value_list::show_matching_values(ui, scene, editing, &fitting, offered, up || down) {
                 asked = FieldKey::Keep(value, false);
             }
         });
@@ -297,8 +303,10 @@ fn show_value_pictures(
     timeline: &mut TimelinePane,
     ui: &mut Ui,
     scene: &TimelineScene<'_>,
-    (editing, stored): (&mut ValueEditing, &StoredInventory),
-    (choices, digits, below): (&TierValues, &[String], Rect),
+    editing: &mut ValueEditing,
+    inventory: &ComponentInventory,
+    offered: OfferedValues<'_>,
+    below: Rect,
 ) -> FieldKey {
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
         return FieldKey::Drop;
@@ -307,9 +315,8 @@ fn show_value_pictures(
     if !opened {
         // A digit picks the same value among the pictures as in the list.
         timeline.entry.picker = ValuePicker::new_focused_picker();
-        timeline.entry.picker.digits = digits.to_vec();
+        timeline.entry.picker.digits = offered.digits.to_vec();
     }
-    let inventory = &stored.inventory;
     let screen = ui.ctx().content_rect();
     let full_width =
         pickers::pickers_data::picker_width_points(pickers::pickers_data::inventory_picker_form(inventory));
@@ -343,7 +350,7 @@ fn show_value_pictures(
         editing.turn_to_pictures();
     }
     if matches!(asked, FieldKey::Nothing) && opened && is_pressed_elsewhere(ui, shown.response.rect) {
-        return match choices.value_to_store(&editing.text, None) {
+        return match offered.choices.value_to_store(&editing.text, None) {
             Some(value) => FieldKey::Keep(value, false),
             None => FieldKey::Nothing,
         };

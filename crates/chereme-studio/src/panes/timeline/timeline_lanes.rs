@@ -140,7 +140,7 @@ impl MeasuredCurves {
         let Some(source) = source.filter(|_| self.asked.is_none() && !self.failed) else {
             return;
         };
-        let Some(piece) = self.next(source, seen, playhead) else {
+        let Some(piece) = self.next(source, seen.0, seen.1, playhead) else {
             return;
         };
         let frames = piece * LANE_PIECE_FRAMES..((piece + 1) * LANE_PIECE_FRAMES).min(source.frames);
@@ -149,7 +149,7 @@ impl MeasuredCurves {
         self.asked = Some((out.request_work(job), piece));
     }
 
-    fn next(&self, source: MovementFrames, (from, to): (i64, i64), playhead: i64) -> Option<usize> {
+    fn next(&self, source: MovementFrames, from: i64, to: i64, playhead: i64) -> Option<usize> {
         let piece = |micros| source.movement_frame_at(micros) / LANE_PIECE_FRAMES;
         let here = piece(playhead.clamp(from, to));
         (piece(from)..=piece(to))
@@ -489,8 +489,8 @@ mod tests {
         assert_eq!(curves.asked.map(|it| it.1), Some(2));
         curves.asked = None;
         curves.pieces.insert(2, CurvePiece::default());
-        assert_eq!(curves.next(all, (0, 40_000_000), 30_000_000), Some(1));
-        assert_eq!(curves.next(all, (30_000_000, 30_000_000), 0), None);
+        assert_eq!(curves.next(all, 0, 40_000_000, 30_000_000), Some(1));
+        assert_eq!(curves.next(all, 30_000_000, 30_000_000, 0), None);
     }
 
     #[test]

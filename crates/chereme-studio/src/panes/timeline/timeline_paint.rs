@@ -165,15 +165,31 @@ pub(super) fn paint_annotation_focus(painter: &Painter, rect: Rect, seen: &PaneI
     painter.rect_stroke(rect.expand(1.0), 3.0, stroke, StrokeKind::Outside);
 }
 
+/// An annotation at its future place: its times in microseconds, its tier, its value, and whether it is refused there.
+pub(super) struct PaintedGhost<'a> {
+    pub(super) start: i64,
+    pub(super) end: i64,
+    pub(super) tier: &'a TierContents,
+    pub(super) text: String,
+    pub(super) refused: bool,
+}
+
 /// Paints an annotation at its future place in the row `row`.
 pub(super) fn paint_ghost_annotation(
     painter: &Painter,
     row: Rect,
     window: &TimeWindow,
-    (start, end): (i64, i64),
-    (tier, text, refused): (&TierContents, String, bool),
-    (seen, font): (&PaneInput<'_>, &FontId),
+    ghost: PaintedGhost<'_>,
+    seen: &PaneInput<'_>,
+    font: &FontId,
 ) {
+    let PaintedGhost {
+        start,
+        end,
+        tier,
+        text,
+        refused,
+    } = ghost;
     let bar = AnnotationBar {
         at: 0,
         count: 1,

@@ -18,6 +18,14 @@ const PICTURE_LIST_HEIGHT_POINTS: f32 = 252.0;
 /// Height of a row with a picture, in points.
 const PICTURE_ROW_HEIGHT_POINTS: f32 = 42.0;
 
+/// The values that a tier offers: its inventory if it has one, its values, and those that a digit chooses.
+#[derive(Clone, Copy)]
+pub(super) struct OfferedValues<'a> {
+    pub(super) stored: Option<&'a StoredInventory>,
+    pub(super) choices: &'a TierValues,
+    pub(super) digits: &'a [String],
+}
+
 /// Returns the approximate height of the field with the list below it, in points.
 pub(super) fn value_list_height(ui: &Ui, fitting: usize, pictured: bool) -> f32 {
     let row = ui.spacing().interact_size.y;
@@ -33,10 +41,16 @@ pub(super) fn value_list_height(ui: &Ui, fitting: usize, pictured: bool) -> f32 
 pub(super) fn show_matching_values(
     ui: &mut Ui,
     scene: &TimelineScene<'_>,
-    (editing, fitting): (&ValueEditing, &[usize]),
-    (stored, choices, digits): (Option<&StoredInventory>, &TierValues, &[String]),
+    editing: &ValueEditing,
+    fitting: &[usize],
+    offered: OfferedValues<'_>,
     moved: bool,
 ) -> Option<String> {
+    let OfferedValues {
+        stored,
+        choices,
+        digits,
+    } = offered;
     let mut clicked = None;
     if fitting.is_empty() {
         let text = if choices.closed {
@@ -70,8 +84,8 @@ pub(super) fn show_matching_values(
             let digit = digit_index.map_or(String::new(), |digit| (digit + 1).to_string());
             let chosen = marked == Some(*at);
             let response = match pictured {
-                Some(stored) => by_picture(ui, scene, stored, (choice, &digit), chosen),
-                None => by_name(ui, (choice, digit), chosen, height),
+                Some(stored) => by_picture(ui, scene, stored, choice, &digit, chosen),
+                None => by_name(ui, choice, digit, chosen, height),
             };
             let label = fill_text_braces(scene.seen.say_text(words::VALUE), &[("value", &choice.value)]);
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
@@ -83,7 +97,7 @@ pub(super) fn show_matching_values(
     clicked
 }
 
-fn by_name(ui: &mut Ui, (choice, digit): (&TierValue, String), chosen: bool, height: f32) -> Response {
+fn by_name(ui: &mut Ui, choice: &TierValue, digit: String, chosen: bool, height: f32) -> Response {
     let text = match &choice.name {
         Some(name) => format!("{}  {name}", choice.value),
         None => choice.value.clone(),
@@ -105,7 +119,8 @@ fn by_picture(
     ui: &mut Ui,
     scene: &TimelineScene<'_>,
     stored: &StoredInventory,
-    (choice, digit): (&TierValue, &str),
+    choice: &TierValue,
+    digit: &str,
     chosen: bool,
 ) -> Response {
     let about = choice.name.as_deref().unwrap_or_default();
