@@ -146,9 +146,10 @@ pub use film::{FilmFacts, FilmFile, FilmPicture, FilmTimes, PicturePlanes};
 pub use foreign_code::hide_handled_panics;
 pub use forms::{EmptyCellTreatment, FIELD_SETS, FormSource};
 pub use import::{
-    AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileReport, FileStatus, ImportOptions,
-    ImportReport, JointRole, MovementRead, OwnEdit, OwnEdits, ReimportChanges, ReportFinding, RootRead, SharedPart,
-    TiersRead, TrackRead, UnreadFileKind, read_stream, readable_files, time_of_day,
+    AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileJoin, FileJoining, FileReport,
+    FileStatus, ImportOptions, ImportReport, JoinReason, JoinedFile, JoinedRecording, JointRole, MovementRead, OwnEdit,
+    OwnEdits, ReimportChanges, ReportFinding, RootRead, SharedPart, TiersRead, TrackRead, UnreadFileKind, read_stream,
+    readable_files, time_of_day,
 };
 pub use info::{AttributeInfo, CorpusInfo, InventoryInfo, SignerInfo, TrackAmount};
 pub use inventories::StoredInventory;

@@ -183,7 +183,7 @@ fn require_media_url(url: &str) -> CorpusResult<String> {
 }
 
 /// Returns the possible paths for a URL or path, most likely first.
-fn candidate_media_paths(url: &str, folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn candidate_media_paths(url: &str, folder: &Path) -> Vec<PathBuf> {
     let local = match url.split_once("://") {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
             // The host between the slashes is this computer.

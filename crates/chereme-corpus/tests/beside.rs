@@ -5,8 +5,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use chereme_corpus::{
-    Corpus, CorpusAddress, ExportOptions, ExportWhat, ImportOptions, ImportReport, ListFilter, ListKind,
-    ProgressReceiver, RowName, SearchOptions, TrackKind, ignore_progress_step, time_of_day,
+    Corpus, CorpusAddress, ExportOptions, ExportWhat, FileJoining, ImportOptions, ImportReport, JoinReason, ListFilter,
+    ListKind, ProgressReceiver, RowName, SearchOptions, TrackKind, ignore_progress_step, time_of_day,
 };
 use chereme_motion::FrameRate;
 
@@ -241,7 +241,22 @@ fn tracks_with_overlapping_timecodes_are_one_take_aligned_by_timecode() {
         ..ImportOptions::default()
     };
     import_all(&mut corpus, &[inbox.join("a")], &at("10:00:00:00"));
-    import_all(&mut corpus, &[inbox.join("b")], &ImportOptions::default());
+    // Another folder, a conventional start and unlike lengths: a question.
+    let report = import_all(&mut corpus, &[inbox.join("b")], &ImportOptions::default());
+    assert_eq!(recordings(&corpus), ["body", "phone_7"]);
+    let reported = report.files[0].findings.iter();
+    let reported = reported.filter(|it| {
+        it.message
+            .starts_with("its timecodes are those of the recording \"body\"")
+    });
+    assert_eq!(reported.count(), 1, "{report:?}");
+    corpus.undo_operation().expect("taken back");
+    let by_timecode = ImportOptions {
+        joining: FileJoining::Timecode,
+        ..ImportOptions::default()
+    };
+    let report = import_all(&mut corpus, &[inbox.join("b")], &by_timecode);
+    assert_eq!(report.joined[0].files[0].by, JoinReason::Timecode, "{report:?}");
     assert_eq!(recordings(&corpus), ["body"]);
     assert_eq!(
         kinds(&corpus, "body"),
@@ -251,7 +266,7 @@ fn tracks_with_overlapping_timecodes_are_one_take_aligned_by_timecode() {
     assert_eq!(kinds(&corpus, "body").len(), 1);
     let far = FACE.replace("10:00", "17:00");
     fs::write(inbox.join("b/phone_7.csv"), far).expect("written");
-    import_all(&mut corpus, &[inbox.join("b")], &ImportOptions::default());
+    import_all(&mut corpus, &[inbox.join("b")], &by_timecode);
     assert_eq!(recordings(&corpus), ["body", "phone_7"]);
 }
 

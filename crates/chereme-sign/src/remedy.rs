@@ -38,6 +38,8 @@ pub enum RemedyChoice {
     CommonAncestor,
     /// The side whose changes win when a changed file is imported again.
     Side,
+    /// The evidence that joins files into one recording.
+    Joining,
     /// Another file to open as a corpus.
     OtherCorpus,
     /// The check of the corpus.

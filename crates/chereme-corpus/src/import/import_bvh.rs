@@ -20,6 +20,7 @@ use chereme_sign::{ErrorRemedy, RemedyChoice};
 use sha2::{Digest, Sha256};
 
 use super::import_again::{groups_json, set_hand};
+use super::import_joining::JoinReason;
 use super::import_report::ReportFinding;
 use super::understood::{BodyRead, ConventionRead, JointRole, MovementRead, RootRead};
 use super::{FileReport, FileStatus, ImportJob, ImportOptions, import_eaf};
@@ -188,28 +189,18 @@ fn report_known_movement(job: &mut ImportJob<'_>) -> CorpusResult<Option<FileRep
     Ok(Some(report))
 }
 
-/// Reports other files of the corpus that are related to this one: the same movement under another name, or other
-/// movement that was imported from its path.
-fn report_related_files(job: &ImportJob<'_>, report: &mut FileReport) -> CorpusResult<()> {
-    let name = |id: i64| stored_recordings::load_recording_row(job.connection, id).map(|row| row.name);
+/// Reports other movement that was imported from the path of this file.
+fn report_replaced_movement(job: &ImportJob<'_>, report: &mut FileReport) -> CorpusResult<()> {
     let before = job.places.find_file_at(&job.place, job.kind);
     if let Some(id) = before.and_then(|row| row.recording_id) {
         report.findings.push(ReportFinding::finding_warning(
             format!(
                 "other movement was imported from this file before, as the recording {:?}; movement is \
                  not replaced, and this is a recording of its own",
-                name(id)?
+                stored_recordings::load_recording_row(job.connection, id)?.name
             ),
             "undo the earlier import, if it is not needed any more",
         ));
-    }
-    let same = job.places.files_with_hash(&job.hash).find(|row| row.kind == job.kind);
-    if let Some((row, id)) = same.and_then(|row| Some((row, row.recording_id?))) {
-        let place = row.path.as_ref().unwrap_or(&row.name);
-        report.findings.push(ReportFinding::finding_note(format!(
-            "its movement is the same as that of the recording {:?}, from {place}",
-            name(id)?
-        )));
     }
     Ok(())
 }
@@ -486,13 +477,22 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
 /// Returns the recording without movement that a movement of this length belongs to, if its annotations were imported
 /// first. A recording from another folder is another take if it has a capture of any kind, or annotations that end after
 /// the movement.
-fn without_movement(job: &ImportJob<'_>, length_us: Option<i64>, report: &mut FileReport) -> CorpusResult<Option<i64>> {
+fn without_movement(
+    job: &mut ImportJob<'_>,
+    length_us: Option<i64>,
+    report: &mut FileReport,
+) -> CorpusResult<Option<i64>> {
     if let Some(id) = job.places.recording_beside_file(&job.place) {
         let track = stored_recordings::body_track(job.connection, id)?;
-        return Ok(track.is_none().then_some(id));
+        if track.is_some() {
+            return Ok(None);
+        }
+        job.note_file_join(id, JoinReason::FolderAndName);
+        return Ok(Some(id));
     }
+    let connection = job.connection;
     let is_bare = |id: i64| -> CorpusResult<bool> {
-        let tracks = stored_tracks::load_track_rows(job.connection, id)?;
+        let tracks = stored_tracks::load_track_rows(connection, id)?;
         Ok(tracks.iter().all(|track| track.kind == TrackKind::Media))
     };
     let fits = |id: i64| -> CorpusResult<bool> {
@@ -500,27 +500,21 @@ fn without_movement(job: &ImportJob<'_>, length_us: Option<i64>, report: &mut Fi
             return Ok(true);
         };
         let most = length.saturating_add(import_eaf::MAX_OVERHANG_US);
-        for tier in stored_tiers::load_tier_rows(job.connection, id)? {
-            let rows = stored_tiers::load_tier_annotation_rows(job.connection, tier.id)?;
+        for tier in stored_tiers::load_tier_rows(connection, id)? {
+            let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?;
             if rows.iter().any(|row| row.end_us > most) {
                 return Ok(false);
             }
         }
         Ok(true)
     };
-    let mut others = job.places.recordings_named(&job.place);
-    let named = stored_recordings::recording_named(job.connection, &job.stem)?;
-    others.extend(named.map(|row| row.id));
-    for id in others {
-        if is_bare(id)? && fits(id)? {
-            let name = stored_recordings::load_recording_row(job.connection, id)?.name;
-            report.findings.push(ReportFinding::finding_note(format!(
-                "the recording {name:?} of this name had no movement: it has this one now"
-            )));
-            return Ok(Some(id));
+    let mut likely = Vec::new();
+    for candidate in job.recordings_of_same_name()? {
+        if is_bare(candidate.id)? && fits(candidate.id)? {
+            likely.push(candidate);
         }
     }
-    Ok(None)
+    job.join_by_name_elsewhere(&likely, report)
 }
 
 /// Returns the recording that a movement of this length belongs to: the one that the caller named, one of this name
@@ -532,9 +526,11 @@ pub(super) fn insert_recording(
 ) -> CorpusResult<i64> {
     let options = job.options;
     if let Some(into) = &options.into {
-        return Ok(address::find_recording_by_name(job.connection, into)?.id);
+        let id = address::find_recording_by_name(job.connection, into)?.id;
+        job.note_file_join(id, JoinReason::Stated);
+        return Ok(id);
     }
-    report_related_files(job, report)?;
+    report_replaced_movement(job, report)?;
     let signer_id = match &options.signer {
         Some(name) => {
             let new = stored_recordings::find_signer(job.connection, name)?.is_none();

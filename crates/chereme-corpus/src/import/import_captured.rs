@@ -71,7 +71,7 @@ fn table_of_points(path: &Path) -> CorpusResult<Option<PointFile>> {
 }
 
 /// The kind of a table of points in `source_file.kind`.
-const POINT_TABLE_KIND: &str = "table of points";
+pub(super) const POINT_TABLE_KIND: &str = "table of points";
 
 /// Reads points from a table.
 fn import_points(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {

@@ -5,8 +5,9 @@ use std::ops::Range;
 use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
 
+use super::import_joining::{FileJoining, JoinQuestion};
 use super::import_report::ReportFinding;
-use super::{FileReport, ImportJob};
+use super::{FileReport, ImportJob, import_tracks};
 use crate::db::stored_recordings;
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::error::CorpusResult;
@@ -32,46 +33,71 @@ fn shared_span_part(a: &Range<i64>, b: &Range<i64>) -> f64 {
     common.into_iter().max().unwrap_or_default().max(0) as f64 / least
 }
 
-/// Returns the recording near this file whose tracks were captured at the same time of day, if there is exactly one.
-pub(super) fn take_of(job: &ImportJob<'_>, days: &[Range<i64>], report: &mut FileReport) -> CorpusResult<Option<i64>> {
-    if days.is_empty() || job.options.into.is_some() {
+/// The times of day, in microseconds, at which programs begin that have no clock: they say nothing about a take.
+const UNTRUE_CLOCK_STARTS: [i64; 2] = [0, 36_000_000_000];
+
+/// Returns whether a span begins at a time that a clock gave.
+fn has_true_start(span: &Range<i64>) -> bool {
+    !UNTRUE_CLOCK_STARTS.contains(&span.start)
+}
+
+/// Returns whether two spans within the day show that their tracks are of one take: they begin at times that a clock
+/// gave, and are about as long as each other.
+fn are_true_take_spans(own: &Range<i64>, theirs: &Range<i64>) -> bool {
+    let are_alike = import_tracks::are_take_lengths(own.end - own.start, theirs.end - theirs.start);
+    has_true_start(own) && has_true_start(theirs) && are_alike
+}
+
+/// Returns the recording whose tracks were captured at the same time of day, if there is exactly one in this folder, of
+/// no other person and without a file of this kind. A file with annotations of its own is a take of its own. Recordings
+/// near this file that only may be the same take are reported as a question.
+pub(super) fn find_take_by_timecode(
+    job: &ImportJob<'_>,
+    days: &[Range<i64>],
+    report: &mut FileReport,
+) -> CorpusResult<Option<i64>> {
+    let joining = job.options.joining;
+    if days.is_empty() || job.options.into.is_some() || joining == FileJoining::None {
         return Ok(None);
     }
-    let mut fitting = Vec::new();
+    let in_folder = job.places.in_folder(&job.place);
+    let (mut fitting, mut uncertain) = (Vec::new(), Vec::new());
     for id in job.places.recordings_near_file(&job.place) {
         let rows = stored_tracks::load_track_rows(job.connection, id)?;
-        let known_days = rows.iter().filter_map(span_within_day);
-        if known_days
-            .flat_map(|known| days.iter().map(move |own| shared_span_part(own, &known)))
-            .any(|share| share >= MIN_SHARED_TRACK_PART)
-        {
+        let their_days: Vec<_> = rows.iter().filter_map(span_within_day).collect();
+        let span_pairs = days
+            .iter()
+            .flat_map(|own| their_days.iter().map(move |theirs| (own, theirs)));
+        let shared_spans: Vec<_> = span_pairs
+            .filter(|(own, theirs)| shared_span_part(own, theirs) >= MIN_SHARED_TRACK_PART)
+            .collect();
+        if shared_spans.is_empty() || job.is_other_signer(id)? {
+            continue;
+        }
+        let is_true = shared_spans
+            .iter()
+            .any(|(own, theirs)| are_true_take_spans(own, theirs));
+        let is_likely = shared_spans
+            .iter()
+            .any(|(own, theirs)| has_true_start(own) || has_true_start(theirs));
+        let is_near = in_folder.contains(&id);
+        let is_of_kind = job.places.has_file_of_kind(id, job.kind);
+        if joining == FileJoining::Timecode || (is_true && is_near && !is_of_kind && !job.has_own_annotations) {
             fitting.push(id);
+        } else if (is_likely || (is_near && !is_of_kind)) && !job.has_own_annotations {
+            uncertain.push(id);
         }
     }
-    let mut names = Vec::with_capacity(fitting.len());
-    for id in &fitting {
-        names.push(format!(
-            "{:?}",
-            stored_recordings::load_recording_row(job.connection, *id)?.name
-        ));
+    if let [one] = fitting.as_slice() {
+        let name = stored_recordings::load_recording_row(job.connection, *one)?.name;
+        report.findings.push(ReportFinding::finding_note(format!(
+            "its timecodes are those of the recording {name:?}: it is taken for the same take"
+        )));
+        return Ok(Some(*one));
     }
-    match fitting.as_slice() {
-        [] => Ok(None),
-        [one] => {
-            report.findings.push(ReportFinding::finding_note(format!(
-                "its timecodes are those of the recording {}: it is taken for the same take",
-                names.concat()
-            )));
-            Ok(Some(*one))
-        }
-        _ => {
-            report.findings.push(ReportFinding::finding_warning(
-                format!("its timecodes are those of several recordings: {}", names.join(", ")),
-                ErrorRemedy::command_remedy("say which one it belongs to: import CORPUS FILE --into RECORDING"),
-            ));
-            Ok(None)
-        }
-    }
+    let candidates = if fitting.is_empty() { uncertain } else { fitting };
+    job.report_join_question(JoinQuestion::Timecode, &candidates, report)?;
+    Ok(None)
 }
 
 /// Moves new tracks of a recording so that their times of day agree with the other tracks, unless the caller gave an

@@ -19,6 +19,7 @@ use chereme_sign::{ErrorRemedy, RemedyChoice};
 use serde_json::json;
 
 use super::import_again::set_hand;
+use super::import_joining::JoinReason;
 use super::import_report::{EditOutcome, ReportFinding};
 use super::readers::ParseFunction;
 use super::understood::TiersRead;
@@ -363,7 +364,11 @@ fn find_or_add_recording(
     let origin = options.origin.or(file_origin);
     let licence = options.licence.clone().or_else(|| property(LICENCE_PROPERTY));
     let paired = match &options.into {
-        Some(into) => Some(crate::address::find_recording_by_name(job.connection, into)?.id),
+        Some(into) => {
+            let id = crate::address::find_recording_by_name(job.connection, into)?.id;
+            job.note_file_join(id, JoinReason::Stated);
+            Some(id)
+        }
         None => paired,
     };
     if let Some(id) = paired {

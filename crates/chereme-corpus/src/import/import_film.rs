@@ -1,5 +1,6 @@
 //! Imports films: links them to the recording whose take they show, or creates a recording for them.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
@@ -8,6 +9,7 @@ use chereme_formats::mp4;
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
+use super::import_joining::{JoinQuestion, JoinReason};
 use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::db::stored_motion::to_hex_text;
@@ -63,7 +65,7 @@ pub(super) fn import_film(job: &mut ImportJob<'_>, _progress: &mut ProgressRecei
     }
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     let length = film_length_micros(job.path, &mut report)?;
-    let (id, name) = match find_film_recording(job)? {
+    let (id, name) = match find_film_recording(job, &mut report)? {
         Some(row) => (row.id, row.name),
         None => new(job, &mut report)?,
     };
@@ -145,42 +147,78 @@ fn is_mp4(path: &Path) -> bool {
     ["mp4", "m4v", "mov"].contains(&kind.to_lowercase().as_str())
 }
 
-/// Returns the recording that a film belongs to.
-fn find_film_recording(job: &ImportJob<'_>) -> CorpusResult<Option<RecordingRow>> {
-    if let Some(into) = &job.options.into {
-        return crate::address::find_recording_by_name(job.connection, into).map(Some);
-    }
-    if let Some(id) = job.places.recording_beside_file(&job.place) {
-        return stored_recordings::load_recording_row(job.connection, id).map(Some);
-    }
-    let all = stored_recordings::load_recording_rows(job.connection)?;
-    let mut without = None;
-    for row in all {
-        let tracks = stored_recordings::media_tracks(job.connection, row.id)?;
-        let named = tracks
-            .into_iter()
-            .find(|candidate| candidate.is_film() && is_same_film(candidate, &job.file_name));
-        if let Some(track) = named
-            && is_here(job, track)
-        {
-            return Ok(Some(row));
+/// Returns the recording that a film belongs to: the one that the caller named, the one of the files beside it, one whose
+/// annotations name it, or one of its name without a film, if the caller joins by name.
+fn find_film_recording(job: &mut ImportJob<'_>, report: &mut FileReport) -> CorpusResult<Option<RecordingRow>> {
+    let (id, reason) = if let Some(into) = &job.options.into {
+        let row = crate::address::find_recording_by_name(job.connection, into)?;
+        (row.id, JoinReason::Stated)
+    } else if let Some(id) = job.places.recording_beside_file(&job.place) {
+        (id, JoinReason::FolderAndName)
+    } else {
+        let mut naming_ids = Vec::new();
+        for row in stored_recordings::load_recording_rows(job.connection)? {
+            match named_film_place(job, row.id)? {
+                Some(NamedFilmPlace::Here) => {
+                    naming_ids = vec![row.id];
+                    break;
+                }
+                Some(NamedFilmPlace::Missing) => naming_ids.push(row.id),
+                None => {}
+            }
         }
-        if row.name == job.stem && !has_film(job.connection, row.id)? {
-            without = Some(row);
+        match naming_ids.as_slice() {
+            [one] => (*one, JoinReason::NamedFilm),
+            [] => {
+                let mut filmless = job.recordings_of_same_name()?;
+                let mut filmed = BTreeSet::new();
+                for candidate in &filmless {
+                    if has_film(job.connection, candidate.id)? {
+                        filmed.insert(candidate.id);
+                    }
+                }
+                filmless.retain(|candidate| !filmed.contains(&candidate.id));
+                let id = job.join_by_name_elsewhere(&filmless, report)?;
+                let row = id.map(|id| stored_recordings::load_recording_row(job.connection, id));
+                return row.transpose();
+            }
+            several => {
+                job.report_join_question(JoinQuestion::NamedFilm, several, report)?;
+                return Ok(None);
+            }
         }
-    }
-    Ok(without)
+    };
+    job.note_file_join(id, reason);
+    stored_recordings::load_recording_row(job.connection, id).map(Some)
 }
 
-/// Returns whether the film of a track is missing, or is the file being imported.
-fn is_here(job: &ImportJob<'_>, track: MediaTrackRow) -> bool {
-    let corpus = job.base.join("corpus");
-    let media_place = find_media(track, &corpus);
-    let same = |path: &Path| {
+/// Where the film is that the annotations of a recording name as the file being imported is called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum NamedFilmPlace {
+    /// It is the file being imported.
+    Here,
+    /// It is not at the place that they name.
+    Missing,
+}
+
+/// Returns where the film is that the annotations of a recording name, if it is called as the file being imported and is
+/// no other file.
+fn named_film_place(job: &ImportJob<'_>, recording: i64) -> CorpusResult<Option<NamedFilmPlace>> {
+    let tracks = stored_recordings::media_tracks(job.connection, recording)?;
+    let named = tracks
+        .into_iter()
+        .find(|track| track.is_film() && is_same_film(track, &job.file_name));
+    let Some(track) = named else { return Ok(None) };
+    let media_place = find_media(track, &job.base.join("corpus"));
+    let is_same = |path: &Path| {
         let both = path.canonicalize().ok().zip(job.path.canonicalize().ok());
-        both.is_some_and(|(a, b)| a == b)
+        both.is_some_and(|(named, imported)| named == imported)
     };
-    !media_place.is_there || media_place.path.as_deref().is_some_and(same)
+    Ok(match media_place.path.as_deref() {
+        _ if !media_place.is_there => Some(NamedFilmPlace::Missing),
+        Some(path) if is_same(path) => Some(NamedFilmPlace::Here),
+        _ => None,
+    })
 }
 
 fn has_film(connection: &Connection, recording: i64) -> CorpusResult<bool> {

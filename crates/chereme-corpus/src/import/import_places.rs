@@ -15,6 +15,14 @@ use super::readers;
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::CorpusResult;
 
+/// A recording that has a file of a certain name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct NamedRecording {
+    pub(super) id: i64,
+    /// The number of equal folder names, from the files upwards.
+    pub(super) shared_folders: usize,
+}
+
 /// The files that were imported into the corpus; those of the running import are added as they are read.
 #[derive(Default)]
 pub(super) struct ImportedFilePlaces {
@@ -154,35 +162,53 @@ impl ImportedFilePlaces {
     }
 
     /// Returns the recordings of files of this name elsewhere; those with the most folder names in common come first.
-    pub(super) fn recordings_named(&self, place: &str) -> Vec<i64> {
-        let mut ranked_ids: Vec<(usize, i64)> = Vec::new();
+    pub(super) fn recordings_named(&self, place: &str) -> Vec<NamedRecording> {
+        let mut ranked_recordings: Vec<NamedRecording> = Vec::new();
         for row in self.files_of_same_name(file_name_of_place(place)) {
             let Some(id) = row.recording_id else { continue };
-            let alike = row.path.as_deref().map_or(0, |path| count_shared_folders(path, place));
-            match ranked_ids.iter_mut().find(|(_, known)| *known == id) {
-                Some(known) => known.0 = known.0.max(alike),
-                None => ranked_ids.push((alike, id)),
+            let shared_folders = row.path.as_deref().map_or(0, |path| count_shared_folders(path, place));
+            match ranked_recordings.iter_mut().find(|ranked| ranked.id == id) {
+                Some(ranked) => ranked.shared_folders = ranked.shared_folders.max(shared_folders),
+                None => ranked_recordings.push(NamedRecording { id, shared_folders }),
             }
         }
-        ranked_ids.sort_by_key(|(alike, id)| (std::cmp::Reverse(*alike), *id));
-        ranked_ids.into_iter().map(|(_, id)| id).collect()
+        ranked_recordings.sort_by_key(|ranked| (std::cmp::Reverse(ranked.shared_folders), ranked.id));
+        ranked_recordings
     }
 
-    /// Returns the path of the newest file of a recording.
-    fn newest_file_path(&self, id: i64) -> Option<&str> {
-        let row = self.rows.iter().rev().find(|row| row.recording_id == Some(id));
-        row?.path.as_deref()
+    /// Returns the path of the newest file of a recording other than the one at `place`.
+    pub(super) fn newest_file_path(&self, id: i64, place: &str) -> Option<&str> {
+        let own_rows = self.rows.iter().rev().filter(|row| row.recording_id == Some(id));
+        own_rows
+            .filter_map(|row| row.path.as_deref())
+            .find(|path| *path != place)
+    }
+
+    /// Returns whether a recording has a file of a kind.
+    pub(super) fn has_file_of_kind(&self, id: i64, kind: &str) -> bool {
+        self.rows
+            .iter()
+            .any(|row| row.recording_id == Some(id) && row.kind == kind)
     }
 }
 
 impl ImportJob<'_> {
+    /// Returns the recordings of this name, by their own name or that of a file elsewhere, the nearest first.
+    pub(super) fn recordings_of_same_name(&self) -> CorpusResult<Vec<NamedRecording>> {
+        let mut candidates = self.places.recordings_named(&self.place);
+        let named = stored_recordings::recording_named(self.connection, &self.stem)?.map(|row| row.id);
+        let unlisted = named.filter(|id| candidates.iter().all(|candidate| candidate.id != *id));
+        candidates.extend(unlisted.map(|id| NamedRecording { id, shared_folders: 0 }));
+        Ok(candidates)
+    }
+
     /// Returns the name for a new recording: that of the file, or if another recording has that, a name of its own with
     /// a note about it.
     pub(super) fn own_name(&self) -> CorpusResult<(String, Option<ReportFinding>)> {
         let Some(other) = stored_recordings::recording_named(self.connection, &self.stem)? else {
             return Ok((self.stem.clone(), None));
         };
-        let elsewhere = self.places.newest_file_path(other.id);
+        let elsewhere = self.places.newest_file_path(other.id, &self.place);
         let apart = elsewhere.and_then(|path| distinguishing_folder(&self.place, path));
         let base_name = match apart {
             Some(folder) => format!("{} ({folder})", self.stem),
@@ -256,7 +282,9 @@ mod tests {
         ] {
             assert_eq!(known.recording_beside_file(place), found, "{place}");
         }
-        assert_eq!(known.recordings_named("eaf/B/take2.eaf"), [2, 3, 1]);
+        let named = known.recordings_named("eaf/B/take2.eaf");
+        let ids: Vec<i64> = named.iter().map(|candidate| candidate.id).collect();
+        assert_eq!(ids, [2, 3, 1]);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
+use super::import_joining::{FileJoin, JoinedRecording};
 use super::understood::FileInterpretation;
 use crate::error::CorpusError;
 use crate::paths::legible_path_text;
@@ -25,6 +26,9 @@ pub struct ImportReport {
     pub removed: BTreeMap<&'static str, u64>,
     /// The report of each file.
     pub files: Vec<FileReport>,
+    /// The recordings that files joined, and why each file did.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joined: Vec<JoinedRecording>,
     /// Oddities of the import as a whole, such as a mapping that names no tier of any file.
     pub findings: Vec<ReportFinding>,
     /// Whether nothing was written because the caller asked for a dry run.
@@ -43,6 +47,9 @@ pub struct FileReport {
     /// The recording that it became or was added to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,
+    /// The file of that recording that it was joined with, and why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joined: Option<FileJoin>,
     /// Its interpretation: unit and axes, joint roles, tiers, columns.
     #[serde(skip_serializing_if = "FileInterpretation::is_empty")]
     pub understood: Box<FileInterpretation>,
@@ -265,6 +272,7 @@ impl FileReport {
             path: legible_path_text(path),
             status,
             recording: None,
+            joined: None,
             understood: Box::default(),
             findings: Vec::new(),
             edits: Vec::new(),

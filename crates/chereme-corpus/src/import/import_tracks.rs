@@ -1,5 +1,6 @@
 //! Stores the tracks of a file in the recording that they belong to.
 
+use super::import_joining::{FileJoining, JoinReason};
 use super::import_report::ReportFinding;
 use super::understood::TrackRead;
 use super::{FileReport, ImportJob, import_bvh, import_clock};
@@ -30,21 +31,26 @@ pub(super) fn store_imported_tracks(
         Some(start..start.saturating_add(length_us(&track.track)))
     };
     let days: Vec<_> = new.iter().filter_map(day).collect();
-    let recording = match same_take {
-        Some(recording) => recording,
-        None => match import_clock::take_of(job, &days, report)? {
-            Some(recording) => recording,
-            None => match folder_take(job, &new)? {
-                Some(recording) => {
-                    report_folder(job, recording, report)?;
-                    recording
-                }
-                None => {
-                    let lengths = new.iter().map(|track| length_us(&track.track));
-                    import_bvh::insert_recording(job, lengths.max(), report)?
-                }
-            },
+    let joined = match same_take {
+        Some(recording) => Some((recording, JoinReason::FolderAndName)),
+        None => match import_clock::find_take_by_timecode(job, &days, report)? {
+            Some(recording) => Some((recording, JoinReason::Timecode)),
+            None => folder_take(job, &new)?.map(|recording| (recording, JoinReason::OnlyInFolder)),
         },
+    };
+    let recording = match joined {
+        Some((recording, reason)) => {
+            job.note_file_join(recording, reason);
+            if reason == JoinReason::OnlyInFolder {
+                report_folder(job, recording, report)?;
+            }
+            describe_joined_recording(job, recording, report)?;
+            recording
+        }
+        None => {
+            let lengths = new.iter().map(|track| length_us(&track.track));
+            import_bvh::insert_recording(job, lengths.max(), report)?
+        }
     };
     for track in &new {
         report.findings.extend(curve_gaps_finding(&track.track));
@@ -79,6 +85,36 @@ pub(super) fn store_imported_tracks(
     Ok(recording)
 }
 
+/// Gives a joined recording the signer, origin and licence that the caller states; another signer than its own is
+/// reported instead.
+fn describe_joined_recording(job: &mut ImportJob<'_>, recording: i64, report: &mut FileReport) -> CorpusResult<()> {
+    let options = job.options;
+    let row = stored_recordings::load_recording_row(job.connection, recording)?;
+    let signer = match (&options.signer, &row.signer) {
+        (Some(name), Some(theirs)) if name != theirs => {
+            report.findings.push(ReportFinding::finding_warning(
+                format!(
+                    "the recording {:?} is of the signer {theirs:?}, who stays its signer, not {name:?}",
+                    row.name
+                ),
+                ErrorRemedy::command_remedy(
+                    "if the file is of another person: `chereme undo`, and another name for the file",
+                ),
+            ));
+            None
+        }
+        (Some(name), None) => {
+            let is_new = stored_recordings::find_signer(job.connection, name)?.is_none();
+            job.count_created_rows("signers", usize::from(is_new));
+            let hand = options.handedness.as_deref();
+            Some(stored_recordings::signer_named(job.connection, name, hand)?)
+        }
+        _ => None,
+    };
+    let licence = options.licence.as_deref();
+    stored_recordings::set_recording_description(job.connection, recording, signer, options.origin, licence)
+}
+
 /// Returns a finding about the gaps between rows of curves; `None` without any.
 fn curve_gaps_finding(track: &TrackContent) -> Option<ReportFinding> {
     let TrackContent::Curves(curves) = track else {
@@ -97,20 +133,27 @@ fn curve_gaps_finding(track: &TrackContent) -> Option<ReportFinding> {
     ))
 }
 
-/// The largest ratio of lengths of two tracks in a folder that are taken for one take.
+/// The largest ratio of lengths of two tracks that are taken for one take without the same name.
 const MAX_TAKE_LENGTH_RATIO: i64 = 2;
 
 /// Returns the recording of the only motion file in the folder, if its length is similar to that of the tracks.
 fn folder_take(job: &ImportJob<'_>, new: &[NewTrack]) -> CorpusResult<Option<i64>> {
-    let Some(recording) = job.folder_take.filter(|_| job.options.into.is_none()) else {
+    let is_asked = job.options.into.is_none() && job.options.joining != FileJoining::None;
+    let Some(recording) = job.folder_take.filter(|_| is_asked) else {
         return Ok(None);
     };
+    if job.is_other_signer(recording)? {
+        return Ok(None);
+    }
     let longest = new.iter().map(|track| length_us(&track.track)).max();
     let new_length = longest.unwrap_or_default();
     let theirs = stored_recordings::load_recording_row(job.connection, recording)?.duration_us;
-    let alike = new_length <= theirs.saturating_mul(MAX_TAKE_LENGTH_RATIO)
-        && theirs <= new_length.saturating_mul(MAX_TAKE_LENGTH_RATIO);
-    Ok(Some(recording).filter(|_| alike))
+    Ok(Some(recording).filter(|_| are_take_lengths(new_length, theirs)))
+}
+
+/// Returns whether two lengths may be those of one take.
+pub(super) fn are_take_lengths(own: i64, theirs: i64) -> bool {
+    own <= theirs.saturating_mul(MAX_TAKE_LENGTH_RATIO) && theirs <= own.saturating_mul(MAX_TAKE_LENGTH_RATIO)
 }
 
 /// Reports that a file was assigned to the take of its folder.

@@ -11,6 +11,7 @@ mod import_clock;
 pub(crate) mod import_eaf;
 mod import_film;
 mod import_inventory;
+mod import_joining;
 mod import_notated;
 mod import_notation;
 mod import_places;
@@ -46,6 +47,7 @@ use crate::inventories::{self, StoredInventory};
 use crate::paths::legible_path_text;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
+pub use import_joining::{FileJoin, FileJoining, JoinReason, JoinedFile, JoinedRecording};
 use import_places::ImportedFilePlaces;
 use import_report::RowChangeCounts;
 pub use import_report::{
@@ -53,6 +55,7 @@ pub use import_report::{
 };
 pub use import_whole::read_stream;
 use readers::FILE_READERS;
+pub(crate) use readers::is_capture_kind;
 pub use readers::readable_files;
 use understood::EarlierInterpretations;
 pub use understood::{
@@ -95,6 +98,8 @@ pub struct ImportOptions {
     pub own_edits: OwnEdits,
     /// The recording that all files belong to, instead of the one that their names indicate.
     pub into: Option<RowName>,
+    /// The evidence that is enough to join files into one recording.
+    pub joining: FileJoining,
     /// The start of the files' tracks on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
     /// The time of day at which the tracks start, if the files do not state it; tracks of one recording with known
@@ -154,6 +159,10 @@ struct ImportJob<'a> {
     folder_take: Option<i64>,
     /// The recording that the file became, if the corpus has the same file already.
     again: Option<i64>,
+    /// Whether an annotation file of the same folder and name is imported with it.
+    has_own_annotations: bool,
+    /// The file that it was joined with.
+    joined: Option<FileJoin>,
 }
 
 impl ImportJob<'_> {
@@ -227,8 +236,9 @@ impl ImportJob<'_> {
 impl Corpus {
     /// Imports files and folders into the corpus as one operation.
     ///
-    /// A motion file and an annotation file of the same folder and stem become one recording. A file is identified by
-    /// its path: files of one name in two folders are two. Files that were imported before are left alone, unless the
+    /// A motion file and an annotation file of the same folder and stem become one recording; what else joins files,
+    /// [`ImportOptions::joining`] says, and [`ImportReport::joined`] what did. A file is identified by its path: files of
+    /// one name in two folders are two. Files that were imported before are left alone, unless the
     /// mapping gives their tiers or columns another meaning. A file that is refused is reported, leaves nothing behind,
     /// and does not prevent the others from being imported.
     ///
@@ -261,6 +271,7 @@ impl Corpus {
                 used: BTreeSet::new(),
                 earlier: EarlierInterpretations::default(),
                 one_take: one_take(&files),
+                annotated: annotated_stems(&files),
             };
             import.import_candidate_files(&files, &mut report, progress)?;
             import.warn_of_mapping(&mut report);
@@ -303,6 +314,20 @@ struct ImportRun<'a> {
     earlier: EarlierInterpretations,
     /// Files that are the only one of their kind and name beside a single motion file in their folder.
     one_take: BTreeSet<PathBuf>,
+    /// The paths of annotation files without their endings.
+    annotated: BTreeSet<PathBuf>,
+}
+
+/// Returns the paths of the annotation files without their endings.
+fn annotated_stems(files: &[ImportCandidate]) -> BTreeSet<PathBuf> {
+    let has_annotations = |candidate: &&ImportCandidate| match candidate.reader {
+        Ok(reader) => FILE_READERS[reader].holds_annotations(),
+        Err(_) => false,
+    };
+    let annotation_files = files.iter().filter(has_annotations);
+    annotation_files
+        .map(|candidate| candidate.path.with_extension(""))
+        .collect()
 }
 
 /// Returns the files of folders that hold one take: each is beside a single motion file, is the only one of its kind,
@@ -404,6 +429,7 @@ impl ImportRun<'_> {
             let shown = report.files.iter_mut().filter(|file| file.path == stands);
             shown.for_each(|file| "-".clone_into(&mut file.path));
         }
+        report.joined = import_joining::joined_recordings(&report.files);
         report.complete = true;
         Ok(())
     }
@@ -450,6 +476,8 @@ impl ImportRun<'_> {
             steps: 0,
             folder_take: None,
             again: None,
+            has_own_annotations: self.annotated.contains(&path.with_extension("")),
+            joined: None,
         };
         if !named && self.one_take.contains(path) {
             job.folder_take = job.places.movement_beside(&job.place);
@@ -457,6 +485,12 @@ impl ImportRun<'_> {
         let mut done = FILE_READERS[reader].import_with_reader(&mut job, progress)?;
         if let Some(recording) = job.again.filter(|_| done.status != FileStatus::Refused) {
             import_again::update_recording_description(&mut job, recording, &mut done)?;
+        }
+        if done.status == FileStatus::Imported {
+            job.report_equal_bytes(&mut done)?;
+        }
+        if matches!(done.status, FileStatus::Imported | FileStatus::Updated) {
+            done.joined = job.joined.take();
         }
         // Files that add inventories make the next file load the inventories again.
         let same = Rc::ptr_eq(&job.inventories, &inventories) && FILE_READERS[reader].keeps_inventories;

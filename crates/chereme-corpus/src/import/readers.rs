@@ -82,6 +82,11 @@ impl FileReader {
         matches!(self.contents, FileContentUse::Movement(_))
     }
 
+    /// Returns whether such files are annotation files.
+    pub(super) fn holds_annotations(&self) -> bool {
+        matches!(self.contents, FileContentUse::Annotations(_))
+    }
+
     /// Returns the function that reads annotations or tiers from the bytes of such a file, if they hold some.
     fn reader_transcript_parser(&self) -> Option<ParseFunction<AnnotationTranscript>> {
         match self.contents {
@@ -350,6 +355,17 @@ pub(super) fn is_movement(kind: &str) -> bool {
     FILE_READERS
         .iter()
         .any(|reader| reader.kind == kind && reader.is_movement())
+}
+
+/// Returns whether files of a kind in `source_file.kind` hold a capture of any sort: movement, points, curves, a film.
+pub(crate) fn is_capture_kind(kind: &str) -> bool {
+    let other_kinds = ["curves", import_captured::POINT_TABLE_KIND, import_film::FILM_KIND];
+    let holds_capture = |reader: &FileReader| {
+        let contents = &reader.contents;
+        matches!(contents, FileContentUse::Movement(_) | FileContentUse::Tracks(_))
+    };
+    let mut readers = FILE_READERS.iter().filter(|reader| reader.kind == kind);
+    other_kinds.contains(&kind) || readers.any(holds_capture)
 }
 
 /// Lists the endings of annotation files.

@@ -4,6 +4,7 @@ mod again;
 mod captured;
 mod film;
 mod foreign;
+mod joining;
 mod lexicon;
 mod lexicon_again;
 mod points;

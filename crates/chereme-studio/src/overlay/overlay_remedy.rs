@@ -26,6 +26,7 @@ fn offered_choice_text(choice: RemedyChoice) -> InterfaceText {
         RemedyChoice::TiersLike => words::HELP_TEMPLATE,
         RemedyChoice::CommonAncestor => words::HELP_MERGE,
         RemedyChoice::Side => words::HELP_CHANGED,
+        RemedyChoice::Joining => words::HELP_JOINING,
         RemedyChoice::OtherCorpus => trouble_words::OTHER_CORPUS,
         RemedyChoice::Check => trouble_words::CHECK_HERE,
         RemedyChoice::Notation => shell::HELP_NOTATION,

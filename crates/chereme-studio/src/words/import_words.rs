@@ -47,6 +47,12 @@ texts! {
     EDITS_MERGE: "merge with the file; if both changed an annotation, keep mine", "fusionner avec le fichier ; si les deux ont changé une annotation, garder la mienne";
     EDITS_THEIRS: "take the file's version", "prendre la version du fichier";
     EDITS_MINE: "keep mine", "garder les miennes";
+    JOINING: "Files of one recording", "Fichiers d’un enregistrement";
+    JOIN_CERTAIN: "what is certain: folder and name, or what the files say", "ce qui est sûr : dossier et nom, ou ce que disent les fichiers";
+    JOIN_NAME: "also the same name in other folders", "aussi le même nom dans d’autres dossiers";
+    JOIN_TIMECODE: "also the same timecode, in neighbouring folders too", "aussi le même timecode, même dans des dossiers voisins";
+    JOIN_NONE: "folder and name alone", "dossier et nom seuls";
+    JOINED: "joined with {file}: {why}", "joint à {file} : {why}";
     AXES_ARE: "up is the file's {up}, and the signer's left is its {left}", "le haut est l’{up} du fichier, la gauche du signeur l’{left}";
     AXIS: "{axis} axis", "axe {axis}";
     AXIS_REVERSED: "{axis} axis reversed", "axe {axis} inversé";
@@ -57,6 +63,7 @@ texts! {
     OTHER_JOINTS: "{part} was taken to be {joint}; other joints could be it", "{part} : pris pour {joint} ; d’autres articulations pourraient l’être";
     POINT: "Click to say which joint it is", "Cliquez pour dire quelle articulation c’est";
     HELP_ROLES: "Click the wrong joint on the body shown here, or write the right joint beside its part of the body below it, and look again.", "Cliquez l’articulation fausse sur le corps affiché ici, ou écrivez la bonne à côté de sa partie du corps plus bas, et examinez de nouveau.";
+    HELP_JOINING: "If they are of one take, choose what joins files under “Say more about these files”, and look again.", "S’ils sont de la même prise, choisissez ce qui joint des fichiers sous « Préciser ces fichiers », et examinez de nouveau.";
     HELP_UNIT: "Choose the unit under “Say more about these files”, and look again.", "Choisissez l’unité sous « Préciser ces fichiers », et examinez de nouveau.";
     HELP_AXES: "Choose the axes under “Say more about these files”, or click the wrong joint on the body shown here, and look again.", "Choisissez les axes sous « Préciser ces fichiers », ou cliquez l’articulation fausse sur le corps affiché ici, et examinez de nouveau.";
     HELP_ROOT: "Tick “Read root columns in the order in which they lie” under “Say more about these files”, and look again.", "Cochez « Lire les colonnes de la racine dans leur ordre réel » sous « Préciser ces fichiers », et examinez de nouveau.";

@@ -8,6 +8,8 @@ use super::{FileReport, ImportJob, OwnEdits};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::db::stored_tracks;
 use crate::error::CorpusResult;
+use crate::import::import_joining::JoinReason;
+use crate::import::import_places::NamedRecording;
 use crate::import::import_report::ReportFinding;
 use crate::import::readers::ParseFunction;
 
@@ -64,52 +66,62 @@ pub(super) fn report_unchanged_target(job: &ImportJob<'_>, here: &SourceFileRow)
 }
 
 /// Finds the recording of a file: that of the take beside it, otherwise that of the file that it is a version of,
-/// otherwise one of its name that has no annotation file from elsewhere. `read` reads files of its kind.
+/// otherwise that of the film that it names, otherwise one of its name without such a file, if the caller joins by name.
+/// `read` reads files of its kind.
 pub(super) fn find_import_target(
-    job: &ImportJob<'_>,
+    job: &mut ImportJob<'_>,
     read: ParseFunction<AnnotationTranscript>,
     transcript: &AnnotationTranscript,
     report: &mut FileReport,
 ) -> CorpusResult<EafImportTarget> {
-    if let Some(id) = job.places.recording_beside_file(&job.place) {
+    if let Some(id) = job.find_sibling_recording() {
+        job.note_file_join(id, JoinReason::FolderAndName);
         return Ok(EafImportTarget {
             recording: Some(id),
             base: find_earlier_eaf(job, id)?,
         });
     }
-    let mut candidates = job.places.recordings_named(&job.place);
-    let named = stored_recordings::recording_named(job.connection, &job.stem)?.map(|row| row.id);
-    candidates.extend(
-        named
-            .filter(|id| !candidates.contains(id))
-            .into_iter()
-            .collect::<Vec<_>>(),
-    );
-    for &id in &candidates {
+    let candidates = job.recordings_of_same_name()?;
+    for &NamedRecording { id, .. } in &candidates {
         let Some(base) = find_earlier_eaf(job, id)? else {
             continue;
         };
         if is_version(job, (read, &base), transcript, report)? {
+            job.note_file_join(id, JoinReason::FileVersion);
             return Ok(EafImportTarget {
                 recording: Some(id),
                 base: Some(base),
             });
         }
     }
-    let mut unfit = None;
-    for id in candidates {
-        if find_earlier_eaf(job, id)?.is_some() {
-            continue;
-        }
-        // A take of this name in another folder, in which these annotations do not fit, is another take.
-        if job.options.into.is_none() && !fits_in_recording(job, id, transcript)? {
-            unfit = unfit.or(Some(id));
-            continue;
-        }
+    if job.options.into.is_some() {
+        return Ok(EafImportTarget::default());
+    }
+    let filmed = job.recording_of_named_film(transcript);
+    if let Some(id) = filmed.filter(|id| !job.places.has_file_of_kind(*id, job.kind))
+        && !job.is_other_signer(id)?
+    {
+        job.note_file_join(id, JoinReason::NamedFilm);
         return Ok(EafImportTarget {
             recording: Some(id),
             base: None,
         });
+    }
+    let (mut unfit, mut likely) = (None, Vec::new());
+    for candidate in candidates {
+        if find_earlier_eaf(job, candidate.id)?.is_some() {
+            continue;
+        }
+        // A take of this name in another folder, in which these annotations do not fit, is another take.
+        if fits_in_recording(job, candidate.id, transcript)? {
+            likely.push(candidate);
+        } else {
+            unfit = unfit.or(Some(candidate.id));
+        }
+    }
+    if !likely.is_empty() {
+        let recording = job.join_by_name_elsewhere(&likely, report)?;
+        return Ok(EafImportTarget { recording, base: None });
     }
     if let Some(id) = unfit {
         let other = stored_recordings::load_recording_row(job.connection, id)?.name;

@@ -261,8 +261,13 @@ fn own_removals_and_additions_are_merged_too() {
 }
 
 #[test]
-fn movement_of_another_folder_takes_annotations_only_if_they_fit() {
-    for (end, wanted) in [(200, &["Take"][..]), (9000, &["Take", "Take (B)"][..])] {
+fn movement_of_another_folder_takes_annotations_only_by_name_and_if_they_fit() {
+    for (end, joining, wanted, question) in [
+        (200, FileJoining::Name, &["Take"][..], false),
+        (200, FileJoining::Certain, &["Take", "Take (B)"][..], true),
+        (200, FileJoining::None, &["Take", "Take (B)"][..], false),
+        (9000, FileJoining::Name, &["Take", "Take (B)"][..], false),
+    ] {
         let desk = Desk::new();
         for folder in ["A", "B"] {
             fs::create_dir(desk.folder.path().join(folder)).expect("made");
@@ -270,10 +275,18 @@ fn movement_of_another_folder_takes_annotations_only_if_they_fit() {
         let tiers = desk.file("A/Take.eaf", &eaf(&[("Gloss", 0, end, "CHAT")]));
         let movement = desk.file("B/Take.bvh", MOVEMENT);
         let mut corpus = desk.corpus("c.chereme");
-        for path in [tiers, movement] {
-            take(&mut corpus, &[path], &ImportOptions::default());
-        }
-        assert_eq!(names(&corpus), wanted, "annotations until {end} ms");
+        let options = ImportOptions {
+            joining,
+            ..ImportOptions::default()
+        };
+        take(&mut corpus, &[tiers], &options);
+        let report = take(&mut corpus, &[movement], &options);
+        assert_eq!(names(&corpus), wanted, "annotations until {end} ms, {joining:?}");
+        let asked = has(
+            &report.files[0].findings,
+            "the recording \"Take\" (A/Take.eaf) has its name in another folder",
+        );
+        assert_eq!(asked, question, "{report:?}");
     }
 }
 

@@ -305,8 +305,12 @@ fn the_export_of_an_annotation_file_beside_it_is_left_out() {
 }
 
 #[test]
-fn annotations_go_to_a_take_of_their_name_elsewhere_only_if_they_fit() {
-    for (end, recordings) in [(200, 1), (9000, 2)] {
+fn annotations_go_to_a_take_of_their_name_elsewhere_only_by_name_and_if_they_fit() {
+    for (end, joining, recordings) in [
+        (200, FileJoining::Name, 1),
+        (200, FileJoining::Certain, 2),
+        (9000, FileJoining::Name, 2),
+    ] {
         let folder = tempfile::tempdir().expect("a folder");
         for (name, text) in [
             ("bvh/take.bvh", MOVEMENT.to_owned()),
@@ -317,11 +321,22 @@ fn annotations_go_to_a_take_of_their_name_elsewhere_only_if_they_fit() {
             fs::write(path, text).expect("written");
         }
         let inbox = [folder.path().join("in")];
-        let (_, report) = imported(folder.path(), &inbox, &ImportOptions::default());
+        let options = ImportOptions {
+            joining,
+            ..ImportOptions::default()
+        };
+        let (_, report) = imported(folder.path(), &inbox, &options);
         assert_eq!(report.created.get("recordings"), Some(&recordings), "{end}");
         let reported = report.files.iter().flat_map(|it| &it.findings);
         let reported = reported.filter(|it| it.message.contains("in another folder"));
         assert_eq!(reported.count() as u64, recordings - 1);
+        let reasons: Vec<JoinReason> = report.joined.iter().flat_map(|it| &it.files).map(|it| it.by).collect();
+        let wanted: &[JoinReason] = if recordings == 1 {
+            &[JoinReason::NameElsewhere]
+        } else {
+            &[]
+        };
+        assert_eq!(reasons, wanted);
     }
 }
 

@@ -5,7 +5,7 @@ use crate::film::tests::film as write_film;
 use crate::{CorpusAddress, RowName};
 
 /// Writes a film of one second under a name; creates its folder.
-fn film(desk: &Desk, name: &str) -> PathBuf {
+pub(super) fn film(desk: &Desk, name: &str) -> PathBuf {
     let path = desk.folder.path().join(name);
     fs::create_dir_all(path.parent().expect("a folder")).expect("made");
     let own = tempfile::tempdir().expect("a folder");
@@ -15,7 +15,7 @@ fn film(desk: &Desk, name: &str) -> PathBuf {
 }
 
 /// Returns an annotation file that names a film on another computer.
-fn naming(film: &str) -> String {
+pub(super) fn naming(film: &str) -> String {
     let media = format!(
         "<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"><MEDIA_DESCRIPTOR \
          MEDIA_URL=\"file:///D:/gone/{film}\" MIME_TYPE=\"video/mp4\"/></HEADER>"
