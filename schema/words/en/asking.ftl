@@ -74,6 +74,7 @@ message-asking-decide-for-mine-theirs = decide for mine or theirs
 message-asking-two-corpora-have-no-common-beginning = the two corpora have no common beginning: neither is a copy of the other
 message-asking-name-copy-both-come-from-with = name the copy that both come from with --base; else export its recordings as .eaf and import these with --merge
 message-asking-both-have-recording-here = both have a recording { $name }: that of { $path } is { $other } here
+message-asking-both-imported-recording-same-file = both imported the recording { $name } from the same file: it is one recording here
 message-asking-both-have-study-with-another-plan = both have a study { $name } with another plan: that of { $path } is { $other } here
 message-asking-both-have-participant-two-people-here = both have a participant { $code }, two people: that of { $path } is { $other } here
 message-asking-another-file = it is another file

@@ -74,6 +74,7 @@ message-asking-decide-for-mine-theirs = décidez pour le mien ou le leur
 message-asking-two-corpora-have-no-common-beginning = les deux corpus n’ont pas de début commun : aucun n’est une copie de l’autre
 message-asking-name-copy-both-come-from-with = nommez avec --base la copie dont les deux viennent ; sinon exportez ses enregistrements en .eaf et importez-les avec --merge
 message-asking-both-have-recording-here = les deux ont un enregistrement { $name } : celui de { $path } est { $other } ici
+message-asking-both-imported-recording-same-file = les deux ont importé l’enregistrement { $name } du même fichier : c’est ici un seul enregistrement
 message-asking-both-have-study-with-another-plan = les deux ont une étude { $name }, avec un autre plan : celle de { $path } est { $other } ici
 message-asking-both-have-participant-two-people-here = les deux ont un participant { $code }, deux personnes : celui de { $path } est { $other } ici
 message-asking-another-file = c’est un autre fichier

@@ -328,6 +328,41 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
     Ok(statement.query_row([text], |row| row.get(0)).optional()?)
 }
 
+/// Returns the track of a recording here that has the name, kind and blocks of one of another corpus, whose row resolved
+/// for this one is `local`.
+pub(crate) fn find_equal_track(
+    (from, id): (&Connection, i64),
+    (into, local): (&Connection, &RowImage),
+) -> CorpusResult<Option<i64>> {
+    let content = |connection: &Connection,
+                   condition: &str,
+                   value: &dyn rusqlite::ToSql|
+     -> CorpusResult<Option<(i64, String)>> {
+        let sql = format!(
+            "SELECT id, kind || (SELECT coalesce(group_concat(part), '') FROM
+                 (SELECT channel_group || ' ' || first_frame || ' ' || hex(hash) AS part FROM track_block
+                  WHERE track_id = track.id ORDER BY channel_group, first_frame))
+             FROM track WHERE {condition}"
+        );
+        let row = connection.query_row(&sql, [value], |row| Ok((row.get(0)?, row.get(1)?)));
+        Ok(row.optional()?)
+    };
+    let theirs = content(from, "id = ?1", &id)?;
+    let named = "recording_id = json_extract(?1, '$.recording_id') AND name = json_extract(?1, '$.name')";
+    let mine = content(into, named, &Value::Object(local.clone()).to_string())?;
+    let both = mine.zip(theirs);
+    Ok(both.filter(|(mine, theirs)| mine.1 == theirs.1).map(|(mine, _)| mine.0))
+}
+
+/// Returns the file of a recording here with the kind and bytes of a row.
+pub(crate) fn find_equal_file(connection: &Connection, local: &RowImage) -> CorpusResult<Option<i64>> {
+    let sql = "SELECT id FROM source_file WHERE recording_id = json_extract(?1, '$.recording_id')
+               AND kind = json_extract(?1, '$.kind') AND hash = json_extract(?1, '$.hash') ORDER BY id";
+    let text = Value::Object(local.clone()).to_string();
+    let mut statement = connection.prepare_cached(sql)?;
+    Ok(statement.query_row([text], |row| row.get(0)).optional()?)
+}
+
 /// Copies the parts of a row that have no uid, such as the blocks of a track, from another corpus.
 pub(crate) fn copy_parts(
     (from, old): (&Connection, i64),

@@ -289,6 +289,11 @@ pub(crate) fn source_files(connection: &Connection, recording: i64) -> CorpusRes
     source_files_where(connection, "recording_id = ?1", recording)
 }
 
+/// Returns the files with these bytes, oldest first.
+pub(crate) fn source_files_of_hash(connection: &Connection, hash: &str) -> CorpusResult<Vec<SourceFileRow>> {
+    source_files_where(connection, "hash = ?1", hash)
+}
+
 /// Returns all files, oldest first.
 pub(crate) fn all_source_files(connection: &Connection) -> CorpusResult<Vec<SourceFileRow>> {
     source_files_where(connection, "id > ?1", 0)

@@ -4,6 +4,7 @@
 #[cfg(test)]
 #[path = "tests/laws.rs"]
 mod laws;
+mod merge_captures;
 mod merge_conflicts;
 mod merge_rows;
 mod merge_studies;
@@ -138,6 +139,7 @@ impl Corpus {
                 roots: BTreeSet::new(),
                 renamed: BTreeSet::new(),
                 signs: Vec::new(),
+                joined_captures: BTreeSet::new(),
             };
             work.merge_all_rows(progress)?;
             db::note_merged(connection, there)?;
@@ -192,6 +194,8 @@ struct MergeWork<'c> {
     renamed: BTreeSet<[String; 2]>,
     /// The signs that were added from the other side.
     signs: Vec<i64>,
+    /// The recordings of this side that the other side imported from the same bytes.
+    joined_captures: BTreeSet<i64>,
 }
 
 impl MergeWork<'_> {
@@ -379,6 +383,9 @@ impl MergeWork<'_> {
 
     fn add_merged_row(&mut self, key: &TableRowKey, theirs: &RowImage, mut local: RowImage) -> CorpusResult<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
+        if self.join_same_capture(key, theirs, &local)? {
+            return Ok(());
+        }
         let placed;
         let theirs = match table {
             "study_participant" if self.answered_another(uid, &mut local)? => {

@@ -134,6 +134,70 @@ fn is_whole(corpus: &mut Corpus) {
     assert_eq!(report.all_findings().next(), None);
 }
 
+/// A BVH file of one joint and two frames.
+const MOVEMENT: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n\
+     End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n0 0 1\n";
+
+#[test]
+fn a_capture_that_both_sides_imported_is_one_recording() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    for (side, corpus) in [("a", &mut mine), ("b", &mut theirs)] {
+        let folder = desk.path(side);
+        fs::create_dir(&folder).expect("made");
+        fs::write(folder.join("c1.bvh"), MOVEMENT).expect("written");
+        fs::write(folder.join("c1.eaf"), EAF).expect("written");
+        corpus
+            .import_paths(&[folder], &ImportOptions::default(), progress())
+            .expect("imported");
+    }
+    let counts = |corpus: &Corpus| {
+        let mut counts = corpus.load_corpus_info().expect("info").counts;
+        counts.remove("operations");
+        counts
+    };
+    let before = counts(&mine);
+    let report = desk.merge(&mut mine);
+    assert_eq!(counts(&mine), before, "{report:?}");
+    assert!(
+        report
+            .notes
+            .iter()
+            .any(|note| note.contains("\"c1\" from the same file")),
+        "{report:?}"
+    );
+    assert!(report.conflicts.is_empty(), "{report:?}");
+    is_whole(&mut mine);
+    drop(theirs);
+    let mut theirs = Corpus::open_corpus(&desk.path("theirs.chereme"), "theirs").expect("opened");
+    // The next merges, in both directions, leave it one recording.
+    for _ in 0..2 {
+        desk.merge(&mut theirs);
+        assert_eq!(counts(&theirs), before);
+        desk.merge(&mut mine);
+        assert_eq!(counts(&mine), before);
+    }
+    is_whole(&mut theirs);
+}
+
+#[test]
+fn captures_with_other_bytes_stay_two_recordings() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    for (side, turn, corpus) in [("a", "0 0 1", &mut mine), ("b", "0 0 2", &mut theirs)] {
+        let folder = desk.path(side);
+        fs::create_dir(&folder).expect("made");
+        fs::write(folder.join("c1.bvh"), MOVEMENT.replace("0 0 1", turn)).expect("written");
+        corpus
+            .import_paths(&[folder], &ImportOptions::default(), progress())
+            .expect("imported");
+    }
+    let report = desk.merge(&mut mine);
+    assert_eq!(mine.load_corpus_info().expect("info").counts["recordings"], 3);
+    assert!(
+        report.notes.iter().any(|note| note.contains("\"c1 (2)\"")),
+        "{report:?}"
+    );
+}
+
 #[test]
 fn diverged_copies_are_merged() {
     let (desk, mut mine, mut theirs) = Desk::new();
