@@ -8,6 +8,8 @@ message-command-import-would-remove = would remove: { $list }
 line-command-import-more-files-imported-without-warning-json = { $n } more files were imported without a warning; --json lists their notes
 message-command-import-not-read-without-ending = not read: { $what } without an ending ({ $why })
 line-command-import-not-read = not read: { $what } ({ $why })
+line-command-import-recording-holds-file-and = recording { $name } holds { $file } and
+line-command-import-more-recordings-hold-several-files = { $n } more recordings hold several files; --json lists them
 message-command-import-nothing-new = nothing new
 line-command-import-joints-unit-axes-up-left = { $n } joints, { $rate }, unit { $unit }, axes up,left = { $axes }
 message-command-import-track-points-frames-unit-axes-up = track { $name }: { $n } points, { $all } frames, { $rate }, unit { $unit }, axes up,left = { $axes }
@@ -52,8 +54,13 @@ help-command-import-json-file-with-meaning-tiers-columns = A JSON file with the 
 help-command-import-origin-recordings = The origin of the recordings
 help-command-import-terms-under-recordings-may-used = The terms under which the recordings may be used
 help-command-import-recording-for-all-tracks-tiers-files = The recording for all tracks and tiers of the files, instead of the one with the files' name
+help-command-import-evidence-joins-files-into-one-recording = The evidence that joins files into one recording
+help-command-import-folder-name-what-annotation-file-says = Folder and name, what an annotation file says, and a true timecode within a folder
+help-command-import-also-same-name-in-another-folder = Also the same name in another folder, if only one recording has it
+help-command-import-also-any-timecode-in-neighbouring-folders = Also any timecode, in neighbouring folders too
+help-command-import-folder-name-alone = Folder and name alone
 help-command-import-start-files-tracks-on-recording-s = The start of the files' tracks on the recording's clock, such as 0.48s
 help-command-import-time-day-at-files-tracks-start = The time of day at which the files' tracks start, if they do not state it: 12:34:56:07, or 12:34:56:07@25 for 25 frames a second. Tracks of a recording with known times of day are aligned by them
 help-command-import-frame-rate-points-from-film-tables = The frame rate of points from film and of tables of markers that do not state it, in frames per second, such as 50 or 30000/1001
-help-command-import-files-same-name-in-one-folder = Files of the same name in one folder become one recording, and so do files with overlapping timecodes; files of the same name in two folders become two recordings, except for annotations that fit into a take of their name. A film is linked to the recording with its name, or whose .eaf names it. A line of HamNoSys holds the gloss, a tab, and the symbols. The report shows how each file was interpreted. Options override this, also later: --map gives an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the others are imported.
+help-command-import-files-same-name-in-one-folder = Files of the same name in one folder become one recording; so does a film that an .eaf names, and, within a folder, a file of another kind whose timecode overlaps. What only may belong together, such as files of the same name in two folders, is not joined but listed with what to do (--join, --into), and the report says what was joined and why. A line of HamNoSys holds the gloss, a tab, and the symbols. The report shows how each file was interpreted. Options override this, also later: --map gives an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the others are imported.
 help-command-import-annotation-file-imported-before-edited-since = An annotation file that was imported before and edited since updates its recording, annotation by annotation. If that would take back edits made in the corpus, the file is refused and the edits are listed; then --merge, --theirs or --mine decides. One import is one operation: `chereme undo` takes it back, and Ctrl-C leaves the corpus as it was.

@@ -8,6 +8,8 @@ message-command-import-would-remove = retirerait : { $list }
 line-command-import-more-files-imported-without-warning-json = autres fichiers importés sans avertissement : { $n } ; --json donne leurs notes
 message-command-import-not-read-without-ending = pas lus : { $what } sans extension ({ $why })
 line-command-import-not-read = pas lus : { $what } ({ $why })
+line-command-import-recording-holds-file-and = l’enregistrement { $name } contient { $file } et
+line-command-import-more-recordings-hold-several-files = autres enregistrements de plusieurs fichiers : { $n } ; --json les donne
 message-command-import-nothing-new = rien de nouveau
 line-command-import-joints-unit-axes-up-left = { $n } articulations, { $rate }, unité { $unit }, axes haut,gauche = { $axes }
 message-command-import-track-points-frames-unit-axes-up = piste { $name } : { $n } points, { $all } images, { $rate }, unité { $unit }, axes haut,gauche = { $axes }
@@ -52,8 +54,13 @@ help-command-import-json-file-with-meaning-tiers-columns = Un fichier JSON qui d
 help-command-import-origin-recordings = L’origine des enregistrements
 help-command-import-terms-under-recordings-may-used = Les conditions d’usage des enregistrements
 help-command-import-recording-for-all-tracks-tiers-files = L’enregistrement pour toutes les pistes et tous les acteurs des fichiers, au lieu de celui qui porte leur nom
+help-command-import-evidence-joins-files-into-one-recording = L’indice qui joint des fichiers en un enregistrement
+help-command-import-folder-name-what-annotation-file-says = Le dossier et le nom, ce que dit un fichier d’annotations, et un vrai timecode dans un même dossier
+help-command-import-also-same-name-in-another-folder = Aussi le même nom dans un autre dossier, si un seul enregistrement le porte
+help-command-import-also-any-timecode-in-neighbouring-folders = Aussi tout timecode, même dans des dossiers voisins
+help-command-import-folder-name-alone = Le dossier et le nom seuls
 help-command-import-start-files-tracks-on-recording-s = Le début des pistes des fichiers sur l’horloge de l’enregistrement, comme 0.48s
 help-command-import-time-day-at-files-tracks-start = L’heure à laquelle commencent les pistes des fichiers, s’ils ne la donnent pas : 12:34:56:07, ou 12:34:56:07@25 pour 25 images par seconde. Les pistes d’un enregistrement dont les heures sont connues sont calées sur elles
 help-command-import-frame-rate-points-from-film-tables = La cadence des points d’un film et des tables de marqueurs qui ne la donnent pas, en images par seconde, comme 50 ou 30000/1001
-help-command-import-files-same-name-in-one-folder = Les fichiers du même nom dans un dossier forment un enregistrement, de même que ceux dont les timecodes se recouvrent ; les fichiers du même nom dans deux dossiers en forment deux, sauf des annotations qui tiennent dans une prise de leur nom. Un film est lié à l’enregistrement qui porte son nom, ou dont le .eaf le nomme. Une ligne de HamNoSys contient la glose, une tabulation et les symboles. Le rapport montre comment chaque fichier a été interprété. Des options y changent quelque chose, même plus tard : --map donne à un fichier déjà importé d’autres acteurs ou colonnes. Un corpus qui n’existe pas encore est créé. Si un fichier ne peut pas être lu, les autres sont importés.
+help-command-import-files-same-name-in-one-folder = Les fichiers du même nom dans un dossier forment un enregistrement ; un film qu’un .eaf nomme s’y joint, et, dans un même dossier, un fichier d’un autre type dont le timecode se recouvre. Ce qui va peut-être ensemble, comme des fichiers du même nom dans deux dossiers, n’est pas joint mais donné avec ce qu’il faut faire (--join, --into), et le rapport dit ce qui a été joint et pourquoi. Une ligne de HamNoSys contient la glose, une tabulation et les symboles. Le rapport montre comment chaque fichier a été interprété. Des options y changent quelque chose, même plus tard : --map donne à un fichier déjà importé d’autres acteurs ou colonnes. Un corpus qui n’existe pas encore est créé. Si un fichier ne peut pas être lu, les autres sont importés.
 help-command-import-annotation-file-imported-before-edited-since = Un fichier d’annotation déjà importé et modifié depuis met à jour son enregistrement, annotation par annotation. Si cela annulait des modifications faites dans le corpus, le fichier est refusé et elles sont énumérées ; --merge, --theirs ou --mine en décide alors. Un import est une opération : `chereme undo` l’annule, et Ctrl-C laisse le corpus tel qu’il était.

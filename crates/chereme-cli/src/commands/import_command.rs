@@ -7,8 +7,8 @@ use std::process::ExitCode;
 use anyhow::Result;
 use chereme_corpus::words::{InterfaceLanguage, fill_text_braces, trouble_words};
 use chereme_corpus::{
-    Corpus, CorpusError, FileReport, FileStatus, ImportOptions, ImportReport, OwnEdits, ProgressReceiver, RecordOrigin,
-    ReportFinding, TierMapping,
+    Corpus, CorpusError, FileJoining, FileReport, FileStatus, ImportOptions, ImportReport, JoinedRecording, OwnEdits,
+    ProgressReceiver, RecordOrigin, ReportFinding, TierMapping,
 };
 use chereme_motion::anatomy::RolesError;
 use clap::ValueEnum;
@@ -82,6 +82,9 @@ pub(crate) struct ImportArgs {
     /// The recording for all tracks and tiers of the files, instead of the one with the files' name
     #[arg(long, value_name = "RECORDING", value_parser = super::track_command::parse_recording_address)]
     into: Option<chereme_corpus::RowName>,
+    /// The evidence that joins files into one recording
+    #[arg(long, value_enum, value_name = "EVIDENCE", default_value_t)]
+    join: JoinWord,
     /// The start of the files' tracks on the recording's clock, such as 0.48s
     #[arg(long, value_name = "TIME", value_parser = super::track_command::parse_time_micros, allow_hyphen_values = true,
           default_value = "0s")]
@@ -97,12 +100,12 @@ pub(crate) struct ImportArgs {
 }
 
 /// The rules by which files are grouped and interpreted, for the help.
-const IMPORT_RULES_HELP: &str = "Files of the same name in one folder become one recording, and so do files with overlapping \
-timecodes; files of the same name in two folders become two recordings, except for annotations that fit into a take of \
-their name. A film is linked to the recording with its name, or whose .eaf names it. A line of HamNoSys holds the gloss, \
-a tab, and the symbols. The report shows how each file was interpreted. Options override this, also later: --map gives \
-an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the \
-others are imported.";
+const IMPORT_RULES_HELP: &str = "Files of the same name in one folder become one recording; so does a film that an .eaf names, \
+and, within a folder, a file of another kind whose timecode overlaps. What only may belong together, such as files of \
+the same name in two folders, is not joined but listed with what to do (--join, --into), and the report says what was \
+joined and why. A line of HamNoSys holds the gloss, a tab, and the symbols. The report shows how each file was \
+interpreted. Options override this, also later: --map gives an imported file other tiers or columns. A corpus that does \
+not exist yet is created. If a file cannot be read, the others are imported.";
 
 /// The treatment of files that are imported again, for the help.
 const REIMPORT_HELP: &str = "An annotation file that was imported before and edited since updates its recording, annotation by \
@@ -136,6 +139,19 @@ enum OriginWord {
     Captured,
     Made,
     Generated,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum JoinWord {
+    /// Folder and name, what an annotation file says, and a true timecode within a folder
+    #[default]
+    Certain,
+    /// Also the same name in another folder, if only one recording has it
+    Name,
+    /// Also any timecode, in neighbouring folders too
+    Timecode,
+    /// Folder and name alone
+    None,
 }
 
 /// The lengths in metres that a unit of length may have: from a micrometre to a kilometre.
@@ -271,6 +287,12 @@ fn import_options(args: &ImportArgs) -> Result<ImportOptions> {
             _ => OwnEdits::Ask,
         },
         into: args.into.clone(),
+        joining: match args.join {
+            JoinWord::Certain => FileJoining::Certain,
+            JoinWord::Name => FileJoining::Name,
+            JoinWord::Timecode => FileJoining::Timecode,
+            JoinWord::None => FileJoining::None,
+        },
         offset_us: args.offset,
         clock: args.timecode,
         rate: args.rate,
@@ -299,6 +321,7 @@ fn print_import_report(report: &ImportReport, output: &mut CommandOutput) -> Res
             &[&quiet],
         )?;
     }
+    print_joined_recordings(&report.joined, output)?;
     for kind in report.unread_file_kinds() {
         let what = match kind.ending {
             Some(ending) => format!("{} .{ending}", kind.files.len()),
@@ -339,6 +362,25 @@ fn print_import_report(report: &ImportReport, output: &mut CommandOutput) -> Res
     }
     if !any {
         output.write_output_line("nothing new")?;
+    }
+    Ok(())
+}
+
+/// Prints for each recording that files joined which they are, and why.
+fn print_joined_recordings(joined: &[JoinedRecording], output: &mut CommandOutput) -> Result<()> {
+    for recording in joined.iter().take(MAX_SHOWN_FILES) {
+        output.filled_line(
+            "recording {name} holds {file} and",
+            &[&format_args!("{:?}", recording.recording), &recording.with],
+        )?;
+        for file in &recording.files {
+            let why = output.translate_message(file.by.join_reason_text());
+            output.line_as_is(&format!("  {} ({why})", file.path))?;
+        }
+    }
+    if joined.len() > MAX_SHOWN_FILES {
+        let more = joined.len() - MAX_SHOWN_FILES;
+        output.filled_line("{n} more recordings hold several files; --json lists them", &[&more])?;
     }
     Ok(())
 }

@@ -59,8 +59,8 @@ impl MergeWork<'_> {
             .iter()
             .filter(|file| !has_capture || import::is_capture_kind(&file.kind))
         {
-            for own in stored_recordings::source_files_of_hash(self.connection, &file.hash)? {
-                let Some(recording) = own.recording_id.filter(|_| own.kind == file.kind) else {
+            for own_file in stored_recordings::source_files_of_hash(self.connection, &file.hash)? {
+                let Some(recording) = own_file.recording_id.filter(|_| own_file.kind == file.kind) else {
                     continue;
                 };
                 let own_uid = db::uid_of(self.connection, "recording", recording)?.unwrap_or_default();

@@ -328,9 +328,14 @@ fn annotations_go_to_a_take_of_their_name_elsewhere_only_by_name_and_if_they_fit
         let (_, report) = imported(folder.path(), &inbox, &options);
         assert_eq!(report.created.get("recordings"), Some(&recordings), "{end}");
         let reported = report.files.iter().flat_map(|it| &it.findings);
-        let reported = reported.filter(|it| it.message.contains("in another folder"));
+        let reported = reported.filter(|finding| finding.message.contains("in another folder"));
         assert_eq!(reported.count() as u64, recordings - 1);
-        let reasons: Vec<JoinReason> = report.joined.iter().flat_map(|it| &it.files).map(|it| it.by).collect();
+        let reasons: Vec<JoinReason> = report
+            .joined
+            .iter()
+            .flat_map(|joined| &joined.files)
+            .map(|file| file.by)
+            .collect();
         let wanted: &[JoinReason] = if recordings == 1 {
             &[JoinReason::NameElsewhere]
         } else {

@@ -66,7 +66,9 @@ fn annotations_of_one_name_in_different_folders_stay_apart_and_are_asked_about()
     assert_eq!(names(&corpus).len(), 3, "{report:?}");
     assert!(joined(&report).is_empty());
     let questions = report.files.iter().flat_map(|file| &file.findings);
-    let questions: Vec<_> = questions.filter(|it| it.message.contains("in other folders")).collect();
+    let questions: Vec<_> = questions
+        .filter(|finding| finding.message.contains("in other folders"))
+        .collect();
     assert_eq!(questions.len(), 1, "the last of three may belong to two: {report:?}");
     assert!(questions[0].remedy.is_some());
     // With the name as evidence, two candidates are still a question.

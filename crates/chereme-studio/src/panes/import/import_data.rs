@@ -227,6 +227,7 @@ mod tests {
             path: "a.bvh".into(),
             status: FileStatus::Imported,
             recording: None,
+            joined: None,
             understood: Box::new(understood),
             findings: vec![ReportFinding {
                 severity: "warning",

@@ -12,7 +12,7 @@ use crate::context::{CommandOutbox, PaneInput};
 use crate::overlay::overlay_remedy;
 use crate::panes::complete_pane::{CompletionLine, fitting_candidates, show_completion_line};
 use crate::panes::timeline::tier_box;
-use crate::words::{fill_text_braces, import_words as words, shell};
+use crate::words::{fill_text_braces, import_words as words, shell, translate_library_message};
 
 /// Shows the interpretation of a file.
 pub(super) fn show_file_report(
@@ -53,6 +53,11 @@ pub(super) fn show_file_report(
                     out.send_command(WindowCommand::Look);
                 }
             });
+        }
+        if let Some(join) = &file.joined {
+            let why = translate_library_message(join.by.join_reason_text(), seen.language);
+            let values: [(&str, &dyn std::fmt::Display); 2] = [("file", &join.with), ("why", &why)];
+            ui.small(fill_text_braces(seen.say_text(words::JOINED), &values));
         }
         show_understood_file(corrections, ui, seen, file, dry);
         show_file_findings(ui, seen, file);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{ImportOptions, OwnEdits};
+use chereme_corpus::{FileJoining, ImportOptions, OwnEdits};
 use chereme_motion::SignerAxes;
 use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, Role, Ui, WidgetInfo};
 
@@ -22,6 +22,8 @@ pub(super) struct ImportCorrections {
     mend_root: bool,
     /// Whether the user's own edits are kept if a file changed.
     own_edits: OwnEdits,
+    /// The evidence that joins files into one recording.
+    joining: FileJoining,
     axes: Option<SignerAxes>,
     /// The roles of tiers, by name.
     pub(super) tiers: BTreeMap<String, String>,
@@ -39,6 +41,7 @@ impl ImportCorrections {
             licence: text(&self.licence),
             mend_root: self.mend_root,
             own_edits: self.own_edits,
+            joining: self.joining,
             axes: self.axes,
             roles: import_data::chosen_joint_roles(&self.joints),
             mapping: import_data::mapping_from_choices(&self.tiers),
@@ -94,6 +97,13 @@ pub(super) fn show_import_corrections(corrections: &mut ImportCorrections, ui: &
                     (OwnEdits::Mine, words::EDITS_MINE),
                 ];
                 show_correction_list(ui, seen, words::OWN_EDITS, &mut corrections.own_edits, &edits);
+                let joinings = [
+                    (FileJoining::Certain, words::JOIN_CERTAIN),
+                    (FileJoining::Name, words::JOIN_NAME),
+                    (FileJoining::Timecode, words::JOIN_TIMECODE),
+                    (FileJoining::None, words::JOIN_NONE),
+                ];
+                show_correction_list(ui, seen, words::JOINING, &mut corrections.joining, &joinings);
                 let label = ui.label(seen.say_text(words::LICENCE));
                 let none = |_: &str| Vec::new();
                 let line = CompletionLine {
@@ -185,6 +195,22 @@ fn show_correction_list<T: PartialEq + Copy>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_evidence_that_joins_files_reaches_the_import_options() {
+        for joining in [
+            FileJoining::Certain,
+            FileJoining::Name,
+            FileJoining::Timecode,
+            FileJoining::None,
+        ] {
+            let corrections = ImportCorrections {
+                joining,
+                ..ImportCorrections::default()
+            };
+            assert_eq!(corrections.corrected_import_options(true).joining, joining);
+        }
+    }
 
     #[test]
     fn the_choice_about_own_edits_reaches_the_import_options() {
