@@ -508,6 +508,13 @@ fn a_study_is_planned_again_from_its_json_built_answered_and_forgotten() {
     fs::write(folder.join("plan.json"), plan.to_string()).expect("written");
     let planned = json(format!("study new {corpus} s --plan plan.json"));
     assert_eq!(planned["replaced"], true);
+    let refused = desk.run(&format!("study build {corpus} s --to q"));
+    assert!(
+        text(&refused.stderr).contains("withheld from public"),
+        "{}",
+        text(&refused.stderr)
+    );
+    json(format!("consent {corpus} signer:1 --all public"));
     let built = json(format!("study build {corpus} s --to q --height 64 --rate 5"));
     assert_eq!(built["films"], 1);
     let page = fs::read_to_string(folder.join("q/index.html")).expect("the page");

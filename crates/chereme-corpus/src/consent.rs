@@ -1,24 +1,25 @@
 //! The consent of signers: who may see their movement, its annotation, and signs made from it.
 
+mod consent_gate;
+mod kept_movement;
+mod output_gate;
 mod unnamed;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::str::FromStr;
 
-use chereme_sign::ErrorRemedy;
-use chereme_sign::text::fold_text;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
-use crate::Corpus;
 use crate::address::{self, CorpusAddress};
-use crate::db::stored_recordings::RecordingRow;
 use crate::db::{consents, edits, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
-use crate::merge;
-use crate::sources::sources_notation::OWN_BODY;
 use crate::words::effect::OperationEffect;
+use crate::{Corpus, RecordOrigin};
+pub use consent_gate::WithheldReason;
+pub(crate) use consent_gate::{PublishPermissions, TERMS_NOT_STATED, withheld_remedy};
+pub use output_gate::{OutputAudience, WithheldOutput};
+pub(crate) use output_gate::{OutputGate, nothing_passes_error};
 
 /// The people who may see something, from the fewest to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -315,275 +316,16 @@ fn state_terms(connection: &Connection, (of, id): (&str, i64), licence: &str) ->
     };
     for recording in recording_ids {
         let mut row = stored_recordings::load_recording_row(connection, recording)?;
+        // A generated sign has the terms of all who contributed, and one of them cannot state those of the others.
+        if row.origin == RecordOrigin::Made && of == "signer" {
+            continue;
+        }
         if row.licence.as_deref().is_none_or(|text| text.trim().is_empty()) {
             row.licence = Some(licence.to_owned());
             edits::update_recording(connection, &row)?;
         }
     }
     Ok(())
-}
-
-/// A reason why something may not be published.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum WithheldReason {
-    /// Nobody recorded what the signer agreed to.
-    ConsentUnknown,
-    /// The signer did not agree that everybody sees it.
-    NotPublic,
-    /// No terms of use are stated.
-    NoTerms,
-    /// The terms forbid that something is made from it.
-    NoDerivatives,
-    /// Two copies of the corpus disagree about it, and nobody has decided.
-    Undecided,
-    /// A recording that it was made from is not known, or no longer there.
-    InputGone,
-}
-
-/// The permissions of a corpus, read at one moment.
-pub(crate) struct PublishPermissions {
-    recordings: BTreeMap<i64, RecordingRow>,
-    /// Whether everybody may see a recording, by kind: the narrowest of the consents that apply.
-    agreed: BTreeMap<i64, [std::result::Result<(), WithheldReason>; 3]>,
-    /// The subjects that recordings themselves refuse to everybody.
-    refused: BTreeSet<(i64, ConsentKind)>,
-    /// The recordings that a generated one takes movement from; `None` if one of them is gone or not known.
-    inputs: BTreeMap<i64, Option<BTreeSet<i64>>>,
-    /// Recordings in which a person moves or a signer is named.
-    personal: BTreeSet<i64>,
-    /// Terms of what has none of its own and shows nobody.
-    terms: Option<String>,
-}
-
-impl PublishPermissions {
-    /// Reads the permissions of a corpus; `terms` hold for what has none of its own and shows nobody.
-    pub(crate) fn read_publish_permissions(connection: &Connection, terms: Option<&str>) -> CorpusResult<Self> {
-        let mut signers: BTreeMap<i64, (String, PersonConsent)> = BTreeMap::new();
-        for row in consents::of_signers(connection)? {
-            let row = consent_row("signer", row)?;
-            signers.insert(row.id, (row.name, row.consent));
-        }
-        let mut own_consents: BTreeMap<i64, PersonConsent> = BTreeMap::new();
-        for row in consents::of_recordings(connection)? {
-            let row = consent_row("recording", row)?;
-            own_consents.insert(row.id, row.consent);
-        }
-        let mut named: BTreeMap<i64, BTreeSet<String>> = BTreeMap::new();
-        for (recording, name) in consents::list_tier_participants(connection)? {
-            named.entry(recording).or_default().insert(name);
-        }
-        let mut inputs: BTreeMap<i64, Option<BTreeSet<i64>>> = BTreeMap::new();
-        for (made, input, token) in consents::list_recipe_movement_inputs(connection, OWN_BODY)? {
-            let all = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
-            match input {
-                Some(input) => drop(all.as_mut().map(|set| set.insert(input))),
-                None if token => {}
-                None => *all = None,
-            }
-        }
-        let rows = stored_recordings::load_recording_rows(connection)?;
-        unnamed::complete_unnamed_inputs(connection, &rows, &mut inputs)?;
-        let doubts = doubts(connection)?;
-        // A participant written in other letters is the same person.
-        let mut by_name: BTreeMap<String, Vec<i64>> = BTreeMap::new();
-        for (id, (name, _)) in &signers {
-            by_name.entry(fold_text(name.trim())).or_default().push(*id);
-        }
-        let mut refused = BTreeSet::new();
-        let (mut agreed, mut personal) = (BTreeMap::new(), BTreeSet::new());
-        let mut all = BTreeMap::new();
-        for row in rows {
-            let mut people: Vec<Option<i64>> = row.signer_id.map(Some).into_iter().collect();
-            for name in named.get(&row.id).into_iter().flatten() {
-                match by_name.get(&fold_text(name)) {
-                    Some(known) => people.extend(known.iter().copied().map(Some)),
-                    None => people.push(None),
-                }
-            }
-            let shows = row.origin == crate::RecordOrigin::Captured || !people.is_empty();
-            if shows {
-                personal.insert(row.id);
-            }
-            if row.origin == crate::RecordOrigin::Made {
-                // Without a recipe nobody knows whose movement it is.
-                inputs.entry(row.id).or_insert(None);
-            }
-            let consent = own_consents.get(&row.id);
-            let each: Vec<Option<&PersonConsent>> = people
-                .iter()
-                .map(|entry| entry.and_then(|id| signers.get(&id)).map(|(_, it)| it))
-                .collect();
-            agreed.insert(
-                row.id,
-                ConsentKind::ALL_CONSENT_KINDS.map(|kind| {
-                    let own_audience = consent.and_then(|statement| statement.audience_of_kind(kind));
-                    if own_audience.is_some_and(|audience| audience < ConsentAudience::Public) {
-                        refused.insert((row.id, kind));
-                    }
-                    let doubted = doubts.contains(&("recording", row.id, kind));
-                    let mut people = people.iter().flatten();
-                    let doubted = doubted || people.any(|person| doubts.contains(&("signer", *person, kind)));
-                    match narrowest(consent, &each, kind) {
-                        Some(ConsentAudience::Nobody | ConsentAudience::Research) => Err(WithheldReason::NotPublic),
-                        None if shows => Err(WithheldReason::ConsentUnknown),
-                        _ if doubted => Err(WithheldReason::Undecided),
-                        Some(ConsentAudience::Public) | None => Ok(()),
-                    }
-                }),
-            );
-            all.insert(row.id, row);
-        }
-        Ok(Self {
-            recordings: all,
-            agreed,
-            refused,
-            inputs,
-            personal,
-            terms: terms.map(str::to_owned),
-        })
-    }
-
-    /// Returns the terms under which an entry of a table may be published.
-    pub(crate) fn of_entry(&self) -> std::result::Result<BTreeSet<String>, WithheldReason> {
-        let terms = self.terms.clone().ok_or(WithheldReason::NoTerms)?;
-        Ok(BTreeSet::from([terms]))
-    }
-
-    /// Returns the terms under which a recording may be published, those of all its inputs included.
-    pub(crate) fn recording_publish_terms(
-        &self,
-        recording: i64,
-        kind: ConsentKind,
-    ) -> std::result::Result<BTreeSet<String>, WithheldReason> {
-        let (mut terms, mut known) = (BTreeSet::new(), BTreeSet::from([recording]));
-        let mut waiting = vec![(recording, kind)];
-        while let Some((at, kind)) = waiting.pop() {
-            let row = self.recordings.get(&at).ok_or(WithheldReason::InputGone)?;
-            let inputs = match self.inputs.get(&at) {
-                Some(None) => return Err(WithheldReason::InputGone),
-                Some(Some(inputs)) => Some(inputs),
-                None => None,
-            };
-            let raw_licence = row.licence.as_deref().map(str::trim);
-            let licence = raw_licence.filter(|text| !text.is_empty());
-            let personal = self.personal.contains(&at);
-            let from_others = inputs.is_some_and(|list| !list.is_empty());
-            if self.refused.contains(&(at, kind)) {
-                return Err(WithheldReason::NotPublic);
-            }
-            let kind = if from_others { ConsentKind::Derived } else { kind };
-            let index = ConsentKind::ALL_CONSENT_KINDS.iter().position(|other| *other == kind);
-            let agreed = self.agreed.get(&at).zip(index);
-            agreed.map_or(Err(WithheldReason::ConsentUnknown), |(all, index)| all[index])?;
-            match licence {
-                Some(it) => {
-                    terms.insert(it.to_owned());
-                }
-                // A sign made from others has their terms.
-                None if from_others => {}
-                None if !personal => terms.extend(self.of_entry()?),
-                None => return Err(WithheldReason::NoTerms),
-            }
-            if at != recording && licence.is_some_and(forbids_derivatives) {
-                return Err(WithheldReason::NoDerivatives);
-            }
-            for &input in inputs.into_iter().flatten() {
-                if known.insert(input) {
-                    waiting.push((input, ConsentKind::Derived));
-                }
-            }
-        }
-        Ok(terms)
-    }
-
-    /// Returns the signer of a recording, or the number of the recording if nobody is named.
-    pub(crate) fn recording_person_key(&self, recording: i64) -> Option<(bool, i64)> {
-        let row = self.recordings.get(&recording)?;
-        match row.signer_id {
-            Some(signer) => Some((true, signer)),
-            None => self.personal.contains(&recording).then_some((false, recording)),
-        }
-    }
-}
-
-/// Returns the consents that may not stand: another copy of the corpus allows less, and nobody has decided.
-fn doubts(connection: &Connection) -> CorpusResult<BTreeSet<(&'static str, i64, ConsentKind)>> {
-    let mut doubts = BTreeSet::new();
-    for dispute in merge::undecided_disputes(connection)? {
-        let differs = |column: &str| dispute.mine.get(column) != dispute.theirs.get(column);
-        let other_text = dispute.theirs.get("consent").and_then(|value| value.as_str());
-        // A consent that cannot be read allows nothing.
-        let other = PersonConsent::parse_consent_json(other_text, dispute.table).unwrap_or_default();
-        for kind in ConsentKind::ALL_CONSENT_KINDS {
-            let is_whole = match dispute.table {
-                _ if dispute.theirs.is_empty() => true,
-                "signer" => false,
-                "tier" => differs("participant"),
-                _ => ["signer_id", "origin", "licence"].into_iter().any(differs),
-            };
-            let less = differs("consent") && other.audience_of_kind(kind) != Some(ConsentAudience::Public);
-            match dispute.table {
-                "signer" if is_whole || less => drop(doubts.insert(("signer", dispute.id, kind))),
-                "recording" if is_whole || less => {
-                    doubts.insert(("recording", dispute.id, kind));
-                }
-                "tier" if is_whole => doubts.extend(dispute.recording.map(|recording| ("recording", recording, kind))),
-                _ => {}
-            }
-        }
-    }
-    Ok(doubts)
-}
-
-/// Returns the narrowest consent of a recording and its people; `None` if a person's is unknown and the recording has
-/// none, or if nothing is known.
-fn narrowest(
-    own: Option<&PersonConsent>,
-    people: &[Option<&PersonConsent>],
-    kind: ConsentKind,
-) -> Option<ConsentAudience> {
-    let own_audience = own.and_then(|consent| consent.audience_of_kind(kind));
-    let each: Vec<Option<ConsentAudience>> = people
-        .iter()
-        .map(|person| person.and_then(|consent| consent.audience_of_kind(kind)))
-        .collect();
-    let least = each.iter().copied().flatten().chain(own_audience).min();
-    // A refusal holds whatever else is unknown.
-    if least.is_some_and(|audience| audience < ConsentAudience::Public) {
-        return least;
-    }
-    match own_audience {
-        Some(own) => least.or(Some(own)),
-        None if each.is_empty() || each.contains(&None) => None,
-        None => least,
-    }
-}
-
-/// Reports whether terms of use forbid that something is made from it, as the ND licences of Creative Commons do.
-fn forbids_derivatives(licence: &str) -> bool {
-    let licence = licence.to_lowercase();
-    let words = licence.split(|letter: char| !letter.is_alphanumeric());
-    let nd = words.clone().any(|word| word == "nd");
-    nd || licence.contains("noderiv") || licence.contains("no deriv")
-}
-
-/// Returns the remedy for something that was withheld.
-pub(crate) fn withheld_remedy(reason: WithheldReason) -> ErrorRemedy {
-    match reason {
-        WithheldReason::ConsentUnknown => ErrorRemedy::command_remedy(
-            "state what the signers agreed to: `chereme consent CORPUS signer:NAME --all public`",
-        ),
-        WithheldReason::NotPublic => "the signers did not agree that everybody sees it".into(),
-        WithheldReason::NoTerms => ErrorRemedy::command_remedy(
-            "state the terms of recordings with `chereme consent CORPUS signer:NAME --licence TERMS`, those of entries that show nobody with --terms TERMS",
-        ),
-        WithheldReason::NoDerivatives => "a recording that they were made from may not be changed".into(),
-        WithheldReason::Undecided => ErrorRemedy::command_remedy(
-            "two copies of the corpus disagree about it: `chereme conflicts CORPUS` lists what is to be decided",
-        ),
-        WithheldReason::InputGone => "a recording that they were made from is not known, or was deleted".into(),
-    }
 }
 
 #[cfg(test)]

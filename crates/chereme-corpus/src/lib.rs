@@ -109,7 +109,10 @@ pub use chereme_formats::compare::{
 };
 pub use chereme_sign::query::{add_query_condition, facet_condition, has_query_condition, remove_query_condition};
 pub use compare::{CompareSide, FileMerge, merge_files};
-pub use consent::{ConsentAudience, ConsentChange, ConsentKind, ConsentRow, PersonConsent, WithheldReason};
+pub use consent::{
+    ConsentAudience, ConsentChange, ConsentKind, ConsentRow, OutputAudience, PersonConsent, WithheldOutput,
+    WithheldReason,
+};
 pub use contents::{
     AnnotationColumns, CorpusOverview, RecordingContents, RecordingGlance, ShownFrames, SignGlance, TierContents,
 };

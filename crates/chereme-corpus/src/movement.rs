@@ -189,7 +189,7 @@ pub(crate) struct MotionTrack {
     pub(crate) convention: SpaceConvention,
     pub(crate) rate: FrameRate,
     fix: Option<ChannelFix>,
-    groups: BTreeMap<ChannelGroup, Vec<usize>>,
+    pub(crate) groups: BTreeMap<ChannelGroup, Vec<usize>>,
     /// The layout of its numbers and its skeleton, if it did not come from a BVH file.
     exact: Option<(TrackColumnLayout, Arc<Skeleton>)>,
     /// Finger bones that are impossibly long, with their usual lengths in metres.

@@ -6,6 +6,7 @@ mod picture_points;
 pub mod picture_values;
 mod svg;
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -24,6 +25,7 @@ use serde::Serialize;
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RecordingStretch};
 use crate::animate::NotationStaging;
+use crate::consent::{ConsentKind, OutputAudience, OutputGate, WithheldOutput, nothing_passes_error};
 use crate::curves;
 use crate::db::{seals, signs, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
@@ -90,6 +92,8 @@ pub struct PictureOptions {
     pub captions: bool,
     /// Whether an existing file is overwritten.
     pub force: bool,
+    /// For whom it is drawn: what somebody did not agree to show them is left out.
+    pub audience: OutputAudience,
 }
 
 impl Default for PictureOptions {
@@ -103,6 +107,7 @@ impl Default for PictureOptions {
             rate: FILM_RATE,
             captions: false,
             force: false,
+            audience: OutputAudience::Me,
         }
     }
 }
@@ -124,6 +129,12 @@ pub struct DrawnPicture {
     /// Whether the drawn notation was transcribed from the movement because none is stored.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub transcribed: bool,
+    /// What was left out, because somebody did not agree that this audience sees it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub withheld: Vec<WithheldOutput>,
+    /// The sentence that names those who have not agreed that others see it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub for_me: Option<String>,
 }
 
 /// A piece of movement with the data needed to display it.
@@ -279,6 +290,48 @@ impl Corpus {
     /// # Errors
     /// As [`draw_movement_file`](Self::draw_movement_file); also fails if one of them has no movement, or the file has another ending.
     pub fn draw_together(
+        &mut self,
+        addresses: &[CorpusAddress],
+        to: &Path,
+        options: &PictureOptions,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<DrawnPicture> {
+        let gate = OutputGate::open_output_gate(self.store.read_connection(), options.audience)?;
+        let (mut passed, mut withheld, mut shown) = (Vec::new(), Vec::new(), BTreeSet::new());
+        for address in addresses {
+            let recording = self.pictured_recording(address)?;
+            shown.extend(recording);
+            match recording.and_then(|id| gate.withheld_output(id, &[ConsentKind::Movement, ConsentKind::Annotation])) {
+                Some(one) => withheld.push(one),
+                None => passed.push(address.clone()),
+            }
+        }
+        if passed.is_empty() && !withheld.is_empty() {
+            return Err(nothing_passes_error(&withheld, options.audience));
+        }
+        let picture = self.draw_side_by_side(&passed, to, options, progress)?;
+        Ok(DrawnPicture {
+            withheld,
+            for_me: gate.for_me_sentence(Some(&shown)),
+            ..picture
+        })
+    }
+
+    /// Returns the recording that a picture of an address shows; for a notation, that of the body that performs it.
+    fn pictured_recording(&mut self, address: &CorpusAddress) -> CorpusResult<Option<i64>> {
+        if let Ok(stretch) = address::find_addressed_stretch(self.store.read_connection(), address) {
+            return Ok(Some(stretch.recording.id));
+        }
+        if notation::find_address_notation(self.store.read_connection(), address).is_err() {
+            // What cannot be found is refused when it is drawn.
+            return Ok(None);
+        }
+        let body = self.chosen_body()?.parse::<CorpusAddress>()?;
+        let stretch = address::find_addressed_stretch(self.store.read_connection(), &body);
+        Ok(stretch.ok().map(|stretch| stretch.recording.id))
+    }
+
+    fn draw_side_by_side(
         &mut self,
         addresses: &[CorpusAddress],
         to: &Path,
@@ -690,6 +743,8 @@ fn picture_report(to: &Path, title: &str, bytes: u64, frames: usize) -> DrawnPic
         frames,
         animated_on: None,
         transcribed: false,
+        withheld: Vec::new(),
+        for_me: None,
     }
 }
 

@@ -5,7 +5,7 @@ mod recombine_draft;
 mod recombine_parts;
 mod recombine_phases;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use chereme_compose::{
@@ -27,9 +27,11 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
+use crate::consent::{ConsentKind, OutputAudience, OutputGate, WithheldOutput};
 use crate::curves;
 use crate::db::recipes::{self, RecipeRow};
 use crate::db::signs;
+use crate::db::stored_check::run_and_roll_back;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_recordings::{self, MotionTrackRow, RecordingRow};
@@ -171,6 +173,40 @@ impl Corpus {
         let mut done = recombination(&recipe, gloss.to_owned(), made);
         (done.token, done.recording, done.name) = (Some(token), Some(recording), Some(name));
         Ok(done)
+    }
+
+    /// Returns why the movement of a recipe is withheld from an audience: it is stored, judged and taken back. A recipe
+    /// that cannot be evaluated is refused where it is shown.
+    pub(crate) fn withheld_recipe(
+        &mut self,
+        recipe: &str,
+        audience: OutputAudience,
+    ) -> CorpusResult<Option<WithheldOutput>> {
+        let Ok((resolved, made, written)) = self.evaluate_recipe_text(recipe) else {
+            return Ok(None);
+        };
+        let connection = self.store.read_connection();
+        run_and_roll_back(connection, || {
+            let (recording, ..) = store_generated_sign(connection, &written, &resolved, &made, recipe)?;
+            let gate = OutputGate::open_output_gate(connection, audience)?;
+            Ok(gate.withheld_output(recording, &[ConsentKind::Movement]))
+        })
+    }
+
+    /// Returns the recordings of which a recipe takes something; none if it cannot be evaluated.
+    pub(crate) fn recipe_sources(&mut self, recipe: &str) -> CorpusResult<BTreeSet<i64>> {
+        let mut sources = BTreeSet::new();
+        if let Ok((resolved, ..)) = self.evaluate_recipe_text(recipe) {
+            let given = resolved.resolved_inputs().0.values();
+            let given = given.flat_map(RecipeInput::input_giver_addresses);
+            for address in moving_inputs(&resolved)
+                .map(|(address, _)| address.as_str())
+                .chain(given)
+            {
+                sources.extend(source_rows(self.store.read_connection(), address)?.0);
+            }
+        }
+        Ok(sources)
     }
 
     /// Returns the inventories, which are read again only if the corpus has changed: previews follow each other fast.

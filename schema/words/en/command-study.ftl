@@ -99,3 +99,4 @@ title-command-study-p-all-answers = p, all answers
 title-command-study-p-holm-all-answers = p (Holm), all answers
 title-command-study-p-people = p, people
 title-command-study-p-holm-people = p (Holm), people
+help-command-study-who-will-see-films = Who will see the films; if somebody did not agree to that (`chereme consent`), nothing is built

@@ -99,3 +99,4 @@ title-command-study-p-all-answers = p, réponses
 title-command-study-p-holm-all-answers = p (Holm), réponses
 title-command-study-p-people = p, personnes
 title-command-study-p-holm-people = p (Holm), personnes
+help-command-study-who-will-see-films = Qui verra les films ; si quelqu’un ne l’a pas accepté (`chereme consent`), rien n’est construit

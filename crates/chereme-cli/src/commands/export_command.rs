@@ -25,10 +25,16 @@ use crate::streams;
 /// with example queries, a file for each table, the recordings, the inventories, checksums and provenance. With --to -
 /// the file goes to standard output. An EAF file that nobody changed comes back byte for byte, and an edit changes only
 /// its own lines. The same corpus always gives the same bytes.
+///
+/// Everything is written for those who keep the corpus, with a note that names who has not agreed that others see it.
+/// With --for research or --for public only what all contributors agreed to (`chereme consent`) is written; what is left
+/// out is listed, with the reason. LICENCES.md, provenance.json and the copyright of a .glb hold the terms of all who
+/// contributed to a recording, or that it may not be shared. A copy of everything has no history unless
+/// --with-history is given, and one for others has no studies or saved searches.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  chereme export mine.chereme all --to shared/
+  chereme export mine.chereme all --to shared/ --for research
   chereme export mine.chereme recording:3 --to take.bvh
   chereme export mine.chereme 'query:right.configuration=U' --to takes/ --format bvh
   chereme export mine.chereme ESCARGOT LIMACE token:41 --to takes/ --format bvh
@@ -53,6 +59,12 @@ pub(crate) struct ExportArgs {
     /// In a table write an apostrophe before cells that a spreadsheet would take for formulas
     #[arg(long)]
     spreadsheet_safe: bool,
+    /// For whom it is written: what people did not agree to show them is left out and listed
+    #[arg(long = "for", value_name = "AUDIENCE", default_value = "me", value_parser = ["me", "research", "public"])]
+    audience: String,
+    /// With all and no format: copy the history, too, with everything that was deleted or changed
+    #[arg(long)]
+    with_history: bool,
 }
 
 pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutput) -> Result<()> {
@@ -62,6 +74,8 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
         force: args.force,
         format: args.format.clone(),
         spreadsheet_safe: args.spreadsheet_safe,
+        audience: args.audience.parse()?,
+        with_history: args.with_history,
     };
     let mut bar = CommandProgressBar::new();
     let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{LeftOutSigns, ProgressReceiver, ProgressStep, PublishOptions, WithheldReason};
+use chereme_corpus::{LeftOutSigns, ProgressReceiver, ProgressStep, PublishOptions};
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -132,14 +132,7 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
 }
 
 fn print_left_out(it: &LeftOutSigns, output: &mut CommandOutput) -> Result<()> {
-    let why = output.translate_message(match it.why {
-        WithheldReason::ConsentUnknown => "it is not stated what the signers agreed to",
-        WithheldReason::NotPublic => "the signers did not agree to it",
-        WithheldReason::NoTerms => "no terms of use are stated",
-        WithheldReason::NoDerivatives => "the terms of a source forbid changes",
-        WithheldReason::Undecided => "two copies of the corpus disagree",
-        WithheldReason::InputGone => "a source is not known, or no longer there",
-    });
+    let why = output.translate_message(it.why.reason_words());
     let mut first = it.first.join(", ");
     if it.signs > it.first.len() {
         first.push_str(", …");

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ANIMATION_SPEEDS, CorpusAddress, DrawnPicture, PictureOptions, ProgressReceiver};
+use chereme_corpus::{ANIMATION_SPEEDS, CorpusAddress, DrawnPicture, OutputAudience, PictureOptions, ProgressReceiver};
 
 use crate::args::{CommandLine, SideWord};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, CommandProgressBar, write_to_stderr};
 use crate::streams;
 
 /// Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)
@@ -68,6 +68,9 @@ pub(crate) struct RenderArgs {
     /// Replace a file that exists already
     #[arg(long)]
     force: bool,
+    /// For whom it is drawn: what people did not agree to show them is left out and listed
+    #[arg(long = "for", value_name = "AUDIENCE", default_value = "me", value_parser = ["me", "research", "public"])]
+    audience: String,
 }
 
 /// Parses the speed of an animation.
@@ -93,6 +96,7 @@ pub(super) fn run(cli: &CommandLine, args: &RenderArgs, output: &mut CommandOutp
         rate: args.rate,
         captions: args.captions,
         force: args.force,
+        audience: args.audience.parse()?,
     };
     let stand = match streams::is_standard(&args.to) {
         true => {
@@ -122,11 +126,23 @@ pub(super) fn run(cli: &CommandLine, args: &RenderArgs, output: &mut CommandOutp
         }
     };
     if let Some(stand) = &stand {
+        for note in consent_notes(&picture, options.audience) {
+            write_to_stderr(&format!("note: {}", output.translate_message(&note)));
+        }
         output.silence_output();
         return streams::copy_to_stdout(stand);
     }
     report_rendered_picture(&picture, output)?;
+    for note in consent_notes(&picture, options.audience) {
+        output.write_note(&note)?;
+    }
     output.set_json_document(picture)
+}
+
+/// Returns what was left out of a picture, and who has not agreed that others see it.
+fn consent_notes(picture: &DrawnPicture, audience: OutputAudience) -> Vec<String> {
+    let withheld = picture.withheld.iter().map(|one| one.withheld_sentence(audience));
+    withheld.chain(picture.for_me.clone()).collect()
 }
 
 fn report_rendered_picture(picture: &DrawnPicture, output: &mut CommandOutput) -> Result<()> {

@@ -1,9 +1,13 @@
+mod anything;
 mod bodies;
+mod outputs;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use proptest::prelude::*;
 
+use super::consent_gate::{forbids_derivatives, state_audience};
 use super::*;
 use crate::{
     ImportOptions, ProgressReceiver, RecordOrigin, RecordingChange, RowName, SignerChange, ignore_progress_step,
@@ -349,7 +353,8 @@ proptest! {
         let consent = |movement: Option<ConsentAudience>| PersonConsent { movement, ..PersonConsent::default() };
         let each: Vec<PersonConsent> = people.iter().map(|it| consent(*it)).collect();
         let each: Vec<Option<&PersonConsent>> = each.iter().map(Some).collect();
-        let found = narrowest(Some(&consent(own)), &each, ConsentKind::Movement);
+        let stated = state_audience(Some(&consent(own)), &each, true, ConsentKind::Movement);
+        let found = stated.least.filter(|least| !stated.is_incomplete || *least < ConsentAudience::Public);
         let said: Vec<ConsentAudience> = people.iter().copied().flatten().chain(own).collect();
         if found == Some(ConsentAudience::Public) {
             prop_assert!(said.iter().all(|it| *it == ConsentAudience::Public));

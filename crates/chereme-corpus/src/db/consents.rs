@@ -109,3 +109,28 @@ pub(crate) fn unnamed_givers(connection: &Connection) -> CorpusResult<Vec<(i64, 
     let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
+
+/// The blocks of both arms of a recording's body that begin at a frame.
+pub(crate) struct ArmBlocks {
+    pub(crate) recording: i64,
+    pub(crate) first_frame: i64,
+    pub(crate) hashes: Vec<Vec<u8>>,
+}
+
+/// Returns the blocks of both arms, by track and frame.
+pub(crate) fn list_arm_blocks(connection: &Connection) -> CorpusResult<Vec<ArmBlocks>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.recording_id, r.first_frame, r.hash, l.hash FROM track_block r
+         JOIN track_block l ON l.track_id = r.track_id AND l.channel_group = 'left-arm' AND l.first_frame = r.first_frame
+         JOIN track t ON t.id = r.track_id
+         WHERE r.channel_group = 'right-arm' ORDER BY r.track_id, r.first_frame",
+    )?;
+    let rows = statement.query_map([], |row| {
+        Ok(ArmBlocks {
+            recording: row.get(0)?,
+            first_frame: row.get(1)?,
+            hashes: vec![row.get(2)?, row.get(3)?],
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}

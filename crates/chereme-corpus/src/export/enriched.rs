@@ -10,8 +10,9 @@ use rusqlite::Connection;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::{export_bvh, export_dictionary};
+use super::{ExportGate, export_bvh, export_dictionary};
 use crate::address::RecordingStretch;
+use crate::consent::{OutputAudience, WithheldOutput};
 use crate::curves;
 use crate::db::stored_motion::{self, to_hex_text};
 use crate::db::stored_recordings::{self, RecordingRow};
@@ -30,8 +31,10 @@ const ENRICHED_FOLDER_GUIDE: &str = include_str!("enriched.md");
 pub(super) fn write_enriched_folder(
     connection: &Connection,
     to: &Path,
+    gate: &ExportGate,
+    with_history: bool,
     progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<Vec<PathBuf>> {
+) -> CorpusResult<WrittenEnrichedFolder> {
     if to.exists() {
         return Err(CorpusError::from_wrong_message(
             "something of this name is there already, and no folder is replaced",
@@ -46,13 +49,32 @@ pub(super) fn write_enriched_folder(
     let folder = EnrichedFolder {
         root: part.unfinished_path().to_owned(),
         files: Vec::new(),
+        gate,
+        with_history,
     };
-    let done = folder.fill_enriched_folder(connection, progress);
+    let mut withheld_ids = BTreeSet::new();
+    let mut withheld = Vec::new();
+    for (recording, one) in gate.withheld_recordings() {
+        withheld_ids.insert(recording);
+        withheld.push(one);
+    }
+    let done = folder.fill_enriched_folder(connection, &withheld_ids, progress);
     match done {
         Ok(files) => {
             part.rename_unfinished(to)
                 .map_err(|error| CorpusError::from_file_failure(to, error))?;
-            Ok(files.into_iter().map(|file| to.join(file)).collect())
+            let mut notes = Vec::new();
+            if !with_history {
+                notes.push("the copy has no history: nothing that was deleted or changed before is in it".to_owned());
+            }
+            if gate.export_audience() != OutputAudience::Me {
+                notes.push("studies and saved searches are left out of a copy for others".to_owned());
+            }
+            Ok(WrittenEnrichedFolder {
+                files: files.into_iter().map(|file| to.join(file)).collect(),
+                withheld,
+                notes,
+            })
         }
         Err(error) => {
             let part = part.unfinished_path();
@@ -68,23 +90,48 @@ pub(super) fn write_enriched_folder(
     }
 }
 
-struct EnrichedFolder {
+/// A folder of everything that was written.
+pub(super) struct WrittenEnrichedFolder {
+    /// Its files, with the checksums last.
+    pub(super) files: Vec<PathBuf>,
+    /// What was left out of it, because somebody did not agree that this audience sees it.
+    pub(super) withheld: Vec<WithheldOutput>,
+    /// Notes for its reader.
+    pub(super) notes: Vec<String>,
+}
+
+struct EnrichedFolder<'a> {
     root: PathBuf,
+    gate: &'a ExportGate,
+    with_history: bool,
     /// Paths within the folder, separated by `/`.
     files: Vec<String>,
 }
 
-impl EnrichedFolder {
+impl EnrichedFolder<'_> {
     fn fill_enriched_folder(
         mut self,
         connection: &Connection,
+        withheld: &BTreeSet<i64>,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<Vec<String>> {
         self.write_folder_text("README.md", ENRICHED_FOLDER_GUIDE)?;
         self.write_folder_text("DICTIONARY.md", &export_dictionary::data_dictionary_text())?;
         self.write_folder_text("queries.sql", &export_dictionary::example_queries_text())?;
         let copy = self.prepare_folder_file("corpus.chereme")?;
-        dump::copy_database_compactly(connection, &copy)?;
+        let for_others = self.gate.export_audience() != OutputAudience::Me;
+        match self.with_history && !for_others {
+            true => dump::copy_database_compactly(connection, &copy)?,
+            false => dump::copy_without(
+                connection,
+                &copy,
+                dump::OmittedRows {
+                    recordings: withheld,
+                    history: !self.with_history || for_others,
+                    work: for_others,
+                },
+            )?,
+        }
         // The other files are written from the copy, so that the whole folder shows one moment.
         let connection = &dump::read_copy(&copy)?;
         for table in dump::DUMPED_TABLES {
@@ -217,17 +264,20 @@ impl EnrichedFolder {
     /// Writes the signers and licences of recordings, and the sources of generated signs.
     fn provenance(&mut self, connection: &Connection) -> CorpusResult<()> {
         let mut list = Vec::new();
-        let mut terms = String::from("# Terms of use\n\nrecording | signer | origin | terms\n---|---|---|---\n");
+        let audience = self.gate.export_audience();
+        let mut terms = format!(
+            "# Terms of use\n\nThis copy is for: {audience}\n\nrecording | signer | origin | terms\n---|---|---|---\n"
+        );
         for recording in stored_recordings::load_recording_rows(connection)? {
             let files = stored_recordings::source_files(connection, recording.id)?;
             let recipe = recipes::find_recording_recipe(connection, recording.id)?;
-            let licence = recording.licence.clone();
+            let licence = self.gate.listed_terms(&recording);
             terms.push_str(&format!(
                 "{} | {} | {} | {}\n",
                 recording.name,
                 recording.signer.as_deref().unwrap_or("not named"),
                 recording.origin,
-                licence.as_deref().unwrap_or("not stated: ask the owner before use"),
+                licence,
             ));
             list.push(json!({
                 "recording": recording.name,
@@ -244,6 +294,7 @@ impl EnrichedFolder {
             "made_by": format!("Chereme {}", env!("CARGO_PKG_VERSION")),
             "schema_version": crate::db::SCHEMA_VERSION,
             "signs": signs,
+            "audience": audience,
             "recordings": list,
         });
         let text =

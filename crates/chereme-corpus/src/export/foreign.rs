@@ -10,6 +10,7 @@ use chereme_motion::{Clip, MarkerSpace, RecordingInstant, TimeSpan};
 use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
+use super::ExportGate;
 use crate::address::RecordingStretch;
 use crate::db::stored_recordings::RecordingRow;
 use crate::db::{stored_tiers, stored_tracks};
@@ -24,13 +25,14 @@ use crate::track::{self, TrackKind};
 pub(super) fn write_glb_stretch(
     connection: &Connection,
     stretch: &RecordingStretch,
+    gate: &ExportGate,
     out: &mut dyn Write,
 ) -> CorpusResult<usize> {
     let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
     let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
     let span = on_the_clock(&track, &clip, &frames);
-    let about = describe_gltf_stretch(connection, stretch, span)?;
+    let about = describe_gltf_stretch(connection, stretch, gate, span)?;
     let bytes = gltf::write_glb(&clip, &about).map_err(|error| too_far(&error))?;
     write_export_bytes(out, &bytes)?;
     Ok(about.notes.len())
@@ -41,6 +43,7 @@ pub(super) fn write_glb_stretch(
 fn describe_gltf_stretch(
     connection: &Connection,
     stretch: &RecordingStretch,
+    gate: &ExportGate,
     span: TimeSpan,
 ) -> CorpusResult<gltf::GlbDescription> {
     let recording = &stretch.recording;
@@ -49,7 +52,7 @@ fn describe_gltf_stretch(
     Ok(gltf::GlbDescription {
         name: gloss.unwrap_or(&recording.name).clone(),
         source: token.map(|_| format!("{} {}", recording.name, span.span_start_instant())),
-        licence: recording.licence.clone(),
+        licence: gate.terms_in_file(recording),
         notes: gltf_notes_in_span(connection, recording.id, span)?,
     })
 }
@@ -78,6 +81,7 @@ fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> Time
 pub(super) fn write_vrma_stretch(
     connection: &Connection,
     stretch: &RecordingStretch,
+    gate: &ExportGate,
     out: &mut dyn Write,
     notes_of_file: &mut Vec<String>,
 ) -> CorpusResult<()> {
@@ -122,7 +126,7 @@ pub(super) fn write_vrma_stretch(
             missing.join(", ")
         ));
     }
-    let about = describe_gltf_stretch(connection, stretch, span)?;
+    let about = describe_gltf_stretch(connection, stretch, gate, span)?;
     let bytes = vrma::write_vrma(&clip, &anatomy, &face, &about).map_err(|error| match error {
         vrma::VrmaWriteError::TooFar(error) => too_far(&error),
         vrma::VrmaWriteError::NoAvatar(reason) => CorpusError::from_wrong_message(reason)

@@ -106,7 +106,7 @@ fn subtitles_hold_one_language_and_name_the_others() {
         false => (en_id, fr_id),
     };
     assert!(first == fr || first == en, "{first}");
-    let [note] = &notes[..] else {
+    let [note, _for_whom] = &notes[..] else {
         panic!("{notes:?}");
     };
     let (kept, left) = note.split_once("not written").expect("both");

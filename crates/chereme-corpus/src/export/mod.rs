@@ -7,6 +7,7 @@ mod enriched;
 mod export_bvh;
 mod export_dictionary;
 pub(crate) mod export_eaf;
+mod export_gate;
 mod export_long;
 mod export_notation;
 mod export_subtitles;
@@ -34,6 +35,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
+use crate::consent::{OutputAudience, WithheldOutput};
 use crate::curves;
 use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_search as rows;
@@ -44,6 +46,7 @@ use crate::progress::ProgressReceiver;
 use crate::track::TrackKind;
 use crate::values;
 use crate::words::format_noun_count;
+use export_gate::ExportGate;
 use export_long::LongTable;
 
 /// The part of the corpus to export.
@@ -71,6 +74,10 @@ pub struct ExportOptions {
     pub format: Option<String>,
     /// Whether cells of a table that a spreadsheet would take for formulas get an apostrophe before them.
     pub spreadsheet_safe: bool,
+    /// For whom it is written: what somebody did not agree to show them is left out.
+    pub audience: OutputAudience,
+    /// Whether a copy of everything has the history, with all that was deleted or changed.
+    pub with_history: bool,
 }
 
 impl From<&str> for ExportOptions {
@@ -92,6 +99,8 @@ pub struct ExportReport {
     pub notes: Vec<String>,
     /// The recordings and tokens without a file, because they hold nothing for the format.
     pub left_out: Vec<LeftOutExport>,
+    /// What was left out, because somebody did not agree that this audience sees it.
+    pub withheld: Vec<WithheldOutput>,
 }
 
 /// A recording or token without a file.
@@ -159,15 +168,19 @@ impl Corpus {
             Some((format, extension)) => Some((format.fit_for(options)?, extension)),
             None => None,
         };
+        let gate = ExportGate::open_export_gate(connection, what, options.audience)?;
         match (extension.as_deref(), what) {
             (None, _) if let Some((format, extension)) = form => {
                 let reading = rows::begin_reading(connection)?;
                 let form = (format, extension.as_str());
-                return several::write_export_folder(&reading, what, form, to, options, progress);
+                report = several::write_export_folder(&reading, what, form, to, options, &gate, progress)?;
             }
             (None, ExportWhat::All) => {
                 report.notes = damaged_rows(connection)?;
-                let files = enriched::write_enriched_folder(connection, to, progress)?;
+                let folder = enriched::write_enriched_folder(connection, to, &gate, options.with_history, progress)?;
+                let files = folder.files;
+                report.withheld = folder.withheld;
+                report.notes.extend(folder.notes);
                 report.files = files.into_iter().map(exported).collect::<CorpusResult<_>>()?;
             }
             (None, _) => {
@@ -193,13 +206,17 @@ impl Corpus {
                     None => by_name.ok_or_else(|| unknown_format_error(to, extension))?,
                 }
                 .fit_for(options)?;
+                let passed = gate.pass_export(&reading, what, format)?;
+                report.withheld = passed.withheld;
                 let file = write_whole_file(to, options.force, &mut |out| {
                     let notes = &mut report.notes;
-                    write_file(&reading, what, format, out, notes, progress)
+                    write_file(&reading, &passed.what, format, out, notes, &gate, progress)
                 })?;
                 report.files.push(file);
             }
         }
+        report.notes.extend(gate.withheld_notes(&report.withheld));
+        report.notes.extend(gate.notes);
         Ok(report)
     }
 
@@ -220,7 +237,11 @@ impl Corpus {
         let format = format.fit_for(&options)?;
         let reading = rows::begin_reading(self.store.read_connection())?;
         let mut notes = Vec::new();
-        write_file(&reading, what, format, out, &mut notes, progress)?;
+        let gate = ExportGate::open_export_gate(&reading, what, options.audience)?;
+        let passed = gate.pass_export(&reading, what, format)?;
+        write_file(&reading, &passed.what, format, out, &mut notes, &gate, progress)?;
+        notes.extend(gate.withheld_notes(&passed.withheld));
+        notes.extend(gate.notes);
         Ok(notes)
     }
 }
@@ -357,6 +378,7 @@ fn write_file(
     format: SingleFileFormat,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
+    gate: &ExportGate,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
     verify(connection, what, format)?;
@@ -413,7 +435,7 @@ fn write_file(
         }
         (SingleFileFormat::Glb, _) => {
             let stretch = selected_export_stretch(connection, what)?;
-            if foreign::write_glb_stretch(connection, &stretch, out)? > 0 {
+            if foreign::write_glb_stretch(connection, &stretch, gate, out)? > 0 {
                 notes.push(GLB_MARKERS_NOTE.to_owned());
             }
             Ok(())
@@ -423,7 +445,7 @@ fn write_file(
         }
         (SingleFileFormat::Vrma, _) => {
             let stretch = selected_export_stretch(connection, what)?;
-            foreign::write_vrma_stretch(connection, &stretch, out, notes)
+            foreign::write_vrma_stretch(connection, &stretch, gate, out, notes)
         }
         (SingleFileFormat::Points(form), _) => {
             let stretch = selected_export_stretch(connection, what)?;

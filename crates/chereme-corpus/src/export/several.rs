@@ -9,10 +9,11 @@ use rusqlite::Connection;
 
 use super::enriched::file_name;
 use super::{
-    ExportOptions, ExportReport, ExportWhat, LeftOutExport, LongTable, SingleFileFormat, UnnamedExportFile,
+    ExportGate, ExportOptions, ExportReport, ExportWhat, LeftOutExport, LongTable, SingleFileFormat, UnnamedExportFile,
     export_subtitles, selected_export_tokens, write_file,
 };
 use crate::address::{self, CorpusAddress, RowName};
+use crate::consent::{WithheldOutput, nothing_passes_error};
 use crate::db::stored_list;
 use crate::db::stored_tiers::{self, TierRow};
 use crate::db::unfinished::remove_leftovers_in;
@@ -46,9 +47,23 @@ pub(super) fn write_export_folder(
     (format, extension): (SingleFileFormat, &str),
     to: &Path,
     options: &ExportOptions,
+    gate: &ExportGate,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<ExportReport> {
-    let parts = list_folder_parts(connection, what, format)?;
+    let mut withheld = BTreeSet::new();
+    let mut parts = Vec::new();
+    for part in list_folder_parts(connection, what, format)? {
+        let shown = part.shown_recording(connection)?;
+        // The name of its file is one of the corpus, so that it shows an annotation.
+        match shown.and_then(|recording| gate.withheld_from(recording, format, true)) {
+            Some(one) => drop(withheld.insert(one)),
+            None => parts.push(part),
+        }
+    }
+    let withheld: Vec<WithheldOutput> = withheld.into_iter().collect();
+    if parts.is_empty() && !withheld.is_empty() {
+        return Err(nothing_passes_error(&withheld, gate.export_audience()));
+    }
     if parts.is_empty() {
         return Err(CorpusError::from_wrong_message("there is nothing to write")
             .with_advice("name recordings or tokens, or a query that finds some"));
@@ -63,12 +78,12 @@ pub(super) fn write_export_folder(
     fs::create_dir_all(to).map_err(|error| CorpusError::from_file_failure(to, error))?;
     let ending = format!(".{extension}");
     remove_leftovers_in(to, |name| name.ends_with(&ending));
-    let done = fill_export_folder(connection, &parts, (format, extension), to, options, progress);
+    let done = fill_export_folder(connection, &parts, (format, extension), to, options, gate, progress);
     if done.is_err() && is_new {
         // Only an empty folder is removed, which a failed export leaves.
         let _ = fs::remove_dir(to);
     }
-    done
+    done.map(|report| ExportReport { withheld, ..report })
 }
 
 fn fill_export_folder(
@@ -77,6 +92,7 @@ fn fill_export_folder(
     (format, extension): (SingleFileFormat, &str),
     to: &Path,
     options: &ExportOptions,
+    gate: &ExportGate,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<ExportReport> {
     let mut taken = BTreeSet::new();
@@ -89,7 +105,7 @@ fn fill_export_folder(
         let name = file_name(&part.name, &mut taken_names);
         let path = to.join(format!("{name}.{extension}"));
         let file = UnnamedExportFile::write_unnamed_file(&path, options.force, &mut |out| {
-            part.write_folder_part(connection, format, out, &mut notes, progress)
+            part.write_folder_part(connection, format, out, &mut notes, gate, progress)
         });
         match file {
             Ok(file) => {
@@ -200,12 +216,28 @@ impl FolderPart {
         }
     }
 
+    /// Returns the recording that the part shows; nothing if it shows no recording.
+    fn shown_recording(&self, connection: &Connection) -> CorpusResult<Option<i64>> {
+        Ok(match &self.content {
+            FolderPartContent::Subtitles(recording, _) => Some(*recording),
+            FolderPartContent::What(ExportWhat::Address(CorpusAddress::Recording(name))) => {
+                Some(address::find_recording_by_name(connection, name)?.id)
+            }
+            FolderPartContent::What(ExportWhat::Address(address)) => {
+                address::find_addressed_token(connection, address)?.recording_id
+            }
+            // These are entries of a lexicon, which are in no recording.
+            FolderPartContent::What(_) => None,
+        })
+    }
+
     fn write_folder_part(
         &self,
         connection: &Connection,
         format: SingleFileFormat,
         out: &mut dyn Write,
         notes: &mut Vec<String>,
+        gate: &ExportGate,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<()> {
         match (&self.content, format) {
@@ -216,7 +248,7 @@ impl FolderPart {
             (FolderPartContent::Subtitles(..), _) => Ok(()),
             (FolderPartContent::What(what), format) => {
                 self.holds_rows(connection, what, format)?;
-                write_file(connection, what, format, out, notes, progress)
+                write_file(connection, what, format, out, notes, gate, progress)
             }
         }
     }

@@ -14,6 +14,7 @@ use sha2::{Digest, Sha256};
 use super::study_plan::{QuestionKind, StudyPlan, text_in};
 use super::{StudyWithAnswers, study_order};
 use crate::Corpus;
+use crate::consent::{ConsentKind, OutputAudience, OutputGate, nothing_passes_error};
 use crate::db::seals;
 use crate::db::stored_motion::to_hex_text;
 use crate::error::{CorpusError, CorpusResult};
@@ -42,6 +43,8 @@ pub struct QuestionnaireOptions {
     pub rate: u32,
     /// Whether an existing questionnaire is replaced; other files in its folder stay.
     pub force: bool,
+    /// Who will see the films; nothing is built if somebody did not agree to that.
+    pub audience: OutputAudience,
 }
 
 impl Default for QuestionnaireOptions {
@@ -50,6 +53,7 @@ impl Default for QuestionnaireOptions {
             height: 540,
             rate: 25,
             force: false,
+            audience: OutputAudience::Public,
         }
     }
 }
@@ -78,7 +82,7 @@ impl Corpus {
     /// `media`. The same corpus and plan give the same bytes. All films have one camera, size and background.
     ///
     /// # Errors
-    /// Fails if there is no such study, a clip can no longer be made, or the page exists and `force` is not set; the
+    /// Fails if there is no such study, a clip can no longer be made or shows somebody who did not agree to it, or the page exists and `force` is not set; the
     /// folder is as before then.
     pub fn build_study(
         &mut self,
@@ -96,6 +100,7 @@ impl Corpus {
             ));
         }
         seals::verify_material(self.store.read_connection())?;
+        self.refuse_withheld_clips(&study.plan, options.audience)?;
         let media = to.join(QUESTIONNAIRE_MEDIA_FOLDER);
         let new = !to.exists();
         fs::create_dir_all(&media).map_err(|error| CorpusError::from_file_failure(&media, error))?;
@@ -110,6 +115,26 @@ impl Corpus {
             }
         }
         done
+    }
+
+    /// Fails if a clip of a plan shows somebody who did not agree that the audience sees it. A plan without one of its
+    /// clips would be another plan, so that nothing is left out.
+    fn refuse_withheld_clips(&mut self, plan: &StudyPlan, audience: OutputAudience) -> CorpusResult<()> {
+        let clips: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.clip.as_str()).collect();
+        let gate = OutputGate::open_output_gate(self.store.read_connection(), audience)?;
+        let mut errors = Vec::new();
+        for text in clips {
+            let withheld = match self.study_clip_recording(text) {
+                Some(recording) => gate.withheld_output(recording, &[ConsentKind::Movement]),
+                None => self.withheld_recipe(text, audience)?,
+            };
+            errors.extend(withheld.map(|one| nothing_passes_error(&[one], audience)));
+        }
+        match errors.len() {
+            0 => Ok(()),
+            1 => Err(errors.remove(0)),
+            _ => Err(CorpusError::Several { errors }),
+        }
     }
 
     fn questionnaire(

@@ -48,6 +48,13 @@ impl Corpus {
         Ok(all)
     }
 
+    /// Returns the recording whose movement a clip is, if it is no recipe.
+    pub(crate) fn study_clip_recording(&self, text: &str) -> Option<i64> {
+        let address = text.parse::<CorpusAddress>().ok()?;
+        let moving = self.movement_at_address(&address).ok()?;
+        Some(moving.stretch.recording.id)
+    }
+
     /// Returns the movement that a trial shows, from its address or recipe.
     ///
     /// # Errors

@@ -8,7 +8,9 @@ use chereme_corpus::study::study_answers::{
     ANSWERS_FORMAT, ANSWERS_VERSION, ParticipantDevice, StudyAnswer, StudyParticipant,
 };
 use chereme_corpus::study::study_plan::TrialRole;
-use chereme_corpus::{Corpus, ProgressReceiver, ignore_progress_step};
+use chereme_corpus::{
+    ConsentAudience, ConsentChange, Corpus, CorpusAddress, ProgressReceiver, RowName, ignore_progress_step,
+};
 use chereme_studio::InterfaceLanguage;
 use eframe::egui::{DroppedFile, DroppedFileHandle, Key};
 use egui_kittest::kittest::Queryable;
@@ -19,7 +21,10 @@ use super::{Window, click, contains, idle, options, small_corpus, until, window}
 /// Opens a window whose corpus is made first by `prepare`, with the pane of studies large.
 pub fn opened_with<'a>(folder: &Path, language: InterfaceLanguage, prepare: impl FnOnce(&mut Corpus)) -> Window<'a> {
     let path = small_corpus(folder);
-    prepare(&mut Corpus::open_corpus(&path, "A").expect("opened"));
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    agree_to_films(&mut corpus);
+    prepare(&mut corpus);
+    drop(corpus);
     let mut window = window(chereme_studio::StudioOptions {
         corpus: Some(path),
         language,
@@ -33,6 +38,20 @@ pub fn opened_with<'a>(folder: &Path, language: InterfaceLanguage, prepare: impl
     window.run_steps(3);
     idle(&mut window);
     window
+}
+
+/// States that everybody may see the films of all signers.
+fn agree_to_films(corpus: &mut Corpus) {
+    let everybody = Some(Some(ConsentAudience::Public));
+    let agreed = ConsentChange {
+        movement: everybody,
+        derived: everybody,
+        ..ConsentChange::default()
+    };
+    let signers = corpus.list_consents().expect("read");
+    let numbered = signers.iter().map(|row| CorpusAddress::Signer(RowName::Number(row.id)));
+    let signers: Vec<CorpusAddress> = numbered.collect();
+    corpus.change_consent(&signers, &agreed).expect("stated");
 }
 
 pub fn opened<'a>(folder: &Path, language: InterfaceLanguage) -> Window<'a> {

@@ -80,6 +80,9 @@ enum StudyCommand {
         /// Replace a questionnaire that exists already; other files in its folder stay
         #[arg(long)]
         force: bool,
+        /// Who will see the films; if somebody did not agree to that (`chereme consent`), nothing is built
+        #[arg(long = "for", value_name = "AUDIENCE", default_value = "public", value_parser = ["research", "public"])]
+        audience: String,
     },
     /// Import answers: files that the questionnaire saved, tables with one answer a row, folders of both
     ///
@@ -237,8 +240,10 @@ fn run_study_action(cli: &CommandLine, action: &StudyCommand, output: &mut Comma
             height,
             rate,
             force,
+            audience,
         } => {
             let options = QuestionnaireOptions {
+                audience: audience.parse()?,
                 height: usize::from(*height),
                 rate: *rate,
                 force: *force,

@@ -124,6 +124,7 @@ impl Case {
         if no(own[kind]) {
             return false;
         }
+        let asked = kind;
         let kind = if inputs.is_some() { 2 } else { kind };
         let signer = people
             .signers
@@ -140,7 +141,11 @@ impl Case {
             && from.all(|input| {
                 let of = format!("recording:{input}");
                 let at = SUBJECTS[2..].iter().position(|it| *it == of).expect("known");
-                self.licences[at] != LICENCES[2] && self.may(input, 2, people)
+                // Values are taken over, and joined signs and those with another handshape keep the movement of arms.
+                let keeps = recording == MADE[1].0 || (recording == MADE[2].0 && *input == MADE[0].0);
+                let is_shown = asked == 1 || (asked == 0 && keeps);
+                let shown = !is_shown || self.may(input, asked, people);
+                self.licences[at] != LICENCES[2] && self.may(input, 2, people) && shown
             })
     }
 }

@@ -17,6 +17,15 @@ pub(in crate::study) fn corpus(folder: &Path) -> Corpus {
     corpus
         .import_paths(&files, &ImportOptions::default(), &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
+    let everybody = Some(Some(crate::ConsentAudience::Public));
+    let yes = crate::ConsentChange {
+        movement: everybody,
+        annotation: everybody,
+        derived: everybody,
+        ..crate::ConsentChange::default()
+    };
+    let of = ["signer:\"Camille (made)\"".parse().expect("an address")];
+    corpus.change_consent(&of, &yes).expect("stated");
     corpus
 }
 
@@ -48,6 +57,7 @@ fn a_questionnaire_holds_plan_script_and_films_and_lets_nothing_out() {
         height: 64,
         rate: 5,
         force: false,
+        ..QuestionnaireOptions::default()
     };
     let to = [folder.path().join("one"), folder.path().join("two")];
     let built = corpus.build_study("placing", &to[0], small, progress).expect("built");
@@ -148,6 +158,7 @@ fn what_cannot_be_made_is_named_and_a_stopped_build_leaves_nothing() {
         height: 64,
         rate: 5,
         force: false,
+        ..QuestionnaireOptions::default()
     };
     let done = corpus.build_study("placing", &to, small, &mut ProgressReceiver::new(&mut stop));
     assert!(matches!(done, Err(CorpusError::Stopped)));
@@ -245,4 +256,42 @@ fn the_clip_of_a_trial_is_that_of_its_address_or_recipe() {
     let higher = corpus.trial_clip("BOL | place both by up 10cm").expect("a clip");
     assert_ne!(higher.clip, own.clip);
     assert!(corpus.trial_clip("NOBODY").is_err());
+}
+
+#[test]
+fn films_of_somebody_who_did_not_agree_are_not_built() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let plan = request().make_study_plan().expect("a plan");
+    corpus.plan_study(&plan, progress).expect("planned");
+    let no = crate::ConsentChange {
+        movement: Some(Some(crate::ConsentAudience::Research)),
+        ..crate::ConsentChange::default()
+    };
+    let of = ["recording:bol".parse().expect("an address")];
+    corpus.change_consent(&of, &no).expect("stated");
+    let to = folder.path().join("study");
+    let small = QuestionnaireOptions {
+        height: 64,
+        rate: 5,
+        ..QuestionnaireOptions::default()
+    };
+    let refused = corpus
+        .build_study("placing", &to, small, progress)
+        .expect_err("withheld");
+    let message = refused.to_string();
+    assert!(
+        message.contains("Camille (made)") && message.contains("withheld from public"),
+        "{message}"
+    );
+    assert!(!to.exists());
+    let for_research = QuestionnaireOptions {
+        audience: OutputAudience::Research,
+        ..small
+    };
+    corpus
+        .build_study("placing", &to, for_research, progress)
+        .expect("research is agreed to");
 }

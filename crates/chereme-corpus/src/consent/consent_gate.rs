@@ -1,0 +1,466 @@
+//! The gate for every way out of a corpus: what may be passed on to whom, and under which terms.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_sign::ErrorRemedy;
+use chereme_sign::text::fold_text;
+use rusqlite::Connection;
+use serde::Serialize;
+
+use super::{ConsentAudience, ConsentKind, PersonConsent, consent_row, kept_movement, unnamed};
+use crate::RecordOrigin;
+use crate::db::stored_recordings::RecordingRow;
+use crate::db::{consents, stored_recordings};
+use crate::error::CorpusResult;
+use crate::merge;
+use crate::sources::sources_notation::OWN_BODY;
+
+/// A reason why something may not be published.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WithheldReason {
+    /// Nobody recorded what the signer agreed to.
+    ConsentUnknown,
+    /// The signer did not agree that these people see it.
+    NotPublic,
+    /// No terms of use are stated.
+    NoTerms,
+    /// The terms forbid that something is made from it.
+    NoDerivatives,
+    /// Two copies of the corpus disagree about it, and nobody has decided.
+    Undecided,
+    /// A recording that it was made from is not known, or no longer there.
+    InputGone,
+}
+
+impl WithheldReason {
+    /// Returns the reason as part of a sentence.
+    #[must_use]
+    pub fn reason_words(self) -> &'static str {
+        match self {
+            Self::ConsentUnknown => "it is not stated what the signers agreed to",
+            Self::NotPublic => "the signers did not agree to it",
+            Self::NoTerms => "no terms of use are stated",
+            Self::NoDerivatives => "the terms of a source forbid changes",
+            Self::Undecided => "two copies of the corpus disagree",
+            Self::InputGone => "a source is not known, or no longer there",
+        }
+    }
+}
+
+/// What is stated about one kind of use of a recording, by all whom it shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct StatedAudience {
+    /// The narrowest of all that was stated.
+    pub(super) least: Option<ConsentAudience>,
+    /// What the recording itself states.
+    own: Option<ConsentAudience>,
+    /// Whether somebody whom it shows stated nothing.
+    pub(super) is_incomplete: bool,
+    /// Whether another copy of the corpus allows less, and nobody has decided.
+    is_doubted: bool,
+}
+
+/// A contributor because of whom something is withheld, and the reason.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct WithheldSource {
+    pub(super) recording: i64,
+    pub(super) reason: WithheldReason,
+}
+
+/// The permissions of a corpus, read at one moment.
+pub(crate) struct PublishPermissions {
+    recordings: BTreeMap<i64, RecordingRow>,
+    /// What is stated about each recording, by kind.
+    stated: BTreeMap<i64, [StatedAudience; 3]>,
+    /// The recordings that a generated one takes movement from; `None` if one of them is gone or not known.
+    inputs: BTreeMap<i64, Option<BTreeSet<i64>>>,
+    /// The sources whose movement a generated recording shows unchanged, where movement and derived signs may be seen
+    /// by different people.
+    kept_sources: BTreeMap<i64, BTreeSet<i64>>,
+    /// Recordings in which a person moves or a signer is named.
+    personal: BTreeSet<i64>,
+    /// Terms of what has none of its own and shows nobody.
+    terms: Option<String>,
+    /// Who is to see what is passed on.
+    audience: ConsentAudience,
+}
+
+/// What stands for the terms where none are stated.
+pub(crate) const TERMS_NOT_STATED: &str = "not stated: ask the owner before use";
+
+impl PublishPermissions {
+    /// Reads the permissions of a corpus for everybody; `terms` hold for what has none of its own and shows nobody.
+    pub(crate) fn read_publish_permissions(connection: &Connection, terms: Option<&str>) -> CorpusResult<Self> {
+        Self::read_permissions_for(connection, terms, ConsentAudience::Public)
+    }
+
+    /// Reads the permissions of a corpus for an audience; `terms` hold for what has none of its own and shows nobody.
+    pub(crate) fn read_permissions_for(
+        connection: &Connection,
+        terms: Option<&str>,
+        audience: ConsentAudience,
+    ) -> CorpusResult<Self> {
+        let mut signers: BTreeMap<i64, (String, PersonConsent)> = BTreeMap::new();
+        for row in consents::of_signers(connection)? {
+            let row = consent_row("signer", row)?;
+            signers.insert(row.id, (row.name, row.consent));
+        }
+        let mut own_consents: BTreeMap<i64, PersonConsent> = BTreeMap::new();
+        for row in consents::of_recordings(connection)? {
+            let row = consent_row("recording", row)?;
+            own_consents.insert(row.id, row.consent);
+        }
+        let mut named: BTreeMap<i64, BTreeSet<String>> = BTreeMap::new();
+        for (recording, name) in consents::list_tier_participants(connection)? {
+            named.entry(recording).or_default().insert(name);
+        }
+        let mut inputs: BTreeMap<i64, Option<BTreeSet<i64>>> = BTreeMap::new();
+        for (made, input, token) in consents::list_recipe_movement_inputs(connection, OWN_BODY)? {
+            let all = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
+            match input {
+                Some(input) => drop(all.as_mut().map(|set| set.insert(input))),
+                None if token => {}
+                None => *all = None,
+            }
+        }
+        let rows = stored_recordings::load_recording_rows(connection)?;
+        unnamed::complete_unnamed_inputs(connection, &rows, &mut inputs)?;
+        let doubts = doubts(connection)?;
+        // A participant written in other letters is the same person.
+        let mut by_name: BTreeMap<String, Vec<i64>> = BTreeMap::new();
+        for (id, (name, _)) in &signers {
+            by_name.entry(fold_text(name.trim())).or_default().push(*id);
+        }
+        let mut permissions = Self {
+            recordings: BTreeMap::new(),
+            stated: BTreeMap::new(),
+            inputs,
+            kept_sources: BTreeMap::new(),
+            personal: BTreeSet::new(),
+            terms: terms.map(str::to_owned),
+            audience,
+        };
+        for row in rows {
+            let mut people: Vec<Option<i64>> = row.signer_id.map(Some).into_iter().collect();
+            for name in named.get(&row.id).into_iter().flatten() {
+                match by_name.get(&fold_text(name)) {
+                    Some(same) => people.extend(same.iter().copied().map(Some)),
+                    None => people.push(None),
+                }
+            }
+            let shows = row.origin == RecordOrigin::Captured || !people.is_empty();
+            if shows {
+                permissions.personal.insert(row.id);
+            }
+            if row.origin == RecordOrigin::Made {
+                // Without a recipe nobody knows whose movement it is.
+                permissions.inputs.entry(row.id).or_insert(None);
+            }
+            let own_consent = own_consents.get(&row.id);
+            let each: Vec<Option<&PersonConsent>> = people
+                .iter()
+                .map(|entry| entry.and_then(|id| signers.get(&id)).map(|(_, consent)| consent))
+                .collect();
+            let stated = ConsentKind::ALL_CONSENT_KINDS.map(|kind| {
+                let is_doubted = doubts.contains(&("recording", row.id, kind));
+                let mut people = people.iter().flatten();
+                StatedAudience {
+                    is_doubted: is_doubted || people.any(|person| doubts.contains(&("signer", *person, kind))),
+                    ..state_audience(own_consent, &each, shows, kind)
+                }
+            });
+            permissions.stated.insert(row.id, stated);
+            permissions.recordings.insert(row.id, row);
+        }
+        permissions.join_equal_movement(connection)?;
+        permissions.find_kept_movement(connection)?;
+        Ok(permissions)
+    }
+
+    /// Makes captured recordings with equal movement agree: what one of them withholds, the others do.
+    fn join_equal_movement(&mut self, connection: &Connection) -> CorpusResult<()> {
+        for group in kept_movement::equal_movement_groups(connection)? {
+            let is_captured =
+                |id: &&i64| (self.recordings.get(*id)).is_some_and(|row| row.origin == RecordOrigin::Captured);
+            let captured: Vec<i64> = group.iter().filter(is_captured).copied().collect();
+            for kind in [ConsentKind::Movement, ConsentKind::Derived] {
+                let all: Vec<StatedAudience> = captured.iter().map(|id| self.stated_audience(*id, kind)).collect();
+                let least = all.iter().filter_map(|stated| stated.least).min();
+                let is_doubted = all.iter().any(|stated| stated.is_doubted);
+                for id in &group {
+                    if let Some(stated) = self.stated.get_mut(id) {
+                        let stated = &mut stated[kind as usize];
+                        stated.least = stated.least.into_iter().chain(least).min();
+                        stated.is_doubted |= is_doubted;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the generated recordings that show the movement of a source unchanged, where that makes a difference.
+    fn find_kept_movement(&mut self, connection: &Connection) -> CorpusResult<()> {
+        let generated: Vec<i64> = self.inputs.keys().copied().collect();
+        for recording in generated {
+            let mut sources = self.source_recordings(recording);
+            sources.retain(|source| {
+                self.stated_audience(*source, ConsentKind::Movement)
+                    != self.stated_audience(*source, ConsentKind::Derived)
+            });
+            let kept_sources = kept_movement::sources_kept_by(connection, recording, &sources)?;
+            self.kept_sources.insert(recording, kept_sources);
+        }
+        Ok(())
+    }
+
+    /// Returns the recordings that a generated one was made from, over recipes of recipes.
+    pub(crate) fn source_recordings(&self, recording: i64) -> BTreeSet<i64> {
+        let (mut sources, mut waiting) = (BTreeSet::new(), vec![recording]);
+        while let Some(next) = waiting.pop() {
+            for &input in self.inputs.get(&next).into_iter().flatten().flatten() {
+                if sources.insert(input) {
+                    waiting.push(input);
+                }
+            }
+        }
+        sources
+    }
+
+    fn stated_audience(&self, recording: i64, kind: ConsentKind) -> StatedAudience {
+        let stated = self.stated.get(&recording);
+        stated.map_or_else(StatedAudience::default, |by_kind| by_kind[kind as usize])
+    }
+
+    /// Returns the terms under which an entry of a table may be published.
+    pub(crate) fn of_entry(&self) -> std::result::Result<BTreeSet<String>, WithheldReason> {
+        let terms = self.terms.clone().ok_or(WithheldReason::NoTerms)?;
+        Ok(BTreeSet::from([terms]))
+    }
+
+    /// Returns the terms under which a recording may be published, those of all its inputs included.
+    pub(crate) fn recording_publish_terms(
+        &self,
+        recording: i64,
+        kind: ConsentKind,
+    ) -> std::result::Result<BTreeSet<String>, WithheldReason> {
+        self.contributed_terms(recording, kind)
+            .map_err(|withheld| withheld.reason)
+    }
+
+    /// Returns the terms of all who contributed to a recording.
+    pub(super) fn contributed_terms(
+        &self,
+        recording: i64,
+        asked: ConsentKind,
+    ) -> std::result::Result<BTreeSet<String>, WithheldSource> {
+        let mut terms = BTreeSet::new();
+        let (mut seen, mut waiting) = (BTreeSet::from([(recording, asked)]), vec![(recording, asked)]);
+        let kept_sources = self.kept_sources.get(&recording);
+        while let Some((contributor, kind)) = waiting.pop() {
+            let withheld = |reason| WithheldSource {
+                recording: contributor,
+                reason,
+            };
+            let row = self.recordings.get(&contributor);
+            let row = row.ok_or_else(|| withheld(WithheldReason::InputGone))?;
+            let inputs = match self.inputs.get(&contributor) {
+                Some(None) => return Err(withheld(WithheldReason::InputGone)),
+                Some(Some(inputs)) => Some(inputs),
+                None => None,
+            };
+            let licence = stated_licence(row);
+            let from_others = inputs.is_some_and(|list| !list.is_empty());
+            if (self.stated_audience(contributor, kind).own).is_some_and(|own| own < self.audience) {
+                return Err(withheld(WithheldReason::NotPublic));
+            }
+            let kind = if from_others { ConsentKind::Derived } else { kind };
+            self.may_be_seen(contributor, kind).map_err(withheld)?;
+            match licence {
+                Some(licence) => {
+                    terms.insert(licence.to_owned());
+                }
+                // A sign made from others has their terms.
+                None if from_others => {}
+                None if !self.personal.contains(&contributor) => terms.extend(self.of_entry().map_err(withheld)?),
+                None => return Err(withheld(WithheldReason::NoTerms)),
+            }
+            if contributor != recording && licence.is_some_and(forbids_derivatives) {
+                return Err(withheld(WithheldReason::NoDerivatives));
+            }
+            for &input in inputs.into_iter().flatten() {
+                // What annotators wrote is taken over, and so is movement that stays as it is.
+                let is_shown = match asked {
+                    ConsentKind::Movement => kept_sources.is_some_and(|sources| sources.contains(&input)),
+                    ConsentKind::Annotation => true,
+                    ConsentKind::Derived => false,
+                };
+                let shown = is_shown.then_some((input, asked));
+                waiting.extend(
+                    [(input, ConsentKind::Derived)]
+                        .into_iter()
+                        .chain(shown)
+                        .filter(|next| seen.insert(*next)),
+                );
+            }
+        }
+        Ok(terms)
+    }
+
+    /// Fails unless all whom a recording shows agreed that the audience sees it.
+    fn may_be_seen(&self, recording: i64, kind: ConsentKind) -> std::result::Result<(), WithheldReason> {
+        let stated = self.stated_audience(recording, kind);
+        match stated.least {
+            Some(least) if least < self.audience => Err(WithheldReason::NotPublic),
+            _ if stated.is_incomplete => Err(WithheldReason::ConsentUnknown),
+            _ if stated.is_doubted => Err(WithheldReason::Undecided),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the terms of a recording as a reader of an export finds them: those of all who contributed, or that it
+    /// may not be shared, or only for research. What nobody stated stays not stated.
+    pub(crate) fn recording_terms_text(&self, recording: i64) -> String {
+        let sources = self.source_recordings(recording);
+        let mut licences = BTreeSet::new();
+        let mut widest = ConsentAudience::Public;
+        let mut is_stated = true;
+        for contributor in sources.iter().copied().chain([recording]) {
+            let from_others = self.inputs.get(&contributor);
+            let is_unknown = matches!(from_others, Some(None));
+            let from_others = from_others.is_some_and(|inputs| inputs.as_ref().is_none_or(|list| !list.is_empty()));
+            let licence = self.recordings.get(&contributor).and_then(stated_licence);
+            is_stated &= !is_unknown && (licence.is_some() || from_others);
+            licences.extend(licence);
+            let is_source = contributor != recording;
+            let is_kept = (self.kept_sources.get(&recording)).is_some_and(|kept| kept.contains(&contributor));
+            let kinds: &[ConsentKind] = match (is_source, is_kept) {
+                (false, _) if from_others => &ConsentKind::ALL_CONSENT_KINDS,
+                (false, _) => &[ConsentKind::Movement, ConsentKind::Annotation],
+                (true, true) => &ConsentKind::ALL_CONSENT_KINDS,
+                (true, false) => &[ConsentKind::Annotation, ConsentKind::Derived],
+            };
+            for kind in kinds {
+                let stated = self.stated_audience(contributor, *kind);
+                let applies = !from_others || *kind == ConsentKind::Derived;
+                let least = if applies { stated.least } else { stated.own };
+                widest = widest.min(least.unwrap_or(ConsentAudience::Public));
+            }
+            if is_source && licence.is_some_and(forbids_derivatives) {
+                widest = ConsentAudience::Nobody;
+            }
+        }
+        let licences = licences.into_iter().collect::<Vec<_>>().join("; ");
+        match widest {
+            ConsentAudience::Nobody => "may not be shared".to_owned(),
+            _ if !is_stated => TERMS_NOT_STATED.to_owned(),
+            ConsentAudience::Research => format!("for research only; {licences}"),
+            ConsentAudience::Public => licences,
+        }
+    }
+
+    /// Returns the name of a recording and of its signer; the recording's own if nobody is named.
+    pub(super) fn recording_and_signer(&self, recording: i64) -> [String; 2] {
+        let Some(row) = self.recordings.get(&recording) else {
+            return ["".to_owned(), "".to_owned()];
+        };
+        let signer = row.signer.as_ref().unwrap_or(&row.name);
+        [row.name.clone(), signer.clone()]
+    }
+
+    /// Returns all recordings.
+    pub(crate) fn all_recordings(&self) -> BTreeSet<i64> {
+        self.recordings.keys().copied().collect()
+    }
+
+    /// Returns the signer of a recording, or the number of the recording if nobody is named.
+    pub(crate) fn recording_person_key(&self, recording: i64) -> Option<(bool, i64)> {
+        let row = self.recordings.get(&recording)?;
+        match row.signer_id {
+            Some(signer) => Some((true, signer)),
+            None => self.personal.contains(&recording).then_some((false, recording)),
+        }
+    }
+}
+
+/// Returns the terms that a recording states itself.
+fn stated_licence(row: &RecordingRow) -> Option<&str> {
+    let licence = row.licence.as_deref().map(str::trim);
+    licence.filter(|text| !text.is_empty())
+}
+
+/// Returns what a recording and its people state. A recording's own statement stands for people who state nothing.
+pub(super) fn state_audience(
+    own_consent: Option<&PersonConsent>,
+    people: &[Option<&PersonConsent>],
+    shows: bool,
+    kind: ConsentKind,
+) -> StatedAudience {
+    let own = own_consent.and_then(|consent| consent.audience_of_kind(kind));
+    let each = people
+        .iter()
+        .map(|person| person.and_then(|consent| consent.audience_of_kind(kind)));
+    let is_incomplete = shows && own.is_none() && (people.is_empty() || each.clone().any(|one| one.is_none()));
+    StatedAudience {
+        least: each.flatten().chain(own).min(),
+        own,
+        is_incomplete,
+        is_doubted: false,
+    }
+}
+
+/// Returns the consents that may not stand: another copy of the corpus allows less, and nobody has decided.
+fn doubts(connection: &Connection) -> CorpusResult<BTreeSet<(&'static str, i64, ConsentKind)>> {
+    let mut doubts = BTreeSet::new();
+    for dispute in merge::undecided_disputes(connection)? {
+        let differs = |column: &str| dispute.mine.get(column) != dispute.theirs.get(column);
+        let other_text = dispute.theirs.get("consent").and_then(|value| value.as_str());
+        // A consent that cannot be read allows nothing.
+        let other = PersonConsent::parse_consent_json(other_text, dispute.table).unwrap_or_default();
+        for kind in ConsentKind::ALL_CONSENT_KINDS {
+            let is_whole = match dispute.table {
+                _ if dispute.theirs.is_empty() => true,
+                "signer" => false,
+                "tier" => differs("participant"),
+                _ => ["signer_id", "origin", "licence"].into_iter().any(differs),
+            };
+            let less = differs("consent") && other.audience_of_kind(kind) != Some(ConsentAudience::Public);
+            match dispute.table {
+                "signer" if is_whole || less => drop(doubts.insert(("signer", dispute.id, kind))),
+                "recording" if is_whole || less => {
+                    doubts.insert(("recording", dispute.id, kind));
+                }
+                "tier" if is_whole => doubts.extend(dispute.recording.map(|recording| ("recording", recording, kind))),
+                _ => {}
+            }
+        }
+    }
+    Ok(doubts)
+}
+
+/// Reports whether terms of use forbid that something is made from it, as the ND licences of Creative Commons do.
+pub(super) fn forbids_derivatives(licence: &str) -> bool {
+    let licence = licence.to_lowercase();
+    let words = licence.split(|letter: char| !letter.is_alphanumeric());
+    let nd = words.clone().any(|word| word == "nd");
+    nd || licence.contains("noderiv") || licence.contains("no deriv")
+}
+
+/// Returns the remedy for something that was withheld.
+pub(crate) fn withheld_remedy(reason: WithheldReason) -> ErrorRemedy {
+    match reason {
+        WithheldReason::ConsentUnknown => ErrorRemedy::command_remedy(
+            "state what the signers agreed to: `chereme consent CORPUS signer:NAME --all public`",
+        ),
+        WithheldReason::NotPublic => "the signers did not agree that everybody sees it".into(),
+        WithheldReason::NoTerms => ErrorRemedy::command_remedy(
+            "state the terms of recordings with `chereme consent CORPUS signer:NAME --licence TERMS`, those of entries that show nobody with --terms TERMS",
+        ),
+        WithheldReason::NoDerivatives => "a recording that they were made from may not be changed".into(),
+        WithheldReason::Undecided => ErrorRemedy::command_remedy(
+            "two copies of the corpus disagree about it: `chereme conflicts CORPUS` lists what is to be decided",
+        ),
+        WithheldReason::InputGone => "a recording that they were made from is not known, or was deleted".into(),
+    }
+}
