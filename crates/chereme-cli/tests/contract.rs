@@ -92,6 +92,7 @@ fn every_command_has_help_with_a_description() {
         "animate",
         "render",
         "export",
+        "forget",
         "undo",
         "redo",
         "log",

@@ -28,6 +28,7 @@ mod export;
 mod face;
 mod film;
 mod foreign_code;
+mod forget;
 mod forms;
 mod hands;
 mod import;
@@ -147,6 +148,7 @@ pub use face::{
 };
 pub use film::{FilmFacts, FilmFile, FilmPicture, FilmTimes, PicturePlanes};
 pub use foreign_code::hide_handled_panics;
+pub use forget::{ForgottenSigner, StillSaidText};
 pub use forms::{EmptyCellTreatment, FIELD_SETS, FormSource};
 pub use import::{
     AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileJoin, FileJoining, FileReport,

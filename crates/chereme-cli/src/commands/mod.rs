@@ -15,6 +15,7 @@ mod diff;
 mod export_command;
 mod face_command;
 mod fit_command;
+mod forget_command;
 mod history_command;
 mod import_command;
 mod inventory_command;
@@ -78,6 +79,7 @@ commands! {
     List => list_command::list_corpus_rows(ListArgs);
     Annotate => annotate::run(AnnotateArgs);
     Delete => delete_command::run(DeleteArgs);
+    Forget => forget_command::run(ForgetArgs);
     Inventory => inventory_command::run(InventoryArgs);
     Track => track_command::run(TrackArgs);
     Fit => fit_command::run(FitArgs);

@@ -19,6 +19,7 @@ pub(crate) mod stored_check;
 pub(crate) mod stored_columns;
 pub(crate) mod stored_contents;
 pub(crate) mod stored_delete;
+pub(crate) mod stored_erase;
 pub(crate) mod stored_history;
 pub(crate) mod stored_info;
 pub(crate) mod stored_inventories;

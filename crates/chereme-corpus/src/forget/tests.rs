@@ -1,0 +1,95 @@
+use super::*;
+use crate::consent::tests::corpus;
+use crate::{ExportOptions, ExportWhat, RecordingChange, ignore_progress_step};
+
+fn forget(corpus: &mut Corpus, dry_run: bool) -> CorpusResult<ForgottenSigner> {
+    let mut hear = ignore_progress_step;
+    let name = RowName::Text("Qzbeazq".into());
+    corpus.forget_signer(&name, dry_run, &mut ProgressReceiver::new(&mut hear))
+}
+
+/// Returns a corpus in which BOL was recorded from Qzbeazq, and the rest from Ada.
+fn two_signers(folder: &std::path::Path) -> Corpus {
+    let mut corpus = corpus(folder);
+    let bea = RecordingChange {
+        name: Some("qzrecordingzq".into()),
+        signer: Some(Some("Qzbeazq".into())),
+        ..RecordingChange::default()
+    };
+    corpus
+        .change_recording(&RowName::Text("bol".into()), &bea)
+        .expect("changed");
+    let named = corpus.store.named_operation("test", |connection| {
+        connection.execute(
+            "UPDATE tier SET participant = 'Qzbeazq' WHERE participant IS NOT NULL AND recording_id =
+                 (SELECT id FROM recording WHERE name = 'qzrecordingzq')",
+            [],
+        )?;
+        Ok(((), String::new()))
+    });
+    named.expect("changed");
+    corpus
+}
+
+#[test]
+fn nothing_of_a_forgotten_person_is_in_the_bytes_and_nothing_brings_them_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = two_signers(folder.path());
+    let path = corpus.corpus_file_path().to_owned();
+    let older = path.with_file_name("a.version-3.chereme");
+    corpus.store.copy_store_file(&older).expect("copied");
+    let bytes_say = |text: &str| {
+        let bytes = fs::read(&path).expect("read");
+        bytes.windows(text.len()).any(|part| part == text.as_bytes())
+    };
+    let foreseen = forget(&mut corpus, true).expect("foreseen");
+    assert_eq!(foreseen.recordings, ["qzrecordingzq"]);
+    assert!(older.exists() && foreseen.older_files == [older.clone()]);
+    let done = forget(&mut corpus, false).expect("forgotten");
+    assert!(done.searched > 20, "{done:?}");
+    assert!(!older.exists());
+    assert!(!bytes_say("qzrecordingzq") && !bytes_say("Qzbeazq"));
+    assert!(corpus.undo_operation().is_err(), "there is no history");
+    let names: Vec<String> = stored_recordings::load_recording_rows(corpus.store.read_connection())
+        .expect("read")
+        .into_iter()
+        .map(|row| row.name)
+        .collect();
+    assert_eq!(names, ["escargot", "LIMACE"]);
+    let to = folder.path().join("all");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    corpus
+        .export_corpus(&ExportWhat::All, &to, &ExportOptions::default(), progress)
+        .expect("what stays is whole");
+    corpus
+        .recombine_recipe("ESCARGOT | mirror", "AFTER")
+        .expect("work goes on");
+    corpus.undo_operation().expect("undone");
+    assert!(forget(&mut corpus, false).is_err(), "nobody of this name is left");
+}
+
+#[test]
+fn what_something_else_needs_is_not_forgotten() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = two_signers(folder.path());
+    corpus
+        .recombine_recipe("ESCARGOT | configure right from BOL", "LENT")
+        .expect("generated");
+    let refused = forget(&mut corpus, false).expect_err("LENT needs it");
+    assert!(refused.to_string().contains("LENT"), "{refused}");
+    corpus.undo_operation().expect("undone");
+    assert!(forget(&mut corpus, true).is_ok());
+    // A tier of somebody else in one of the recordings.
+    let named = corpus.store.named_operation("test", |connection| {
+        connection.execute(
+            "UPDATE tier SET participant = 'Ada' WHERE recording_id =
+                 (SELECT id FROM recording WHERE name = 'qzrecordingzq')",
+            [],
+        )?;
+        Ok(((), String::new()))
+    });
+    named.expect("changed");
+    let refused = forget(&mut corpus, false).expect_err("Ada is in it");
+    assert!(refused.to_string().contains("and others: qzrecordingzq"), "{refused}");
+}
