@@ -6,7 +6,6 @@ use anyhow::Result;
 use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::{CorpusAddress, CorpusError, ForgottenSigner, ProgressReceiver};
 
-
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
 
@@ -41,14 +40,12 @@ pub(crate) struct ForgetArgs {
 
 pub(super) fn run(cli: &CommandLine, args: &ForgetArgs, output: &mut CommandOutput) -> Result<()> {
     let CorpusAddress::Signer(signer) = &args.who else {
-        return Err(
-            CorpusError::from_wrong_message(format!("{} is no signer", args.who))
-                .with_error_place(args.who.to_string())
-                .with_advice(ErrorRemedy::command_remedy(
-                    "write signer:NAME; recordings and signs go with `chereme delete`",
-                ))
-                .into(),
-        );
+        return Err(CorpusError::from_wrong_message(format!("{} is no signer", args.who))
+            .with_error_place(args.who.to_string())
+            .with_advice(ErrorRemedy::command_remedy(
+                "write signer:NAME; recordings and signs go with `chereme delete`",
+            ))
+            .into());
     };
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut bar = CommandProgressBar::new();
@@ -66,7 +63,10 @@ fn print_forgotten(done: &ForgottenSigner, output: &mut CommandOutput) -> Result
             "nothing is written yet; with --yes {signer} goes for good, with {n} and the history:",
             &[&done.signer, &count],
         )?,
-        false => output.filled_line("forgotten for good: {signer}, {n} and the history:", &[&done.signer, &count])?,
+        false => output.filled_line(
+            "forgotten for good: {signer}, {n} and the history:",
+            &[&done.signer, &count],
+        )?,
     }
     for name in &done.recordings {
         output.line_as_is(&format!("  recording:{name:?}"))?;
