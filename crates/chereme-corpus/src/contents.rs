@@ -55,6 +55,8 @@ pub struct RecordingContents {
     pub media: Vec<MediaTrackRow>,
     /// Its tracks of every kind.
     pub tracks: Vec<crate::TrackRow>,
+    /// Who accepts proposals for it.
+    pub acceptor: crate::ProposalAcceptor,
 }
 
 /// A tier with its annotations.
@@ -128,6 +130,7 @@ impl Corpus {
             tokens: signs::tokens_of_recording(&reading, recording)?,
             media: stored_recordings::media_tracks(&reading, recording)?,
             tracks: crate::db::stored_tracks::load_track_rows(&reading, recording)?,
+            acceptor: self.proposal_acceptor(recording)?,
         })
     }
 }

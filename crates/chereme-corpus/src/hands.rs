@@ -419,9 +419,9 @@ mod tests {
                 let found = corpus.search_tokens(query, &crate::SearchOptions::default());
                 found.expect(query).total
             };
-            assert_eq!(total("right.orientation.palm=*"), 1, "{sides:?}");
+            assert_eq!(total("right.orientation.palm=* proposed:yes"), 1, "{sides:?}");
             let is_seen = usize::from(!expected.contains(&BodySide::Right));
-            assert_eq!(total("right.configuration=*"), is_seen, "{sides:?}");
+            assert_eq!(total("right.configuration=* proposed:yes"), is_seen, "{sides:?}");
             let note = "handshapes are not proposed where fingers rest throughout, as nobody captured them: chat";
             let has_note = proposed.findings == [note];
             assert_eq!(has_note, !expected.is_empty(), "{sides:?} {:?}", proposed.findings);

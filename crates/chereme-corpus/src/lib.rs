@@ -171,14 +171,17 @@ pub use paths::paths_like;
 pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
-pub use propose::{ProposalResult, ProposeOptions, ProposeScope, accepting_tier, proposed_for};
+pub use propose::{
+    AcceptanceResult, ProposalAcceptor, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier,
+    proposed_for,
+};
 pub use publish::{LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
 pub use saved_search::{KeptSearch, kept_like};
 pub use score::MovementScore;
 pub use search::{
-    FACET_VALUES, FindingKind, HitOrder, NO_VALUE, QueryFinding, SearchAnswer, SearchHit, SearchOptions, TallyRow,
-    ValueTally, guessed_query_text, meant_query_text,
+    FACET_VALUES, FindingKind, HitOpinion, HitOrder, NO_VALUE, OpinionStanding, QueryFinding, SearchAnswer, SearchHit,
+    SearchOptions, TallyRow, ValueTally, guessed_query_text, meant_query_text,
 };
 pub use starter::{StarterSign, starter_files, starter_signs, unpack_starter};
 pub use stats::{

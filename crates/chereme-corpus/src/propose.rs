@@ -3,26 +3,28 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_analysis::transcribe::FeatureKind;
-use chereme_formats::roles::AnnotatedHands;
 use chereme_formats::table::annotations::TableMoment;
 use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::hamnosys::NotatedSign;
 use chereme_sign::hamnosys::components::SignMapper;
-use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, TierRole};
+use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, SignerHandedness, TierRole};
 use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{CorpusAddress, RowName};
 use crate::annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName,
+    write_tiers,
 };
+use crate::db::signs;
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::{stored_recordings, stored_tiers};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::search::{SearchHit, SearchOptions};
 use crate::transcribe::TranscribedFeature;
-use crate::words::effect::{AnnotationEffect, OperationEffect};
+use crate::words::effect::OperationEffect;
 
 /// Options of proposals: the components, and the tokens.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,8 +60,33 @@ pub struct ProposalResult {
     pub unread: u64,
     /// The recordings, in order.
     pub recordings: Vec<String>,
+    /// The number of annotations by confidence: each tenth by its lower end, such as `0.9`, and `unknown`.
+    pub by_confidence: BTreeMap<String, u64>,
     /// Notes on what is not proposed.
     pub findings: Vec<String>,
+}
+
+/// The proposals that are accepted; what is empty or missing does not narrow them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProposalChoice {
+    /// The tokens or the recording that they lie in.
+    pub scope: ProposeScope,
+    /// The names of their tiers, with or without `(proposed)`.
+    pub tiers: Vec<String>,
+    /// Their components.
+    pub components: Vec<SignComponent>,
+    /// The least confidence.
+    pub least_confidence: Option<f64>,
+}
+
+/// The result of accepting proposals.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AcceptanceResult {
+    /// The annotations that were written.
+    #[serde(flatten)]
+    pub report: AnnotateReport,
+    /// The number of chosen proposals that are left, because something else lies in their place.
+    pub left: u64,
 }
 
 impl ProposalResult {
@@ -81,19 +108,41 @@ pub fn proposed_for(tier: &str) -> Option<&str> {
     tier.strip_suffix(PROPOSAL_TIER_SUFFIX)
 }
 
-/// Returns the tier on which proposals are accepted, of all tiers of their recording: that of the same subject and hand, by
-/// preference the one with their name; `None` if it must be added.
+/// Who accepts proposals, and for whom.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProposalAcceptor {
+    /// The annotator.
+    pub author: String,
+    /// The handedness of the signer, by which a dominant hand is a right or a left one.
+    pub handedness: SignerHandedness,
+}
+
+/// Returns the tier on which an annotator accepts proposals, of all tiers of their recording: that of the same subject and
+/// hand of the signer, by preference the annotator's own, then the one with their name; `None` if it must be added.
 pub fn accepting_tier<'a>(
     proposals: &stored_tiers::TierRow,
     all: impl Iterator<Item = &'a stored_tiers::TierRow> + Clone,
+    acceptor: &ProposalAcceptor,
 ) -> Option<&'a stored_tiers::TierRow> {
     let name = proposed_for(&proposals.name);
-    let mut same = all.filter(|tier| {
-        let alike = (&tier.role, tier.hand) == (&proposals.role, proposals.hand);
-        alike && proposed_for(&tier.name).is_none()
-    });
-    let named = same.clone().find(|tier| Some(tier.name.as_str()) == name);
-    named.or_else(|| same.next())
+    let side = |hand: Option<AnnotatedHands>| match hand {
+        Some(AnnotatedHands::One(hand)) => Some(AnnotatedHands::One(hand.resolve_hand_ref(acceptor.handedness).into())),
+        other => other,
+    };
+    let rank = |tier: &&stored_tiers::TierRow| {
+        let is_of_others = tier.annotator.as_deref().is_some_and(|other| other != acceptor.author);
+        let is_own = tier.annotator.as_deref() == Some(acceptor.author.as_str());
+        (is_of_others, !is_own, Some(tier.name.as_str()) != name)
+    };
+    all.filter(|tier| {
+        let alike = (&tier.role, side(tier.hand)) == (&proposals.role, side(proposals.hand));
+        let timed = tier.stereotype.is_none_or(|stereotype| stereotype.is_alignable());
+        let same_person =
+            tier.participant.is_none() || proposals.participant.is_none() || tier.participant == proposals.participant;
+        alike && timed && same_person && proposed_for(&tier.name).is_none()
+    })
+    .filter(|tier| !rank(tier).0)
+    .min_by_key(rank)
 }
 
 /// Returns the name of the tier for proposals of a field, such as `configuration dominant (proposed)`.
@@ -232,6 +281,15 @@ impl Corpus {
         }
         let (new, changes) = self.proposal_changes(values)?;
         report.annotations = changes.len() as u64;
+        for change in &changes {
+            if let AnnotationAction::Add { confidence, .. } = &change.action {
+                let tenth = confidence.map(|sure| format!("{:.1}", (sure * 10.0).floor().min(9.0) / 10.0));
+                *report
+                    .by_confidence
+                    .entry(tenth.unwrap_or_else(|| "unknown".to_owned()))
+                    .or_default() += 1;
+            }
+        }
         if !changes.is_empty() {
             let options = AnnotateOptions {
                 origin: AnnotationOrigin::Detector,
@@ -244,7 +302,7 @@ impl Corpus {
         Ok(report)
     }
 
-    /// Returns the tokens of a scope that have no value for a component.
+    /// Returns the tokens of a scope that have no value for a component, neither one that counts nor an opinion.
     fn tokens_without_component(
         &mut self,
         component: SignComponent,
@@ -271,7 +329,9 @@ impl Corpus {
         };
         let query = format!("not {}=*", component.component_name());
         let answer = self.search_until(&query, &options, progress)?;
+        let opinions = signs::tokens_with_opinion(self.store.read_connection(), component.component_name())?;
         let is_in = |hit: &SearchHit| match scope {
+            _ if opinions.contains(&hit.token) => false,
             ProposeScope::All => true,
             ProposeScope::Token(token) => hit.token == *token,
             ProposeScope::Recording(_) => hit.recording == name,
@@ -379,8 +439,115 @@ impl Corpus {
         Ok(Some(read).filter(|read| !read.is_empty()))
     }
 
-    /// Accepts proposals unchanged: each becomes an annotation by the author of the corpus, on the tier without
-    /// `(proposed)` in its name, which is added if it is missing. All of it is one operation.
+    /// Returns the proposals of a choice, by recording, tier and time.
+    ///
+    /// # Errors
+    /// Fails if nothing has the name in the scope, or the corpus cannot be read.
+    pub fn find_proposals(&self, choice: &ProposalChoice) -> CorpusResult<Vec<i64>> {
+        let connection = self.store.read_connection();
+        let (recordings, span) = match &choice.scope {
+            ProposeScope::All => (stored_recordings::load_recording_rows(connection)?, None),
+            ProposeScope::Recording(name) => (vec![crate::address::find_recording_by_name(connection, name)?], None),
+            ProposeScope::Span(name, span) => (
+                vec![crate::address::find_recording_by_name(connection, name)?],
+                Some(*span),
+            ),
+            ProposeScope::Token(token) => {
+                let stretch = crate::address::find_addressed_stretch(connection, &CorpusAddress::Token(*token))?;
+                (vec![stretch.recording], Some(stretch.span))
+            }
+        };
+        let mut proposals = Vec::new();
+        for recording in recordings {
+            for tier in stored_tiers::load_tier_rows(connection, recording.id)? {
+                let (Some(name), Some((component, _))) = (proposed_for(&tier.name), tier.role.role_component()) else {
+                    continue;
+                };
+                let is_named = |wanted: &String| *wanted == tier.name || *wanted == name;
+                let is_chosen = choice.tiers.is_empty() || choice.tiers.iter().any(is_named);
+                if !is_chosen || !(choice.components.is_empty() || choice.components.contains(&component)) {
+                    continue;
+                }
+                let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?.into_iter();
+                let is_wanted = |row: &stored_tiers::AnnotationRow| {
+                    let shares = |span: TimeSpan| {
+                        row.start_us < span.span_end_instant().instant_micros()
+                            && row.end_us > span.span_start_instant().instant_micros()
+                    };
+                    let sure = choice
+                        .least_confidence
+                        .is_none_or(|least| row.confidence >= Some(least));
+                    row.origin == AnnotationOrigin::Detector && span.is_none_or(shares) && sure
+                };
+                proposals.extend(rows.filter(is_wanted).map(|row| row.id));
+            }
+        }
+        Ok(proposals)
+    }
+
+    /// Accepts the proposals of a choice for whose values there is room on the tiers of the annotator.
+    ///
+    /// # Errors
+    /// Those of [`find_proposals`](Self::find_proposals) and [`accept_proposals`](Self::accept_proposals).
+    pub fn accept_chosen_proposals(
+        &mut self,
+        choice: &ProposalChoice,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AcceptanceResult> {
+        let mut proposals = self.find_proposals(choice)?;
+        let all = proposals.len();
+        let connection = self.store.read_connection();
+        let mut taken: BTreeMap<i64, Vec<(i64, i64)>> = BTreeMap::new();
+        let mut room = Vec::with_capacity(all);
+        for id in proposals.drain(..) {
+            let row = stored_tiers::load_annotation_row(connection, id)?;
+            let tier = stored_tiers::load_tier_row(connection, row.tier_id)?;
+            let Some(to) = self.find_accepting_tier(&tier)? else {
+                room.push(id);
+                continue;
+            };
+            let times = match taken.entry(to.id) {
+                std::collections::btree_map::Entry::Occupied(entry) => entry.into_mut(),
+                std::collections::btree_map::Entry::Vacant(entry) => {
+                    let rows = stored_tiers::load_tier_annotation_rows(connection, to.id)?;
+                    entry.insert(rows.iter().map(|row| (row.start_us, row.end_us)).collect())
+                }
+            };
+            if times
+                .iter()
+                .all(|(start, end)| *end <= row.start_us || *start >= row.end_us)
+            {
+                times.push((row.start_us, row.end_us));
+                room.push(id);
+            }
+        }
+        Ok(AcceptanceResult {
+            left: (all - room.len()) as u64,
+            report: self.accept_proposals(&room, progress)?,
+        })
+    }
+
+    /// Returns who accepts proposals for a recording.
+    pub(crate) fn proposal_acceptor(&self, recording: i64) -> CorpusResult<ProposalAcceptor> {
+        let connection = self.store.read_connection();
+        let recording = stored_recordings::load_recording_row(connection, recording)?;
+        Ok(ProposalAcceptor {
+            author: self.store.store_author().to_owned(),
+            handedness: crate::tokens::recording_handedness(connection, &recording)?,
+        })
+    }
+
+    /// Returns the tier on which the author of the corpus accepts the proposals of a tier, if there is one.
+    fn find_accepting_tier(&self, proposals: &stored_tiers::TierRow) -> CorpusResult<Option<stored_tiers::TierRow>> {
+        let connection = self.store.read_connection();
+        let all = stored_tiers::load_tier_rows(connection, proposals.recording_id)?;
+        let acceptor = self.proposal_acceptor(proposals.recording_id)?;
+        Ok(accepting_tier(proposals, all.iter(), &acceptor).cloned())
+    }
+
+    /// Accepts proposals unchanged: each becomes an annotation by the author of the corpus, with the confidence of the
+    /// detector, on the tier that the author has for it, or else on one without `(proposed)` in its name, which is added.
+    /// Tiers of proposals that are empty then are removed. All of it is one operation.
     ///
     /// # Errors
     /// Fails if one of them is not a proposal, overlaps an annotation of its tier, or the corpus cannot be written.
@@ -391,6 +558,7 @@ impl Corpus {
     ) -> CorpusResult<AnnotateReport> {
         let connection = self.store.read_connection();
         let (mut new, mut changes): (Vec<NewTier>, Vec<AnnotationChange>) = Default::default();
+        let mut emptied = BTreeSet::new();
         for &id in annotations {
             let row = stored_tiers::load_annotation_row(connection, id)?;
             let tier = stored_tiers::load_tier_row(connection, row.tier_id)?;
@@ -399,10 +567,11 @@ impl Corpus {
                 return Err(CorpusError::from_wrong_message(text)
                     .with_advice("proposals lie on tiers whose names end in \"(proposed)\""));
             };
+            emptied.insert(tier.id);
             let recording = RowName::Number(tier.recording_id);
             let all = stored_tiers::load_tier_rows(connection, tier.recording_id)?;
-            let known_tier = accepting_tier(&tier, all.iter());
-            let to = match known_tier {
+            let known_tier = self.find_accepting_tier(&tier)?;
+            let to = match &known_tier {
                 Some(known) => known.name.clone(),
                 None if all.iter().any(|row| row.name == name) => format!("{name} (accepted)"),
                 None => name.to_owned(),
@@ -414,6 +583,7 @@ impl Corpus {
             {
                 let mut added = NewTier::new(recording.clone(), to.clone(), tier.role.clone());
                 added.hand = tier.hand;
+                added.participant.clone_from(&tier.participant);
                 new.push(added);
             }
             let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
@@ -425,7 +595,7 @@ impl Corpus {
                     parent: None,
                     order: None,
                     value: row.value,
-                    confidence: None,
+                    confidence: row.confidence,
                 }
                 .into(),
             );
@@ -437,11 +607,19 @@ impl Corpus {
             );
         }
         let options = AnnotateOptions::default();
-        let accepted = |annotations: AnnotationEffect| OperationEffect::Accept {
-            count: annotations.count_removed(),
-            annotations,
-        };
-        self.annotate_with(accepted, &new, &changes, &options, progress)
+        self.store.operation_with_progress(progress, |connection, progress| {
+            let report = write_tiers(connection, &new, (&changes, &options), progress)?;
+            for tier in emptied {
+                if stored_tiers::load_tier_annotation_rows(connection, tier)?.is_empty() {
+                    stored_tiers::delete_tier(connection, tier)?;
+                }
+            }
+            let effect = OperationEffect::Accept {
+                count: report.effect.count_removed(),
+                annotations: report.effect.clone(),
+            };
+            Ok((report, effect))
+        })
     }
 
     /// Returns the annotations to add, and the tiers for them that recordings lack.

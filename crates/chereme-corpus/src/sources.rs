@@ -21,7 +21,7 @@ use crate::IndexedStore;
 use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
 use crate::curves;
 use crate::db::signs;
-use crate::db::stored_columns::RecordOrigin;
+use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin};
 use crate::db::stored_history;
 use crate::db::stored_motion;
 use crate::db::stored_recordings::{self, RecordingRow};
@@ -109,7 +109,7 @@ impl<'a> CorpusSources<'a> {
         Ok(material)
     }
 
-    /// Returns the values on the component tiers over a stretch, with times counted from its first frame.
+    /// Returns the values on the component tiers over a stretch that count, with times counted from its first frame.
     fn held_component_values(
         &self,
         stretch: &RecordingStretch,
@@ -136,7 +136,8 @@ impl<'a> CorpusSources<'a> {
                 let Some(span) = row_span.span_intersection(stretch.span) else {
                     continue;
                 };
-                if !row.is_filled() {
+                let counts = row.origin != AnnotationOrigin::Detector && !signs::is_opinion(self.connection, row.id)?;
+                if !row.is_filled() || !counts {
                     continue;
                 }
                 let known_value = inventory.and_then(|stored| stored.inventory.find_inventory_value(row.value.trim()));

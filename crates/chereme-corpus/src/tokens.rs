@@ -1,24 +1,67 @@
 //! Tokens of a recording, derived from its tiers after every change to them.
 
+mod counted_reading;
+
 use std::collections::BTreeMap;
 
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::tier::AnnotatedHands;
-use chereme_sign::token::{ComponentSpan, component_readings, owning_token_index};
+use chereme_sign::token::{ComponentSpan, owning_token_index};
 use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignerHandedness, TierRole};
 use rusqlite::Connection;
 
+use crate::Corpus;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::db::stored_columns::AnnotationOrigin;
+use crate::db::stored_merge;
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
+use crate::db::stored_search::search_answers;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
-use crate::error::CorpusResult;
-use crate::inventories::StoredInventory;
+use crate::error::{CorpusError, CorpusResult};
+use crate::inventories::{self, StoredInventory};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+use crate::words::effect::OperationEffect;
+use counted_reading::AnnotatedGloss;
+
+/// The key of the corpus's note that names the annotator whose readings count before those of others.
+pub(crate) const PREFERRED_ANNOTATOR_NOTE: &str = "preferred-annotator";
+
+impl Corpus {
+    /// Names the annotator whose readings count before those of others where several have annotated the same, or nobody. An
+    /// adjudication counts before this annotator.
+    ///
+    /// # Errors
+    /// Fails if no tier has that annotator, or the corpus cannot be written.
+    pub fn prefer_annotator(&mut self, name: Option<&str>) -> CorpusResult<()> {
+        let name = name.unwrap_or_default();
+        self.store.run_store_operation(|connection| {
+            let names = search_answers::annotator_names(connection)?;
+            if !name.is_empty() && !names.iter().any(|known| known == name) {
+                let there_are = match names.as_slice() {
+                    [] => "no tier of this corpus names an annotator".to_owned(),
+                    names => format!("there are: {}", names.join(", ")),
+                };
+                return Err(
+                    CorpusError::from_wrong_message(format!("no annotator is called {name:?}"))
+                        .with_error_place(name)
+                        .with_advice(there_are),
+                );
+            }
+            stored_merge::set_note(connection, PREFERRED_ANNOTATOR_NOTE, name)?;
+            let inventories = inventories::load_all_inventories(connection)?;
+            for recording in stored_recordings::load_recording_rows(connection)? {
+                update_recording_tokens(connection, recording.id, None, &inventories)?;
+            }
+            let annotator = if name.is_empty() { "-" } else { name }.to_owned();
+            Ok(((), OperationEffect::PreferAnnotator { annotator }))
+        })
+    }
+}
 
 /// Updates the tokens of a recording from its tiers; tokens that remain keep their rows.
 ///
-/// Each annotation with a value on a gloss tier is a token. Its values are those of the component tiers during it,
-/// except the phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens near
+/// Each annotation with a value on a gloss tier is a token. Its values are those of the component tiers during it, as far as
+/// they [count](counted_reading), except the phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens near
 /// that time are derived, which suffices after a change within it. Values are converted to the ids of the tiers'
 /// inventories.
 pub(crate) fn update_recording_tokens(
@@ -135,11 +178,17 @@ struct AnnotationsByTime {
     /// If given, only the glosses that touch this span are derived; the others only take part in the assignment of
     /// components.
     within: Option<TimeSpan>,
+    /// The annotator whose readings count before those of others.
+    preferred: Option<String>,
 }
 
 struct CodedAnnotation {
     span: ComponentSpan,
     annotation: i64,
+    tier: i64,
+    annotator: Option<String>,
+    /// Whether a detector says so, and nobody has accepted it.
+    is_proposal: bool,
     inventory: Option<i64>,
     participant: Option<String>,
 }
@@ -166,6 +215,7 @@ impl AnnotationsByTime {
             components: Vec::new(),
             owned: BTreeMap::new(),
             within: None,
+            preferred: preferred_annotator(connection)?,
         };
         if let Some(window) = window {
             let mut within = window;
@@ -242,6 +292,9 @@ impl AnnotationsByTime {
                     reading: reading.clone(),
                 },
                 annotation: row.id,
+                tier: tier.id,
+                annotator: tier.annotator.clone(),
+                is_proposal: row.origin == AnnotationOrigin::Detector,
                 inventory: tier.inventory_id,
                 participant: tier.participant.clone(),
             });
@@ -254,22 +307,17 @@ impl AnnotationsByTime {
     }
 
     fn gloss_token_values(&self, gloss: &GlossAnnotation) -> Vec<TokenValueRow> {
-        let gloss_span = annotation_row_span(&gloss.row);
         let hand = gloss.hand.and_then(AnnotatedHands::single_hand);
         let handedness = self.handedness_of(gloss.participant.as_deref());
         let hand = hand.map(|hand| HandRef::from(hand.resolve_hand_ref(handedness)));
-        let owned: Vec<&CodedAnnotation> = self
-            .owned
-            .get(&gloss.row.id)
-            .into_iter()
-            .flatten()
-            .map(|at| &self.components[*at])
-            .collect();
-        let around: Vec<ComponentSpan> = owned.iter().map(|coded| coded.span.clone()).collect();
-        component_readings(gloss_span, &[], hand, &around)
-            .into_iter()
-            .map(|(field, place)| row_of(&field, owned[place]))
-            .collect()
+        let owned = self.owned.get(&gloss.row.id).into_iter().flatten();
+        let annotated = AnnotatedGloss {
+            span: annotation_row_span(&gloss.row),
+            hand,
+            coded: owned.map(|place| &self.components[*place]).collect(),
+            preferred: self.preferred.as_deref(),
+        };
+        annotated.counted_token_values()
     }
 
     /// Assigns each component to the gloss that it belongs to, among those for each hand of each participant;
@@ -310,13 +358,10 @@ impl AnnotationsByTime {
     }
 }
 
-fn row_of(field: &ComponentField, source: &CodedAnnotation) -> TokenValueRow {
-    let reading = &source.span.reading;
-    TokenValueRow {
-        inventory_id: source.inventory,
-        annotation_id: Some(source.annotation),
-        ..TokenValueRow::from_field_reading(field, reading)
-    }
+/// Returns the annotator whose readings count before those of others, if the corpus names one.
+pub(crate) fn preferred_annotator(connection: &Connection) -> CorpusResult<Option<String>> {
+    let notes = stored_merge::list_corpus_notes(connection, PREFERRED_ANNOTATOR_NOTE)?;
+    Ok(notes.into_iter().map(|(_, name)| name).find(|name| !name.is_empty()))
 }
 
 fn resolve_field_hands(field: ComponentField, handedness: SignerHandedness) -> ComponentField {

@@ -21,6 +21,7 @@ history-accept = Proposed values accepted: { $count }, in { $recordings ->
    *[other] { $recordings } recordings
 }
 history-adjudicate = Adjudicated on the tier { $tier }
+history-prefer-annotator = Preferred annotator: { $annotator }
 history-add-tier = Tier { $tier } added to { $recording }
 history-change-tier = Tier { $tier } of { $recording } changed
 history-remove-tier = Tiers removed from { $recording }: { $tiers }, with { $annotations ->

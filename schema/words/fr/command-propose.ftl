@@ -4,6 +4,8 @@ line-command-propose-accepted = accepté : { $n }
 line-command-propose-proposed-in = proposé : { $annotations } dans { $recordings }
 line-command-propose-nothing-examine-in = rien à examiner dans { $recordings }
 line-command-propose-in-for-could-not-read-from = { $annotations } dans { $recordings }, pour { $tokens } ; illisible dans le mouvement : { $unread }
+line-command-propose-left-because-something-else-lies = laissées, car autre chose occupe leur place : { $n }
+line-command-propose-by-confidence = par confiance, à partir de : { $counts }
 
 ## Help of commands and options.
 
@@ -11,9 +13,12 @@ help-command-propose-propose-values-component-from-movement-for = Proposer d’a
 help-command-propose-run-this-detector-on-every-recording = Lancer ce détecteur sur tous les enregistrements, ou sur celui de --for
 help-command-propose-component-configuration-handshape-placement-movement-orientation = Le composant : configuration (ou handshape), placement, movement ou orientation ; sinon les quatre
 help-command-propose-only-for-tokens-this-recording-for = Seulement pour les occurrences de cet enregistrement, ou pour cette occurrence
-help-command-propose-accept-these-proposals-by-numbers-their = Accepter ces propositions, par les numéros de leurs annotations, comme vos propres codages
-help-command-propose-movement-each-token-transcribed-values-written = Le mouvement de chaque occurrence est transcrit, et les valeurs sont écrites sur des acteurs à part, comme « configuration dominant (proposed) », en annotations d’un détecteur. Elles ne se mêlent jamais aux codages d’une personne. Un appel est une opération, que `undo` annule. Ctrl-C l’arrête et laisse le corpus tel qu’il était.
+help-command-propose-accept-these-proposals-by-numbers-their = Accepter ces propositions, par les numéros de leurs annotations, comme vos propres codages ; sans numéros, toutes celles que désignent les autres options
+help-command-propose-accept-those-tiers-with-this-name = Accepter celles des acteurs de ce nom
+help-command-propose-accept-those-with-this-confidence = Accepter celles dont la confiance atteint ce nombre, de 0 à 1
+help-command-propose-with-accept-proposals-become-your-own = Avec --accept, les propositions deviennent vos propres codages, sur les acteurs que vous avez pour ce composant et cette main ; les acteurs de propositions devenus vides sont supprimés. Sans numéros, toutes sont acceptées, ou celles d’un composant, de --for, de --tier et de --confidence.
+help-command-propose-movement-each-token-transcribed-values-written = Le mouvement de chaque occurrence est transcrit, et les valeurs sont écrites sur des acteurs à part, comme « configuration dominant (proposed) », en annotations d’un détecteur. Elles ne comptent ni dans les recherches, les décomptes et les statistiques, ni dans les recettes et les exports d’occurrences, tant que personne ne les a acceptées ; la condition `proposed:yes` les lit. Un appel est une opération, que `undo` annule. Ctrl-C l’arrête et laisse le corpus tel qu’il était.
 help-command-propose-with-detector-no-transcription-runs-detector = Avec --detector rien n’est transcrit : le détecteur examine des enregistrements entiers, et ce qu’il trouve est écrit sur des acteurs comme « movement.phase right (proposed) », à la place de ses propositions d’avant que personne n’a modifiées.
-help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` donne "tokens" et "annotations", les nombres de celles qui ont été écrites, "unread", le nombre d’occurrences dont le mouvement n’a pas pu être transcrit, et "recordings", les noms de ceux qui ont de nouvelles annotations. Avec --detector il donne "detector", "annotations", "recordings", "unobserved", le nombre d’enregistrements sans la partie que le détecteur examine, et "found", les propositions de chaque enregistrement avec acteur, temps, valeur, confiance et indices.
+help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` donne "tokens" et "annotations", les nombres de celles qui ont été écrites, "unread", le nombre d’occurrences dont le mouvement n’a pas pu être transcrit, "recordings", les noms de ceux qui ont de nouvelles annotations, et "by_confidence", les nombres d’annotations par dixième de confiance. Avec --accept il donne ce que donne `annotate`, et "left", le nombre de propositions pour lesquelles il n’y a pas de place. Avec --detector il donne "detector", "annotations", "recordings", "unobserved", le nombre d’enregistrements sans la partie que le détecteur examine, et "found", les propositions de chaque enregistrement avec acteur, temps, valeur, confiance et indices.
 help-command-propose-finds-proposed-codings-too = (trouve aussi les codages proposés)
 help-command-propose-takes-all-them-back = (les retire tous)

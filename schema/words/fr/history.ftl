@@ -21,6 +21,7 @@ history-accept = Valeurs proposées acceptées : { $count }, dans { $recordings 
    *[other] { $recordings } enregistrements
 }
 history-adjudicate = Tranché sur l’acteur { $tier }
+history-prefer-annotator = Annotateur préféré : { $annotator }
 history-add-tier = Acteur { $tier } ajouté à { $recording }
 history-change-tier = Acteur { $tier } de { $recording } modifié
 history-remove-tier = Acteurs supprimés de { $recording } : { $tiers }, avec { $annotations ->

@@ -25,7 +25,7 @@ use crate::streams;
 /// --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
 ///
 /// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier,
-/// add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite.
+/// add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite, prefer.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AnnotateArgs {
     /// The corpus

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    ALL_DETECTORS, AnnotationDetector, CorpusAddress, DetectOptions, ProgressReceiver, ProgressStep, ProposalResult,
-    ProposeOptions, ProposeScope,
+    ALL_DETECTORS, AcceptanceResult, AnnotationDetector, CorpusAddress, DetectOptions, ProgressReceiver, ProgressStep,
+    ProposalChoice, ProposalResult, ProposeOptions, ProposeScope,
 };
 use chereme_sign::SignComponent;
 use clap::builder::PossibleValue;
@@ -16,14 +16,20 @@ use crate::output::{CommandOutput, CommandProgressBar};
 /// Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings
 ///
 /// The movement of each token is transcribed, and the values are written on separate tiers, such as "configuration
-/// dominant (proposed)", as annotations of a detector. They never mix with a person's codings. A call is one operation,
-/// which `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
+/// dominant (proposed)", as annotations of a detector. They do not count in searches, counts, statistics, recipes and
+/// exports of tokens until a person accepts them; the condition `proposed:yes` reads them. A call is one operation, which
+/// `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
 ///
 /// With --detector no transcription runs: the detector examines whole recordings, and its detections are written on
 /// tiers such as "movement.phase right (proposed)", where they replace earlier ones that nobody has changed.
 ///
+/// With --accept, proposals become your own codings on the tiers that you have for that component and hand; empty tiers of
+/// proposals are removed. Without numbers all are accepted, or those of a component, --for, --tier and --confidence.
+///
 /// `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens
-/// whose movement could not be transcribed, and "recordings", the names of those with new annotations. With --detector
+/// whose movement could not be transcribed, "recordings", the names of those with new annotations, and "by_confidence", the
+/// numbers of annotations for each tenth of confidence. With --accept it gives what `annotate` gives, and "left", the number
+/// of proposals for which there is no room. With --detector
 /// it gives "detector", "annotations", "recordings", "unobserved", the number of recordings without the part that the
 /// detector examines, and "found", the proposals of each recording with tier, times, value, confidence and evidence.
 #[derive(Debug, clap::Args)]
@@ -33,7 +39,8 @@ Examples:
   chereme propose mine.chereme --for recording:3
   chereme propose mine.chereme --detector strokes --for recording:3
   chereme propose mine.chereme --accept 41 42
-  chereme search mine.chereme configuration=U    (finds proposed codings, too)
+  chereme propose mine.chereme configuration --for recording:3 --accept --confidence 0.8
+  chereme search mine.chereme \"configuration=U proposed:yes\"    (finds proposed codings, too)
   chereme undo mine.chereme                      (takes all of them back)")]
 pub(crate) struct ProposeArgs {
     /// The corpus
@@ -46,9 +53,15 @@ pub(crate) struct ProposeArgs {
     /// Run this detector on every recording, or on that of --for
     #[arg(long, value_name = "NAME", value_parser = detectors(), conflicts_with = "component")]
     detector: Option<String>,
-    /// Accept these proposals, by the numbers of their annotations, as codings of your own
-    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["component", "only", "detector"], num_args = 1..)]
-    accept: Vec<i64>,
+    /// Accept these proposals, by the numbers of their annotations, as codings of your own; without numbers all that the other options name
+    #[arg(long, value_name = "NUMBER", conflicts_with = "detector", num_args = 0..)]
+    accept: Option<Vec<i64>>,
+    /// Accept those of tiers with this name
+    #[arg(long, value_name = "NAME", requires = "accept")]
+    tier: Vec<String>,
+    /// Accept those with this confidence or more, from 0 to 1
+    #[arg(long, value_name = "NUMBER", requires = "accept")]
+    confidence: Option<f64>,
 }
 
 /// Returns the names of all detectors, each with the annotations that it finds.
@@ -64,19 +77,44 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
     let mut bar = CommandProgressBar::new();
     let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
     let mut progress = ProgressReceiver::new(&mut hear);
-    if !args.accept.is_empty() {
-        let report = corpus.accept_proposals(&args.accept, &mut progress)?;
-        drop(bar);
-        output.filled_line(
-            "{n} accepted",
-            &[&output.format_counted_noun(report.added, "annotations")],
-        )?;
-        return output.set_json_document(report);
-    }
     let scope = match &args.only {
         None => ProposeScope::All,
         Some(only) => corpus.propose_scope(&only.parse::<CorpusAddress>()?)?,
     };
+    if let Some(numbers) = &args.accept {
+        let is_narrowed = args.component.is_some() || args.only.is_some() || !args.tier.is_empty();
+        if !numbers.is_empty() && (is_narrowed || args.confidence.is_some()) {
+            anyhow::bail!(
+                "numbers of annotations name proposals already: leave out the component, --for, --tier and --confidence"
+            );
+        }
+        let accepted = if numbers.is_empty() {
+            let choice = ProposalChoice {
+                scope,
+                tiers: args.tier.clone(),
+                components: args.component.into_iter().collect(),
+                least_confidence: args.confidence,
+            };
+            corpus.accept_chosen_proposals(&choice, &mut progress)?
+        } else {
+            AcceptanceResult {
+                report: corpus.accept_proposals(numbers, &mut progress)?,
+                left: 0,
+            }
+        };
+        drop(bar);
+        output.filled_line(
+            "{n} accepted",
+            &[&output.format_counted_noun(accepted.report.added, "annotations")],
+        )?;
+        if accepted.left > 0 {
+            output.filled_line(
+                "left, because something else lies in their place: {n}",
+                &[&output.format_counted_noun(accepted.left, "annotations")],
+            )?;
+        }
+        return output.set_json_document(accepted);
+    }
     if let Some(detector) = &args.detector {
         let options = DetectOptions {
             detector: detector.clone(),
@@ -115,6 +153,11 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
             &output.format_counted_noun(proposed.unread, "tokens"),
         ],
     )?;
+    if !proposed.by_confidence.is_empty() {
+        let counts = proposed.by_confidence.iter().rev();
+        let counts: Vec<String> = counts.map(|(tenth, count)| format!("{tenth}: {count}")).collect();
+        output.filled_line("by confidence, from: {counts}", &[&counts.join(", ")])?;
+    }
     for finding in &proposed.findings {
         output.write_warning(finding)?;
     }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, CorpusError, FACET_VALUES, HitOrder, KeptSearch, ProgressReceiver, ProgressStep, SearchHit, SearchOptions,
-    TallyRow, components_text,
+    Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, ProgressReceiver, ProgressStep, SearchHit,
+    SearchOptions, TallyRow, components_text,
 };
 use clap::ValueEnum;
 
@@ -267,6 +267,19 @@ fn search_hit_cells(hit: &SearchHit) -> Vec<String> {
         hit.start_us.map(seconds).unwrap_or_default(),
         length.unwrap_or_default(),
         hit.origin.record_origin_name().to_owned(),
-        components_text(&hit.components),
+        [components_text(&hit.components)]
+            .into_iter()
+            .chain(hit.opinions.iter().map(opinion_text))
+            .filter(|text| !text.is_empty())
+            .collect::<Vec<_>>()
+            .join(" "),
     ]
+}
+
+/// Returns an opinion marked with why it does not count: `right.placement=chin [proposed, detector, 0.92]`.
+fn opinion_text(opinion: &HitOpinion) -> String {
+    let mut marks = vec![opinion.standing.standing_name().to_owned()];
+    marks.extend(opinion.by.clone());
+    marks.extend(opinion.confidence.map(|sure| format!("{sure:.2}")));
+    format!("{}={} [{}]", opinion.field, opinion.value, marks.join(", "))
 }

@@ -133,6 +133,11 @@ pub(super) enum TierCommand {
         #[arg(long, value_name = "LANGUAGE=TEXT", value_parser = parse_language_text)]
         drop: Vec<(String, String)>,
     },
+    /// Name the annotator whose values count where several have annotated the same; without a name nobody
+    Prefer {
+        /// The annotator, as tiers name it
+        annotator: Option<String>,
+    },
     /// Make a token the citation form of its sign
     Cite {
         /// The token, such as token:41
@@ -370,6 +375,14 @@ pub(super) fn run(
             let gloss = corpus.change_sign(&named, &change)?;
             output.filled_line("changed {gloss}", &[&gloss])?;
             output.set_json_document(serde_json::json!({ "gloss": gloss }))
+        }
+        TierCommand::Prefer { annotator } => {
+            corpus.prefer_annotator(annotator.as_deref())?;
+            match annotator {
+                Some(name) => output.filled_line("{name} counts before other annotators", &[name])?,
+                None => output.filled_line("no annotator counts before others", &[])?,
+            }
+            output.set_json_document(serde_json::json!({ "annotator": annotator }))
         }
         TierCommand::Cite { token } => {
             let row = corpus.set_citation(&token.parse()?)?;

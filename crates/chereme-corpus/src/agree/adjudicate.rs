@@ -22,6 +22,9 @@ use crate::merge::keep_annotation;
 use crate::progress::ProgressReceiver;
 use crate::words::effect::OperationEffect;
 
+/// The annotator of tiers that an adjudication writes; their values count before those of every other annotator.
+pub(crate) const ADJUDICATION_ANNOTATOR: &str = "adjudication";
+
 /// The result of an adjudication.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct AdjudicationResult {
@@ -157,6 +160,7 @@ impl Corpus {
                 tier.values = TierValueSource::Inventory(stored.inventory.id.clone());
             }
             tier.participant.clone_from(&pair.a.participant);
+            tier.annotator = Some(ADJUDICATION_ANNOTATOR.to_owned());
             tier.language.clone_from(&pair.a.language);
             let mut third = AdjudicatedRecording {
                 recording: pair.recording.id,

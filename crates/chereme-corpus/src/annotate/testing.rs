@@ -46,5 +46,9 @@ pub(crate) fn contents(tiers: &[(i64, Option<i64>, &str, &[Said])]) -> Recording
         tokens: Vec::new(),
         media: Vec::new(),
         tracks: Vec::new(),
+        acceptor: crate::ProposalAcceptor {
+            author: "A".into(),
+            handedness: chereme_sign::SignerHandedness::Right,
+        },
     }
 }

@@ -98,6 +98,10 @@ impl<D: DerivedData> CorpusStore<D> {
     /// Opens the corpus at `path`, and upgrades its schema if that is older than this version's.
     pub(crate) fn open_corpus_store(path: &Path, author: &str) -> CorpusResult<Self> {
         let (connection, upgrade) = open::open_corpus_file(path)?;
+        let format = stored_search::SearchIndexState::read_index_state(&connection)?.format;
+        if format < FIRST_FORMAT_WITH_OPINIONS {
+            upgrade::set_proposals_apart(&connection)?;
+        }
         let mut store = Self::store_from_connection(connection, path, author)?;
         store.upgrade = upgrade;
         Ok(store)
@@ -123,6 +127,11 @@ impl<D: DerivedData> CorpusStore<D> {
             upgrade: None,
             _copy: None,
         })
+    }
+
+    /// Returns the author of operations.
+    pub(crate) fn store_author(&self) -> &str {
+        &self.author
     }
 
     /// Returns what opening the file upgraded.
@@ -277,6 +286,9 @@ impl<D: DerivedData> CorpusStore<D> {
         })
     }
 }
+
+/// The first format of the search index whose tokens keep what does not count apart from their values.
+const FIRST_FORMAT_WITH_OPINIONS: i64 = 4;
 
 /// The file of an open corpus.
 struct OpenPlace(FileIdentity);

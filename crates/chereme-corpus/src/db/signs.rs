@@ -1,6 +1,6 @@
 //! Rows of signs, their texts, tokens and token values.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{compose_accents, decompose_accents};
@@ -249,7 +249,7 @@ pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> CorpusRes
 
 /// Sets the values of a token; leaves unchanged rows untouched.
 pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValueRow]) -> CorpusResult<()> {
-    if load_token_values(connection, token)? == rows {
+    if load_values_and_opinions(connection, token)? == rows {
         return Ok(());
     }
     connection
@@ -280,7 +280,7 @@ pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValue
 pub(crate) fn values_of(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, Vec<TokenValueRow>>> {
     let mut statement = connection.prepare_cached(&format!(
         "{SELECT_TOKEN_VALUES_SQL}, token_id FROM token_value
-         WHERE token_id IN (SELECT value FROM json_each(?1)) ORDER BY token_id, id"
+         WHERE token_id IN (SELECT value FROM json_each(?1)) AND NOT ({IS_OPINION_SQL}) ORDER BY token_id, id"
     ))?;
     let mut values: BTreeMap<i64, Vec<TokenValueRow>> = BTreeMap::new();
     let mut rows = statement.query([json_list(tokens)])?;
@@ -290,8 +290,33 @@ pub(crate) fn values_of(connection: &Connection, tokens: &[i64]) -> CorpusResult
     Ok(values)
 }
 
-/// Returns the values of a token, in the order in which they were written.
+/// Tells values that count from opinions: an opinion is *unset*, and its annotation holds what a detector proposes or what is
+/// in dispute.
+pub(crate) const IS_OPINION_SQL: &str = "state = 'unset' AND annotation_id IS NOT NULL";
+
+/// Returns the values of a token that count, in the order in which they were written.
 pub(crate) fn load_token_values(connection: &Connection, token: i64) -> CorpusResult<Vec<TokenValueRow>> {
+    let mut rows = load_values_and_opinions(connection, token)?;
+    rows.retain(|row| row.state != ValueState::Unset || row.annotation_id.is_none());
+    Ok(rows)
+}
+
+/// Returns whether an annotation says something that does not count.
+pub(crate) fn is_opinion(connection: &Connection, annotation: i64) -> CorpusResult<bool> {
+    let sql = format!("SELECT 1 FROM token_value WHERE annotation_id = ?1 AND {IS_OPINION_SQL}");
+    Ok(connection.prepare_cached(&sql)?.exists([annotation])?)
+}
+
+/// Returns the tokens with an opinion about a component.
+pub(crate) fn tokens_with_opinion(connection: &Connection, component: &str) -> CorpusResult<BTreeSet<i64>> {
+    let sql = format!("SELECT token_id FROM token_value WHERE component = ?1 AND value IS NULL AND {IS_OPINION_SQL}");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement.query_map([component], |row| row.get(0))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the values of a token and the opinions about it, in the order in which they were written.
+pub(crate) fn load_values_and_opinions(connection: &Connection, token: i64) -> CorpusResult<Vec<TokenValueRow>> {
     let sql = format!("{SELECT_TOKEN_VALUES_SQL} FROM token_value WHERE token_id = ?1 ORDER BY id");
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
@@ -490,7 +515,8 @@ pub(crate) fn load_citation_tokens(connection: &Connection) -> CorpusResult<Vec<
     let mut statement = connection.prepare_cached(&format!(
         "{SELECT_TOKEN_SQL} WHERE t.citation = 1 AND t.id =
                 (SELECT c.id FROM token c WHERE c.sign_id = t.sign_id AND c.citation = 1
-                 ORDER BY (SELECT count(DISTINCT v.component) FROM token_value v WHERE v.token_id = c.id) DESC,
+                 ORDER BY (SELECT count(DISTINCT v.component) FROM token_value v
+                           WHERE v.token_id = c.id AND v.state <> 'unset') DESC,
                           c.recording_id IS NULL, c.id
                  LIMIT 1)
          ORDER BY t.id"

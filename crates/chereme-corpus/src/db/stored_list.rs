@@ -261,7 +261,7 @@ pub(crate) const INVENTORIES_LIST: ListTable = ListTable {
         number_list_column("tiers", "(SELECT count(*) FROM tier t WHERE t.inventory_id = i.id)"),
         number_list_column(
             "uses",
-            "(SELECT count(*) FROM token_value v WHERE v.inventory_id = i.id)",
+            "(SELECT count(*) FROM token_value v WHERE v.inventory_id = i.id AND v.state <> 'unset')",
         ),
         text_list_column("description", "i.document ->> '$.description'"),
     ],

@@ -71,7 +71,7 @@ pub(crate) fn lexicon_movements(connection: &Connection, most: usize) -> CorpusR
            AND v.component = 'movement' AND v.state = 'value'
            AND (v.hand IS NULL OR v.hand IN ('dominant', 'right', 'both'))
            AND NOT EXISTS (SELECT 1 FROM token_value o
-                           WHERE o.token_id = t.id AND o.component = 'movement')
+                           WHERE o.token_id = t.id AND o.component = 'movement' AND o.state <> 'unset')
          ORDER BY t.id, l.id, v.id LIMIT ?1",
     )?;
     let most = i64::try_from(most).unwrap_or(i64::MAX);

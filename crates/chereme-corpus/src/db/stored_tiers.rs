@@ -406,7 +406,7 @@ pub(crate) fn configuration_spans(connection: &Connection, most: usize) -> Corpu
         "SELECT a.tier_id, a.start_us, a.end_us, a.value
          FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id
          WHERE t.component = 'configuration' AND t.feature IS NULL AND r.origin <> 'made'
-           AND a.state = 'value'
+           AND a.state = 'value' AND a.origin <> 'detector'
          ORDER BY a.tier_id, a.start_us, a.id LIMIT ?1",
     )?;
     let rows = statement

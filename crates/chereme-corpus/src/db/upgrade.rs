@@ -1,7 +1,7 @@
 //! The parts of schema upgrades that SQL alone cannot do: rows that a step sets aside become rows of another table,
 //! also in the history.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rusqlite::config::DbConfig;
 use rusqlite::{Connection, params};
@@ -390,4 +390,52 @@ impl CurveIdOffsets {
 fn curves_uid(skeleton: &str) -> String {
     let digest = Sha256::digest(format!("{NONMANUALS_TRACK_NAME} {skeleton}").as_bytes());
     to_hex_text(&digest[..16]).to_uppercase()
+}
+
+/// Makes opinions of the values that an earlier program took from proposals of detectors, also in the history.
+pub(super) fn set_proposals_apart(connection: &Connection) -> CorpusResult<()> {
+    let sql = "SELECT own.annotation_id FROM annotation JOIN token_value own ON own.annotation_id = annotation.id
+         WHERE annotation.origin = 'detector' AND own.state <> 'unset'";
+    let mut statement = connection.prepare(sql)?;
+    let proposals = statement
+        .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<BTreeSet<i64>>>()?;
+    if proposals.is_empty() {
+        return Ok(());
+    }
+    let transaction = super::stored_search::begin_write_transaction(connection)?;
+    for id in &proposals {
+        connection.execute(
+            "UPDATE token_value SET state = 'unset', value = NULL WHERE annotation_id = ?1",
+            [id],
+        )?;
+    }
+    let set_apart = |image: &mut Value| {
+        if image["annotation_id"]
+            .as_i64()
+            .is_some_and(|id| proposals.contains(&id))
+        {
+            (image["state"], image["value"]) = (json!("unset"), Value::Null);
+        }
+    };
+    for (operation, part) in stored_history::list_changeset_parts(connection)? {
+        let text = stored_history::read_part(connection, operation, part)?;
+        let lines = text.lines().map(|line| {
+            let of_values = line.starts_with("[\"token_value\"");
+            match of_values.then(|| ChangesetLine::parse_changeset_line(line)).flatten() {
+                Some(mut change) => {
+                    set_apart(&mut change.before);
+                    set_apart(&mut change.after);
+                    change.write_changeset_line()
+                }
+                None => format!("{line}\n"),
+            }
+        });
+        let lines: String = lines.collect();
+        if lines != text {
+            stored_history::replace_part(connection, operation, part, &lines, 0)?;
+        }
+    }
+    super::seals::seal_tables(connection, ["token_value", "changeset"])?;
+    Ok(transaction.commit()?)
 }

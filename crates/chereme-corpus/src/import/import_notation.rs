@@ -55,7 +55,7 @@ impl LexiconNotationText<'_> {
             ..NotatedSign::default()
         };
         let mapped = words.map_notated_sign(&sign);
-        let mut values = signs::load_token_values(job.connection, self.token)?;
+        let mut values = signs::load_values_and_opinions(job.connection, self.token)?;
         let coded_parts: Vec<_> = values.iter().map(|row| (row.component, row.feature.clone())).collect();
         let new = words.mapped_value_rows(&mapped).into_iter();
         values.extend(new.filter(|row| !coded_parts.contains(&(row.component, row.feature.clone()))));

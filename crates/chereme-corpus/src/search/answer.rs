@@ -13,7 +13,7 @@ use super::probe::{IndexDocument, NumberColumn, RowField};
 use super::search_finding::QueryFinding;
 use super::search_plan::{self, QueryPlan};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
-use crate::db::stored_search::search_answers::{self, CodedRow};
+use crate::db::stored_search::search_answers::{self, CodedRow, OpinionStanding};
 
 /// The result of a query.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -72,6 +72,26 @@ pub struct SearchHit {
     /// Values by field, such as `initial.right.placement`; a list if there are several. A value that does not apply
     /// is `n/a`, an unclear one `unclear`.
     pub components: BTreeMap<String, Value>,
+    /// What detectors propose, and what is in dispute, if the query asks for it: none of it counts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub opinions: Vec<HitOpinion>,
+}
+
+/// What is said of a token that was found, but does not count.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HitOpinion {
+    /// The field, such as `right.configuration`.
+    pub field: String,
+    /// The value.
+    pub value: String,
+    /// Why it does not count.
+    pub standing: OpinionStanding,
+    /// The annotator, or `detector`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
+    /// The confidence of the detector.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub confidence: Option<f64>,
 }
 
 /// The order in which tokens are shown.
@@ -239,6 +259,18 @@ pub(crate) fn collect_search_hits(
         };
         let mut components = BTreeMap::new();
         search_answers::coded_of_token(ask.connection, token, |row| add_value(&mut components, &row))?;
+        let mut opinions = Vec::new();
+        if ask.opinions.get() {
+            search_answers::visit_token_opinions(ask.connection, token, |row, opinion| {
+                opinions.push(HitOpinion {
+                    field: field_of_row(row),
+                    value: opinion.state.missing_text().unwrap_or(&opinion.value).to_owned(),
+                    standing: opinion.standing,
+                    by: opinion.by,
+                    confidence: opinion.confidence,
+                });
+            })?;
+        }
         hits.push(SearchHit {
             token,
             gloss: row.gloss,
@@ -248,6 +280,7 @@ pub(crate) fn collect_search_hits(
             origin: row.origin,
             score: scores.map(|scores| scores.document_similarity(*doc)),
             components,
+            opinions,
         });
     }
     Ok(hits)
@@ -260,6 +293,17 @@ fn add_value(components: &mut BTreeMap<String, Value>, row: &CodedRow<'_>) {
     let Some(text) = row.state.missing_text().or(row.value) else {
         return;
     };
+    let field = field_of_row(row);
+    let value = Value::from(text);
+    match components.get_mut(&field) {
+        None => _ = components.insert(field, value),
+        Some(Value::Array(values)) => values.push(value),
+        Some(one) => *one = Value::Array(vec![one.take(), value]),
+    }
+}
+
+/// Returns the field of a row as answers write it, such as `initial.right.placement`.
+fn field_of_row(row: &CodedRow<'_>) -> String {
     let mut field = String::new();
     if let Some(phase) = row.phase {
         field.push_str(&format!("{phase}."));
@@ -273,10 +317,5 @@ fn add_value(components: &mut BTreeMap<String, Value>, row: &CodedRow<'_>) {
         field.push('.');
         field.push_str(part);
     }
-    let value = Value::from(text);
-    match components.get_mut(&field) {
-        None => _ = components.insert(field, value),
-        Some(Value::Array(values)) => values.push(value),
-        Some(one) => *one = Value::Array(vec![one.take(), value]),
-    }
+    field
 }

@@ -26,7 +26,7 @@ use super::search_texts::TextGlob;
 use super::search_vocabulary::QueryVocabulary;
 use super::text_match;
 use super::time_relations::NeighbourRelation;
-use crate::db::stored_search::search_answers::{self, NamedRowKind};
+use crate::db::stored_search::search_answers::{self, DETECTOR_NAME, NamedRowKind};
 use crate::db::stored_search::search_terms::TokenProperty;
 use crate::error::{CorpusError, CorpusResult};
 
@@ -37,6 +37,8 @@ pub(crate) struct QueryContext<'a> {
     /// The index at the time of the query.
     pub(crate) now: &'a dyn DocumentIndex,
     pub(crate) vocabulary: Arc<QueryVocabulary>,
+    /// Whether comparisons read opinions beside the values that count.
+    pub(crate) opinions: Cell<bool>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
     pub(crate) findings: RefCell<Vec<QueryFinding>>,
     /// The number of rows examined so far.
@@ -72,7 +74,7 @@ impl QueryContext<'_> {
     /// Returns the readings of a component that the index holds.
     pub(crate) fn known_component_readings(&self, component: SignComponent) -> CorpusResult<Arc<KnownReadings>> {
         let mut memory = self.index.query_memory();
-        memory.cached_readings(self.now, component)
+        memory.cached_readings(self.now, component, self.opinions.get())
     }
 
     /// Returns the documents that the index has for a probe.
@@ -320,6 +322,8 @@ fn mark_of(property: WholeTokenProperty) -> Option<TokenProperty> {
         WholeTokenProperty::Hand => Some(TokenProperty::Hand),
         WholeTokenProperty::Tier => Some(TokenProperty::Tier),
         WholeTokenProperty::Inventory => Some(TokenProperty::Inventory),
+        WholeTokenProperty::Proposed => Some(TokenProperty::Proposed),
+        WholeTokenProperty::Disputed => Some(TokenProperty::Disputed),
         _ => None,
     }
 }
@@ -333,6 +337,7 @@ fn plan_has_property(ask: &QueryContext<'_>, property: WholeTokenProperty) -> Qu
         return Ok(QueryPlan::Index(IndexProbe::from_reading_terms(terms)));
     }
     let field = match property {
+        WholeTokenProperty::By => return plan_annotators(ask, &|_| true),
         WholeTokenProperty::Signer => RowField::Signer,
         WholeTokenProperty::Recording => RowField::Recording,
         _ => return Ok(QueryPlan::select_all_plan()),
@@ -345,8 +350,20 @@ fn plan_named_property(
     property: WholeTokenProperty,
     wish: &RequestedName<'_>,
 ) -> QueryResult<QueryPlan> {
+    if let (WholeTokenProperty::Proposed | WholeTokenProperty::Disputed, "no") = (property, wish.text.as_str()) {
+        return Ok(plan_has_property(ask, property)?.negate_plan());
+    }
     if let Some(mark) = mark_of(property) {
         return plan_marked_property(ask, property, mark, wish);
+    }
+    if property == WholeTokenProperty::By {
+        let names = search_answers::annotator_names(ask.connection)?;
+        let all_names = names.into_iter().chain([DETECTOR_NAME.to_owned()]);
+        let mut known_names = all_names.clone();
+        if wish.literal && !known_names.any(|name| wish.is_requested_name(&name)) {
+            return Err(wish.unknown_name_failure("annotator", all_names));
+        }
+        return plan_annotators(ask, &|name| wish.is_requested_name(name));
     }
     let (field, kind, rows) = match property {
         WholeTokenProperty::Token => return plan_token_number(wish),
@@ -392,6 +409,16 @@ fn plan_marked_property(
         }
     }
     Ok(QueryPlan::Index(IndexProbe::from_reading_terms(matching_terms)))
+}
+
+/// Returns the plan for the tokens of which annotators say something, or detectors.
+fn plan_annotators(ask: &QueryContext<'_>, is_meant: &dyn Fn(&str) -> bool) -> QueryResult<QueryPlan> {
+    let tokens = search_answers::tokens_by_annotator(ask.connection, is_meant)?;
+    let mut plans = vec![QueryPlan::Index(IndexProbe::Rows(RowField::Token, tokens))];
+    if is_meant(DETECTOR_NAME) {
+        plans.push(plan_has_property(ask, WholeTokenProperty::Proposed)?);
+    }
+    Ok(QueryPlan::disjoin_plans(plans))
 }
 
 fn plan_token_number(wish: &RequestedName<'_>) -> QueryResult<QueryPlan> {

@@ -29,7 +29,7 @@ mod tests;
 mod text_match;
 mod time_relations;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use chereme_sign::query::{LikeSearch, QueryError, QueryExpression, QueryTest, TestSubject, TextPattern, TokenQuery};
 use rusqlite::Connection;
@@ -41,8 +41,9 @@ use crate::error::{CorpusError, CorpusResult, WrongQuery};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 use crate::saved_search;
 
+pub use crate::db::stored_search::search_answers::OpinionStanding;
 use answer::DocumentRanks;
-pub use answer::{HitOrder, SearchAnswer, SearchHit};
+pub use answer::{HitOpinion, HitOrder, SearchAnswer, SearchHit};
 use compile::{QueryContext, QueryFailure, QueryResult};
 use index::{SearchIndex, catch_index_panic};
 use like::ExampleScores;
@@ -150,6 +151,7 @@ impl Corpus {
             }
             let answer = catch_index_panic(|| {
                 Ok(with_index((connection, index), &hear, |question| {
+                    question.opinions.set(parsed.asks_for_opinions());
                     ask(question, &parsed)
                 }))
             });
@@ -184,7 +186,10 @@ pub(crate) fn find_query_tokens(connection: &Connection, index: &SearchIndex, qu
         ..SearchOptions::default()
     };
     let hear = RefCell::new(|_| Ok(()));
-    let answer = with_index((connection, index), &hear, |ask| answer_query(ask, &parsed, &options));
+    let answer = with_index((connection, index), &hear, |ask| {
+        ask.opinions.set(parsed.asks_for_opinions());
+        answer_query(ask, &parsed, &options)
+    });
     match answer {
         Ok(answer) => Ok(answer.hits.into_iter().map(|hit| hit.token).collect()),
         Err(QueryFailure::Query(error)) => Err(wrong_query_error(query, &error)),
@@ -221,6 +226,7 @@ fn with_index<T>(
         index,
         now: &now,
         vocabulary,
+        opinions: Cell::new(false),
         notes: Default::default(),
         findings: Default::default(),
         looked_at: Default::default(),

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use chereme_sign::query::{
-    AttributeTest, ComparisonOperator, MissingReason, QueryError, QueryTest, QueryValue, ValueComparison, WantedValue,
-    parse_plain_number,
+    AttributeTest, CONFIDENCE_NAME, ComparisonOperator, MissingReason, QueryError, QueryTest, QueryValue,
+    ValueComparison, WantedValue, parse_plain_number,
 };
 use chereme_sign::text::{fold_text, nearest_candidate};
 
@@ -13,10 +13,12 @@ use super::probe::{IndexProbe, RowField};
 use super::search_plan::QueryPlan;
 use super::search_texts::TextGlob;
 use crate::db::stored_attributes::{self, AttributeRow};
+use crate::db::stored_search::search_answers;
 
 /// Returns the plan for the tokens whose attribute passes.
 ///
-/// The name of an attribute is compared without regard to case, accents and characters other than letters and digits.
+/// The name of an attribute is compared without regard to case, accents and characters other than letters and digits. If no
+/// sign has an attribute of that name, `confidence` is that of values and opinions.
 ///
 /// # Errors
 /// Fails if no entry of the corpus has an attribute of this name.
@@ -32,6 +34,11 @@ pub(super) fn plan_attribute_test(
         .filter(|own| attribute_name_key(own) == attribute_name_key(name))
         .cloned()
         .collect();
+    if let (true, CONFIDENCE_NAME, AttributeTest::Number(..)) = (names.is_empty(), name, wanted) {
+        let passes = |number| wanted.accepts_attribute_number(number);
+        let tokens = search_answers::tokens_of_confidence(ask.connection, &passes)?;
+        return Ok(QueryPlan::Index(IndexProbe::Rows(RowField::Token, tokens)));
+    }
     if names.is_empty() {
         return Err(unknown_attribute_error(test, name, &all).into());
     }

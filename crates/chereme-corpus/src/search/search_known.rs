@@ -44,7 +44,8 @@ pub(crate) struct KnownSigns {
 pub(crate) struct QueryMemory {
     /// The state of the index for which `readings` and `signs` are valid.
     indexed: i64,
-    readings: BTreeMap<SignComponent, Arc<KnownReadings>>,
+    /// The readings of a component that count, or those with the opinions about it.
+    readings: BTreeMap<(SignComponent, bool), Arc<KnownReadings>>,
     signs: Option<Arc<KnownSigns>>,
     vocabulary: Option<((i64, u64), Arc<QueryVocabulary>)>,
 }
@@ -72,18 +73,25 @@ impl QueryMemory {
         Ok(vocabulary)
     }
 
-    /// Returns the readings of a component that the index holds.
+    /// Returns the readings of a component that the index holds: those that count, and with `opinions` the others, too.
     pub(crate) fn cached_readings(
         &mut self,
         index: &dyn DocumentIndex,
         component: SignComponent,
+        opinions: bool,
     ) -> CorpusResult<Arc<KnownReadings>> {
-        if let Some(known) = self.readings.get(&component) {
+        if let Some(known) = self.readings.get(&(component, opinions)) {
             return Ok(known.clone());
         }
-        let prefix = search_terms::component_prefix(component.component_name());
+        let name = component.component_name();
+        let prefix = search_terms::component_prefix(name);
+        let mut terms = index.field_terms(IndexTextField::Reading, &prefix, &|_| true)?;
+        if opinions {
+            let prefix = search_terms::component_prefix(&search_terms::opinion_component(name));
+            terms.extend(index.field_terms(IndexTextField::Reading, &prefix, &|_| true)?);
+        }
         let mut readings = KnownReadings::default();
-        for term in index.field_terms(IndexTextField::Reading, &prefix, &|_| true)? {
+        for term in terms {
             let Some(parsed) = search_terms::parse_reading_term(&term) else {
                 continue;
             };
@@ -103,7 +111,7 @@ impl QueryMemory {
             }
         }
         let shared_readings = Arc::new(readings);
-        self.readings.insert(component, shared_readings.clone());
+        self.readings.insert((component, opinions), shared_readings.clone());
         Ok(shared_readings)
     }
 

@@ -1,6 +1,7 @@
 //! Searching, from rows to answers.
 
 mod lexicon;
+mod opinions;
 mod store;
 mod table;
 

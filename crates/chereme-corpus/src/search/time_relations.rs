@@ -15,7 +15,7 @@ use super::search_finding::FindingKind;
 use super::search_findings;
 use super::search_plan::{self, QueryPlan};
 use super::{search_texts, text_match};
-use crate::db::stored_search::search_answers::{self, CodedRow};
+use crate::db::stored_search::search_answers::{self, CodedRow, RecordingReadings};
 use crate::db::stored_search::search_terms::{self, hand_codes, hands_of, phase_code, phase_counts};
 use crate::error::CorpusResult;
 
@@ -191,8 +191,12 @@ impl NeighbourRelation {
                 RelatedAnnotationTest::Gloss(_) => {}
                 RelatedAnnotationTest::Component(test) => {
                     let left_handed = search_answers::left_handed(ask.connection, recording)?;
-                    let (name, phases) = (test.field.component.component_name(), test.field.phase.is_some());
-                    search_answers::coded_in_recording(ask.connection, recording, name, phases, |row| {
+                    let asked = RecordingReadings {
+                        component: test.field.component.component_name(),
+                        phases: test.field.phase.is_some(),
+                        opinions: ask.opinions.get(),
+                    };
+                    search_answers::coded_in_recording(ask.connection, recording, asked, |row| {
                         add(&row, component_passes(test, &row, left_handed));
                     })?;
                 }

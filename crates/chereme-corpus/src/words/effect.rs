@@ -32,6 +32,8 @@ pub enum OperationEffect {
     },
     /// A third tier was made of the tiers of two annotators.
     Adjudicate { tier: String },
+    /// The readings of an annotator count before those of others; or, without a name, those of nobody.
+    PreferAnnotator { annotator: String },
     /// A tier was added to a recording.
     AddTier { tier: String, recording: String },
     /// A tier of a recording got other properties.
@@ -273,6 +275,7 @@ impl OperationEffect {
                 }
             }
             Self::Adjudicate { .. } => "{tier}",
+            Self::PreferAnnotator { .. } => "{annotator}",
             Self::AddTier { .. } => "{quoted tier} to {recording}",
             Self::ChangeTier { .. } => "{quoted tier} of {recording}",
             Self::RemoveTier { .. } => "{tiers} with {annotations} from {recording}",

@@ -29,7 +29,7 @@
 //! | attribute | `attribute.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
-//! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
+//! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` `proposed` `disputed` `by` |
 //! | textfield | `gloss` `translation` `comment` `text` |
 //! | timefield | `duration` `start` `end` |
 //! | values | *value* { `,` *value* } |
@@ -81,9 +81,9 @@ pub use query_expression::RegularExpression;
 pub use query_pattern::TextPattern;
 pub use query_saved::NamedSearch;
 pub use query_tree::{
-    ComparisonOperator, CurveTest, ExampleToken, LikeSearch, MissingReason, QueryExpression, QueryPlace, QueryTest,
-    QueryValue, RelatedAnnotation, TestSubject, TextField, TimeField, TimeTest, TokenQuery, ValueComparison,
-    ValueFeature, WantedValue, WeightedComponent, WholeTokenProperty,
+    CONFIDENCE_NAME, ComparisonOperator, CurveTest, ExampleToken, LikeSearch, MissingReason, QueryExpression,
+    QueryPlace, QueryTest, QueryValue, RelatedAnnotation, TestSubject, TextField, TimeField, TimeTest, TokenQuery,
+    ValueComparison, ValueFeature, WantedValue, WeightedComponent, WholeTokenProperty,
 };
 
 use std::str::FromStr;
@@ -148,6 +148,12 @@ The token as a whole
   origin=captured,made,lexicon,generated
   hand=right,left,dominant,weak,both      of its annotation, else of its values
   signer=  recording=  sign=  token=  tier=  inventory=
+
+Who says so: values that nobody accepted, or that are in dispute, do not count
+  proposed:yes                            a detector proposes something; beside
+                                          it, conditions read proposals as well
+  disputed:yes                            annotators disagree, nothing decides
+  by=anna   by=detector   confidence>0.8  these read such values, too
 
 Relation to another annotation of the recording
   gloss=CHAT overlaps nonmanual.brows=raised

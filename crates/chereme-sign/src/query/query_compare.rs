@@ -352,7 +352,8 @@ fn fix_property_value(value: &mut QueryValue, property: WholeTokenProperty, fixe
     let house = hand
         .map(HandRef::hand_ref_name)
         .or_else(|| fixed.iter().copied().find(|name| *name == text))
-        .or_else(|| query_words::origin_from_word(&text).filter(|_| property == WholeTokenProperty::Origin));
+        .or_else(|| query_words::origin_from_word(&text).filter(|_| property == WholeTokenProperty::Origin))
+        .or_else(|| query_words::answer_from_word(&text).filter(|answer| fixed.contains(answer)));
     let Some(house) = house else {
         let message = format!("{text:?} is no {}", property.property_name());
         let remedy = format!("known values: {}", fixed.join(", "));

@@ -68,7 +68,27 @@ impl TokenQuery {
         self.root.collect_tests(&mut all_tests);
         all_tests
     }
+
+    /// Returns whether the query asks for opinions, which do not count otherwise: it says `proposed:yes`, `disputed:yes`, or
+    /// something of [`By`](WholeTokenProperty::By) or of confidence. Its comparisons then read them beside the values that
+    /// count.
+    #[must_use]
+    pub fn asks_for_opinions(&self) -> bool {
+        let says_no =
+            |value: &QueryValue| matches!(&value.wanted, WantedValue::Named(name) if name.as_literal() == Some("no"));
+        self.query_tests().into_iter().any(|test| match &test.what {
+            TestSubject::Property(WholeTokenProperty::By, _) => true,
+            TestSubject::Property(WholeTokenProperty::Proposed | WholeTokenProperty::Disputed, comparison) => {
+                !comparison.values.iter().all(says_no)
+            }
+            TestSubject::Attribute(name, _) => name == CONFIDENCE_NAME,
+            _ => false,
+        })
+    }
 }
+
+/// The name of the confidence of values in conditions such as `confidence>0.8`.
+pub const CONFIDENCE_NAME: &str = "confidence";
 
 /// A condition that holds for a token or does not.
 #[derive(Debug, Clone, PartialEq)]
@@ -368,6 +388,12 @@ pub enum WholeTokenProperty {
     /// The hand for which the token is annotated, else the hands for which something is coded: `right`, `left`,
     /// `dominant`, `weak` or `both`.
     Hand,
+    /// Whether a detector proposes something for it that nobody has accepted: `yes` or `no`.
+    Proposed,
+    /// Whether annotators say different things of it, and nothing decides between them: `yes` or `no`.
+    Disputed,
+    /// Who says something of it: an annotator, or `detector`.
+    By,
 }
 
 /// A length or a moment of a token.

@@ -30,7 +30,7 @@ impl TextField {
 
 impl WholeTokenProperty {
     /// Every property.
-    pub const ALL_TOKEN_PROPERTIES: [Self; 8] = [
+    pub const ALL_TOKEN_PROPERTIES: [Self; 11] = [
         Self::Origin,
         Self::Signer,
         Self::Recording,
@@ -39,6 +39,9 @@ impl WholeTokenProperty {
         Self::Tier,
         Self::Inventory,
         Self::Hand,
+        Self::Proposed,
+        Self::Disputed,
+        Self::By,
     ];
 
     /// Returns the name in queries.
@@ -59,6 +62,9 @@ impl WholeTokenProperty {
             Self::Tier => &["tier"],
             Self::Inventory => &["inventory", "inventaire"],
             Self::Hand => &["hand", "main"],
+            Self::Proposed => &["proposed", "proposé"],
+            Self::Disputed => &["disputed", "contesté"],
+            Self::By => &["by", "annotator", "par", "annotateur"],
         }
     }
 
@@ -68,6 +74,7 @@ impl WholeTokenProperty {
         match self {
             Self::Origin => Some(&["captured", "made", "lexicon", "generated"]),
             Self::Hand => Some(&["right", "left", "dominant", "weak", "both"]),
+            Self::Proposed | Self::Disputed => Some(&["yes", "no"]),
             _ => None,
         }
     }
@@ -103,6 +110,15 @@ pub(super) fn origin_from_word(text: &str) -> Option<&'static str> {
         "produit" => "generated",
         _ => return None,
     })
+}
+
+/// Returns the answer that a French word means.
+pub(super) fn answer_from_word(text: &str) -> Option<&'static str> {
+    match text {
+        "oui" => Some("yes"),
+        "non" => Some("no"),
+        _ => None,
+    }
 }
 
 /// The word that opens a relation with a distance.

@@ -148,7 +148,9 @@ pub(in crate::db) fn record_changes(connection: &Connection) -> CorpusResult<()>
                AND t.end_us > {start} AND t.start_us < {end} AND t.start_us > {start} -
                    (SELECT o.end_us - o.start_us FROM main.token o
                     WHERE o.recording_id = i.recording_id
-                    ORDER BY o.end_us - o.start_us DESC LIMIT 1); END;"
+                    ORDER BY o.end_us - o.start_us DESC LIMIT 1);
+             INSERT OR IGNORE INTO temp.touched
+             SELECT token_id FROM main.token_value WHERE annotation_id = {row}.id; END;"
         ));
     }
     for (table, event, tokens) in TOKEN_TOUCHING_CHANGES {

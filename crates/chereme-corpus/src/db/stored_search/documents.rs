@@ -8,7 +8,8 @@ use chereme_sign::tier as sign_tier;
 use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
 use rusqlite::{Connection, OptionalExtension, Row, Rows};
 
-use super::search_terms::{TokenProperty, hand_codes, phase_code, reading_term, reading_text};
+use super::search_answers::{OpinionStanding, TokenOpinion, opinion_of_annotation};
+use super::search_terms::{TokenProperty, hand_codes, opinion_component, phase_code, reading_term, reading_text};
 use crate::db::stored_columns::{self, read_word_column, word_or_null};
 use crate::error::CorpusResult;
 
@@ -28,6 +29,8 @@ pub(crate) struct TokenDocument {
     pub(crate) hand: Option<&'static str>,
     /// Start and end.
     pub(crate) time: Option<(i64, i64)>,
+    /// The kinds of opinions about it that do not count.
+    pub(crate) opinions: Vec<OpinionStanding>,
 }
 
 /// The terms of a row of values in the index.
@@ -81,7 +84,7 @@ const SELECT_DOCUMENT_TOKENS_SQL: &str = "
     LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant";
 
 const SELECT_DOCUMENT_VALUES_SQL: &str = "
-    SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id
+    SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id, annotation_id
     FROM token_value";
 
 struct TokenFields {
@@ -270,7 +273,15 @@ impl<'c> TokenDocumentReader<'c> {
         }
         self.add_marks(token, &mut document)?;
         let (mut inventories, mut coded) = (Vec::new(), TokenHandRoles::default());
+        let mut opinions = Vec::new();
         values.visit_values_of_token(token.id, |row| {
+            if let Some(opinion) = self.opinion_of_row(row)? {
+                document
+                    .readings
+                    .push(Rc::new(opinion_terms(row, left_handed, &opinion)?));
+                opinions.push(opinion.standing);
+                return Ok(());
+            }
             document.readings.push(self.terms_of(row, left_handed)?);
             if row.get_ref(6)?.as_str() == Ok("value") {
                 coded.add_tier_hands(word_or_null(row, 1)?, left_handed);
@@ -279,6 +290,15 @@ impl<'c> TokenDocumentReader<'c> {
             inventories.extend(inventory.filter(|id| !inventories.contains(id)));
             Ok(())
         })?;
+        for (standing, mark) in [
+            (OpinionStanding::Proposed, TokenProperty::Proposed),
+            (OpinionStanding::Disputed, TokenProperty::Disputed),
+        ] {
+            if opinions.contains(&standing) {
+                document.marks.push(self.shared_mark_term(mark, "yes"));
+                document.opinions.push(standing);
+            }
+        }
         for id in inventories {
             let name = self.shared_inventory_key(id)?;
             document
@@ -405,6 +425,14 @@ impl<'c> TokenDocumentReader<'c> {
         load_shared_name(self.connection, &mut self.inventories, sql, id)
     }
 
+    /// Returns the opinion that a row of values stands for; `None` for a value that counts.
+    fn opinion_of_row(&self, row: &Row<'_>) -> rusqlite::Result<Option<TokenOpinion>> {
+        match (row.get_ref(6)?.as_str(), row.get::<_, Option<i64>>(9)?) {
+            (Ok("unset"), Some(annotation)) => opinion_of_annotation(self.connection, annotation),
+            _ => Ok(None),
+        }
+    }
+
     fn terms_of(&mut self, row: &Row<'_>, left_handed: bool) -> rusqlite::Result<Rc<ReadingTerms>> {
         let column_text = |column: usize| row.get_ref(column)?.as_str_or_null().map_err(Into::into);
         let text = |column| -> rusqlite::Result<Option<&str>> { column_text(column) };
@@ -441,6 +469,21 @@ impl<'c> TokenDocumentReader<'c> {
         self.terms.insert(self.key.clone(), made.clone());
         Ok(made)
     }
+}
+
+/// Returns the terms of an opinion, which no facet counts.
+fn opinion_terms(row: &Row<'_>, left_handed: bool, opinion: &TokenOpinion) -> rusqlite::Result<ReadingTerms> {
+    let component = opinion_component(row.get_ref(2)?.as_str().unwrap_or_default());
+    let part = row.get_ref(3)?.as_str_or_null()?;
+    let phase = phase_code(stored_columns::read_phase_columns(row, 4)?);
+    let reading = reading_text(opinion.state, Some(&opinion.value));
+    let codes = hand_codes(word_or_null(row, 1)?, left_handed).iter();
+    Ok(ReadingTerms {
+        terms: codes
+            .map(|&hand| reading_term(&component, hand, &phase, part, reading))
+            .collect(),
+        facet: None,
+    })
 }
 
 fn load_shared_name(

@@ -3,7 +3,9 @@
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{SignComponent, SignPhase, TierRole};
 use rusqlite::{Connection, OptionalExtension, Row};
+use serde::Serialize;
 
+use crate::db::signs::IS_OPINION_SQL;
 use crate::db::stored_columns::{
     RecordOrigin, ValueState, read_phase_columns, read_role_columns, read_word_column, word_or_null,
 };
@@ -124,40 +126,177 @@ fn each_coded(
     Ok(())
 }
 
-/// Calls `take` with the values of a token, in the order in which they were written.
+/// Calls `take` with the values of a token that count, in the order in which they were written.
 pub(crate) fn coded_of_token(connection: &Connection, token: i64, take: impl FnMut(CodedRow<'_>)) -> CorpusResult<()> {
-    let sql = "SELECT NULL, NULL, hand, component, feature, phase, position, state, value
-        FROM token_value WHERE token_id = ?1 ORDER BY id";
-    each_coded(connection, sql, [token], take)
+    let sql = format!(
+        "SELECT NULL, NULL, hand, component, feature, phase, position, state, value
+         FROM token_value WHERE token_id = ?1 AND NOT ({IS_OPINION_SQL}) ORDER BY id"
+    );
+    each_coded(connection, &sql, [token], take)
+}
+
+/// Why something that is said of a token does not count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OpinionStanding {
+    /// A detector proposes it, and nobody has accepted it.
+    Proposed,
+    /// Annotators say different things, and nothing decides between them.
+    Disputed,
+}
+
+impl OpinionStanding {
+    /// Returns the name in queries and answers.
+    #[must_use]
+    pub fn standing_name(self) -> &'static str {
+        match self {
+            Self::Proposed => "proposed",
+            Self::Disputed => "disputed",
+        }
+    }
+}
+
+/// What an annotation says of a token, if that does not count.
+pub(crate) struct TokenOpinion {
+    pub(crate) standing: OpinionStanding,
+    pub(crate) state: ValueState,
+    pub(crate) value: String,
+    /// The annotator, or the detector.
+    pub(crate) by: Option<String>,
+    pub(crate) confidence: Option<f64>,
+}
+
+/// The name under which queries and answers know detectors.
+pub(crate) const DETECTOR_NAME: &str = "detector";
+
+/// Returns the opinion that an annotation is.
+pub(crate) fn opinion_of_annotation(
+    connection: &Connection,
+    annotation: i64,
+) -> rusqlite::Result<Option<TokenOpinion>> {
+    connection
+        .prepare_cached(
+            "SELECT a.origin, a.state, trim(a.value), t.annotator, a.confidence
+             FROM annotation a JOIN tier t ON t.id = a.tier_id WHERE a.id = ?1",
+        )?
+        .query_row([annotation], |row| {
+            let is_proposal = row.get_ref(0)?.as_str() == Ok(DETECTOR_NAME);
+            Ok(TokenOpinion {
+                standing: match is_proposal {
+                    true => OpinionStanding::Proposed,
+                    false => OpinionStanding::Disputed,
+                },
+                state: read_word_column(row, 1)?,
+                value: row.get(2)?,
+                by: match is_proposal {
+                    true => Some(DETECTOR_NAME.to_owned()),
+                    false => row.get(3)?,
+                },
+                confidence: row.get(4)?,
+            })
+        })
+        .optional()
+}
+
+/// Calls `take` with the opinions about a token, each with its field and its annotation.
+pub(crate) fn visit_token_opinions(
+    connection: &Connection,
+    token: i64,
+    mut take: impl FnMut(&CodedRow<'_>, TokenOpinion),
+) -> CorpusResult<()> {
+    let sql = format!(
+        "SELECT NULL, NULL, hand, component, feature, phase, position, state, value, annotation_id
+         FROM token_value WHERE token_id = ?1 AND {IS_OPINION_SQL} ORDER BY id"
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
+    let mut rows = statement.query([token])?;
+    while let Some(row) = rows.next()? {
+        if let Some(opinion) = opinion_of_annotation(connection, row.get(9)?)? {
+            take(&CodedRow::coded_row_from_columns(row)?, opinion);
+        }
+    }
+    Ok(())
+}
+
+/// Returns the tokens of which an annotator says something, whether it counts or not, without proposals of detectors.
+pub(crate) fn tokens_by_annotator(connection: &Connection, is_meant: &dyn Fn(&str) -> bool) -> CorpusResult<Vec<i64>> {
+    let mut tokens = Vec::new();
+    for name in annotator_names(connection)?.into_iter().filter(|name| is_meant(name)) {
+        let mut statement = connection.prepare_cached(
+            "SELECT v.token_id FROM tier t JOIN annotation a ON a.tier_id = t.id
+             JOIN token_value v ON v.annotation_id = a.id WHERE t.annotator = ?1 AND a.origin <> 'detector'",
+        )?;
+        let rows = statement.query_map([name], |row| row.get(0))?;
+        tokens.extend(rows.collect::<rusqlite::Result<Vec<i64>>>()?);
+    }
+    tokens.sort_unstable();
+    tokens.dedup();
+    Ok(tokens)
+}
+
+/// Returns the names of the annotators of tiers, each once, by name.
+pub(crate) fn annotator_names(connection: &Connection) -> CorpusResult<Vec<String>> {
+    let mut statement =
+        connection.prepare_cached("SELECT DISTINCT annotator FROM tier WHERE annotator <> '' ORDER BY annotator")?;
+    let names = statement.query_map([], |row| row.get(0))?;
+    Ok(names.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the tokens with a value, or an opinion, whose confidence passes.
+pub(crate) fn tokens_of_confidence(connection: &Connection, passes: &dyn Fn(f64) -> bool) -> CorpusResult<Vec<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT v.token_id, a.confidence FROM annotation a JOIN token_value v ON v.annotation_id = a.id
+         WHERE a.confidence IS NOT NULL",
+    )?;
+    let mut rows = statement.query([])?;
+    let mut tokens = Vec::new();
+    while let Some(row) = rows.next()? {
+        if passes(row.get(1)?) {
+            tokens.push(row.get(0)?);
+        }
+    }
+    tokens.sort_unstable();
+    tokens.dedup();
+    Ok(tokens)
+}
+
+/// The readings of a recording that a relation looks at.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RecordingReadings<'a> {
+    pub(crate) component: &'a str,
+    /// The values of tokens by phase, each over the span of its annotation, or of its token if it has none.
+    pub(crate) phases: bool,
+    /// Opinions as well, which do not count.
+    pub(crate) opinions: bool,
 }
 
 /// Calls `take` with the readings of a component in a recording: the annotations of its tiers, and the values of tokens
-/// that come from no annotation. With `phases` it is called with the values of tokens instead, each over the span
-/// of its annotation, or of its token if it has none.
+/// that come from no annotation; or the values of tokens by phase.
 pub(crate) fn coded_in_recording(
     connection: &Connection,
     recording: i64,
-    component: &str,
-    phases: bool,
+    asked: RecordingReadings<'_>,
     take: impl FnMut(CodedRow<'_>),
 ) -> CorpusResult<()> {
-    let sql = if phases {
+    let sql = if asked.phases {
         "SELECT coalesce(a.start_us, t.start_us), coalesce(a.end_us, t.end_us), v.hand, v.component,
-             v.feature, v.phase, v.position, v.state, v.value
+             v.feature, v.phase, v.position, iif(v.state = 'unset' AND a.id IS NOT NULL, a.state, v.state),
+             iif(v.state = 'unset' AND a.state = 'value', a.value, v.value)
          FROM token t JOIN token_value v ON v.token_id = t.id
          LEFT JOIN annotation a ON a.id = v.annotation_id
-         WHERE t.recording_id = ?1 AND v.component = ?2"
+         WHERE t.recording_id = ?1 AND v.component = ?2 AND (?3 OR v.state <> 'unset' OR a.id IS NULL)"
     } else {
         "SELECT a.start_us, a.end_us, i.hand, i.component, i.feature, NULL, 0, a.state, a.value
          FROM tier i JOIN annotation a ON a.tier_id = i.id
          WHERE i.recording_id = ?1 AND i.role = 'component' AND i.component = ?2
+             AND (?3 OR a.origin <> 'detector')
          UNION ALL
          SELECT t.start_us, t.end_us, v.hand, v.component, v.feature, v.phase, v.position, v.state,
              v.value
          FROM token t JOIN token_value v ON v.token_id = t.id
          WHERE t.recording_id = ?1 AND v.component = ?2 AND v.annotation_id IS NULL"
     };
-    each_coded(connection, sql, (recording, component), take)
+    each_coded(connection, sql, (recording, asked.component, asked.opinions), take)
 }
 
 /// Returns whether the signer of a recording is left-handed.

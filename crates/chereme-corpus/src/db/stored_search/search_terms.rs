@@ -2,7 +2,7 @@
 //!
 //! A reading is `component|hand and phase|part|value`, such as `placement|ri||chin`. The hand is
 //! `r`, `l` (by side), `d`, `w` (by part in signing) or `n` (none); the phase `o` (the only value),
-//! `i`, `m1`, `m2` … or `f`. A mark is `@kind|value`, such as `@origin|made`.
+//! `i`, `m1`, `m2` … or `f`. The component of an opinion follows a tilde: `~placement|ri||chin`. A mark is `@kind|value`, such as `@origin|made`.
 
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{ComponentReading, HandRef, SignPhase};
@@ -25,6 +25,10 @@ pub(crate) enum TokenProperty {
     Inventory,
     /// The kinds of text that it has: `translation`, `comment`.
     Has,
+    /// `yes` if a detector proposes something that nobody has accepted.
+    Proposed,
+    /// `yes` if annotators say different things of it.
+    Disputed,
 }
 
 impl TokenProperty {
@@ -35,6 +39,8 @@ impl TokenProperty {
             Self::Tier => "@tier",
             Self::Inventory => "@inventory",
             Self::Has => "@has",
+            Self::Proposed => "@proposed",
+            Self::Disputed => "@disputed",
         }
     }
 
@@ -52,6 +58,11 @@ impl TokenProperty {
 /// Returns the prefix of the terms of all readings of a component.
 pub(crate) fn component_prefix(component: &str) -> String {
     format!("{component}|")
+}
+
+/// Returns the name of a component in the terms of opinions, which do not count unless a query asks for them.
+pub(crate) fn opinion_component(component: &str) -> String {
+    format!("~{component}")
 }
 
 /// Returns the term of a reading.

@@ -6,7 +6,7 @@
 //! | `sign`, `recording`, `signer` | row numbers | conditions; order and counts |
 //! | `gloss` | the whole gloss, folded | `gloss=BOL-2H`, wildcards, slips |
 //! | `words`, `translation`, `comment` | words of the gloss, of translations, of remarks | `"slow animal"` |
-//! | `reading` | [terms](crate::db::search::terms) of values, and marks | `right.configuration=U`, `origin=made` |
+//! | `reading` | [terms](crate::db::search::terms) of values and of opinions, and marks | `right.configuration=U`, `origin=made` |
 //! | `facet` | `right.configuration=U` as printed | counts |
 //! | `start`, `end`, `duration` | microseconds | `duration<0.8s`; relations of time |
 //!
@@ -40,7 +40,7 @@ use directory::MemoryFolder;
 use index_read::{IndexReading, KnownLabels};
 
 /// The version of the documents' format, raised with every change of it: indexes of other versions are rebuilt.
-const INDEX_FORMAT_VERSION: i64 = 3;
+const INDEX_FORMAT_VERSION: i64 = 4;
 /// The name under which the index knows its analyser of words.
 const WORD_ANALYZER_NAME: &str = "words";
 /// The memory for writing changes to the index, in bytes; a new index takes four times as much.
@@ -393,6 +393,9 @@ impl OpenIndex {
         }
         if let Some(hand) = token.hand {
             document.add_text(fields.facet, format!("hand={hand}"));
+        }
+        for standing in &token.opinions {
+            document.add_text(fields.facet, format!("{}=yes", standing.standing_name()));
         }
         if let Some((start, end)) = token.time {
             document.add_i64(fields.start, start);

@@ -68,6 +68,9 @@ fn all_effects() -> Vec<OperationEffect> {
             annotations: annotations(vec![Deed::AnnotationsRemoved { count }]),
         },
         Effect::Adjudicate { tier: tier.clone() },
+        Effect::PreferAnnotator {
+            annotator: text("anna"),
+        },
         Effect::AddTier {
             tier: tier.clone(),
             recording: recording.clone(),

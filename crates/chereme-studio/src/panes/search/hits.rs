@@ -232,6 +232,7 @@ mod tests {
             origin: chereme_corpus::RecordOrigin::Captured,
             score: None,
             components: BTreeMap::new(),
+            opinions: Vec::new(),
         }
     }
 

@@ -47,6 +47,10 @@ pub(super) mod tests {
             tokens: Vec::new(),
             media: Vec::new(),
             tracks: Vec::new(),
+            acceptor: chereme_corpus::ProposalAcceptor {
+                author: "A".into(),
+                handedness: chereme_sign::SignerHandedness::Right,
+            },
         }
     }
 }

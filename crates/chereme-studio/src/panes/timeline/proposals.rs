@@ -123,7 +123,7 @@ fn accept_selected_proposals(
 fn tier_for<'a>(scene: &TimelineScene<'a>, proposal: &RecordingProposal) -> Option<&'a TierContents> {
     let rows = scene.contents.tiers.iter().map(|candidate| &candidate.row);
     let tier = scene.tier_of(proposal.tier)?;
-    scene.tier_of(accepting_tier(&tier.row, rows)?.id)
+    scene.tier_of(accepting_tier(&tier.row, rows, &scene.contents.acceptor)?.id)
 }
 
 /// Returns the tier on which a proposal is accepted, if it has no room for it.

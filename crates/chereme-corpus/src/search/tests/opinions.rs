@@ -1,0 +1,180 @@
+//! What is said of a token and does not count: proposals of detectors, and what annotators say differently.
+
+use super::*;
+use crate::search::{HitOpinion, OpinionStanding};
+use crate::tokens;
+
+/// A tier of an annotator, with annotations of an origin in milliseconds.
+struct Said<'a> {
+    field: &'a str,
+    annotator: &'a str,
+    origin: AnnotationOrigin,
+    values: &'a [(i64, i64, &'a str)],
+}
+
+/// Returns a corpus with a recording of one sign, from 0 to 1 s, of which all this is said.
+fn corpus_of_one_sign(all: &[Said<'_>]) -> Sample {
+    let mut sample = Sample::new();
+    let recording = sample.recording("take", "Anna", "right");
+    sample.tier(&tier(recording, "Gloss", "gloss"), &[(0, 1000, "CHIEN")]);
+    for (place, said) in all.iter().enumerate() {
+        let row = TierRow {
+            name: format!("{} {place}", said.field),
+            annotator: Some(said.annotator.to_owned()).filter(|name| !name.is_empty()),
+            ..component_tier(recording, said.field)
+        };
+        sample.tier(&row, said.values);
+        sample.work(|connection| {
+            connection.execute(
+                "UPDATE annotation SET origin = ?1, confidence = iif(?1 = 'detector', 0.9, NULL)
+                 WHERE tier_id = (SELECT max(id) FROM tier)",
+                [match said.origin {
+                    AnnotationOrigin::Detector => "detector",
+                    _ => "human",
+                }],
+            )?;
+            Ok(())
+        });
+    }
+    sample.work(|connection| tokens::update_recording_tokens(connection, recording, None, &[]));
+    sample
+}
+
+fn by_person<'a>(annotator: &'a str, values: &'a [(i64, i64, &'a str)]) -> Said<'a> {
+    Said {
+        field: "right.configuration",
+        annotator,
+        origin: AnnotationOrigin::Human,
+        values,
+    }
+}
+
+/// Returns what counts, and after a bar what does not.
+fn coding(sample: &mut Sample) -> String {
+    let hit = sample.search("gloss=CHIEN").hits.remove(0);
+    assert_eq!(hit.opinions, [], "they are not asked for");
+    let counted = hit.components.iter().map(|(field, value)| format!("{field}={value}"));
+    let counted: Vec<String> = counted.collect();
+    let hit = sample
+        .search("gloss=CHIEN (by=* or proposed:yes or token=1)")
+        .hits
+        .remove(0);
+    let opinions = hit.opinions.iter().map(|one| {
+        let (by, standing) = (one.by.as_deref().unwrap_or("-"), one.standing.standing_name());
+        format!("{}={} {standing} {by}", one.field, one.value)
+    });
+    format!("{} | {}", counted.join(" "), opinions.collect::<Vec<_>>().join(", "))
+}
+
+#[test]
+fn two_annotators_are_two_readings_and_one_of_them_counts_or_none() {
+    for (all, wanted) in [
+        (
+            &[
+                by_person("anna", &[(0, 1000, "flat")]),
+                by_person("ben", &[(0, 1000, "5")]),
+            ][..],
+            " | right.configuration=flat disputed anna, right.configuration=5 disputed ben",
+        ),
+        (
+            &[
+                by_person("anna", &[(0, 1000, "flat")]),
+                by_person("ben", &[(10, 990, "flat")]),
+            ],
+            "right.configuration=\"flat\" | ",
+        ),
+        // Phase by phase.
+        (
+            &[
+                by_person("anna", &[(0, 500, "flat"), (500, 1000, "5")]),
+                by_person("ben", &[(0, 400, "flat"), (400, 1000, "S")]),
+            ],
+            "initial.right.configuration=\"flat\" | final.right.configuration=5 disputed anna, \
+             final.right.configuration=S disputed ben",
+        ),
+        (
+            &[
+                by_person("anna", &[(0, 1000, "flat")]),
+                by_person("ben", &[(0, 1000, "5")]),
+                by_person("adjudication", &[(0, 1000, "5")]),
+            ],
+            "right.configuration=\"5\" | ",
+        ),
+        // Copies of a tier without an annotator are opinions, too, and pieces on two tiers are one reading.
+        (
+            &[by_person("", &[(0, 1000, "flat")]), by_person("", &[(0, 1000, "5")])],
+            " | right.configuration=flat disputed -, right.configuration=5 disputed -",
+        ),
+        (
+            &[by_person("", &[(0, 500, "flat")]), by_person("", &[(500, 1000, "5")])],
+            "final.right.configuration=\"5\" initial.right.configuration=\"flat\" | ",
+        ),
+    ] {
+        assert_eq!(coding(&mut corpus_of_one_sign(all)), wanted);
+    }
+}
+
+#[test]
+fn the_annotator_whom_the_corpus_prefers_counts() {
+    let all = [
+        by_person("anna", &[(0, 1000, "flat")]),
+        by_person("ben", &[(0, 1000, "5")]),
+    ];
+    let mut sample = corpus_of_one_sign(&all);
+    assert_eq!(sample.search("disputed:yes").total, 1);
+    sample.corpus.prefer_annotator(Some("ben")).expect("preferred");
+    assert_eq!(coding(&mut sample), "right.configuration=\"5\" | ");
+    sample.corpus.prefer_annotator(None).expect("nobody is");
+    assert_eq!(sample.search("disputed:yes").total, 1);
+    assert!(
+        sample.corpus.prefer_annotator(Some("zoe")).is_err(),
+        "nobody has that name"
+    );
+}
+
+#[test]
+fn proposals_count_only_where_they_are_asked_for() {
+    let proposal = Said {
+        field: "right.placement",
+        annotator: "",
+        origin: AnnotationOrigin::Detector,
+        values: &[(0, 1000, "chin")],
+    };
+    let mut sample = corpus_of_one_sign(&[by_person("anna", &[(0, 1000, "flat")]), proposal]);
+    for (query, total) in [
+        ("configuration=flat", 1),
+        ("placement=*", 0),
+        ("placement=unset", 1),
+        ("placement=* proposed:yes", 1),
+        ("placement=chin proposed=oui", 1),
+        ("placement=chin by=detector", 1),
+        ("placement=chin confidence>0.8", 1),
+        ("placement=chin confidence>0.95", 0),
+        ("configuration=flat by=anna", 1),
+        ("proposed:no", 0),
+        ("disputed:yes", 0),
+        ("overlaps placement=chin", 0),
+        ("proposed:yes overlaps placement=chin", 1),
+    ] {
+        let found = sample.corpus.search_tokens(query, &SearchOptions::default());
+        // A value that nothing but a proposal has is unknown unless proposals are read.
+        assert_eq!(found.map_or(0, |answer| answer.total), total, "{query}");
+    }
+    let answer = sample.search("proposed:yes");
+    let opinion = HitOpinion {
+        field: "right.placement".to_owned(),
+        value: "chin".to_owned(),
+        standing: OpinionStanding::Proposed,
+        by: Some("detector".to_owned()),
+        confidence: Some(0.9),
+    };
+    assert_eq!(answer.hits[0].opinions, [opinion]);
+    assert!(!answer.facets.contains_key("right.placement"), "{:?}", answer.facets);
+    assert_eq!(answer.facets["proposed"], [("yes".to_owned(), 1)]);
+    // An index follows a proposal that changes, and one that a person makes their own.
+    sample.work(|connection| {
+        connection.execute("UPDATE annotation SET value = 'head' WHERE value = 'chin'", [])?;
+        Ok(())
+    });
+    assert_eq!(sample.search("placement=head proposed:yes").total, 1);
+}
