@@ -739,4 +739,119 @@ mod tests {
             assert_eq!(found.ok(), want, "{address}");
         }
     }
+
+    /// Returns a corpus with a table of signs, and a take of a sign that nobody has coded; its annotator has a tier for the
+    /// handshape of the right hand.
+    fn corpus_with_an_uncoded_take(folder: &std::path::Path) -> Corpus {
+        let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
+        let table = folder.join("signs.csv");
+        std::fs::write(
+            &table,
+            "gloss,handshape,location\nA,B,chin\nB,V,chin\nC,B,chest\nD,V,chest\n",
+        )
+        .expect("written");
+        let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
+        let imported = corpus.import_paths(&[own.join("bol.bvh"), table], &ImportOptions::default(), &mut progress);
+        imported.expect("taken in");
+        let take = || RowName::Text("bol".into());
+        corpus
+            .add_tier(&NewTier::new(take(), "gloss", TierRole::Gloss))
+            .expect("a tier");
+        let role = "configuration".parse().expect("a role");
+        let mut hand = NewTier::new(take(), "Configuration RH", role);
+        hand.hand = Some(AnnotatedHands::One(HandRef::Right));
+        hand.parent = Some(("gloss".into(), chereme_sign::TierStereotype::IncludedIn));
+        corpus.add_tier(&hand).expect("a tier");
+        let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
+        let add = AnnotationAction::Add {
+            tier: TierRequestName::Of {
+                recording: take(),
+                tier: "gloss".into(),
+            },
+            start: time(0),
+            end: time(1_000_000),
+            parent: None,
+            order: None,
+            value: "BOL".into(),
+            confidence: None,
+        };
+        corpus
+            .annotate_corpus(&[add.into()], &Default::default(), &mut progress)
+            .expect("annotated");
+        corpus
+    }
+
+    #[test]
+    fn proposals_change_no_figure_and_accepted_ones_fill_the_tiers_of_the_annotator() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = corpus_with_an_uncoded_take(folder.path());
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
+        let figures = |corpus: &mut Corpus| {
+            let mut hear = ignore_progress_step;
+            let stats = corpus.lexicon_statistics(&Default::default(), &mut ProgressReceiver::new(&mut hear));
+            let pairs = corpus.minimal_pairs(&Default::default());
+            let answer = corpus
+                .search_tokens("configuration=* or placement=*", &SearchOptions::default())
+                .expect("found");
+            let facets: Vec<_> = answer
+                .facets
+                .into_iter()
+                .filter(|(field, _)| field != "proposed")
+                .collect();
+            format!("{stats:?} {pairs:?} {} {facets:?}", answer.total)
+        };
+        let before = figures(&mut corpus);
+        let options = ProposeOptions {
+            components: ProposalResult::READABLE_COMPONENTS.to_vec(),
+            scope: ProposeScope::All,
+        };
+        let proposed = corpus.propose_components(&options, &mut progress).expect("proposed");
+        assert!(proposed.annotations > 3, "{proposed:?}");
+        assert_eq!(proposed.by_confidence.values().sum::<u64>(), proposed.annotations);
+        assert_eq!(figures(&mut corpus), before);
+        let again = corpus.propose_components(&options, &mut progress).expect("proposed");
+        assert_eq!(again.annotations, 0, "what is proposed is not proposed again");
+
+        let mut choice = ProposalChoice {
+            scope: ProposeScope::All,
+            tiers: Vec::new(),
+            components: vec![SignComponent::Configuration],
+            least_confidence: Some(1.1),
+        };
+        assert!(corpus.find_proposals(&choice).expect("found").is_empty(), "none is as sure");
+        choice.least_confidence = None;
+        let chosen = corpus.find_proposals(&choice).expect("found").len() as u64;
+        let accepted = corpus
+            .accept_chosen_proposals(&choice, &mut progress)
+            .expect("accepted");
+        assert_eq!((accepted.report.added, accepted.left), (chosen, 0));
+        let connection = corpus.store.read_connection();
+        let tiers = stored_tiers::load_tier_rows(connection, 1).expect("tiers");
+        let of_shapes: Vec<&str> = tiers
+            .iter()
+            .map(|tier| tier.name.as_str())
+            .filter(|name| name.to_lowercase().starts_with("configuration"))
+            .collect();
+        assert!(
+            of_shapes.iter().all(|name| proposed_for(name).is_none()),
+            "{of_shapes:?}"
+        );
+        assert!(!of_shapes.contains(&"configuration dominant"), "{of_shapes:?}");
+        let own = tiers
+            .iter()
+            .find(|tier| tier.name == "Configuration RH")
+            .expect("a tier");
+        let rows = stored_tiers::load_tier_annotation_rows(connection, own.id).expect("annotations");
+        assert!(!rows.is_empty());
+        assert!(
+            rows.iter()
+                .all(|row| row.origin == AnnotationOrigin::Human && row.confidence.is_some()),
+            "{rows:?}"
+        );
+        let found = corpus.search_tokens("gloss=BOL right.configuration=*", &SearchOptions::default());
+        assert_eq!(found.expect("found").total, 1);
+    }
 }
