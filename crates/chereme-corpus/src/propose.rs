@@ -821,7 +821,10 @@ mod tests {
             components: vec![SignComponent::Configuration],
             least_confidence: Some(1.1),
         };
-        assert!(corpus.find_proposals(&choice).expect("found").is_empty(), "none is as sure");
+        assert!(
+            corpus.find_proposals(&choice).expect("found").is_empty(),
+            "none is as sure"
+        );
         choice.least_confidence = None;
         let chosen = corpus.find_proposals(&choice).expect("found").len() as u64;
         let accepted = corpus

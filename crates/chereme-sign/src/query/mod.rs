@@ -149,11 +149,10 @@ The token as a whole
   hand=right,left,dominant,weak,both      of its annotation, else of its values
   signer=  recording=  sign=  token=  tier=  inventory=
 
-Who says so: values that nobody accepted, or that are in dispute, do not count
-  proposed:yes                            a detector proposes something; beside
-                                          it, conditions read proposals as well
-  disputed:yes                            annotators disagree, nothing decides
-  by=anna   by=detector   confidence>0.8  these read such values, too
+Who says so: proposals and disputed values are read only where asked for
+  proposed:yes                            a detector proposes something
+  disputed:yes                            annotators say different things
+  by=anna   by=detector   confidence>0.8  who, and how sure
 
 Relation to another annotation of the recording
   gloss=CHAT overlaps nonmanual.brows=raised

@@ -26,7 +26,12 @@ const COMPLETIONS: &[(&str, &str, &str, &str)] = &[
     ("right.conf|", "Term", "conf", "conf"),
     ("final.right.|", "Term", "", ""),
     ("nonmanual.br|", "Part(NonManual)", "br", "br"),
-    ("placement=|", "Value(ComponentField { hand: None, component: Placement", "", ""),
+    (
+        "placement=|",
+        "Value(ComponentField { hand: None, component: Placement",
+        "",
+        "",
+    ),
     ("placement=chi|", "Value", "chi", "chi"),
     ("placement=ch|in gloss=A", "Value", "ch", "chin"),
     ("placement=chest,ch|", "Value", "ch", "ch"),
