@@ -66,6 +66,9 @@ texts! {
     RIGHT: "right hand", "main droite";
     LEFT: "left hand", "main gauche";
     DOMINANT: "dominant hand", "main dominante";
+    PROPOSED: "proposed by a detector", "proposé par un détecteur";
+    DISPUTED: "in dispute", "contesté";
+    CODED_BY: "coded by", "codé par";
     WEAK: "weak hand", "main faible";
     IS: "is", "est";
     IS_NOT: "is different from", "est différent de";

@@ -132,9 +132,11 @@ pub(super) fn order_facet_fields<'a>(fields: impl Iterator<Item = &'a String>) -
 }
 
 /// The words of fields that are no component.
-const OTHER_FACET_WORDS: [(&str, InterfaceText); 4] = [
+const OTHER_FACET_WORDS: [(&str, InterfaceText); 6] = [
+    ("disputed", words::DISPUTED),
     ("gloss", words::GLOSS),
     ("hand", words::HAND),
+    ("proposed", words::PROPOSED),
     ("recording", words::RECORDING),
     ("signer", words::SIGNER),
 ];

@@ -1,6 +1,6 @@
 //! Hits as looping little figures, and as a table with their neighbours.
 
-use chereme_corpus::{SearchHit, TrackKind};
+use chereme_corpus::{OpinionStanding, SearchHit, TrackKind};
 use chereme_motion::BodySide;
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
@@ -218,7 +218,14 @@ fn paint_coded_figure(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect
     }
     let weak = ui.visuals().weak_text_color();
     let font = TextStyle::Small.resolve(ui.style());
-    let values: Vec<String> = hit_coding_values(hit).into_iter().map(|(_, value)| value).collect();
+    let mut values: Vec<String> = hit_coding_values(hit).into_iter().map(|(_, value)| value).collect();
+    values.extend(hit.opinions.iter().map(|opinion| {
+        let mark = match opinion.standing {
+            OpinionStanding::Proposed => words::PROPOSED,
+            OpinionStanding::Disputed => words::DISPUTED,
+        };
+        format!("{} ({})", opinion.value, seen.say_text(mark))
+    }));
     let text = if values.is_empty() {
         seen.say_text(words::UNCODED).to_owned()
     } else {

@@ -179,7 +179,7 @@ fn show_add_condition_button(ui: &mut Ui, seen: &PaneInput<'_>) -> Option<QueryC
     added
 }
 
-const PROPERTY_TEXTS: [(WholeTokenProperty, InterfaceText); 8] = [
+const PROPERTY_TEXTS: [(WholeTokenProperty, InterfaceText); 11] = [
     (WholeTokenProperty::Origin, words::ORIGIN),
     (WholeTokenProperty::Signer, words::SIGNER),
     (WholeTokenProperty::Recording, words::RECORDING),
@@ -188,6 +188,9 @@ const PROPERTY_TEXTS: [(WholeTokenProperty, InterfaceText); 8] = [
     (WholeTokenProperty::Tier, words::TIER),
     (WholeTokenProperty::Inventory, words::INVENTORY),
     (WholeTokenProperty::Token, words::TOKEN),
+    (WholeTokenProperty::Proposed, words::PROPOSED),
+    (WholeTokenProperty::Disputed, words::DISPUTED),
+    (WholeTokenProperty::By, words::CODED_BY),
 ];
 
 /// Returns the name of a component.
