@@ -608,7 +608,7 @@ impl Corpus {
         }
         let options = AnnotateOptions::default();
         self.store.operation_with_progress(progress, |connection, progress| {
-            let report = write_tiers(connection, &new, (&changes, &options), progress)?;
+            let report = write_tiers(connection, &new, &changes, &options, progress)?;
             for tier in emptied {
                 if stored_tiers::load_tier_annotation_rows(connection, tier)?.is_empty() {
                     stored_tiers::delete_tier(connection, tier)?;
