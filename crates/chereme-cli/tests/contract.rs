@@ -498,7 +498,12 @@ fn a_study_is_planned_again_from_its_json_built_answered_and_forgotten() {
     let folder = desk.folder.path();
     let json = |line: String| -> serde_json::Value {
         let done = desk.run(&format!("{line} --json"));
-        assert!(done.status.success(), "{line}: {}", text(&done.stderr));
+        assert!(
+            done.status.success(),
+            "{line}: {} {}",
+            text(&done.stdout),
+            text(&done.stderr)
+        );
         serde_json::from_slice(&done.stdout).expect("JSON")
     };
     json(format!(
@@ -515,7 +520,7 @@ fn a_study_is_planned_again_from_its_json_built_answered_and_forgotten() {
         "{}",
         text(&refused.stderr)
     );
-    json(format!("consent {corpus} signer:1 --all public"));
+    json(format!("consent {corpus} signer:1 --all public --licence CC0"));
     let built = json(format!("study build {corpus} s --to q --height 64 --rate 5"));
     assert_eq!(built["films"], 1);
     let page = fs::read_to_string(folder.join("q/index.html")).expect("the page");

@@ -130,7 +130,7 @@ impl Corpus {
         refuse(
             &names,
             "studies show the recordings",
-            "delete the studies first: `chereme study delete CORPUS NAME`",
+            ErrorRemedy::command_remedy("delete the studies first: `chereme study delete CORPUS NAME`"),
         )
     }
 }
@@ -147,7 +147,7 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
     refuse(
         &recording_names(connection, &made)?,
         "signs of others were made from the recordings",
-        "delete them first: `chereme delete CORPUS recording:NAME`",
+        ErrorRemedy::command_remedy("delete them first: `chereme delete CORPUS recording:NAME`"),
     )?;
     let mut with_others = BTreeSet::new();
     for (recording, participant) in consents::list_tier_participants(connection)? {
@@ -159,14 +159,14 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
     refuse(
         &recording_names(connection, &with_others)?,
         "recordings show this person and others",
-        "delete these recordings, or the tiers of one of them, first",
+        "delete these recordings, or the tiers of one of them, first".into(),
     )?;
     let undecided = merge::undecided_conflicts(connection)?;
     let open: Vec<String> = undecided.iter().map(|conflict| conflict.number.to_string()).collect();
     refuse(
         &open,
         "a merge left decisions open, which may hold texts of the person",
-        "decide them first: `chereme conflicts CORPUS` lists them",
+        ErrorRemedy::command_remedy("decide them first: `chereme conflicts CORPUS` lists them"),
     )
 }
 
@@ -178,7 +178,7 @@ fn recording_names(connection: &Connection, recordings: &BTreeSet<i64>) -> Corpu
 }
 
 /// Fails if there are any names.
-fn refuse(names: &[String], message: &str, advice: &'static str) -> CorpusResult<()> {
+fn refuse(names: &[String], message: &str, advice: ErrorRemedy) -> CorpusResult<()> {
     if names.is_empty() {
         return Ok(());
     }
@@ -188,10 +188,7 @@ fn refuse(names: &[String], message: &str, advice: &'static str) -> CorpusResult
         .take(MAX_REFUSED_NAMES)
         .map(String::as_str)
         .collect::<Vec<_>>();
-    Err(
-        CorpusError::from_wrong_message(format!("{message}: {}{more}", list.join(", ")))
-            .with_advice(ErrorRemedy::command_remedy(advice)),
-    )
+    Err(CorpusError::from_wrong_message(format!("{message}: {}{more}", list.join(", "))).with_advice(advice))
 }
 
 #[cfg(test)]

@@ -181,7 +181,7 @@ fn the_help_is_french_if_french_is_requested() {
     for part in [
         "Fichiers lus : ",
         ".eaf (annotations)",
-        "Un film est lié",
+        "un film qu’un .eaf nomme",
         "déjà importé",
     ] {
         assert!(flat.contains(part), "{part}: {long}");

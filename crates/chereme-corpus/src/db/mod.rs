@@ -98,8 +98,10 @@ impl<D: DerivedData> CorpusStore<D> {
     /// Opens the corpus at `path`, and upgrades its schema if that is older than this version's.
     pub(crate) fn open_corpus_store(path: &Path, author: &str) -> CorpusResult<Self> {
         let (connection, upgrade) = open::open_corpus_file(path)?;
-        let format = stored_search::SearchIndexState::read_index_state(&connection)?.format;
-        if format < FIRST_FORMAT_WITH_OPINIONS {
+        // A file that lost the row of its index is opened for `check`, which names that fault.
+        let index_state = stored_search::SearchIndexState::read_index_state(&connection);
+        let is_older = index_state.is_ok_and(|state| state.format < FIRST_FORMAT_WITH_OPINIONS);
+        if is_older && !connection.is_readonly("main")? {
             upgrade::set_proposals_apart(&connection)?;
         }
         let mut store = Self::store_from_connection(connection, path, author)?;

@@ -188,28 +188,24 @@ impl ImportJob<'_> {
             (_, 0) => return Ok(()),
             (JoinQuestion::NameElsewhere, 1) => (
                 format!("the recording {names} has its name in another folder: it was not joined with that"),
-                JOIN_BY_NAME_REMEDY,
+                join_by_name_remedy(),
             ),
             (JoinQuestion::NameElsewhere, _) => (
                 format!("several recordings have its name in other folders, and it was joined with none: {names}"),
-                JOIN_BY_NAME_REMEDY,
+                join_by_name_remedy(),
             ),
             (JoinQuestion::NamedFilm, _) => (
                 format!("the annotations of several recordings name this film, and it was joined with none: {names}"),
-                JOIN_INTO_REMEDY,
+                join_into_remedy(),
             ),
             (JoinQuestion::Timecode, 1) => (
                 format!("its timecodes are those of the recording {names}: it was not joined with that"),
-                JOIN_BY_TIMECODE_REMEDY,
+                join_by_timecode_remedy(),
             ),
             (JoinQuestion::Timecode, _) => (
                 format!("its timecodes are those of several recordings, and it was joined with none: {names}"),
-                JOIN_BY_TIMECODE_REMEDY,
+                join_by_timecode_remedy(),
             ),
-        };
-        let remedy = match question {
-            JoinQuestion::NamedFilm => ErrorRemedy::command_remedy(remedy),
-            _ => ErrorRemedy::choice_remedy(RemedyChoice::Joining, remedy),
         };
         report.findings.push(ReportFinding::finding_warning(message, remedy));
         Ok(())
@@ -273,11 +269,23 @@ pub(super) enum JoinQuestion {
     Timecode,
 }
 
-const JOIN_INTO_REMEDY: &str = "if it belongs to one of them: `chereme undo`, then import it with --into RECORDING";
+fn join_into_remedy() -> ErrorRemedy {
+    ErrorRemedy::command_remedy("if it belongs to one of them: `chereme undo`, then import it with --into RECORDING")
+}
 
-const JOIN_BY_NAME_REMEDY: &str = "if they are of one take: `chereme undo`, then import it with --into RECORDING, or all \
-files with --join name, which joins those whose name only one recording has";
+fn join_by_name_remedy() -> ErrorRemedy {
+    ErrorRemedy::choice_remedy(
+        RemedyChoice::Joining,
+        "if they are of one take: `chereme undo`, then import it with --into RECORDING, or all \
+files with --join name, which joins those whose name only one recording has",
+    )
+}
 
-const JOIN_BY_TIMECODE_REMEDY: &str = "if they are of one take: `chereme undo`, then import it with --into RECORDING, or \
+fn join_by_timecode_remedy() -> ErrorRemedy {
+    ErrorRemedy::choice_remedy(
+        RemedyChoice::Joining,
+        "if they are of one take: `chereme undo`, then import it with --into RECORDING, or \
 with --join timecode, which also joins files of other folders, of one kind, of unlike length, and from 00:00:00:00 or \
-10:00:00:00";
+10:00:00:00",
+    )
+}
