@@ -51,7 +51,7 @@ pub struct StillSaidText {
 
 impl Corpus {
     /// Forgets a signer for good: recordings with tracks, tiers, annotations and recipes, blocks of movement, the whole
-    /// history, the search index, and older versions beside the file. Then the file is written anew, and its bytes are
+    /// history, the search index, and older versions beside the file. Then the file is written again, and its bytes are
     /// searched for everything that was removed. With `dry_run` nothing is written.
     ///
     /// # Errors

@@ -16,3 +16,4 @@ help-command-forget-nothing-forgotten-while-needed = Rien n’est oublié tant q
 help-command-forget-json-gives = `--json` donne "signer", "dry_run", "recordings", "older_files", "searched" et "still_said", chacun avec "text" et "table".
 help-command-forget-signer-such-as = Le signeur, comme signer:S07
 help-command-forget-do-it = Le faire ; sans cela, la commande dit seulement ce qui disparaîtrait
+line-command-forget-more-texts-stand-in-rows = { $n } autres textes se trouvent aussi dans des lignes d’autres : --json les donne

@@ -9,11 +9,14 @@ use chereme_corpus::{CorpusAddress, CorpusError, ForgottenSigner, ProgressReceiv
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
 
+/// The most texts that are shown one by one of those that rows of others hold, too.
+const MAX_SHOWN_ROWS: usize = 5;
+
 /// Forget a signer for good: the one operation that cannot be undone
 ///
 /// All recordings of the signer go, with tracks, tiers, annotations, tokens, recipes and numbers, and the signer. So do
 /// the whole history of the corpus, its search index, and older versions of the file beside it. Then the file is written
-/// anew, and its bytes are searched for every hash, identity, name and text that was removed; the report says how many
+/// again, and its bytes are searched for every hash, identity, name and text that was removed; the report says how many
 /// were searched for. Texts that rows of somebody else say, too, such as a gloss, stay and are listed.
 ///
 /// Nothing is forgotten while something else needs it: signs of others made from these recordings, recordings that show
@@ -22,6 +25,7 @@ use crate::output::{CommandOutput, CommandProgressBar};
 ///
 /// `--json` gives "signer", "dry_run", "recordings", "older_files", "searched" and "still_said", each with "text" and
 /// "table".
+
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -81,11 +85,15 @@ fn print_forgotten(done: &ForgottenSigner, output: &mut CommandOutput) -> Result
         "proof: {n} hashes, identities, names and texts were searched for in the bytes of the file, and none was found",
         &[&done.searched],
     )?;
-    for said in &done.still_said {
+    for said in done.still_said.iter().take(MAX_SHOWN_ROWS) {
         output.filled_line(
             "rows of others say this, too: {text} (table {name})",
             &[&format_args!("{:?}", said.text), &said.table],
         )?;
+    }
+    if done.still_said.len() > MAX_SHOWN_ROWS {
+        let more = done.still_said.len() - MAX_SHOWN_ROWS;
+        output.filled_line("{n} more texts stand in rows of others: --json lists them", &[&more])?;
     }
     output.write_note("films beside the corpus, copies, exports and publications are not touched: delete them yourself")
 }

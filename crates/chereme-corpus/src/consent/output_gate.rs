@@ -73,7 +73,7 @@ impl WithheldOutput {
     #[must_use]
     pub fn withheld_sentence(&self, audience: OutputAudience) -> String {
         let (name, why, who) = (&self.name, self.why.reason_words(), &self.who);
-        format!("{name:?} is withheld from {audience}: {why} ({who})")
+        format!("{name:?} is withheld from {audience} because of {who}: {why}")
     }
 }
 

@@ -290,7 +290,7 @@ pub(crate) fn values_of(connection: &Connection, tokens: &[i64]) -> CorpusResult
     Ok(values)
 }
 
-/// Tells values that count from opinions: an opinion is *unset*, and its annotation holds what a detector proposes or what is
+/// Distinguishes values that count from opinions: an opinion is *unset*, and its annotation holds what a detector proposes or what is
 /// in dispute.
 pub(crate) const IS_OPINION_SQL: &str = "state = 'unset' AND annotation_id IS NOT NULL";
 

@@ -218,7 +218,7 @@ pub(crate) fn older_versions(path: &Path) -> Vec<PathBuf> {
 }
 
 impl<D: DerivedData> CorpusStore<D> {
-    /// Removes a signer and recordings for good, with the history, and writes the file anew.
+    /// Removes a signer and recordings for good, with the history, and writes the file again.
     pub(crate) fn erase_signer(
         &mut self,
         signer: i64,
@@ -240,7 +240,7 @@ impl<D: DerivedData> CorpusStore<D> {
         match is_busy {
             false => Ok(()),
             true => Err(CorpusError::from_wrong_message(
-                "another program has the corpus open, so that its file cannot be written anew",
+                "another program has the corpus open, so that its file cannot be written again",
             )
             .with_error_place(self.path.display().to_string())
             .with_advice("close the other program, then open the corpus and close it")),

@@ -243,7 +243,7 @@ fn nothing_that_is_withheld_is_in_any_output_by_bytes_and_by_name() {
                 } else {
                     shown.set(shown.get() + usize::from(holds(sign.name.as_bytes())));
                 }
-                // A made sign may be withheld for itself alone, while its source is shown with the same movement.
+                // A generated sign may be withheld for itself alone, while its source is shown with the same movement.
                 if at < CAPTURED.len() && refused(0) {
                     let data = blocks.get(&sign.name).into_iter().flatten();
                     let left = data.filter(|data| data.len() >= 64 && holds(data)).count();
