@@ -244,6 +244,13 @@ impl ExportWindow {
             self.to = path.display().to_string();
         }
         ui.add_space(4.0);
+        ui.label(RichText::new(seen.say_text(words::FOR_WHOM)).small());
+        ui.horizontal_wrapped(|ui| {
+            for (audience, text) in EXPORT_AUDIENCES {
+                ui.selectable_value(&mut self.audience, audience, seen.say_text(text));
+            }
+        });
+        ui.add_space(4.0);
         let label = ui.label(RichText::new(seen.say_text(words::WHERE)).small());
         let line = CompletionLine::default();
         let typed = self
@@ -256,13 +263,6 @@ impl ExportWindow {
             (self.written, self.wrong) = (None, None);
         }
         ui.checkbox(&mut self.replace, seen.say_text(words::REPLACE));
-        ui.add_space(4.0);
-        ui.label(RichText::new(seen.say_text(words::FOR_WHOM)).small());
-        ui.horizontal_wrapped(|ui| {
-            for (audience, text) in EXPORT_AUDIENCES {
-                ui.selectable_value(&mut self.audience, audience, seen.say_text(text));
-            }
-        });
         ui.add_space(4.0);
         self.show_export_buttons(ui, seen, settings, &what, entered, out);
         if let Some(wrong) = &self.wrong {

@@ -73,8 +73,10 @@ fn accept_selected_proposals(
     out: &mut CommandOutbox,
 ) -> ActionOutcome {
     let chosen = selected_proposal_ids(scene);
-    let reviewing =
-        scene.seen.shown.annotations.is_empty() && scene.edited_tier().is_some_and(timeline_edit::holds_proposals);
+    // With its last proposal a tier of proposals disappears.
+    timeline.asked.all_reviewed &= scene.seen.shown.annotations.is_empty();
+    let on_proposals = scene.edited_tier().is_some_and(timeline_edit::holds_proposals);
+    let reviewing = scene.seen.shown.annotations.is_empty() && (on_proposals || timeline.asked.all_reviewed);
     if chosen.is_empty() && !reviewing {
         return match action {
             Action::EnterValue => ActionOutcome::No,
@@ -112,6 +114,7 @@ fn accept_selected_proposals(
         // Another Enter begins nothing at the same time.
         out.send_command(WindowCommand::Span(None));
     }
+    timeline.asked.all_reviewed = left.is_empty();
     out.send_command(match left_text(scene, &left) {
         Some(text) => WindowCommand::Notify(text, words::LEFT_PROPOSALS_REMEDY),
         None => WindowCommand::Say(scene.seen.say_text(words::ALL_ACCEPTED).to_owned()),

@@ -109,6 +109,8 @@ pub(super) struct RequestedChanges {
     pub(super) to_propose: bool,
     /// Proposals that were refused when they were accepted, until annotations change.
     pub(super) refused: BTreeSet<i64>,
+    /// Whether the last proposal of the recording was just accepted, and its tier is gone: further Enters begin nothing.
+    pub(super) all_reviewed: bool,
 }
 
 impl RequestedChanges {
