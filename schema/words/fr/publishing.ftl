@@ -50,5 +50,5 @@ message-publishing-studies-show-recordings = des études montrent ces enregistre
 message-publishing-delete-studies-first = supprimez d’abord ces études : `chereme study delete CORPUS NOM`
 message-publishing-bytes-still-hold-traces = { $name } a été retiré, mais les octets du fichier contiennent encore { $n } traces sur { $all } : { $text }
 message-publishing-close-every-program = fermez tous les programmes qui ont ouvert le corpus, puis recommencez
-message-publishing-file-cannot-be-written-anew = un autre programme a ouvert le corpus, de sorte que son fichier ne peut pas être réécrit
+message-publishing-file-cannot-be-written-again = un autre programme a ouvert le corpus, de sorte que son fichier ne peut pas être réécrit
 message-publishing-close-other-program = fermez l’autre programme, puis ouvrez le corpus et fermez-le

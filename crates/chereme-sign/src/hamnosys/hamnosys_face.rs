@@ -21,7 +21,7 @@ impl FacialExpression {
     /// listed.
     ///
     /// ```
-    /// use chereme_sign::hamnosys::face::FacialExpression;
+    /// use chereme_sign::hamnosys::hamnosys_face::FacialExpression;
     /// let raised = FacialExpression::from_nonmanual_code("brows", "RB").expect("both brows are raised");
     /// assert_eq!(raised.expression_face_at(0.5).brows, [1.0, 1.0]);
     /// ```

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, OutputAudience, RowName};
+use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, RowName};
 use eframe::egui::{Align2, Button, Context, Id, Key, ProgressBar, RichText, ScrollArea, Ui, Window};
 
 use crate::command::WindowCommand;
@@ -35,12 +35,6 @@ pub(crate) enum ExportObject {
 /// A format, by the extension of its files, and its name; no extension means a folder.
 type ExportWindowFormat = (Option<&'static str>, InterfaceText);
 
-/// The people for whom something is exported.
-const EXPORT_AUDIENCES: [(OutputAudience, InterfaceText); 3] = [
-    (OutputAudience::Me, words::FOR_ME),
-    (OutputAudience::Research, words::FOR_RESEARCH),
-    (OutputAudience::Public, words::FOR_PUBLIC),
-];
 const TABLE_FORMATS: [ExportWindowFormat; 2] = [(Some("csv"), words::CSV), (Some("tsv"), words::TSV)];
 const NOTATION_FORMATS: [ExportWindowFormat; 3] = [
     (Some("sigml"), words::SIGML),
@@ -105,7 +99,6 @@ pub(crate) struct ExportWindow {
     /// Whether the user typed the path, so that it is not changed automatically.
     typed: bool,
     replace: bool,
-    audience: OutputAudience,
     paths: PathCompletions,
     /// The query of the latest complete answer, and how many tokens it found.
     found: Option<(String, usize)>,
@@ -244,13 +237,6 @@ impl ExportWindow {
             self.to = path.display().to_string();
         }
         ui.add_space(4.0);
-        ui.label(RichText::new(seen.say_text(words::FOR_WHOM)).small());
-        ui.horizontal_wrapped(|ui| {
-            for (audience, text) in EXPORT_AUDIENCES {
-                ui.selectable_value(&mut self.audience, audience, seen.say_text(text));
-            }
-        });
-        ui.add_space(4.0);
         let label = ui.label(RichText::new(seen.say_text(words::WHERE)).small());
         let line = CompletionLine::default();
         let typed = self
@@ -322,7 +308,6 @@ impl ExportWindow {
         let to = PathBuf::from(self.to.trim());
         let options = ExportOptions {
             force: self.replace,
-            audience: self.audience,
             ..ExportOptions::default()
         };
         let address = |address: CorpusAddress| ExportWhat::Address(address);

@@ -6,10 +6,6 @@ texts! {
     FORMAT: "Format", "Format";
     WHERE: "Where to", "Vers où";
     REPLACE: "Replace the existing file", "Remplacer ce qui s’y trouve";
-    FOR_WHOM: "For whom", "Pour qui";
-    FOR_ME: "me, everything", "moi, tout";
-    FOR_RESEARCH: "research, what people agreed to", "la recherche, ce que les gens ont accepté";
-    FOR_PUBLIC: "everybody, what people agreed to", "tout le monde, ce que les gens ont accepté";
     WRITE: "Write", "Écrire";
     WRITTEN: "Written: {n} files in {folder}", "Écrit : {n} fichiers dans {folder}";
     WRITTEN_ONE: "Written: {name} in {folder}", "Écrit : {name} dans {folder}";

@@ -12,7 +12,7 @@
 //! let mut writer = BvhWriter::new(&mut copy, reader.bvh_hierarchy(), Some((reader.bvh_motion_header().frame_time.as_ref(), 2)))?;
 //! let mut block = MotionBlock::default();
 //! while reader.next_block(&mut block)? {
-//!     assert_eq!((block.columns[0].column_value_at(0), block.columns[2].column_value_at(0)), (1.5, 0.003));
+//!     assert_eq!((block.columns[0].decimal_value_at(0), block.columns[2].decimal_value_at(0)), (1.5, 0.003));
 //!     writer.write_motion_block(&block)?;
 //! }
 //! writer.finish_bvh_writing()?;
