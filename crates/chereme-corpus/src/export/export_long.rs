@@ -59,11 +59,11 @@ pub(super) fn write_long_table(
             parquet::write_component_parquet(connection, &tokens, out, progress)
         }
         LongTable::Annotations => {
-            let stretches = stretches(connection, what, notes)?;
+            let stretches = select_long_stretches(connection, what, notes)?;
             parquet::write_annotation_parquet(connection, &stretches, out, progress)
         }
         LongTable::Frames => {
-            let stretches = stretches(connection, what, notes)?;
+            let stretches = select_long_stretches(connection, what, notes)?;
             parquet::write_frame_parquet(connection, &stretches, out, progress)
         }
     }

@@ -76,7 +76,7 @@ impl<'o> ParquetFileWriter<'o> {
     /// Begins a file with the columns of a table; `about` describes the columns in the metadata.
     pub(super) fn new(table: &ParquetTable, about: &str, out: &'o mut dyn Write) -> CorpusResult<Self> {
         let pending = PendingBytes::default();
-        let properties = properties(table, about)?;
+        let properties = parquet_writer_properties(table, about)?;
         let file = SerializedFileWriter::new(pending.clone(), parquet_schema(table)?, properties);
         Ok(Self {
             file: file.map_err(parquet_write_error)?,
@@ -89,7 +89,7 @@ impl<'o> ParquetFileWriter<'o> {
     pub(super) fn write_row_group(&mut self, table: &ParquetTable) -> CorpusResult<()> {
         let mut group = self.file.next_row_group().map_err(parquet_write_error)?;
         for column in table {
-            let Some(mut writer) = group.next_column().map_err(fault)? else {
+            let Some(mut writer) = group.next_column().map_err(parquet_write_error)? else {
                 break;
             };
             let written = match &column.cells {
@@ -99,10 +99,10 @@ impl<'o> ParquetFileWriter<'o> {
                 ParquetCells::Flag(cells) => with_gaps::<BoolType>(&mut writer, cells),
                 ParquetCells::Float(cells) => writer.typed::<FloatType>().write_batch(cells, None, None),
             };
-            written.map_err(fault)?;
-            writer.close().map_err(fault)?;
+            written.map_err(parquet_write_error)?;
+            writer.close().map_err(parquet_write_error)?;
         }
-        group.close().map_err(fault)?;
+        group.close().map_err(parquet_write_error)?;
         self.drain()
     }
 
@@ -154,7 +154,7 @@ fn parquet_schema(table: &ParquetTable) -> CorpusResult<TypePtr> {
         })
         .collect();
     let group_type = Type::group_type_builder("chereme").with_fields(fields?).build();
-    Ok(Arc::new(group_type.map_err(fault)?))
+    Ok(Arc::new(group_type.map_err(parquet_write_error)?))
 }
 
 /// Returns the encodings of columns: dictionaries for texts, byte stream split for numbers of movement.
