@@ -41,7 +41,7 @@ const USUAL_NAMES: [&str; 29] = [
 /// File names that each folder may have.
 const SHARED_FILE_NAMES: [&str; 4] = ["mod.rs", "lib.rs", "main.rs", "error.rs"];
 
-/// What is measured, with its largest value over the whole house.
+/// The measures, each with its largest value over the whole house.
 const LIMITS: [(&str, f64); 10] = [
     ("functions and types of one word, in percent", 45.0),
     ("types owned twice or more, in percent", 5.0),

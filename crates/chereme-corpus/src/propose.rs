@@ -66,7 +66,7 @@ pub struct ProposalResult {
     pub findings: Vec<String>,
 }
 
-/// The proposals that are accepted; what is empty or missing does not narrow them.
+/// The proposals that are accepted; an empty or missing field does not narrow them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProposalChoice {
     /// The tokens or the recording that they lie in.

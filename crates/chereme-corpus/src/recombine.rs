@@ -193,7 +193,7 @@ impl Corpus {
         })
     }
 
-    /// Returns the recordings of which a recipe takes something; none if it cannot be evaluated.
+    /// Returns the source recordings of a recipe; none if it cannot be evaluated.
     pub(crate) fn recipe_sources(&mut self, recipe: &str) -> CorpusResult<BTreeSet<i64>> {
         let mut sources = BTreeSet::new();
         if let Ok((resolved, ..)) = self.evaluate_recipe_text(recipe) {

@@ -72,12 +72,12 @@ pub struct SearchHit {
     /// Values by field, such as `initial.right.placement`; a list if there are several. A value that does not apply
     /// is `n/a`, an unclear one `unclear`.
     pub components: BTreeMap<String, Value>,
-    /// What detectors propose, and what is in dispute, if the query asks for it: none of it counts.
+    /// Proposals of detectors and disputed values, if the query asks for them: none of it counts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub opinions: Vec<HitOpinion>,
 }
 
-/// What is said of a token that was found, but does not count.
+/// A proposal or a disputed value of a token that was found; it does not count.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HitOpinion {
     /// The field, such as `right.configuration`.

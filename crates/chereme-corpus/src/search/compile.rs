@@ -411,7 +411,7 @@ fn plan_marked_property(
     Ok(QueryPlan::Index(IndexProbe::from_reading_terms(matching_terms)))
 }
 
-/// Returns the plan for the tokens of which annotators say something, or detectors.
+/// Returns the plan for the tokens with values by annotators or detectors.
 fn plan_annotators(ask: &QueryContext<'_>, is_meant: &dyn Fn(&str) -> bool) -> QueryResult<QueryPlan> {
     let tokens = search_answers::tokens_by_annotator(ask.connection, is_meant)?;
     let mut plans = vec![QueryPlan::Index(IndexProbe::Rows(RowField::Token, tokens))];

@@ -1,8 +1,8 @@
 //! The one reading of a token that counts, of all that annotators and detectors say.
 //!
 //! For each component and hand the annotations of one annotator are one reading. That of the adjudicated tier counts; else
-//! that of the corpus's preferred annotator; else, phase by phase, the value on which all agree. What is in dispute does not
-//! count, nor do proposals of detectors, but both are kept with the token as opinions.
+//! that of the corpus's preferred annotator; else, phase by phase, the value on which all agree. Disputed
+//! values and proposals of detectors do not count; the token keeps both as opinions.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ pub(super) struct AnnotatedGloss<'a> {
 /// A component or a feature of it, and the hand.
 type FieldKey<'a> = (SignComponent, Option<&'a str>, Option<HandRef>);
 
-/// What one annotator says about one component of one hand.
+/// The annotations by one annotator of one component of one hand.
 struct AnnotatorReading<'a> {
     annotator: Option<&'a str>,
     coded: Vec<&'a CodedAnnotation>,

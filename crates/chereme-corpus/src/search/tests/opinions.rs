@@ -1,4 +1,4 @@
-//! What is said of a token and does not count: proposals of detectors, and what annotators say differently.
+//! Opinions about a token: proposals of detectors, and what annotators say differently.
 
 use super::*;
 use crate::search::{HitOpinion, OpinionStanding};
@@ -12,7 +12,7 @@ struct Said<'a> {
     values: &'a [(i64, i64, &'a str)],
 }
 
-/// Returns a corpus with a recording of one sign, from 0 to 1 s, of which all this is said.
+/// Returns a corpus with a recording of one sign, from 0 to 1 s, with all these annotations.
 fn corpus_of_one_sign(all: &[Said<'_>]) -> Sample {
     let mut sample = Sample::new();
     let recording = sample.recording("take", "Anna", "right");
