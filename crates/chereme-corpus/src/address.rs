@@ -8,8 +8,9 @@ use chereme_sign::text::{fold_text, nearest_candidate};
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 
+use crate::db::lexicons::{self, LexiconRow};
 use crate::db::notations;
-use crate::db::signs::{self, TokenRow};
+use crate::db::signs::{self, SignByLexicon, TokenRow};
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
 use crate::error::{CorpusError, CorpusResult, MeantName};
 
@@ -156,15 +157,23 @@ pub(crate) fn find_addressed_token(connection: &Connection, address: &CorpusAddr
 }
 
 /// Returns the sign with exactly this gloss, otherwise the only one that differs from it in case and accents alone.
+///
+/// `NGT/BOOK` is the sign of that lexicon, unless a gloss is written so. A gloss that several lexicons have is an error
+/// with the candidates.
 pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> CorpusResult<i64> {
-    if let Some(id) = signs::find_sign(connection, gloss)? {
+    if let Some(id) = find_only_sign(connection, gloss)? {
         return Ok(id);
+    }
+    if let Some((lexicon, gloss)) = gloss.split_once('/')
+        && let Some(lexicon) = lexicons::find_lexicon(connection, lexicon.trim())?
+    {
+        return find_lexicon_entry(connection, &lexicon, gloss.trim());
     }
     let glosses = signs::list_all_glosses(connection)?;
     let folded = fold_text(gloss);
     let alike: Vec<&String> = glosses.iter().filter(|known| fold_text(known) == folded).collect();
     match alike.as_slice() {
-        [one] => Ok(signs::find_sign(connection, one)?.unwrap_or_default()),
+        [one] => Ok(find_only_sign(connection, one)?.unwrap_or_default()),
         [] => {
             let near = nearest_candidate(gloss, glosses.iter().map(String::as_str));
             if let Some(row) = stored_recordings::recording_named(connection, gloss)? {
@@ -173,18 +182,56 @@ pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> Corpus
                     .with_error_place(gloss)
                     .with_advice(format!("a recording has this name: write {address}")));
             }
-            Err(CorpusError::from_wrong_message(format!("no sign is called {gloss:?}"))
-                .with_error_place(gloss)
-                .with_meant_name(meant_name_slip(gloss, near))
-                .with_advice(ErrorRemedy::command_remedy(
-                    "`chereme list CORPUS signs` lists the glosses",
-                )))
+            Err(missing_sign_error(gloss, near))
         }
         several => Err(ambiguous_name_error(
             gloss,
             several.iter().map(|gloss| format!("sign:\"{gloss}\"")),
         )),
     }
+}
+
+/// Returns the sign with exactly this gloss, if there is one.
+///
+/// # Errors
+/// Fails if several lexicons have it.
+fn find_only_sign(connection: &Connection, gloss: &str) -> CorpusResult<Option<i64>> {
+    match signs::find_signs_of_gloss(connection, gloss)?.as_slice() {
+        [] => Ok(None),
+        [one] => Ok(Some(one.id)),
+        several => Err(ambiguous_name_error(gloss, lexicon_addresses(several, gloss))),
+    }
+}
+
+/// Returns the addresses that keep signs of one gloss apart; the one that belongs to no lexicon is known by its number.
+pub(crate) fn lexicon_addresses(signs: &[SignByLexicon], gloss: &str) -> impl Iterator<Item = String> {
+    signs.iter().map(move |sign| match &sign.lexicon {
+        Some(lexicon) => CorpusAddress::Sign(RowName::Text(format!("{lexicon}/{gloss}"))).to_string(),
+        None => format!("sign:{} (in no lexicon)", sign.id),
+    })
+}
+
+fn find_lexicon_entry(connection: &Connection, lexicon: &LexiconRow, gloss: &str) -> CorpusResult<i64> {
+    if let Some(id) = signs::find_sign(connection, Some(lexicon.id), gloss)? {
+        return Ok(id);
+    }
+    let glosses = signs::glosses_of_lexicon(connection, lexicon.id)?;
+    let folded = fold_text(gloss);
+    let mut alike = glosses.iter().filter(|known| fold_text(known) == folded);
+    if let (Some(one), None) = (alike.next(), alike.next()) {
+        return Ok(signs::find_sign(connection, Some(lexicon.id), one)?.unwrap_or_default());
+    }
+    let near = nearest_candidate(gloss, glosses.iter().map(String::as_str));
+    Err(missing_sign_error(gloss, near))
+}
+
+fn missing_sign_error(gloss: &str, near: Option<&str>) -> CorpusError {
+    CorpusError::from_wrong_message(format!("no sign is called {gloss:?}"))
+        .with_error_place(gloss)
+        .with_meant_name(meant_name_slip(gloss, near))
+        .with_advice(ErrorRemedy::command_remedy(
+            "`chereme list CORPUS signs` lists the glosses",
+        ))
 }
 
 fn citation(connection: &Connection, sign: i64, address: &CorpusAddress) -> CorpusResult<TokenRow> {

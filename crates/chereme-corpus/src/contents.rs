@@ -4,6 +4,7 @@
 use rusqlite::Connection;
 
 use crate::Corpus;
+use crate::db::lexicons::{self, LexiconRow};
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_contents as rows;
 use crate::db::stored_inventories::load_inventory_rows as inventory_rows;
@@ -28,6 +29,8 @@ pub struct CorpusOverview {
     pub recordings: Vec<RecordingGlance>,
     /// The signs, by gloss.
     pub signs: Vec<SignGlance>,
+    /// The lexicons, by name.
+    pub lexicons: Vec<LexiconRow>,
     /// The signers, by name.
     pub signers: Vec<SignerRow>,
     /// The inventories, oldest first.
@@ -98,6 +101,7 @@ impl Corpus {
             read_only: rows::is_read_only(&reading)?,
             recordings: with_faces(&reading, rows::load_recording_glances(&reading)?)?,
             signs: rows::load_sign_glances(&reading)?,
+            lexicons: lexicons::load_lexicon_rows(&reading)?,
             signers: stored_recordings::load_signer_rows(&reading)?,
             inventories: inventories
                 .into_iter()

@@ -331,7 +331,7 @@ impl DeletionPlan {
         for (sign, gloss) in affected {
             rows::cite_another(connection, sign)?;
             signs::delete_empty_sign(connection, sign)?;
-            if signs::find_sign(connection, &gloss)?.is_none() {
+            if sign_there(connection, sign).is_err() {
                 done.signs.push(gloss);
             }
         }

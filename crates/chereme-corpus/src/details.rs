@@ -6,6 +6,7 @@ use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
+use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::{ValueState, phase_name};
 use crate::db::stored_recordings::{self, RecordingRow};
@@ -73,6 +74,8 @@ pub struct SignDetails {
     pub id: i64,
     /// The gloss.
     pub gloss: String,
+    /// The lexicon to which it belongs, if it belongs to one.
+    pub lexicon: Option<String>,
     /// Remarks.
     pub notes: Option<String>,
     /// Translations, as language and text.
@@ -107,6 +110,8 @@ pub struct RecordingDetails {
     pub metres_per_unit: Option<f64>,
     /// The axes of its file.
     pub axes: Option<String>,
+    /// The lexicon in which the glosses of its tiers are looked up, if it is linked to one.
+    pub lexicon: Option<String>,
     /// The files that it came from: kind, name.
     pub files: Vec<(String, String)>,
     /// Its tracks of every kind, oldest first.
@@ -190,6 +195,7 @@ impl Corpus {
         Ok(SignDetails {
             id,
             gloss,
+            lexicon: lexicons::lexicon_name_of_sign(&reading, id)?,
             notes,
             texts: signs::list_sign_translations(&reading, id)?,
             tokens,
@@ -227,6 +233,7 @@ impl Corpus {
         let id = address::find_recording_by_name(&reading, recording)?.id;
         let mut details = RecordingDetails {
             id,
+            lexicon: lexicons::lexicon_name_of_recording(&reading, id)?,
             joints: 0,
             roles: Vec::new(),
             missing: Vec::new(),

@@ -7,6 +7,7 @@ use rusqlite::Connection;
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
 use crate::db::edits;
+use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::RecordOrigin;
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
@@ -157,7 +158,9 @@ impl Corpus {
                 Some(gloss) => require_trimmed_name(gloss, "sign")?,
                 None => old.clone(),
             };
-            if signs::find_sign(connection, &gloss)?.is_some_and(|other| other != id) {
+            if signs::find_sign(connection, lexicons::lexicon_of_sign(connection, id)?, &gloss)?
+                .is_some_and(|other| other != id)
+            {
                 return Err(taken("sign", &gloss));
             }
             apply_optional_change(&mut notes, change.notes.as_ref());
@@ -165,7 +168,7 @@ impl Corpus {
             let renamed = if gloss == old {
                 0
             } else {
-                edits::replace_gloss_values(connection, &old, &gloss)?
+                edits::replace_gloss_values(connection, id, &old, &gloss)?
             };
             for (language, text) in &change.add_texts {
                 signs::add_text(

@@ -14,6 +14,7 @@ use crate::Corpus;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
+use crate::lexicon::{LexiconScope, keep_scope_rows};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::suggest;
 
@@ -183,7 +184,7 @@ pub(crate) fn named_fields(fields: &[String]) -> Vec<String> {
 impl Corpus {
     /// Returns the forms of signs by some fields: the rows of the imported tables that have all of them as columns,
     /// otherwise the codings of citation forms by fields of queries; without fields by all that are coded. With `among`,
-    /// of these tokens alone.
+    /// of these tokens alone. The signs belong to the lexicons of `scope`.
     ///
     /// # Errors
     /// [`Error::Wrong`] if a field does not exist; [`Error::Stopped`].
@@ -191,11 +192,12 @@ impl Corpus {
         &self,
         fields: &[String],
         among: Option<&[TokenRow]>,
+        scope: &LexiconScope,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<SignForms> {
-        match of_tables(self.store.read_connection(), fields, among)? {
+        match of_tables(self.store.read_connection(), fields, among, scope)? {
             Some(forms) => Ok(forms),
-            None => of_codings(self, fields, among, progress),
+            None => of_codings(self, fields, among, scope, progress),
         }
     }
 
@@ -257,6 +259,7 @@ pub(crate) fn row_has_cells(table: &SignLexicon, row: &LexiconEntry, cells: &Map
 /// An entry of a table that the corpus still has.
 struct StandingEntry {
     gloss: String,
+    sign: i64,
     token: i64,
     cells: Map<String, Value>,
 }
@@ -281,6 +284,7 @@ fn load_standing_entries(connection: &Connection) -> CorpusResult<BTreeMap<Strin
             let entries = lines.entry(line).or_default();
             entries.push(StandingEntry {
                 gloss: token.gloss,
+                sign: token.sign_id,
                 token: token.id,
                 cells,
             });
@@ -310,6 +314,7 @@ fn of_tables(
     connection: &Connection,
     fields: &[String],
     among: Option<&[TokenRow]>,
+    scope: &LexiconScope,
 ) -> CorpusResult<Option<SignForms>> {
     if fields.is_empty() {
         return Ok(None);
@@ -348,15 +353,20 @@ fn of_tables(
         rows.extend(table.entries.iter().filter_map(|entry| {
             let standing = standing_entry(entries, &table, entry)?;
             let among = among.as_ref();
-            among.is_none_or(|ids| ids.contains(&standing.token)).then(|| SignForm {
-                gloss: standing.gloss.clone(),
-                cells: (places.iter()).map(|at| entry.cells[*at].trim().to_owned()).collect(),
-                line: Some(entry.line),
+            among.is_none_or(|ids| ids.contains(&standing.token)).then(|| {
+                let form = SignForm {
+                    gloss: standing.gloss.clone(),
+                    cells: (places.iter()).map(|at| entry.cells[*at].trim().to_owned()).collect(),
+                    line: Some(entry.line),
+                };
+                (standing.sign, form)
             })
         }));
     }
     if let Some(fields) = columns {
         let source = FormSource::Columns;
+        let rows = keep_scope_rows(connection, scope, rows, |(sign, _)| *sign)?;
+        let rows = rows.into_iter().map(|(_, form)| form).collect();
         return Ok(Some(SignForms { fields, rows, source }));
     }
     let title = |field: &&String| field.parse::<ComponentField>().is_err();
@@ -403,6 +413,7 @@ fn of_codings(
     corpus: &Corpus,
     fields: &[String],
     among: Option<&[TokenRow]>,
+    scope: &LexiconScope,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<SignForms> {
     let (tokens, source) = match among {
@@ -412,6 +423,8 @@ fn of_codings(
             FormSource::Citations,
         ),
     };
+    let connection = corpus.store.read_connection();
+    let tokens = keep_scope_rows(connection, scope, tokens, |token| token.sign_id)?;
     let all = tokens.len() as u64;
     let mut codings = Vec::new();
     for (done, token) in tokens.into_iter().enumerate() {

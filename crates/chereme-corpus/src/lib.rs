@@ -35,6 +35,7 @@ mod import;
 mod info;
 mod inventories;
 mod kinematics;
+mod lexicon;
 mod list;
 mod log;
 mod map;
@@ -129,6 +130,7 @@ pub use cued::{
     SlipKind, WorthRecording, read_marker_labels,
 };
 pub use db::file_identity::FileIdentity;
+pub use db::lexicons::{LexiconContents, LexiconRow};
 pub use db::signs::TokenRow;
 pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 pub use db::stored_delete::RecordingBelongings;
@@ -159,6 +161,7 @@ pub use import::{
 pub use info::{AttributeInfo, CorpusInfo, InventoryInfo, SignerInfo, TrackAmount};
 pub use inventories::StoredInventory;
 pub use kinematics::KinematicCurves;
+pub use lexicon::{LexiconChange, LexiconScope, LinkedRecordings};
 pub use list::{ListFilter, ListKind, ListedRows, cell_text, components_text};
 pub use log::{ChangeKind, ChangedRow, FieldChange, OperationDetail};
 pub use map::{MapOptions, MapPoint, SignMap};

@@ -475,7 +475,7 @@ mod tests {
                         &inventories::load_all_inventories(connection)?,
                     )?;
                 }
-                let sign = sign_rows::sign_glossed(connection, "BOL")?;
+                let sign = sign_rows::sign_of_annotation(connection, None, "BOL")?;
                 sign_rows::add_text(connection, sign, "en", "bowl")?;
                 sign_rows::add_text(connection, sign, "", "schaal")?;
                 Ok(((), String::new()))

@@ -13,11 +13,12 @@ use crate::db::stored_history::{self, RowChange};
 use crate::error::{CorpusError, CorpusResult};
 
 /// The tables that the user knows, each with the noun for a row and the column with its name.
-const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 13] = [
+const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 14] = [
     ("annotation", "annotation", "value"),
     ("tier", "tier", "name"),
     ("recording", "recording", "name"),
     ("signer", "signer", "name"),
+    ("lexicon", "lexicon", "name"),
     ("sign", "sign", "gloss"),
     ("sign_text", "translation", "text"),
     ("inventory", "inventory", "key"),

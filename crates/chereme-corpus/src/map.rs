@@ -14,6 +14,7 @@ use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::RecordOrigin;
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
+use crate::lexicon::{LexiconScope, keep_scope_rows};
 use crate::picture::write_svg;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::suggest::single_values;
@@ -25,6 +26,8 @@ pub struct MapOptions {
     pub components: Vec<SignComponent>,
     /// The tokens to place, as a query; the citation forms of all signs if `None`.
     pub query: Option<String>,
+    /// The lexicons whose signs are placed.
+    pub scope: LexiconScope,
 }
 
 /// A map of signs.
@@ -156,6 +159,8 @@ impl Corpus {
             None => signs::load_citation_tokens(self.store.read_connection())?,
             Some(query) => self.tokens_found(query, progress)?,
         };
+        let connection = self.store.read_connection();
+        let tokens = keep_scope_rows(connection, &options.scope, tokens, |token| token.sign_id)?;
         if tokens.len() > MAX_MAP_TOKENS {
             let text = format!(
                 "{} tokens are too many for a map of at most {MAX_MAP_TOKENS}",

@@ -9,7 +9,8 @@ use sha2::{Digest, Sha256};
 use crate::Corpus;
 use crate::error::{CorpusError, CorpusResult};
 use crate::forms::{EmptyCellTreatment, FormSource, SignForm, SignForms, named_fields, number_form_cells};
-use crate::progress::{ProgressReceiver, ignore_progress_step};
+use crate::lexicon::LexiconScope;
+use crate::progress::ProgressReceiver;
 
 /// The fields that are compared, and the treatment of empty cells.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -20,6 +21,10 @@ pub struct PairOptions {
     pub fields: Vec<String>,
     /// The treatment of an empty cell.
     pub empty: EmptyCellTreatment,
+    /// The tokens whose signs are compared, as a query; without it the citation forms.
+    pub query: Option<String>,
+    /// The lexicons whose signs are compared.
+    pub scope: LexiconScope,
 }
 
 /// The minimal pairs of a corpus.
@@ -92,11 +97,18 @@ impl Corpus {
     ///
     /// # Errors
     /// [`CorpusError::Wrong`] if a field does not exist, or there are more pairs than can be listed.
-    pub fn minimal_pairs(&self, options: &PairOptions) -> CorpusResult<MinimalPairs> {
-        let mut hear = ignore_progress_step;
-        let progress = &mut ProgressReceiver::new(&mut hear);
+    pub fn minimal_pairs(
+        &mut self,
+        options: &PairOptions,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<MinimalPairs> {
+        let tokens = match &options.query {
+            Some(query) => Some(self.tokens_found(query, progress)?),
+            None => None,
+        };
         let fields = named_fields(&options.fields);
-        find_minimal_pairs(self.load_sign_forms(&fields, None, progress)?, options.empty)
+        let forms = self.load_sign_forms(&fields, tokens.as_deref(), &options.scope, progress)?;
+        find_minimal_pairs(forms, options.empty)
     }
 }
 

@@ -543,6 +543,13 @@ fn missing_source_error(
     let parsed: Option<CorpusAddress> = address.parse().ok();
     let sign = match &parsed {
         Some(CorpusAddress::Gloss(gloss) | CorpusAddress::Sign(RowName::Text(gloss))) => {
+            let namesakes = signs::find_signs_of_gloss(sources.connection, gloss).unwrap_or_default();
+            if namesakes.len() > 1 {
+                return SourceError::Ambiguous {
+                    address: address_text,
+                    candidates: address::lexicon_addresses(&namesakes, gloss).collect(),
+                };
+            }
             address::find_sign_by_gloss(sources.connection, gloss).ok()
         }
         _ => None,

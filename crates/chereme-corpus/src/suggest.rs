@@ -69,12 +69,13 @@ impl Corpus {
     /// Returns suggestions for new signs from a token: signs of the corpus whose codings differ in one component, with
     /// a recipe if there is one, and values that no sign combines with the rest.
     ///
-    /// Only citation forms are compared. A field that only one of the two is coded for matches nothing: such a sign is
+    /// Only citation forms are compared, of the token's lexicon and of signs that belong to none; with `across` those of
+    /// all lexicons. A field that only one of the two is coded for matches nothing: such a sign is
     /// a possible partner.
     ///
     /// # Errors
     /// Fails if nothing has that address, or if the token has no coding.
-    pub fn suggest_new_signs(&self, address: &CorpusAddress) -> CorpusResult<SignSuggestions> {
+    pub fn suggest_new_signs(&self, address: &CorpusAddress, across: bool) -> CorpusResult<SignSuggestions> {
         let connection = self.store.read_connection();
         let token = address::find_addressed_token(connection, address)?;
         let token_coding = coding_from_rows(
@@ -94,8 +95,11 @@ impl Corpus {
         }
         let (mut partners, mut possible) = (Vec::new(), Vec::new());
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        let of_signs = signs::lexicons_of_signs(connection)?;
+        let lexicon = of_signs.get(&token.sign_id);
         for other in signs::load_citation_tokens(connection)? {
-            if other.sign_id == token.sign_id {
+            let is_elsewhere = |other_lexicon| lexicon.is_some_and(|lexicon| lexicon != other_lexicon);
+            if other.sign_id == token.sign_id || !across && of_signs.get(&other.sign_id).is_some_and(is_elsewhere) {
                 continue;
             }
             let theirs = coding_from_rows(
@@ -143,7 +147,16 @@ impl Corpus {
     /// Returns the values of a token by field.
     pub(crate) fn coding_of(&self, token: &TokenRow) -> CorpusResult<BTreeMap<String, String>> {
         let values = signs::load_token_values(self.store.read_connection(), token.id)?;
-        Ok(coding_from_rows(&values, self.token_handedness(token)?))
+        self.coding_from_values(token, &values)
+    }
+
+    /// Returns values by field, with the hands as the token's signer uses them.
+    pub(crate) fn coding_from_values(
+        &self,
+        token: &TokenRow,
+        values: &[TokenValueRow],
+    ) -> CorpusResult<BTreeMap<String, String>> {
+        Ok(coding_from_rows(values, self.token_handedness(token)?))
     }
 
     fn token_handedness(&self, token: &TokenRow) -> CorpusResult<SignerHandedness> {

@@ -11,6 +11,7 @@ use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, Sig
 use rusqlite::Connection;
 
 use crate::Corpus;
+use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_merge;
@@ -99,11 +100,12 @@ pub(crate) fn derive_with_progress(
         .into_iter()
         .filter_map(|token| Some((token.annotation_id?, token)))
         .collect();
+    let lexicon = lexicons::lexicon_of_recording(connection, recording.id)?;
     let glosses = by_time.glosses.iter().filter(|gloss| by_time.is_gloss_within(gloss));
     for (done, gloss) in glosses.enumerate() {
         report_token_step(progress, done)?;
         let old = standing.remove(&gloss.row.id);
-        let token = write_token(connection, &recording, gloss, old)?;
+        let token = write_token(connection, &recording, lexicon, gloss, old)?;
         signs::set_values(connection, token, &by_time.gloss_token_values(gloss))?;
     }
     for token in standing.into_values() {
@@ -129,10 +131,11 @@ fn report_token_step(progress: &mut ProgressReceiver<'_>, done: usize) -> Corpus
 fn write_token(
     connection: &Connection,
     recording: &RecordingRow,
+    lexicon: Option<i64>,
     gloss: &GlossAnnotation,
     old: Option<TokenRow>,
 ) -> CorpusResult<i64> {
-    let sign_id = signs::sign_glossed(connection, gloss.row.value.trim())?;
+    let sign_id = signs::sign_of_annotation(connection, lexicon, gloss.row.value.trim())?;
     let mut token = old.clone().unwrap_or_else(|| TokenRow {
         recording_id: Some(recording.id),
         annotation_id: Some(gloss.row.id),

@@ -15,6 +15,7 @@ line-command-import-joints-unit-axes-up-left = { $n } joints, { $rate }, unit { 
 message-command-import-track-points-frames-unit-axes-up = track { $name }: { $n } points, { $all } frames, { $rate }, unit { $unit }, axes up,left = { $axes }
 message-command-import-track-points-frames = track { $name }: { $n } points, { $all } frames, { $rate }
 message-command-import-track-curves-frames = track { $name }: { $n } curves, { $all } frames, { $rate }
+line-command-import-lexicon = lexicon { $name }
 line-command-import-column = column { $name }: { $meaning }
 message-command-import-updated-recording = { $file }: updated -> recording { $name }
 message-command-import-updated = { $file }: updated

@@ -47,6 +47,15 @@ history-rename-sign = Sign { $former } renamed to { $sign }, in { $annotations -
    *[other] { $annotations } annotations
 }
 history-set-citation = Citation form: token:{ $token } for { $gloss }
+history-change-lexicon = Lexicon changed: { $lexicon }
+history-link-lexicon = Glosses of { $recordings ->
+    [one] { $recordings } recording
+   *[other] { $recordings } recordings
+} looked up in the lexicon { $lexicon }
+history-unlink-lexicon = Glosses of { $recordings ->
+    [one] { $recordings } recording
+   *[other] { $recordings } recordings
+} looked up in no lexicon
 history-transcribe = Transcribed: token:{ $token } { $gloss }
 history-add-tracks = Tracks added to { $recording }: { $tracks }
 history-change-track = Track { $track } of { $recording } { $change ->
@@ -119,6 +128,9 @@ history-summary-only-merge-values = Values merged: { $summary }
 history-summary-only-rename-search = Search renamed: { $summary }
 history-summary-only-change-sign = Sign changed: { $summary }
 history-summary-only-set-citation = Citation form: { $summary }
+history-summary-only-change-lexicon = Lexicon changed: { $summary }
+history-summary-only-link-lexicon = Glosses looked up in a lexicon: { $summary }
+history-summary-only-unlink-lexicon = Glosses looked up in no lexicon: { $summary }
 history-summary-only-transcribe = Transcribed: { $summary }
 history-summary-only-add-tracks = Tracks added: { $summary }
 history-summary-only-change-track = Track changed: { $summary }

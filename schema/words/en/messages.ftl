@@ -146,3 +146,15 @@ message-messages-pace = the pace is { $n }
 message-messages-pace-from-0-1-10-1 = a pace from 0.1 to 10; 1.6 is usual for people who cue
 message-messages-no-duration-in-milliseconds = { $label }: { $text } is no duration in milliseconds
 message-messages-write-for-example-120-from-1 = write for example a=120: from 1 to 60000
+message-messages-another-lexicon-called = another lexicon is called { $name }
+message-messages-no-lexicon-called = no lexicon is called { $name }
+message-messages-no-lexicon-called-did-you-mean = no lexicon is called { $name }; did you mean { $near }?
+message-messages-lexicons-are = the lexicons are: { $list }
+message-messages-no-name-of-lexicon = { $name } cannot be the name of a lexicon
+message-messages-name-without-stroke = write a name without /, such as NGT; a sign is then NGT/BOOK
+message-messages-no-code-of-sign-language = { $code } is no code of a sign language
+message-messages-three-letters = write the three letters of ISO 639-3: ase for American, dse for Dutch, fsl for French, gsg for German Sign Language
+message-messages-several-lexicons = these signs belong to several lexicons: { $list }
+message-messages-choose-lexicon = choose one with --lexicon NAME, or take all of them as one with --across
+message-messages-glosses-of-no-lexicon = its glosses belong to none of the lexicons, since the corpus has several: { $list }
+message-messages-link-to-lexicon = `chereme lexicon CORPUS link { $name } recording:{ $recording }` looks them up in that lexicon

@@ -112,6 +112,10 @@ noun-signers = { $count ->
     [one] signer
    *[other] signers
 }
+noun-lexicons = { $count ->
+    [one] lexicon
+   *[other] lexicons
+}
 noun-signs = { $count ->
     [one] sign
    *[other] signs

@@ -15,6 +15,7 @@ line-command-import-joints-unit-axes-up-left = { $n } articulations, { $rate }, 
 message-command-import-track-points-frames-unit-axes-up = piste { $name } : { $n } points, { $all } images, { $rate }, unité { $unit }, axes haut,gauche = { $axes }
 message-command-import-track-points-frames = piste { $name } : { $n } points, { $all } images, { $rate }
 message-command-import-track-curves-frames = piste { $name } : { $n } courbes, { $all } images, { $rate }
+line-command-import-lexicon = lexique { $name }
 line-command-import-column = colonne { $name } : { $meaning }
 message-command-import-updated-recording = { $file } : mis à jour -> enregistrement { $name }
 message-command-import-updated = { $file } : mis à jour

@@ -47,6 +47,15 @@ history-rename-sign = Signe { $former } renommé en { $sign }, dans { $annotatio
    *[other] { $annotations } annotations
 }
 history-set-citation = Forme de citation : token:{ $token } pour { $gloss }
+history-change-lexicon = Lexique modifié : { $lexicon }
+history-link-lexicon = Gloses de { $recordings ->
+    [one] { $recordings } enregistrement
+   *[other] { $recordings } enregistrements
+} cherchées dans le lexique { $lexicon }
+history-unlink-lexicon = Gloses de { $recordings ->
+    [one] { $recordings } enregistrement
+   *[other] { $recordings } enregistrements
+} cherchées dans aucun lexique
 history-transcribe = Transcrit : token:{ $token } { $gloss }
 history-add-tracks = Pistes ajoutées à { $recording } : { $tracks }
 history-change-track = Piste { $track } de { $recording } { $change ->
@@ -119,6 +128,9 @@ history-summary-only-merge-values = Valeurs fusionnées : { $summary }
 history-summary-only-rename-search = Recherche renommée : { $summary }
 history-summary-only-change-sign = Signe modifié : { $summary }
 history-summary-only-set-citation = Forme de citation : { $summary }
+history-summary-only-change-lexicon = Lexique modifié : { $summary }
+history-summary-only-link-lexicon = Gloses cherchées dans un lexique : { $summary }
+history-summary-only-unlink-lexicon = Gloses cherchées dans aucun lexique : { $summary }
 history-summary-only-transcribe = Transcrit : { $summary }
 history-summary-only-add-tracks = Pistes ajoutées : { $summary }
 history-summary-only-change-track = Piste modifiée : { $summary }

@@ -146,3 +146,15 @@ message-messages-pace = l’allure est { $n }
 message-messages-pace-from-0-1-10-1 = une allure de 0,1 à 10 ; 1,6 est l’allure habituelle de qui code
 message-messages-no-duration-in-milliseconds = { $label } : { $text } n’est pas une durée en millisecondes
 message-messages-write-for-example-120-from-1 = écrivez par exemple a=120 : de 1 à 60000
+message-messages-another-lexicon-called = un autre lexique s’appelle { $name }
+message-messages-no-lexicon-called = aucun lexique ne s’appelle { $name }
+message-messages-no-lexicon-called-did-you-mean = aucun lexique ne s’appelle { $name } ; vouliez-vous dire { $near } ?
+message-messages-lexicons-are = les lexiques sont : { $list }
+message-messages-no-name-of-lexicon = { $name } ne peut pas être le nom d’un lexique
+message-messages-name-without-stroke = écrivez un nom sans /, comme NGT ; un signe est alors NGT/BOOK
+message-messages-no-code-of-sign-language = { $code } n’est pas le code d’une langue des signes
+message-messages-three-letters = écrivez les trois lettres de l’ISO 639-3 : ase pour la langue des signes américaine, dse pour la néerlandaise, fsl pour la française, gsg pour l’allemande
+message-messages-several-lexicons = ces signes appartiennent à plusieurs lexiques : { $list }
+message-messages-choose-lexicon = choisissez-en un avec --lexicon NOM, ou prenez-les tous comme un seul avec --across
+message-messages-glosses-of-no-lexicon = ses gloses n’appartiennent à aucun des lexiques, car le corpus en a plusieurs : { $list }
+message-messages-link-to-lexicon = `chereme lexicon CORPUS link { $name } recording:{ $recording }` les cherche dans ce lexique

@@ -112,6 +112,10 @@ noun-signers = { $count ->
     [one] signeur
    *[other] signeurs
 }
+noun-lexicons = { $count ->
+    [one] lexique
+   *[other] lexiques
+}
 noun-signs = { $count ->
     [one] signe
    *[other] signes

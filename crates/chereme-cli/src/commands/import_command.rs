@@ -79,6 +79,13 @@ pub(crate) struct ImportArgs {
     /// The terms under which the recordings may be used
     #[arg(long, value_name = "TEXT")]
     licence: Option<String>,
+    /// The lexicon to which the signs of tables and notation belong; without it a table is one of its own, and notation
+    /// belongs to the only one of the corpus
+    #[arg(long, value_name = "NAME")]
+    lexicon: Option<String>,
+    /// The sign language of that lexicon, as a code of ISO 639-3 such as dse
+    #[arg(long, value_name = "CODE", requires = "lexicon")]
+    sign_language: Option<String>,
     /// The recording for all tracks and tiers of the files, instead of the one with the files' name
     #[arg(long, value_name = "RECORDING", value_parser = super::track_command::parse_recording_address)]
     into: Option<chereme_corpus::RowName>,
@@ -280,6 +287,8 @@ fn import_options(args: &ImportArgs) -> Result<ImportOptions> {
         mapping: mapping.transpose()?.unwrap_or_default(),
         origin: args.origin.map(origin),
         licence: args.licence.clone(),
+        lexicon: args.lexicon.clone(),
+        sign_language: args.sign_language.clone(),
         own_edits: match (args.merge, args.theirs, args.mine) {
             (true, _, _) => OwnEdits::Merge,
             (_, true, _) => OwnEdits::Theirs,
@@ -419,6 +428,9 @@ fn print_file(file: &FileReport, output: &mut CommandOutput) -> Result<()> {
         let role_text = topic.unwrap_or_else(|| "not known".to_owned());
         let role = output.translate_message(&role_text);
         output.filled_line("  tier {name}: {role}", &[&guess.tier, &role])?;
+    }
+    if let Some(lexicon) = &file.understood.lexicon {
+        output.filled_line("  lexicon {name}", &[lexicon])?;
     }
     for column in file.understood.columns.iter().flatten() {
         output.filled_line(

@@ -8,6 +8,7 @@ use chereme_corpus::{MapOptions, ProgressReceiver, ProgressStep};
 use chereme_sign::SignComponent;
 use serde_json::json;
 
+use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
 use crate::streams;
@@ -24,6 +25,8 @@ pub(crate) struct MapArgs {
     corpus: PathBuf,
     /// The tokens to place, as in `chereme search`
     query: Vec<String>,
+    #[command(flatten)]
+    scope: LexiconScopeArgs,
     /// The components that count: configuration, placement, movement, orientation, nonmanual
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     by: Vec<SignComponent>,
@@ -40,6 +43,7 @@ pub(super) fn run(cli: &CommandLine, args: &MapArgs, output: &mut CommandOutput)
     let options = MapOptions {
         components: args.by.clone(),
         query: (!args.query.is_empty()).then(|| args.query.join(" ")),
+        scope: args.scope.lexicon_scope(),
     };
     let mut bar = CommandProgressBar::new();
     let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);

@@ -20,6 +20,7 @@ mod history_command;
 mod import_command;
 mod inventory_command;
 mod keys_command;
+mod lexicon_command;
 mod list_command;
 mod map_command;
 mod merge_command;
@@ -80,6 +81,7 @@ commands! {
     Annotate => annotate::run(AnnotateArgs);
     Delete => delete_command::run(DeleteArgs);
     Forget => forget_command::run(ForgetArgs);
+    Lexicon => lexicon_command::run(LexiconArgs);
     Inventory => inventory_command::run(InventoryArgs);
     Track => track_command::run(TrackArgs);
     Fit => fit_command::run(FitArgs);

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{EmptyCellTreatment, PairOptions};
+use chereme_corpus::{EmptyCellTreatment, PairOptions, ProgressReceiver, ProgressStep};
 use clap::ValueEnum;
 use serde_json::json;
 
+use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
-use crate::output::CommandOutput;
+use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Count the minimal pairs of a lexicon
 ///
@@ -19,6 +20,10 @@ use crate::output::CommandOutput;
 pub(crate) struct PairsArgs {
     /// The corpus
     corpus: PathBuf,
+    /// The tokens whose signs are compared, as in `chereme search`; without it the citation forms
+    query: Vec<String>,
+    #[command(flatten)]
+    scope: LexiconScopeArgs,
     /// The fields to compare, separated by commas, or a set of Signbank's columns: S13, F8, F7, F5, C3
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     fields: Vec<String>,
@@ -49,11 +54,17 @@ impl From<EmptyWord> for EmptyCellTreatment {
 }
 
 pub(super) fn run(cli: &CommandLine, args: &PairsArgs, output: &mut CommandOutput) -> Result<()> {
-    let corpus = cli.open_cli_corpus(&args.corpus)?;
-    let pair_report = corpus.minimal_pairs(&PairOptions {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    let options = PairOptions {
         fields: args.fields.clone(),
         empty: args.empty.into(),
-    })?;
+        query: (!args.query.is_empty()).then(|| args.query.join(" ")),
+        scope: args.scope.lexicon_scope(),
+    };
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let pair_report = corpus.minimal_pairs(&options, &mut ProgressReceiver::new(&mut hear))?;
+    drop(bar);
     output.filled_line(
         "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both \
          values are given",

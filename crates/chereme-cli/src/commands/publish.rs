@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::{LeftOutSigns, ProgressReceiver, ProgressStep, PublishOptions};
 
+use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
 
@@ -46,6 +47,8 @@ pub(crate) struct PublishArgs {
     corpus: PathBuf,
     /// The signs, as a query for their tokens as in `chereme search`; all signs without it
     query: Vec<String>,
+    #[command(flatten)]
+    scope: LexiconScopeArgs,
     /// The folder to write
     #[arg(long, value_name = "FOLDER")]
     to: PathBuf,
@@ -70,6 +73,7 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = PublishOptions {
         query: (!args.query.is_empty()).then(|| args.query.join(" ")),
+        scope: args.scope.lexicon_scope(),
         title: args.title.clone(),
         terms: args.terms.clone(),
         contact: args.contact.clone(),

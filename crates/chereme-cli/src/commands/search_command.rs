@@ -1,5 +1,6 @@
 //! `chereme search`: finds the tokens that answer a query, counts them, and saves queries.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -143,7 +144,15 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
     if let Some(name) = &args.keep {
         answer.notes.push(save_named_query(&mut corpus, args, name, query)?);
     }
-    let rows: Vec<Vec<String>> = answer.hits.iter().map(search_hit_cells).collect();
+    let rows: Vec<Vec<String>> = {
+        let lexicons: BTreeSet<&String> = answer.hits.iter().filter_map(|hit| hit.lexicon.as_ref()).collect();
+        let has_several = lexicons.len() > 1;
+        answer
+            .hits
+            .iter()
+            .map(|hit| search_hit_cells(hit, has_several))
+            .collect()
+    };
     if !rows.is_empty() {
         output.write_titled_table(
             &["token", "gloss", "recording", "start", "length", "origin", "components"],
@@ -257,12 +266,14 @@ fn save_named_query(corpus: &mut Corpus, args: &SearchArgs, name: &str, query: S
     Ok(message)
 }
 
-fn search_hit_cells(hit: &SearchHit) -> Vec<String> {
+/// Returns the cells of a hit; with `names_lexicon` its gloss is that of a lexicon: `NGT/BOOK`.
+fn search_hit_cells(hit: &SearchHit, names_lexicon: bool) -> Vec<String> {
+    let lexicon = hit.lexicon.as_ref().filter(|_| names_lexicon);
     let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
     let length = hit.start_us.zip(hit.end_us).map(|(start, end)| seconds(end - start));
     vec![
         hit.token.to_string(),
-        hit.gloss.clone(),
+        lexicon.map_or_else(|| hit.gloss.clone(), |lexicon| format!("{lexicon}/{}", hit.gloss)),
         hit.recording.clone().unwrap_or_default(),
         hit.start_us.map(seconds).unwrap_or_default(),
         length.unwrap_or_default(),

@@ -9,6 +9,7 @@ use chereme_corpus::{
     LexiconStatistics, ProgressReceiver, ProgressStep, StatsEstimate, StatsFinding, StatsOptions,
 };
 
+use super::lexicon_command::LexiconScopeArgs;
 use super::pairs_command::EmptyWord;
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -49,6 +50,8 @@ pub(crate) struct StatsArgs {
     corpus: PathBuf,
     /// The tokens to count, as in `chereme search`
     query: Vec<String>,
+    #[command(flatten)]
+    scope: LexiconScopeArgs,
     /// The fields to compare, separated by commas, or a set of Signbank's columns: S13, F8, F7, F5, C3
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     fields: Vec<String>,
@@ -90,6 +93,7 @@ impl StatsArgs {
             fields: self.fields.clone(),
             empty: EmptyCellTreatment::from(self.empty),
             query: (!self.query.is_empty()).then(|| self.query.join(" ")),
+            scope: self.scope.lexicon_scope(),
             of: self.of.clone(),
             between: self.between.clone().try_into().ok(),
             battison: self.battison,

@@ -18,6 +18,9 @@ pub(crate) struct SuggestArgs {
     corpus: PathBuf,
     /// The sign: a gloss or token:41
     token: String,
+    /// Compare it with the signs of other lexicons, too
+    #[arg(long)]
+    across: bool,
 }
 
 /// The number of possible partners that are shown.
@@ -25,7 +28,7 @@ const MOST_POSSIBLE: usize = 20;
 
 pub(super) fn run(cli: &CommandLine, args: &SuggestArgs, output: &mut CommandOutput) -> Result<()> {
     let corpus = cli.open_cli_corpus(&args.corpus)?;
-    let suggestion = corpus.suggest_new_signs(&args.token.parse()?)?;
+    let suggestion = corpus.suggest_new_signs(&args.token.parse()?, args.across)?;
     let coding: Vec<String> = suggestion
         .coding
         .iter()

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::{ConsentAudience, ConsentKind, PersonConsent, consent_row, kept_movement, unnamed};
 use crate::RecordOrigin;
 use crate::db::stored_recordings::RecordingRow;
-use crate::db::{consents, stored_recordings};
+use crate::db::{consents, lexicons, stored_recordings};
 use crate::error::CorpusResult;
 use crate::merge;
 use crate::sources::sources_notation::OWN_BODY;
@@ -82,6 +82,8 @@ pub(crate) struct PublishPermissions {
     personal: BTreeSet<i64>,
     /// Terms of what has none of its own and shows nobody.
     terms: Option<String>,
+    /// The terms of lexicons, by name.
+    lexicon_terms: BTreeMap<String, String>,
     /// Who is to see what is passed on.
     audience: ConsentAudience,
 }
@@ -138,6 +140,10 @@ impl PublishPermissions {
             inputs,
             kept_sources: BTreeMap::new(),
             personal: BTreeSet::new(),
+            lexicon_terms: lexicons::load_lexicon_rows(connection)?
+                .into_iter()
+                .filter_map(|row| Some((row.name, row.terms?)))
+                .collect(),
             terms: terms.map(str::to_owned),
             audience,
         };
@@ -233,10 +239,15 @@ impl PublishPermissions {
         stated.map_or_else(StatedAudience::default, |by_kind| by_kind[kind as usize])
     }
 
-    /// Returns the terms under which an entry of a table may be published.
-    pub(crate) fn of_entry(&self) -> std::result::Result<BTreeSet<String>, WithheldReason> {
-        let terms = self.terms.clone().ok_or(WithheldReason::NoTerms)?;
-        Ok(BTreeSet::from([terms]))
+    /// Returns the terms under which an entry of a table may be published: those of its lexicon, else those that hold
+    /// for what has none of its own.
+    pub(crate) fn entry_publish_terms(
+        &self,
+        lexicon: Option<&str>,
+    ) -> std::result::Result<BTreeSet<String>, WithheldReason> {
+        let of_lexicon = lexicon.and_then(|name| self.lexicon_terms.get(name));
+        let terms = of_lexicon.or(self.terms.as_ref()).ok_or(WithheldReason::NoTerms)?;
+        Ok(BTreeSet::from([terms.clone()]))
     }
 
     /// Returns the terms under which a recording may be published, those of all its inputs included.
@@ -283,7 +294,9 @@ impl PublishPermissions {
                 }
                 // A sign made from others has their terms.
                 None if from_others => {}
-                None if !self.personal.contains(&contributor) => terms.extend(self.of_entry().map_err(withheld)?),
+                None if !self.personal.contains(&contributor) => {
+                    terms.extend(self.entry_publish_terms(None).map_err(withheld)?);
+                }
                 None => return Err(withheld(WithheldReason::NoTerms)),
             }
             if contributor != recording && licence.is_some_and(forbids_derivatives) {

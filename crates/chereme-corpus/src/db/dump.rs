@@ -11,8 +11,9 @@ use super::{open, seals, stored_delete, stored_search};
 use crate::error::{CorpusError, CorpusResult};
 
 /// The tables that a reader of the data needs, each after those it refers to.
-pub(crate) const DUMPED_TABLES: [&str; 27] = [
+pub(crate) const DUMPED_TABLES: [&str; 28] = [
     "meta",
+    "lexicon",
     "signer",
     "skeleton",
     "recording",

@@ -48,16 +48,17 @@ pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> CorpusRe
     Ok(deleted)
 }
 
-/// Replaces the value `old` by `new` on all gloss tiers, and returns the number of changed annotations.
-pub(crate) fn replace_gloss_values(connection: &Connection, old: &str, new: &str) -> CorpusResult<usize> {
+/// Replaces the value `old` by `new` in the annotations that realise a sign, and returns the number of changed
+/// annotations.
+pub(crate) fn replace_gloss_values(connection: &Connection, sign: i64, old: &str, new: &str) -> CorpusResult<usize> {
     let changed = connection
         .prepare_cached(
             "UPDATE annotation SET value = ?2, origin = 'human', confidence = NULL,
                  source = json_set(source, '$.entry', NULL)
              WHERE state = 'value' AND trim(value) = ?1
-               AND tier_id IN (SELECT id FROM tier WHERE role = 'gloss')",
+               AND id IN (SELECT annotation_id FROM token WHERE sign_id = ?3)",
         )?
-        .execute([old, new])?;
+        .execute(params![old, new, sign])?;
     Ok(changed)
 }
 

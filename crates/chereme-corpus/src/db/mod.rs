@@ -7,6 +7,7 @@ pub(crate) mod consents;
 pub(crate) mod dump;
 pub(crate) mod edits;
 pub(crate) mod file_identity;
+pub(crate) mod lexicons;
 pub(crate) mod notations;
 mod open;
 pub(crate) mod recipes;

@@ -19,7 +19,7 @@ use crate::error::{CorpusError, CorpusResult};
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const SCHEMA_STEPS_SQL: [&str; 13] = [
+const SCHEMA_STEPS_SQL: [&str; 14] = [
     chereme_data::schema_text("sql/0001_corpus.sql"),
     chereme_data::schema_text("sql/0002_notation.sql"),
     chereme_data::schema_text("sql/0003_kept_search.sql"),
@@ -33,10 +33,14 @@ const SCHEMA_STEPS_SQL: [&str; 13] = [
     chereme_data::schema_text("sql/0011_consent.sql"),
     chereme_data::schema_text("sql/0012_checksums.sql"),
     chereme_data::schema_text("sql/0013_effect.sql"),
+    chereme_data::schema_text("sql/0014_lexicon.sql"),
 ];
 
 /// The first version whose operations hold their effects, and not only a summary.
 const EFFECTS_STORED_FROM: i32 = 13;
+
+/// The first version whose signs belong to lexicons.
+const LEXICONS_SINCE: i32 = 14;
 
 /// The schema version that this code writes.
 pub(crate) const SCHEMA_VERSION: i32 = SCHEMA_STEPS_SQL.len() as i32;
@@ -414,6 +418,9 @@ fn take_steps(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Cor
         upgrade::read_old_summaries(&transaction)?;
         // An index of version 12 has no seal of its own; the next search builds it again.
         super::stored_search::delete_files(&transaction)?;
+    }
+    if version < LEXICONS_SINCE && version > 0 {
+        upgrade::give_signs_lexicons(&transaction)?;
     }
     upgrade::rewrite_json_rules(&transaction)?;
     stored_roles::add_missing(&transaction)?;

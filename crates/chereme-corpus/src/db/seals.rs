@@ -282,7 +282,7 @@ const OF_RECORDINGS: [(&str, &str); 9] = [
 ];
 
 /// What is written of tokens, by table; `?1` holds their numbers as JSON.
-const OF_TOKENS: [(&str, &str); 7] = [
+const OF_TOKENS: [(&str, &str); 8] = [
     ("token", "SELECT value AS id FROM json_each(?1)"),
     (
         "recording",
@@ -291,6 +291,11 @@ const OF_TOKENS: [(&str, &str); 7] = [
     (
         "sign",
         "SELECT sign_id AS id FROM token WHERE id IN (SELECT value FROM json_each(?1))",
+    ),
+    (
+        "lexicon",
+        "SELECT lexicon_id AS id FROM sign WHERE id IN (
+             SELECT sign_id FROM token WHERE id IN (SELECT value FROM json_each(?1)))",
     ),
     (
         "sign_text",

@@ -40,6 +40,9 @@ pub struct TokenRow {
     pub sign_id: i64,
     /// The sign's gloss.
     pub gloss: String,
+    /// The name of the lexicon to which the sign belongs, if it belongs to one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lexicon: Option<String>,
     /// The recording's row; a lexicon entry has none.
     pub recording_id: Option<i64>,
     /// The recording's name.
@@ -97,37 +100,137 @@ impl TokenValueRow {
     }
 }
 
-/// Returns the row of the sign with this gloss; inserts it if it is missing.
-pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> CorpusResult<i64> {
-    if let Some(id) = find_sign(connection, gloss)? {
+/// Returns the sign that an annotation with this gloss realises: the entry of the recording's lexicon, otherwise the sign
+/// that belongs to no lexicon; inserts that one if it is missing.
+pub(crate) fn sign_of_annotation(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<i64> {
+    if lexicon.is_some()
+        && let Some(id) = find_sign(connection, lexicon, gloss)?
+    {
         return Ok(id);
     }
+    match find_sign(connection, None, gloss)? {
+        Some(id) => Ok(id),
+        None => insert_sign(connection, None, gloss),
+    }
+}
+
+/// A sign to which an import adds an entry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct EnteredSign {
+    /// The row.
+    pub id: i64,
+    /// Whether neither the lexicon nor an annotation had it.
+    pub is_new: bool,
+}
+
+/// Returns the entry of a lexicon with this gloss, or without a lexicon the sign that belongs to none; inserts it if it
+/// is missing.
+///
+/// Tokens that were annotated before the lexicon had the entry become its tokens, as far as their recordings are linked
+/// to the lexicon.
+pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<EnteredSign> {
+    if let Some(id) = find_sign(connection, lexicon, gloss)? {
+        return Ok(EnteredSign { id, is_new: false });
+    }
+    let loose = match lexicon {
+        Some(_) => find_sign(connection, None, gloss)?,
+        None => None,
+    };
+    let Some((lexicon, loose)) = lexicon.zip(loose) else {
+        let id = insert_sign(connection, lexicon, gloss)?;
+        return Ok(EnteredSign { id, is_new: true });
+    };
+    let is_linked = "coalesce((SELECT r.lexicon_id FROM recording r WHERE r.id = t.recording_id),
+        (SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon)) IS ?2";
+    let others: bool = connection
+        .prepare_cached(&format!(
+            "SELECT EXISTS (SELECT 1 FROM token t WHERE t.sign_id = ?1 AND NOT ({is_linked}))"
+        ))?
+        .query_row([loose, lexicon], |row| row.get(0))?;
+    if !others {
+        connection
+            .prepare_cached("UPDATE sign SET lexicon_id = ?2 WHERE id = ?1")?
+            .execute([loose, lexicon])?;
+        return Ok(EnteredSign {
+            id: loose,
+            is_new: false,
+        });
+    }
+    let id = insert_sign(connection, Some(lexicon), gloss)?;
+    let moved = connection
+        .prepare_cached(&format!(
+            "UPDATE token AS t SET sign_id = ?3 WHERE t.sign_id = ?1 AND {is_linked}"
+        ))?
+        .execute([loose, lexicon, id])?;
+    if moved > 0 {
+        super::stored_delete::cite_another(connection, loose)?;
+        super::stored_delete::cite_another(connection, id)?;
+    }
+    Ok(EnteredSign { id, is_new: true })
+}
+
+fn insert_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<i64> {
     let place = || format!("sign {:?}", gloss.chars().take(40).collect::<String>());
     stored_tiers::check_text(place, gloss)?;
     connection
-        .prepare_cached("INSERT INTO sign (gloss) VALUES (?1)")?
-        .execute([gloss])?;
+        .prepare_cached("INSERT INTO sign (lexicon_id, gloss) VALUES (?1, ?2)")?
+        .execute(params![lexicon, gloss])?;
     Ok(connection.last_insert_rowid())
 }
 
-/// Returns the row of the sign with exactly this gloss, or with a gloss that differs only by the characters in which a
-/// program stores accents.
-pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> CorpusResult<Option<i64>> {
-    let find = |gloss: &str| -> CorpusResult<Option<i64>> {
-        let mut statement = connection.prepare_cached("SELECT id FROM sign WHERE gloss = ?1")?;
-        Ok(statement.query_row([gloss], |row| row.get(0)).optional()?)
-    };
-    if let Some(id) = find(gloss)? {
-        return Ok(Some(id));
-    }
-    for other in [compose_accents(gloss), decompose_accents(gloss)] {
-        if other != gloss
-            && let Some(id) = find(&other)?
-        {
+/// Returns the entry of a lexicon, or without one the sign that belongs to none, with exactly this gloss, or with a gloss
+/// that differs only by the characters in which a program stores accents.
+pub(crate) fn find_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<Option<i64>> {
+    let mut statement =
+        connection.prepare_cached("SELECT id FROM sign WHERE gloss = ?1 AND ifnull(lexicon_id, 0) = ?2")?;
+    for spelling in accent_spellings(gloss) {
+        let key = params![spelling, lexicon.unwrap_or_default()];
+        if let Some(id) = statement.query_row(key, |row| row.get(0)).optional()? {
             return Ok(Some(id));
         }
     }
     Ok(None)
+}
+
+/// A sign by the lexicon that it belongs to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SignByLexicon {
+    /// The row.
+    pub id: i64,
+    /// The name of its lexicon, if it belongs to one.
+    pub lexicon: Option<String>,
+}
+
+/// Returns the signs of all lexicons with this gloss, spelled as for [`find_sign()`].
+pub(crate) fn find_signs_of_gloss(connection: &Connection, gloss: &str) -> CorpusResult<Vec<SignByLexicon>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT s.id, l.name FROM sign s LEFT JOIN lexicon l ON l.id = s.lexicon_id WHERE s.gloss = ?1
+         ORDER BY l.name IS NULL, l.name",
+    )?;
+    for spelling in accent_spellings(gloss) {
+        let rows = statement.query_map([spelling], |row| {
+            Ok(SignByLexicon {
+                id: row.get(0)?,
+                lexicon: row.get(1)?,
+            })
+        })?;
+        let signs = rows.collect::<rusqlite::Result<Vec<_>>>()?;
+        if !signs.is_empty() {
+            return Ok(signs);
+        }
+    }
+    Ok(Vec::new())
+}
+
+/// Returns a gloss as written, then with its accents in one character each, then in characters of their own.
+fn accent_spellings(gloss: &str) -> Vec<String> {
+    let mut spellings = vec![gloss.to_owned()];
+    for other in [compose_accents(gloss), decompose_accents(gloss)] {
+        if other != gloss {
+            spellings.push(other.into_owned());
+        }
+    }
+    spellings
 }
 
 /// Returns all signs by gloss.
@@ -156,9 +259,25 @@ pub(crate) fn load_sign_rows(connection: &Connection) -> CorpusResult<Vec<SignEn
 
 /// Returns every gloss, in order.
 pub(crate) fn list_all_glosses(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT gloss FROM sign ORDER BY gloss")?;
+    let mut statement = connection.prepare_cached("SELECT DISTINCT gloss FROM sign ORDER BY gloss")?;
     let glosses = statement
         .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(glosses)
+}
+
+/// Returns the lexicon of each sign that belongs to one.
+pub(crate) fn lexicons_of_signs(connection: &Connection) -> CorpusResult<BTreeMap<i64, i64>> {
+    let mut statement = connection.prepare_cached("SELECT id, lexicon_id FROM sign WHERE lexicon_id IS NOT NULL")?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the glosses of a lexicon, in order.
+pub(crate) fn glosses_of_lexicon(connection: &Connection, lexicon: i64) -> CorpusResult<Vec<String>> {
+    let mut statement = connection.prepare_cached("SELECT gloss FROM sign WHERE lexicon_id = ?1 ORDER BY gloss")?;
+    let glosses = statement
+        .query_map([lexicon], |row| row.get(0))?
         .collect::<rusqlite::Result<_>>()?;
     Ok(glosses)
 }
@@ -343,8 +462,9 @@ fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
 
 const SELECT_TOKEN_SQL: &str = "
     SELECT t.id, t.sign_id, s.gloss, t.recording_id, r.name, t.annotation_id, t.start_us, t.end_us,
-           t.hand, t.origin, t.citation, t.source
-    FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id";
+           t.hand, t.origin, t.citation, t.source, l.name
+    FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id
+    LEFT JOIN lexicon l ON l.id = s.lexicon_id";
 
 fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
     Ok(TokenRow {
@@ -360,6 +480,7 @@ fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
         origin: read_word_column(row, 9)?,
         citation: row.get(10)?,
         source: row.get(11)?,
+        lexicon: row.get(12)?,
     })
 }
 

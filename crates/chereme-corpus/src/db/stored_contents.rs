@@ -102,11 +102,12 @@ pub(crate) fn load_sign_glances(connection: &Connection) -> CorpusResult<Vec<Sig
     let mut statement = connection.prepare_cached(
         "SELECT s.id, s.gloss, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
                 c.id, c.recording_id, c.start_us, c.end_us,
-                EXISTS (SELECT 1 FROM notation n WHERE n.token_id = c.id)
+                EXISTS (SELECT 1 FROM notation n WHERE n.token_id = c.id),
+                (SELECT name FROM lexicon l WHERE l.id = s.lexicon_id)
          FROM sign s LEFT JOIN token c ON c.id =
                 (SELECT t.id FROM token t WHERE t.sign_id = s.id AND t.citation = 1
                  ORDER BY t.recording_id IS NULL, t.id LIMIT 1)
-         ORDER BY s.gloss",
+         ORDER BY s.gloss, s.id",
     )?;
     let signs = statement
         .query_map([], |row| {
@@ -118,6 +119,7 @@ pub(crate) fn load_sign_glances(connection: &Connection) -> CorpusResult<Vec<Sig
                 citation: row.get(4)?,
                 place: place_from_columns(row.get(5)?, row.get(6)?, row.get(7)?),
                 notated: row.get(8)?,
+                lexicon: row.get(9)?,
             })
         })?
         .collect::<rusqlite::Result<_>>()?;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::db::stored_rows::{InventoryInfo, SignerInfo};
 use crate::error::CorpusResult;
 
-const COUNTED_ROW_KINDS: [(&str, &str); 20] = [
+const COUNTED_ROW_KINDS: [(&str, &str); 21] = [
     ("recordings", "recording"),
     ("tracks", "track"),
     (
@@ -21,6 +21,7 @@ const COUNTED_ROW_KINDS: [(&str, &str); 20] = [
     ),
     ("skeletons", "skeleton"),
     ("signers", "signer"),
+    ("lexicons", "lexicon"),
     ("signs", "sign"),
     ("tokens", "token"),
     ("tiers", "tier"),

@@ -98,6 +98,7 @@ pub(crate) const RECORDINGS_LIST: ListTable = ListTable {
         ),
         number_list_column("tokens", "(SELECT count(*) FROM token t WHERE t.recording_id = r.id)"),
         text_list_column("recipe", "(SELECT text FROM recipe p WHERE p.recording_id = r.id)"),
+        text_list_column("lexicon", "(SELECT name FROM lexicon l WHERE l.id = r.lexicon_id)"),
         text_list_column("licence", "r.licence"),
         text_list_column("notes", "r.notes"),
         text_list_column("consent", "r.consent"),
@@ -167,9 +168,10 @@ pub(crate) const SIGNS_LIST: ListTable = ListTable {
             "(SELECT group_concat(a.name || '=' || a.text, ' ') FROM attribute a
               JOIN token t ON t.id = a.token_id WHERE t.sign_id = s.id)",
         ),
+        text_list_column("lexicon", "l.name"),
         text_list_column("notes", "s.notes"),
     ],
-    from: "sign s",
+    from: "sign s LEFT JOIN lexicon l ON l.id = s.lexicon_id",
     order: "s.gloss",
 };
 

@@ -304,11 +304,11 @@ pub(crate) fn delete_table_row(connection: &Connection, table: &str, id: i64) ->
 /// Returns the existing row with the same unique name as another one, if there is one.
 pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &RowImage) -> CorpusResult<Option<i64>> {
     let keys: &[&str] = match table {
-        "signer" | "kept_search" | "recording" | "study" => &["name"],
+        "lexicon" | "signer" | "kept_search" | "recording" | "study" => &["name"],
         "skeleton" => &["hash"],
         "inventory" => &["key"],
         "inventory_value" => &["inventory_id", "key"],
-        "sign" => &["gloss"],
+        "sign" => &["lexicon_id", "gloss"],
         "tier" | "track" => &["recording_id", "name"],
         "attribute" => &["token_id", "name"],
         "notation" => &["token_id"],
@@ -320,7 +320,7 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
     };
     let conditions: Vec<String> = keys
         .iter()
-        .map(|key| format!("{key} = json_extract(?1, '$.{key}')"))
+        .map(|key| format!("{key} IS json_extract(?1, '$.{key}')"))
         .collect();
     let sql = format!("SELECT id FROM main.{table} WHERE {}", conditions.join(" AND "));
     let text = Value::Object(image.clone()).to_string();

@@ -191,12 +191,13 @@ pub(crate) fn skeleton_document(connection: &Connection, id: i64) -> CorpusResul
         .query_row([id], |row| row.get(0))?)
 }
 
-/// Writes a recording and returns its row; its `id` and `signer` are not used.
+/// Writes a recording and returns its row; its `id` and `signer` are not used. The glosses of its tiers are looked up in
+/// the corpus's lexicon, if there is only one.
 pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> CorpusResult<i64> {
     connection
         .prepare_cached(
-            "INSERT INTO recording (name, signer_id, origin, duration_us, licence, notes)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+            "INSERT INTO recording (name, signer_id, origin, duration_us, licence, notes, lexicon_id)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, (SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon))",
         )?
         .execute(params![
             row.name,

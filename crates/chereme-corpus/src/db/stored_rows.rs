@@ -93,6 +93,8 @@ pub struct SignGlance {
     pub id: i64,
     /// The gloss.
     pub gloss: String,
+    /// The lexicon to which it belongs, if it belongs to one.
+    pub lexicon: Option<String>,
     /// Remarks.
     pub notes: Option<String>,
     /// How many tokens it has.

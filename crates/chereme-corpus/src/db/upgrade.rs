@@ -2,15 +2,18 @@
 //! also in the history.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use rusqlite::config::DbConfig;
 use rusqlite::{Connection, params};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
+use super::lexicons;
 use super::stored_history;
 use super::stored_motion::to_hex_text;
 use crate::error::CorpusResult;
+use crate::paths::legible_path_text;
 use crate::words::old_effect::effect_of_summary;
 
 /// The name of tracks that hold the scalar curves of generated movement.
@@ -40,6 +43,42 @@ pub(super) fn read_old_summaries(connection: &Connection) -> CorpusResult<()> {
         if let Some(effect) = effect_of_summary(&name, &summary) {
             let (_, _, json) = effect.stored_texts();
             connection.execute("UPDATE operation SET effect = ?2 WHERE id = ?1", params![id, json])?;
+        }
+    }
+    Ok(())
+}
+
+/// Makes each imported table of an older file a lexicon, to which the signs belong that it alone has; signs of several
+/// tables belong to none. The recordings of a file with one table are linked to it.
+pub(super) fn give_signs_lexicons(connection: &Connection) -> CorpusResult<()> {
+    let mut tables_of_signs: BTreeMap<i64, BTreeSet<String>> = BTreeMap::new();
+    let sql = "SELECT DISTINCT sign_id, coalesce(source ->> '$.path', source ->> '$.file') AS place FROM token
+         WHERE origin = 'lexicon' AND source ->> '$.cells' IS NOT NULL AND place IS NOT NULL";
+    let mut statement = connection.prepare(sql)?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        tables_of_signs.entry(row.get(0)?).or_default().insert(row.get(1)?);
+    }
+    let tables: BTreeSet<String> = tables_of_signs.values().flatten().cloned().collect();
+    let mut lexicons: BTreeMap<String, i64> = BTreeMap::new();
+    for table in tables {
+        let stem = Path::new(&table).file_stem().map(legible_path_text).unwrap_or_default();
+        let name = lexicons::free_lexicon_name(connection, &stem)?;
+        let lexicon = lexicons::insert_lexicon(connection, &name)?;
+        connection.execute(
+            "UPDATE source_file SET lexicon_id = ?1 WHERE kind = 'lexicon' AND coalesce(path, name) = ?2",
+            params![lexicon, table],
+        )?;
+        lexicons.insert(table, lexicon);
+    }
+    if lexicons.len() > 1 {
+        // The first one was the only one for a moment.
+        connection.execute("UPDATE recording SET lexicon_id = NULL", [])?;
+    }
+    for (sign, tables) in &tables_of_signs {
+        if let [table] = tables.iter().collect::<Vec<_>>().as_slice() {
+            let sql = "UPDATE sign SET lexicon_id = ?2 WHERE id = ?1";
+            connection.execute(sql, params![sign, lexicons.get(*table)])?;
         }
     }
     Ok(())

@@ -42,9 +42,10 @@ impl TableForm {
     }
 }
 
-const FIXED_TOKEN_COLUMNS: [&str; 9] = [
+const FIXED_TOKEN_COLUMNS: [&str; 10] = [
     "token",
     "gloss",
+    "lexicon",
     "recording",
     "start_s",
     "end_s",
@@ -255,6 +256,7 @@ fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
     vec![
         token.id.to_string(),
         token.gloss.clone(),
+        token.lexicon.clone().unwrap_or_default(),
         token.recording.clone().unwrap_or_default(),
         micros_as_seconds_text(token.start_us),
         micros_as_seconds_text(token.end_us),

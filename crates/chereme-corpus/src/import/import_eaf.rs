@@ -20,6 +20,7 @@ use serde_json::json;
 
 use super::import_again::set_hand;
 use super::import_joining::JoinReason;
+use super::import_lexicons::unlinked_glosses_finding;
 use super::import_report::{EditOutcome, ReportFinding};
 use super::readers::ParseFunction;
 use super::understood::TiersRead;
@@ -149,6 +150,10 @@ pub(super) fn import_as(
     stored_recordings::lengthen_recording(job.connection, recording, transcript.transcript_end().instant_micros())?;
     tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
+    if derived > 0 {
+        let unlinked = unlinked_glosses_finding(job, recording)?;
+        report.findings.extend(unlinked);
+    }
     job.count_created_rows("tokens", derived.saturating_sub(before));
     if same && job.counts.total_row_changes() == counted {
         let mut unchanged = FileReport::unchanged_file_report(job.path, target.earlier_path_elsewhere(job));

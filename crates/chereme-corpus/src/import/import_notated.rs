@@ -8,11 +8,13 @@ use chereme_formats::{ImportFinding, ReaderCorrection};
 use chereme_sign::hamnosys::NotatedSign;
 use serde_json::json;
 
+use super::import_lexicons::{lexicon_of_notation, names_other_lexicon};
 use super::import_notation::{NotationValueMapper, lost_notation_finding, notated_sign_document, uncoded_text_finding};
 use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob};
+use crate::db::lexicons;
 use crate::db::notations::{self, NotationRow};
-use crate::db::signs::{self, TokenRow};
+use crate::db::signs::{self, EnteredSign, TokenRow};
 use crate::db::stored_columns::RecordOrigin;
 use crate::db::stored_recordings::SourceFileRow;
 use crate::error::CorpusResult;
@@ -35,7 +37,16 @@ fn import_notated_signs(
     form: NotationFormat,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<FileReport> {
-    let earlier_report = job.report_unchanged_file();
+    let mut earlier_report = job.report_unchanged_file();
+    let earlier_file = job.places.files_with_hash(&job.hash).map(|row| row.id).max();
+    let earlier_lexicon = match earlier_file {
+        Some(file) => lexicons::lexicon_of_file(job.connection, file)?,
+        None => None,
+    };
+    // A lexicon that is named now takes the signs over.
+    if names_other_lexicon(job, earlier_lexicon)? {
+        earlier_report = None;
+    }
     if let Some(report) = &earlier_report
         && is_known_by_name(job)
     {
@@ -55,14 +66,20 @@ fn import_notated_signs(
     let findings = findings.into_iter().filter(named);
     report.findings.extend(findings.map(ReportFinding::from));
     let earlier = load_earlier_tokens(job, &mut report)?;
-    if !earlier.0.is_empty() {
+    if !earlier.tokens.is_empty() {
         report.status = FileStatus::Updated;
     }
+    let lexicon = lexicon_of_notation(job, earlier.file)?;
     let file = job.keep_source_file(None, Some(&bytes))?;
+    if let Some(lexicon) = &lexicon {
+        lexicons::set_file_lexicon(job.connection, file, lexicon.id)?;
+    }
+    report.understood.lexicon = lexicon.as_ref().map(|lexicon| lexicon.name.clone());
     let inventories = job.inventories.clone();
     let words = NotationValueMapper::new(&inventories);
     let mut place = NotationFile {
         file,
+        lexicon: lexicon.map(|lexicon| lexicon.id),
         form,
         several: entries.len() > 1,
         earlier,
@@ -77,7 +94,7 @@ fn import_notated_signs(
     if let Some(finding) = place.unnamed_signs() {
         report.findings.push(finding);
     }
-    let left = place.earlier.0.values().map(Vec::len).sum::<usize>();
+    let left = place.earlier.tokens.values().map(Vec::len).sum::<usize>();
     if left > 0 {
         report.findings.push(ReportFinding::finding_warning(
             format!("signs of an earlier file of this name that are missing here, and were kept: {left}"),
@@ -118,30 +135,37 @@ fn load_earlier_tokens(job: &ImportJob<'_>, report: &mut FileReport) -> CorpusRe
              to those, also where they have the same gloss"
         )));
     }
-    Ok(EarlierSignTokens::new(rows))
+    Ok(EarlierSignTokens::new(files.last().copied(), rows))
 }
 
-/// Tokens of earlier imports of the file, by gloss, in reverse order.
-struct EarlierSignTokens(BTreeMap<String, Vec<i64>>);
+/// The earlier imports of the file.
+struct EarlierSignTokens {
+    /// The newest of them.
+    file: Option<i64>,
+    /// Their tokens by gloss, in reverse order.
+    tokens: BTreeMap<String, Vec<i64>>,
+}
 
 impl EarlierSignTokens {
-    fn new(rows: Vec<NotationRow>) -> Self {
+    fn new(file: Option<i64>, rows: Vec<NotationRow>) -> Self {
         let mut tokens: BTreeMap<String, Vec<i64>> = BTreeMap::new();
         for row in rows.into_iter().rev() {
             tokens.entry(row.gloss).or_default().push(row.token_id);
         }
-        Self(tokens)
+        Self { file, tokens }
     }
 
     /// Returns the next token with this gloss.
     fn next(&mut self, gloss: &str) -> Option<i64> {
-        self.0.get_mut(gloss)?.pop()
+        self.tokens.get_mut(gloss)?.pop()
     }
 }
 
 /// The file from which signs come.
 struct NotationFile {
     file: i64,
+    /// The lexicon to which the signs belong.
+    lexicon: Option<i64>,
     form: NotationFormat,
     several: bool,
     earlier: EarlierSignTokens,
@@ -185,8 +209,11 @@ fn import_sign(
     }
     let row = i64::try_from(line).ok();
     let token = match place.earlier.next(&gloss) {
-        Some(token) => token,
-        None => insert_token(job, &gloss, row)?,
+        Some(token) => {
+            enter_earlier_token(job, place.lexicon, token)?;
+            token
+        }
+        None => insert_token(job, place.lexicon, &gloss, row)?,
     };
     let mut mapped = words.map_notated_sign(sign);
     let text = sign.text.as_deref().filter(|_| place.form == NotationFormat::Lines);
@@ -217,9 +244,29 @@ fn import_sign(
     Ok(())
 }
 
-fn insert_token(job: &mut ImportJob<'_>, gloss: &str, line: Option<i64>) -> CorpusResult<i64> {
-    let is_new = signs::find_sign(job.connection, gloss)?.is_none();
-    let sign = signs::sign_glossed(job.connection, gloss)?;
+/// Makes a token of an earlier import one of the lexicon's entry.
+fn enter_earlier_token(job: &ImportJob<'_>, lexicon: Option<i64>, token: i64) -> CorpusResult<()> {
+    let row = signs::load_token_row(job.connection, token)?;
+    if lexicon.is_none() || lexicons::lexicon_of_sign(job.connection, row.sign_id)? == lexicon {
+        return Ok(());
+    }
+    let sign = signs::enter_sign(job.connection, lexicon, &row.gloss)?;
+    if sign.id == row.sign_id {
+        return Ok(());
+    }
+    let former_sign = row.sign_id;
+    let row = TokenRow {
+        sign_id: sign.id,
+        citation: !signs::has_citation(job.connection, sign.id)?,
+        ..row
+    };
+    signs::update_token(job.connection, &row)?;
+    signs::delete_empty_sign(job.connection, former_sign)?;
+    Ok(())
+}
+
+fn insert_token(job: &mut ImportJob<'_>, lexicon: Option<i64>, gloss: &str, line: Option<i64>) -> CorpusResult<i64> {
+    let EnteredSign { id: sign, is_new } = signs::enter_sign(job.connection, lexicon, gloss)?;
     let row = TokenRow {
         sign_id: sign,
         origin: RecordOrigin::Lexicon,

@@ -13,10 +13,12 @@ use chereme_sign::text::{compose_accents, fold_text};
 use chereme_sign::{ComponentInventory, ComponentReading, InventoryValue, SignComponent};
 use serde_json::{Map, Value, json};
 
+use super::import_lexicons::{LexiconCells, lexicon_of_table, names_other_lexicon};
 use super::import_notation::{LexiconNotationText, NotationValueMapper};
 use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::db::edits;
+use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_attributes::{self, AttributeRow};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
@@ -34,12 +36,15 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     let earlier_report = job.report_unchanged_file();
     if let Some(report) = &earlier_report
         && job.options.mapping.mapping_entry_names().next().is_none()
+        && job.options.lexicon.is_none()
     {
         return Ok(report.clone());
     }
     let bytes = job.read_job_bytes()?;
     let mut read = lexicon::read_lexicon(&bytes, &job.options.mapping);
     let mapped = read.as_ref().is_ok_and(|(table, _)| map_columns(job, table));
+    // A lexicon that is named now takes the signs over.
+    let is_taken_over = source.is_of_other_lexicon(job)?;
     let mut mapping = job.options.mapping.clone();
     let before = match source.newest {
         Some(id) if !mapped => stored_recordings::source_mapping(job.connection, id)?,
@@ -57,13 +62,13 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         other => other.map_err(|error| lexicon_table_error(&error))?,
     };
     let mut report = match earlier_report {
-        Some(report) if !mapped => return Ok(report),
+        Some(report) if !mapped && !is_taken_over => return Ok(report),
         Some(_) => FileReport::new(job.path, FileStatus::Updated),
         None => FileReport::new(job.path, FileStatus::Imported),
     };
     let remapped = report.status == FileStatus::Updated;
     let stated = stated_meanings(&table, &mapping);
-    if remapped {
+    if remapped && mapped {
         report.findings.push(ReportFinding::finding_note(
             "it was imported before: its columns were read again, as the mapping says",
         ));
@@ -83,6 +88,20 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         _ => job.keep_source_file(None, Some(&bytes))?,
     };
     stored_recordings::set_source_mapping(job.connection, file, &stated)?;
+    let by_row = LexiconCells::read_lexicon_cells(job, &table)?;
+    let lexicon = match by_row.covers_all_rows {
+        true => None,
+        false => lexicon_of_table(job, source.newest)?,
+    };
+    if let Some(lexicon) = &lexicon {
+        lexicons::set_file_lexicon(job.connection, file, lexicon.id)?;
+    }
+    let names = lexicon
+        .iter()
+        .map(|lexicon| &lexicon.name)
+        .chain(by_row.lexicons.keys());
+    let names: Vec<&str> = names.map(String::as_str).collect();
+    report.understood.lexicon = (!names.is_empty()).then(|| names.join(", "));
     let numerals = numerals(&table);
     report.findings.extend(unsure_numbers(&table, &numerals));
     let stored = job.inventories.clone();
@@ -91,6 +110,8 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     let mut signs = LexiconSigns {
         earlier: EarlierEntries::load_earlier_entries(job, &source)?,
         source,
+        lexicon: lexicon.map(|lexicon| lexicon.id),
+        by_row,
         ..LexiconSigns::default()
     };
     for (done, entry) in table.entries.iter().enumerate() {
@@ -144,6 +165,15 @@ impl LexiconFileSource {
             same_bytes: same.map(|row| row.id),
             place,
         }
+    }
+
+    /// Returns whether the options name another lexicon than that of the earlier import.
+    fn is_of_other_lexicon(&self, job: &ImportJob<'_>) -> CorpusResult<bool> {
+        let earlier = match self.newest {
+            Some(file) => lexicons::lexicon_of_file(job.connection, file)?,
+            None => None,
+        };
+        names_other_lexicon(job, earlier)
     }
 }
 
@@ -223,7 +253,10 @@ struct KnownInventoryPart {
 #[derive(Default)]
 struct LexiconSigns {
     source: LexiconFileSource,
-    known: BTreeMap<String, KnownSign>,
+    /// The lexicon to which they belong, unless their row names one.
+    lexicon: Option<i64>,
+    by_row: LexiconCells,
+    known: BTreeMap<(Option<i64>, String), KnownSign>,
     earlier: EarlierEntries,
     /// The signs that lost an entry to another gloss, with the cells of its row.
     left: BTreeMap<i64, BTreeSet<String>>,
@@ -237,11 +270,12 @@ struct KnownSign {
 }
 
 impl LexiconSigns {
-    /// Returns the sign with a gloss; inserts it if it is missing.
-    fn glossed(&mut self, job: &mut ImportJob<'_>, gloss: &str) -> CorpusResult<&mut KnownSign> {
-        match self.known.entry(compose_accents(gloss).into_owned()) {
+    /// Returns the sign of a row; inserts it if it is missing.
+    fn sign_of_row(&mut self, job: &mut ImportJob<'_>, row: &LexiconEntry) -> CorpusResult<&mut KnownSign> {
+        let lexicon = self.by_row.lexicon_of_row(row).or(self.lexicon);
+        match self.known.entry((lexicon, compose_accents(&row.gloss).into_owned())) {
             Entry::Occupied(known) => Ok(known.into_mut()),
-            Entry::Vacant(new) => Ok(new.insert(KnownSign::load_known_sign(job, gloss)?)),
+            Entry::Vacant(new) => Ok(new.insert(KnownSign::load_known_sign(job, lexicon, &row.gloss)?)),
         }
     }
 
@@ -271,13 +305,12 @@ impl LexiconSigns {
 }
 
 impl KnownSign {
-    fn load_known_sign(job: &mut ImportJob<'_>, gloss: &str) -> CorpusResult<Self> {
-        let is_new = signs::find_sign(job.connection, gloss)?.is_none();
-        job.count_created_rows("signs", usize::from(is_new));
-        let id = signs::sign_glossed(job.connection, gloss)?;
+    fn load_known_sign(job: &mut ImportJob<'_>, lexicon: Option<i64>, gloss: &str) -> CorpusResult<Self> {
+        let sign = signs::enter_sign(job.connection, lexicon, gloss)?;
+        job.count_created_rows("signs", usize::from(sign.is_new));
         Ok(Self {
-            id,
-            has_citation: signs::has_citation(job.connection, id)?,
+            id: sign.id,
+            has_citation: signs::has_citation(job.connection, sign.id)?,
         })
     }
 }
@@ -466,7 +499,7 @@ fn import_entry(
     let earlier_token = signs.earlier.take_earlier_entry(table, entry);
     let (is_known, mut is_moved) = (earlier_token.is_some(), false);
     let source = Some(lexicon_row_cells(job, (table, &signs.source), entry).to_string());
-    let sign = signs.glossed(job, &entry.gloss)?;
+    let sign = signs.sign_of_row(job, entry)?;
     for (language, text) in &entry.translations {
         signs::add_text(connection, sign.id, language, text)?;
     }

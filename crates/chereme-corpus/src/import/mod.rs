@@ -12,6 +12,7 @@ pub(crate) mod import_eaf;
 mod import_film;
 mod import_inventory;
 mod import_joining;
+mod import_lexicons;
 mod import_notated;
 mod import_notation;
 mod import_places;
@@ -94,6 +95,10 @@ pub struct ImportOptions {
     pub origin: Option<RecordOrigin>,
     /// The terms under which the recordings may be used.
     pub licence: Option<String>,
+    /// The lexicon to which the signs of tables and notation belong, instead of the one that their files indicate.
+    pub lexicon: Option<String>,
+    /// The sign language of that lexicon, as a code of ISO 639-3.
+    pub sign_language: Option<String>,
     /// The treatment of edits in the corpus that an annotation file would revert when it is imported again.
     pub own_edits: OwnEdits,
     /// The recording that all files belong to, instead of the one that their names indicate.

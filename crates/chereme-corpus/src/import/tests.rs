@@ -7,6 +7,7 @@ mod foreign;
 mod joining;
 mod lexicon;
 mod lexicon_again;
+mod lexicon_whose;
 mod points;
 mod reading;
 mod renamed;

@@ -38,6 +38,9 @@ pub struct FileInterpretation {
     /// Columns of a lexicon table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub columns: Option<Vec<LexiconColumn>>,
+    /// The lexicon to which the signs of the file belong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lexicon: Option<String>,
     /// Recordings that took the tiers of a template.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recordings: Option<Vec<String>>,

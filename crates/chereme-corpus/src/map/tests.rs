@@ -34,6 +34,7 @@ fn signs_that_are_alike_lie_near_each_other() {
     let options = MapOptions {
         components: vec![SignComponent::Configuration, SignComponent::Placement],
         query: None,
+        ..MapOptions::default()
     };
     let found = map(&mut corpus, &options).expect("a map");
     assert_eq!((found.signs.len(), found.left_out), (8, 1));
@@ -59,6 +60,7 @@ fn a_map_of_a_query_holds_its_tokens_and_one_sign_is_no_map() {
     let of = |query: &str| MapOptions {
         components: vec![],
         query: Some(query.to_owned()),
+        ..MapOptions::default()
     };
     let found = map(&mut corpus, &of("placement=chin")).expect("a map");
     assert_eq!(found.signs.len(), 4);

@@ -54,7 +54,8 @@ pub struct MergeReport {
 
 /// The tables that are merged; a table comes after those it refers to. Tokens of annotations are not merged but
 /// derived.
-const MERGED_TABLE_ORDER: [&str; 19] = [
+const MERGED_TABLE_ORDER: [&str; 20] = [
+    "lexicon",
     "signer",
     "skeleton",
     "inventory",

@@ -17,9 +17,19 @@ fn corpus_of(folder: &std::path::Path, file: &std::path::Path) -> Corpus {
     corpus
 }
 
-fn asked(corpus: &Corpus, fields: &[&str], empty: EmptyCellTreatment) -> MinimalPairs {
+fn asked(corpus: &mut Corpus, fields: &[&str], empty: EmptyCellTreatment) -> MinimalPairs {
     let fields = fields.iter().map(|it| (*it).to_owned()).collect();
-    corpus.minimal_pairs(&PairOptions { fields, empty }).expect("counted")
+    let options = PairOptions {
+        fields,
+        empty,
+        ..PairOptions::default()
+    };
+    corpus
+        .minimal_pairs(
+            &options,
+            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
+        )
+        .expect("counted")
 }
 
 #[test]
@@ -29,9 +39,9 @@ fn pairs_differ_in_one_field_and_name_it() {
     let table = "gloss,handshape,handshape weak,location\nA,V + O,,chin\nB,V,,chin\nC,V,V,chin\n\
                  D,V,,chin\nE,B,,chest\nF,,,chest\n";
     std::fs::write(&file, table).expect("written");
-    let corpus = corpus_of(folder.path(), &file);
+    let mut corpus = corpus_of(folder.path(), &file);
     let titles = ["handshape", "Handshape Weak", "location"];
-    let value = asked(&corpus, &titles, EmptyCellTreatment::Value);
+    let value = asked(&mut corpus, &titles, EmptyCellTreatment::Value);
     let list: Vec<String> = value
         .list
         .iter()
@@ -48,11 +58,11 @@ fn pairs_differ_in_one_field_and_name_it() {
     assert_eq!((value.total, value.signs, value.certain), (5, 6, 2));
     let homonyms = (value.homonyms, value.homonym_groups, value.homonym_signs);
     assert_eq!((homonyms, value.forms), ((1, 1, 2), 5));
-    let unknown = asked(&corpus, &titles, EmptyCellTreatment::Unknown);
+    let unknown = asked(&mut corpus, &titles, EmptyCellTreatment::Unknown);
     assert_eq!((unknown.total, unknown.entries), (0, 1));
     // If cells are compared as they were coded, "V + O" differs from "V", too.
     let coded = asked(
-        &corpus,
+        &mut corpus,
         &["configuration", "weak.configuration", "placement"],
         EmptyCellTreatment::Value,
     );
@@ -62,7 +72,14 @@ fn pairs_differ_in_one_field_and_name_it() {
             fields,
             ..PairOptions::default()
         };
-        assert!(corpus.minimal_pairs(&options).is_err());
+        assert!(
+            corpus
+                .minimal_pairs(
+                    &options,
+                    &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step)
+                )
+                .is_err()
+        );
     }
 }
 
@@ -77,8 +94,8 @@ fn named_sets_of_fields_fit_the_titles_of_signbank() {
                  A,1,B,,,,chin,Palm,-,,,,down,False,False\nC,1,5,,,,chin,Palm,-,,,,down,False,False\n\
                  D,1,5,,,,chin,Back,-,,,,down,False,False\n";
     std::fs::write(&file, table).expect("written");
-    let corpus = corpus_of(folder.path(), &file);
-    let found = asked(&corpus, &["S13"], EmptyCellTreatment::Value);
+    let mut corpus = corpus_of(folder.path(), &file);
+    let found = asked(&mut corpus, &["S13"], EmptyCellTreatment::Value);
     let list: Vec<String> = found
         .list
         .iter()
@@ -89,7 +106,13 @@ fn named_sets_of_fields_fit_the_titles_of_signbank() {
         fields: ["Handedness", "Strong Hands", "Location"].map(str::to_owned).to_vec(),
         ..PairOptions::default()
     };
-    let error = corpus.minimal_pairs(&options).expect_err("no such column").to_string();
+    let error = corpus
+        .minimal_pairs(
+            &options,
+            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
+        )
+        .expect_err("no such column")
+        .to_string();
     let said = "no imported table has a column \"Strong Hands\" with the others; did you mean \"Strong Hand\"?";
     assert!(error.contains(said), "{error}");
 }
@@ -98,7 +121,7 @@ fn named_sets_of_fields_fit_the_titles_of_signbank() {
 fn pairs_count_only_rows_that_the_corpus_still_has() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("t.csv");
-    let counted = |corpus: &Corpus| {
+    let counted = |corpus: &mut Corpus| {
         let found = asked(corpus, &["handshape", "location"], EmptyCellTreatment::Value);
         let list = found
             .list
@@ -110,7 +133,7 @@ fn pairs_count_only_rows_that_the_corpus_still_has() {
     std::fs::write(&file, table).expect("written");
     let mut corpus = corpus_of(folder.path(), &file);
     let both = "A B location, A C handshape";
-    assert_eq!(counted(&corpus), (4, both.to_owned()));
+    assert_eq!(counted(&mut corpus), (4, both.to_owned()));
     // The next version has another cell of C, and no D.
     std::fs::write(&file, "gloss,handshape,location\nA,V,chin\nB,V,chest\nC,5,nose\n").expect("written");
     let mut hear = ignore_progress_step;
@@ -118,19 +141,19 @@ fn pairs_count_only_rows_that_the_corpus_still_has() {
     corpus
         .import_paths(&[file], &ImportOptions::default(), progress)
         .expect("imported");
-    assert_eq!(counted(&corpus), (3, "A B location".to_owned()));
+    assert_eq!(counted(&mut corpus), (3, "A B location".to_owned()));
     let renamed = crate::SignChange {
         gloss: Some("E".to_owned()),
         ..crate::SignChange::default()
     };
     let name = crate::address::RowName::Text("A".to_owned());
     corpus.change_sign(&name, &renamed).expect("renamed");
-    assert_eq!(counted(&corpus), (3, "B E location".to_owned()));
+    assert_eq!(counted(&mut corpus), (3, "B E location".to_owned()));
     let what = ["sign:B".parse().expect("an address")];
     corpus
         .delete_objects(&what, crate::DeleteOptions::default(), progress)
         .expect("deleted");
-    assert_eq!(counted(&corpus), (2, String::new()));
+    assert_eq!(counted(&mut corpus), (2, String::new()));
 }
 
 #[test]
@@ -141,9 +164,9 @@ fn simultaneous_values_differ_from_successive_ones_and_all_unused_values_are_lis
                  SIM,B,chin,\"downwards, inwards\"\nEND,B,chin,> inwards\nONE,B,chin,inwards\n\
                  OTHER,5,chin,\"inwards, downwards\"\n";
     std::fs::write(&file, table).expect("written");
-    let corpus = corpus_of(folder.path(), &file);
+    let mut corpus = corpus_of(folder.path(), &file);
     let fields = ["dominant.configuration", "placement", "movement.direction"];
-    let found = asked(&corpus, &fields, EmptyCellTreatment::Value);
+    let found = asked(&mut corpus, &fields, EmptyCellTreatment::Value);
     let list = found
         .list
         .iter()
@@ -156,7 +179,7 @@ fn simultaneous_values_differ_from_successive_ones_and_all_unused_values_are_lis
     wanted.push(direction("SEQ SIM"));
     assert_eq!((found.homonyms, list.collect::<Vec<_>>()), (0, wanted));
     let suggested = corpus
-        .suggest_new_signs(&"SIM".parse().expect("an address"))
+        .suggest_new_signs(&"SIM".parse().expect("an address"), false)
         .expect("coded");
     assert_eq!(suggested.coding["movement.direction"], "downwards + inwards");
     let to: Vec<&str> = suggested.partners.iter().map(|it| it.to.as_str()).collect();
@@ -176,7 +199,7 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let file = std::path::Path::new(&shared).join("phonology/ngt_lexicon.tsv");
-    let corpus = corpus_of(folder.path(), &file);
+    let mut corpus = corpus_of(folder.path(), &file);
     let value = EmptyCellTreatment::Value;
     for (set, empty, total, signs, homonyms, forms, sha256) in [
         (
@@ -243,13 +266,13 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
             "fb099d8f139b6825c24303a7695e5606f1bc6dffdbe9df1272c004886b4874f2",
         ),
     ] {
-        let found = asked(&corpus, &[set], empty);
+        let found = asked(&mut corpus, &[set], empty);
         let groups = (found.homonyms, found.homonym_groups, found.homonym_signs);
         let counts = (found.total, found.signs, groups, found.forms);
         assert_eq!(counts, (total, signs, homonyms, forms), "{set} {empty:?}");
         assert_eq!(found.sha256, sha256, "{set} {empty:?}");
     }
-    let found = asked(&corpus, &["S13"], value);
+    let found = asked(&mut corpus, &["S13"], value);
     assert_eq!(found.certain, 3306);
     assert_eq!(found.by_field[0], ("Handshape strong".to_owned(), 2368));
     let top: Vec<(&str, usize)> = found.densest.iter().map(|it| (&*it.gloss, it.pairs)).collect();
@@ -280,7 +303,7 @@ fn a_sign_with_two_citation_forms_is_one_entry_and_no_homonym_of_itself() {
         .import_paths(&files, &ImportOptions::default(), progress)
         .expect("imported");
     let fields = ["dominant.configuration", "placement", "movement"];
-    let found = asked(&corpus, &fields, EmptyCellTreatment::Value);
+    let found = asked(&mut corpus, &fields, EmptyCellTreatment::Value);
     let tokens = crate::db::signs::load_citation_tokens(corpus.store.read_connection()).expect("read");
     let glosses: BTreeSet<&str> = tokens.iter().map(|it| it.gloss.as_str()).collect();
     assert!(glosses.contains("LION") && tokens.len() == glosses.len());

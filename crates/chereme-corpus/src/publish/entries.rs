@@ -2,16 +2,24 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_sign::SignComponent;
+use rusqlite::Connection;
+
 use crate::Corpus;
 use crate::consent::{ConsentKind, PublishPermissions, WithheldReason};
 use crate::db::edits;
+use crate::db::lexicons;
+use crate::db::notations;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings;
 use crate::error::CorpusResult;
+use crate::lexicon::{LexiconScope, keep_scope_rows};
 use crate::pairs;
 use crate::progress::ProgressReceiver;
 use crate::search::SearchOptions;
 
+use super::PublishOptions;
 use super::publish_names::unique_file_names;
 use super::publish_source::MovementSource;
 
@@ -71,11 +79,11 @@ pub(super) struct DictionaryEntries {
 pub(super) fn collect_dictionary_entries(
     corpus: &mut Corpus,
     query: Option<&str>,
+    options: &PublishOptions,
     permissions: &PublishPermissions,
-    notes: bool,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<DictionaryEntries> {
-    let asked = tokens_by_gloss(corpus, query, progress)?;
+    let asked = tokens_by_sign_name(corpus, query, &options.scope, progress)?;
     let connection = corpus.store.read_connection();
     let mut entries = DictionaryEntries {
         all: Vec::new(),
@@ -86,6 +94,11 @@ pub(super) fn collect_dictionary_entries(
     };
     let mut people: BTreeMap<(bool, i64), usize> = BTreeMap::new();
     for (gloss, tokens) in asked {
+        let lexicon_tokens: Vec<i64> = tokens
+            .iter()
+            .filter(|token| token.recording_id.is_none())
+            .map(|token| token.id)
+            .collect();
         let (token, terms, movement) = match choose_shown_token(corpus, tokens, permissions)? {
             Ok(chosen) => chosen,
             Err(reason) => {
@@ -115,13 +128,14 @@ pub(super) fn collect_dictionary_entries(
             }
             None => EntryMovement::Never,
         };
+        let values = entry_values(connection, &token, &lexicon_tokens)?;
         let remarks = edits::sign_gloss_and_notes(connection, token.sign_id)?.1;
         entries.all.push(DictionaryEntry {
             name: String::new(),
             texts: signs::list_sign_translations(connection, token.sign_id)?,
-            notes: remarks.filter(|_| notes),
-            values: signs::load_token_values(connection, token.id)?,
-            coding: corpus.coding_of(&token)?,
+            notes: remarks.filter(|_| options.notes),
+            coding: corpus.coding_from_values(&token, &values)?,
+            values,
             source: MovementSource::movement_source_of_token(connection, &token)?,
             token,
             gloss,
@@ -150,10 +164,12 @@ fn name_folders(entries: &mut [DictionaryEntry]) {
     }
 }
 
-/// Returns the tokens to choose from, by gloss.
-fn tokens_by_gloss(
+/// Returns the tokens to choose from, by the gloss of the sign; signs of several lexicons with one gloss have the name of
+/// the lexicon behind it.
+fn tokens_by_sign_name(
     corpus: &mut Corpus,
     query: Option<&str>,
+    scope: &LexiconScope,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<BTreeMap<String, Vec<TokenRow>>> {
     let tokens = match query {
@@ -177,11 +193,26 @@ fn tokens_by_gloss(
             all
         }
     };
-    let mut by_gloss: BTreeMap<String, Vec<TokenRow>> = BTreeMap::new();
+    let connection = corpus.store.read_connection();
+    let tokens = keep_scope_rows(connection, scope, tokens, |token| token.sign_id)?;
+    let mut by_gloss: BTreeMap<String, BTreeMap<i64, Vec<TokenRow>>> = BTreeMap::new();
     for token in tokens {
-        by_gloss.entry(token.gloss.clone()).or_default().push(token);
+        let signs = by_gloss.entry(token.gloss.clone()).or_default();
+        signs.entry(token.sign_id).or_default().push(token);
     }
-    Ok(by_gloss)
+    let mut by_name = BTreeMap::new();
+    for (gloss, signs) in by_gloss {
+        let has_namesakes = signs.len() > 1;
+        for (sign, tokens) in signs {
+            let lexicon = match has_namesakes {
+                true => lexicons::lexicon_name_of_sign(connection, sign)?,
+                false => None,
+            };
+            let name = lexicon.map_or(gloss.clone(), |lexicon| format!("{gloss} ({lexicon})"));
+            by_name.entry(name).or_insert_with(Vec::new).extend(tokens);
+        }
+    }
+    Ok(by_name)
 }
 
 type UsageTerms = BTreeSet<String>;
@@ -204,7 +235,7 @@ fn choose_shown_token(
     for token in tokens {
         let recording_terms = match token.recording_id {
             Some(recording) => permissions.recording_publish_terms(recording, ConsentKind::Annotation),
-            None => permissions.of_entry(),
+            None => permissions.entry_publish_terms(token.lexicon.as_deref()),
         };
         let terms = match recording_terms {
             Ok(terms) => terms,
@@ -229,6 +260,29 @@ fn choose_shown_token(
         *movement = Some(Err(reason));
     }
     Ok(best.ok_or(reason.unwrap_or(WithheldReason::NoTerms)))
+}
+
+/// Returns the values of a dictionary's entry by component: those that somebody coded, in the shown token or else in the
+/// lexicon, before those that notation implies.
+fn entry_values(connection: &Connection, token: &TokenRow, lexicon_tokens: &[i64]) -> CorpusResult<Vec<TokenValueRow>> {
+    let mut sources = Vec::new();
+    for id in [token.id].into_iter().chain(lexicon_tokens.iter().copied()) {
+        let is_implied = notations::find_token_notation(connection, id)?.is_some()
+            || id == token.id && token.origin == RecordOrigin::Generated;
+        sources.push((is_implied, id));
+    }
+    sources.sort_by_key(|(is_implied, _)| *is_implied);
+    let mut values: Vec<TokenValueRow> = Vec::new();
+    for (_, id) in sources {
+        let valued: BTreeSet<SignComponent> = values
+            .iter()
+            .filter(|row| row.state != ValueState::Unset)
+            .map(|row| row.component)
+            .collect();
+        let rows = signs::load_token_values(connection, id)?;
+        values.extend(rows.into_iter().filter(|row| !valued.contains(&row.component)));
+    }
+    Ok(values)
 }
 
 fn has_body(corpus: &Corpus, recording: i64) -> CorpusResult<bool> {

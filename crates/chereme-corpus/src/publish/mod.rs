@@ -30,6 +30,7 @@ use crate::consent::{self, PublishPermissions, WithheldReason};
 use crate::db::seals;
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
+use crate::lexicon::LexiconScope;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 use bodies::DictionaryBodies;
@@ -51,6 +52,8 @@ const MAX_NAMED_LEFT_OUT: usize = 5;
 pub struct PublishOptions {
     /// The signs, as a query for their tokens; all signs if `None`.
     pub query: Option<String>,
+    /// The lexicons whose signs are published.
+    pub scope: LexiconScope,
     /// The title of the pages.
     pub title: Option<String>,
     /// The terms of use of what has none of its own and shows nobody: entries of tables, and signs generated from
@@ -173,7 +176,7 @@ impl Corpus {
         let terms = given_terms.filter(|text| !text.is_empty());
         let permissions = PublishPermissions::read_publish_permissions(self.store.read_connection(), terms)?;
         let query = options.query.as_deref().filter(|text| !text.trim().is_empty());
-        let collected = entries::collect_dictionary_entries(self, query, &permissions, options.notes, progress)?;
+        let collected = entries::collect_dictionary_entries(self, query, options, &permissions, progress)?;
         let left_out = left_out(&collected);
         // If every sign of an older publication was withdrawn, its pages may not stay. Without terms nothing was.
         let refused = left_out.iter().any(|omission| omission.why != WithheldReason::NoTerms);

@@ -58,6 +58,9 @@ pub struct SearchHit {
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
+    /// The lexicon to which its sign belongs, if it belongs to one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lexicon: Option<String>,
     /// The name of its recording; a lexicon entry has none.
     pub recording: Option<String>,
     /// Where it starts, in microseconds.
@@ -274,6 +277,7 @@ pub(crate) fn collect_search_hits(
         hits.push(SearchHit {
             token,
             gloss: row.gloss,
+            lexicon: row.lexicon,
             recording: row.recording,
             start_us: row.start_us,
             end_us: row.end_us,

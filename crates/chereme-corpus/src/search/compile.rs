@@ -322,6 +322,9 @@ fn mark_of(property: WholeTokenProperty) -> Option<TokenProperty> {
         WholeTokenProperty::Hand => Some(TokenProperty::Hand),
         WholeTokenProperty::Tier => Some(TokenProperty::Tier),
         WholeTokenProperty::Inventory => Some(TokenProperty::Inventory),
+        WholeTokenProperty::Lexicon => Some(TokenProperty::Lexicon),
+        WholeTokenProperty::Language => Some(TokenProperty::Language),
+        WholeTokenProperty::File => Some(TokenProperty::File),
         WholeTokenProperty::Proposed => Some(TokenProperty::Proposed),
         WholeTokenProperty::Disputed => Some(TokenProperty::Disputed),
         _ => None,
@@ -379,7 +382,12 @@ fn plan_named_property(
     }
     let names = search_answers::list_row_names(ask.connection, rows)?;
     let matching_names = names.iter().filter(|(_, name)| wish.is_requested_name(name));
-    let ids: Vec<i64> = matching_names.map(|(id, _)| *id).collect();
+    let mut ids: Vec<i64> = matching_names.map(|(id, _)| *id).collect();
+    if ids.is_empty() && property == WholeTokenProperty::Sign {
+        let entries = search_answers::list_row_names(ask.connection, NamedRowKind::LexiconEntry)?;
+        let matching_entries = entries.iter().filter(|(_, name)| wish.is_requested_name(name));
+        ids.extend(matching_entries.map(|(id, _)| *id));
+    }
     if ids.is_empty() && wish.literal {
         return Err(wish.unknown_name_failure(kind, names.into_iter().map(|(_, name)| name)));
     }

@@ -71,12 +71,14 @@ fn row_facet(
         let bar = counts[least - 1].0;
         counts.retain(|(count, _)| *count >= bar);
     }
-    let mut named_counts = Vec::with_capacity(counts.len());
+    // Signs of several lexicons may have one gloss.
+    let mut by_name: BTreeMap<String, usize> = BTreeMap::new();
     for (count, row) in counts {
         if let Some(name) = search_answers::find_row_name(ask.connection, named, row)? {
-            named_counts.push((name, count));
+            *by_name.entry(name).or_default() += count;
         }
     }
+    let mut named_counts: Vec<(String, usize)> = by_name.into_iter().collect();
     keep_most_frequent(&mut named_counts, most);
     let left_out = all - named_counts.len();
     Ok((named_counts, left_out))

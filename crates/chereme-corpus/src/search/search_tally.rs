@@ -201,6 +201,9 @@ fn group_documents_by_value(
             WholeTokenProperty::Hand => of_mark(ask, found, TokenProperty::Hand)?,
             WholeTokenProperty::Tier => of_mark(ask, found, TokenProperty::Tier)?,
             WholeTokenProperty::Inventory => of_mark(ask, found, TokenProperty::Inventory)?,
+            WholeTokenProperty::Lexicon => of_mark(ask, found, TokenProperty::Lexicon)?,
+            WholeTokenProperty::Language => of_mark(ask, found, TokenProperty::Language)?,
+            WholeTokenProperty::File => of_mark(ask, found, TokenProperty::File)?,
             _ => return Err(QueryFailure::Other(uncounted(property.property_name()))),
         },
     };
@@ -305,10 +308,12 @@ fn of_rows(
             by_row.entry(row).or_default().push(*doc);
         }
     }
-    let mut groups = Vec::with_capacity(by_row.len());
+    // Signs of several lexicons may have one gloss.
+    let mut groups: BTreeMap<String, DocumentList> = BTreeMap::new();
     for (row, docs) in by_row {
         let name = search_answers::find_row_name(ask.connection, named, row)?;
-        groups.push((name.unwrap_or_default(), docs));
+        groups.entry(name.unwrap_or_default()).or_default().extend(docs);
     }
-    Ok(groups)
+    groups.values_mut().for_each(|docs| docs.sort_unstable());
+    Ok(groups.into_iter().collect())
 }

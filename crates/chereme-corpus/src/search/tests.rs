@@ -69,7 +69,7 @@ impl Sample {
 
     fn token_of(&mut self, gloss: &str, row: &TokenRow, values: &[&str]) -> i64 {
         self.work(|connection| {
-            let sign_id = signs::sign_glossed(connection, gloss)?;
+            let sign_id = signs::sign_of_annotation(connection, None, gloss)?;
             let row = TokenRow { sign_id, ..row.clone() };
             let token = signs::insert_token(connection, &row)?;
             let values: Vec<TokenValueRow> = values.iter().map(|value| value_row(value)).collect();
@@ -192,7 +192,7 @@ fn a_search_stops_on_request() {
     sample.work(|connection| {
         for n in 0..200 {
             let row = TokenRow {
-                sign_id: signs::sign_glossed(connection, &format!("S{n}"))?,
+                sign_id: signs::sign_of_annotation(connection, None, &format!("S{n}"))?,
                 origin: RecordOrigin::Lexicon,
                 ..TokenRow::default()
             };

@@ -19,6 +19,7 @@ pub use stats_findings::StatsFinding;
 use crate::Corpus;
 use crate::error::{CorpusError, CorpusResult};
 use crate::forms::{EmptyCellTreatment, FormSource, SignForm, SignForms, named_fields, number_form_cells};
+use crate::lexicon::LexiconScope;
 use crate::progress::ProgressReceiver;
 
 /// The most shuffles for p.
@@ -36,6 +37,8 @@ pub struct StatsOptions {
     pub empty: EmptyCellTreatment,
     /// The tokens to count, as a query; without it every sign counts once.
     pub query: Option<String>,
+    /// The lexicons whose signs count.
+    pub scope: LexiconScope,
     /// A field whose values and contrasts are wanted.
     pub of: Option<String>,
     /// Two fields whose association is wanted.
@@ -56,6 +59,7 @@ impl Default for StatsOptions {
             fields: Vec::new(),
             empty: EmptyCellTreatment::Value,
             query: None,
+            scope: LexiconScope::Single,
             of: None,
             between: None,
             battison: false,
@@ -221,7 +225,7 @@ impl Corpus {
             let more: Vec<String> = more.cloned().collect();
             wanted.extend(more);
         }
-        let mut forms = self.load_sign_forms(&wanted, tokens.as_deref(), progress)?;
+        let mut forms = self.load_sign_forms(&wanted, tokens.as_deref(), &options.scope, progress)?;
         forms.rows.sort();
         let set = if set == 0 { forms.fields.len() } else { set };
         compute_form_statistics(&forms, set, options, progress)

@@ -157,10 +157,13 @@ fn a_field_in_depth_counts_the_pairs_that_the_minimal_pairs_count() {
     let mut corpus = corpus_with(folder.path(), TABLE);
     let fields = ["handshape", "handshape weak", "location"];
     let pairs = corpus
-        .minimal_pairs(&PairOptions {
-            fields: by(&fields).fields,
-            ..PairOptions::default()
-        })
+        .minimal_pairs(
+            &PairOptions {
+                fields: by(&fields).fields,
+                ..PairOptions::default()
+            },
+            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
+        )
         .expect("counted");
     for field in fields {
         let options = StatsOptions {

@@ -76,6 +76,12 @@ pub enum OperationEffect {
     },
     /// A token became the citation form of its sign.
     SetCitation { token: i64, gloss: String },
+    /// A lexicon got other properties.
+    ChangeLexicon { lexicon: String },
+    /// The glosses of recordings are looked up in a lexicon.
+    LinkLexicon { lexicon: String, recordings: u64 },
+    /// The glosses of recordings are looked up in no lexicon.
+    UnlinkLexicon { recordings: u64 },
     /// A token was transcribed.
     Transcribe { token: i64, gloss: String },
     /// Tracks were added to a recording.
@@ -288,6 +294,9 @@ impl OperationEffect {
             Self::ChangeSign { former: None, .. } => "{sign}",
             Self::ChangeSign { .. } => "{former} to {sign}, {annotations}",
             Self::SetCitation { .. } => "token:{token} for {gloss}",
+            Self::ChangeLexicon { .. } => "{lexicon}",
+            Self::LinkLexicon { .. } => "{lexicon}: {recordings} recordings",
+            Self::UnlinkLexicon { .. } => "{recordings} recordings",
             Self::Transcribe { .. } => "token:{token} {gloss}",
             Self::AddTracks { .. } => "{recording}: {tracks}",
             Self::ChangeTrack { change, .. } => match change {

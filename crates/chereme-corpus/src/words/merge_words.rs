@@ -35,6 +35,7 @@ texts! {
     CHANNEL: "channel", "canal";
     SKELETON: "skeleton", "squelette";
     SIGNER: "signer", "signeur";
+    LEXICON: "lexicon", "lexique";
     SIGN: "sign", "signe";
     TOKEN: "token", "occurrence";
     NOTATION: "notation", "notation";
@@ -61,6 +62,7 @@ pub fn merged_kind_noun(table: &str) -> InterfaceText {
         ("channel", CHANNEL),
         ("skeleton", SKELETON),
         ("signer", SIGNER),
+        ("lexicon", LEXICON),
         ("sign", SIGN),
         ("token", TOKEN),
         ("notation", NOTATION),

@@ -71,7 +71,9 @@ mod tests {
             corpus.redo_operation().map(drop),
             corpus.recombine_recipe("NONE | swap", "X").map(drop),
             corpus.preview_recipe("| ").map(drop),
-            corpus.suggest_new_signs(&"NONE".parse().expect("an address")).map(drop),
+            corpus
+                .suggest_new_signs(&"NONE".parse().expect("an address"), false)
+                .map(drop),
             corpus.operation_detail(99, 1).map(drop),
             crate::Corpus::open_corpus(&folder.path().join("none"), "A").map(drop),
             crate::Corpus::create_corpus(&path, "A").map(drop),

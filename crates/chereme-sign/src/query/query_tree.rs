@@ -385,6 +385,12 @@ pub enum WholeTokenProperty {
     Tier,
     /// The name of an inventory that has values of the token.
     Inventory,
+    /// The lexicon to which its sign belongs, by name.
+    Lexicon,
+    /// The sign language of that lexicon, as a code of ISO 639-3.
+    Language,
+    /// The name of a file that it came from.
+    File,
     /// The hand for which the token is annotated, else the hands for which something is coded: `right`, `left`,
     /// `dominant`, `weak` or `both`.
     Hand,

@@ -30,7 +30,7 @@ impl TextField {
 
 impl WholeTokenProperty {
     /// Every property.
-    pub const ALL_TOKEN_PROPERTIES: [Self; 11] = [
+    pub const ALL_TOKEN_PROPERTIES: [Self; 14] = [
         Self::Origin,
         Self::Signer,
         Self::Recording,
@@ -38,6 +38,9 @@ impl WholeTokenProperty {
         Self::Token,
         Self::Tier,
         Self::Inventory,
+        Self::Lexicon,
+        Self::Language,
+        Self::File,
         Self::Hand,
         Self::Proposed,
         Self::Disputed,
@@ -61,6 +64,9 @@ impl WholeTokenProperty {
             Self::Token => &["token"],
             Self::Tier => &["tier"],
             Self::Inventory => &["inventory", "inventaire"],
+            Self::Lexicon => &["lexicon", "lexique"],
+            Self::Language => &["language", "langue"],
+            Self::File => &["file", "fichier"],
             Self::Hand => &["hand", "main"],
             Self::Proposed => &["proposed", "proposé"],
             Self::Disputed => &["disputed", "contesté"],

@@ -18,6 +18,8 @@ texts! {
     RECIPE: "Recipe", "Recette";
     LICENCE: "Licence", "Licence";
     NOTES: "Notes", "Notes";
+    LEXICON: "Lexicon", "Lexique";
+    NO_LEXICON: "none", "aucun";
     TIER: "Tier", "Acteur";
     VALUE: "Value", "Valeur";
     START: "Start", "Début";

@@ -59,6 +59,9 @@ texts! {
     SIGN: "sign", "signe";
     TIER: "tier", "acteur";
     INVENTORY: "inventory", "inventaire";
+    LEXICON: "lexicon", "lexique";
+    SIGN_LANGUAGE: "sign language", "langue des signes";
+    FILE: "file", "fichier";
     TOKEN: "token", "occurrence";
     INITIAL: "at first", "au début";
     FINAL: "at last", "à la fin";

@@ -60,6 +60,6 @@ pub(crate) fn evaluate_draft_job(draft: OpenRecipeDraft) -> CorpusJob {
 /// Suggests recipes for a token.
 pub(crate) fn suggest_recipes_job(token: CorpusAddress) -> CorpusJob {
     CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, _| {
-        corpus.suggest_new_signs(&token).map(WorkOutcome::Suggested)
+        corpus.suggest_new_signs(&token, false).map(WorkOutcome::Suggested)
     })
 }

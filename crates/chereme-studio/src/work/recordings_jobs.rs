@@ -1,8 +1,8 @@
 //! Jobs that describe, show and delete recordings, their signers and their signs.
 
 use chereme_corpus::{
-    CorpusAddress, DeleteOptions, FitOptions, MediaChange, ObjectDetails, RecordingChange, RowName, SignChange,
-    SignerChange, TrackChange,
+    CorpusAddress, DeleteOptions, FitOptions, LinkedRecordings, MediaChange, ObjectDetails, RecordingChange, RowName,
+    SignChange, SignerChange, TrackChange,
 };
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
@@ -32,6 +32,14 @@ pub(crate) fn change_signer(name: RowName, change: SignerChange) -> CorpusJob {
 /// Changes a sign.
 pub(crate) fn change_sign(name: RowName, change: SignChange) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.change_sign(&name, &change))
+}
+
+/// Looks up the glosses of a recording in a lexicon from now on, or in none.
+pub(crate) fn link_lexicon_job(recording: i64, lexicon: Option<String>) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, progress| {
+        let recordings = LinkedRecordings::Named(vec![RowName::Number(recording)]);
+        corpus.link_lexicon(lexicon.as_deref(), &recordings, progress)
+    })
 }
 
 /// Makes a token the citation form of its sign.

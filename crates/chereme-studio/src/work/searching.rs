@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::{KeptSearch, MapOptions, SearchOptions};
+use chereme_corpus::{KeptSearch, LexiconScope, MapOptions, SearchOptions};
 use chereme_sign::SignComponent;
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
@@ -26,7 +26,11 @@ pub(crate) fn load_neighbours_job(tokens: Vec<i64>, most: usize) -> CorpusJob {
 pub(crate) fn map_signs_job(components: Vec<SignComponent>) -> CorpusJob {
     CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, progress| {
         let query = None;
-        let options = MapOptions { components, query };
+        let options = MapOptions {
+            components,
+            query,
+            scope: LexiconScope::Across,
+        };
         Ok(WorkOutcome::Mapped(Arc::new(
             corpus.arrange_sign_map(&options, progress)?,
         )))

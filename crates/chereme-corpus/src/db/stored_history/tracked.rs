@@ -6,12 +6,16 @@ use serde_json::Value;
 use crate::error::CorpusResult;
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 24] = [
+pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 25] = [
     ("meta", &[]),
+    ("lexicon", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
-    ("recording", &[("signer_id", "signer")]),
-    ("source_file", &[("recording_id", "recording")]),
+    ("recording", &[("signer_id", "signer"), ("lexicon_id", "lexicon")]),
+    (
+        "source_file",
+        &[("recording_id", "recording"), ("lexicon_id", "lexicon")],
+    ),
     ("track", &[("recording_id", "recording"), ("skeleton_id", "skeleton")]),
     ("track_block", &[("track_id", "track")]),
     ("channel", &[("track_id", "track")]),
@@ -26,7 +30,7 @@ pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 24] 
         ],
     ),
     ("annotation", &[("tier_id", "tier"), ("parent_id", "annotation")]),
-    ("sign", &[]),
+    ("sign", &[("lexicon_id", "lexicon")]),
     ("sign_text", &[("sign_id", "sign")]),
     (
         "token",
@@ -62,7 +66,14 @@ pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 24] 
 ];
 
 /// Changes that affect what the search index stores about tokens: table, event, and the affected tokens.
-const TOKEN_TOUCHING_CHANGES: [(&str, &str, &str); 9] = [
+const TOKEN_TOUCHING_CHANGES: [(&str, &str, &str); 12] = [
+    (
+        "lexicon",
+        "UPDATE",
+        "WHERE t.sign_id IN (SELECT id FROM main.sign WHERE lexicon_id = NEW.id)",
+    ),
+    ("source_file", "INSERT", "WHERE t.recording_id = NEW.recording_id"),
+    ("source_file", "DELETE", "WHERE t.recording_id = OLD.recording_id"),
     ("sign", "UPDATE", "WHERE t.sign_id = NEW.id"),
     ("sign_text", "INSERT", "WHERE t.sign_id = NEW.sign_id"),
     ("sign_text", "UPDATE", "WHERE t.sign_id = NEW.sign_id"),

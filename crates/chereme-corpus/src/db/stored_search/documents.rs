@@ -79,7 +79,7 @@ pub(crate) fn visit_token_documents(
 
 const SELECT_DOCUMENT_TOKENS_SQL: &str = "
     SELECT t.id, t.sign_id, t.recording_id, t.start_us, t.end_us, t.origin, t.hand, a.tier_id,
-        p.id, p.handedness
+        p.id, p.handedness, t.source ->> '$.file'
     FROM token t LEFT JOIN annotation a ON a.id = t.annotation_id
     LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant";
 
@@ -97,6 +97,8 @@ struct TokenFields {
     tier: Option<i64>,
     /// The participant of its tier, if that is a signer, and whether that signer is left-handed.
     participant: Option<(i64, bool)>,
+    /// The table or file of notation that it came from.
+    file: Option<String>,
 }
 
 impl TokenFields {
@@ -113,6 +115,7 @@ impl TokenFields {
             participant: row
                 .get::<_, Option<i64>>(8)?
                 .zip(Some(row.get_ref(9)?.as_str() == Ok("left"))),
+            file: row.get(10)?,
         })
     }
 }
@@ -184,6 +187,8 @@ struct SignTexts {
     gloss: Rc<str>,
     notes: Option<Rc<str>>,
     translations: Vec<Rc<str>>,
+    /// The terms for its lexicon and the language of that.
+    lexicon_terms: Vec<Rc<str>>,
 }
 
 /// The hands of a token: the hand for which it is annotated, otherwise those that have coded values.
@@ -218,6 +223,8 @@ struct RecordingContext {
     left_handed: bool,
     translations: Vec<TimedText>,
     comments: Vec<TimedText>,
+    /// The names of the files that it was imported from.
+    files: Vec<String>,
 }
 
 struct TimedText {
@@ -272,6 +279,12 @@ impl<'c> TokenDocumentReader<'c> {
             add_overlapping(&around.comments, time, &mut document.comments);
         }
         self.add_marks(token, &mut document)?;
+        document.marks.extend(sign.lexicon_terms.iter().cloned());
+        let files = surroundings.iter().flat_map(|around| &around.files);
+        for file in files.chain(&token.file) {
+            let term = self.shared_mark_term(TokenProperty::File, file);
+            document.marks.push(term);
+        }
         let (mut inventories, mut coded) = (Vec::new(), TokenHandRoles::default());
         let mut opinions = Vec::new();
         values.visit_values_of_token(token.id, |row| {
@@ -345,17 +358,26 @@ impl<'c> TokenDocumentReader<'c> {
         if let Some(known) = self.signs.get(&id) {
             return Ok(known.clone());
         }
-        let (gloss, notes): (String, Option<String>) = self
+        let [gloss, notes, lexicon, language] = self
             .connection
-            .prepare_cached("SELECT gloss, notes FROM sign WHERE id = ?1")?
-            .query_row([id], |row| Ok((row.get(0)?, row.get(1)?)))?;
+            .prepare_cached(
+                "SELECT s.gloss, s.notes, l.name, l.language FROM sign s
+                 LEFT JOIN lexicon l ON l.id = s.lexicon_id WHERE s.id = ?1",
+            )?
+            .query_row([id], |row| {
+                let column = |at| row.get::<_, Option<String>>(at);
+                Ok([column(0)?, column(1)?, column(2)?, column(3)?])
+            })?;
+        let lexicon = lexicon.map(|name| self.shared_mark_term(TokenProperty::Lexicon, &name));
+        let language = language.map(|code| self.shared_mark_term(TokenProperty::Language, &code));
         let mut statement = self
             .connection
             .prepare_cached("SELECT text FROM sign_text WHERE sign_id = ?1 ORDER BY id")?;
         let mut texts = SignTexts {
-            gloss: fold_text(&gloss).into(),
+            gloss: fold_text(&gloss.unwrap_or_default()).into(),
             notes: notes.map(|notes| fold_text(&notes).into()),
             translations: Vec::new(),
+            lexicon_terms: lexicon.into_iter().chain(language).collect(),
         };
         let mut rows = statement.query([id])?;
         while let Some(row) = rows.next()? {
@@ -387,6 +409,7 @@ impl<'c> TokenDocumentReader<'c> {
             left_handed: handedness.as_deref() == Some("left"),
             translations: self.timed_texts(id, "translation")?,
             comments: self.timed_texts(id, "comment")?,
+            files: self.file_names(id)?,
         });
         if self.recordings.len() > MOST_RECORDINGS {
             self.recordings.clear();
@@ -409,6 +432,13 @@ impl<'c> TokenDocumentReader<'c> {
             })
         })?;
         Ok(rows.collect::<rusqlite::Result<_>>()?)
+    }
+
+    fn file_names(&self, recording: i64) -> CorpusResult<Vec<String>> {
+        let sql = "SELECT DISTINCT name FROM source_file WHERE recording_id = ?1 ORDER BY name";
+        let mut statement = self.connection.prepare_cached(sql)?;
+        let names = statement.query_map([recording], |row| row.get(0))?;
+        Ok(names.collect::<rusqlite::Result<_>>()?)
     }
 
     fn shared_tier_name(&mut self, id: i64) -> CorpusResult<Rc<str>> {

@@ -25,6 +25,8 @@ pub(crate) enum NamedRowKind {
     Signer,
     Recording,
     Sign,
+    /// Signs by lexicon and gloss: `NGT/BOOK`.
+    LexiconEntry,
 }
 
 /// Returns row and name of all such rows, by row.
@@ -33,6 +35,9 @@ pub(crate) fn list_row_names(connection: &Connection, named: NamedRowKind) -> Co
         NamedRowKind::Signer => "SELECT id, name FROM signer ORDER BY id",
         NamedRowKind::Recording => "SELECT id, name FROM recording ORDER BY id",
         NamedRowKind::Sign => "SELECT id, gloss FROM sign ORDER BY id",
+        NamedRowKind::LexiconEntry => {
+            "SELECT s.id, l.name || '/' || s.gloss FROM sign s JOIN lexicon l ON l.id = s.lexicon_id ORDER BY s.id"
+        }
     };
     let mut statement = connection.prepare_cached(sql)?;
     let names = statement
@@ -46,7 +51,7 @@ pub(crate) fn find_row_name(connection: &Connection, named: NamedRowKind, id: i6
     let sql = match named {
         NamedRowKind::Signer => "SELECT name FROM signer WHERE id = ?1",
         NamedRowKind::Recording => "SELECT name FROM recording WHERE id = ?1",
-        NamedRowKind::Sign => "SELECT gloss FROM sign WHERE id = ?1",
+        NamedRowKind::Sign | NamedRowKind::LexiconEntry => "SELECT gloss FROM sign WHERE id = ?1",
     };
     Ok(connection
         .prepare_cached(sql)?
@@ -57,6 +62,7 @@ pub(crate) fn find_row_name(connection: &Connection, named: NamedRowKind, id: i6
 /// A token as a search result shows it.
 pub(crate) struct HitRow {
     pub(crate) gloss: String,
+    pub(crate) lexicon: Option<String>,
     pub(crate) recording: Option<String>,
     pub(crate) start_us: Option<i64>,
     pub(crate) end_us: Option<i64>,
@@ -67,8 +73,8 @@ pub(crate) struct HitRow {
 pub(crate) fn find_hit_row(connection: &Connection, token: i64) -> CorpusResult<Option<HitRow>> {
     Ok(connection
         .prepare_cached(
-            "SELECT s.gloss, r.name, t.start_us, t.end_us, t.origin
-             FROM token t JOIN sign s ON s.id = t.sign_id
+            "SELECT s.gloss, r.name, t.start_us, t.end_us, t.origin, l.name
+             FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN lexicon l ON l.id = s.lexicon_id
              LEFT JOIN recording r ON r.id = t.recording_id WHERE t.id = ?1",
         )?
         .query_row([token], |row| {
@@ -78,6 +84,7 @@ pub(crate) fn find_hit_row(connection: &Connection, token: i64) -> CorpusResult<
                 start_us: row.get(2)?,
                 end_us: row.get(3)?,
                 origin: read_word_column(row, 4)?,
+                lexicon: row.get(5)?,
             })
         })
         .optional()?)

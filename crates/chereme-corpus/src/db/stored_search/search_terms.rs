@@ -23,6 +23,9 @@ pub(crate) enum TokenProperty {
     Hand,
     Tier,
     Inventory,
+    Lexicon,
+    Language,
+    File,
     /// The kinds of text that it has: `translation`, `comment`.
     Has,
     /// `yes` if a detector proposes something that nobody has accepted.
@@ -38,6 +41,9 @@ impl TokenProperty {
             Self::Hand => "@hand",
             Self::Tier => "@tier",
             Self::Inventory => "@inventory",
+            Self::Lexicon => "@lexicon",
+            Self::Language => "@language",
+            Self::File => "@file",
             Self::Has => "@has",
             Self::Proposed => "@proposed",
             Self::Disputed => "@disputed",

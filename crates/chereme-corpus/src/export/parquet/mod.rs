@@ -162,6 +162,7 @@ pub(super) fn write_component_parquet(
 ) -> CorpusResult<()> {
     let texts = [
         "gloss",
+        "lexicon",
         "recording",
         "component",
         "feature",
@@ -187,6 +188,7 @@ pub(super) fn write_component_parquet(
                 let numbers = [Some(*id), Some(place), value.annotation_id];
                 let texts = [
                     Some(token.gloss.as_str()),
+                    token.lexicon.as_deref(),
                     token.recording.as_deref(),
                     Some(value.component.component_name()),
                     value.feature.as_deref(),

@@ -8,12 +8,17 @@ fn total(corpus: &mut Corpus, query: &str) -> usize {
     answer.expect(query).total
 }
 
-fn pairs(corpus: &Corpus, fields: &[&str]) -> (usize, usize) {
+fn pairs(corpus: &mut Corpus, fields: &[&str]) -> (usize, usize) {
     let options = PairOptions {
         fields: fields.iter().map(|it| (*it).to_owned()).collect(),
         ..PairOptions::default()
     };
-    let found = corpus.minimal_pairs(&options).expect("counted");
+    let found = corpus
+        .minimal_pairs(
+            &options,
+            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
+        )
+        .expect("counted");
     (found.total, found.entries)
 }
 
@@ -88,8 +93,8 @@ fn the_mapping_of_a_table_is_used_whenever_the_table_is_read() {
     let mapping = r#"{"columns": {"Lemma*": "gloss", "EntryID": "attribute", "Form": "dominant.configuration"}}"#;
     let table = desk.file("m.csv", text);
     import(&mut corpus, &table, mapping);
-    assert_eq!(pairs(&corpus, &["Form"]), (1, 2));
-    assert_eq!(pairs(&corpus, &["Handshape strong"]), (1, 2), "by its meaning");
+    assert_eq!(pairs(&mut corpus, &["Form"]), (1, 2));
+    assert_eq!(pairs(&mut corpus, &["Handshape strong"]), (1, 2), "by its meaning");
     // The next version has no mapping of its own, or one that is about another table.
     for (at, other) in ["{}", r#"{"columns": {"Ort": "placement"}}"#].into_iter().enumerate() {
         let table = desk.file("m.csv", &format!("{text}e3,L3,S{at}\n"));
@@ -100,7 +105,7 @@ fn the_mapping_of_a_table_is_used_whenever_the_table_is_read() {
         assert!(messages.contains(said), "{messages}");
         assert_eq!(glosses(&corpus), ["L1", "L2", "L3"]);
         assert_eq!(total(&mut corpus, &format!("gloss=L3 configuration=S{at}")), 1);
-        assert_eq!(pairs(&corpus, &["Form"]), (3, 3));
+        assert_eq!(pairs(&mut corpus, &["Form"]), (3, 3));
     }
     assert_whole(&mut corpus);
 }

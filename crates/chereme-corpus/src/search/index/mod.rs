@@ -40,7 +40,7 @@ use directory::MemoryFolder;
 use index_read::{IndexReading, KnownLabels};
 
 /// The version of the documents' format, raised with every change of it: indexes of other versions are rebuilt.
-const INDEX_FORMAT_VERSION: i64 = 4;
+const INDEX_FORMAT_VERSION: i64 = 5;
 /// The name under which the index knows its analyser of words.
 const WORD_ANALYZER_NAME: &str = "words";
 /// The memory for writing changes to the index, in bytes; a new index takes four times as much.

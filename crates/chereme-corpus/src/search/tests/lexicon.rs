@@ -77,7 +77,7 @@ fn counts_in_the_shared_lexicon_equal_independent_ones() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // No sign is offered as a minimal pair if a second column of the table differs, too.
     let found = corpus
-        .suggest_new_signs(&"JAM-A".parse().expect("an address"))
+        .suggest_new_signs(&"JAM-A".parse().expect("an address"), false)
         .expect("a sign");
     assert!(found.partners.iter().all(|it| it.one_sided == 0));
     assert!(found.partners.iter().all(|it| it.gloss != "UUR-D"));

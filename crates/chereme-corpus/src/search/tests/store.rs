@@ -19,7 +19,7 @@ fn dump(store: &IndexedStore) -> Vec<String> {
 fn add(store: &mut IndexedStore, gloss: &str) {
     store
         .named_operation("add", |connection| {
-            let sign = signs::sign_glossed(connection, gloss)?;
+            let sign = signs::sign_of_annotation(connection, None, gloss)?;
             signs::add_text(connection, sign, "en", "a word")?;
             let origin = stored_columns::RecordOrigin::Lexicon;
             let row = signs::TokenRow {
@@ -109,7 +109,7 @@ fn a_failed_operation_changes_nothing_and_an_empty_one_is_not_logged() {
     add(&mut store, "BOL");
     let before = dump(&store);
     let failed: CorpusResult<()> = store.named_operation("fail", |connection| {
-        signs::sign_glossed(connection, "X")?;
+        signs::sign_of_annotation(connection, None, "X")?;
         Err(CorpusError::from_wrong_message("no"))
     });
     assert!(failed.is_err());

@@ -41,7 +41,7 @@ fn sample() -> Sample {
             ("ÉCOLE", "fr", "l’école, où l'on apprend"),
             ("BOL", "en", "bowl"),
         ] {
-            let sign = signs::sign_glossed(connection, gloss)?;
+            let sign = signs::sign_of_annotation(connection, None, gloss)?;
             signs::add_text(connection, sign, language, text)?;
         }
         connection.execute("UPDATE sign SET notes = 'seen in Lyon' WHERE gloss = 'BOL'", [])?;
@@ -609,7 +609,7 @@ fn a_lost_or_outdated_index_is_rebuilt() {
 fn a_failed_operation_leaves_no_trace_in_the_index() {
     let mut sample = sample();
     let failed: CorpusResult<()> = sample.corpus.store.named_operation("fail", |connection| {
-        let sign_id = signs::sign_glossed(connection, "CHIEN")?;
+        let sign_id = signs::sign_of_annotation(connection, None, "CHIEN")?;
         let row = TokenRow {
             sign_id,
             origin: crate::RecordOrigin::Lexicon,

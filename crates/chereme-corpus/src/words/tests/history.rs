@@ -116,6 +116,12 @@ fn all_effects() -> Vec<OperationEffect> {
             token: 7,
             gloss: gloss.clone(),
         },
+        Effect::ChangeLexicon { lexicon: text("NGT") },
+        Effect::LinkLexicon {
+            lexicon: text("NGT"),
+            recordings: 2,
+        },
+        Effect::UnlinkLexicon { recordings: 2 },
         Effect::Transcribe {
             token: 7,
             gloss: gloss.clone(),

@@ -103,6 +103,15 @@ pub(super) fn none_if_blank(text: String) -> Option<String> {
 
 pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut CommandOutbox) {
     show_inspector_grid(ui, "recording file", |ui| {
+        let lexicons = &seen.snapshot.overview.lexicons;
+        if !lexicons.is_empty() {
+            let none = (None, seen.say_text(words::NO_LEXICON).to_owned());
+            let named = lexicons.iter().map(|row| (Some(row.name.clone()), row.name.clone()));
+            let all: Vec<(Option<String>, String)> = [none].into_iter().chain(named).collect();
+            if let Some(lexicon) = show_inspector_choice(ui, seen, words::LEXICON, &it.lexicon, &all) {
+                out.request_work(recordings_jobs::link_lexicon_job(it.id, lexicon));
+            }
+        }
         if let Some(metres) = it.metres_per_unit {
             name_and_value(ui, seen, words::UNITS, &inspector_data::metres_text(metres));
         }
@@ -286,6 +295,11 @@ pub(super) fn show_sign_details(
     out: &mut CommandOutbox,
 ) {
     show_part_title(ui, seen.say_text(words::SIGN), &sign.gloss);
+    if let Some(lexicon) = &sign.lexicon {
+        show_inspector_grid(ui, "sign lexicon", |ui| {
+            name_and_value(ui, seen, words::LEXICON, lexicon)
+        });
+    }
     let change = |out: &mut CommandOutbox, change: SignChange| {
         out.request_work(recordings_jobs::change_sign(RowName::Number(sign.id), change));
     };

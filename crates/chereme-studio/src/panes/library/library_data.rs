@@ -1,6 +1,6 @@
 //! The texts of the lists of recordings and signs, without widgets.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_corpus::{RecordOrigin, RecordingGlance, SignGlance, TrackKind};
 use chereme_motion::{RecordingInstant, TimeSpan};
@@ -177,9 +177,17 @@ pub(crate) fn library_sign_rows(
     let origin = |sign: &SignGlance| origins.get(&sign.place?.0).copied();
     let wanted = fold_text(filter.trim());
     let fits = |sign: &&SignGlance| wanted.is_empty() || fold_text(&sign.gloss).contains(&wanted);
+    let lexicons: BTreeSet<&String> = signs.iter().filter_map(|sign| sign.lexicon.as_ref()).collect();
+    let about = |sign: &SignGlance| {
+        let text = describe_sign_origin(sign, origin(sign), language);
+        match &sign.lexicon {
+            Some(lexicon) if lexicons.len() > 1 => format!("{lexicon} · {text}"),
+            _ => text,
+        }
+    };
     let row = |sign: &SignGlance| LibrarySignRow {
         gloss: sign.gloss.clone(),
-        about: describe_sign_origin(sign, origin(sign), language),
+        about: about(sign),
         token: sign.citation,
         moves: SignMovement::movement_of_sign(sign),
     };

@@ -224,6 +224,7 @@ mod tests {
 
     fn hit(token: i64, gloss: &str) -> SearchHit {
         SearchHit {
+            lexicon: None,
             token,
             gloss: gloss.into(),
             recording: Some("Un".into()),

@@ -179,7 +179,7 @@ fn show_add_condition_button(ui: &mut Ui, seen: &PaneInput<'_>) -> Option<QueryC
     added
 }
 
-const PROPERTY_TEXTS: [(WholeTokenProperty, InterfaceText); 11] = [
+const PROPERTY_TEXTS: [(WholeTokenProperty, InterfaceText); 14] = [
     (WholeTokenProperty::Origin, words::ORIGIN),
     (WholeTokenProperty::Signer, words::SIGNER),
     (WholeTokenProperty::Recording, words::RECORDING),
@@ -187,6 +187,9 @@ const PROPERTY_TEXTS: [(WholeTokenProperty, InterfaceText); 11] = [
     (WholeTokenProperty::Sign, words::SIGN),
     (WholeTokenProperty::Tier, words::TIER),
     (WholeTokenProperty::Inventory, words::INVENTORY),
+    (WholeTokenProperty::Lexicon, words::LEXICON),
+    (WholeTokenProperty::Language, words::SIGN_LANGUAGE),
+    (WholeTokenProperty::File, words::FILE),
     (WholeTokenProperty::Token, words::TOKEN),
     (WholeTokenProperty::Proposed, words::PROPOSED),
     (WholeTokenProperty::Disputed, words::DISPUTED),
@@ -404,6 +407,10 @@ fn values_ui(
                 WholeTokenProperty::Signer => {
                     let all = seen.snapshot.overview.signers.iter();
                     all.map(|signer| signer.name.as_str()).collect()
+                }
+                WholeTokenProperty::Lexicon => {
+                    let all = seen.snapshot.overview.lexicons.iter();
+                    all.map(|lexicon| lexicon.name.as_str()).collect()
                 }
                 other => other.fixed_values().unwrap_or_default().to_vec(),
             };

@@ -195,6 +195,17 @@ fn completion_value_offers(
                 add(&[&it.row.name], &it.row.name, String::new());
             }
         }
+        ExpectedText::Property(WholeTokenProperty::Lexicon) => {
+            for lexicon in &overview.lexicons {
+                add(&[&lexicon.name], &lexicon.name, String::new());
+            }
+        }
+        ExpectedText::Property(WholeTokenProperty::Language) => {
+            for lexicon in &overview.lexicons {
+                let code = lexicon.language.as_deref().unwrap_or_default();
+                add(&[code, &lexicon.name], code, lexicon.name.clone());
+            }
+        }
         ExpectedText::Property(WholeTokenProperty::Inventory) => {
             for it in &overview.inventories {
                 add(&[&it.inventory.id], &it.inventory.id, String::new());

@@ -1,0 +1,223 @@
+//! `chereme lexicon`: lists the lexicons of a corpus, changes them, and links recordings to them.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{
+    CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, ProgressReceiver, ProgressStep,
+    RowName,
+};
+use clap::{Args, Subcommand};
+
+use super::track_command::parse_recording_address;
+use crate::args::CommandLine;
+use crate::output::{CommandOutput, CommandProgressBar};
+
+/// List the lexicons of a corpus, say what they are, and link recordings to them
+///
+/// A sign is an entry of a lexicon: BOOK of an American and BOOK of a British lexicon are two signs. An imported table is
+/// a lexicon with the name of its file, unless `chereme import --lexicon` names one. Where several lexicons have a gloss,
+/// write which one is meant: sign:NGT/BOOK. Queries know lexicon=NGT, language=dse and file=ngt.csv.
+///
+/// The glosses of a recording's tiers are looked up in the lexicon to which the recording is linked; those that it does
+/// not have are signs of no lexicon. The recordings of a corpus with one lexicon are linked to it; with several, link
+/// them yourself. Without an action the lexicons are listed. `--json` gives for each "id", "name", "language", "version",
+/// "terms", "citation", "notes", "signs", "files", "recordings" and "tokens".
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  chereme lexicon mine.chereme
+  chereme lexicon mine.chereme set ngt --name NGT --language dse --terms 'CC BY 4.0'
+  chereme lexicon mine.chereme link NGT recording:3 recording:4
+  chereme lexicon mine.chereme link NGT --where signer=Ada")]
+pub(crate) struct LexiconArgs {
+    /// The corpus
+    corpus: PathBuf,
+    #[command(subcommand)]
+    action: Option<LexiconAction>,
+}
+
+#[derive(Debug, Subcommand)]
+enum LexiconAction {
+    /// Say what a lexicon is: its name, language, version, terms, and how to cite it
+    Set(LexiconSetArgs),
+    /// Look up the glosses of recordings in a lexicon from now on
+    Link(LexiconLinkArgs),
+    /// Look up the glosses of recordings in no lexicon
+    Unlink(LexiconRecordingArgs),
+}
+
+#[derive(Debug, Args)]
+struct LexiconSetArgs {
+    /// The lexicon, by name
+    lexicon: String,
+    /// Its new name
+    #[arg(long)]
+    name: Option<String>,
+    /// Its sign language, as a code of ISO 639-3 such as dse; an empty text takes it away, here and below
+    #[arg(long, value_name = "CODE")]
+    language: Option<String>,
+    /// Its version
+    #[arg(long, value_name = "TEXT")]
+    release: Option<String>,
+    /// The terms under which it may be used
+    #[arg(long)]
+    terms: Option<String>,
+    /// How to cite it
+    #[arg(long, value_name = "TEXT")]
+    citation: Option<String>,
+    /// Remarks
+    #[arg(long, value_name = "TEXT")]
+    notes: Option<String>,
+}
+
+#[derive(Debug, Args)]
+struct LexiconLinkArgs {
+    /// The lexicon, by name
+    lexicon: String,
+    #[command(flatten)]
+    recordings: LexiconRecordingArgs,
+}
+
+/// The recordings to link.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+struct LexiconRecordingArgs {
+    /// The recordings, such as recording:3
+    #[arg(value_name = "RECORDING", value_parser = parse_recording_address)]
+    recordings: Vec<RowName>,
+    /// The recordings with a token that a query finds, as in `chereme search`
+    #[arg(long = "where", value_name = "QUERY")]
+    query: Option<String>,
+    /// All recordings of the corpus
+    #[arg(long)]
+    all: bool,
+}
+
+impl LexiconRecordingArgs {
+    fn linked_recordings(&self) -> LinkedRecordings {
+        match &self.query {
+            Some(query) => LinkedRecordings::Query(query.clone()),
+            None if self.all => LinkedRecordings::All,
+            None => LinkedRecordings::Named(self.recordings.clone()),
+        }
+    }
+}
+
+/// The lexicons whose signs a command compares.
+#[derive(Debug, Args)]
+pub(super) struct LexiconScopeArgs {
+    /// Take the signs of this lexicon alone
+    #[arg(long, value_name = "NAME", conflicts_with = "across")]
+    lexicon: Option<String>,
+    /// Take the signs of all lexicons as if they were one
+    #[arg(long)]
+    across: bool,
+}
+
+impl LexiconScopeArgs {
+    pub(super) fn lexicon_scope(&self) -> LexiconScope {
+        match &self.lexicon {
+            Some(name) => LexiconScope::Named(name.clone()),
+            None if self.across => LexiconScope::Across,
+            None => LexiconScope::Single,
+        }
+    }
+}
+
+pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOutput) -> Result<()> {
+    let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    let mut bar = CommandProgressBar::new();
+    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    match &args.action {
+        None => {}
+        Some(LexiconAction::Set(set)) => {
+            let change = set.lexicon_change();
+            if change == LexiconChange::default() {
+                return Err(CorpusError::from_wrong_message("nothing is to be changed")
+                    .with_advice("add --name, --language, --release, --terms, --citation or --notes")
+                    .into());
+            }
+            corpus.change_lexicon(&set.lexicon, &change)?;
+        }
+        Some(LexiconAction::Link(link)) => {
+            let names = corpus.link_lexicon(Some(&link.lexicon), &link.recordings.linked_recordings(), progress)?;
+            print_linked_recordings(&names, output)?;
+        }
+        Some(LexiconAction::Unlink(recordings)) => {
+            let names = corpus.link_lexicon(None, &recordings.linked_recordings(), progress)?;
+            print_linked_recordings(&names, output)?;
+        }
+    }
+    drop(bar);
+    let lexicons = corpus.lexicons()?;
+    print_lexicons(&lexicons, output)?;
+    output.set_json_document(lexicons)
+}
+
+impl LexiconSetArgs {
+    fn lexicon_change(&self) -> LexiconChange {
+        let filled = |text: &Option<String>| {
+            let text = text.as_deref().map(str::trim);
+            text.map(|trimmed| Some(trimmed.to_owned()).filter(|owned_text| !owned_text.is_empty()))
+        };
+        LexiconChange {
+            name: self.name.clone(),
+            language: filled(&self.language),
+            version: filled(&self.release),
+            terms: filled(&self.terms),
+            citation: filled(&self.citation),
+            notes: filled(&self.notes),
+        }
+    }
+}
+
+fn print_linked_recordings(names: &[String], output: &mut CommandOutput) -> Result<()> {
+    let count = output.format_counted_noun(names.len() as u64, "recordings");
+    output.filled_line("linked otherwise than before: {n}", &[&count])
+}
+
+/// Returns the names of the first files, and how many more there are.
+fn shown_file_names(files: &[String]) -> String {
+    const MAX_SHOWN_FILES: usize = 3;
+    let shown = files.iter().take(MAX_SHOWN_FILES).map(String::as_str);
+    let names = shown.collect::<Vec<_>>().join(", ");
+    match files.len().saturating_sub(MAX_SHOWN_FILES) {
+        0 => names,
+        more => format!("{names} +{more}"),
+    }
+}
+
+fn print_lexicons(lexicons: &[LexiconContents], output: &mut CommandOutput) -> Result<()> {
+    if lexicons.is_empty() {
+        return output.write_note("the corpus has no lexicon: import a table or notation with --lexicon NAME");
+    }
+    let rows: Vec<Vec<String>> = lexicons
+        .iter()
+        .map(|contents| {
+            let lexicon = &contents.lexicon;
+            vec![
+                lexicon.name.clone(),
+                lexicon.language.clone().unwrap_or_default(),
+                lexicon.version.clone().unwrap_or_default(),
+                contents.signs.to_string(),
+                contents.tokens.to_string(),
+                contents.recordings.to_string(),
+                lexicon.terms.clone().unwrap_or_default(),
+                shown_file_names(&contents.files),
+            ]
+        })
+        .collect();
+    let titles = [
+        "name",
+        "language",
+        "version",
+        "signs",
+        "tokens",
+        "recordings",
+        "terms",
+        "files",
+    ];
+    output.write_titled_table(&titles, &rows)
+}

@@ -1,0 +1,220 @@
+//! Rows of lexicons: the collections of entries to which signs belong.
+
+use chereme_sign::text::fold_text;
+use rusqlite::{Connection, OptionalExtension, Row, params};
+use serde::Serialize;
+
+use super::stored_tiers;
+use crate::error::CorpusResult;
+
+/// A lexicon: the signs of one language as somebody published them.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct LexiconRow {
+    /// The row.
+    pub id: i64,
+    /// Its name, which no other lexicon of the corpus has.
+    pub name: String,
+    /// Its sign language, as a code of ISO 639-3 such as `dse`.
+    pub language: Option<String>,
+    /// Its version.
+    pub version: Option<String>,
+    /// The terms under which it may be used.
+    pub terms: Option<String>,
+    /// How to cite it.
+    pub citation: Option<String>,
+    /// Remarks.
+    pub notes: Option<String>,
+}
+
+const SELECT_LEXICON_SQL: &str = "SELECT id, name, language, version, terms, citation, notes FROM lexicon";
+
+fn lexicon_row(row: &Row<'_>) -> rusqlite::Result<LexiconRow> {
+    Ok(LexiconRow {
+        id: row.get(0)?,
+        name: row.get(1)?,
+        language: row.get(2)?,
+        version: row.get(3)?,
+        terms: row.get(4)?,
+        citation: row.get(5)?,
+        notes: row.get(6)?,
+    })
+}
+
+/// Returns all lexicons by name.
+pub(crate) fn load_lexicon_rows(connection: &Connection) -> CorpusResult<Vec<LexiconRow>> {
+    let mut statement = connection.prepare_cached(&format!("{SELECT_LEXICON_SQL} ORDER BY name"))?;
+    let rows = statement.query_map([], lexicon_row)?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the lexicon of this name, otherwise the only one whose name differs from it in case and accents alone.
+pub(crate) fn find_lexicon(connection: &Connection, name: &str) -> CorpusResult<Option<LexiconRow>> {
+    let lexicons = load_lexicon_rows(connection)?;
+    if let Some(exact) = lexicons.iter().find(|lexicon| lexicon.name == name) {
+        return Ok(Some(exact.clone()));
+    }
+    let folded = fold_text(name);
+    let mut alike = lexicons
+        .into_iter()
+        .filter(|lexicon| fold_text(&lexicon.name) == folded);
+    Ok(alike.next().filter(|_| alike.next().is_none()))
+}
+
+/// Writes a lexicon of this name, which no other has, and returns its row. The recordings of a corpus without a lexicon
+/// are linked to its first one.
+pub(crate) fn insert_lexicon(connection: &Connection, name: &str) -> CorpusResult<i64> {
+    stored_tiers::check_text(
+        || format!("lexicon {:?}", name.chars().take(40).collect::<String>()),
+        name,
+    )?;
+    connection
+        .prepare_cached("INSERT INTO lexicon (name) VALUES (?1)")?
+        .execute([name])?;
+    let id = connection.last_insert_rowid();
+    connection
+        .prepare_cached(
+            "UPDATE recording SET lexicon_id = ?1
+             WHERE lexicon_id IS NULL AND (SELECT count(*) FROM lexicon) = 1",
+        )?
+        .execute([id])?;
+    Ok(id)
+}
+
+/// Returns `name`, or with a number behind it if a lexicon has that name already.
+pub(crate) fn free_lexicon_name(connection: &Connection, name: &str) -> CorpusResult<String> {
+    let name = if name.trim().is_empty() { "lexicon" } else { name.trim() };
+    let mut free_name = name.to_owned();
+    let mut number = 2;
+    while find_lexicon(connection, &free_name)?.is_some() {
+        free_name = format!("{name} ({number})");
+        number += 1;
+    }
+    Ok(free_name)
+}
+
+/// Writes the fields of a lexicon.
+pub(crate) fn update_lexicon(connection: &Connection, row: &LexiconRow) -> CorpusResult<()> {
+    connection
+        .prepare_cached(
+            "UPDATE lexicon SET name = ?2, language = ?3, version = ?4, terms = ?5, citation = ?6, notes = ?7
+             WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.name,
+            row.language,
+            row.version,
+            row.terms,
+            row.citation,
+            row.notes
+        ])?;
+    Ok(())
+}
+
+/// Returns the lexicon of a corpus that has only one.
+pub(crate) fn find_sole_lexicon(connection: &Connection) -> CorpusResult<Option<i64>> {
+    let sql = "SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon";
+    Ok(connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?)
+}
+
+/// Returns the lexicon in which the glosses of a recording's tiers are looked up.
+pub(crate) fn lexicon_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Option<i64>> {
+    let sql = "SELECT lexicon_id FROM recording WHERE id = ?1";
+    let lexicon = connection
+        .prepare_cached(sql)?
+        .query_row([recording], |row| row.get(0))
+        .optional()?;
+    Ok(lexicon.flatten())
+}
+
+/// Returns the name of the lexicon to which a recording is linked.
+pub(crate) fn lexicon_name_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Option<String>> {
+    let sql = "SELECT l.name FROM recording r JOIN lexicon l ON l.id = r.lexicon_id WHERE r.id = ?1";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([recording], |row| row.get(0))
+        .optional()?)
+}
+
+/// Links a recording to a lexicon, or to none, and returns whether it was not before.
+pub(crate) fn link_recording(connection: &Connection, recording: i64, lexicon: Option<i64>) -> CorpusResult<bool> {
+    let sql = "UPDATE recording SET lexicon_id = ?2 WHERE id = ?1 AND lexicon_id IS NOT ?2";
+    Ok(connection.prepare_cached(sql)?.execute(params![recording, lexicon])? > 0)
+}
+
+/// Returns the lexicon of a sign.
+pub(crate) fn lexicon_of_sign(connection: &Connection, sign: i64) -> CorpusResult<Option<i64>> {
+    let sql = "SELECT lexicon_id FROM sign WHERE id = ?1";
+    let lexicon = connection
+        .prepare_cached(sql)?
+        .query_row([sign], |row| row.get(0))
+        .optional()?;
+    Ok(lexicon.flatten())
+}
+
+/// Returns the name of the lexicon of a sign.
+pub(crate) fn lexicon_name_of_sign(connection: &Connection, sign: i64) -> CorpusResult<Option<String>> {
+    let sql = "SELECT l.name FROM sign s JOIN lexicon l ON l.id = s.lexicon_id WHERE s.id = ?1";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([sign], |row| row.get(0))
+        .optional()?)
+}
+
+/// Notes that the signs of an imported file are entries of a lexicon.
+pub(crate) fn set_file_lexicon(connection: &Connection, file: i64, lexicon: i64) -> CorpusResult<()> {
+    let sql = "UPDATE source_file SET lexicon_id = ?2 WHERE id = ?1 AND lexicon_id IS NOT ?2";
+    connection.prepare_cached(sql)?.execute([file, lexicon])?;
+    Ok(())
+}
+
+/// Returns the lexicon of an imported file.
+pub(crate) fn lexicon_of_file(connection: &Connection, file: i64) -> CorpusResult<Option<i64>> {
+    let sql = "SELECT lexicon_id FROM source_file WHERE id = ?1";
+    let lexicon = connection
+        .prepare_cached(sql)?
+        .query_row([file], |row| row.get(0))
+        .optional()?;
+    Ok(lexicon.flatten())
+}
+
+/// What a lexicon holds.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct LexiconContents {
+    /// The lexicon.
+    #[serde(flatten)]
+    pub lexicon: LexiconRow,
+    /// The number of its entries.
+    pub signs: i64,
+    /// The names of the files that it was imported from.
+    pub files: Vec<String>,
+    /// The number of recordings whose glosses are looked up in it.
+    pub recordings: i64,
+    /// The number of tokens of its entries.
+    pub tokens: i64,
+}
+
+/// Returns what each lexicon holds, by name.
+pub(crate) fn load_lexicon_contents(connection: &Connection) -> CorpusResult<Vec<LexiconContents>> {
+    let mut counted = connection.prepare_cached(
+        "SELECT (SELECT count(*) FROM sign WHERE lexicon_id = ?1),
+                (SELECT count(*) FROM recording WHERE lexicon_id = ?1),
+                (SELECT count(*) FROM token t JOIN sign s ON s.id = t.sign_id WHERE s.lexicon_id = ?1)",
+    )?;
+    let mut named =
+        connection.prepare_cached("SELECT DISTINCT name FROM source_file WHERE lexicon_id = ?1 ORDER BY name")?;
+    let mut contents = Vec::new();
+    for lexicon in load_lexicon_rows(connection)? {
+        let counts: [i64; 3] = counted.query_row([lexicon.id], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?;
+        let [signs, recordings, tokens] = counts;
+        let files = named.query_map([lexicon.id], |row| row.get(0))?;
+        contents.push(LexiconContents {
+            files: files.collect::<rusqlite::Result<_>>()?,
+            lexicon,
+            signs,
+            recordings,
+            tokens,
+        });
+    }
+    Ok(contents)
+}

@@ -1,0 +1,215 @@
+//! Signs belong to lexicons: two tables with one gloss are two signs.
+
+use std::fs;
+use std::path::Path;
+
+use super::*;
+use crate::lexicon::{LexiconChange, LexiconScope, LinkedRecordings};
+use crate::pairs::PairOptions;
+use crate::{ProgressReceiver, ignore_progress_step};
+
+fn import_with(corpus: &mut Corpus, path: &Path, options: &ImportOptions) -> FileReport {
+    let mut hear = ignore_progress_step;
+    let report = corpus
+        .import_paths(&[path.to_owned()], options, &mut ProgressReceiver::new(&mut hear))
+        .expect("imported");
+    report.files.into_iter().next().expect("a file")
+}
+
+fn import_file(corpus: &mut Corpus, path: &Path) -> FileReport {
+    import_with(corpus, path, &ImportOptions::default())
+}
+
+fn found(corpus: &mut Corpus, query: &str) -> Vec<String> {
+    let answer = corpus
+        .search_tokens(query, &crate::SearchOptions::default())
+        .expect("an answer");
+    let mut glosses: Vec<String> = answer.hits.into_iter().map(|hit| hit.gloss).collect();
+    glosses.sort();
+    glosses
+}
+
+fn write_tables(folder: &Path) -> [std::path::PathBuf; 2] {
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        fs::write(&path, text).expect("written");
+        path
+    };
+    [
+        write(
+            "asl.csv",
+            "Gloss,Handshape,Location\nBOOK,B,chest\nMOTHER,5,chin\nTREE,5,chest\n",
+        ),
+        write("bsl.csv", "Gloss,Handshape,Location\nBOOK,B,chin\nMOTHER,B,chest\n"),
+    ]
+}
+
+/// A corpus with two lexicons, ASL and BSL.
+fn corpus_of_two(folder: &Path) -> Corpus {
+    let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "test").expect("made");
+    for table in write_tables(folder) {
+        let report = import_file(&mut corpus, &table);
+        assert_eq!(
+            report.understood.lexicon.as_deref(),
+            table.file_stem().and_then(|stem| stem.to_str())
+        );
+    }
+    corpus
+}
+
+#[test]
+fn one_gloss_in_two_tables_is_two_signs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus_of_two(folder.path());
+    let counts: Vec<(String, i64)> = corpus
+        .lexicons()
+        .expect("lexicons")
+        .into_iter()
+        .map(|contents| (contents.lexicon.name, contents.signs))
+        .collect();
+    assert_eq!(counts, [("asl".to_owned(), 3), ("bsl".to_owned(), 2)]);
+    assert_eq!(found(&mut corpus, "lexicon=asl"), ["BOOK", "MOTHER", "TREE"]);
+    assert_eq!(found(&mut corpus, "lexicon=bsl gloss=BOOK placement=chin"), ["BOOK"]);
+    assert_eq!(found(&mut corpus, "file=bsl.csv configuration=B"), ["BOOK", "MOTHER"]);
+    let error = corpus
+        .token_details(&"BOOK".parse().expect("an address"))
+        .expect_err("two signs");
+    assert!(
+        error.to_string().contains("sign:\"asl/BOOK\", sign:\"bsl/BOOK\""),
+        "{error}"
+    );
+    for (address, value) in [("asl/BOOK", "chest"), ("sign:bsl/book", "chin")] {
+        let details = corpus
+            .token_details(&address.parse().expect("an address"))
+            .expect("one sign");
+        assert!(format!("{details:?}").contains(value), "{address}: {details:?}");
+    }
+    // The language of a lexicon is found at once after it was stated.
+    let change = LexiconChange {
+        name: Some("ASL".into()),
+        language: Some(Some("ASE".into())),
+        ..LexiconChange::default()
+    };
+    corpus.change_lexicon("asl", &change).expect("changed");
+    assert_eq!(found(&mut corpus, "language=ase").len(), 3);
+    assert_eq!(found(&mut corpus, "lexicon=ASL").len(), 3);
+    corpus.undo_operation().expect("undone");
+    assert_eq!(found(&mut corpus, "lexicon=asl").len(), 3);
+    assert!(
+        corpus
+            .change_lexicon(
+                "asl",
+                &LexiconChange {
+                    name: Some("bsl".into()),
+                    ..LexiconChange::default()
+                }
+            )
+            .is_err()
+    );
+}
+
+#[test]
+fn signs_of_two_lexicons_are_compared_only_if_that_is_asked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus_of_two(folder.path());
+    let mut pairs = |scope: LexiconScope, query: Option<&str>| {
+        let options = PairOptions {
+            fields: vec!["Handshape".into(), "Location".into()],
+            query: query.map(str::to_owned),
+            scope,
+            ..PairOptions::default()
+        };
+        let counted = corpus.minimal_pairs(&options, &mut ProgressReceiver::new(&mut ignore_progress_step));
+        counted.map(|pairs| pairs.total)
+    };
+    // ASL: BOOK and TREE, MOTHER and TREE; BSL: BOOK and MOTHER.
+    assert_eq!(pairs(LexiconScope::Named("asl".into()), None).ok(), Some(2));
+    assert_eq!(pairs(LexiconScope::Named("BSL".into()), None).ok(), Some(1));
+    assert_eq!(pairs(LexiconScope::Single, Some("lexicon=bsl")).ok(), Some(1));
+    assert!(pairs(LexiconScope::Across, None).is_ok_and(|total| total > 3));
+    let error = pairs(LexiconScope::Single, None).expect_err("two lexicons");
+    assert!(error.to_string().contains("asl (3), bsl (2)"), "{error}");
+    assert!(pairs(LexiconScope::Named("ngt".into()), None).is_err());
+}
+
+#[test]
+fn glosses_of_a_recording_mean_the_lexicon_to_which_it_is_linked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let take = folder.path().join("take.eaf");
+    fs::write(&take, eaf(&[("Gloss", 0, 500, "BOOK"), ("Handshape", 0, 500, "B")])).expect("written");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "test").expect("made");
+    import_file(&mut corpus, &take);
+    let glosses = found(&mut corpus, "origin=captured");
+    let gloss = glosses.first().expect("a token").clone();
+    let rows = |name: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, format!("Gloss,Handshape\n{gloss},B\n{name},5\n")).expect("written");
+        path
+    };
+    // The first lexicon adopts what was annotated before it came; the second one does not.
+    import_file(&mut corpus, &rows("one.csv"));
+    assert_eq!(
+        found(&mut corpus, &format!("lexicon=one origin=captured gloss={gloss:?}")).len(),
+        1
+    );
+    import_file(&mut corpus, &rows("two.csv"));
+    assert_eq!(found(&mut corpus, "lexicon=two").len(), 2);
+    let mut hear = ignore_progress_step;
+    let silent = &mut ProgressReceiver::new(&mut hear);
+    let linked = corpus
+        .link_lexicon(Some("two"), &LinkedRecordings::All, silent)
+        .expect("linked");
+    assert_eq!(linked, ["take"]);
+    assert_eq!(found(&mut corpus, "lexicon=one").len(), 2);
+    assert_eq!(found(&mut corpus, "lexicon=two").len(), 3);
+    corpus
+        .link_lexicon(None, &LinkedRecordings::All, silent)
+        .expect("linked");
+    assert_eq!(found(&mut corpus, "lexicon=two").len(), 2);
+    for _ in 0..2 {
+        corpus.undo_operation().expect("undone");
+    }
+    assert_eq!(found(&mut corpus, "lexicon=one").len(), 3);
+    // A recording that comes later belongs to none of the two, and the report says how to link it.
+    let other = folder.path().join("other.eaf");
+    fs::write(&other, eaf(&[("Gloss", 0, 600, "TREE")])).expect("written");
+    let report = import_file(&mut corpus, &other);
+    let texts: Vec<String> = report.findings.iter().map(|it| it.message.clone()).collect();
+    assert!(
+        texts
+            .iter()
+            .any(|text| text.contains("the corpus has several: one, two")),
+        "{texts:?}"
+    );
+}
+
+#[test]
+fn notation_and_tables_of_one_named_lexicon_are_one_sign_each() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [asl, bsl] = write_tables(folder.path());
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "test").expect("made");
+    let options = |lexicon: &str, language: &str| ImportOptions {
+        lexicon: Some(lexicon.to_owned()),
+        sign_language: Some(language.to_owned()),
+        ..ImportOptions::default()
+    };
+    import_with(&mut corpus, &asl, &options("ASL", "ase"));
+    import_with(&mut corpus, &bsl, &options("BSL", "bfi"));
+    let lines = folder.path().join("book.hns");
+    fs::write(
+        &lines,
+        "BOOK\tham\u{2d}\n".replace("ham\u{2d}", "\u{e001}\u{e020}\u{e03c}"),
+    )
+    .expect("written");
+    let report = import_with(&mut corpus, &lines, &options("BSL", "bfi"));
+    assert_eq!(report.understood.lexicon.as_deref(), Some("BSL"), "{report:?}");
+    assert_eq!(found(&mut corpus, "gloss=BOOK language=bfi").len(), 2);
+    assert_eq!(found(&mut corpus, "gloss=BOOK language=ase").len(), 1);
+    let wrong = ImportOptions {
+        lexicon: Some("A/B".into()),
+        ..ImportOptions::default()
+    };
+    let mut hear = ignore_progress_step;
+    let refused = corpus.import_paths(&[bsl], &wrong, &mut ProgressReceiver::new(&mut hear));
+    assert!(!format!("{refused:?}").contains("Imported"), "{refused:?}");
+}

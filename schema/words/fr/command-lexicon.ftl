@@ -1,0 +1,37 @@
+## Messages: `{ $name }` is a variable part.
+
+line-command-lexicon-linked-otherwise = liés autrement qu’avant : { $n }
+message-command-lexicon-nothing-changed = rien n’est à modifier
+message-command-lexicon-add-option = ajoutez --name, --language, --release, --terms, --citation ou --notes
+message-command-lexicon-no-lexicon = le corpus n’a pas de lexique : importez une table ou une notation avec --lexicon NOM
+
+## Help of commands and options.
+
+help-command-lexicon-list-change-link = Lister les lexiques d’un corpus, dire ce qu’ils sont et y lier des enregistrements
+help-command-lexicon-sign-is-entry = Un signe est une entrée d’un lexique : BOOK d’un lexique américain et BOOK d’un lexique britannique sont deux signes. Une table importée est un lexique du nom de son fichier, sauf si `chereme import --lexicon` en nomme un. Si plusieurs lexiques ont une glose, écrivez lequel est voulu : sign:NGT/BOOK. Les requêtes connaissent lexicon=NGT, language=dse et file=ngt.csv.
+help-command-lexicon-glosses-looked-up = Les gloses des acteurs d’un enregistrement sont cherchées dans le lexique auquel l’enregistrement est lié ; celles qu’il n’a pas sont des signes d’aucun lexique. Les enregistrements d’un corpus qui a un seul lexique y sont liés ; s’il en a plusieurs, liez-les vous-même. Sans action, les lexiques sont listés. `--json` donne pour chacun "id", "name", "language", "version", "terms", "citation", "notes", "signs", "files", "recordings" et "tokens".
+help-command-lexicon-say-what-it-is = Dire ce qu’est un lexique : son nom, sa langue, sa version, ses conditions et comment le citer
+help-command-lexicon-look-up = Chercher désormais les gloses d’enregistrements dans un lexique
+help-command-lexicon-look-up-in-none = Ne chercher les gloses d’enregistrements dans aucun lexique
+help-command-lexicon-by-name = Le lexique, par son nom
+help-command-lexicon-new-name = Son nouveau nom
+help-command-lexicon-language = Sa langue des signes, comme code ISO 639-3 tel que dse ; un texte vide l’enlève, ici et ci-dessous
+help-command-lexicon-version = Sa version
+help-command-lexicon-terms = Les conditions auxquelles il peut être utilisé
+help-command-lexicon-cite = Comment le citer
+help-command-lexicon-remarks = Remarques
+help-command-lexicon-recordings = Les enregistrements, comme recording:3
+help-command-lexicon-recordings-of-query = Les enregistrements dont une requête trouve une occurrence, comme dans `chereme search`
+help-command-lexicon-all-recordings = Tous les enregistrements du corpus
+help-command-lexicon-signs-of-one = Prendre seulement les signes de ce lexique
+help-command-lexicon-signs-of-all = Prendre les signes de tous les lexiques comme s’ils étaient d’un seul
+help-command-lexicon-compare-others = Le comparer aussi aux signes d’autres lexiques
+help-command-lexicon-import-into = Le lexique auquel appartiennent les signes des tables et des notations ; sans lui, une table en est un à elle seule, et une notation appartient au seul lexique du corpus
+help-command-lexicon-import-language = La langue des signes de ce lexique, comme code ISO 639-3 tel que dse
+help-command-lexicon-pairs-of-query = Les occurrences dont les signes sont comparés, comme dans `chereme search` ; sans cela les formes de citation
+
+## Titles of columns.
+
+title-command-lexicon-version = version
+title-command-lexicon-terms = conditions
+title-command-lexicon-files = fichiers
