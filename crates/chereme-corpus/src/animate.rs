@@ -19,7 +19,8 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
 use crate::recombine::{NotationFinding, RecombinationResult};
 use crate::sources::CorpusSources;
-use crate::sources::sources_notation::{OWN_BODY, SIGN_NAME_SEPARATOR};
+use crate::sources::sources_notation::SIGN_NAME_SEPARATOR;
+use crate::starter::OWN_BODY;
 
 /// The signer and the body language for notated signs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -8,6 +8,7 @@ mod address;
 mod agree;
 mod animate;
 mod annotate;
+mod atomic_write;
 mod author;
 mod check;
 pub(crate) mod codec;
@@ -52,6 +53,7 @@ mod propose;
 mod publish;
 pub mod recipe;
 mod recombine;
+mod report_finding;
 mod saved_search;
 mod score;
 pub(crate) mod search;
@@ -155,8 +157,8 @@ pub use forms::{EmptyCellTreatment, FIELD_SETS, FormSource};
 pub use import::{
     AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileJoin, FileJoining, FileReport,
     FileStatus, ImportOptions, ImportReport, JoinReason, JoinedFile, JoinedRecording, JointRole, MovementRead, OwnEdit,
-    OwnEdits, ReimportChanges, ReportFinding, RootRead, SharedPart, TiersRead, TrackRead, UnreadFileKind, read_stream,
-    readable_files, time_of_day,
+    OwnEdits, ReimportChanges, RootRead, SharedPart, TiersRead, TrackRead, UnreadFileKind, read_stream, readable_files,
+    time_of_day,
 };
 pub use info::{AttributeInfo, CorpusInfo, InventoryInfo, SignerInfo, TrackAmount};
 pub use inventories::StoredInventory;
@@ -172,7 +174,7 @@ pub use notation::{TokenNotation, read_notation};
 pub use pairs::{DenseSign, MinimalPair, MinimalPairs, PairOptions};
 pub use paths::paths_like;
 pub use picture::picture_values as value_pictures;
-pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, built_in_body, draw_clip};
+pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
 pub use progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 pub use propose::{
     AcceptanceResult, ProposalAcceptor, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier,
@@ -180,13 +182,14 @@ pub use propose::{
 };
 pub use publish::{LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
+pub use report_finding::ReportFinding;
 pub use saved_search::{KeptSearch, kept_like};
 pub use score::MovementScore;
 pub use search::{
     FACET_VALUES, FindingKind, HitOpinion, HitOrder, NO_VALUE, OpinionStanding, QueryFinding, SearchAnswer, SearchHit,
     SearchOptions, TallyRow, ValueTally, guessed_query_text, meant_query_text,
 };
-pub use starter::{StarterSign, starter_files, starter_signs, unpack_starter};
+pub use starter::{StarterSign, built_in_body, starter_files, starter_signs, unpack_starter};
 pub use stats::{
     BattisonConditions, ChanceAssociation, CrossCell, FieldAssociation, FieldContrast, FieldInDepth, FieldStatistics,
     FieldValue, HandCondition, IntervalEnds, LexiconStatistics, StatsEstimate, StatsFinding, StatsOptions, TwoHands,

@@ -10,12 +10,12 @@ use chereme_sign::{ComponentField, SignComponent};
 use serde::Serialize;
 
 use crate::Corpus;
+use crate::atomic_write::write_svg;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::RecordOrigin;
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::lexicon::{LexiconScope, keep_scope_rows};
-use crate::picture::write_svg;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::suggest::single_values;
 

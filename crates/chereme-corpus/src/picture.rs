@@ -1,16 +1,13 @@
 //! Pictures of stored movement and of inventories, drawn without a window.
 
-mod atomic_write;
 mod picture_faces;
 mod picture_points;
 pub mod picture_values;
-mod svg;
 
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use chereme_figure::{
     AnimationCaption, AnimationOptions, AnimationStrip, ClipAnimation, FigureError, FigureView, HandshapeOptions,
@@ -25,6 +22,7 @@ use serde::Serialize;
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RecordingStretch};
 use crate::animate::NotationStaging;
+use crate::atomic_write::{lowercase_extension, write_atomically};
 use crate::consent::{ConsentKind, OutputAudience, OutputGate, WithheldOutput, nothing_passes_error};
 use crate::curves;
 use crate::db::{seals, signs, stored_recordings};
@@ -36,11 +34,7 @@ use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation::{self, TokenNotation};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::recombine::RecombinationResult;
-use crate::sources::sources_notation::own_body;
-
-use atomic_write::lowercase_extension;
-pub(crate) use atomic_write::write_atomically;
-pub(crate) use svg::write_svg;
+use crate::starter::built_in_body;
 
 /// The height of a film in pixels, and its pictures per second.
 const FILM_HEIGHT_PX: usize = 540;
@@ -179,15 +173,6 @@ impl<'a> From<&'a RecombinationResult> for DrawablePerformance<'a> {
             faces: &made.faces,
         }
     }
-}
-
-/// Returns the body that comes with the program: a single frame at rest, with the body part of each joint.
-///
-/// # Errors
-/// Fails if the program's own file is damaged.
-pub fn built_in_body() -> CorpusResult<(Clip, Arc<BodyAnatomy>)> {
-    let body = own_body()?;
-    Ok((body.clip, body.anatomy))
 }
 
 impl Corpus {

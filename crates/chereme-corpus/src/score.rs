@@ -10,10 +10,11 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::CorpusAddress;
+use crate::atomic_write::write_atomically;
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
 use crate::hands;
-use crate::picture::{DisplayedMovement, write_atomically};
+use crate::picture::DisplayedMovement;
 
 /// The similarity of two pieces of movement of a corpus.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -31,6 +31,7 @@ use crate::face;
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::search::index::SearchIndex;
+use crate::starter;
 use learned::learned_language::MovementSamples;
 
 pub(crate) mod floor;
@@ -296,8 +297,8 @@ fn stretch_movement_material(
 
 impl RecipeSources for CorpusSources<'_> {
     fn find_material(&self, address: &str) -> std::result::Result<MovementMaterial, SourceError> {
-        if address == sources_notation::OWN_BODY {
-            return sources_notation::own_body().map_err(|error| unreadable(&error));
+        if address == starter::OWN_BODY {
+            return starter::own_body().map_err(|error| unreadable(&error));
         }
         match self.parse_source_stretch(address) {
             Ok(stretch) => match self.load_stretch_material(&stretch) {
@@ -332,8 +333,8 @@ impl RecipeSources for CorpusSources<'_> {
 
     fn stage(&self, signer: Option<&str>) -> std::result::Result<MovementMaterial, SourceError> {
         let wanted = match signer.map(str::parse) {
-            _ if signer == Some(sources_notation::OWN_BODY) => {
-                return sources_notation::own_body().map_err(|error| unreadable(&error));
+            _ if signer == Some(starter::OWN_BODY) => {
+                return starter::own_body().map_err(|error| unreadable(&error));
             }
             Some(Ok(CorpusAddress::Recording(name))) => {
                 let recording = address::find_recording_by_name(self.connection, &name)
@@ -383,7 +384,7 @@ impl RecipeSources for CorpusSources<'_> {
                 }
             }
             match spare {
-                None if wanted.is_none() => sources_notation::own_body().map(Some),
+                None if wanted.is_none() => starter::own_body().map(Some),
                 spare => spare.map(|(_, body)| floor::ground_body(body)).transpose(),
             }
         };

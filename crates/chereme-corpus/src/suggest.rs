@@ -13,8 +13,8 @@ use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
-use crate::export::join_phase_values;
 use crate::inventories;
+use crate::tokens::join_phase_values;
 
 /// Suggestions from a sign.
 #[derive(Debug, Clone, Serialize)]

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::token::{ComponentSpan, owning_token_index};
-use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignerHandedness, TierRole};
+use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignPhase, SignerHandedness, TierRole};
 use rusqlite::Connection;
 
 use crate::Corpus;
@@ -23,6 +23,9 @@ use crate::inventories::{self, StoredInventory};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 use crate::words::effect::OperationEffect;
 use counted_reading::AnnotatedGloss;
+
+/// The annotator of tiers that an adjudication writes; their values count before those of every other annotator.
+pub(crate) const ADJUDICATION_ANNOTATOR: &str = "adjudication";
 
 /// The key of the corpus's note that names the annotator whose readings count before those of others.
 pub(crate) const PREFERRED_ANNOTATOR_NOTE: &str = "preferred-annotator";
@@ -460,4 +463,30 @@ fn hull_of_two_spans(a: TimeSpan, b: TimeSpan) -> TimeSpan {
 
 fn are_spans_touching(a: TimeSpan, b: TimeSpan) -> bool {
     a.span_start_instant() <= b.span_end_instant() && b.span_start_instant() <= a.span_end_instant()
+}
+
+/// Returns simultaneous values separated by `+`, or successive ones by `>`, with an empty part for each phase without a
+/// value.
+pub(crate) fn join_phase_values(phases: &BTreeMap<Option<SignPhase>, Vec<&str>>) -> String {
+    if let Some(texts) = phases.get(&None) {
+        return texts.join(" + ");
+    }
+    let middle = |phase: &Option<SignPhase>| match phase {
+        Some(SignPhase::Middle(place)) => Some(*place),
+        _ => None,
+    };
+    let last = phases.keys().filter_map(middle).max().unwrap_or(0);
+    let middles = (1..=last).map(SignPhase::Middle);
+    let order = std::iter::once(SignPhase::Initial)
+        .chain(middles)
+        .chain([SignPhase::Final]);
+    let parts: Vec<String> = order
+        .map(|place| {
+            phases
+                .get(&Some(place))
+                .map(|texts| texts.join(" + "))
+                .unwrap_or_default()
+        })
+        .collect();
+    parts.join(" > ").trim().to_owned()
 }

@@ -20,10 +20,8 @@ use crate::db::stored_tiers::{self as rows, AnnotationRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::merge::keep_annotation;
 use crate::progress::ProgressReceiver;
+use crate::tokens::ADJUDICATION_ANNOTATOR;
 use crate::words::effect::OperationEffect;
-
-/// The annotator of tiers that an adjudication writes; their values count before those of every other annotator.
-pub(crate) const ADJUDICATION_ANNOTATOR: &str = "adjudication";
 
 /// The result of an adjudication.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]

@@ -11,9 +11,9 @@ use serde::Serialize;
 use super::agree_figures::annotator_units;
 use super::agree_tiers::{CodedTierPairs, TierPair};
 use super::{AgreeOptions, AnnotatorAgreement};
+use crate::atomic_write;
 use crate::db::stored_tiers::AnnotationRow;
 use crate::error::{CorpusError, CorpusResult};
-use crate::picture;
 
 /// The kind of a disagreement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -282,7 +282,7 @@ impl AnnotatorAgreement {
     /// [`CorpusError::File`] if the file exists and `force` is not set, or if it cannot be written.
     pub fn write_disagreements(&self, to: &Path, force: bool) -> CorpusResult<()> {
         let bytes = disagreement_table(&self.list)?;
-        picture::write_atomically(to, force, |out| {
+        atomic_write::write_atomically(to, force, |out| {
             out.write_all(&bytes)
                 .map_err(|error| CorpusError::from_file_failure(to, error))
         })

@@ -11,7 +11,6 @@ mod tests;
 
 use serde::Serialize;
 
-pub(crate) use adjudicate::ADJUDICATION_ANNOTATOR;
 pub use adjudicate::AdjudicationResult;
 pub use agree_figures::{FigureInterval, MEASURE_NAMES, MeasureFigure, USUAL_MEASURES, ValueAgreement, ValueConfusion};
 pub use alike::alike_tiers;

@@ -9,8 +9,8 @@ use crate::Corpus;
 use crate::address::{CorpusAddress, RowName};
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
-use crate::import::ReportFinding;
 use crate::progress::ProgressReceiver;
+use crate::report_finding::ReportFinding;
 
 impl Corpus {
     /// Applies the changes in a table (CSV or TSV) of annotations, as one operation.

@@ -13,7 +13,7 @@ use crate::db::stored_recordings::RecordingRow;
 use crate::db::{consents, lexicons, stored_recordings};
 use crate::error::CorpusResult;
 use crate::merge;
-use crate::sources::sources_notation::OWN_BODY;
+use crate::starter::OWN_BODY;
 
 /// A reason why something may not be published.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]

@@ -11,7 +11,7 @@ use crate::db::stored_columns::RecordOrigin;
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::error::CorpusResult;
 use crate::movement::MotionTrack;
-use crate::sources::sources_notation;
+use crate::starter;
 
 /// The recordings that generated ones take movement from; `None` if one of them is gone or not known.
 type RecordingInputs = BTreeMap<i64, Option<BTreeSet<i64>>>;
@@ -45,7 +45,7 @@ pub(super) fn complete_unnamed_inputs(
     for row in captured {
         bodies.extend(load_moving_skeleton(connection, row.id)?.map(|body| (row.id, body)));
     }
-    let own_skeleton = sources_notation::own_body()?.clip.clip_skeleton().clone();
+    let own_skeleton = starter::own_body()?.clip.clip_skeleton().clone();
     for made in unnamed {
         let Some(moving) = load_moving_skeleton(connection, made)? else {
             continue;

@@ -16,11 +16,11 @@ use super::recognise::train_key_recognisers;
 use super::{CuedOptions, key_name, round_to_decimals};
 use crate::Corpus;
 use crate::address::RowName;
+use crate::atomic_write;
 use crate::db::edits;
 use crate::db::stored_columns::{AnnotationOrigin, ValueState};
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::CorpusResult;
-use crate::picture;
 use crate::words::effect::OperationEffect;
 
 /// The targets of the keys of a take.
@@ -193,7 +193,7 @@ impl CuePhaseStatistics {
     /// # Errors
     /// Fails if the name does not end in `.svg`, the file exists already and `force` is not set, or it cannot be written.
     pub fn draw_cue_phases(&self, to: &Path, force: bool) -> CorpusResult<()> {
-        picture::write_svg(to, force, &self.cue_phases_svg()).map(drop)
+        atomic_write::write_svg(to, force, &self.cue_phases_svg()).map(drop)
     }
 
     fn cue_phases_svg(&self) -> String {

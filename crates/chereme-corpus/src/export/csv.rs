@@ -20,6 +20,7 @@ use crate::db::stored_tiers;
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::tokens::join_phase_values;
 use crate::words::format_noun_count;
 
 /// A column of values: component, feature, hand, and the phase if it has a column of its own.
@@ -330,30 +331,4 @@ fn token_value_text(row: &TokenValueRow) -> &str {
         ValueState::Unclear => "?",
         ValueState::Unset => "",
     }
-}
-
-/// Returns simultaneous values separated by `+`, or successive ones by `>`, with an empty part for each phase without a
-/// value.
-pub(crate) fn join_phase_values(phases: &BTreeMap<Option<SignPhase>, Vec<&str>>) -> String {
-    if let Some(texts) = phases.get(&None) {
-        return texts.join(" + ");
-    }
-    let middle = |phase: &Option<SignPhase>| match phase {
-        Some(SignPhase::Middle(place)) => Some(*place),
-        _ => None,
-    };
-    let last = phases.keys().filter_map(middle).max().unwrap_or(0);
-    let middles = (1..=last).map(SignPhase::Middle);
-    let order = std::iter::once(SignPhase::Initial)
-        .chain(middles)
-        .chain([SignPhase::Final]);
-    let parts: Vec<String> = order
-        .map(|place| {
-            phases
-                .get(&Some(place))
-                .map(|texts| texts.join(" + "))
-                .unwrap_or_default()
-        })
-        .collect();
-    parts.join(" > ").trim().to_owned()
 }

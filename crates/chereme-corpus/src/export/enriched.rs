@@ -42,7 +42,7 @@ pub(super) fn write_enriched_folder(
         .with_error_place(to.display().to_string())
         .with_advice("choose another name, or move the existing one away"));
     }
-    super::check_folder(to)?;
+    crate::atomic_write::check_folder(to)?;
     remove_leftovers(to);
     let part =
         UnfinishedFile::create_unfinished_folder(to).map_err(|error| CorpusError::from_file_failure(to, error))?;

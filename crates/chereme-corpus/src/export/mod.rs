@@ -21,7 +21,6 @@ mod several;
 mod tests;
 
 use csv::TableForm;
-pub(crate) use csv::join_phase_values;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
@@ -35,6 +34,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
+use crate::atomic_write::check_folder;
 use crate::consent::{OutputAudience, WithheldOutput};
 use crate::curves;
 use crate::db::stored_motion::to_hex_text;
@@ -680,16 +680,6 @@ impl UnnamedExportFile {
         named.map_err(|error| CorpusError::from_file_failure(path, error))?;
         Ok(self.file)
     }
-}
-
-/// Fails if the folder of the path does not exist.
-pub(crate) fn check_folder(to: &Path) -> CorpusResult<()> {
-    let folder = to.parent().unwrap_or(to);
-    if folder.as_os_str().is_empty() || folder.is_dir() {
-        return Ok(());
-    }
-    let message = format!("the folder {} is not there", folder.display());
-    Err(CorpusError::from_wrong_message(message).with_advice("make it first, or choose another place"))
 }
 
 /// Writer that counts and hashes the bytes written to it.

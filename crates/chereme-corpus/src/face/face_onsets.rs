@@ -12,9 +12,9 @@ use serde::Serialize;
 use super::performances::{FACE_CHANNELS, sample_channel_numbers};
 use super::{CorpusFits, expressions};
 use crate::Corpus;
+use crate::atomic_write;
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
-use crate::picture;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 /// The frames per second at which onsets are determined.
@@ -189,7 +189,7 @@ impl Corpus {
     /// # Errors
     /// Fails if the name does not end in `.svg`, the file exists already and `force` is not set, or it cannot be written.
     pub fn draw_onsets(&self, onsets: &NonmanualOnsets, to: &Path, force: bool) -> CorpusResult<()> {
-        picture::write_svg(to, force, &onsets_svg(onsets)).map(drop)
+        atomic_write::write_svg(to, force, &onsets_svg(onsets)).map(drop)
     }
 }
 

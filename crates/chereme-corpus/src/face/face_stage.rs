@@ -20,7 +20,7 @@ use crate::db::stored_recordings;
 use crate::db::stored_rows::ShownFrames;
 use crate::error::{CorpusError, CorpusResult};
 use crate::picture::DisplayedMovement;
-use crate::sources::sources_notation::own_body;
+use crate::starter::own_body;
 
 /// The rate for a capture whose frames have individual times.
 const DEFAULT_STAGE_RATE_FPS: u32 = 60;

@@ -9,13 +9,13 @@ use chereme_sign::{ErrorRemedy, RemedyChoice};
 use serde_json::{Value, json};
 
 use super::import_eaf as annotations;
-use super::import_report::ReportFinding;
 use super::understood::TiersRead;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::address;
 use crate::db::{stored_recordings, stored_tiers};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::ProgressReceiver;
+use crate::report_finding::ReportFinding;
 
 /// Reads an external vocabulary file. Vocabularies of a component become inventories; all are stored for the annotation
 /// files that refer to this one.

@@ -6,7 +6,6 @@ use chereme_motion::{BodyAnatomy, RecordingInstant, SpaceConvention};
 use chereme_sign::ErrorRemedy;
 use serde_json::json;
 
-use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob, ImportOptions, import_tracks as beside};
 use crate::address;
 use crate::db::edits;
@@ -14,6 +13,7 @@ use crate::db::stored_recordings::{self, MotionTrackRow};
 use crate::db::stored_tracks::{self, TrackKind, TrackRow};
 use crate::error::CorpusResult;
 use crate::movement::{ChannelGroup, MotionTrack};
+use crate::report_finding::ReportFinding;
 
 /// The sign for something that was not stated before.
 const NOT_STATED_SIGN: &str = "–";

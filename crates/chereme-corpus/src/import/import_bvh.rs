@@ -21,7 +21,6 @@ use sha2::{Digest, Sha256};
 
 use super::import_again::{groups_json, set_hand};
 use super::import_joining::JoinReason;
-use super::import_report::ReportFinding;
 use super::understood::{BodyRead, ConventionRead, JointRole, MovementRead, RootRead};
 use super::{FileReport, FileStatus, ImportJob, ImportOptions, import_eaf};
 use crate::address;
@@ -32,6 +31,7 @@ use crate::db::stored_tracks::{self, TrackKind};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::report_finding::ReportFinding;
 
 pub(super) use odd::report_odd_frames;
 use root::{mend_order, mend_root, root_order, root_read, root_scale};

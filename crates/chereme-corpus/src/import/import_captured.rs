@@ -14,7 +14,6 @@ use chereme_motion::{
 };
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 
-use super::import_report::ReportFinding;
 use super::understood::MovementRead;
 use super::{
     FileReport, FileStatus, ImportJob, ImportOptions, import_again, import_bvh, import_eaf, import_inventory,
@@ -25,6 +24,7 @@ use crate::db::stored_recordings::MotionTrackRow;
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement;
 use crate::progress::ProgressReceiver;
+use crate::report_finding::ReportFinding;
 use crate::track::{NewTrack, SkeletonTrack, TrackContent, TrackKind, track_store};
 
 /// The number of bytes that are enough to see whether a table or JSON document holds curves.

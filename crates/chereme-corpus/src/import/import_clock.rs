@@ -6,11 +6,11 @@ use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
 
 use super::import_joining::{FileJoining, JoinQuestion};
-use super::import_report::ReportFinding;
 use super::{FileReport, ImportJob, import_tracks};
 use crate::db::stored_recordings;
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::error::CorpusResult;
+use crate::report_finding::ReportFinding;
 
 /// A day in microseconds.
 const DAY_US: i64 = 86_400_000_000;

@@ -10,7 +10,6 @@ use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use super::import_joining::{JoinQuestion, JoinReason};
-use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_recordings::{self, MediaTrackRow, RecordingRow};
@@ -19,6 +18,7 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::film::FilmFile;
 use crate::media::{find_media, is_same_film, media_type};
 use crate::progress::ProgressReceiver;
+use crate::report_finding::ReportFinding;
 
 /// The kind of films in `source_file.kind`.
 pub(super) const FILM_KIND: &str = "film";

@@ -8,11 +8,11 @@ use serde::Serialize;
 
 use super::import_film::FILM_KIND;
 use super::import_places::NamedRecording;
-use super::import_report::ReportFinding;
 use super::{FileReport, ImportJob, absolute, relative_file_path};
 use crate::db::stored_recordings;
 use crate::error::CorpusResult;
 use crate::media::candidate_media_paths;
+use crate::report_finding::ReportFinding;
 
 /// The evidence that is enough to join files into one recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -10,7 +10,6 @@ use serde_json::json;
 
 use super::import_lexicons::{lexicon_of_notation, names_other_lexicon};
 use super::import_notation::{NotationValueMapper, lost_notation_finding, notated_sign_document, uncoded_text_finding};
-use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::db::lexicons;
 use crate::db::notations::{self, NotationRow};
@@ -21,6 +20,7 @@ use crate::error::CorpusResult;
 use crate::notation::{self, NotationFormat};
 use crate::paths::legible_path_text;
 use crate::progress::ProgressReceiver;
+use crate::report_finding::ReportFinding;
 
 /// Reads a file of SiGML.
 pub(super) fn import_sigml(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {

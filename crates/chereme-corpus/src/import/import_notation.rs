@@ -9,12 +9,12 @@ use chereme_sign::hamnosys::{NotatedSign, is_garbled, parse_lenient};
 use chereme_sign::{ComponentReading, SignComponent};
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 
-use super::import_report::ReportFinding;
 use super::{FileReport, ImportJob};
 use crate::db::notations::{self, NotationRow};
 use crate::db::signs::{self, TokenValueRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::StoredInventory;
+use crate::report_finding::ReportFinding;
 
 /// The HamNoSys text of a sign in a table.
 pub(super) struct LexiconNotationText<'t> {

@@ -10,10 +10,10 @@ use std::path::Path;
 use rusqlite::Connection;
 
 use super::ImportJob;
-use super::import_report::ReportFinding;
 use super::readers;
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::CorpusResult;
+use crate::report_finding::ReportFinding;
 
 /// A recording that has a file of a certain name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

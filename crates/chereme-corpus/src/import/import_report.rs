@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use chereme_formats::{FindingSeverity, ImportFinding};
 use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
 use serde::Serialize;
@@ -13,6 +12,7 @@ use super::import_joining::{FileJoin, JoinedRecording};
 use super::understood::FileInterpretation;
 use crate::error::CorpusError;
 use crate::paths::legible_path_text;
+use crate::report_finding::ReportFinding;
 use crate::words::effect::OperationEffect;
 
 /// The report of an import.
@@ -205,65 +205,6 @@ pub struct UnreadFileKind {
     pub why: String,
     /// A way to make their contents readable.
     pub remedy: Option<ErrorRemedy>,
-}
-
-/// A finding about a file for the user.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct ReportFinding {
-    /// `note`, `warning` or `error`.
-    pub severity: &'static str,
-    /// The line of the file, from 1.
-    pub line: Option<u64>,
-    /// The finding.
-    pub message: String,
-    /// A remedy.
-    pub remedy: Option<ErrorRemedy>,
-}
-
-impl From<ImportFinding> for ReportFinding {
-    fn from(finding: ImportFinding) -> Self {
-        let severity = match finding.severity {
-            FindingSeverity::Note => "note",
-            FindingSeverity::Warning => "warning",
-        };
-        let ImportFinding {
-            line, message, remedy, ..
-        } = finding;
-        Self {
-            severity,
-            line,
-            message,
-            remedy,
-        }
-    }
-}
-
-impl ReportFinding {
-    pub(super) fn finding_note(message: impl Into<String>) -> Self {
-        Self {
-            severity: "note",
-            line: None,
-            message: message.into(),
-            remedy: None,
-        }
-    }
-
-    pub(super) fn finding_error(message: impl Into<String>, remedy: impl Into<ErrorRemedy>) -> Self {
-        Self {
-            severity: "error",
-            ..Self::finding_warning(message, remedy)
-        }
-    }
-
-    pub(super) fn finding_warning(message: impl Into<String>, remedy: impl Into<ErrorRemedy>) -> Self {
-        let remedy = Some(remedy.into());
-        Self {
-            severity: "warning",
-            line: None,
-            message: message.into(),
-            remedy,
-        }
-    }
 }
 
 impl FileReport {

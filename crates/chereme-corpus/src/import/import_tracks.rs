@@ -1,13 +1,13 @@
 //! Stores the tracks of a file in the recording that they belong to.
 
 use super::import_joining::{FileJoining, JoinReason};
-use super::import_report::ReportFinding;
 use super::understood::TrackRead;
 use super::{FileReport, ImportJob, import_bvh, import_clock};
 use crate::db::stored_recordings;
 use crate::db::stored_tracks;
 use crate::error::CorpusResult;
 use crate::movement::{self, BLOCK_FRAMES};
+use crate::report_finding::ReportFinding;
 use crate::track::{NewTrack, TrackContent, track_store};
 use chereme_motion::{
     BodyAnatomy, Clip, FrameNumberColumn, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, MotionMarker,

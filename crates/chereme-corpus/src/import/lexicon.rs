@@ -15,7 +15,6 @@ use serde_json::{Map, Value, json};
 
 use super::import_lexicons::{LexiconCells, lexicon_of_table, names_other_lexicon};
 use super::import_notation::{LexiconNotationText, NotationValueMapper};
-use super::import_report::ReportFinding;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::db::edits;
 use crate::db::lexicons;
@@ -27,6 +26,7 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::forms::row_has_cells;
 use crate::inventories;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::report_finding::ReportFinding;
 
 /// The number of names of values that a finding lists.
 const SHOWN_NAMES: usize = 8;

@@ -47,13 +47,12 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::paths::legible_path_text;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::report_finding::ReportFinding;
 
 pub use import_joining::{FileJoin, FileJoining, JoinReason, JoinedFile, JoinedRecording};
 use import_places::ImportedFilePlaces;
 use import_report::RowChangeCounts;
-pub use import_report::{
-    AnnotationSide, EditOutcome, FileReport, FileStatus, ImportReport, OwnEdit, ReportFinding, UnreadFileKind,
-};
+pub use import_report::{AnnotationSide, EditOutcome, FileReport, FileStatus, ImportReport, OwnEdit, UnreadFileKind};
 pub use import_whole::read_stream;
 use readers::FILE_READERS;
 pub(crate) use readers::is_capture_kind;

@@ -13,8 +13,8 @@ use chereme_sign::hamnosys::hamnosys_face::FacialExpression;
 use chereme_sign::inventory::{BodyLandmark, InventoryValue};
 use chereme_sign::{ComponentInventory, SignComponent};
 
-use super::built_in_body;
 use crate::error::CorpusResult;
+use crate::starter::built_in_body;
 
 /// A view of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]

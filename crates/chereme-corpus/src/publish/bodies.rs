@@ -16,8 +16,8 @@ use super::png;
 use super::publish_motion;
 use crate::Corpus;
 use crate::address::CorpusAddress;
-use crate::built_in_body;
 use crate::error::{CorpusError, CorpusResult};
+use crate::starter::built_in_body;
 use crate::tokens::recording_handedness;
 
 /// The bodies of a dictionary.

@@ -1,17 +1,11 @@
-//! Notated signs for recipes, and a body for a corpus that has none.
+//! Notated signs for recipes.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use chereme_compose::notation::{self as animator, AnimatorSettings};
 use chereme_compose::{
     ENGINE_VERSION, GeneratedMovement, HeldValue, MovementMaterial, NoteSubject, RecipeSources, SourceError,
 };
-use chereme_formats::bvh::bvh_convert::{self, ClipBuilder};
-use chereme_formats::bvh::raw::{BvhReader, MotionBlock};
-use chereme_motion::Clip;
-use chereme_motion::anatomy::{AssignedJointRoles, BodyAnatomy};
-use chereme_sign::SignerHandedness;
 use chereme_sign::hamnosys::{self, NotatedSign};
 use sha2::{Digest, Sha256};
 
@@ -20,13 +14,6 @@ use crate::address::{self, CorpusAddress, RowName};
 use crate::db::stored_motion::to_hex_text;
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation::{self, TokenNotation};
-use crate::starter;
-
-/// The address of the body that comes with the program, for a corpus without movement.
-pub(crate) const OWN_BODY: &str = "built-in body";
-
-/// The recording of the starter corpus whose first frame is that body at rest.
-const OWN_RECORDING: &str = "bol.bvh";
 
 /// The separator between the names of signs that follow one another.
 pub(crate) const SIGN_NAME_SEPARATOR: &str = " + ";
@@ -129,72 +116,5 @@ fn generated_material(made: GeneratedMovement, address: String, hash: String, gl
         curves: made.curves,
         clip: made.clip,
         anatomy: made.anatomy,
-    }
-}
-
-/// Returns the body that comes with the program, at rest.
-pub(crate) fn own_body() -> CorpusResult<MovementMaterial> {
-    let (clip, anatomy, bytes) = own_movement(OWN_RECORDING, 1)?;
-    Ok(MovementMaterial {
-        address: OWN_BODY.to_owned(),
-        hash: to_hex_text(&Sha256::digest(bytes)),
-        gloss: OWN_BODY.to_owned(),
-        signer: None,
-        handedness: SignerHandedness::Right,
-        clip,
-        anatomy: Arc::new(anatomy),
-        held: Vec::new(),
-        curves: Vec::new(),
-    })
-}
-
-/// Returns the first `most` frames of a recording of the starter corpus, its anatomy, and the file's bytes.
-pub(crate) fn own_movement(name: &str, most: usize) -> CorpusResult<(Clip, BodyAnatomy, &'static [u8])> {
-    let bad = |what: String| CorpusError::from_wrong_message(format!("{name} of the program cannot be read: {what}"));
-    let bytes = starter::starter_files()
-        .find(|(path, _)| *path == Path::new(name))
-        .map(|(_, bytes)| bytes)
-        .ok_or_else(|| bad("it is missing".to_owned()))?;
-    let mut reader = BvhReader::open_bvh(bytes).map_err(|error| bad(error.to_string()))?;
-    let rate_result = bvh_convert::rate_from_frame_time(reader.bvh_motion_header().frame_time.as_ref());
-    let rate = rate_result.map_err(|error| bad(error.to_string()))?;
-    let mut builder = ClipBuilder::new(reader.bvh_hierarchy(), None).map_err(|error| bad(error.to_string()))?;
-    let mut block = MotionBlock::default();
-    let mut left = most;
-    while left > 0 && reader.next_block(&mut block).map_err(|error| bad(error.to_string()))? {
-        let taken = block.frames.min(left);
-        builder.push_block_rows(0..taken, |at| block.columns.get(at));
-        left -= taken;
-    }
-    let clip = builder.finish_bvh_clip(rate).map_err(|error| bad(error.to_string()))?;
-    let anatomy_result = BodyAnatomy::with_roles(clip.clip_skeleton(), &AssignedJointRoles::default());
-    let anatomy = anatomy_result.map_err(|error| bad(error.to_string()))?;
-    let pose = (clip.clip_frame_count() > 0).then(|| clip.model_pose(0));
-    let convention = anatomy.guess_convention(clip.clip_skeleton(), pose.as_ref()).convention;
-    let clip = convention.file_clip_to_model(&clip);
-    let anatomy = BodyAnatomy::with_roles(clip.clip_skeleton(), &AssignedJointRoles::default());
-    let anatomy = anatomy.map_err(|error| bad(error.to_string()))?.with_clip(&clip);
-    Ok((clip, anatomy, bytes))
-}
-
-#[cfg(test)]
-mod tests {
-    use chereme_motion::BodySide;
-
-    use super::*;
-
-    #[test]
-    fn the_built_in_body_has_hands_and_stands_in_metres() {
-        let body = own_body().expect("it is part of the program");
-        assert_eq!(body.clip.clip_frame_count(), 1);
-        assert!(BodySide::BOTH_SIDES.iter().all(|&side| body.anatomy.has_fingers(side)));
-        let height = body
-            .clip
-            .model_pose(0)
-            .model_joint_positions()
-            .iter()
-            .map(|at| at.y)
-            .fold(0.0, f64::max);
-        assert!((1.2..2.2).contains(&height), "{height}");
     }
 }

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::Path;
 
 use super::{BattisonConditions, FieldAssociation, FieldInDepth, HandCondition, LexiconStatistics, StatsEstimate};
+use crate::atomic_write;
 use crate::error::{CorpusError, CorpusResult};
-use crate::picture;
 
 /// The most cells of a cross table that is written.
 const MAX_CROSS_TABLE_CELLS: usize = 1_000_000;
@@ -32,7 +32,7 @@ impl LexiconStatistics {
         }
         let written = writer.into_inner();
         let bytes = written.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
-        picture::write_atomically(to, force, |out| {
+        atomic_write::write_atomically(to, force, |out| {
             out.write_all(&bytes)
                 .map_err(|error| CorpusError::from_file_failure(to, error))
         })

@@ -14,13 +14,13 @@ use sha2::{Digest, Sha256};
 use super::study_plan::{QuestionKind, StudyPlan, text_in};
 use super::{StudyWithAnswers, study_order};
 use crate::Corpus;
+use crate::atomic_write::write_atomically;
 use crate::consent::{ConsentKind, OutputAudience, OutputGate, nothing_passes_error};
 use crate::db::seals;
 use crate::db::stored_motion::to_hex_text;
 use crate::error::{CorpusError, CorpusResult};
 use crate::film::{WrittenFilmShape, write_film};
 use crate::page::{encode_base64, fill_page_parts};
-use crate::picture::write_atomically;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 /// The page with places for its parts, its script and its style.

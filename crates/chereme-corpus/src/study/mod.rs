@@ -181,7 +181,7 @@ impl Corpus {
         let plan = find_stored_study(self.store.read_connection(), name)?.plan;
         // Plans have text keys and finite numbers only.
         let json = serde_json::to_vec_pretty(&plan).unwrap_or_default();
-        crate::picture::write_atomically(to, force, |out| {
+        crate::atomic_write::write_atomically(to, force, |out| {
             out.write_all(&json)
                 .map_err(|error| CorpusError::from_file_failure(to, error))
         })?;

@@ -12,8 +12,8 @@ use super::study_answers::StudyParticipant;
 use super::study_long;
 use super::wide::{self, ColumnMap, ColumnUse};
 use crate::error::{CorpusError, CorpusResult};
-use crate::import::ReportFinding;
 use crate::paths::legible_path_text;
+use crate::report_finding::ReportFinding;
 
 /// The size of the largest file of answers, in bytes.
 const MAX_ANSWERS_FILE_BYTES: u64 = 32 << 20;

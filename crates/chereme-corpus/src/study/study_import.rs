@@ -14,9 +14,10 @@ use super::{find_stored_study, fits, stored, study_long};
 use crate::Corpus;
 use crate::db::stored_studies as db;
 use crate::error::{CorpusError, CorpusResult};
-use crate::import::{FileStatus, ReportFinding};
+use crate::import::FileStatus;
 use crate::paths::legible_path_text;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::report_finding::ReportFinding;
 use crate::words::effect::OperationEffect;
 
 /// The report of an import of answers.
@@ -145,7 +146,7 @@ impl Corpus {
     /// Fails if there is no such study, or the file exists and `force` is not set.
     pub fn export_answers(&self, study: &str, to: &Path, force: bool) -> CorpusResult<u64> {
         let study = self.study_with_answers(study)?;
-        crate::picture::write_atomically(to, force, |out| {
+        crate::atomic_write::write_atomically(to, force, |out| {
             study_long::write_long_answers(&study.plan, &study.participants, out)
         })?;
         Ok(study

@@ -10,8 +10,7 @@ use chereme_motion::TimeSpan;
 use chereme_sign::token::{ComponentSpan, component_readings};
 use chereme_sign::{ComponentField, HandRef, SignComponent};
 
-use super::CodedAnnotation;
-use crate::agree::ADJUDICATION_ANNOTATOR;
+use super::{ADJUDICATION_ANNOTATOR, CodedAnnotation};
 use crate::db::signs::TokenValueRow;
 
 /// A gloss and what was annotated during it.

@@ -490,7 +490,7 @@ fn worn(subjects: &[&str], without: &[&str], metres_per_unit: f64) -> MarkerTrac
         "LFHD", "RFHD", "C7", "LSHO", "RSHO", "LELB", "RELB", "LWRA", "RWRA", "LWRB", "RWRB", "LFIN", "RFIN", "LKNE",
         "RKNE", "LANK", "RANK",
     ];
-    let (clip, anatomy) = crate::picture::built_in_body().expect("a body");
+    let (clip, anatomy) = crate::starter::built_in_body().expect("a body");
     let model = clip.model_pose(0);
     let named = subjects.iter().flat_map(|subject| {
         let labels = labels.iter().filter(|label| !without.contains(label));

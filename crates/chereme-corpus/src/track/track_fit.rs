@@ -17,7 +17,7 @@ use crate::address::{self, RowName};
 use crate::db::{stored_recordings, stored_tracks};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement;
-use crate::picture::built_in_body;
+use crate::starter::built_in_body;
 use crate::words::effect::OperationEffect;
 
 /// The largest median distance between markers and a usable skeleton, in metres; a larger one gives a warning.

@@ -23,8 +23,8 @@ use crate::movement::MotionTrack;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::recombine::{SOURCE_TIER_NAME, engine_version};
 use crate::sources::floor::ground_body;
-use crate::sources::sources_notation::{OWN_BODY, own_body};
 use crate::sources::standing_body_material;
+use crate::starter::{OWN_BODY, own_body};
 
 /// The number of postures that each processor synthesises between two reports of progress.
 const POSTURES_PER_REPORT: usize = 8;

@@ -10,8 +10,8 @@ use crate::db::stored_tracks;
 use crate::error::CorpusResult;
 use crate::import::import_joining::JoinReason;
 use crate::import::import_places::NamedRecording;
-use crate::import::import_report::ReportFinding;
 use crate::import::readers::ParseFunction;
+use crate::report_finding::ReportFinding;
 
 /// The recording and the earlier version that an annotation file belongs to.
 #[derive(Default)]

@@ -10,8 +10,8 @@ use chereme_sign::{ComponentInventory, InventoryValue, SignComponent, TierRole, 
 use super::{FileReport, ImportJob};
 use crate::db::stored_columns::ValueState;
 use crate::error::CorpusResult;
-use crate::import::import_report::ReportFinding;
 use crate::inventories::{self, StoredInventory};
+use crate::report_finding::ReportFinding;
 
 /// Returns the inventory of a component tier: its vocabulary, or one of the corpus that has all its values.
 pub(in crate::import) fn tier_inventory(

@@ -9,7 +9,7 @@ use super::eaf_vocabulary::tier_inventory;
 use super::{FileReport, ImportJob, plain_state, with_coded_state};
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::CorpusResult;
-use crate::import::import_report::ReportFinding;
+use crate::report_finding::ReportFinding;
 
 /// Gives existing tiers the roles of the caller's mapping, and returns the number of changed tiers.
 pub(super) fn remap_tier_roles(

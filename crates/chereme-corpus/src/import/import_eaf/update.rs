@@ -17,9 +17,10 @@ use super::{FileReport, ImportJob, annotation_row, transcript_tiers_parents_firs
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::CorpusResult;
-use crate::import::import_report::{AnnotationSide, EditOutcome, OwnEdit, ReportFinding};
+use crate::import::import_report::{AnnotationSide, EditOutcome, OwnEdit};
 use crate::import::understood::ReimportChanges;
 use crate::progress::ProgressReceiver;
+use crate::report_finding::ReportFinding;
 
 /// The largest number of changes that are listed one by one.
 const MAX_LISTED_CHANGES: usize = 20;

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::{GroupComparison, GroupPairComparison, PairTest, QuestionReport, StatsOutcome, StudyReport};
+use crate::atomic_write;
 use crate::error::{CorpusError, CorpusResult};
-use crate::picture;
 use crate::study::study_plan::QuestionKind;
 use crate::words::InterfaceLanguage;
 
@@ -334,7 +334,7 @@ fn csv_of((titles, rows): &ReportTable) -> CorpusResult<Vec<u8>> {
 }
 
 fn put_report_file(to: &Path, force: bool, bytes: &[u8]) -> CorpusResult<()> {
-    picture::write_atomically(to, force, |out| {
+    atomic_write::write_atomically(to, force, |out| {
         out.write_all(bytes)
             .map_err(|error| CorpusError::from_file_failure(to, error))
     })?;
