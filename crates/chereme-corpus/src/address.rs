@@ -1,5 +1,7 @@
 //! Addresses: texts that name a recording, token, sign, signer, tier or annotation.
 
+pub(crate) mod message_names;
+
 use std::fmt;
 use std::str::FromStr;
 

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use chereme_formats::bvh::raw::BvhHierarchy;
-use chereme_motion::{FrameNumberColumn, RecordingInstant, TimeSpan};
-use chereme_sign::ComponentReading;
-use chereme_sign::tier::{self, AnnotatedHands, AnnotationId, TierId, TierSet, TierViolation};
+use chereme_motion::FrameNumberColumn;
+use chereme_sign::tier::{self, TierId, TierViolation};
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 use serde::Serialize;
@@ -13,7 +12,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::IndexedStore;
-use crate::annotate::annotate_messages;
+use crate::address::message_names;
 use crate::db::stored_check as rows;
 use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_search::{self as index_rows, SearchIndexState};
@@ -445,7 +444,7 @@ impl CheckRun<'_, '_> {
     fn check_tier_rules(&mut self, connection: &Connection) -> CorpusResult<()> {
         for recording in stored_recordings::load_recording_rows(connection)? {
             let place = format!("recording {:?}", recording.name);
-            let set = match tier_set(connection, recording.id) {
+            let set = match stored_tiers::load_tier_set(connection, recording.id) {
                 Ok(set) => set,
                 Err(error) => {
                     self.go_on("tier", &place, Err(error))?;
@@ -456,7 +455,7 @@ impl CheckRun<'_, '_> {
                 self.report.questions.push(CorpusFault {
                     kind: "tier",
                     place: place.clone(),
-                    message: annotate_messages::name_message_ids(connection, message),
+                    message: message_names::name_message_ids(connection, message),
                     remedy,
                 });
             };
@@ -544,32 +543,3 @@ fn violation_remedy(violation: &TierViolation) -> ErrorRemedy {
     })
 }
 
-/// Returns the tiers of a recording with all their annotations, for a check of the tier rules.
-pub(crate) fn tier_set(connection: &Connection, recording: i64) -> CorpusResult<TierSet> {
-    let mut annotations = Vec::new();
-    let mut all = Vec::new();
-    for row in stored_tiers::load_tier_rows(connection, recording)? {
-        for annotation in stored_tiers::load_tier_annotation_rows(connection, row.id)? {
-            annotations.push(tier::TierAnnotation {
-                id: AnnotationId(annotation.id as u64),
-                tier: TierId(row.id as u64),
-                parent: annotation.parent_id.map(|id| AnnotationId(id as u64)),
-                order: u32::try_from(annotation.position).unwrap_or(u32::MAX),
-                span: TimeSpan::span_between(
-                    RecordingInstant::from_micros(annotation.start_us),
-                    RecordingInstant::from_micros(annotation.end_us),
-                ),
-                value: ComponentReading::from(annotation.value.as_str()),
-            });
-        }
-        all.push(tier::Tier {
-            id: TierId(row.id as u64),
-            name: row.name,
-            role: row.role,
-            hand: row.hand.and_then(AnnotatedHands::single_hand),
-            parent: row.parent_id.map(|id| TierId(id as u64)).zip(row.stereotype),
-            vocabulary: None,
-        });
-    }
-    Ok(TierSet::new(all, annotations))
-}

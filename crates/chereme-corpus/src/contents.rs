@@ -1,6 +1,7 @@
 //! The content of a corpus for display in a window, read at one moment: an overview of everything, and one complete
 //! recording.
 
+use chereme_sign::SignerHandedness;
 use rusqlite::Connection;
 
 use crate::Corpus;
@@ -9,14 +10,17 @@ use crate::db::signs::{self, TokenRow};
 use crate::db::stored_contents as rows;
 use crate::db::stored_inventories::load_inventory_rows as inventory_rows;
 use crate::db::stored_recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
+use crate::db::stored_rows::KeptSearch;
 pub use crate::db::stored_rows::{AnnotationColumns, RecordingGlance, ShownFrames, SignGlance};
 use crate::db::stored_search::begin_reading;
 use crate::db::stored_tiers::{self, TierRow};
 use crate::db::{OperationRow, history_log};
+use crate::db::stored_tracks::{self, TrackRow};
 use crate::error::CorpusResult;
 use crate::inventories::{self, StoredInventory};
 use crate::merge::CorpusConflict;
-use crate::saved_search::{self, KeptSearch};
+use crate::search::saved_search;
+use crate::tokens;
 
 /// Overview of a corpus at one moment.
 #[derive(Debug, Clone, Default)]
@@ -57,9 +61,9 @@ pub struct RecordingContents {
     /// Its media files.
     pub media: Vec<MediaTrackRow>,
     /// Its tracks of every kind.
-    pub tracks: Vec<crate::TrackRow>,
+    pub tracks: Vec<TrackRow>,
     /// Who accepts proposals for it.
-    pub acceptor: crate::ProposalAcceptor,
+    pub acceptor: ProposalAcceptor,
 }
 
 /// A tier with its annotations.
@@ -69,6 +73,15 @@ pub struct TierContents {
     pub row: TierRow,
     /// The annotations, by time.
     pub annotations: AnnotationColumns,
+}
+
+/// Who accepts proposals, and for whom.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProposalAcceptor {
+    /// The annotator.
+    pub author: String,
+    /// The handedness of the signer, by which a dominant hand is a right or a left one.
+    pub handedness: SignerHandedness,
 }
 
 /// Adds the frames of faces without a skeleton.
@@ -133,8 +146,18 @@ impl Corpus {
             tiers: tiers.collect::<CorpusResult<_>>()?,
             tokens: signs::tokens_of_recording(&reading, recording)?,
             media: stored_recordings::media_tracks(&reading, recording)?,
-            tracks: crate::db::stored_tracks::load_track_rows(&reading, recording)?,
+            tracks: stored_tracks::load_track_rows(&reading, recording)?,
             acceptor: self.proposal_acceptor(recording)?,
+        })
+    }
+
+    /// Returns who accepts proposals for a recording.
+    pub(crate) fn proposal_acceptor(&self, recording: i64) -> CorpusResult<ProposalAcceptor> {
+        let connection = self.store.read_connection();
+        let recording = stored_recordings::load_recording_row(connection, recording)?;
+        Ok(ProposalAcceptor {
+            author: self.store.store_author().to_owned(),
+            handedness: tokens::recording_handedness(connection, &recording)?,
         })
     }
 }

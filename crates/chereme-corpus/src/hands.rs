@@ -17,7 +17,6 @@ use crate::db::stored_contents::newest_operation_number;
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::error::CorpusResult;
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
-use crate::usable::UsableTake;
 
 /// The largest number of a signer's takes that are read.
 const MAX_SIGNER_TAKES: usize = 12;
@@ -33,6 +32,23 @@ const EQUAL_SHARE: f64 = 0.02;
 
 /// The least cosine of half the angle between a finger's rotation and its rest.
 const AT_REST: f64 = 1.0 - 1e-9;
+
+/// The part of a recording that pictures and measures use.
+#[derive(Debug, Clone)]
+pub(crate) struct UsableTake {
+    /// The frames without odd ones at the ends.
+    pub(crate) frames: Range<usize>,
+    /// Whether any joint turns in them, besides those that carry the whole body.
+    pub(crate) bends: bool,
+}
+
+impl UsableTake {
+    /// Returns the usable ones of some frames; all of them if none is.
+    pub(crate) fn usable_frames_within(&self, frames: Range<usize>) -> Range<usize> {
+        let usable = frames.start.max(self.frames.start)..frames.end.min(self.frames.end);
+        if usable.is_empty() { frames } else { usable }
+    }
+}
 
 /// Cache of the corrections, with the generation of the corpus for which they are valid.
 #[derive(Debug, Default)]

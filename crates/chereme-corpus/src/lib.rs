@@ -54,7 +54,6 @@ mod publish;
 pub mod recipe;
 mod recombine;
 mod report_finding;
-mod saved_search;
 mod score;
 pub(crate) mod search;
 mod sources;
@@ -118,7 +117,7 @@ pub use consent::{
     WithheldReason,
 };
 pub use contents::{
-    AnnotationColumns, CorpusOverview, RecordingContents, RecordingGlance, ShownFrames, SignGlance, TierContents,
+    AnnotationColumns, CorpusOverview, ProposalAcceptor, RecordingContents, RecordingGlance, ShownFrames, SignGlance, TierContents,
 };
 pub use context::TokenNeighbours;
 pub use cue::{
@@ -136,6 +135,7 @@ pub use db::lexicons::{LexiconContents, LexiconRow};
 pub use db::signs::TokenRow;
 pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 pub use db::stored_delete::RecordingBelongings;
+pub use db::stored_rows::KeptSearch;
 pub use db::stored_recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::stored_tiers::{TierRow, TierShown};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
@@ -177,14 +177,14 @@ pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
 pub use progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 pub use propose::{
-    AcceptanceResult, ProposalAcceptor, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier,
+    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier,
     proposed_for,
 };
 pub use publish::{LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
 pub use report_finding::ReportFinding;
-pub use saved_search::{KeptSearch, kept_like};
 pub use score::MovementScore;
+pub use search::saved_search::kept_like;
 pub use search::{
     FACET_VALUES, FindingKind, HitOpinion, HitOrder, NO_VALUE, OpinionStanding, QueryFinding, SearchAnswer, SearchHit,
     SearchOptions, TallyRow, ValueTally, guessed_query_text, meant_query_text,

@@ -8,7 +8,7 @@ use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::hamnosys::NotatedSign;
 use chereme_sign::hamnosys::components::SignMapper;
 use chereme_sign::tier::AnnotatedHands;
-use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, SignerHandedness, TierRole};
+use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, TierRole};
 use serde::Serialize;
 
 use crate::Corpus;
@@ -17,6 +17,7 @@ use crate::annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName,
     write_tiers,
 };
+use crate::contents::ProposalAcceptor;
 use crate::db::signs;
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::{stored_recordings, stored_tiers};
@@ -106,15 +107,6 @@ const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
 #[must_use]
 pub fn proposed_for(tier: &str) -> Option<&str> {
     tier.strip_suffix(PROPOSAL_TIER_SUFFIX)
-}
-
-/// Who accepts proposals, and for whom.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ProposalAcceptor {
-    /// The annotator.
-    pub author: String,
-    /// The handedness of the signer, by which a dominant hand is a right or a left one.
-    pub handedness: SignerHandedness,
 }
 
 /// Returns the tier on which an annotator accepts proposals, of all tiers of their recording: that of the same subject and
@@ -524,16 +516,6 @@ impl Corpus {
         Ok(AcceptanceResult {
             left: (all - room.len()) as u64,
             report: self.accept_proposals(&room, progress)?,
-        })
-    }
-
-    /// Returns who accepts proposals for a recording.
-    pub(crate) fn proposal_acceptor(&self, recording: i64) -> CorpusResult<ProposalAcceptor> {
-        let connection = self.store.read_connection();
-        let recording = stored_recordings::load_recording_row(connection, recording)?;
-        Ok(ProposalAcceptor {
-            author: self.store.store_author().to_owned(),
-            handedness: crate::tokens::recording_handedness(connection, &recording)?,
         })
     }
 

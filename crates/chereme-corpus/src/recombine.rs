@@ -3,7 +3,6 @@
 mod recombine_again;
 mod recombine_draft;
 mod recombine_parts;
-mod recombine_phases;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -39,13 +38,12 @@ use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult, FailedStep};
 use crate::inventories::{self, StoredInventory};
 use crate::movement::{self, BLOCK_FRAMES, MotionTrack};
-use crate::sources::CorpusSources;
+use crate::sources::{CorpusSources, sources_cue_phases};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
 pub(crate) use recombine_draft::DraftedRecipe;
 pub use recombine_parts::MadePart;
-pub(crate) use recombine_phases::{measured_cue_phases as measured_phases, store_cue_phases as store_phases};
 
 /// The number of decimals of generated movement: a millionth of a degree, or of the file's unit.
 const GENERATED_DECIMALS: u8 = 6;
@@ -338,7 +336,7 @@ fn store_generated_sign(
     let inventories = inventories::load_all_inventories(connection)?;
     store_tiers(connection, recording, made, gloss, &inventories)?;
     tokens::update_recording_tokens(connection, recording, None, &inventories)?;
-    recombine_phases::store_cue_phases(connection, recording)?;
+    sources_cue_phases::store_cue_phases(connection, recording)?;
     store_recipe(connection, recording, recipe, resolved, made)?;
     let recording_tokens = signs::tokens_of_recording(connection, recording)?;
     let token = recording_tokens

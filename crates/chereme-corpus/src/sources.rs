@@ -36,6 +36,7 @@ use learned::learned_language::MovementSamples;
 
 pub(crate) mod floor;
 mod learned;
+pub(crate) mod sources_cue_phases;
 mod sources_language;
 pub(crate) mod sources_notation;
 
@@ -513,7 +514,7 @@ impl RecipeSources for CorpusSources<'_> {
     }
 
     fn cue_phases(&self) -> std::result::Result<Option<CuePhases>, SourceError> {
-        crate::recombine::measured_phases(self.connection).map_err(|error| unreadable(&error))
+        sources_cue_phases::measured_cue_phases(self.connection).map_err(|error| unreadable(&error))
     }
 
     fn spelling_times(&self) -> std::result::Result<SpellingTimes, SourceError> {

@@ -12,23 +12,6 @@ use crate::error::CorpusResult;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::picture::DisplayedMovement;
 
-/// The part of a recording that pictures and measures use.
-#[derive(Debug, Clone)]
-pub(crate) struct UsableTake {
-    /// The frames without odd ones at the ends.
-    pub(crate) frames: Range<usize>,
-    /// Whether any joint turns in them, besides those that carry the whole body.
-    pub(crate) bends: bool,
-}
-
-impl UsableTake {
-    /// Returns the usable ones of some frames; all of them if none is.
-    pub(crate) fn usable_frames_within(&self, frames: Range<usize>) -> Range<usize> {
-        let usable = frames.start.max(self.frames.start)..frames.end.min(self.frames.end);
-        if usable.is_empty() { frames } else { usable }
-    }
-}
-
 impl Corpus {
     /// Returns the movement at an address without frames that are left out of measures and pictures.
     ///

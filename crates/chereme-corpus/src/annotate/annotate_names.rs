@@ -256,7 +256,7 @@ impl AnnotationChangeRun<'_> {
                 let starts = RecordingInstant::from_micros(row.start_us);
                 format!(
                     "the one there, {}, starts at {starts}",
-                    super::annotate_messages::quoted_value(row)
+                    crate::address::message_names::quoted_value(row)
                 )
                 .into()
             },

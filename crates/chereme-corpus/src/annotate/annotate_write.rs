@@ -8,7 +8,8 @@ use rusqlite::Connection;
 use serde_json::Value;
 
 use super::scope::enclosing_span;
-use super::{FIRST_FRESH_HANDLE, annotation_row_id, span_of};
+use super::{annotation_row_id, span_of};
+use crate::address::message_names::FIRST_FRESH_HANDLE;
 use crate::db::stored_columns::{AnnotationOrigin, ValueState};
 use crate::db::stored_tiers::{self as tier_rows, AnnotationRow};
 use crate::error::CorpusResult;

@@ -52,7 +52,7 @@ impl AnnotationChangeRun<'_> {
         let micros = RecordingInstant::from_micros;
         Err(CorpusError::from_wrong_message(format!(
             "{} cannot go from {} to {}: there is no room for the others",
-            super::annotate_messages::quoted_value(row),
+            crate::address::message_names::quoted_value(row),
             span.span_start_instant(),
             span.span_end_instant()
         ))

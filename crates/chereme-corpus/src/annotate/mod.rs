@@ -5,7 +5,7 @@
 
 mod annotate_bulk;
 pub mod annotate_clipboard;
-pub(crate) mod annotate_messages;
+mod annotate_messages;
 mod annotate_names;
 pub mod annotate_paste;
 mod annotate_tiers;
@@ -43,6 +43,7 @@ pub use replace::{ReplacedValue, ReplacementReport, TierSelection, ValueSearch};
 pub use scheme::TierScheme;
 
 use crate::Corpus;
+use crate::address::message_names::FIRST_FRESH_HANDLE;
 use crate::db::edits;
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_tiers::{self as tier_rows, AnnotationRow, TierRow};
@@ -594,9 +595,6 @@ impl<'a> AnnotationChangeRun<'a> {
         tier_rows::load_tier_row(self.connection, id)
     }
 }
-
-/// The first handle for annotations that have no row yet.
-const FIRST_FRESH_HANDLE: u64 = 1 << 62;
 
 fn unsigned(id: i64) -> u64 {
     u64::try_from(id).unwrap_or_default()

@@ -27,7 +27,7 @@ use crate::db::stored_tiers::TierRow;
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
 use crate::progress::ProgressReceiver;
-use crate::recombine::{measured_phases, store_phases};
+use crate::sources::sources_cue_phases::{measured_cue_phases, store_cue_phases};
 use crate::tokens;
 use crate::track::{NewTrack, TrackContent, track_store};
 use crate::words::effect::OperationEffect;
@@ -187,7 +187,7 @@ impl Corpus {
             }
         };
         let measured = match how.phase {
-            PhaseRule::Measured => measured_phases(self.store.read_connection())?.ok_or_else(|| {
+            PhaseRule::Measured => measured_cue_phases(self.store.read_connection())?.ok_or_else(|| {
                 CorpusError::from_wrong_message("too few captured keys of each kind have measured phases").with_advice(
                     ErrorRemedy::command_remedy("store them first: chereme cued CORPUS targets --store"),
                 )
@@ -508,7 +508,7 @@ fn store_sentence_movement(
     }
     let inventories = inventories::load_all_inventories(connection)?;
     tokens::update_recording_tokens(connection, recording, None, &inventories)?;
-    store_phases(connection, recording)?;
+    store_cue_phases(connection, recording)?;
     Ok(name)
 }
 

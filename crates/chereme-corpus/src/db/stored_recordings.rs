@@ -268,6 +268,18 @@ pub(crate) struct SourceFileRow {
     pub hash: String,
 }
 
+/// The kinds of files that hold a capture of any sort: movement, points, curves, a film.
+pub(crate) const CAPTURE_FILE_KINDS: [&str; 9] = [
+    "bvh", "gltf", "fbx", "c3d", "trc", "pose", "curves", "table of points", "film",
+];
+
+impl SourceFileRow {
+    /// Returns whether the file holds a capture.
+    pub(crate) fn is_capture(&self) -> bool {
+        CAPTURE_FILE_KINDS.contains(&self.kind.as_str())
+    }
+}
+
 /// Records a file that rows came from, with its bytes if they are to be stored, and returns its row.
 pub(crate) fn insert_source_file(
     connection: &Connection,

@@ -1,8 +1,8 @@
 //! Rows of tiers and annotations.
 
-use chereme_motion::RecordingInstant;
+use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::ErrorRemedy;
-use chereme_sign::tier::AnnotatedHands;
+use chereme_sign::tier::{AnnotatedHands, AnnotationId, Tier, TierAnnotation, TierId, TierSet};
 use chereme_sign::{ComponentReading, SignComponent, TierRole, TierStereotype, TierTopic};
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
@@ -457,6 +457,36 @@ fn query_annotation_rows(
         .query_map(params, annotation_row)?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
+}
+
+/// Returns the tiers of a recording with all their annotations, for a check of the tier rules.
+pub(crate) fn load_tier_set(connection: &Connection, recording: i64) -> CorpusResult<TierSet> {
+    let mut annotations = Vec::new();
+    let mut all = Vec::new();
+    for row in load_tier_rows(connection, recording)? {
+        for annotation in load_tier_annotation_rows(connection, row.id)? {
+            annotations.push(TierAnnotation {
+                id: AnnotationId(annotation.id as u64),
+                tier: TierId(row.id as u64),
+                parent: annotation.parent_id.map(|id| AnnotationId(id as u64)),
+                order: u32::try_from(annotation.position).unwrap_or(u32::MAX),
+                span: TimeSpan::span_between(
+                    RecordingInstant::from_micros(annotation.start_us),
+                    RecordingInstant::from_micros(annotation.end_us),
+                ),
+                value: ComponentReading::from(annotation.value.as_str()),
+            });
+        }
+        all.push(Tier {
+            id: TierId(row.id as u64),
+            name: row.name,
+            role: row.role,
+            hand: row.hand.and_then(AnnotatedHands::single_hand),
+            parent: row.parent_id.map(|id| TierId(id as u64)).zip(row.stereotype),
+            vocabulary: None,
+        });
+    }
+    Ok(TierSet::new(all, annotations))
 }
 
 #[cfg(test)]

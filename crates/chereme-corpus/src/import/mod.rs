@@ -55,7 +55,6 @@ use import_report::RowChangeCounts;
 pub use import_report::{AnnotationSide, EditOutcome, FileReport, FileStatus, ImportReport, OwnEdit, UnreadFileKind};
 pub use import_whole::read_stream;
 use readers::FILE_READERS;
-pub(crate) use readers::is_capture_kind;
 pub use readers::readable_files;
 use understood::EarlierInterpretations;
 pub use understood::{

@@ -357,17 +357,6 @@ pub(super) fn is_movement(kind: &str) -> bool {
         .any(|reader| reader.kind == kind && reader.is_movement())
 }
 
-/// Returns whether files of a kind in `source_file.kind` hold a capture of any sort: movement, points, curves, a film.
-pub(crate) fn is_capture_kind(kind: &str) -> bool {
-    let other_kinds = ["curves", import_captured::POINT_TABLE_KIND, import_film::FILM_KIND];
-    let holds_capture = |reader: &FileReader| {
-        let contents = &reader.contents;
-        matches!(contents, FileContentUse::Movement(_) | FileContentUse::Tracks(_))
-    };
-    let mut readers = FILE_READERS.iter().filter(|reader| reader.kind == kind);
-    other_kinds.contains(&kind) || readers.any(holds_capture)
-}
-
 /// Lists the endings of annotation files.
 pub(crate) fn annotation_endings() -> String {
     let readers = FILE_READERS
@@ -412,6 +401,7 @@ pub(crate) fn list_readable_endings(language: InterfaceLanguage) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::db::stored_recordings::CAPTURE_FILE_KINDS;
     use crate::words::localized_message;
 
     #[test]
@@ -449,6 +439,16 @@ mod tests {
         assert!(all.contains(".srt, .vtt") && all.ends_with(".eaf, .etf"), "{all}");
         assert!(!all.contains(".bvh"), "{all}");
         assert!(is_movement("fbx") && !is_movement("film"));
+        for reader in FILE_READERS {
+            let holds_capture = matches!(
+                reader.contents,
+                FileContentUse::Movement(_) | FileContentUse::Tracks(_)
+            );
+            let is_listed = CAPTURE_FILE_KINDS.contains(&reader.kind);
+            let other_kinds = ["curves", import_film::FILM_KIND];
+            assert_eq!(is_listed, holds_capture || other_kinds.contains(&reader.kind), "{}", reader.kind);
+        }
+        assert!(CAPTURE_FILE_KINDS.contains(&import_captured::POINT_TABLE_KIND));
     }
 
     #[test]

@@ -6,7 +6,6 @@ use super::MergeWork;
 use crate::db::stored_merge::{self as db, RowImage, TableRowKey};
 use crate::db::stored_recordings;
 use crate::error::CorpusResult;
-use crate::import;
 
 impl MergeWork<'_> {
     /// Merges a new row of the other side with the one of this side that came from the same bytes: a recording, or a file
@@ -53,11 +52,11 @@ impl MergeWork<'_> {
         };
         let name = local.get("name").and_then(Value::as_str).unwrap_or_default();
         let files = stored_recordings::source_files(self.theirs.connection, id)?;
-        let has_capture = files.iter().any(|file| import::is_capture_kind(&file.kind));
+        let has_capture = files.iter().any(|file| file.is_capture());
         let mut same_capture = None;
         for file in files
             .iter()
-            .filter(|file| !has_capture || import::is_capture_kind(&file.kind))
+            .filter(|file| !has_capture || file.is_capture())
         {
             for own_file in stored_recordings::source_files_of_hash(self.connection, &file.hash)? {
                 let Some(recording) = own_file.recording_id.filter(|_| own_file.kind == file.kind) else {

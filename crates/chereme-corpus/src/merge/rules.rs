@@ -6,7 +6,7 @@ use chereme_sign::tier::{self, AnnotationId, TierViolation};
 use rusqlite::Connection;
 
 use super::{MergeWork, remove_annotation_tree};
-use crate::annotate::annotate_messages;
+use crate::address::message_names;
 use crate::db::stored_merge as db;
 use crate::db::stored_tiers;
 use crate::error::{CorpusError, CorpusResult};
@@ -170,7 +170,7 @@ pub(super) fn check_new_violations(
     for (&recording, known) in known {
         for violation in recording_violations(connection, recording)? {
             if !known.contains(&violation_key(connection, &violation)?) {
-                let rule = annotate_messages::name_message_ids(connection, &violation.to_string());
+                let rule = message_names::name_message_ids(connection, &violation.to_string());
                 return Err(CorpusError::from_wrong_message(format!(
                     "after this decision the tiers would break a rule: {rule}"
                 ))
@@ -184,7 +184,7 @@ pub(super) fn check_new_violations(
 }
 
 fn recording_violations(connection: &Connection, recording: i64) -> CorpusResult<Vec<TierViolation>> {
-    let set = crate::check::tier_set(connection, recording)?;
+    let set = stored_tiers::load_tier_set(connection, recording)?;
     Ok(tier::check_tier_set(&set))
 }
 

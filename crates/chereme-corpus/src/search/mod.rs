@@ -11,6 +11,7 @@ mod docs;
 pub(crate) mod index;
 mod like;
 mod probe;
+pub(crate) mod saved_search;
 mod search_attributes;
 mod search_component;
 mod search_curves;
@@ -39,7 +40,6 @@ use crate::db::signs::{self, TokenRow};
 use crate::db::stored_search as rows;
 use crate::error::{CorpusError, CorpusResult, WrongQuery};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
-use crate::saved_search;
 
 pub use crate::db::stored_search::search_answers::OpinionStanding;
 use answer::DocumentRanks;

@@ -7,7 +7,7 @@ use chereme_sign::tier::{self, AnnotationId, TierViolation};
 use chereme_sign::{ErrorRemedy, RemedyChoice, TierStereotype};
 use rusqlite::Connection;
 
-use crate::annotate::annotate_messages;
+use crate::address::message_names;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 
@@ -106,7 +106,7 @@ impl RecordingBeforeUpdate {
                 "import it with --theirs (the file as it is) or --mine (your edits)",
             )));
         }
-        let rule = annotate_messages::name_message_ids(connection, &rule.to_string());
+        let rule = message_names::name_message_ids(connection, &rule.to_string());
         Err(CorpusError::from_wrong_message(format!(
             "with this file, an annotation that it does not have would break a rule: {rule}"
         ))
@@ -115,7 +115,7 @@ impl RecordingBeforeUpdate {
 }
 
 fn list_tier_violations(connection: &Connection, recording: i64) -> CorpusResult<Vec<TierViolation>> {
-    let set = crate::check::tier_set(connection, recording)?;
+    let set = stored_tiers::load_tier_set(connection, recording)?;
     Ok(chereme_sign::tier::check_tier_set(&set))
 }
 

@@ -7,11 +7,11 @@ use chereme_sign::query::TokenQuery;
 use chereme_sign::text::{did_you_mean, edit_distance, fold_text, nearest_candidate};
 use rusqlite::Connection;
 
+use super::wrong_query_error;
 use crate::Corpus;
 use crate::db::saved_searches as rows;
-pub use crate::db::stored_rows::KeptSearch;
+use crate::db::stored_rows::KeptSearch;
 use crate::error::{CorpusError, CorpusResult};
-use crate::search::wrong_query_error;
 use crate::words::effect::OperationEffect;
 
 impl Corpus {
