@@ -14,6 +14,7 @@ use crate::db::lexicons::{self, LexiconRow};
 use crate::db::notations;
 use crate::db::signs::{self, SignByLexicon, TokenRow};
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
+use crate::db::stored_tiers;
 use crate::error::{CorpusError, CorpusResult, MeantName};
 
 /// A row by its number or its name.
@@ -313,6 +314,19 @@ pub(crate) fn find_recording_by_name(connection: &Connection, name: &RowName) ->
             )
         }
     }
+}
+
+/// Returns the recording that contains the object at an address: a recording, token, tier or annotation.
+pub(crate) fn find_addressed_recording(connection: &Connection, address: &CorpusAddress) -> CorpusResult<i64> {
+    Ok(match address {
+        CorpusAddress::Recording(name) => find_recording_by_name(connection, name)?.id,
+        CorpusAddress::Annotation(id) => {
+            let row = stored_tiers::load_annotation_row(connection, *id)?;
+            stored_tiers::load_tier_row(connection, row.tier_id)?.recording_id
+        }
+        CorpusAddress::Tier(id) => stored_tiers::load_tier_row(connection, *id)?.recording_id,
+        other => find_addressed_stretch(connection, other)?.recording.id,
+    })
 }
 
 /// Returns the signer with this name or number.

@@ -542,4 +542,3 @@ fn violation_remedy(violation: &TierViolation) -> ErrorRemedy {
         }
     })
 }
-

@@ -6,6 +6,7 @@ use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::db::lexicons::{self, LexiconRow};
+use crate::curves::face_stage;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_contents as rows;
 use crate::db::stored_inventories::load_inventory_rows as inventory_rows;
@@ -14,8 +15,8 @@ use crate::db::stored_rows::KeptSearch;
 pub use crate::db::stored_rows::{AnnotationColumns, RecordingGlance, ShownFrames, SignGlance};
 use crate::db::stored_search::begin_reading;
 use crate::db::stored_tiers::{self, TierRow};
-use crate::db::{OperationRow, history_log};
 use crate::db::stored_tracks::{self, TrackRow};
+use crate::db::{OperationRow, history_log};
 use crate::error::CorpusResult;
 use crate::inventories::{self, StoredInventory};
 use crate::merge::CorpusConflict;
@@ -86,7 +87,7 @@ pub struct ProposalAcceptor {
 
 /// Adds the frames of faces without a skeleton.
 fn with_faces(connection: &Connection, mut recordings: Vec<RecordingGlance>) -> CorpusResult<Vec<RecordingGlance>> {
-    let faces = crate::face::face_stage::shown_alone(connection)?;
+    let faces = face_stage::shown_alone(connection)?;
     for glance in &mut recordings {
         glance.face_alone = faces.get(&glance.row.id).copied();
     }

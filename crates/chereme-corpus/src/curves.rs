@@ -1,4 +1,11 @@
-//! Scalar curves beside movement: a number for each frame, such as how much the brows are raised.
+//! Scalar curves beside movement: a number for each frame, such as how much the brows are raised. Recipes generate some,
+//! others are derived from captured faces; a face alone is staged as movement of the program's own body.
+
+pub(crate) mod face_captured;
+pub(crate) mod face_course;
+pub(crate) mod face_fits;
+pub(crate) mod face_head;
+pub(crate) mod face_stage;
 
 use std::io::Write;
 use std::ops::Range;
@@ -14,7 +21,6 @@ use crate::address::{self, CorpusAddress, RecordingStretch};
 use crate::db::upgrade::NONMANUALS_TRACK_NAME;
 use crate::db::{stored_motion, stored_tracks};
 use crate::error::{CorpusError, CorpusResult};
-use crate::face;
 use crate::movement::MotionTrack;
 use crate::track::{self, NewTrack};
 
@@ -84,7 +90,7 @@ pub(crate) fn of_track(
             .frame_start_instant(frame)
             .shifted_instant(track.row.offset_us)
     });
-    let captured = face::curves_at(connection, track.row.recording_id, instants)?;
+    let captured = face_captured::curves_at(connection, track.row.recording_id, instants)?;
     all.extend(captured.into_iter().filter(|curve| !curve.values.is_empty()));
     Ok(all)
 }

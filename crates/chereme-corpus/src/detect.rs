@@ -1,5 +1,7 @@
 //! Annotations that detectors find in recordings, stored as proposals on tiers of their own.
 
+pub(crate) mod detect_faces;
+
 use chereme_analysis::detect::{
     ALL_DETECTORS, AnnotationDetector, DetectedStretch, ObservedBody, ObservedSigner, SignerPart, find_detector,
 };
@@ -17,11 +19,13 @@ use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_tiers;
 use crate::error::{CorpusError, CorpusResult};
-use crate::face::FaceCurves;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::propose::{ProposeScope, proposal_tier};
 use crate::words::effect::OperationEffect;
+
+use detect_faces::FaceCurves;
+pub use detect_faces::FaceProposals;
 
 /// The length of movement that is examined at once, in microseconds: two hours.
 const DETECTION_PIECE_US: i64 = 7_200_000_000;
@@ -321,7 +325,7 @@ fn in_pieces(
 /// Returns the error for a recording without any part that a detector examines.
 fn unobserved(detector: &dyn AnnotationDetector, row: &RecordingRow) -> CorpusError {
     match detector.examines() {
-        [SignerPart::Face] => crate::face::no_face(&row.name),
+        [SignerPart::Face] => crate::curves::face_captured::no_face(&row.name),
         _ => crate::movement::no_movement(&row.name),
     }
 }

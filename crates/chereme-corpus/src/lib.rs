@@ -117,7 +117,8 @@ pub use consent::{
     WithheldReason,
 };
 pub use contents::{
-    AnnotationColumns, CorpusOverview, ProposalAcceptor, RecordingContents, RecordingGlance, ShownFrames, SignGlance, TierContents,
+    AnnotationColumns, CorpusOverview, ProposalAcceptor, RecordingContents, RecordingGlance, ShownFrames, SignGlance,
+    TierContents,
 };
 pub use context::TokenNeighbours;
 pub use cue::{
@@ -135,20 +136,20 @@ pub use db::lexicons::{LexiconContents, LexiconRow};
 pub use db::signs::TokenRow;
 pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 pub use db::stored_delete::RecordingBelongings;
-pub use db::stored_rows::KeptSearch;
 pub use db::stored_recordings::{MediaTrackRow, RecordingRow, SignerRow};
+pub use db::stored_rows::KeptSearch;
 pub use db::stored_tiers::{TierRow, TierShown};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
 pub use details::{ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue};
-pub use detect::{DetectOptions, DetectedIn, DetectionReport, ProposedAnnotation};
+pub use detect::{DetectOptions, DetectedIn, DetectionReport, FaceProposals, ProposedAnnotation};
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{CorpusError, CorpusResult, DatabaseFailureCause, FailedStep, MeantName, WrongQuery};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use face::{
-    ChooseOptions, FACE_CHANNELS, FaceChannel, FaceFinding, FaceFit, FaceNumber, FaceProposals, FaceReport, FaceScore,
-    FittedNumber, FoundExpression, FoundExpressions, MilestoneOptions, NonmanualOnsets, NumberQuartiles, OnsetRow,
-    PerformanceChoice, RankedPerformance, RankingCriterion, ScoredChannel,
+    ChooseOptions, FACE_CHANNELS, FaceChannel, FaceFinding, FaceFit, FaceNumber, FaceReport, FaceScore, FittedNumber,
+    FoundExpression, FoundExpressions, MilestoneOptions, NonmanualOnsets, NumberQuartiles, OnsetRow, PerformanceChoice,
+    RankedPerformance, RankingCriterion, ScoredChannel,
 };
 pub use film::{FilmFacts, FilmFile, FilmPicture, FilmTimes, PicturePlanes};
 pub use foreign_code::hide_handled_panics;
@@ -177,8 +178,7 @@ pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
 pub use progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 pub use propose::{
-    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier,
-    proposed_for,
+    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier, proposed_for,
 };
 pub use publish::{LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};

@@ -25,9 +25,10 @@ use crate::animate::NotationStaging;
 use crate::atomic_write::{lowercase_extension, write_atomically};
 use crate::consent::{ConsentKind, OutputAudience, OutputGate, WithheldOutput, nothing_passes_error};
 use crate::curves;
+use crate::curves::face_captured;
+use crate::curves::face_stage::load_face_material;
 use crate::db::{seals, signs, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
-use crate::face;
 use crate::film::{WrittenFilmShape, write_film};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
@@ -175,6 +176,19 @@ impl<'a> From<&'a RecombinationResult> for DrawablePerformance<'a> {
     }
 }
 
+/// Returns the movement of a recording that has only a face, by the program's own body; `None` for other recordings.
+fn load_moving_face(connection: &Connection, stretch: &RecordingStretch) -> CorpusResult<Option<DisplayedMovement>> {
+    if stored_recordings::body_track(connection, stretch.recording.id)?.is_some() {
+        return Ok(None);
+    }
+    Ok(load_face_material(connection, stretch)?.map(|face| DisplayedMovement {
+        faces: chereme_compose::faces_from_curves(&face.curves),
+        clip: face.clip,
+        anatomy: (*face.anatomy).clone(),
+        stretch: stretch.clone(),
+    }))
+}
+
 impl Corpus {
     /// Returns the movement at an address: a token's span, a recording, a sign's citation form.
     ///
@@ -201,7 +215,7 @@ impl Corpus {
             Some(span) => stretch.span.span_intersection(span).unwrap_or_default(),
             None => stretch.span,
         };
-        if let Some(moving) = face::face_stage::load_moving_face(connection, &stretch)? {
+        if let Some(moving) = load_moving_face(connection, &stretch)? {
             return Ok(moving);
         }
         let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
@@ -248,7 +262,7 @@ impl Corpus {
         verify_stretch(connection, &stretch)?;
         let span = drawable(self.usable_span(&stretch)?)?;
         // A face from points on film is shown on the program's own body.
-        let has_own_face = options.face && face::has_face(connection, stretch.recording.id)?;
+        let has_own_face = options.face && face_captured::has_face(connection, stretch.recording.id)?;
         if !has_own_face
             && stored_recordings::body_track(connection, stretch.recording.id)?.is_none()
             && let Some(points) = picture_points::first_point_track(connection, &stretch, span)?

@@ -36,6 +36,7 @@ use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_recordings::{self, MotionTrackRow, RecordingRow};
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult, FailedStep};
+use crate::face::PerformanceChoice;
 use crate::inventories::{self, StoredInventory};
 use crate::movement::{self, BLOCK_FRAMES, MotionTrack};
 use crate::sources::{CorpusSources, sources_cue_phases};
@@ -171,6 +172,20 @@ impl Corpus {
         let mut done = recombination(&recipe, gloss.to_owned(), made);
         (done.token, done.recording, done.name) = (Some(token), Some(recording), Some(name));
         Ok(done)
+    }
+
+    /// Animates a sentence with the face of a performance: the recipe `SENTENCE | nonmanual … by phases`, stored as `gloss`.
+    ///
+    /// # Errors
+    /// Those of [`recombine`](Self::recombine_recipe).
+    pub fn animate_choice(
+        &mut self,
+        choice: &PerformanceChoice,
+        token: &str,
+        gloss: &str,
+    ) -> CorpusResult<RecombinationResult> {
+        let recipe = self.recipe_of_choice(choice, token)?;
+        self.recombine_recipe(&recipe, gloss)
     }
 
     /// Returns why the movement of a recipe is withheld from an audience: it is stored, judged and taken back. A recipe

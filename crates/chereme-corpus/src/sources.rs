@@ -20,6 +20,7 @@ use sha2::{Digest, Sha256};
 use crate::IndexedStore;
 use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
 use crate::curves;
+use crate::curves::face_stage;
 use crate::db::signs;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin};
 use crate::db::stored_history;
@@ -99,7 +100,7 @@ impl<'a> CorpusSources<'a> {
             .with_advice("annotate the part on a gloss tier and name its token"));
         }
         if stored_recordings::body_track(self.connection, stretch.recording.id)?.is_none()
-            && let Some(mut material) = face::face_stage::load_face_material(self.connection, stretch)?
+            && let Some(mut material) = face_stage::load_face_material(self.connection, stretch)?
         {
             material.held = self.held_component_values(stretch, material.handedness)?;
             return Ok(material);
@@ -477,7 +478,7 @@ impl RecipeSources for CorpusSources<'_> {
         let recording = CorpusAddress::Recording(RowName::Number(expression.recording)).to_string();
         let stretch = self.parse_source_stretch(&recording).map_err(|error| fault(&error))?;
         let material = self.load_stretch_material(&stretch).map_err(|error| fault(&error))?;
-        let start_result = face::face_stage::first_frame(self.connection, expression.recording, stretch.span);
+        let start_result = face_stage::first_frame(self.connection, expression.recording, stretch.span);
         let start = start_result.map_err(|error| fault(&error))?;
         Ok(ExpressionSource {
             material,

@@ -270,7 +270,15 @@ pub(crate) struct SourceFileRow {
 
 /// The kinds of files that hold a capture of any sort: movement, points, curves, a film.
 pub(crate) const CAPTURE_FILE_KINDS: [&str; 9] = [
-    "bvh", "gltf", "fbx", "c3d", "trc", "pose", "curves", "table of points", "film",
+    "bvh",
+    "gltf",
+    "fbx",
+    "c3d",
+    "trc",
+    "pose",
+    "curves",
+    "table of points",
+    "film",
 ];
 
 impl SourceFileRow {

@@ -346,7 +346,7 @@ pub(crate) fn find_expression_at(
     address: &CorpusAddress,
     function: Option<&ExpressionFunction>,
 ) -> CorpusResult<FaceExpression> {
-    let recording = super::find_addressed_recording(connection, address)?;
+    let recording = crate::address::find_addressed_recording(connection, address)?;
     let mut all = load_recording_expressions(connection, recording, function, None)?;
     match address {
         CorpusAddress::Annotation(id) => {

@@ -12,12 +12,12 @@ use serde::Serialize;
 
 use super::expressions::{self, FaceExpression};
 use super::performances::{FACE_CHANNELS, FaceChannel, FacePerformance, of_expression};
-use super::{CorpusFits, face_stage, find_addressed_recording};
 use crate::Corpus;
-use crate::address::{self, CorpusAddress, RowName};
+use crate::address::{self, CorpusAddress, RowName, find_addressed_recording};
+use crate::curves::face_fits::CorpusFits;
+use crate::curves::face_stage;
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::ProgressReceiver;
-use crate::recombine::RecombinationResult;
 
 /// The number of performances that represent all in the search for a medoid.
 const MAX_MEDOID_REFERENCES: usize = 64;
@@ -322,20 +322,6 @@ impl Corpus {
             start: self.start_of(target_sentence.recording)?,
         };
         asked_for.ranked(gold.as_ref(), &others)
-    }
-
-    /// Animates a sentence with the face of a performance: the recipe `SENTENCE | nonmanual … by phases`, stored as `gloss`.
-    ///
-    /// # Errors
-    /// Those of [`recombine`](Self::recombine_recipe).
-    pub fn animate_choice(
-        &mut self,
-        choice: &PerformanceChoice,
-        token: &str,
-        gloss: &str,
-    ) -> CorpusResult<RecombinationResult> {
-        let recipe = self.recipe_of_choice(choice, token)?;
-        self.recombine_recipe(&recipe, gloss)
     }
 
     /// Returns the recipe that gives a sentence the face of a performance.

@@ -9,9 +9,8 @@ use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones, Express
 use serde::Serialize;
 
 use super::expressions::{self, FaceExpression, MILESTONE_TIER_PREFIX};
-use super::find_addressed_recording;
 use crate::Corpus;
-use crate::address::{CorpusAddress, RowName};
+use crate::address::{CorpusAddress, RowName, find_addressed_recording};
 use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName};
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_recordings;

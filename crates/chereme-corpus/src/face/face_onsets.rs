@@ -9,10 +9,11 @@ use chereme_sign::ErrorRemedy;
 use chereme_sign::milestones::{ExpressionFunction, UTTERANCE_EDGE_MICROS};
 use serde::Serialize;
 
+use super::expressions;
 use super::performances::{FACE_CHANNELS, sample_channel_numbers};
-use super::{CorpusFits, expressions};
 use crate::Corpus;
 use crate::atomic_write;
+use crate::curves::face_fits::CorpusFits;
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};

@@ -1,65 +1,49 @@
 //! Faces of recordings: derivation from captured channels, milestones of expressions, scores, and choices among them.
 //!
-//! | module | what it does |
+//! | file | what it does |
 //! |---|---|
-//! | [`stage`] | a recording that has only a face, as movement of the program's own body |
-//! | [`captured`] | the captured face of a recording: channels of a face system, or points on film |
-//! | [`course`] | the mean of some channels over time, for conditions of a search |
-//! | [`fit`] | the weights of a mapping, fitted to a signer |
-//! | [`head`] | rotations of head and trunk, from a skeleton or from the face's capture |
-//! | [`expressions`] | expressions of a function, with their milestones |
-//! | [`milestones`] | milestones derived from glosses and written as tiers |
-//! | [`performances`] | expressions as numbers at one rate, cached until their recordings change |
-//! | [`shelf`] | a cache of many performances in the corpus file |
-//! | [`touched`] | the recordings whose performances a change affects |
-//! | [`onsets`] | begin and end of non-manuals relative to the signs that they span |
-//! | [`propose`] | proposals for brows, lids, gaze, mouth and head |
-//! | [`choose`] | ranking of performances for a sentence |
+//! | `face_fit` | the weights of a mapping, fitted to a signer |
+//! | `expressions` | expressions of a function, with their milestones |
+//! | `face_milestones` | milestones derived from glosses and written as tiers |
+//! | `performances` | expressions as numbers at one rate, cached until their recordings change |
+//! | `shelf` | a cache of many performances in the corpus file |
+//! | `touched` | the recordings whose performances a change affects |
+//! | `face_onsets` | begin and end of non-manuals relative to the signs that they span |
+//! | `face_choose` | ranking of performances for a sentence |
 
 #[cfg(test)]
 #[path = "tests/derived.rs"]
 mod derived_tests;
 mod expressions;
-mod face_captured;
 mod face_choose;
-mod face_course;
 mod face_fit;
-mod face_head;
 mod face_milestones;
 mod face_onsets;
-mod face_propose;
-pub(crate) mod face_stage;
 mod performances;
 mod shelf;
 #[cfg(test)]
 mod tests;
 mod touched;
 
-use chereme_compose::GeneratedCurve;
 use chereme_formats::{FindingSeverity, ImportFinding};
-use chereme_motion::{FacePosture, RecordingInstant, TimeSpan};
+use chereme_motion::FacePosture;
 use chereme_sign::ErrorRemedy;
-use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::{self, CorpusAddress, RowName};
-use crate::error::{CorpusError, CorpusResult};
+use crate::address::{self, CorpusAddress, RowName, find_addressed_recording};
+use crate::curves::face_captured::{load_captured_face, no_face};
+use crate::error::CorpusResult;
 
 pub(crate) use expressions::find_expression_at as expression_at;
-pub(crate) use face_captured::{captured_with, load_captured_face};
 pub use face_choose::{
     ChooseOptions, FaceScore, PerformanceChoice, RankedPerformance, RankingCriterion, ScoredChannel,
 };
-pub(crate) use face_course::ChannelCourse;
-pub(crate) use face_fit::CorpusFits;
 pub use face_fit::{FaceFit, FittedNumber};
 pub use face_milestones::{FoundExpression, FoundExpressions, MilestoneOptions};
 pub use face_onsets::{NonmanualOnsets, NumberQuartiles, OnsetRow};
-pub(crate) use face_propose::FaceCurves;
-pub use face_propose::FaceProposals;
-pub(crate) use performances::PerformancePool;
 pub use performances::{FACE_CHANNELS, FaceChannel};
+pub(crate) use performances::{PerformancePool, sample_channel_numbers};
 
 /// The face of a recording, derived from its capture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -170,47 +154,4 @@ impl Corpus {
             findings: view.findings.into_iter().map(FaceFinding::from).collect(),
         })
     }
-}
-
-/// Returns the recording that contains the object at an address: a recording, token, tier or annotation.
-pub(crate) fn find_addressed_recording(connection: &Connection, address: &CorpusAddress) -> CorpusResult<i64> {
-    use crate::db::stored_tiers;
-    Ok(match address {
-        CorpusAddress::Recording(name) => address::find_recording_by_name(connection, name)?.id,
-        CorpusAddress::Annotation(id) => {
-            let row = stored_tiers::load_annotation_row(connection, *id)?;
-            stored_tiers::load_tier_row(connection, row.tier_id)?.recording_id
-        }
-        CorpusAddress::Tier(id) => stored_tiers::load_tier_row(connection, *id)?.recording_id,
-        other => address::find_addressed_stretch(connection, other)?.recording.id,
-    })
-}
-
-/// Returns whether a recording has a captured face.
-pub(crate) fn has_face(connection: &Connection, recording: i64) -> CorpusResult<bool> {
-    Ok(load_captured_face(connection, recording, None)?.is_some())
-}
-
-pub(crate) fn no_face(recording: &str) -> CorpusError {
-    CorpusError::from_wrong_message(format!("the recording {recording:?} has no captured face"))
-        .with_error_place(recording)
-        .with_advice("import its face file (Live Link CSV, OpenFace CSV, MediaPipe JSON, .fap) under the same name")
-}
-
-/// Returns a curve for each number of the captured face of a recording, at these moments of its clock; empty without one.
-pub(crate) fn curves_at(
-    connection: &Connection,
-    recording: i64,
-    moments: impl Iterator<Item = RecordingInstant> + Clone,
-) -> CorpusResult<Vec<GeneratedCurve>> {
-    let (Some(first), Some(last)) = (moments.clone().next(), moments.clone().last()) else {
-        return Ok(Vec::new());
-    };
-    const CURVE_MARGIN_US: i64 = 200_000;
-    let span = TimeSpan::span_between(
-        first.shifted_instant(-CURVE_MARGIN_US),
-        last.shifted_instant(CURVE_MARGIN_US),
-    );
-    let captured_face = load_captured_face(connection, recording, Some(span))?;
-    Ok(captured_face.map_or(Vec::new(), |face| face.sample_capture_curves(moments)))
 }

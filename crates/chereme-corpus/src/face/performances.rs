@@ -12,9 +12,12 @@ use rusqlite::Connection;
 use serde::Serialize;
 
 use super::expressions::{self, FaceExpression};
-use super::face_head::{self, HeadTrunkTurns};
-use super::{CorpusFits, captured_with, shelf, touched};
+use super::{shelf, touched};
 use crate::curves;
+use crate::curves::face_captured::captured_with;
+use crate::curves::face_course::FIRST_TRUNK_INDEX;
+use crate::curves::face_fits::CorpusFits;
+use crate::curves::face_head::{self, HeadTrunkTurns};
 use crate::db::stored_recordings::RecordingRow;
 use crate::db::{stored_history, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
@@ -40,9 +43,6 @@ pub struct FaceChannel {
     /// Whether it is compared by default.
     pub usual: bool,
 }
-
-/// The index of the trunk's first rotation; they come after head and face.
-pub(super) const FIRST_TRUNK_INDEX: usize = 3 + FacePosture::FACE_NUMBER_COUNT;
 
 /// The channels; those that the paper compares come first: head, brows, and brows drawn together; the trunk comes last.
 pub const FACE_CHANNELS: [FaceChannel; 27] = {

@@ -440,13 +440,15 @@ mod tests {
         assert!(!all.contains(".bvh"), "{all}");
         assert!(is_movement("fbx") && !is_movement("film"));
         for reader in FILE_READERS {
-            let holds_capture = matches!(
-                reader.contents,
-                FileContentUse::Movement(_) | FileContentUse::Tracks(_)
-            );
+            let holds_capture = matches!(reader.contents, FileContentUse::Movement(_) | FileContentUse::Tracks(_));
             let is_listed = CAPTURE_FILE_KINDS.contains(&reader.kind);
             let other_kinds = ["curves", import_film::FILM_KIND];
-            assert_eq!(is_listed, holds_capture || other_kinds.contains(&reader.kind), "{}", reader.kind);
+            assert_eq!(
+                is_listed,
+                holds_capture || other_kinds.contains(&reader.kind),
+                "{}",
+                reader.kind
+            );
         }
         assert!(CAPTURE_FILE_KINDS.contains(&import_captured::POINT_TABLE_KIND));
     }

@@ -54,10 +54,7 @@ impl MergeWork<'_> {
         let files = stored_recordings::source_files(self.theirs.connection, id)?;
         let has_capture = files.iter().any(|file| file.is_capture());
         let mut same_capture = None;
-        for file in files
-            .iter()
-            .filter(|file| !has_capture || file.is_capture())
-        {
+        for file in files.iter().filter(|file| !has_capture || file.is_capture()) {
             for own_file in stored_recordings::source_files_of_hash(self.connection, &file.hash)? {
                 let Some(recording) = own_file.recording_id.filter(|_| own_file.kind == file.kind) else {
                     continue;

@@ -7,8 +7,9 @@ use chereme_sign::text::nearest_candidate;
 use super::compile::{QueryContext, QueryResult};
 use super::probe::{IndexProbe, RowField};
 use super::search_plan::QueryPlan;
+use crate::curves::face_course::ChannelCourse;
+use crate::curves::face_fits::CorpusFits;
 use crate::db::{signs, stored_recordings};
-use crate::face::{ChannelCourse, CorpusFits};
 
 /// Names that stand for several channels, whose mean is compared.
 const CURVE_PART_CHANNELS: [(&str, &[&str]); 9] = [

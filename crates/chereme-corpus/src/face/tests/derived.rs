@@ -369,7 +369,7 @@ fn a_skeletons_head_is_not_held_where_the_face_lasts_longer() {
         .import_paths(&[movement, face], &options, &mut ProgressReceiver::new(&mut hear))
         .expect("imported");
     let connection = corpus.store.read_connection();
-    let fits = super::CorpusFits::load_corpus_fits(connection).expect("fits");
+    let fits = crate::curves::face_fits::CorpusFits::load_corpus_fits(connection).expect("fits");
     // The capture of the body ends after 6.37 s, that of the face after 12 s.
     let moments: Vec<RecordingInstant> = [1000, 6000, 6360, 6500, 9000, 13_000]
         .map(RecordingInstant::from_millis)
@@ -394,7 +394,7 @@ fn curves_that_are_read_in_pieces_are_those_of_the_whole() {
     let connection = corpus.store.read_connection();
     let row = crate::address::find_recording_by_name(connection, &RowName::Number(1)).expect("a recording");
     let read = |piece: usize| {
-        let curves = super::face_propose::FaceCurves::in_pieces(connection, &row, piece);
+        let curves = crate::detect::detect_faces::FaceCurves::in_pieces(connection, &row, piece);
         let curves = curves.expect("read").expect("a face");
         let brow = curves.detector_curves().brow_raise[0].expect("a brow").to_vec();
         (brow, curves.detector_curves().head_yaw.is_some())

@@ -6,14 +6,14 @@ use chereme_motion::{FacePosture, RecordingInstant, TimeSpan};
 use rusqlite::Connection;
 use serde::Serialize;
 
-use super::face_captured::CapturedFace;
-use super::performances::{FACE_CHANNELS, sample_channel_numbers};
-use super::{CorpusFits, captured_with, find_addressed_recording, no_face};
+use super::{ProposalChanges, ProposedAnnotation};
 use crate::Corpus;
-use crate::address::{self, CorpusAddress, RowName};
+use crate::address::{self, CorpusAddress, RowName, find_addressed_recording};
+use crate::curves::face_captured::{CapturedFace, captured_with, no_face};
+use crate::curves::face_fits::CorpusFits;
 use crate::db::stored_recordings::{self, RecordingRow};
-use crate::detect::{self, ProposalChanges, ProposedAnnotation};
 use crate::error::CorpusResult;
+use crate::face::{FACE_CHANNELS, sample_channel_numbers};
 use crate::movement::MotionTrack;
 use crate::progress::ProgressReceiver;
 
@@ -63,7 +63,7 @@ impl FaceCurves {
     }
 
     /// Reads as [`read_face_curves`](Self::read_face_curves) does, this many frames at once.
-    pub(super) fn in_pieces(connection: &Connection, row: &RecordingRow, piece: usize) -> CorpusResult<Option<Self>> {
+    pub(crate) fn in_pieces(connection: &Connection, row: &RecordingRow, piece: usize) -> CorpusResult<Option<Self>> {
         let frames = (row.duration_us.min(MAX_EXAMINED_TIME_US) as f64 / 1e6 * PROPOSAL_RATE_FPS) as usize;
         let wanted: Vec<usize> = Self::EXAMINED_CHANNEL_NAMES
             .iter()
@@ -162,7 +162,7 @@ impl Corpus {
         let connection = self.store.read_connection();
         let recording = find_addressed_recording(connection, address)?;
         let row = address::find_recording_by_name(connection, &RowName::Number(recording))?;
-        let detected = detect::propose_for_recording(connection, &NonmanualDetector, &row)?;
+        let detected = super::propose_for_recording(connection, &NonmanualDetector, &row)?;
         let proposals = detected.ok_or_else(|| no_face(&row.name))?;
         let mut written = 0;
         if store {

@@ -5,10 +5,10 @@ use chereme_formats::faces::{DerivedFaceView, FaceMeasures, FaceMesh, FaceSystem
 use chereme_motion::{FacePosture, FrameTimes, RecordingInstant, TimeSpan};
 use rusqlite::Connection;
 
-use super::CorpusFits;
+use super::face_fits::CorpusFits;
 use crate::db::stored_tracks::{self, TrackKind, TrackRow};
 use crate::db::upgrade::NONMANUALS_TRACK_NAME;
-use crate::error::CorpusResult;
+use crate::error::{CorpusError, CorpusResult};
 use crate::track;
 
 /// The number of frames of points that are read at once.
@@ -272,4 +272,33 @@ impl CapturedFace {
             })
             .collect()
     }
+}
+
+/// Returns whether a recording has a captured face.
+pub(crate) fn has_face(connection: &Connection, recording: i64) -> CorpusResult<bool> {
+    Ok(load_captured_face(connection, recording, None)?.is_some())
+}
+
+pub(crate) fn no_face(recording: &str) -> CorpusError {
+    CorpusError::from_wrong_message(format!("the recording {recording:?} has no captured face"))
+        .with_error_place(recording)
+        .with_advice("import its face file (Live Link CSV, OpenFace CSV, MediaPipe JSON, .fap) under the same name")
+}
+
+/// Returns a curve for each number of the captured face of a recording, at these moments of its clock; empty without one.
+pub(crate) fn curves_at(
+    connection: &Connection,
+    recording: i64,
+    moments: impl Iterator<Item = RecordingInstant> + Clone,
+) -> CorpusResult<Vec<GeneratedCurve>> {
+    let (Some(first), Some(last)) = (moments.clone().next(), moments.clone().last()) else {
+        return Ok(Vec::new());
+    };
+    const CURVE_MARGIN_US: i64 = 200_000;
+    let span = TimeSpan::span_between(
+        first.shifted_instant(-CURVE_MARGIN_US),
+        last.shifted_instant(CURVE_MARGIN_US),
+    );
+    let captured_face = load_captured_face(connection, recording, Some(span))?;
+    Ok(captured_face.map_or(Vec::new(), |face| face.sample_capture_curves(moments)))
 }

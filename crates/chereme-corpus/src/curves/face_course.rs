@@ -4,16 +4,18 @@ use chereme_compose::faces_from_curves;
 use chereme_motion::{FacePosture, RecordingInstant};
 use rusqlite::Connection;
 
-use super::face_captured::CapturedFace;
-use super::performances::FIRST_TRUNK_INDEX;
-use super::{CorpusFits, captured_with, face_head};
-use crate::curves;
+use super::face_captured::{CapturedFace, captured_with};
+use super::face_fits::CorpusFits;
+use super::face_head;
 use crate::db::stored_recordings;
 use crate::error::CorpusResult;
 use crate::movement::{ChannelGroup, MotionTrack};
 
 /// The number of frames of a movement that are read at once.
 const COURSE_PIECE_FRAMES: usize = 16_384;
+
+/// The index of the trunk's first rotation; they come after head and face.
+pub(crate) const FIRST_TRUNK_INDEX: usize = 3 + FacePosture::FACE_NUMBER_COUNT;
 
 /// The mean of some channels over time. Between two frames its value is on the line between theirs; in gaps of a
 /// capture, and outside of it, it has none.
@@ -26,7 +28,7 @@ pub(crate) struct ChannelCourse {
 }
 
 impl ChannelCourse {
-    /// Returns the mean of those channels that a recording shows, by their indices in [`FACE_CHANNELS`](super::FACE_CHANNELS):
+    /// Returns the mean of those channels that a recording shows, by their indices in [`FACE_CHANNELS`](crate::FACE_CHANNELS):
     /// all of the head, all of the trunk, or all of the face. `None` if it shows none of them.
     pub(crate) fn load_channel_course(
         connection: &Connection,
@@ -175,7 +177,7 @@ fn mean_turn(turn: &[f64; 3], channels: &[usize]) -> f64 {
 /// Returns the mean of the channels of the face that a recipe generated.
 fn of_recipe(connection: &Connection, track: &MotionTrack, channels: &[usize]) -> CorpusResult<Option<ChannelCourse>> {
     let numbers: Vec<usize> = channels.iter().map(|at| at - 3).collect();
-    let faces = faces_from_curves(&curves::of_track(connection, track, 0..track.motion_frame_count())?);
+    let faces = faces_from_curves(&super::of_track(connection, track, 0..track.motion_frame_count())?);
     Ok(course_along_track(
         track,
         faces.iter().map(|face| mean_of(face, &numbers)),

@@ -1,6 +1,5 @@
 //! Performs a recording that has only a face as movement of the program's own body, whose head turns as in the capture.
 
-use crate::face::load_captured_face;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -12,6 +11,7 @@ use chereme_sign::SignerHandedness;
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
+use super::face_captured::load_captured_face;
 use super::face_head;
 use crate::address::{CorpusAddress, RecordingStretch, RowName};
 use crate::db::stored_contents;
@@ -19,7 +19,6 @@ use crate::db::stored_motion;
 use crate::db::stored_recordings;
 use crate::db::stored_rows::ShownFrames;
 use crate::error::{CorpusError, CorpusResult};
-use crate::picture::DisplayedMovement;
 use crate::starter::own_body;
 
 /// The rate for a capture whose frames have individual times.
@@ -144,23 +143,6 @@ fn turn_body_joint(
             *rotation = ((below * above).inverse() * head_rotation).normalize();
         }
     }
-}
-
-/// Returns a stretch of a recording that has only a face as movement for display; `None` if the recording has a
-/// skeleton, or no captured face.
-pub(crate) fn load_moving_face(
-    connection: &Connection,
-    stretch: &RecordingStretch,
-) -> CorpusResult<Option<DisplayedMovement>> {
-    if stored_recordings::body_track(connection, stretch.recording.id)?.is_some() {
-        return Ok(None);
-    }
-    Ok(load_face_material(connection, stretch)?.map(|face| DisplayedMovement {
-        faces: chereme_compose::faces_from_curves(&face.curves),
-        clip: face.clip,
-        anatomy: (*face.anatomy).clone(),
-        stretch: stretch.clone(),
-    }))
 }
 
 /// Returns the frames of captured faces of recordings without a skeleton, by recording.
