@@ -15,7 +15,7 @@ mod words;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use chereme_corpus::words::coverage::use_word_folder;
+use chereme_corpus::use_word_folder;
 use clap::{CommandFactory, FromArgMatches};
 
 use args::CommandLine;

@@ -66,6 +66,7 @@ mod track;
 mod transcribe;
 mod usable;
 mod values;
+mod word_coverage;
 pub mod words;
 
 use std::cell::RefCell;
@@ -166,10 +167,10 @@ pub use inventories::StoredInventory;
 pub use kinematics::KinematicCurves;
 pub use lexicon::{LexiconChange, LexiconScope, LinkedRecordings};
 pub use list::{ListFilter, ListKind, ListedRows, cell_text, components_text};
-pub use log::{ChangeKind, ChangedRow, FieldChange, OperationDetail};
+pub use log::{ChangeKind, ChangedRow, FieldChange, OperationDetail, change_sentence};
 pub use map::{MapOptions, MapPoint, SignMap};
 pub use media::{MediaChange, MediaPlace, find_media, is_film};
-pub use merge::{ConflictCandidate, ConflictDecision, CorpusConflict, MergeReport};
+pub use merge::{ConflictCandidate, CorpusConflict, MergeReport};
 pub use movement::ChannelGroup;
 pub use notation::{TokenNotation, read_notation};
 pub use pairs::{DenseSign, MinimalPair, MinimalPairs, PairOptions};
@@ -201,6 +202,8 @@ pub use track::{
 };
 pub use transcribe::{SignTranscription, TranscribedFeature, TranscribedStage, TranscribedValue};
 pub use values::MergedValues;
+pub use word_coverage::{LanguageCoverage, MissingPhrase, PhraseFault, language_coverage, use_word_folder};
+pub use words::effect::ConflictDecision;
 
 /// An open corpus.
 pub struct Corpus {

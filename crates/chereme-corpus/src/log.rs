@@ -2,15 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::Corpus;
 use crate::db::OperationRow;
 use crate::db::stored_history::{self, RowChange};
 use crate::error::{CorpusError, CorpusResult};
+use crate::words::InterfaceLanguage;
+use crate::words::history_words::described_value;
 
 /// The tables that the user knows, each with the noun for a row and the column with its name.
 const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 14] = [
@@ -285,11 +288,63 @@ fn describe_changed_row(
     })
 }
 
+/// Returns the change of a row as a line of text.
+#[must_use]
+pub fn change_sentence(change: &ChangedRow, language: InterfaceLanguage) -> String {
+    let time = |name: &str| {
+        let field = change.fields.iter().find(|field| field.field == name)?;
+        let micros = field.from.as_i64().or_else(|| field.to.as_i64())?;
+        Some(RecordingInstant::from_micros(micros).to_string())
+    };
+    let place = match change.place_names.as_slice() {
+        [] => Value::Null,
+        [name] => json!({ "does": "row-place", "what": change.what, "name": name }),
+        [name, whole, ..] => json!({ "does": "row-place-of", "name": name, "whole": whole }),
+    };
+    let span = match time("start_us").zip(time("end_us")) {
+        Some((start, end)) => json!({ "does": "row-span", "start": start, "end": end }),
+        None => Value::Null,
+    };
+    let fields = change.fields.iter().map(|field| described_field(field, language));
+    let joined = |one: String, other: String| {
+        let both = json!({ "does": "row-fields", "one": one, "other": other });
+        described_value(&both, language)
+    };
+    let joined_fields = fields.reduce(joined);
+    let fields = joined_fields.map_or_else(|| json!({ "does": "row-order" }), Value::from);
+    let does = match change.kind {
+        ChangeKind::Added => "row-added",
+        ChangeKind::Removed => "row-removed",
+        ChangeKind::Changed => "row-changed",
+    };
+    let name = format!("{:?}", change.name);
+    let row =
+        json!({ "does": does, "what": change.what, "name": name, "place": place, "span": span, "fields": fields });
+    described_value(&row, language)
+}
+
+/// Returns a field before and after.
+fn described_field(change: &FieldChange, language: InterfaceLanguage) -> String {
+    let is_time = change.field.ends_with("_us");
+    let text = |value: &Value| match value {
+        Value::Null => json!({ "does": "row-nothing" }),
+        Value::String(text) => format!("{text:?}").into(),
+        Value::Number(number) if is_time => {
+            let micros = number.as_i64().unwrap_or_default();
+            RecordingInstant::from_micros(micros).to_string().into()
+        }
+        other => other.to_string().into(),
+    };
+    let field = change.field.trim_end_matches("_us").replace('_', " ");
+    let (from, to) = (text(&change.from), text(&change.to));
+    let field = json!({ "does": "row-field", "field": field, "from": from, "to": to });
+    described_value(&field, language)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::words::InterfaceLanguage;
-    use crate::words::history_words::change_sentence;
     use crate::{
         AnnotateOptions, AnnotationAction, AnnotationName, NewTier, ProgressReceiver, RecordingChange, RowName,
         TierRequestName, TierRole, ignore_progress_step,

@@ -211,3 +211,21 @@ message-importing-offsets-not-where-movement-puts-movement = the offsets of { $n
 message-importing-file-recording = a file of the recording { $name }
 message-importing-h-264-profile-with-more-than = H.264 of a profile with more than 8 bits, or 4:2:2
 message-importing-with-in-would-read-back-as = { $what } with ">" or "+" in it would be read back as several
+
+## Lines: the kinds of files that are read, by what they hold.
+
+line-importing-files-read = Files that are read: { $endings }, or folders of these.
+line-importing-holds-annotations = annotations
+line-importing-holds-markers = markers
+line-importing-holds-movement = movement
+line-importing-holds-inventories-signs-scores-of-a-face = inventories, signs, scores of a face, points from film of OpenPose or MediaPipe
+line-importing-holds-points-from-film = points from film
+line-importing-holds-faces = faces
+line-importing-holds-lexicons-markers-faces-tables-of-annotations = lexicons, markers, faces, tables of annotations
+line-importing-holds-signs-in-sigml = signs in SiGML
+line-importing-holds-lines-of-hamnosys-markers-tables-of = lines of HamNoSys, markers, tables of annotations
+line-importing-holds-collections-of-signstream = collections of SignStream
+line-importing-holds-vocabularies-of-elan = vocabularies of ELAN
+line-importing-holds-settings-of-elan = settings of ELAN
+line-importing-holds-films = films
+line-importing-holds-templates-of-elan = templates of ELAN

@@ -211,3 +211,21 @@ message-importing-offsets-not-where-movement-puts-movement = les offsets de { $n
 message-importing-file-recording = un fichier de l’enregistrement { $name }
 message-importing-h-264-profile-with-more-than = du H.264 d’un profil de plus de 8 bits, ou 4:2:2
 message-importing-with-in-would-read-back-as = { $what } avec ">" ou "+" se relirait comme plusieurs
+
+## Lines: the kinds of files that are read, by what they hold.
+
+line-importing-files-read = Fichiers lus : { $endings }, ou des dossiers qui en contiennent.
+line-importing-holds-annotations = annotations
+line-importing-holds-markers = marqueurs
+line-importing-holds-movement = mouvement
+line-importing-holds-inventories-signs-scores-of-a-face = inventaires, signes, scores d’un visage, points d’un film d’OpenPose ou de MediaPipe
+line-importing-holds-points-from-film = points d’un film
+line-importing-holds-faces = visages
+line-importing-holds-lexicons-markers-faces-tables-of-annotations = lexiques, marqueurs, visages, tables d’annotations
+line-importing-holds-signs-in-sigml = signes en SiGML
+line-importing-holds-lines-of-hamnosys-markers-tables-of = lignes de HamNoSys, marqueurs, tables d’annotations
+line-importing-holds-collections-of-signstream = collections de SignStream
+line-importing-holds-vocabularies-of-elan = vocabulaires d’ELAN
+line-importing-holds-settings-of-elan = réglages d’ELAN
+line-importing-holds-films = films
+line-importing-holds-templates-of-elan = modèles d’ELAN

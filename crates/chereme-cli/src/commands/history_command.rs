@@ -142,7 +142,7 @@ pub(super) fn print_operation_log(cli: &CommandLine, args: &LogArgs, output: &mu
 
 fn print_changes(detail: &OperationDetail, output: &mut CommandOutput) -> Result<()> {
     for change in &detail.changes {
-        let sentence = words::change_sentence(change, output.output_language());
+        let sentence = chereme_corpus::change_sentence(change, output.output_language());
         output.line_as_is(&format!("  {sentence}"))?;
     }
     let more = detail.total - detail.changes.len() as u64;

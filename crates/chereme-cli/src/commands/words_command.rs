@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::words::InterfaceLanguage;
-use chereme_corpus::words::coverage::{LanguageCoverage, language_coverage};
+use chereme_corpus::{LanguageCoverage, language_coverage};
 
 use crate::args::CommandLine;
 use crate::output::CommandOutput;

@@ -28,7 +28,7 @@ pub(crate) struct ChannelCourse {
 }
 
 impl ChannelCourse {
-    /// Returns the mean of those channels that a recording shows, by their indices in [`FACE_CHANNELS`](crate::FACE_CHANNELS):
+    /// Returns the mean of those channels that a recording shows, by their indices among those of performances:
     /// all of the head, all of the trunk, or all of the face. `None` if it shows none of them.
     pub(crate) fn load_channel_course(
         connection: &Connection,

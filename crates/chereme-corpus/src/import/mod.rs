@@ -391,7 +391,7 @@ impl ImportRun<'_> {
                 }
             };
             progress.report_step(ProgressStep {
-                task: FILE_READERS[reader].holds.en,
+                task: FILE_READERS[reader].holds,
                 done: before[reader],
                 total: Some(total(reader).count() as u64),
                 unit: ProgressUnit::Items,

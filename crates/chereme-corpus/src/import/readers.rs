@@ -18,7 +18,7 @@ use super::{FileReport, ImportJob, elan, import_bvh, import_captured, import_eaf
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation::NotationFormat;
 use crate::progress::ProgressReceiver;
-use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces};
+use crate::words::{InterfaceLanguage, filled_message};
 
 /// Reads bytes of a foreign file as a document with findings, or says what is wrong with them.
 pub(crate) type ParseFunction<T> = fn(&[u8]) -> std::result::Result<(T, Vec<ImportFinding>), String>;
@@ -32,8 +32,8 @@ pub(super) struct FileReader {
     pub(super) endings: &'static [&'static str],
     /// The kind in `source_file.kind`.
     pub(super) kind: &'static str,
-    /// The contents of such files for people, in the plural.
-    pub(super) holds: InterfaceText,
+    /// The contents of such files for people, in the plural: a message of the files of words.
+    pub(super) holds: &'static str,
     /// Decides whether a file with one of these endings is of this kind, if the ending alone does not determine it.
     looks: fn(&Path) -> bool,
     /// Whether such files never add an inventory, so that the next one need not load them again.
@@ -96,9 +96,9 @@ impl FileReader {
     }
 }
 
-const ANNOTATIONS_NOUN: InterfaceText = InterfaceText::new("annotations", "annotations");
-const MARKERS_NOUN: InterfaceText = InterfaceText::new("markers", "marqueurs");
-const MOVEMENT_NOUN: InterfaceText = InterfaceText::new("movement", "mouvement");
+const ANNOTATIONS_NOUN: &str = "annotations";
+const MARKERS_NOUN: &str = "markers";
+const MOVEMENT_NOUN: &str = "movement";
 
 /// The kinds in the order in which an import reads them. Annotations come after movement, so that they find their
 /// recordings and values; films come after annotations, because annotation files name them; templates come last, for
@@ -107,10 +107,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["json"],
         kind: "inventory",
-        holds: InterfaceText::new(
-            "inventories, signs, scores of a face, points from film of OpenPose or MediaPipe",
-            "inventaires, signes, scores d’un visage, points d’un film d’OpenPose ou de MediaPipe",
-        ),
+        holds: "inventories, signs, scores of a face, points from film of OpenPose or MediaPipe",
         looks: always,
         keeps_inventories: false,
         contents: FileContentUse::Other(import_captured::import_json),
@@ -158,7 +155,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["pose"],
         kind: "pose",
-        holds: InterfaceText::new("points from film", "points d’un film"),
+        holds: "points from film",
         looks: always,
         keeps_inventories: true,
         contents: FileContentUse::Tracks(|bytes| pose::read_pose_file(bytes).map_err(parse_error_message)),
@@ -166,7 +163,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["fap", "pbtxt", "gesichter"],
         kind: "curves",
-        holds: InterfaceText::new("faces", "visages"),
+        holds: "faces",
         looks: always,
         keeps_inventories: true,
         contents: FileContentUse::Other(import_captured::import_curves),
@@ -174,10 +171,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["csv", "tsv"],
         kind: "lexicon",
-        holds: InterfaceText::new(
-            "lexicons, markers, faces, tables of annotations",
-            "lexiques, marqueurs, visages, tables d’annotations",
-        ),
+        holds: "lexicons, markers, faces, tables of annotations",
         looks: always,
         keeps_inventories: false,
         contents: FileContentUse::Other(import_captured::import_table),
@@ -185,7 +179,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["sigml", "hsigml", "xml"],
         kind: "sigml",
-        holds: InterfaceText::new("signs in SiGML", "signes en SiGML"),
+        holds: "signs in SiGML",
         looks: |path| NotationFormat::from_notation_path(path) == Some(NotationFormat::Sigml),
         keeps_inventories: true,
         contents: FileContentUse::Other(import_notated::import_sigml),
@@ -193,10 +187,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["hns", "txt"],
         kind: "lexicon",
-        holds: InterfaceText::new(
-            "lines of HamNoSys, markers, tables of annotations",
-            "lignes de HamNoSys, marqueurs, tables d’annotations",
-        ),
+        holds: "lines of HamNoSys, markers, tables of annotations",
         looks: |path| {
             NotationFormat::from_notation_path(path) == Some(NotationFormat::Lines) || import_captured::is_export(path)
         },
@@ -238,7 +229,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["xml"],
         kind: "signstream",
-        holds: InterfaceText::new("collections of SignStream", "collections de SignStream"),
+        holds: "collections of SignStream",
         looks: |path| begins_with_text(path, "<SIGNSTREAM-DATABASE"),
         keeps_inventories: false,
         contents: FileContentUse::Annotations(|bytes| {
@@ -248,7 +239,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["ecv"],
         kind: "ecv",
-        holds: InterfaceText::new("vocabularies of ELAN", "vocabulaires d’ELAN"),
+        holds: "vocabularies of ELAN",
         looks: always,
         keeps_inventories: false,
         contents: FileContentUse::Other(elan::import_vocabularies),
@@ -264,7 +255,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["pfsx", "psfx"],
         kind: "pfsx",
-        holds: InterfaceText::new("settings of ELAN", "réglages d’ELAN"),
+        holds: "settings of ELAN",
         looks: always,
         keeps_inventories: true,
         contents: FileContentUse::Other(elan::import_settings),
@@ -272,7 +263,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["mp4", "m4v", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
         kind: import_film::FILM_KIND,
-        holds: InterfaceText::new("films", "films"),
+        holds: "films",
         looks: always,
         keeps_inventories: true,
         contents: FileContentUse::Other(import_film::import_film),
@@ -280,7 +271,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
         endings: &["etf"],
         kind: "etf",
-        holds: InterfaceText::new("templates of ELAN", "modèles d’ELAN"),
+        holds: "templates of ELAN",
         looks: always,
         keeps_inventories: false,
         contents: FileContentUse::Template(eaf_transcript, elan::import_template),
@@ -371,19 +362,16 @@ pub(crate) fn annotation_endings() -> String {
 /// Returns the kinds of files that an import reads as a sentence, with their endings and contents.
 #[must_use]
 pub fn readable_files(language: InterfaceLanguage) -> String {
-    let sentence = InterfaceText::new(
+    filled_message(
         "Files that are read: {endings}, or folders of these.",
-        "Fichiers lus : {endings}, ou des dossiers qui en contiennent.",
-    );
-    fill_text_braces(
-        sentence.text_in_language(language),
-        &[("endings", &list_readable_endings(language))],
+        &[&list_readable_endings(language)],
+        language,
     )
 }
 
 /// Lists the endings that are read, and the contents of such files.
 pub(crate) fn list_readable_endings(language: InterfaceLanguage) -> String {
-    let mut kinds: Vec<(InterfaceText, Vec<String>)> = Vec::new();
+    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
     for reader in FILE_READERS.iter().filter(|reader| !reader.endings.is_empty()) {
         let dotted = reader.endings.iter().map(|ending| format!(".{ending}"));
         match kinds.iter_mut().find(|(holds, _)| *holds == reader.holds) {
@@ -393,7 +381,7 @@ pub(crate) fn list_readable_endings(language: InterfaceLanguage) -> String {
     }
     let kinds: Vec<String> = kinds
         .into_iter()
-        .map(|(holds, all)| format!("{} ({})", all.join(", "), holds.text_in_language(language)))
+        .map(|(holds, all)| format!("{} ({})", all.join(", "), filled_message(holds, &[], language)))
         .collect();
     kinds.join(", ")
 }

@@ -20,7 +20,7 @@ use crate::db::{edits, signs, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
 use crate::tokens;
-use crate::words::effect::OperationEffect;
+use crate::words::effect::{ConflictDecision, OperationEffect};
 
 /// The prefix of the keys under which conflicts are stored.
 const CONFLICT_KEY_PREFIX: &str = "conflict:";
@@ -70,18 +70,6 @@ impl std::fmt::Display for ConflictCandidate {
         }
         Ok(())
     }
-}
-
-/// The decision on a conflict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ConflictDecision {
-    /// This corpus stays as it is.
-    Mine,
-    /// The other candidate replaces that of this corpus.
-    Theirs,
-    /// Both stay: the other annotation goes on its own tier if there is room, otherwise on a tier next to it.
-    Both,
 }
 
 /// A conflict as it is stored.

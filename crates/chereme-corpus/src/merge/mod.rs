@@ -23,7 +23,7 @@ use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::Value;
 
-pub use merge_conflicts::{ConflictCandidate, ConflictDecision, CorpusConflict};
+pub use merge_conflicts::{ConflictCandidate, CorpusConflict};
 use merge_conflicts::{StoredConflict, remove_annotation_tree, store_conflict};
 pub(crate) use merge_conflicts::{keep_annotation, undecided_conflicts, undecided_disputes};
 

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{ConflictDecision, MergeReport};
+use super::MergeReport;
+use crate::ConflictDecision;
 use chereme_formats::table::annotations::TableMoment;
 use chereme_motion::RecordingInstant;
 

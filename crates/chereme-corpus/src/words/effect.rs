@@ -4,7 +4,18 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::history_words::operation_summary;
-use crate::merge::ConflictDecision;
+
+/// The decision on a conflict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ConflictDecision {
+    /// This corpus stays as it is.
+    Mine,
+    /// The other candidate replaces that of this corpus.
+    Theirs,
+    /// Both stay: the other annotation goes on its own tier if there is room, otherwise on a tier next to it.
+    Both,
+}
 
 /// What an operation did. It is stored as JSON, whose `does` is the name of the operation with hyphens for its spaces.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

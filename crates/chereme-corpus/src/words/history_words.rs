@@ -1,6 +1,5 @@
 //! Sentences that describe the effects of operations, from the messages `history-…` of the files of words.
 
-use chereme_motion::RecordingInstant;
 use serde_json::{Value, json};
 
 use super::InterfaceLanguage;
@@ -8,7 +7,6 @@ use super::count::format_noun_count;
 use super::effect::{AnnotationDeed, AnnotationEffect, OperationEffect};
 use super::phrases::BlankedPhrase;
 use super::sentences::{filled_sentence, load_message_patterns};
-use crate::{ChangeKind, ChangedRow, FieldChange};
 
 texts! {
     TITLE: "History", "Historique";
@@ -114,61 +112,8 @@ pub fn annotation_sentence(effect: &AnnotationEffect, language: InterfaceLanguag
     operation_sentence(&OperationEffect::Annotate(effect.clone()), language)
 }
 
-/// Returns the change of a row as a line of text.
-#[must_use]
-pub fn change_sentence(change: &ChangedRow, language: InterfaceLanguage) -> String {
-    let time = |name: &str| {
-        let field = change.fields.iter().find(|field| field.field == name)?;
-        let micros = field.from.as_i64().or_else(|| field.to.as_i64())?;
-        Some(RecordingInstant::from_micros(micros).to_string())
-    };
-    let place = match change.place_names.as_slice() {
-        [] => Value::Null,
-        [name] => json!({ "does": "row-place", "what": change.what, "name": name }),
-        [name, whole, ..] => json!({ "does": "row-place-of", "name": name, "whole": whole }),
-    };
-    let span = match time("start_us").zip(time("end_us")) {
-        Some((start, end)) => json!({ "does": "row-span", "start": start, "end": end }),
-        None => Value::Null,
-    };
-    let fields = change.fields.iter().map(|field| described_field(field, language));
-    let joined = |one: String, other: String| {
-        let both = json!({ "does": "row-fields", "one": one, "other": other });
-        described_value(&both, language)
-    };
-    let joined_fields = fields.reduce(joined);
-    let fields = joined_fields.map_or_else(|| json!({ "does": "row-order" }), Value::from);
-    let does = match change.kind {
-        ChangeKind::Added => "row-added",
-        ChangeKind::Removed => "row-removed",
-        ChangeKind::Changed => "row-changed",
-    };
-    let name = format!("{:?}", change.name);
-    let row =
-        json!({ "does": does, "what": change.what, "name": name, "place": place, "span": span, "fields": fields });
-    described_value(&row, language)
-}
-
-/// Returns a field before and after.
-fn described_field(change: &FieldChange, language: InterfaceLanguage) -> String {
-    let is_time = change.field.ends_with("_us");
-    let text = |value: &Value| match value {
-        Value::Null => json!({ "does": "row-nothing" }),
-        Value::String(text) => format!("{text:?}").into(),
-        Value::Number(number) if is_time => {
-            let micros = number.as_i64().unwrap_or_default();
-            RecordingInstant::from_micros(micros).to_string().into()
-        }
-        other => other.to_string().into(),
-    };
-    let field = change.field.trim_end_matches("_us").replace('_', " ");
-    let (from, to) = (text(&change.from), text(&change.to));
-    let field = json!({ "does": "row-field", "field": field, "from": from, "to": to });
-    described_value(&field, language)
-}
-
 /// Returns a stored value in words: an object by the message that its `does` names, a list by its items.
-fn described_value(value: &Value, language: InterfaceLanguage) -> String {
+pub(crate) fn described_value(value: &Value, language: InterfaceLanguage) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),

@@ -1,7 +1,7 @@
 //! Words for differences, merges and their conflicts.
 
 use super::InterfaceText;
-use crate::merge::ConflictDecision;
+use super::effect::ConflictDecision;
 
 texts! {
     TITLE: "Conflicts", "Conflits";

@@ -10,7 +10,6 @@ use super::InterfaceLanguage;
 use super::count::counted_in_french;
 use super::parts_words::{by_lines, is_quoted, placed_in_french, side_in_french};
 use super::phrases::{BlankedPhrase, PhraseBook, PhrasePair, phrase_book};
-use crate::import::readers::list_readable_endings;
 
 /// Returns a message in `language`; nothing if the files of words lack it.
 #[must_use]
@@ -44,8 +43,10 @@ fn translated_message(text: &str, book: &PhraseBook) -> Option<String> {
         let spoken = || translated_message(part, book).filter(|_| !is_quoted(part));
         side.or_else(spoken).unwrap_or_else(|| part.to_owned())
     };
-    if text.starts_with('.') && text == list_readable_endings(InterfaceLanguage::English) {
-        return Some(list_readable_endings(InterfaceLanguage::French));
+    if text.starts_with('.')
+        && let Some(endings) = translated_endings(text, book)
+    {
+        return Some(endings);
     }
     let mut pairs = book.messages.iter();
     let translated = pairs.find_map(|pair| pair.translate_phrase(text, &part));
@@ -53,6 +54,15 @@ fn translated_message(text: &str, book: &PhraseBook) -> Option<String> {
         .or_else(|| counted_in_french(text))
         .or_else(|| placed_in_french(text, &|inner| part("", inner)))
         .or_else(|| by_lines(text, &|line| part("", line)))
+}
+
+/// Returns a list of endings with what such files hold, such as `.bvh, .glb (movement), .c3d (markers)`, in the other language.
+fn translated_endings(text: &str, book: &PhraseBook) -> Option<String> {
+    let groups = text.strip_suffix(')')?.split("), ").map(|group| {
+        let (endings, holds) = group.split_once(" (")?;
+        Some(format!("{endings} ({})", book.fixed_text("line", holds)?))
+    });
+    Some(groups.collect::<Option<Vec<_>>>()?.join(", "))
 }
 
 #[cfg(test)]

@@ -20,12 +20,12 @@ macro_rules! texts {
             pub const $name: crate::words::InterfaceText = crate::words::InterfaceText::new($en, $fr);
         )*
         #[cfg(test)]
-        pub(super) const ALL: &[(&str, crate::words::InterfaceText)] = &[$((stringify!($name), $name)),*];
+        pub(crate) const ALL: &[(&str, crate::words::InterfaceText)] = &[$((stringify!($name), $name)),*];
     };
 }
+pub(crate) use texts;
 
 mod count;
-pub mod coverage;
 pub mod deletion;
 pub mod effect;
 #[cfg(test)]
@@ -38,7 +38,6 @@ mod messages_words;
 pub(crate) mod old_effect;
 mod parts_words;
 mod phrases;
-pub mod reporting;
 mod sentences;
 pub mod trouble_words;
 
@@ -110,7 +109,7 @@ mod tests {
         deletion::ALL,
         history_words::ALL,
         merge_words::ALL,
-        reporting::ALL,
+        crate::study::report::report_words::ALL,
         trouble_words::ALL,
     ];
 

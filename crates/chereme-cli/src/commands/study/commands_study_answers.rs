@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use chereme_corpus::study::report::report_words as reporting;
 use chereme_corpus::study::{AnswerFilter, AnswerListRow};
-use chereme_corpus::words::reporting;
 
 use crate::args::CommandLine;
 use crate::output::CommandOutput;

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use chereme_corpus::study::report::report_words as w;
 use chereme_corpus::study::report::{GroupComparison, GroupPairComparison, StudyReport, report_numbers};
-use chereme_corpus::words::{fill_text_braces, reporting as w};
+use chereme_corpus::words::fill_text_braces;
 
 use crate::args::CommandLine;
 use crate::output::CommandOutput;

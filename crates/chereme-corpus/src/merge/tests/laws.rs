@@ -9,7 +9,8 @@ use chereme_formats::table::annotations::TableMoment;
 use chereme_motion::RecordingInstant;
 use proptest::prelude::*;
 
-use super::{ConflictDecision, MergeReport};
+use super::MergeReport;
+use crate::ConflictDecision;
 use crate::{
     AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Corpus, ImportOptions, ProgressReceiver,
     TierRequestName, ignore_progress_step,

@@ -9,7 +9,8 @@ use chereme_motion::RecordingInstant;
 use proptest::prelude::*;
 use rusqlite::types::Value as Cell;
 
-use super::{ConflictDecision, MergeReport};
+use super::MergeReport;
+use crate::ConflictDecision;
 use crate::{
     AnnotateOptions, AnnotationAction, AnnotationName, Corpus, CorpusAddress, DeleteOptions, ImportOptions,
     ProgressReceiver, RowName, TierRequestName, ignore_progress_step,

@@ -10,7 +10,8 @@ use chereme_analysis::statistics::GroupDescription;
 use super::report_numbers::{format_percent, format_report_number};
 use super::{AnswerShare, ConfusionTable, MeasurePoint, ResampledInterval};
 use crate::map::escape_markup;
-use crate::words::{InterfaceLanguage, reporting as w};
+use crate::study::report::report_words as w;
+use crate::words::InterfaceLanguage;
 
 /// The width of every figure.
 const CHART_WIDTH_PX: f64 = 860.0;

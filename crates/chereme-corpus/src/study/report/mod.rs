@@ -10,6 +10,7 @@ pub mod report_numbers;
 mod report_page;
 mod report_people;
 mod report_tables;
+pub mod report_words;
 #[cfg(test)]
 mod tests;
 

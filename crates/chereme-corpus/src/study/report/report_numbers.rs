@@ -1,8 +1,9 @@
 //! Numbers and reasons of a report as texts.
 
 use super::{ExclusionReason, VerdictReason};
+use crate::study::report::report_words as w;
 use crate::study::study_plan::ExclusionRule;
-use crate::words::{InterfaceLanguage, fill_text_braces, reporting as w};
+use crate::words::{InterfaceLanguage, fill_text_braces};
 
 /// Returns a number with a minus sign and the decimal mark of the language.
 #[must_use]

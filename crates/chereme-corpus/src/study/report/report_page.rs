@@ -13,8 +13,9 @@ use super::{
     QuestionReport, StatedHypothesis, StatsOutcome, StudyReport,
 };
 use crate::map::escape_markup;
+use crate::study::report::report_words as w;
 use crate::study::study_plan::{ExpectedResult, LocalizedTexts, QuestionKind, text_in};
-use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, reporting as w};
+use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces};
 
 const REPORT_STYLE_CSS: &str = include_str!("page.css");
 

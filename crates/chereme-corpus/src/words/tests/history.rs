@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use super::super::effect::{TrackEffect, ValuedThing};
 use super::super::old_effect::effect_of_summary;
 use super::*;
-use crate::merge::ConflictDecision;
+use crate::{ChangeKind, ChangedRow, ConflictDecision, FieldChange, change_sentence};
 
 fn annotations(changes: Vec<AnnotationDeed>) -> AnnotationEffect {
     AnnotationEffect::from_changes(changes, &["Un".to_owned()])

@@ -8,7 +8,7 @@ mod studio_words;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use chereme_corpus::words::coverage::use_word_folder;
+use chereme_corpus::use_word_folder;
 use chereme_corpus::words::{InterfaceLanguage, fill_text_braces, localized_message, trouble_words};
 use chereme_studio::{StudioFolders, StudioOptions};
 use serde_json::json;

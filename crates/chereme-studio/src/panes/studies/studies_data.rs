@@ -2,13 +2,13 @@
 
 use std::fmt::Display;
 
+use chereme_corpus::study::report::report_words as reporting;
 use chereme_corpus::study::report::{AnswerGroup, GroupComparison, GroupPairComparison, StudyReport, report_numbers};
 use chereme_corpus::study::study_plan::{
     ExpectedResult, HypothesisComparison, QuestionKind, StudyHypothesis, StudyPlan, StudyQuestion, StudyTrial,
     TrialRole, TrialSelection, text_in,
 };
 use chereme_corpus::study::{AnswerListRow, StudyOverview};
-use chereme_corpus::words::reporting;
 
 use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, studies_words as words};
 

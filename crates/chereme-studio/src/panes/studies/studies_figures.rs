@@ -1,10 +1,10 @@
 //! The report of a study in the window: who answered, bars and tables for each question, comparisons and conclusions.
 
+use chereme_corpus::study::report::report_words as reporting;
 use chereme_corpus::study::report::{
     AnswerGroup, ChartShade, ConfusionTable, ProfileTable, QuestionReport, StudyReport, report_numbers,
 };
 use chereme_corpus::study::study_plan::{QuestionKind, text_in};
-use chereme_corpus::words::reporting;
 use eframe::egui::{
     Align2, CollapsingHeader, Color32, Grid, Pos2, Rect, RichText, Role, ScrollArea, Sense, Stroke, TextStyle,
     TextWrapMode, Ui, WidgetInfo, WidgetText, pos2, vec2,

@@ -8,11 +8,12 @@ use super::ReportPage;
 use crate::study::report::charts;
 use crate::study::report::report_compare::{SIGNIFICANCE_LEVEL, SMALLEST_INTERESTING_DELTA};
 use crate::study::report::report_numbers::{self, format_report_number};
+use crate::study::report::report_words as w;
 use crate::study::report::{
     GroupComparison, GroupPairComparison, MeasureReport, PairTest, ResampledInterval, StatsOutcome, TestName,
 };
 use crate::study::study_plan::{ExpectedResult, QuestionKind};
-use crate::words::{fill_text_braces, reporting as w};
+use crate::words::fill_text_braces;
 
 impl ReportPage<'_> {
     /// Returns the numbers that a conclusion rests on: effects with intervals and the p of people's means.

@@ -2,11 +2,11 @@
 
 use chereme_analysis::statistics::{EffectSize, EquivalenceConclusion, PValueMethod, UndefinedStatistic};
 
-use super::{InterfaceLanguage, InterfaceText};
-use crate::study::report::{ExclusionReason, HypothesisVerdict, TestName, VerdictReason};
+use super::{ExclusionReason, HypothesisVerdict, TestName, VerdictReason};
 use crate::study::{AnswerListRow, AnswerState};
+use crate::words::{InterfaceLanguage, InterfaceText};
 
-texts! {
+crate::words::texts! {
     SUBTITLE: "Report of a perceptual study", "Rapport d’une étude perceptive";
     CONCLUSIONS: "Conclusions", "Conclusions";
     NO_HYPOTHESIS: "The plan states no hypothesis. All pairs of conditions are compared; nothing is concluded from it, because the comparisons were not chosen before the answers.", "Le plan n’énonce aucune hypothèse. Toutes les paires de conditions sont comparées ; rien n’en est conclu, car les comparaisons n’ont pas été choisies avant les réponses.";
