@@ -1,17 +1,18 @@
-//! Corrections of a signer's finger angles, relative to the straightest and most bent postures in the signer's takes.
+//! What of a take is usable: the frames that pictures, transcription, comparison and publishing use, and the corrections of
+//! a signer's finger angles, relative to the straightest and most bent postures in the signer's takes.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::ops::Range;
 
-use chereme_motion::ends::OddFrames;
+use chereme_motion::ends::{OddFrames, activity_frames};
 use chereme_motion::lapses::has_bending_joints;
-use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, HandCorrection, HandRange};
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, HandCorrection, HandRange, TimeSpan};
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::address::{self, RowName};
+use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
 use crate::db::stored_columns::RecordOrigin;
 use crate::db::stored_contents::newest_operation_number;
 use crate::db::stored_recordings::{self, RecordingRow};
@@ -75,6 +76,56 @@ impl Corpus {
         let connection = self.store.read_connection();
         let row = address::find_recording_by_name(connection, recording)?;
         load_hand_corrections(connection, &self.hands, &row)
+    }
+
+    /// Returns the usable part of the movement at an address, or of a span of it: without frames that are left out of
+    /// measures and pictures. All of it if nothing else is there.
+    ///
+    /// # Errors
+    /// Fails if nothing has that address, if several things have it, or if blocks are damaged.
+    pub fn usable_part(&self, address: &CorpusAddress, span: Option<TimeSpan>) -> CorpusResult<TimeSpan> {
+        let mut stretch = address::find_addressed_stretch(self.store.read_connection(), address)?;
+        if let Some(span) = span {
+            stretch.span = stretch.span.span_intersection(span).unwrap_or_default();
+        }
+        self.usable_span(&stretch)
+    }
+
+    /// Returns the span of a stretch's usable frames; all of it if its recording has no movement.
+    pub(crate) fn usable_span(&self, stretch: &RecordingStretch) -> CorpusResult<TimeSpan> {
+        let (connection, recording) = (self.store.read_connection(), &stretch.recording);
+        if stored_recordings::body_track(connection, recording.id)?.is_none() {
+            return Ok(stretch.span);
+        }
+        let track = MotionTrack::open_motion_track(connection, recording.id)?;
+        let take = usable_take(connection, &self.hands, recording)?;
+        let all = track.frames_in(stretch.span);
+        let usable = take.usable_frames_within(all.clone());
+        if usable == all {
+            return Ok(stretch.span);
+        }
+        Ok(track.rate.frame_range_span(usable).shifted_span(track.row.offset_us))
+    }
+
+    /// Returns the frames of a stretch that are read: its usable ones, and of a whole recording those between its rests.
+    pub(crate) fn signed_frames(
+        &self,
+        track: &MotionTrack,
+        anatomy: &BodyAnatomy,
+        stretch: &RecordingStretch,
+    ) -> CorpusResult<Range<usize>> {
+        let connection = self.store.read_connection();
+        let all = track.frames_in(stretch.span);
+        let take = usable_take(connection, &self.hands, &stretch.recording)?;
+        let usable = take.usable_frames_within(all.clone());
+        if stretch.token.is_some() || all != (0..track.motion_frame_count()) {
+            return Ok(usable);
+        }
+        let clip = track.read_motion_clip(connection, usable.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+        let active = activity_frames(&clip, anatomy);
+        Ok(active.map_or(usable.clone(), |range| {
+            range.start + usable.start..range.end + usable.start
+        }))
     }
 }
 

@@ -1,12 +1,15 @@
 //! The inventories of a corpus: the built-in ones, and those from imported files.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use chereme_sign::text::fold_text;
 use chereme_sign::{ComponentInventory, InventoryValue, inventory};
 use rusqlite::Connection;
 use serde_json::Value;
 
+use crate::Corpus;
+use crate::db::stored_contents::newest_operation_number;
 use crate::db::{damaged_row_error, stored_inventories as rows};
 use crate::error::CorpusResult;
 
@@ -17,6 +20,22 @@ pub struct StoredInventory {
     pub id: i64,
     /// The inventory.
     pub inventory: ComponentInventory,
+}
+
+impl Corpus {
+    /// Returns the inventories, which are read again only if the corpus has changed: previews follow each other fast.
+    pub(crate) fn inventories_now(&self) -> CorpusResult<Arc<Vec<StoredInventory>>> {
+        let now = newest_operation_number(self.store.read_connection())?;
+        let mut kept = self.inventories.borrow_mut();
+        if let Some((generation, inventories)) = &*kept
+            && *generation == now
+        {
+            return Ok(inventories.clone());
+        }
+        let inventories = Arc::new(load_all_inventories(self.store.read_connection())?);
+        *kept = Some((now, inventories.clone()));
+        Ok(inventories)
+    }
 }
 
 /// Writes the built-in inventories into a corpus.

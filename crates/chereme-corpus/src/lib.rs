@@ -64,7 +64,6 @@ mod suggest;
 mod tokens;
 mod track;
 mod transcribe;
-mod usable;
 mod values;
 mod word_coverage;
 pub mod words;

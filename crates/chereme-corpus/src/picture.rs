@@ -198,6 +198,15 @@ impl Corpus {
         self.movement_in(address, None, &ChannelGroup::ALL_CHANNEL_GROUPS)
     }
 
+    /// Returns the movement at an address without frames that are left out of measures and pictures.
+    ///
+    /// # Errors
+    /// As [`movement`](Self::movement_at_address).
+    pub fn usable_movement(&self, address: &CorpusAddress) -> CorpusResult<DisplayedMovement> {
+        let span = self.usable_part(address, None)?;
+        self.movement_in(address, Some(span), &ChannelGroup::ALL_CHANNEL_GROUPS)
+    }
+
     /// Returns part of the movement at an address: a span of the recording, and some channel groups; joints of other
     /// groups stay at rest.
     ///

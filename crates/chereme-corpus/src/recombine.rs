@@ -5,7 +5,6 @@ mod recombine_draft;
 mod recombine_parts;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use chereme_compose::{
     CueTier, ENGINE_VERSION, GeneratedMovement, GeneratedNote, GenerationReport, NoteSubject, Recipe, RecipeInput,
@@ -220,20 +219,6 @@ impl Corpus {
             }
         }
         Ok(sources)
-    }
-
-    /// Returns the inventories, which are read again only if the corpus has changed: previews follow each other fast.
-    pub(crate) fn inventories_now(&self) -> CorpusResult<Arc<Vec<StoredInventory>>> {
-        let now = self.corpus_generation()?;
-        let mut kept = self.inventories.borrow_mut();
-        if let Some((generation, inventories)) = &*kept
-            && *generation == now
-        {
-            return Ok(inventories.clone());
-        }
-        let inventories = Arc::new(inventories::load_all_inventories(self.store.read_connection())?);
-        *kept = Some((now, inventories.clone()));
-        Ok(inventories)
     }
 
     pub(crate) fn evaluate_recipe_text(
