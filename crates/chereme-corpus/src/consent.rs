@@ -297,13 +297,13 @@ fn change_one(connection: &Connection, address: &CorpusAddress, change: &Consent
         }
     }
     if let Some(licence) = &change.licence {
-        state_terms(connection, (of, id), licence)?;
+        state_terms(connection, of, id, licence)?;
     }
     Ok(row)
 }
 
 /// States the terms of a recording, or of a signer's recordings, that have none.
-fn state_terms(connection: &Connection, (of, id): (&str, i64), licence: &str) -> CorpusResult<()> {
+fn state_terms(connection: &Connection, of: &str, id: i64, licence: &str) -> CorpusResult<()> {
     let licence = licence.trim();
     if licence.is_empty() || licence.len() > MAX_CONSENT_FORM_BYTES {
         return Err(CorpusError::from_wrong_message(format!(

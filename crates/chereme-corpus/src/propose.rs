@@ -416,7 +416,7 @@ impl Corpus {
             let part_time = |part: i64| start + (end - start) * part / count;
             for (nth, (_, value)) in (0..).zip(values) {
                 let (start, end) = (part_time(nth), part_time(nth + 1));
-                let confidence = proposal_confidence(&features, &subject, count > 1, (start, end));
+                let confidence = proposal_confidence(&features, &subject, count > 1, start, end);
                 read.push((
                     subject.clone(),
                     ProposedValue {
@@ -669,7 +669,8 @@ fn proposal_confidence(
     features: &[TranscribedFeature],
     (component, feature, _): &ProposalSubject,
     timed: bool,
-    (start, end): (i64, i64),
+    start: i64,
+    end: i64,
 ) -> Option<f64> {
     let kinds: &[FeatureKind] = match (component, feature.as_deref()) {
         (SignComponent::Configuration, _) => &[FeatureKind::Handshape],

@@ -197,7 +197,10 @@ impl Corpus {
                     Some(mine) if !moved => (mine.start_us, mine.end_us),
                     _ => clip_second_annotation(row, &pair.annotations[0], a, options.tolerance_us),
                 };
-                let theirs = theirs.map(|row| disagreement_candidate(row, span(row)));
+                let theirs = theirs.map(|row| {
+                    let (start_us, end_us) = span(row);
+                    disagreement_candidate(row, start_us, end_us)
+                });
                 third.open.push((mine.map(|annotation| annotation.start_us), theirs));
             }
             all.push(third);
@@ -242,7 +245,7 @@ fn clip_second_annotation(
 }
 
 /// Returns the second annotator's version of a disagreement, without its ties to its own tier.
-fn disagreement_candidate(row: &AnnotationRow, (start_us, end_us): (i64, i64)) -> AnnotationRow {
+fn disagreement_candidate(row: &AnnotationRow, start_us: i64, end_us: i64) -> AnnotationRow {
     AnnotationRow {
         start_us,
         end_us,

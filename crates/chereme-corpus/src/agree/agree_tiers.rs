@@ -307,7 +307,7 @@ fn find_tier_pairs(
         annotators.extend(tiers.iter().filter_map(|tier| tier.annotator.clone()));
         let pairs = match (&a, &b) {
             (WantedTierForm::Annotator(a), WantedTierForm::Annotator(b)) => {
-                by_annotator(&recording.name, &tiers, (a, b), findings)
+                by_annotator(&recording.name, &tiers, a, b, findings)
             }
             (WantedTierForm::Name(a), WantedTierForm::Name(b)) if a.contains('*') && b.contains('*') => {
                 by_pattern(&tiers, a, b)
@@ -425,7 +425,8 @@ fn is_by(tier: &TierRow, annotator: &str) -> bool {
 fn by_annotator<'a>(
     recording: &str,
     tiers: &'a [TierRow],
-    (a, b): (&str, &str),
+    a: &str,
+    b: &str,
     findings: &mut Vec<String>,
 ) -> Vec<(&'a TierRow, &'a TierRow)> {
     let kind = |row: &TierRow| (row.tier_topic(), row.participant.clone());
@@ -487,7 +488,7 @@ mod tests {
     fn tiers_of_annotators_are_paired_by_subject_and_then_by_name() {
         let pairs = |tiers: &[TierRow]| {
             let mut findings = Vec::new();
-            let pairs = by_annotator("R", tiers, ("Anna", "ben"), &mut findings);
+            let pairs = by_annotator("R", tiers, "Anna", "ben", &mut findings);
             let ids: Vec<(i64, i64)> = pairs.iter().map(|(a, b)| (a.id, b.id)).collect();
             (ids, findings.len())
         };

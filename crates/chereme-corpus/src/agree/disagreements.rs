@@ -178,7 +178,7 @@ pub(super) fn list_disagreements(
             ));
         }
         for group in groups {
-            all.extend(disagreement(pair, &group, coded, (&costs, options)));
+            all.extend(disagreement(pair, &group, coded, &costs, options));
         }
     }
     all.sort_by(|a, b| {
@@ -192,7 +192,8 @@ fn disagreement(
     pair: &TierPair,
     group: &AlignedUnits,
     coded: &CodedTierPairs,
-    (costs, options): (&AlignmentCosts<'_>, &AgreeOptions),
+    costs: &AlignmentCosts<'_>,
+    options: &AgreeOptions,
 ) -> Option<ValueDisagreement> {
     let (first, second) = annotator_units(&pair.continuum);
     let [a, b] = [group.first().copied().flatten(), group.get(1).copied().flatten()];

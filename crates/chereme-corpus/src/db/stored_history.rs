@@ -173,8 +173,7 @@ pub(super) fn undo_newest_operation(
         CorpusError::from_wrong_message("there is nothing to undo")
             .with_advice(ErrorRemedy::command_remedy("`chereme log CORPUS` lists all operations"))
     })?;
-    let (kind, pair) = (OperationKind::Undo, (target, target));
-    apply_inverse_changeset(connection, author, kind, pair, progress)
+    apply_inverse_changeset(connection, author, OperationKind::Undo, target, target, progress)
 }
 
 pub(super) fn redo_undone_operation(
@@ -191,8 +190,7 @@ pub(super) fn redo_undone_operation(
         [target],
         |row| row.get(0),
     )?;
-    let (kind, pair) = (OperationKind::Redo, (target, undone_by));
-    apply_inverse_changeset(connection, author, kind, pair, progress)
+    apply_inverse_changeset(connection, author, OperationKind::Redo, target, undone_by, progress)
 }
 
 /// Returns the operations that are in effect and can be undone, and those that can be redone, oldest first.
@@ -225,7 +223,8 @@ fn apply_inverse_changeset(
     connection: &Connection,
     author: &str,
     kind: OperationKind,
-    (target, source): (i64, i64),
+    target: i64,
+    source: i64,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<OperationRow> {
     let (name, effect) = connection.query_row(

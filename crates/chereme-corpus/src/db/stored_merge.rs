@@ -19,6 +19,15 @@ pub(crate) type TableRowKey = (String, String);
 /// The uids that row numbers stood for at an earlier time; nothing if the row did not exist then.
 type EarlierRowUids = BTreeMap<(String, i64), Option<String>>;
 
+/// A row of one of the two corpora of a merge.
+#[derive(Clone, Copy)]
+pub(crate) struct StoredRowPlace<'c> {
+    /// The corpus.
+    pub(crate) connection: &'c Connection,
+    /// The number of the row.
+    pub(crate) id: i64,
+}
+
 /// One side of a merge: a corpus and its changes since the common state.
 pub(crate) struct MergeSide<'c> {
     pub(crate) connection: &'c Connection,
@@ -331,8 +340,9 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
 /// Returns the track of a recording here that has the name, kind and blocks of one of another corpus, whose row resolved
 /// for this one is `local`.
 pub(crate) fn find_equal_track(
-    (from, id): (&Connection, i64),
-    (into, local): (&Connection, &RowImage),
+    other: StoredRowPlace<'_>,
+    connection: &Connection,
+    local: &RowImage,
 ) -> CorpusResult<Option<i64>> {
     let content = |connection: &Connection,
                    condition: &str,
@@ -347,9 +357,9 @@ pub(crate) fn find_equal_track(
         let row = connection.query_row(&sql, [value], |row| Ok((row.get(0)?, row.get(1)?)));
         Ok(row.optional()?)
     };
-    let theirs = content(from, "id = ?1", &id)?;
+    let theirs = content(other.connection, "id = ?1", &other.id)?;
     let named = "recording_id = json_extract(?1, '$.recording_id') AND name = json_extract(?1, '$.name')";
-    let mine = content(into, named, &Value::Object(local.clone()).to_string())?;
+    let mine = content(connection, named, &Value::Object(local.clone()).to_string())?;
     let both = mine.zip(theirs);
     Ok(both.filter(|(mine, theirs)| mine.1 == theirs.1).map(|(mine, _)| mine.0))
 }
@@ -364,11 +374,9 @@ pub(crate) fn find_equal_file(connection: &Connection, local: &RowImage) -> Corp
 }
 
 /// Copies the parts of a row that have no uid, such as the blocks of a track, from another corpus.
-pub(crate) fn copy_parts(
-    (from, old): (&Connection, i64),
-    (into, new): (&Connection, i64),
-    table: &str,
-) -> CorpusResult<()> {
+pub(crate) fn copy_parts(original: StoredRowPlace<'_>, copy: StoredRowPlace<'_>, table: &str) -> CorpusResult<()> {
+    let (from, into) = (original.connection, copy.connection);
+    let (old, new) = (original.id, copy.id);
     match table {
         "track" => {
             let sql = "SELECT channel_group, first_frame, frames, b.hash, b.data FROM track_block t
@@ -388,8 +396,8 @@ pub(crate) fn copy_parts(
                 .execute(params![new, group, first, frames, hash])?;
             }
         }
-        "token" => copy_rows((from, old), (into, new), "token_value", "token_id")?,
-        "recipe" => copy_rows((from, old), (into, new), "recipe_input", "recipe_id")?,
+        "token" => copy_rows(original, copy, "token_value", "token_id")?,
+        "recipe" => copy_rows(original, copy, "recipe_input", "recipe_id")?,
         "sign" => {
             let sql = "SELECT language, text FROM sign_text WHERE sign_id = ?1";
             let mut statement = from.prepare_cached(sql)?;
@@ -406,12 +414,9 @@ pub(crate) fn copy_parts(
 }
 
 /// Copies the rows of a part table; references to rows that both corpora have are matched by uid.
-fn copy_rows(
-    (from, old): (&Connection, i64),
-    (into, new): (&Connection, i64),
-    part: &str,
-    owner: &str,
-) -> CorpusResult<()> {
+fn copy_rows(original: StoredRowPlace<'_>, copy: StoredRowPlace<'_>, part: &str, owner: &str) -> CorpusResult<()> {
+    let (from, into) = (original.connection, copy.connection);
+    let (old, new) = (original.id, copy.id);
     let row_count: i64 = into.query_row(
         &format!("SELECT count(*) FROM main.{part} WHERE {owner} = ?1"),
         [new],

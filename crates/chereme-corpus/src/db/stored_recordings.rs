@@ -445,7 +445,8 @@ pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow)
 pub(crate) fn clear_motion(
     connection: &Connection,
     recording: i64,
-    (duration_us, signer): (i64, Option<i64>),
+    duration_us: i64,
+    signer: Option<i64>,
 ) -> CorpusResult<()> {
     let track_query = "SELECT id FROM track WHERE recording_id = ?1
          AND (kind = 'skeleton' OR (kind = 'curves' AND name = 'nonmanuals'))";

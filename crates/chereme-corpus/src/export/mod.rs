@@ -172,8 +172,9 @@ impl Corpus {
         match (extension.as_deref(), what) {
             (None, _) if let Some((format, extension)) = form => {
                 let reading = rows::begin_reading(connection)?;
-                let form = (format, extension.as_str());
-                report = several::write_export_folder(&reading, what, form, to, options, &gate, progress)?;
+                let extension = extension.as_str();
+                let kind = several::FolderFileKind { format, extension };
+                report = several::write_export_folder(&reading, what, kind, to, options, &gate, progress)?;
             }
             (None, ExportWhat::All) => {
                 report.notes = damaged_rows(connection)?;

@@ -38,18 +38,28 @@ enum FolderPartContent {
     Subtitles(i64, Vec<TierRow>),
 }
 
+/// The kind of the files that are written into a folder.
+#[derive(Clone, Copy)]
+pub(super) struct FolderFileKind<'a> {
+    /// The format.
+    pub(super) format: SingleFileFormat,
+    /// The ending of their names.
+    pub(super) extension: &'a str,
+}
+
 /// Writes a file of `format` for each recording or token into the folder `to`, and creates the folder if it is missing.
 ///
 /// Those that hold nothing for the format are left out and listed. After any other failure the folder is as before.
 pub(super) fn write_export_folder(
     connection: &Connection,
     what: &ExportWhat,
-    (format, extension): (SingleFileFormat, &str),
+    kind: FolderFileKind<'_>,
     to: &Path,
     options: &ExportOptions,
     gate: &ExportGate,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<ExportReport> {
+    let FolderFileKind { format, extension } = kind;
     let mut withheld = BTreeSet::new();
     let mut parts = Vec::new();
     for part in list_folder_parts(connection, what, format)? {
@@ -78,7 +88,7 @@ pub(super) fn write_export_folder(
     fs::create_dir_all(to).map_err(|error| CorpusError::from_file_failure(to, error))?;
     let ending = format!(".{extension}");
     remove_leftovers_in(to, |name| name.ends_with(&ending));
-    let done = fill_export_folder(connection, &parts, (format, extension), to, options, gate, progress);
+    let done = fill_export_folder(connection, &parts, kind, to, options, gate, progress);
     if done.is_err() && is_new {
         // Only an empty folder is removed, which a failed export leaves.
         let _ = fs::remove_dir(to);
@@ -89,12 +99,13 @@ pub(super) fn write_export_folder(
 fn fill_export_folder(
     connection: &Connection,
     parts: &[FolderPart],
-    (format, extension): (SingleFileFormat, &str),
+    kind: FolderFileKind<'_>,
     to: &Path,
     options: &ExportOptions,
     gate: &ExportGate,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<ExportReport> {
+    let FolderFileKind { format, extension } = kind;
     let mut taken = BTreeSet::new();
     let mut report = ExportReport::default();
     let mut written = Vec::new();

@@ -57,12 +57,12 @@ pub(super) fn add_transcript_tiers(
     report: &mut FileReport,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<bool> {
-    let there = standing_tiers(job, recording, (transcript, None), &[], report)?;
+    let there = standing_tiers(job, recording, transcript, None, &[], report)?;
     if !there.is_empty() {
         return Ok(false);
     }
     let guesses = guess_tier_roles(job, transcript, report)?;
-    let tiers = write_tiers(job, (recording, &there), transcript, &guesses, report)?;
+    let tiers = write_tiers(job, recording, &there, transcript, &guesses, report)?;
     write_annotations(job, transcript, &guesses, &tiers, progress)?;
     stored_recordings::lengthen_recording(job.connection, recording, transcript.transcript_end().instant_micros())?;
     Ok(true)
@@ -109,7 +109,7 @@ pub(super) fn import_as(
         Some(base) => renames::take_names(job, recording, base, &transcript)?,
         None => Vec::new(),
     };
-    let there = standing_tiers(job, recording, (&transcript, base.as_ref()), &renames, &mut report)?;
+    let there = standing_tiers(job, recording, &transcript, base.as_ref(), &renames, &mut report)?;
     if let Some(base) = target.base.as_ref().filter(|_| same && !takes) {
         if remap_tier_roles(job, &there, &transcript, &guesses, &mut report)? == 0 {
             let mut same = FileReport::unchanged_file_report(job.path, target.earlier_path_elsewhere(job));
@@ -132,18 +132,16 @@ pub(super) fn import_as(
     let counted = job.counts.total_row_changes();
     let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     if there.is_empty() {
-        let tiers = write_tiers(job, (recording, &there), &transcript, &guesses, &mut report)?;
+        let tiers = write_tiers(job, recording, &there, &transcript, &guesses, &mut report)?;
         write_annotations(job, &transcript, &guesses, &tiers, progress)?;
     } else {
-        let sides = (&transcript, base.as_ref());
-        update_from_transcript(
-            job,
-            (recording, there),
-            (sides, &renames),
-            &guesses,
-            &mut report,
-            progress,
-        )?;
+        let edited = EditedTranscript {
+            transcript: &transcript,
+            base: base.as_ref(),
+            renames: &renames,
+            guesses: &guesses,
+        };
+        update_from_transcript(job, recording, there, &edited, &mut report, progress)?;
         if report.status == FileStatus::Refused {
             return Ok(report);
         }
@@ -178,16 +176,34 @@ pub(super) fn import_as(
     Ok(report)
 }
 
+/// An edited file from which a recording is updated.
+struct EditedTranscript<'a> {
+    /// The tiers of the file.
+    transcript: &'a AnnotationTranscript,
+    /// The tiers of the version that was read before, if it is known.
+    base: Option<&'a AnnotationTranscript>,
+    /// The tiers that only the file renamed.
+    renames: &'a [TierRename],
+    /// The roles of the file's tiers.
+    guesses: &'a [TierGuess],
+}
+
 /// Updates a recording from an edited file. Fails if edits of the corpus would be lost, unless the options decide about
 /// them.
 fn update_from_transcript(
     job: &mut ImportJob<'_>,
-    (recording, mut there): (i64, BTreeMap<String, TierRow>),
-    ((transcript, base), renames): ((&AnnotationTranscript, Option<&AnnotationTranscript>), &[TierRename]),
-    guesses: &[TierGuess],
+    recording: i64,
+    mut there: BTreeMap<String, TierRow>,
+    edited: &EditedTranscript<'_>,
     report: &mut FileReport,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
+    let EditedTranscript {
+        transcript,
+        base,
+        renames,
+        guesses,
+    } = *edited;
     let own_edits = job.options.own_edits;
     let merge = own_edits == OwnEdits::Merge;
     let before = settle::RecordingBeforeUpdate::read_before_update(job.connection, recording)?;
@@ -196,10 +212,11 @@ fn update_from_transcript(
     edits::defer_references(job.connection)?;
     job.connection.execute_batch("SAVEPOINT edits")?;
     let mut notes = renames::write_tier_renames(job.connection, renames, &mut there)?;
-    let tier_rows = write_tiers(job, (recording, &there), transcript, guesses, report)?;
+    let tier_rows = write_tiers(job, recording, &there, transcript, guesses, report)?;
     renames::write_parents(
         job.connection,
-        (transcript, base.filter(|_| merge)),
+        transcript,
+        base.filter(|_| merge),
         &mut there,
         &tier_rows,
     )?;
@@ -473,7 +490,8 @@ fn know_participants(job: &mut ImportJob<'_>, transcript: &AnnotationTranscript)
 fn standing_tiers(
     job: &ImportJob<'_>,
     recording: i64,
-    (transcript, base): (&AnnotationTranscript, Option<&AnnotationTranscript>),
+    transcript: &AnnotationTranscript,
+    base: Option<&AnnotationTranscript>,
     renames: &[TierRename],
     report: &mut FileReport,
 ) -> CorpusResult<BTreeMap<String, TierRow>> {
@@ -510,7 +528,8 @@ fn standing_tiers(
 
 fn write_tiers(
     job: &mut ImportJob<'_>,
-    (recording, there): (i64, &BTreeMap<String, TierRow>),
+    recording: i64,
+    there: &BTreeMap<String, TierRow>,
     transcript: &AnnotationTranscript,
     guesses: &[TierGuess],
     report: &mut FileReport,

@@ -404,7 +404,7 @@ impl ImportRun<'_> {
                 changed: report.changed.clone(),
                 removed: report.removed.clone(),
             };
-            let file = match self.import_single_file(path, (reader, *named), counts, progress) {
+            let file = match self.import_single_file(path, reader, *named, counts, progress) {
                 Ok((mut file, counts)) if file.status != FileStatus::Refused => {
                     self.earlier.share_equal_parts(&mut file.understood);
                     connection.execute_batch("RELEASE file")?;
@@ -440,7 +440,8 @@ impl ImportRun<'_> {
     fn import_single_file(
         &mut self,
         path: &Path,
-        (reader, named): (usize, bool),
+        reader: usize,
+        named: bool,
         counts: RowChangeCounts,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<(FileReport, RowChangeCounts)> {

@@ -21,7 +21,10 @@ impl MergeWork<'_> {
         let there = match key.0.as_str() {
             "recording" => self.find_same_capture(&key.1, local)?,
             "track" if is_joined => match self.theirs.find_row_id("track", &key.1)? {
-                Some(id) => db::find_equal_track((self.theirs.connection, id), (self.connection, local))?,
+                Some(id) => {
+                    let connection = self.theirs.connection;
+                    db::find_equal_track(db::StoredRowPlace { connection, id }, self.connection, local)?
+                }
                 None => None,
             },
             "source_file" if is_joined => db::find_equal_file(self.connection, local)?,

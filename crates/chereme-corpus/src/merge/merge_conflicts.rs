@@ -209,7 +209,7 @@ pub(crate) fn list_conflicts(connection: &Connection) -> CorpusResult<Vec<Corpus
                 None => String::new(),
             },
             recording: match known_row {
-                Some(known) => recording_of_row(connection, &side, (&open.table, &open.uid), known)?,
+                Some(known) => recording_of_row(connection, &side, &open.table, &open.uid, known)?,
                 None => None,
             },
             base: against(&open.base, &mine),
@@ -257,7 +257,7 @@ pub(crate) fn undecided_disputes(connection: &Connection) -> CorpusResult<Vec<Me
         };
         let mine = side.find_row_image(table, &open.uid)?.unwrap_or_default();
         all.push(MergeDispute {
-            recording: recording_of_row(connection, &side, (table, &open.uid), &mine)?,
+            recording: recording_of_row(connection, &side, table, &open.uid, &mine)?,
             theirs: open.theirs.unwrap_or_default(),
             table,
             id,
@@ -339,7 +339,8 @@ fn conflict_place(connection: &Connection, side: &MergeSide<'_>, table: &str, ro
 fn recording_of_row(
     connection: &Connection,
     side: &MergeSide<'_>,
-    (table, uid): (&str, &str),
+    table: &str,
+    uid: &str,
     row: &RowImage,
 ) -> CorpusResult<Option<i64>> {
     let above = |column: &str| row.get(column).and_then(Value::as_str);
@@ -601,8 +602,7 @@ fn recordings_of(connection: &Connection, open: &StoredConflict) -> CorpusResult
     let images = [&open.theirs, &open.mine, &open.base].into_iter().flatten();
     let mut all = BTreeSet::new();
     for image in images {
-        let name = (open.table.as_str(), open.uid.as_str());
-        all.extend(recording_of_row(connection, &side, name, image)?);
+        all.extend(recording_of_row(connection, &side, &open.table, &open.uid, image)?);
     }
     Ok(all)
 }

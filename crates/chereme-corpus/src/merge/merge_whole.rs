@@ -111,7 +111,7 @@ impl MergeWork<'_> {
             return Ok(());
         }
         let row = self.mine.find_row_image(&key.0, &key.1)?;
-        self.store_row_conflict(key, (None, row.as_ref()), None)
+        self.store_row_conflict(key, None, row.as_ref(), None)
     }
 
     /// Returns whether a row of the other side has parts.

@@ -440,7 +440,7 @@ impl MergeWork<'_> {
                 return self.mine.remember_row_uid(table, uid, Some(twin));
             }
             if let Some(other) = self.overlapped(None, &local)? {
-                return self.store_row_conflict(key, (None, Some(theirs)), Some(other));
+                return self.store_row_conflict(key, None, Some(theirs), Some(other));
             }
             self.came.insert(uid.to_owned(), None);
         }
@@ -489,11 +489,15 @@ impl MergeWork<'_> {
         let Some(old) = self.theirs.find_row_id(table, uid)? else {
             return Ok(());
         };
-        let from = (self.theirs.connection, old);
+        let original = db::StoredRowPlace {
+            connection: self.theirs.connection,
+            id: old,
+        };
+        let connection = self.connection;
         if table == "track" && db::has_blocks(self.connection, id)? {
             return Ok(());
         }
-        db::copy_parts(from, (self.connection, id), table)
+        db::copy_parts(original, db::StoredRowPlace { connection, id }, table)
     }
 
     fn merge_changed_row(
@@ -519,20 +523,20 @@ impl MergeWork<'_> {
         };
         let disagree = disagree && !self.only_renamed(table, bases, mine, theirs);
         let Some(local) = self.resolve_row_image(table, &taken)? else {
-            return self.store_row_conflict(key, (Some(mine), Some(theirs)), None);
+            return self.store_row_conflict(key, Some(mine), Some(theirs), None);
         };
         if table == "sign" {
             self.copy_row_parts(table, uid, id)?;
         }
         if !local.is_empty() {
             if merge_rows::is_backwards(mine, &local) {
-                return self.store_row_conflict(key, (Some(mine), Some(theirs)), None);
+                return self.store_row_conflict(key, Some(mine), Some(theirs), None);
             }
             if table == "annotation" && (local.contains_key("start_us") || local.contains_key("end_us")) {
                 let mut full_row = self.resolve_row_image(table, mine)?.unwrap_or_default();
                 full_row.extend(local.clone());
                 if let Some(other) = self.overlapped(Some(id), &full_row)? {
-                    return self.store_row_conflict(key, (Some(mine), Some(theirs)), Some(other));
+                    return self.store_row_conflict(key, Some(mine), Some(theirs), Some(other));
                 }
                 let before = self.resolve_row_image(table, mine)?;
                 self.came.insert(uid.to_owned(), before);
@@ -546,7 +550,7 @@ impl MergeWork<'_> {
             *self.report.changed.entry(table.to_owned()).or_default() += 1;
         }
         if disagree {
-            self.store_row_conflict(key, (Some(mine), Some(theirs)), None)?;
+            self.store_row_conflict(key, Some(mine), Some(theirs), None)?;
         }
         Ok(())
     }
@@ -645,19 +649,20 @@ impl MergeWork<'_> {
     /// Stores a conflict about a row that both sides changed, or one changed and the other removed.
     fn store_row_disagreement(&mut self, key: &TableRowKey, theirs: Option<&RowImage>) -> CorpusResult<()> {
         let mine = self.mine.find_row_image(&key.0, &key.1)?;
-        self.store_row_conflict(key, (mine.as_ref(), theirs), None)
+        self.store_row_conflict(key, mine.as_ref(), theirs, None)
     }
 
     /// Stores a conflict about a row that refers to a row which this side removed.
     fn homeless(&mut self, key: &TableRowKey) -> CorpusResult<()> {
         let theirs = self.theirs.find_row_image(&key.0, &key.1)?;
-        self.store_row_conflict(key, (None, theirs.as_ref()), None)
+        self.store_row_conflict(key, None, theirs.as_ref(), None)
     }
 
     fn store_row_conflict(
         &mut self,
         key: &TableRowKey,
-        (mine, theirs): (Option<&RowImage>, Option<&RowImage>),
+        mine: Option<&RowImage>,
+        theirs: Option<&RowImage>,
         other: Option<i64>,
     ) -> CorpusResult<()> {
         if key.0 == "token" || (mine.is_none() && theirs.is_none()) {

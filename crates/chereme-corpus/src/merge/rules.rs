@@ -132,7 +132,7 @@ impl MergeWork<'_> {
             *count = count.saturating_sub(1);
         }
         count.retain(|_, count| *count > 0);
-        self.store_row_conflict(key, (mine.as_ref(), theirs.as_ref()), None)
+        self.store_row_conflict(key, mine.as_ref(), theirs.as_ref(), None)
     }
 
     /// Returns the annotations that may be the cause of a violation of these, the likeliest first: themselves, those below

@@ -82,7 +82,7 @@ impl DictionaryBodies {
             return Ok(None);
         };
         let of = &self.written[at];
-        let coded = publish_motion::coded_motion_json(&clip, &anatomy, (&of.body, &of.portable));
+        let coded = publish_motion::coded_motion_json(&clip, &anatomy, &of.body, &of.portable);
         let key = json!(entry.name);
         let text = format!("CH.motion({key}, {coded});\n");
         folder.write_published_file(&format!("data/motion/{}.js", entry.name), text.as_bytes())?;

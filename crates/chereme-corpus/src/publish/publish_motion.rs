@@ -112,7 +112,8 @@ fn scale_to_integer(number: f32, scale: f32) -> i64 {
 pub(super) fn coded_motion_json(
     clip: &Clip,
     anatomy: &BodyAnatomy,
-    (body, portable): (&SignerBody, &PortableBody),
+    body: &SignerBody,
+    portable: &PortableBody,
 ) -> Value {
     let frames = clip.clip_frame_count();
     let keyed = |frame: usize| body.bone_motions(portable, &clip.model_pose(frame));

@@ -80,7 +80,7 @@ fn store_again(
     let end = made.clip.clip_span().span_micros();
     let signer = signer_of(connection, made)?;
     edits::defer_references(connection)?;
-    stored_recordings::clear_motion(connection, target.id, (end, signer))?;
+    stored_recordings::clear_motion(connection, target.id, end, signer)?;
     store_movement(connection, target.id, resolved, made)?;
     let inventories = inventories::load_all_inventories(connection)?;
     let cleared = clear_tiers(connection, target, end)?;

@@ -150,7 +150,7 @@ impl Corpus {
                 continue;
             }
             let answer = catch_index_panic(|| {
-                Ok(with_index((connection, index), &hear, |question| {
+                Ok(with_index(connection, index, &hear, |question| {
                     question.opinions.set(parsed.asks_for_opinions());
                     ask(question, &parsed)
                 }))
@@ -186,7 +186,7 @@ pub(crate) fn find_query_tokens(connection: &Connection, index: &SearchIndex, qu
         ..SearchOptions::default()
     };
     let hear = RefCell::new(|_| Ok(()));
-    let answer = with_index((connection, index), &hear, |ask| {
+    let answer = with_index(connection, index, &hear, |ask| {
         ask.opinions.set(parsed.asks_for_opinions());
         answer_query(ask, &parsed, &options)
     });
@@ -215,7 +215,8 @@ pub(crate) fn wrong_query_error(query: &str, error: &QueryError) -> CorpusError 
 }
 
 fn with_index<T>(
-    (connection, index): (&Connection, &SearchIndex),
+    connection: &Connection,
+    index: &SearchIndex,
     hear: &RefCell<dyn FnMut(u64) -> CorpusResult<()> + '_>,
     ask: impl FnOnce(&QueryContext<'_>) -> QueryResult<T>,
 ) -> QueryResult<T> {

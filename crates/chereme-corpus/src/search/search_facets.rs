@@ -39,7 +39,7 @@ pub(crate) fn count_document_facets(
         ("recording", RowField::Recording, NamedRowKind::Recording),
         ("signer", RowField::Signer, NamedRowKind::Signer),
     ] {
-        let (counts, left) = row_facet(ask, found, (field, named), most)?;
+        let (counts, left) = row_facet(ask, found, field, named, most)?;
         if !counts.is_empty() {
             facets.insert(facet.to_owned(), counts);
             left_out.insert(facet.to_owned(), left);
@@ -52,7 +52,8 @@ pub(crate) fn count_document_facets(
 fn row_facet(
     ask: &QueryContext<'_>,
     found: &[IndexDocument],
-    (field, named): (RowField, NamedRowKind),
+    field: RowField,
+    named: NamedRowKind,
     most: usize,
 ) -> CorpusResult<(Vec<(String, usize)>, usize)> {
     ask.go_on()?;

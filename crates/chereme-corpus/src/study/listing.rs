@@ -250,7 +250,7 @@ fn missing_in(plan: &StudyPlan, order: &[ShownTrial], person: &StudyParticipant)
         let asked = question_names.filter(|name| !answered.contains(&(n, *name)));
         rows.extend(asked.map(|question| AnswerListRow {
             n: Some(n),
-            ..absent(person, trial, question, (shown.block, state))
+            ..absent(person, trial, question, shown.block, state)
         }));
     }
     rows
@@ -279,7 +279,7 @@ fn missing_of(plan: &StudyPlan, person: &StudyParticipant) -> Vec<AnswerListRow>
         for question in plan.questions_of_trial(trial) {
             if !of_item.contains(&(trial.condition.as_str(), question.name.as_str())) {
                 let block = u32::from(trial.role != TrialRole::Training);
-                rows.push(absent(person, trial, &question.name, (block, state)));
+                rows.push(absent(person, trial, &question.name, block, state));
             }
         }
     }
@@ -290,7 +290,8 @@ fn absent(
     person: &StudyParticipant,
     trial: &StudyTrial,
     question: &str,
-    (block, state): (u32, AnswerState),
+    block: u32,
+    state: AnswerState,
 ) -> AnswerListRow {
     AnswerListRow {
         participant: person.code.clone(),

@@ -160,8 +160,8 @@ pub(super) fn read_answers_file(
         };
     }
     if let Some(map) = map {
-        let by = (map, &study.plan, study.sha256.as_str());
-        return wide::read_wide_answers(text, &legible_path_text(path), by, findings);
+        let file = legible_path_text(path);
+        return wide::read_wide_answers(text, &file, map, &study.plan, &study.sha256, findings);
     }
     let (people, unknown) = study_long::read_long_answers(text, &legible_path_text(path))?;
     for title in unknown {

@@ -114,7 +114,7 @@ impl Corpus {
         }
         let mut tried = None;
         let carry = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
-            let report = import_answer_files(connection, study, (&files, options), progress)?;
+            let report = import_answer_files(connection, study, &files, options, progress)?;
             if options.dry_run {
                 tried = Some(report);
                 // An error rolls the attempt back.
@@ -161,7 +161,8 @@ impl Corpus {
 fn import_answer_files(
     connection: &Connection,
     study: &str,
-    (files, options): (&[PathBuf], &AnswersOptions),
+    files: &[PathBuf],
+    options: &AnswersOptions,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<AnswersReport> {
     let stored_study = find_stored_study(connection, study)?;

@@ -127,7 +127,7 @@ impl ColumnMap {
                     .and_then(|at| cells.get(at))
                     .map_or("", |cell_text| cell_text.trim())
             };
-            match MappedColumn::read_mapped_column(plan, &cell, (&mut trials, &mut taken)) {
+            match MappedColumn::read_mapped_column(plan, &cell, &mut trials, &mut taken) {
                 Ok(column) => columns.push(column),
                 Err(error) if wrong.len() < MAX_WRONG_MAP_ROWS => wrong.push(error.with_error_place(place)),
                 Err(_) => break,
@@ -153,7 +153,8 @@ impl MappedColumn {
     fn read_mapped_column<'a>(
         plan: &StudyPlan,
         cell: &impl Fn(&str) -> &'a str,
-        (trials, taken): (&mut Vec<[String; 4]>, &mut BTreeMap<AnswerColumnPlace, String>),
+        trials: &mut Vec<[String; 4]>,
+        taken: &mut BTreeMap<AnswerColumnPlace, String>,
     ) -> CorpusResult<Self> {
         if cell("column").is_empty() {
             return Err(CorpusError::from_wrong_message(
@@ -299,7 +300,9 @@ fn parse_answer_codes(text: &str) -> CorpusResult<BTreeMap<String, String>> {
 pub(super) fn read_wide_answers(
     text: &str,
     file: &str,
-    (map, plan, sha256): (&ColumnMap, &StudyPlan, &str),
+    map: &ColumnMap,
+    plan: &StudyPlan,
+    sha256: &str,
     findings: &mut FileFindings,
 ) -> CorpusResult<(Vec<FromFile>, Vec<ColumnUse>)> {
     let TextTable { titles, mut rows } = read_text_table(text, file)?;

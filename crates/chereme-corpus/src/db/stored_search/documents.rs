@@ -274,9 +274,9 @@ impl<'c> TokenDocumentReader<'c> {
             time: token.time,
             ..TokenDocument::default()
         };
-        if let (Some(around), Some(time)) = (&around, token.time) {
-            add_overlapping(&around.translations, time, &mut document.translations);
-            add_overlapping(&around.comments, time, &mut document.comments);
+        if let (Some(around), Some((start, end))) = (&around, token.time) {
+            add_overlapping(&around.translations, start, end, &mut document.translations);
+            add_overlapping(&around.comments, start, end, &mut document.comments);
         }
         self.add_marks(token, &mut document)?;
         document.marks.extend(sign.lexicon_terms.iter().cloned());
@@ -536,7 +536,7 @@ fn load_shared_name(
 }
 
 /// Adds the texts that overlap a token in time; `timed` is ordered by start.
-fn add_overlapping(timed: &[TimedText], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
+fn add_overlapping(timed: &[TimedText], start: i64, end: i64, texts: &mut Vec<Rc<str>>) {
     let until = timed.partition_point(|text| text.start < end);
     let during = timed[..until].iter().filter(|text| text.end > start);
     texts.extend(during.map(|text| text.text.clone()));

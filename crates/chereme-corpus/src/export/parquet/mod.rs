@@ -334,7 +334,7 @@ pub(super) fn write_frame_parquet(
     for stretch in stretches {
         if stored_recordings::body_track(connection, stretch.recording.id)?.is_some() {
             let usable = usable_take(connection, &takes, &stretch.recording)?.frames;
-            write_movement_groups(connection, (stretch, &usable), &mut file, progress)?;
+            write_movement_groups(connection, stretch, &usable, &mut file, progress)?;
         }
     }
     file.finish_parquet_file()
@@ -357,7 +357,8 @@ fn frames_table() -> ParquetTable {
 
 fn write_movement_groups(
     connection: &Connection,
-    (stretch, usable): (&RecordingStretch, &Range<usize>),
+    stretch: &RecordingStretch,
+    usable: &Range<usize>,
     file: &mut ParquetFileWriter<'_>,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {

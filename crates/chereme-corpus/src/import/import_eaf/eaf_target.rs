@@ -86,7 +86,7 @@ pub(super) fn find_import_target(
         let Some(base) = find_earlier_eaf(job, id)? else {
             continue;
         };
-        if is_version(job, (read, &base), transcript, report)? {
+        if is_version(job, read, &base, transcript, report)? {
             job.note_file_join(id, JoinReason::FileVersion);
             return Ok(EafImportTarget {
                 recording: Some(id),
@@ -166,7 +166,8 @@ fn find_earlier_eaf(job: &ImportJob<'_>, recording: i64) -> CorpusResult<Option<
 /// says so, the bytes are the same, or at least half of the annotations are the same.
 fn is_version(
     job: &ImportJob<'_>,
-    (read, base): (ParseFunction<AnnotationTranscript>, &SourceFileRow),
+    read: ParseFunction<AnnotationTranscript>,
+    base: &SourceFileRow,
     transcript: &AnnotationTranscript,
     report: &mut FileReport,
 ) -> CorpusResult<bool> {

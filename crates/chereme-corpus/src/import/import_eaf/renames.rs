@@ -62,7 +62,8 @@ pub(super) fn write_tier_renames(
 /// earlier version, only those whose parents differ between the two.
 pub(super) fn write_parents(
     connection: &Connection,
-    (transcript, base): (&AnnotationTranscript, Option<&AnnotationTranscript>),
+    transcript: &AnnotationTranscript,
+    base: Option<&AnnotationTranscript>,
     there: &mut BTreeMap<String, TierRow>,
     tier_rows: &[i64],
 ) -> CorpusResult<()> {

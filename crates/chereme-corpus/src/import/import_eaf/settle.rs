@@ -67,7 +67,7 @@ impl RecordingBeforeUpdate {
                     let placed = match tier.stereotype {
                         Some(TierStereotype::SymbolicAssociation) => new,
                         Some(TierStereotype::SymbolicSubdivision) => share_of_times(new, place, count),
-                        other => place_in_moved_parent(row_times, (old, new), other),
+                        other => place_in_moved_parent(row_times, old, new, other),
                     };
                     if placed == row_times {
                         continue;
@@ -150,7 +150,8 @@ fn share_of_times(times: [i64; 2], place: usize, count: usize) -> [i64; 2] {
 /// of a time subdivision keep their shares.
 fn place_in_moved_parent(
     [start, end]: [i64; 2],
-    (old, new): ([i64; 2], [i64; 2]),
+    old: [i64; 2],
+    new: [i64; 2],
     stereotype: Option<TierStereotype>,
 ) -> [i64; 2] {
     let by = new[0].saturating_sub(old[0]);

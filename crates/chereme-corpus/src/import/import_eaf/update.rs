@@ -203,6 +203,15 @@ struct ComparedParts {
     above: Option<String>,
 }
 
+/// An annotation on one side of an update: its row, and what is compared of it.
+#[derive(Clone, Copy)]
+struct VersionedAnnotation<'a> {
+    /// The row.
+    row: &'a AnnotationRow,
+    /// Its parts that are compared.
+    parts: &'a ComparedParts,
+}
+
 impl ComparedParts {
     fn in_file(transcript: &AnnotationTranscript, annotation: &TranscriptAnnotation) -> Self {
         let above = annotation.parent.and_then(|place| {
@@ -353,7 +362,7 @@ impl AnnotationUpdate<'_> {
                 Some(before) => {
                     self.names.insert(before.id, annotation.id.clone());
                     let free = !meets_own(before.id, theirs.time);
-                    Some(self.update_existing_annotation(job, tier, before, (new, &theirs), free)?)
+                    Some(self.update_existing_annotation(job, tier, before, new, &theirs, free)?)
                 }
                 None => {
                     let orphan = annotation.parent.is_some() && parent.is_none();
@@ -421,7 +430,8 @@ impl AnnotationUpdate<'_> {
         job: &ImportJob<'_>,
         tier: usize,
         before: AnnotationRow,
-        (new, theirs): (AnnotationRow, &ComparedParts),
+        new: AnnotationRow,
+        theirs: &ComparedParts,
         free: bool,
     ) -> CorpusResult<i64> {
         let (id, tier) = (before.id, &self.sides.transcript.tiers[tier].name);
@@ -462,7 +472,15 @@ impl AnnotationUpdate<'_> {
         } else if lost {
             self.record_own_edit(tier, Some(&mine), Some(theirs), EditOutcome::Lost);
         }
-        self.write_annotation_parts(job, tier, (before, mine), (new, theirs), take)?;
+        let before = VersionedAnnotation {
+            row: &before,
+            parts: &mine,
+        };
+        let new = VersionedAnnotation {
+            row: &new,
+            parts: theirs,
+        };
+        self.write_annotation_parts(job, tier, before, new, take)?;
         Ok(id)
     }
 
@@ -471,10 +489,12 @@ impl AnnotationUpdate<'_> {
         &mut self,
         job: &ImportJob<'_>,
         tier: &str,
-        (before, mine): (AnnotationRow, ComparedParts),
-        (new, theirs): (AnnotationRow, &ComparedParts),
+        before: VersionedAnnotation<'_>,
+        new: VersionedAnnotation<'_>,
         [time, value, above]: [bool; 3],
     ) -> CorpusResult<()> {
+        let (mine, theirs) = (before.parts, new.parts);
+        let (before, new) = (before.row, new.row);
         let moved = time && mine.time != theirs.time;
         let renamed = value && mine.value != theirs.value;
         let elsewhere = above && before.parent_id != new.parent_id;
@@ -482,11 +502,11 @@ impl AnnotationUpdate<'_> {
         row.id = before.id;
         row.external_id.clone_from(&new.external_id);
         row.parent_id = if above { new.parent_id } else { before.parent_id };
-        let times = if moved { &new } else { &before };
+        let times = if moved { new } else { before };
         (row.start_us, row.end_us) = (times.start_us, times.end_us);
         (row.file_start_ms, row.file_end_ms) = (times.file_start_ms, times.file_end_ms);
         row.position = if above { new.position } else { before.position };
-        if row != before {
+        if row != *before {
             stored_tiers::update_annotation(job.connection, &row)?;
         }
         if !(moved || renamed || elsewhere) {

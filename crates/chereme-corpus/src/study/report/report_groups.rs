@@ -87,7 +87,7 @@ pub(super) fn of_question(plan: &StudyPlan, question: &StudyQuestion, people: &[
         let wanted = |answer: &StudyAnswer| {
             answer.part == part && answer.condition == condition && item.is_none_or(|item| answer.item == item)
         };
-        collect_trial_group(plan, question, people, (part, item, condition), &wanted)
+        collect_trial_group(plan, question, people, part, item, condition, &wanted)
     };
     let parts = |pair: &(&str, &str)| pair.0.to_owned();
     let mut names: Vec<String> = conditions.iter().map(parts).collect();
@@ -116,7 +116,9 @@ fn collect_trial_group(
     plan: &StudyPlan,
     question: &StudyQuestion,
     people: &[&StudyParticipant],
-    (part, item, condition): (&str, Option<&str>, &str),
+    part: &str,
+    item: Option<&str>,
+    condition: &str,
     wanted: &dyn Fn(&StudyAnswer) -> bool,
 ) -> AnswerGroup {
     let mut counts = vec![0; count_possible_answers(question)];

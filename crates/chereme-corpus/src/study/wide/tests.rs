@@ -36,8 +36,7 @@ fn map() -> ColumnMap {
 
 fn people(text: &str) -> (Vec<StudyParticipant>, FileFindings) {
     let mut findings = FileFindings::default();
-    let by = (&map(), &plan(), "sha");
-    let (read, _) = read_wide_answers(text, "answers.csv", by, &mut findings).expect("read");
+    let (read, _) = read_wide_answers(text, "answers.csv", &map(), &plan(), "sha", &mut findings).expect("read");
     (read.into_iter().map(|it| it.participant).collect(), findings)
 }
 
@@ -150,9 +149,8 @@ fn maps_that_fit_neither_plan_nor_table_are_refused_with_their_line() {
         assert!(shown.contains(message), "{shown}");
         assert_eq!(error.error_place().as_deref(), Some(place), "{shown}");
     }
-    let by = (&map(), &plan(), "sha");
     let mut findings = FileFindings::default();
-    let error = read_wide_answers("id,r1,p1,r2,p3\n", "a.csv", by, &mut findings).err();
+    let error = read_wide_answers("id,r1,p1,r2,p3\n", "a.csv", &map(), &plan(), "sha", &mut findings).err();
     let shown = error.expect("refused").to_string();
     assert!(shown.contains("does not have: \"p2\"; did you mean"), "{shown}");
 }
@@ -160,8 +158,8 @@ fn maps_that_fit_neither_plan_nor_table_are_refused_with_their_line() {
 #[test]
 fn the_use_of_each_column_is_shown_before_anything_is_stored() {
     let text = "id,r1,p1,r2,p2,since,other\n,A5,left,,,,x\n12,A1,,2,,,y\n";
-    let by = (&map(), &plan(), "sha");
-    let (_, uses) = read_wide_answers(text, "a.csv", by, &mut FileFindings::default()).expect("read");
+    let (_, uses) =
+        read_wide_answers(text, "a.csv", &map(), &plan(), "sha", &mut FileFindings::default()).expect("read");
     let shown: Vec<String> = uses
         .iter()
         .map(|it| {
