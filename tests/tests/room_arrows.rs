@@ -26,7 +26,7 @@ fn sources_by_crate() -> BTreeMap<String, CrateSources> {
             .path
             .strip_prefix("crates/")
             .and_then(|path| path.split_once("/src/"));
-        let Some((name, path)) = within.filter(|_| !file.is_test()) else {
+        let Some((name, path)) = within.filter(|_| !file.is_test() && !file.path.ends_with("_tests.rs")) else {
             continue;
         };
         let end = tests.find(&file.text).map_or(file.text.len(), |module| module.start());
@@ -178,6 +178,34 @@ fn rooms_form_no_large_circles() {
         "move an item to the room where it belongs:\n{}",
         faults.join("\n")
     );
+}
+
+/// The guide of the corpus, in which a table lists its rooms from the lowest to the highest.
+const CORPUS_GUIDE: &str = "crates/chereme-corpus/README.md";
+
+#[test]
+fn rooms_of_the_corpus_use_none_above_their_line_in_the_guide() {
+    let guide = repository::text_files()
+        .into_iter()
+        .find(|file| file.path == CORPUS_GUIDE);
+    let guide = guide.expect("the guide of the corpus").text;
+    let table = guide.split("| rooms | hold |\n").nth(1).expect("the table of rooms");
+    let mut lines: BTreeMap<&str, usize> = BTreeMap::new();
+    for (number, line) in table.lines().take_while(|line| line.starts_with('|')).enumerate() {
+        let rooms = line.split('|').nth(1).unwrap_or_default();
+        lines.extend(rooms.split('`').skip(1).step_by(2).map(|room| (room, number)));
+    }
+    let sources = sources_by_crate().remove("chereme-corpus").expect("the corpus");
+    let mut faults = Vec::new();
+    for (from, arrows) in room_arrows(&sources) {
+        let Some(line) = lines.get(from.as_str()) else {
+            faults.push(format!("{from} is missing in the table of {CORPUS_GUIDE}"));
+            continue;
+        };
+        let above = arrows.iter().filter(|(room, _)| lines.get(room.as_str()) > Some(line));
+        faults.extend(above.map(|(room, file)| format!("{from} uses {room}, which stands above it (in {file})")));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
