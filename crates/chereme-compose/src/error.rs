@@ -1,9 +1,8 @@
-//! The faults of a recipe that are known before its evaluation.
+//! The faults of recipes: text that cannot be read, answers that a corpus lacks, steps and notation that cannot be done.
 
 use chereme_motion::BodySide;
-use chereme_sign::ErrorRemedy;
+use chereme_sign::{ErrorRemedy, RemedyChoice, SignComponent};
 
-use crate::sources::SourceError;
 use crate::units::UnitError;
 
 /// A recipe that cannot be read or held.
@@ -143,7 +142,7 @@ pub enum StepError {
     NoPhases,
     /// Notation that cannot be animated.
     #[error(transparent)]
-    Notation(#[from] crate::notation::NotationError),
+    Notation(#[from] NotationError),
     /// The body language holds text that is not a number.
     #[error("the body language cannot be used: {0}")]
     Language(String),
@@ -359,5 +358,184 @@ impl StepError {
             Self::Hamnosys(_) | Self::Clip(_) => return None,
         };
         Some(text.into())
+    }
+}
+
+/// The reason why the corpus has no answer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SourceError {
+    /// Nothing has this address.
+    #[error("{address:?} is not in the corpus")]
+    Missing {
+        /// The address as written.
+        address: String,
+        /// A similar address.
+        nearest: Option<String>,
+    },
+    /// Something of another kind has this name.
+    #[error("{address:?} is {kind}, and {wanted}")]
+    OtherKind {
+        /// The address as written.
+        address: Box<str>,
+        /// What has this name: `a recording`.
+        kind: &'static str,
+        /// What the recipe needs there: `notation is wanted`.
+        wanted: &'static str,
+        /// The address that would do.
+        right: Option<Box<str>>,
+    },
+    /// Several things have this address.
+    #[error("{address:?} could be any of {}", candidates.join(", "))]
+    Ambiguous {
+        /// The address as written.
+        address: String,
+        /// Their unambiguous addresses.
+        candidates: Vec<String>,
+    },
+    /// The sign is a lexicon entry without movement.
+    #[error("{address:?} has no movement: it is an entry of a lexicon")]
+    NoMovement {
+        /// The address as written.
+        address: String,
+    },
+    /// Something has no expression with milestones.
+    #[error("{address:?} has no expression of the face to transfer: {why}")]
+    Expression {
+        /// The address as written.
+        address: String,
+        /// The reason.
+        why: String,
+        /// The remedy, if one is known.
+        remedy: Option<Box<ErrorRemedy>>,
+    },
+    /// The sign has no notation.
+    #[error("{address:?} has no notation")]
+    NoNotation {
+        /// The address as written.
+        address: String,
+    },
+    /// No inventory has this value.
+    #[error("{text:?} is no {component} of any inventory")]
+    UnknownValue {
+        /// The component.
+        component: SignComponent,
+        /// The value as written.
+        text: String,
+        /// A similar value.
+        nearest: Option<String>,
+    },
+    /// No inventory with this name has letters.
+    #[error("{name:?} is no manual alphabet")]
+    UnknownAlphabet {
+        /// The name as written.
+        name: String,
+        /// The inventories that have letters.
+        known: Vec<String>,
+    },
+    /// An alphabet does not have a letter.
+    #[error("{letter:?} is no letter of the manual alphabet {alphabet:?}")]
+    UnknownLetter {
+        /// The letter.
+        letter: String,
+        /// The inventory.
+        alphabet: String,
+        /// The letters that it has.
+        known: String,
+    },
+    /// The file is not a body language.
+    #[error("the body language {name:?} cannot be used: {message}")]
+    Language {
+        /// The name as written.
+        name: String,
+        /// The fault.
+        message: String,
+    },
+    /// A query is not understood.
+    #[error("the query {query:?} is not understood: {message}")]
+    Query {
+        /// The query.
+        query: String,
+        /// The fault and its place.
+        message: String,
+    },
+    /// The corpus cannot be read.
+    #[error("the corpus cannot be read: {0}")]
+    Unreadable(String),
+}
+
+impl SourceError {
+    /// Returns the name that was meant, if a name near to one was written.
+    #[must_use]
+    pub fn source_meant_name(&self) -> Option<MeantName> {
+        match self {
+            Self::Missing { address, nearest } => MeantName::from_written_name(address, nearest.as_deref()),
+            Self::OtherKind { address, right, .. } => MeantName::from_written_name(address, right.as_deref()),
+            Self::UnknownValue { text, nearest, .. } => MeantName::from_written_name(text, nearest.as_deref()),
+            _ => None,
+        }
+    }
+
+    /// Returns what would work, if that is known.
+    #[must_use]
+    pub fn source_remedy(&self) -> Option<ErrorRemedy> {
+        let text = match self {
+            Self::Missing { nearest, .. } | Self::UnknownValue { nearest, .. } => {
+                format!("did you mean {:?}?", nearest.as_ref()?)
+            }
+            Self::OtherKind { right, .. } => format!("write {} instead", right.as_ref()?),
+            Self::Ambiguous { .. } => "name one of them".to_owned(),
+            Self::NoMovement { .. } => "name a sign that was captured or generated".to_owned(),
+            Self::Expression { remedy, .. } => return remedy.as_deref().cloned(),
+            Self::NoNotation { address } => {
+                return Some(ErrorRemedy::choice_remedy(
+                    RemedyChoice::Notation,
+                    format!(
+                        "import it as SiGML or HamNoSys, or write it from its movement: \
+                         `chereme transcribe CORPUS {address} --store`"
+                    ),
+                ));
+            }
+            Self::UnknownAlphabet { known, .. } => match known.as_slice() {
+                [] => "there is none".to_owned(),
+                known => format!("there is {}", known.join(", ")),
+            },
+            Self::UnknownLetter { known, .. } => format!("spell with {known} only"),
+            Self::Language { .. } => "name default, measured, or a file such as \
+                 {\"version\": 1, \"values\": {\"move.big\": [0.5, \"arm\", \"mine\"]}}"
+                .to_owned(),
+            Self::Query { .. } | Self::Unreadable(_) => return None,
+        };
+        Some(text.into())
+    }
+}
+
+/// The reason why notation cannot be animated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotationError {
+    /// The body has no arm.
+    #[error("the body of {0:?} has no arm with shoulder, elbow and wrist")]
+    NoArm(String),
+    /// The movement would be too long.
+    #[error("the movement would last {seconds:.0} s; at most {most:.0} s can be generated at once")]
+    Long {
+        /// Its duration in seconds.
+        seconds: f64,
+        /// The longest duration in seconds.
+        most: f64,
+    },
+    /// A number is not finite.
+    #[error(transparent)]
+    Clip(#[from] chereme_motion::ClipError),
+}
+
+impl NotationError {
+    /// Returns what would work, if that is known.
+    #[must_use]
+    pub fn notation_remedy(&self) -> Option<&'static str> {
+        match self {
+            Self::NoArm(_) => Some("name them in a roles file"),
+            Self::Long { .. } => Some("animate its signs one by one"),
+            Self::Clip(_) => None,
+        }
     }
 }

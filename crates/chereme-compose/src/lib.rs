@@ -75,7 +75,7 @@ pub use check::{MAX_RECIPE_DEPTH, MOST_PARTS};
 pub use cue::{CuePhases, PhaseRule};
 pub use curve::MeasuredSpline;
 pub use draft::RecipeDraft;
-pub use error::{MakeError, MeantName, RecipeError, RecipeTextProblem, StepError, TextError};
+pub use error::{MakeError, MeantName, RecipeError, RecipeTextProblem, SourceError, StepError, TextError};
 pub use evaluate::{ENGINE_VERSION, evaluate_recipe};
 pub use explain::shorten_step_text;
 pub use face::{FACE_NUMBER_PREFIX, faces_from_curves};
@@ -96,7 +96,7 @@ pub use resolve::{
 };
 pub use sources::{
     AlphabetLetter, BodyRelativePlace, ComponentValue, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile,
-    LearnedReaches, LetterStroke, MedianTime, MovementMaterial, RecipeSources, SourceError, SpellingTimes,
-    TokenExample, ValueMeaning,
+    LearnedReaches, LetterStroke, MedianTime, MovementMaterial, RecipeSources, SpellingTimes, TokenExample,
+    ValueMeaning,
 };
 pub use transfer::{TransferredMovement, on_body};

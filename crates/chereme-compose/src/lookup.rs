@@ -5,7 +5,8 @@ use chereme_sign::SignComponent;
 use chereme_sign::inventory::{ComponentInventory, InventoryValue};
 use chereme_sign::text::fold_text;
 
-use crate::sources::{AlphabetLetter, ComponentValue, LetterStroke, SourceError};
+use crate::error::SourceError;
+use crate::sources::{AlphabetLetter, ComponentValue, LetterStroke};
 
 /// Returns the value of `component` that `text` names in the first of the inventories that knows it.
 ///

@@ -7,18 +7,17 @@ use chereme_sign::hamnosys::NotatedSign;
 use chereme_sign::inventory::{BodyLandmark, ComponentInventory, InventoryValue};
 use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
-use chereme_sign::{ErrorRemedy, RemedyChoice};
 use serde::{Deserialize, Serialize};
 
 use crate::cue::CuePhases;
-use crate::error::MeantName;
+use crate::error::SourceError;
 use crate::language::BodyLanguageChanges;
 use crate::outcome::GeneratedCurve;
 use crate::resolve::BodyInput;
 
 /// The source of movement, values and examples for recipes; a corpus implements it.
 ///
-/// All questions are asked while a recipe is [resolved](crate::Recipe), none during evaluation. Answers must depend on
+/// All questions are asked while a recipe is resolved, none during evaluation. Answers must depend on
 /// the corpus only: the same question gives the same answer in the same order.
 pub trait RecipeSources {
     /// Returns the movement at an address as written: a gloss, `token:41`, `sign:LIMACE`.
@@ -158,7 +157,7 @@ pub struct LearnedReaches {
     pub speed: f64,
 }
 
-/// The usual course of transitions, as [`learn_course`](crate::learn_course) finds it.
+/// The usual course of transitions, as `learn_course` finds it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LearnedCourse {
@@ -357,152 +356,4 @@ pub struct LetterStroke {
     pub displacement: [f64; 3],
     /// The rotation of the forearm during the stroke in radians, positive when the palm turns to face up.
     pub turn: f64,
-}
-
-/// The reason why the corpus has no answer.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum SourceError {
-    /// Nothing has this address.
-    #[error("{address:?} is not in the corpus")]
-    Missing {
-        /// The address as written.
-        address: String,
-        /// A similar address.
-        nearest: Option<String>,
-    },
-    /// Something of another kind has this name.
-    #[error("{address:?} is {kind}, and {wanted}")]
-    OtherKind {
-        /// The address as written.
-        address: Box<str>,
-        /// What has this name: `a recording`.
-        kind: &'static str,
-        /// What the recipe needs there: `notation is wanted`.
-        wanted: &'static str,
-        /// The address that would do.
-        right: Option<Box<str>>,
-    },
-    /// Several things have this address.
-    #[error("{address:?} could be any of {}", candidates.join(", "))]
-    Ambiguous {
-        /// The address as written.
-        address: String,
-        /// Their unambiguous addresses.
-        candidates: Vec<String>,
-    },
-    /// The sign is a lexicon entry without movement.
-    #[error("{address:?} has no movement: it is an entry of a lexicon")]
-    NoMovement {
-        /// The address as written.
-        address: String,
-    },
-    /// Something has no expression with milestones.
-    #[error("{address:?} has no expression of the face to transfer: {why}")]
-    Expression {
-        /// The address as written.
-        address: String,
-        /// The reason.
-        why: String,
-        /// The remedy, if one is known.
-        remedy: Option<Box<ErrorRemedy>>,
-    },
-    /// The sign has no notation.
-    #[error("{address:?} has no notation")]
-    NoNotation {
-        /// The address as written.
-        address: String,
-    },
-    /// No inventory has this value.
-    #[error("{text:?} is no {component} of any inventory")]
-    UnknownValue {
-        /// The component.
-        component: SignComponent,
-        /// The value as written.
-        text: String,
-        /// A similar value.
-        nearest: Option<String>,
-    },
-    /// No inventory with this name has letters.
-    #[error("{name:?} is no manual alphabet")]
-    UnknownAlphabet {
-        /// The name as written.
-        name: String,
-        /// The inventories that have letters.
-        known: Vec<String>,
-    },
-    /// An alphabet does not have a letter.
-    #[error("{letter:?} is no letter of the manual alphabet {alphabet:?}")]
-    UnknownLetter {
-        /// The letter.
-        letter: String,
-        /// The inventory.
-        alphabet: String,
-        /// The letters that it has.
-        known: String,
-    },
-    /// The file is not a body language.
-    #[error("the body language {name:?} cannot be used: {message}")]
-    Language {
-        /// The name as written.
-        name: String,
-        /// The fault.
-        message: String,
-    },
-    /// A query is not understood.
-    #[error("the query {query:?} is not understood: {message}")]
-    Query {
-        /// The query.
-        query: String,
-        /// The fault and its place.
-        message: String,
-    },
-    /// The corpus cannot be read.
-    #[error("the corpus cannot be read: {0}")]
-    Unreadable(String),
-}
-
-impl SourceError {
-    /// Returns the name that was meant, if a name near to one was written.
-    #[must_use]
-    pub fn source_meant_name(&self) -> Option<MeantName> {
-        match self {
-            Self::Missing { address, nearest } => MeantName::from_written_name(address, nearest.as_deref()),
-            Self::OtherKind { address, right, .. } => MeantName::from_written_name(address, right.as_deref()),
-            Self::UnknownValue { text, nearest, .. } => MeantName::from_written_name(text, nearest.as_deref()),
-            _ => None,
-        }
-    }
-
-    /// Returns what would work, if that is known.
-    #[must_use]
-    pub fn source_remedy(&self) -> Option<ErrorRemedy> {
-        let text = match self {
-            Self::Missing { nearest, .. } | Self::UnknownValue { nearest, .. } => {
-                format!("did you mean {:?}?", nearest.as_ref()?)
-            }
-            Self::OtherKind { right, .. } => format!("write {} instead", right.as_ref()?),
-            Self::Ambiguous { .. } => "name one of them".to_owned(),
-            Self::NoMovement { .. } => "name a sign that was captured or generated".to_owned(),
-            Self::Expression { remedy, .. } => return remedy.as_deref().cloned(),
-            Self::NoNotation { address } => {
-                return Some(ErrorRemedy::choice_remedy(
-                    RemedyChoice::Notation,
-                    format!(
-                        "import it as SiGML or HamNoSys, or write it from its movement: \
-                         `chereme transcribe CORPUS {address} --store`"
-                    ),
-                ));
-            }
-            Self::UnknownAlphabet { known, .. } => match known.as_slice() {
-                [] => "there is none".to_owned(),
-                known => format!("there is {}", known.join(", ")),
-            },
-            Self::UnknownLetter { known, .. } => format!("spell with {known} only"),
-            Self::Language { .. } => "name default, measured, or a file such as \
-                 {\"version\": 1, \"values\": {\"move.big\": [0.5, \"arm\", \"mine\"]}}"
-                .to_owned(),
-            Self::Query { .. } | Self::Unreadable(_) => return None,
-        };
-        Some(text.into())
-    }
 }

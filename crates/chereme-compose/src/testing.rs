@@ -12,6 +12,7 @@ use chereme_motion::{
 use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 
+use crate::error::SourceError;
 use crate::sources::*;
 
 /// The local axes of a body's joints.

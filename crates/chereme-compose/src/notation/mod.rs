@@ -83,9 +83,10 @@ mod wrist_cycle;
 
 use std::sync::Arc;
 
-use chereme_motion::{BodySide, Clip, ClipError, FrameRate, JointChannel};
+use chereme_motion::{BodySide, Clip, FrameRate, JointChannel};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, NotatedSign};
 
+pub use crate::error::NotationError;
 use crate::outcome::{ChannelReport, GeneratedMovement, GenerationReport, HandReport, StepReport};
 use crate::sources::MovementMaterial;
 use crate::work::JointGroup;
@@ -121,37 +122,6 @@ impl Default for AnimatorSettings {
         Self {
             rate: FrameRate::new(60, 1).expect("sixty a second is a rate"),
             language: BodyLanguage::default_body_language().clone(),
-        }
-    }
-}
-
-/// The reason why notation cannot be animated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NotationError {
-    /// The body has no arm.
-    #[error("the body of {0:?} has no arm with shoulder, elbow and wrist")]
-    NoArm(String),
-    /// The movement would be too long.
-    #[error("the movement would last {seconds:.0} s; at most {most:.0} s can be generated at once")]
-    Long {
-        /// Its duration in seconds.
-        seconds: f64,
-        /// The longest duration in seconds.
-        most: f64,
-    },
-    /// A number is not finite.
-    #[error(transparent)]
-    Clip(#[from] ClipError),
-}
-
-impl NotationError {
-    /// Returns what would work, if that is known.
-    #[must_use]
-    pub fn notation_remedy(&self) -> Option<&'static str> {
-        match self {
-            Self::NoArm(_) => Some("name them in a roles file"),
-            Self::Long { .. } => Some("animate its signs one by one"),
-            Self::Clip(_) => None,
         }
     }
 }

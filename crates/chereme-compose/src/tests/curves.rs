@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use crate::error::SourceError;
 use crate::outcome::{GeneratedCurve, GeneratedMovement};
 use crate::sources::{
-    AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes,
-    TokenExample,
+    AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SpellingTimes, TokenExample,
 };
 use crate::testing::Shelf;
 use crate::{

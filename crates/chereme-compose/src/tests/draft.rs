@@ -5,9 +5,9 @@ use crate::resolve_recipe;
 use std::cell::RefCell;
 
 use super::*;
+use crate::error::SourceError;
 use crate::sources::{
-    AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes,
-    TokenExample,
+    AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SpellingTimes, TokenExample,
 };
 use crate::{BodyLanguageChanges, Recipe, RecipeDraft};
 

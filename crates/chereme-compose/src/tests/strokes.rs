@@ -268,11 +268,11 @@ fn palm_and_fingers_in_one_direction_are_refused_as_such() {
 struct Reaching(Shelf, f64);
 
 impl RecipeSources for Reaching {
-    fn find_material(&self, address: &str) -> Result<MovementMaterial, crate::sources::SourceError> {
+    fn find_material(&self, address: &str) -> Result<MovementMaterial, crate::error::SourceError> {
         self.0.find_material(address)
     }
 
-    fn stage(&self, signer: Option<&str>) -> Result<MovementMaterial, crate::sources::SourceError> {
+    fn stage(&self, signer: Option<&str>) -> Result<MovementMaterial, crate::error::SourceError> {
         self.0.stage(signer)
     }
 
@@ -280,7 +280,7 @@ impl RecipeSources for Reaching {
         &self,
         component: SignComponent,
         text: &str,
-    ) -> Result<ComponentValue, crate::sources::SourceError> {
+    ) -> Result<ComponentValue, crate::error::SourceError> {
         self.0.find_component_value(component, text)
     }
 
@@ -292,7 +292,7 @@ impl RecipeSources for Reaching {
         &self,
         component: SignComponent,
         value: &str,
-    ) -> Result<Vec<crate::sources::TokenExample>, crate::sources::SourceError> {
+    ) -> Result<Vec<crate::sources::TokenExample>, crate::error::SourceError> {
         self.0.holding(component, value)
     }
 
@@ -300,7 +300,7 @@ impl RecipeSources for Reaching {
         &self,
         query: &str,
         signer: Option<&str>,
-    ) -> Result<Vec<crate::sources::TokenExample>, crate::sources::SourceError> {
+    ) -> Result<Vec<crate::sources::TokenExample>, crate::error::SourceError> {
         self.0.find_best_examples(query, signer)
     }
 
@@ -308,11 +308,11 @@ impl RecipeSources for Reaching {
         &self,
         alphabet: Option<&str>,
         word: &str,
-    ) -> Result<Vec<crate::sources::AlphabetLetter>, crate::sources::SourceError> {
+    ) -> Result<Vec<crate::sources::AlphabetLetter>, crate::error::SourceError> {
         self.0.find_alphabet_letters(alphabet, word)
     }
 
-    fn learned_profile(&self) -> Result<Option<LearnedProfile>, crate::sources::SourceError> {
+    fn learned_profile(&self) -> Result<Option<LearnedProfile>, crate::error::SourceError> {
         let course = LearnedCourse {
             shares: vec![0.0, 0.1, 0.5, 0.9, 1.0],
             transitions: 9,
