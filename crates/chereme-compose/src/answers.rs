@@ -11,18 +11,19 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 use chereme_motion::BodySide;
+use chereme_sign::SignComponent;
 use chereme_sign::hamnosys::NotatedSign;
-use chereme_sign::{SignComponent, SignerHandedness};
 
+use crate::body::{self, SignerFrame};
 use crate::course::{self, TransitionCourses};
-use crate::cue::CuePhases;
+use crate::cue_timing::CuePhases;
 use crate::error::StepError;
 use crate::language::BodyLanguageChanges;
-use crate::ops::place_operator;
 use crate::poses::HandPose;
-use crate::recipe::{PostureTransition, SigningSpot, TransitionProfile};
-use crate::resolve::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
-use crate::sources::{LearnedProfile, MovementMaterial, RecipeSources, SpellingTimes, ValueMeaning};
+use crate::recipe_inputs::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
+use crate::recipe_settings::{PostureTransition, RecipeHandPoint, SigningSpot, TransitionProfile};
+use crate::sources::{LearnedProfile, MaterialSigner, MovementMaterial, RecipeSources, SpellingTimes, ValueMeaning};
+use crate::work::WorkingClip;
 
 /// The place of a node or operator in a recipe's JSON, such as `/pipe/steps/0`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -129,22 +130,6 @@ impl<T> AnswerSlot<T> {
     /// Returns its path in the whole recipe, for a node at `path`.
     pub(crate) fn slot_path_at(&self, path: &RecipePath) -> String {
         format!("{path}/{}", self.end)
-    }
-}
-
-/// The signer whose movement an operator changes.
-#[derive(Clone)]
-pub(crate) struct MaterialSigner {
-    pub(crate) signer: Option<String>,
-    pub(crate) handedness: SignerHandedness,
-}
-
-impl MaterialSigner {
-    pub(crate) fn signer_from_material(material: &MovementMaterial) -> Self {
-        Self {
-            signer: material.signer.clone(),
-            handedness: material.handedness,
-        }
     }
 }
 
@@ -263,7 +248,7 @@ impl CorpusAsker<'_> {
         };
         let material = self.sources.find_material(&example.address)?;
         let side = example.hand.unwrap_or(material.handedness.signer_dominant_side());
-        let shown_place = place_operator::shown_by(&material, &[side], None)?;
+        let shown_place = find_shown_place(&material, &[side], None)?;
         Ok(PlaceInput {
             value: Some(value.id),
             ..shown_place
@@ -316,4 +301,37 @@ impl<'a> NodeAnswers<'a> {
         let usual = learned.map_or(usual, |_| TransitionProfile::Learned);
         TransitionCourses::from_transition_profile(via.profile.unwrap_or(usual), learned).ok_or(StepError::NoProfile)
     }
+}
+
+/// Returns the placement of the hands throughout another sign, if it has exactly one.
+fn held_hand_place(material: &MovementMaterial, sides: &[BodySide]) -> Option<String> {
+    let dominant = material.handedness.signer_dominant_side();
+    let annotated = material.held.iter().filter(|held| {
+        let of = sides.contains(&held.hand.unwrap_or(dominant));
+        of && held.component == SignComponent::Placement && held.feature.is_none()
+    });
+    let mut values = annotated.filter_map(|held| held.value.reading_value());
+    let first = values.next()?;
+    values.all(|value| value == first).then(|| first.to_owned())
+}
+
+/// Returns the position of the hands in the middle of another sign, relative to the signer's chest and arms.
+pub(crate) fn find_shown_place(
+    material: &MovementMaterial,
+    sides: &[BodySide],
+    with: Option<RecipeHandPoint>,
+) -> Result<PlaceInput, StepError> {
+    let work = WorkingClip::working_clip_from(material);
+    let frame = SignerFrame::from_mean_posture(&work);
+    let mean = body::mean_point(&work, sides, with.unwrap_or(RecipeHandPoint::Palm));
+    let (Some(frame), Some(mean)) = (frame, mean) else {
+        let address = material.address.clone();
+        let what = "hand's place";
+        return Err(StepError::NothingToTake { address, what });
+    };
+    Ok(PlaceInput {
+        value: held_hand_place(material, sides),
+        from: material.address.clone(),
+        at: frame.relative_spatial_position(mean),
+    })
 }

@@ -12,7 +12,7 @@ use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, solve_fabrik, two_bone};
 use chereme_motion::{ArmChain, BodySide};
 
 use crate::body::SignerFrame;
-use crate::recipe::ArmSolverMethod;
+use crate::recipe_settings::ArmSolverMethod;
 use crate::work::{JointColumns, WorkingClip};
 
 mod free_angle;

@@ -5,7 +5,7 @@ use chereme_motion::{BodySide, LocalPose, ModelPose};
 use chereme_sign::SignComponent;
 use chereme_sign::inventory::BodyLandmark;
 
-use crate::recipe::{RecipeHandPoint, SigningSpot, StraightLeg};
+use crate::recipe_settings::{RecipeHandPoint, SigningSpot, StraightLeg};
 use crate::sources::BodyRelativePlace;
 use crate::stroke::SignStroke;
 use crate::units::{RecipeLength, mean_of_directions};

@@ -173,18 +173,6 @@ fn count_recipe_parts(parts: &mut usize, more: usize) -> Result<(), RecipeError>
     Ok(())
 }
 
-/// Checks the two ends of a part of a movement.
-pub(crate) fn check_movement_part(step: &'static str, cut: &SpanSettings) -> Result<(), RecipeError> {
-    check_step_time(step, "the start", cut.from, MAX_RECIPE_SECONDS)?;
-    check_step_time(step, "the end", cut.to, MAX_RECIPE_SECONDS)?;
-    let (from, to) = (cut.from.map_or(0.0, |time| time.0), cut.to.map(|time| time.0));
-    if to.is_some_and(|to| to <= from) || (cut.from.is_none() && to.is_none()) {
-        let what = "it ends before it begins; write the earlier time first, such as 0.4s..1.9s";
-        return Err(RecipeError::Empty { step, what });
-    }
-    Ok(())
-}
-
 /// Checks straight legs.
 pub(crate) fn check_path_legs(step: &'static str, legs: &[StraightLeg]) -> Result<(), RecipeError> {
     legs.iter().try_for_each(|leg| {

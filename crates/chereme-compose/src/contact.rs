@@ -5,7 +5,7 @@ use std::ops::Range;
 use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;
 
-use crate::recipe::RecipeHandPoint;
+use crate::recipe_settings::RecipeHandPoint;
 use crate::work::WorkingClip;
 
 mod contact_points;

@@ -3,7 +3,7 @@
 use chereme_motion::InterpolationKind;
 use chereme_motion::glam::DQuat;
 
-use crate::recipe::TransitionProfile;
+use crate::recipe_settings::TransitionProfile;
 use crate::sources::{LearnedCourse, LearnedProfile};
 
 /// The courses of a transition: one for fingers, one for all other joints.

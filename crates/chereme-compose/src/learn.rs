@@ -10,7 +10,7 @@ use chereme_motion::Clip;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use crate::course::TransitionCourse;
-use crate::recipe::TransitionProfile;
+use crate::recipe_settings::TransitionProfile;
 
 /// The number of steps of a learned course.
 const LEARNED_COURSE_STEPS: usize = 64;

@@ -39,6 +39,7 @@ mod check;
 mod contact;
 mod course;
 pub mod cue;
+mod cue_timing;
 mod curve;
 mod draft;
 mod error;
@@ -57,6 +58,8 @@ mod ops;
 pub mod outcome;
 mod poses;
 pub mod recipe;
+mod recipe_inputs;
+mod recipe_settings;
 mod resolve;
 mod simplify;
 pub mod sources;
@@ -72,7 +75,7 @@ pub mod units;
 mod work;
 
 pub use check::{MAX_RECIPE_DEPTH, MOST_PARTS};
-pub use cue::{CuePhases, PhaseRule};
+pub use cue_timing::{CuePhases, PhaseRule};
 pub use curve::MeasuredSpline;
 pub use draft::RecipeDraft;
 pub use error::{MakeError, MeantName, RecipeError, RecipeTextProblem, SourceError, StepError, TextError};
@@ -90,13 +93,11 @@ pub use outcome::{
 };
 pub use poses::{ExactHandRotations, HandPose, PoseOrigin};
 pub use recipe::Recipe;
-pub use resolve::{
-    BodyInput, ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs, ResolvedRecipe,
-    resolve_recipe, restore_recipe_inputs,
-};
+pub use recipe_inputs::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
+pub use resolve::{ResolvedRecipe, resolve_recipe, restore_recipe_inputs};
 pub use sources::{
-    AlphabetLetter, BodyRelativePlace, ComponentValue, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile,
-    LearnedReaches, LetterStroke, MedianTime, MovementMaterial, RecipeSources, SpellingTimes, TokenExample,
-    ValueMeaning,
+    AlphabetLetter, BodyInput, BodyRelativePlace, ComponentValue, ExpressionSource, HeldValue, LearnedCourse,
+    LearnedProfile, LearnedReaches, LetterStroke, MedianTime, MovementMaterial, RecipeSources, SpellingTimes,
+    TokenExample, ValueMeaning,
 };
 pub use transfer::{TransferredMovement, on_body};

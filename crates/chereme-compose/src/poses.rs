@@ -5,9 +5,9 @@ use chereme_motion::{BodySide, HandAngles, Skeleton};
 use chereme_sign::SignComponent;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::MaterialSigner;
 use crate::error::StepError;
-use crate::recipe::ValueChoice;
+use crate::recipe_settings::ValueChoice;
+use crate::sources::MaterialSigner;
 use crate::sources::{ComponentValue, MovementMaterial, RecipeSources, TokenExample, ValueMeaning};
 
 /// A chosen posture of the hand.

@@ -9,11 +9,10 @@ use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
-use crate::cue::CuePhases;
+use crate::cue_timing::CuePhases;
 use crate::error::SourceError;
 use crate::language::BodyLanguageChanges;
 use crate::outcome::GeneratedCurve;
-use crate::resolve::BodyInput;
 
 /// The source of movement, values and examples for recipes; a corpus implements it.
 ///
@@ -356,4 +355,30 @@ pub struct LetterStroke {
     pub displacement: [f64; 3],
     /// The rotation of the forearm during the stroke in radians, positive when the palm turns to face up.
     pub turn: f64,
+}
+
+/// The body that was found for a notation.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyInput {
+    /// Its unambiguous address.
+    pub address: String,
+    /// The hash of its posture.
+    pub hash: String,
+}
+
+/// The signer whose movement an operator changes.
+#[derive(Clone)]
+pub(crate) struct MaterialSigner {
+    pub(crate) signer: Option<String>,
+    pub(crate) handedness: SignerHandedness,
+}
+
+impl MaterialSigner {
+    pub(crate) fn signer_from_material(material: &MovementMaterial) -> Self {
+        Self {
+            signer: material.signer.clone(),
+            handedness: material.handedness,
+        }
+    }
 }

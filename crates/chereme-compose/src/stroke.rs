@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Clip, ends};
+use chereme_motion::{Clip, TimeSpan, ends};
+use chereme_sign::SignComponent;
 
 use crate::error::StepError;
-use crate::ops::cut;
+use crate::outcome::NoteSubject;
 use crate::work::WorkingClip;
 
 /// The time in which an operator sets in after a rest, and ends before one, in seconds: a hand needs half a second to
@@ -28,7 +29,7 @@ impl SignStroke {
         let clip = Clip::new(work.skeleton.clone(), work.rate, work.channels.clone())?;
         let all = 0..work.frames;
         let moving = ends::activity_frames(&clip, &work.anatomy).unwrap_or(all.clone());
-        let signed = cut::signed_frame_range(work)?;
+        let signed = signed_frame_range(work)?;
         let onset_frames = (STROKE_ONSET / work.rate.frame_time()).round() as usize;
         let onset = onset_frames.min(moving.len() / 4);
         // Known phases begin where the hand has risen; otherwise it rises for a while.
@@ -105,4 +106,37 @@ impl SignStroke {
             (true, true) => Some(format!("the rest before {before} and after {after} stays as it is")),
         }
     }
+}
+
+/// Returns the frames of a sign without the movement from rest to its first phase, and from its last one back to rest:
+/// only an end with rest whose phases are known is cut.
+pub(crate) fn signed_frame_range(work: &WorkingClip) -> Result<Range<usize>, StepError> {
+    let all = 0..work.frames;
+    let Some(phases) = phase_frame_range(work) else {
+        return Ok(all);
+    };
+    let channels = work.channels.clone();
+    let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
+    let active = ends::activity_frames(&clip, &work.anatomy).unwrap_or(all);
+    Ok(between_rests(work, &active, &phases))
+}
+
+/// Returns the frames from the first phase of a hand to the end of the last one; `None` if no phase is known.
+pub(crate) fn phase_frame_range(work: &WorkingClip) -> Option<Range<usize>> {
+    let about = NoteSubject::Component(SignComponent::Movement, Some("phase".to_owned()));
+    let notes = work.notes.iter().filter(|note| note.about == about);
+    let spans: Vec<TimeSpan> = notes.map(|note| note.span).collect();
+    let from = spans.iter().map(|span| span.span_start_instant()).min()?;
+    let to = spans.iter().map(|span| span.span_end_instant()).max()?;
+    let phase_frames = work.rate.frames_in(TimeSpan::new(from, to).ok()?);
+    let frames = phase_frames.start.min(work.frames)..phase_frames.end.min(work.frames);
+    (!frames.is_empty()).then_some(frames)
+}
+
+/// Returns the frames of the phases at each end that has rest, and all frames at the other.
+pub(crate) fn between_rests(work: &WorkingClip, active: &Range<usize>, phases: &Range<usize>) -> Range<usize> {
+    let rests = (active.start > 0, active.end < work.frames);
+    let start = if rests.0 { phases.start } else { 0 };
+    let end = if rests.1 { phases.end } else { work.frames };
+    start..end
 }

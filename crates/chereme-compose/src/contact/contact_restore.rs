@@ -5,7 +5,7 @@ use chereme_motion::glam::DVec3;
 
 use super::{ContactSpan, KEPT_CONTACT_OFFSET_M, MovementContacts, PointTracks, TOUCHING_HAND_POINTS};
 use crate::arm;
-use crate::recipe::ArmSolverMethod;
+use crate::recipe_settings::ArmSolverMethod;
 use crate::work::{JointColumns, JointGroup, WorkingClip};
 
 /// The longest shift of a wrist, in metres, that repairs a contact unnoticed: the same point of the hand touches again,

@@ -4,12 +4,13 @@ use chereme_motion::BodySide;
 use chereme_sign::SignComponent;
 
 use super::{CuePhases, PhaseRule, perform_cues, read_cue_utterance};
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::error::StepError;
 use crate::ops::StepOutcome;
 use crate::poses::{self, HandPose};
-use crate::recipe::CueSettings;
-use crate::resolve::MaterialInput;
+use crate::recipe_inputs::MaterialInput;
+use crate::recipe_settings::CueSettings;
+use crate::sources::MaterialSigner;
 use crate::sources::{ComponentValue, ValueMeaning};
 use crate::work::WorkingClip;
 

@@ -11,9 +11,8 @@ mod cue_places;
 pub mod dikey;
 pub(crate) mod leaf;
 mod mouth;
-mod timing;
 
-pub use timing::{CuePhases, KeySoundTimes, KeyTimes, KeyType, PhaseRule, key_sound_times, plan_key_times};
+pub use crate::cue_timing::{CuePhases, KeySoundTimes, KeyTimes, KeyType, PhaseRule, key_sound_times, plan_key_times};
 
 use chereme_motion::{BodySide, ModelPose, RecordingInstant, TimeSpan};
 use chereme_sign::cue::{CuedUtterance, PhoneAlphabet, french, gloss_cue_key};
@@ -25,7 +24,7 @@ use crate::face::faces_from_curves;
 use crate::ops::join;
 use crate::outcome::{CueTier, GeneratedNote, NoteSubject};
 use crate::poses::HandPose;
-use crate::recipe::CueSettings;
+use crate::recipe_settings::CueSettings;
 use crate::work::{JointGroup, WorkingClip};
 use cue_places::{CueHeadSpace, CuePathBow, CueSpot, LIP_CLEARANCE_M};
 

@@ -19,7 +19,7 @@ use crate::ops::travel::wrist_path;
 use crate::ops::{
     FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, say_operator,
 };
-use crate::recipe::ArmSolverMethod;
+use crate::recipe_settings::ArmSolverMethod;
 use crate::stroke::SignStroke;
 use crate::text::{ParsedText, RecipeParser};
 use crate::units::{HandChoice, RecipeFactor};

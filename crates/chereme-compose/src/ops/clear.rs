@@ -9,7 +9,7 @@ use crate::arm;
 use crate::contact::{CONTACT_BLEND_S, blend_shifts};
 use crate::notation::notation_stage::TrunkObstacle;
 use crate::notation::skull::SkullEllipsoid;
-use crate::recipe::ArmSolverMethod;
+use crate::recipe_settings::ArmSolverMethod;
 use crate::work::{JointColumns, JointGroup, WorkingClip};
 
 /// The depth in metres that a joint of a finger may have in a body without skin.

@@ -18,13 +18,14 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{OperatorDescription, OperatorSyntax, StepOperator, StepOutcome};
-use crate::recipe::{PostureTransition, TransitionProfile, ValueChoice};
+use crate::recipe_settings::{PostureTransition, TransitionProfile, ValueChoice};
 use crate::sources::LearnedProfile;
+use crate::sources::MaterialSigner;
 use crate::stroke::SignStroke;
 use crate::text::{ParsedText, RecipeParser, write_separated_list};
 use crate::units::HandChoice;

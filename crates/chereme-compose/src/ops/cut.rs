@@ -6,12 +6,11 @@ use chereme_motion::ends::{self, ClipEnds};
 use chereme_motion::{Clip, RecordingInstant, TimeSpan};
 
 use crate::error::StepError;
-use crate::outcome::NoteSubject;
 use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
 
+use chereme_sign::SignerHandedness;
 use chereme_sign::words::InterfaceText;
-use chereme_sign::{SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
 use crate::answers::NodeAnswers;
@@ -19,6 +18,7 @@ use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome};
+use crate::stroke::{between_rests, phase_frame_range};
 use crate::text::{ParsedText, RecipeParser, write_separated_list};
 use crate::units::RecipeSeconds;
 
@@ -56,7 +56,7 @@ impl OperatorSyntax for SpanSettings {
     };
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
-        parser.parse_time_span()
+        parse_movement_part(parser)
     }
 
     fn default_operator() -> Self {
@@ -65,6 +65,24 @@ impl OperatorSyntax for SpanSettings {
             to: None,
         }
     }
+}
+
+/// Reads the two ends alone.
+pub(crate) fn parse_movement_part(parser: &mut RecipeParser<'_>) -> ParsedText<SpanSettings> {
+    let [from, to] = parser.parse_time_span()?;
+    Ok(SpanSettings { from, to })
+}
+
+/// Checks the two ends of a part of a movement.
+pub(crate) fn check_movement_part(step: &'static str, cut: &SpanSettings) -> Result<(), RecipeError> {
+    check::check_step_time(step, "the start", cut.from, check::MAX_RECIPE_SECONDS)?;
+    check::check_step_time(step, "the end", cut.to, check::MAX_RECIPE_SECONDS)?;
+    let (from, to) = (cut.from.map_or(0.0, |time| time.0), cut.to.map(|time| time.0));
+    if to.is_some_and(|to| to <= from) || (cut.from.is_none() && to.is_none()) {
+        let what = "it ends before it begins; write the earlier time first, such as 0.4s..1.9s";
+        return Err(RecipeError::Empty { step, what });
+    }
+    Ok(())
 }
 
 impl Display for SpanSettings {
@@ -86,7 +104,7 @@ impl Display for CutEnds<'_> {
 
 impl StepOperator for SpanSettings {
     fn check_operator_settings(&self) -> Result<(), RecipeError> {
-        check::check_movement_part(Self::OPERATOR_NAME, self)
+        check_movement_part(Self::OPERATOR_NAME, self)
     }
 
     fn apply_operator(&self, work: &mut WorkingClip, given: &mut NodeAnswers<'_>) -> Result<StepOutcome, StepError> {
@@ -189,39 +207,6 @@ pub(crate) fn cut_work_span(
     }
     keep_work_frames(work, frames, operator);
     Ok(did)
-}
-
-/// Returns the frames of a sign without the movement from rest to its first phase, and from its last one back to rest:
-/// only an end with rest whose phases are known is cut.
-pub(crate) fn signed_frame_range(work: &WorkingClip) -> Result<Range<usize>, StepError> {
-    let all = 0..work.frames;
-    let Some(phases) = phase_frame_range(work) else {
-        return Ok(all);
-    };
-    let channels = work.channels.clone();
-    let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
-    let active = ends::activity_frames(&clip, &work.anatomy).unwrap_or(all);
-    Ok(between_rests(work, &active, &phases))
-}
-
-/// Returns the frames from the first phase of a hand to the end of the last one; `None` if no phase is known.
-fn phase_frame_range(work: &WorkingClip) -> Option<Range<usize>> {
-    let about = NoteSubject::Component(SignComponent::Movement, Some("phase".to_owned()));
-    let notes = work.notes.iter().filter(|note| note.about == about);
-    let spans: Vec<TimeSpan> = notes.map(|note| note.span).collect();
-    let from = spans.iter().map(|span| span.span_start_instant()).min()?;
-    let to = spans.iter().map(|span| span.span_end_instant()).max()?;
-    let phase_frames = work.rate.frames_in(TimeSpan::new(from, to).ok()?);
-    let frames = phase_frames.start.min(work.frames)..phase_frames.end.min(work.frames);
-    (!frames.is_empty()).then_some(frames)
-}
-
-/// Returns the frames of the phases at each end that has rest, and all frames at the other.
-fn between_rests(work: &WorkingClip, active: &Range<usize>, phases: &Range<usize>) -> Range<usize> {
-    let rests = (active.start > 0, active.end < work.frames);
-    let start = if rests.0 { phases.start } else { 0 };
-    let end = if rests.1 { phases.end } else { work.frames };
-    start..end
 }
 
 /// Keeps the active frames; a movement without rest stays unchanged.

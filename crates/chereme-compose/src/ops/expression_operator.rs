@@ -13,7 +13,7 @@ use crate::error::StepError;
 use crate::ops::retarget::{self, TargetBody};
 use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
 use crate::recipe::{ExpressionTimes, NonmanualSettings};
-use crate::resolve::ExpressionInput;
+use crate::recipe_inputs::ExpressionInput;
 use crate::sources::MovementMaterial;
 use crate::work::{JointGroup, WorkingClip, find_joint_groups};
 

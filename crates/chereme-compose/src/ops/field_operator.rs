@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use chereme_sign::words::InterfaceText;
 
-use crate::recipe::{PostureTransition, SigningSpot};
+use crate::recipe_settings::{PostureTransition, SigningSpot};
 use crate::units::{BodyDirection, HandChoice, RecipeFactor, RecipeLength, RecipeSeconds};
 
 /// A setting of an operator.

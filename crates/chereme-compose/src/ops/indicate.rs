@@ -9,7 +9,7 @@ use chereme_sign::words::InterfaceText;
 use chereme_sign::{SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::arm::{self, WristReach};
 use crate::body::arm_length;
 use crate::check;
@@ -21,8 +21,9 @@ use crate::ops::{
     FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, say_operator,
 };
 use crate::outcome::NoteSubject;
-use crate::recipe::{ArmSolverMethod, SigningSpot};
-use crate::resolve::PlaceInput;
+use crate::recipe_inputs::PlaceInput;
+use crate::recipe_settings::{ArmSolverMethod, SigningSpot};
+use crate::sources::MaterialSigner;
 use crate::stroke::SignStroke;
 use crate::text::{ParsedText, RecipeParser, write_option, write_separated_list};
 use crate::units::{BodyDirection, HandChoice};

@@ -10,11 +10,12 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{CorpusAsker, NodeAnswers};
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::{RecipeError, StepError};
 use crate::language::BodyLanguageChanges;
 use crate::outcome::{HandReport, JoinReport};
+use crate::sources::MaterialSigner;
 use crate::text::{ParsedText, RecipeParser};
 use crate::work::WorkingClip;
 

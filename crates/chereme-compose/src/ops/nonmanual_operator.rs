@@ -16,16 +16,17 @@ use chereme_motion::BodySide;
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
-use crate::ops::cut::CutEnds;
+use crate::ops::cut::{self, CutEnds};
 use crate::ops::{
     FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, expression_operator,
 };
 use crate::recipe::SpanSettings;
-use crate::resolve::{ExpressionInput, MaterialInput};
+use crate::recipe_inputs::{ExpressionInput, MaterialInput};
+use crate::sources::MaterialSigner;
 use crate::text::{ParsedText, QuotedName, RecipeParser, write_separated_list};
 use crate::units::RecipeSeconds;
 
@@ -181,7 +182,7 @@ fn parse_expression_times(parser: &mut RecipeParser<'_>) -> ParsedText<Expressio
         return Ok(ExpressionTimes::At(times));
     }
     parser.back_to(start);
-    parser.parse_time_span().map(ExpressionTimes::Part)
+    cut::parse_movement_part(parser).map(ExpressionTimes::Part)
 }
 
 impl Display for NonmanualSettings {
@@ -210,7 +211,7 @@ impl StepOperator for NonmanualSettings {
         check::check_optional_text(function, step, "the name of the function is empty")?;
         match &self.over {
             None => Ok(()),
-            Some(ExpressionTimes::Part(cut)) => check::check_movement_part(step, cut),
+            Some(ExpressionTimes::Part(span)) => cut::check_movement_part(step, span),
             Some(ExpressionTimes::At(times)) => {
                 for at in times {
                     check::check_step_range(

@@ -2,13 +2,14 @@
 
 use chereme_sign::hamnosys::{self, NotatedSign};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::error::StepError;
 use crate::language::BodyLanguageChanges;
 use crate::notation;
 use crate::ops::StepOutcome;
-use crate::recipe::NotationSettings;
-use crate::resolve::MaterialInput;
+use crate::recipe_inputs::MaterialInput;
+use crate::recipe_settings::NotationSettings;
+use crate::sources::MaterialSigner;
 use crate::work::WorkingClip;
 
 /// The two ways to write notation in a recipe.

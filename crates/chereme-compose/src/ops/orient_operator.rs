@@ -10,7 +10,7 @@ use crate::body::SignerFrame;
 use crate::error::StepError;
 use crate::ops::{OperatorDescription, place_operator, say_operator};
 use crate::outcome::NoteSubject;
-use crate::recipe::ArmSolverMethod;
+use crate::recipe_settings::ArmSolverMethod;
 use crate::stroke::SignStroke;
 use crate::units::mean_of_directions;
 use crate::work::{JointColumns, JointGroup, WorkingClip};

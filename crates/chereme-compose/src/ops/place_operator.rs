@@ -2,15 +2,14 @@
 
 use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;
-use chereme_sign::SignComponent;
 use chereme_sign::words::InterfaceText;
 
 use crate::arm::{self, HELP_FROM, WristReach};
 use crate::body::{self, SignerFrame};
 use crate::error::StepError;
 use crate::ops::{OperatorDescription, clear, say_operator};
-use crate::recipe::{ArmSolverMethod, RecipeHandPoint};
-use crate::resolve::PlaceInput;
+use crate::recipe_inputs::PlaceInput;
+use crate::recipe_settings::{ArmSolverMethod, RecipeHandPoint};
 use crate::stroke::SignStroke;
 use crate::work::{JointColumns, JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
@@ -19,12 +18,13 @@ use std::ops::Range;
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{self, AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{OperatorNeighbours, OperatorSyntax, Step, StepOperator, StepOutcome};
-use crate::recipe::StraightLeg;
+use crate::recipe_settings::StraightLeg;
+use crate::sources::MaterialSigner;
 use crate::sources::MovementMaterial;
 use crate::text::{ParsedText, QuotedName, RecipeParser, point_text, write_option, write_separated_list};
 use crate::units::{BodyDirection, HandChoice, RecipeLength};
@@ -361,41 +361,8 @@ impl PlaceSettings {
         let has = |side: &&BodySide| material.anatomy.arm_chain(**side).is_some();
         let sides = self.hand.chosen_sides(setting.handedness).iter();
         let shown: Vec<BodySide> = sides.filter(has).copied().collect();
-        shown_by(material, &shown, self.with)
+        answers::find_shown_place(material, &shown, self.with)
     }
-}
-
-/// Returns the placement of the hands throughout another sign, if it has exactly one.
-fn held_place(material: &MovementMaterial, sides: &[BodySide]) -> Option<String> {
-    let dominant = material.handedness.signer_dominant_side();
-    let annotated = material.held.iter().filter(|held| {
-        let of = sides.contains(&held.hand.unwrap_or(dominant));
-        of && held.component == SignComponent::Placement && held.feature.is_none()
-    });
-    let mut values = annotated.filter_map(|held| held.value.reading_value());
-    let first = values.next()?;
-    values.all(|value| value == first).then(|| first.to_owned())
-}
-
-/// Returns the position of the hands in the middle of another sign, relative to the signer's chest and arms.
-pub(crate) fn shown_by(
-    material: &MovementMaterial,
-    sides: &[BodySide],
-    with: Option<RecipeHandPoint>,
-) -> Result<PlaceInput, StepError> {
-    let work = WorkingClip::working_clip_from(material);
-    let frame = SignerFrame::from_mean_posture(&work);
-    let mean = body::mean_point(&work, sides, with.unwrap_or(RecipeHandPoint::Palm));
-    let (Some(frame), Some(mean)) = (frame, mean) else {
-        let address = material.address.clone();
-        let what = "hand's place";
-        return Err(StepError::NothingToTake { address, what });
-    };
-    Ok(PlaceInput {
-        value: held_place(material, sides),
-        from: material.address.clone(),
-        at: frame.relative_spatial_position(mean),
-    })
 }
 
 /// The distance in metres of one of two hands from the place of their middle, beyond which the hand is not at the place.

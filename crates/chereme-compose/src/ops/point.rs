@@ -4,7 +4,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{BodyPart, BodySide, FingerAngles, HandAngles, HandFinger, ModelPose, ThumbAngles};
 use chereme_sign::{ComponentReading, SignComponent};
 
-use crate::answers::{self, AnswerSlot, CorpusAsker, MaterialSigner};
+use crate::answers::{self, AnswerSlot, CorpusAsker};
 use crate::arm;
 use crate::body::SignerFrame;
 use crate::course::TransitionCourses;
@@ -14,10 +14,11 @@ use crate::ops::travel::wrist_path;
 use crate::ops::{join, place_operator};
 use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::poses::{self, HandPose, PoseOrigin};
-use crate::recipe::PointSettings;
-use crate::recipe::TransitionProfile;
-use crate::resolve::MaterialInput;
-use crate::resolve::PlaceInput;
+use crate::recipe_inputs::MaterialInput;
+use crate::recipe_inputs::PlaceInput;
+use crate::recipe_settings::PointSettings;
+use crate::recipe_settings::TransitionProfile;
+use crate::sources::MaterialSigner;
 use crate::sources::{LearnedProfile, LearnedReaches};
 use crate::work::{JointGroup, WorkingClip, find_joint_groups};
 

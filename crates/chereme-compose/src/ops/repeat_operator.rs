@@ -16,12 +16,14 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::error::RecipeError;
 use crate::ops::{FieldSetting, OperatorField, OperatorSyntax, StepOperator, StepOutcome};
-use crate::recipe::{PostureTransition, TransitionProfile};
+use crate::recipe_settings::{PostureTransition, TransitionProfile};
 use crate::sources::LearnedProfile;
+use crate::sources::MaterialSigner;
+use crate::stroke;
 use crate::text::{ParsedText, RecipeParser, write_option};
 use crate::units::{RecipeFactor, RecipeSeconds};
 
@@ -196,7 +198,7 @@ pub(crate) fn repeat_movement(
         .collect();
     let mut residual: f64 = 0.0;
     let mut done = join::JoinOutcome::default();
-    let (mut tail, mut rested) = (work.frames - cut::signed_frame_range(work)?.end, false);
+    let (mut tail, mut rested) = (work.frames - stroke::signed_frame_range(work)?.end, false);
     for n in 1..times {
         let mut next = once.clone();
         if scale != 1.0 {
@@ -217,7 +219,7 @@ pub(crate) fn repeat_movement(
         if scale != 1.0 || tempo != 1.0 {
             once = next.clone();
         }
-        let signed_frames = cut::signed_frame_range(&next)?;
+        let signed_frames = stroke::signed_frame_range(&next)?;
         rested |= tail > 0 || signed_frames.start > 0;
         let signed = work.frames - tail;
         cut::keep_quietly(work, 0..signed);

@@ -9,7 +9,7 @@ use crate::arm;
 use crate::body;
 use crate::contact::{self, ContactEffect, ContactsToKeep};
 use crate::error::StepError;
-use crate::recipe::ArmSolverMethod;
+use crate::recipe_settings::ArmSolverMethod;
 use crate::work::{JointColumns, WorkingClip};
 
 /// Movement on another skeleton, and its contacts.

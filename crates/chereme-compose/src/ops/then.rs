@@ -14,6 +14,7 @@ use crate::ops::join::{self, ChannelCut, MovementSeam};
 use crate::ops::retarget::{self, TargetBody};
 use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::speed::{self, StepSpeeds};
+use crate::stroke;
 use crate::units::RecipeSeconds;
 use crate::work::{JointColumns, JointGroup, WorkingClip};
 
@@ -130,7 +131,7 @@ struct CutSignEnds {
 /// may leave or enter. A sign without rest, or without known phases, stays as it is.
 fn without_rest(first: &mut WorkingClip, second: &mut WorkingClip) -> Result<CutSignEnds, StepError> {
     let window = (CUT_SEARCH_WINDOW_S / first.rate.frame_time()).round() as usize;
-    let (one, other) = (cut::signed_frame_range(first)?, cut::signed_frame_range(second)?);
+    let (one, other) = (stroke::signed_frame_range(first)?, stroke::signed_frame_range(second)?);
     let mut ends = CutSignEnds {
         until: other.end,
         ..CutSignEnds::default()

@@ -12,7 +12,7 @@ use crate::error::StepError;
 use crate::ops::place_operator::{self, describe_reach};
 use crate::ops::{retime, say_operator};
 use crate::outcome::NoteSubject;
-use crate::recipe::{ArmSolverMethod, StraightLeg};
+use crate::recipe_settings::{ArmSolverMethod, StraightLeg};
 use crate::stroke::SignStroke;
 use crate::units::{RecipeLength, RecipeSeconds};
 use crate::work::{JointColumns, JointGroup, WorkingClip};
@@ -21,13 +21,14 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
-use crate::answers::{AnswerSlot, CorpusAsker, MaterialSigner, NodeAnswers};
+use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{OperatorDescription, OperatorSyntax, StepOperator, StepOutcome};
-use crate::recipe::{PostureTransition, TransitionProfile};
+use crate::recipe_settings::{PostureTransition, TransitionProfile};
 use crate::sources::LearnedProfile;
+use crate::sources::MaterialSigner;
 use crate::text::{ParsedText, RecipeParser, point_text, write_option, write_separated_list};
 use crate::units::{BodyDirection, HandChoice};
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::LetterStroke;
 use crate::body;
 use crate::evaluate_recipe;
-use crate::recipe::RecipeHandPoint;
+use crate::recipe_settings::RecipeHandPoint;
 use crate::work::WorkingClip;
 
 /// The notes on a hand: component, part, value, and the time in milliseconds.

@@ -3,10 +3,10 @@
 use std::str::FromStr;
 
 use super::lexer::{RecipeTextToken, RecipeTokenKind, lex_recipe_text, text_fault_at};
-use crate::cue::PhaseRule;
+use crate::cue_timing::PhaseRule;
 use crate::error::{RecipeError, RecipeTextProblem, TextError};
 use crate::recipe::*;
-use crate::units::{BodyDirection, HandChoice, RecipeLength, UnitError};
+use crate::units::{BodyDirection, HandChoice, RecipeLength, RecipeSeconds, UnitError};
 use chereme_sign::query::TokenQuery;
 
 const MAX_PARSE_DEPTH: usize = 32;
@@ -477,7 +477,7 @@ impl RecipeParser<'_> {
     }
 
     /// Reads two times with two dots between; one of them may be missing.
-    pub(crate) fn parse_time_span(&mut self) -> ParsedText<SpanSettings> {
+    pub(crate) fn parse_time_span(&mut self) -> ParsedText<[Option<RecipeSeconds>; 2]> {
         const WANTED_TIME_SPAN: &str = "two times with two dots between, such as 0.4s..1.9s";
         let start = self.at;
         let mut text = String::new();
@@ -498,7 +498,7 @@ impl RecipeParser<'_> {
             self.at = start;
             self.fault_at_position(RecipeTextProblem::Unit(error))
         })?;
-        Ok(SpanSettings { from, to })
+        Ok([from, to])
     }
 
     /// Reads the points of a curve, with `then` between them.

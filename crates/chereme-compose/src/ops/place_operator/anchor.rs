@@ -10,7 +10,7 @@ use crate::body;
 use crate::contact::{self, BodyTouch};
 use crate::ops::say_operator;
 use crate::outcome::NoteSubject;
-use crate::recipe::RecipeHandPoint;
+use crate::recipe_settings::RecipeHandPoint;
 use crate::stroke::SignStroke;
 use crate::work::WorkingClip;
 
