@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::answers::{NodeAnswers, RecipePath};
 use crate::contact::{self, MovementContacts};
 use crate::cue;
-use crate::draft::{DraftPart, KeptStages};
+use crate::draft_stages::{DraftPart, KeptStages};
 use crate::error::{MakeError, StepError};
 use crate::ops::notated_operator::{self, NotationSpelling};
 use crate::ops::{StepOutcome, point, spell, then};

@@ -42,6 +42,7 @@ pub mod cue;
 mod cue_timing;
 mod curve;
 mod draft;
+mod draft_stages;
 mod error;
 mod evaluate;
 mod explain;
@@ -49,7 +50,6 @@ mod face;
 #[cfg(test)]
 #[path = "../../../tests/shared/golden.rs"]
 mod golden;
-mod json;
 mod language;
 mod learn;
 mod lookup;
@@ -74,7 +74,6 @@ mod transfer;
 pub mod units;
 mod work;
 
-pub use check::{MAX_RECIPE_DEPTH, MOST_PARTS};
 pub use cue_timing::{CuePhases, PhaseRule};
 pub use curve::MeasuredSpline;
 pub use draft::RecipeDraft;
@@ -82,7 +81,6 @@ pub use error::{MakeError, MeantName, RecipeError, RecipeTextProblem, SourceErro
 pub use evaluate::{ENGINE_VERSION, evaluate_recipe};
 pub use explain::shorten_step_text;
 pub use face::{FACE_NUMBER_PREFIX, faces_from_curves};
-pub use json::RECIPE_TREE_VERSION;
 pub use language::{BodyLanguageChanges, LanguageValue};
 pub use learn::{CapturedStretch, CourseLearner, bridge_captured_stretch, learn_course};
 pub use lookup::{letters_in, value_in};
@@ -92,7 +90,7 @@ pub use outcome::{
     NoteSubject, StepReport,
 };
 pub use poses::{ExactHandRotations, HandPose, PoseOrigin};
-pub use recipe::Recipe;
+pub use recipe::{MAX_RECIPE_DEPTH, MOST_PARTS, RECIPE_TREE_VERSION, Recipe};
 pub use recipe_inputs::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
 pub use resolve::{ResolvedRecipe, resolve_recipe, restore_recipe_inputs};
 pub use sources::{

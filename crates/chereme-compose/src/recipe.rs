@@ -1,10 +1,19 @@
 //! The tree of a recipe: sources, the operators applied to them, and utterances.
 
+mod recipe_check;
+mod recipe_json;
+mod recipe_parse;
+mod recipe_print;
+#[cfg(test)]
+mod tests;
+
 use serde::{Deserialize, Serialize};
 
 pub use crate::ops::settings::*;
 pub use crate::ops::{FieldSetting, OperatorDescription, OperatorField, Step};
 pub use crate::recipe_settings::*;
+pub use recipe_check::{MAX_RECIPE_DEPTH, MOST_PARTS};
+pub use recipe_json::RECIPE_TREE_VERSION;
 
 /// A description from which movement is generated, as text (`ESCARGOT | configure right U`) and as JSON.
 ///
@@ -13,7 +22,7 @@ pub use crate::recipe_settings::*;
 /// ["reverse"]}}}`. Unknown fields and versions from the future are refused by name. A recipe names its sources and
 /// does not refer to other recipes, so that there are no cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "crate::json::VersionedRecipe", into = "crate::json::VersionedRecipe")]
+#[serde(try_from = "recipe_json::VersionedRecipe", into = "recipe_json::VersionedRecipe")]
 pub struct Recipe {
     pub(crate) root: RecipeNode,
 }
@@ -41,9 +50,6 @@ pub enum RecipeNode {
 }
 
 impl RecipeNode {
-    /// The words that begin sources other than names of signs.
-    pub(crate) const SOURCE_FIRST_WORDS: [&'static str; 5] = ["spell", "point", "cue", "hamnosys", "sigml"];
-
     /// Returns the name of the kind of node, as JSON has it.
     pub(crate) fn node_kind_name(&self) -> &'static str {
         match self {

@@ -1,5 +1,7 @@
 //! Finds and records everything a recipe needs from the outside, so that it gives the same movement again.
 
+mod former_part;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -7,7 +9,6 @@ use chereme_motion::BodySide;
 
 use crate::answers::{AnswerSlot, CorpusAsker, RecipeAnswers, RecipePath};
 use crate::cue::{self};
-use crate::draft::FormerPart;
 use crate::error::{MakeError, StepError};
 use crate::ops::notated_operator::NotationSpelling;
 use crate::ops::{point, spell};
@@ -15,6 +16,8 @@ use crate::recipe::*;
 use crate::recipe_inputs::{MaterialInput, RecipeInput, RecipeInputs};
 use crate::sources::MaterialSigner;
 use crate::sources::{LearnedProfile, MovementMaterial, RecipeSources};
+
+use former_part::FormerPart;
 
 /// The movement of a sign.
 pub(crate) const SIGN_MATERIAL_SLOT: AnswerSlot<MaterialInput> = AnswerSlot::new("sign");

@@ -31,7 +31,7 @@ use crate::work::{JointGroup, WorkingClip};
 pub struct AmplifySettings {
     /// The hands whose movement changes, each about the middle of its own path; hands that touch each other stay
     /// together.
-    #[serde(default = "crate::recipe::both_hands_choice")]
+    #[serde(default = "crate::recipe_settings::both_hands_choice")]
     pub hand: HandChoice,
     /// The factor for distances from the middle of the path.
     pub by: RecipeFactor,

@@ -27,7 +27,7 @@ use crate::recipe_settings::{PostureTransition, TransitionProfile, ValueChoice};
 use crate::sources::LearnedProfile;
 use crate::sources::MaterialSigner;
 use crate::stroke::SignStroke;
-use crate::text::{ParsedText, RecipeParser, write_separated_list};
+use crate::text::{ParsedText, RecipeParser, RecipeTokenKind, write_separated_list};
 use crate::units::HandChoice;
 
 /// Settings of `configure right U`, `configure both from LION`, `configure right U, S`.
@@ -35,7 +35,7 @@ use crate::units::HandChoice;
 #[serde(deny_unknown_fields)]
 pub struct ConfigureSettings {
     /// The hands that change.
-    #[serde(default = "crate::recipe::dominant_hand_choice")]
+    #[serde(default = "crate::recipe_settings::dominant_hand_choice")]
     pub hand: HandChoice,
     /// One value for the whole sign, or one for each of its successive configurations.
     pub values: Vec<ValueChoice>,
@@ -95,7 +95,7 @@ impl OperatorSyntax for ConfigureSettings {
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let hand = parser.parse_hand_choice().unwrap_or(HandChoice::Dominant);
         let mut values = vec![parser.parse_value_choice()?];
-        while parser.accept_comma() {
+        while parser.accept_kind(RecipeTokenKind::Comma) {
             values.push(parser.parse_value_choice()?);
         }
         let via = parser.parse_transition()?.unwrap_or_default();

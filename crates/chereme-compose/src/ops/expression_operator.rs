@@ -10,9 +10,9 @@ use chereme_sign::milestones::{
 };
 
 use crate::error::StepError;
+use crate::ops::nonmanual_operator::{ExpressionTimes, NonmanualSettings};
 use crate::ops::retarget::{self, TargetBody};
 use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
-use crate::recipe::{ExpressionTimes, NonmanualSettings};
 use crate::recipe_inputs::ExpressionInput;
 use crate::sources::MovementMaterial;
 use crate::work::{JointGroup, WorkingClip, find_joint_groups};

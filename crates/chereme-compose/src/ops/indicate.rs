@@ -34,7 +34,7 @@ use crate::work::{JointColumns, WorkingClip};
 #[serde(deny_unknown_fields)]
 pub struct IndicateSettings {
     /// The hands that move; a hand that stays still, away from the other, keeps its place.
-    #[serde(default = "crate::recipe::both_hands_choice")]
+    #[serde(default = "crate::recipe_settings::both_hands_choice")]
     pub hand: HandChoice,
     /// The start of the movement; `None` keeps it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,7 +51,6 @@ const INDICATE_END_SLOTS: [AnswerSlot<PlaceInput>; 2] =
 impl OperatorSyntax for IndicateSettings {
     const OPERATOR_NAME: &'static str = "indicate";
     const OPERATOR_WORDS: &'static [&'static str] = &["from", "to"];
-    const OPERATOR_KEYWORDS: &'static [&'static str] = &["me", "you"];
     const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
         title: InterfaceText::new("Direct", "Diriger"),
         hint: InterfaceText::new(

@@ -78,7 +78,7 @@ impl StepOperator for Swap {
 #[serde(deny_unknown_fields)]
 pub struct MirrorSettings {
     /// The arm whose movement the other arm takes; never both.
-    #[serde(default = "crate::recipe::dominant_hand_choice")]
+    #[serde(default = "crate::recipe_settings::dominant_hand_choice")]
     pub from: HandChoice,
 }
 

@@ -95,8 +95,6 @@ pub(crate) trait OperatorSyntax: StepOperator + Sized {
     const OPERATOR_DESCRIPTION: OperatorDescription;
     /// The words that begin the text.
     const OPERATOR_WORDS: &'static [&'static str] = &[Self::OPERATOR_NAME];
-    /// Further words with a meaning; names that equal one of them are quoted.
-    const OPERATOR_KEYWORDS: &'static [&'static str] = &[];
 
     /// Reads the settings after `word`, the word that began the operator.
     fn parse_operator_text(parser: &mut RecipeParser<'_>, word: &str) -> ParsedText<Self>;
@@ -219,13 +217,11 @@ macro_rules! operators {
                 }
             }
 
-            /// The words that begin operators, and all other words with a meaning in one.
-            pub(crate) const SPELLINGS: &'static [(&'static [&'static str], &'static [&'static str])] = &[
-                $((
-                    <operators!(@type $module $name $($settings)?)>::OPERATOR_WORDS,
-                    <operators!(@type $module $name $($settings)?)>::OPERATOR_KEYWORDS,
-                )),*
-            ];
+            /// Returns the words that begin operators, in the order of the list.
+            #[must_use]
+            pub fn operator_first_words() -> Vec<&'static str> {
+                [$(<operators!(@type $module $name $($settings)?)>::OPERATOR_WORDS),*].concat()
+            }
 
             /// Reads the operator that `word` begins; `None` for other words.
             pub(crate) fn parse(parser: &mut RecipeParser<'_>, word: &str) -> Option<ParsedText<Self>> {
@@ -289,15 +285,6 @@ operators! {
 }
 
 impl Step {
-    /// Returns the words that begin operators, in the order of the list.
-    #[must_use]
-    pub fn operator_first_words() -> Vec<&'static str> {
-        Self::SPELLINGS
-            .iter()
-            .flat_map(|(words, _)| words.iter().copied())
-            .collect()
-    }
-
     /// Refuses settings that could never be evaluated.
     ///
     /// # Errors

@@ -20,14 +20,13 @@ use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
-use crate::ops::cut::{self, CutEnds};
+use crate::ops::cut::{self, CutEnds, SpanSettings};
 use crate::ops::{
     FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, expression_operator,
 };
-use crate::recipe::SpanSettings;
 use crate::recipe_inputs::{ExpressionInput, MaterialInput};
 use crate::sources::MaterialSigner;
-use crate::text::{ParsedText, QuotedName, RecipeParser, write_separated_list};
+use crate::text::{ParsedText, QuotedName, RecipeParser, RecipeTokenKind, write_separated_list};
 use crate::units::RecipeSeconds;
 
 /// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of `nonmanual wh
@@ -83,7 +82,6 @@ impl NonmanualSettings {
 
 impl OperatorSyntax for NonmanualSettings {
     const OPERATOR_NAME: &'static str = "nonmanual";
-    const OPERATOR_KEYWORDS: &'static [&'static str] = &["over", "phases"];
     const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
         title: InterfaceText::new("Face and head", "Visage et tête"),
         hint: InterfaceText::new("head and face of another sign", "tête et visage d’un autre signe"),
@@ -174,7 +172,7 @@ fn parse_expression_times(parser: &mut RecipeParser<'_>) -> ParsedText<Expressio
             break;
         };
         times.push(time);
-        if times.len() < 5 && !parser.accept_comma() {
+        if times.len() < 5 && !parser.accept_kind(RecipeTokenKind::Comma) {
             break;
         }
     }

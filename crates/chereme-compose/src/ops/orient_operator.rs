@@ -32,7 +32,7 @@ use crate::units::{BodyDirection, HandChoice, RecipeDegrees};
 #[serde(deny_unknown_fields)]
 pub struct OrientSettings {
     /// The hands that turn.
-    #[serde(default = "crate::recipe::dominant_hand_choice")]
+    #[serde(default = "crate::recipe_settings::dominant_hand_choice")]
     pub hand: HandChoice,
     /// The direction of the palm in the middle of the sign.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -57,7 +57,6 @@ pub struct AxisTurn {
 
 impl OperatorSyntax for OrientSettings {
     const OPERATOR_NAME: &'static str = "orient";
-    const OPERATOR_KEYWORDS: &'static [&'static str] = &["palm", "fingers", "about"];
     const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
         title: InterfaceText::new("Orientation", "Orientation"),
         hint: InterfaceText::new("the hands turned", "les mains tournées"),

@@ -39,7 +39,7 @@ use anchor::find_placement_anchor;
 pub struct PlaceSettings {
     /// The hands that move; two hands move by the same displacement, but each to its own side of a place on both
     /// sides, such as a shoulder.
-    #[serde(default = "crate::recipe::both_hands_choice")]
+    #[serde(default = "crate::recipe_settings::both_hands_choice")]
     pub hand: HandChoice,
     /// The goal.
     pub to: PlacementGoal,
@@ -79,7 +79,6 @@ const PLACE_GOAL_SLOT: AnswerSlot<PlaceInput> = AnswerSlot::new("place/to");
 
 impl OperatorSyntax for PlaceSettings {
     const OPERATOR_NAME: &'static str = "place";
-    const OPERATOR_KEYWORDS: &'static [&'static str] = &["near", "using"];
     const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
         title: InterfaceText::new("Place", "Emplacement"),
         hint: InterfaceText::new("the hands elsewhere", "les mains ailleurs"),

@@ -54,7 +54,6 @@ const REPEAT_COURSE_SLOT: AnswerSlot<LearnedProfile> = AnswerSlot::new("repeat/v
 
 impl OperatorSyntax for RepeatSettings {
     const OPERATOR_NAME: &'static str = "repeat";
-    const OPERATOR_KEYWORDS: &'static [&'static str] = &["scale", "tempo", "gap"];
     const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
         title: InterfaceText::new("Repeat", "Répéter"),
         hint: InterfaceText::new("again and again", "encore et encore"),

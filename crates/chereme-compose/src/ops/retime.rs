@@ -18,7 +18,7 @@ use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{OperatorSyntax, StepOperator, StepOutcome};
-use crate::text::{ParsedText, RecipeParser, write_separated_list};
+use crate::text::{ParsedText, RecipeParser, RecipeTokenKind, write_separated_list};
 use crate::units::{RecipeFactor, RecipeSeconds};
 
 /// Settings of `retime 150%`, `retime to 2s`, `retime 100%, 50%, to 1s`.
@@ -79,7 +79,7 @@ impl OperatorSyntax for RetimeSettings {
             } else {
                 RetimePace::Times(parser.parse_quantity("a factor, such as 150%, or \"to\" and a time")?)
             });
-            if !parser.accept_comma() {
+            if !parser.accept_kind(RecipeTokenKind::Comma) {
                 return Ok(Self { paces });
             }
         }

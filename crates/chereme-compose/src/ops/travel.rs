@@ -38,7 +38,7 @@ use crate::units::{BodyDirection, HandChoice};
 #[serde(deny_unknown_fields)]
 pub struct TravelSettings {
     /// The hands that travel.
-    #[serde(default = "crate::recipe::dominant_hand_choice")]
+    #[serde(default = "crate::recipe_settings::dominant_hand_choice")]
     pub hand: HandChoice,
     /// The legs, one after another; those without a time share the remaining time by their length, no faster than people
     /// sign. The sign becomes longer if it has less time than its path.

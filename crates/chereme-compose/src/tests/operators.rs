@@ -365,7 +365,7 @@ fn every_operator_of_the_list_has_one_name_and_its_own_words() {
 fn a_sign_named_like_a_recipe_keyword_is_quoted() {
     for word in crate::recipe::Step::operator_first_words()
         .into_iter()
-        .chain(["cue", "scale", "then"])
+        .chain(["cue", "near", "over", "palm", "scale", "me", "then"])
     {
         let sign = crate::recipe::RecipeNode::Sign(word.to_owned());
         let text = sign.to_string();

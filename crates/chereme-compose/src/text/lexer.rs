@@ -16,7 +16,7 @@ pub(super) struct RecipeTextToken {
 
 /// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum RecipeTokenKind {
+pub(crate) enum RecipeTokenKind {
     Word,
     Quoted,
     Query,

@@ -1,36 +1,15 @@
-//! Parses a recipe's text into the tree.
+//! Reads names, quantities and settings of a recipe's text, word by word.
 
 use std::str::FromStr;
 
 use super::lexer::{RecipeTextToken, RecipeTokenKind, lex_recipe_text, text_fault_at};
 use crate::cue_timing::PhaseRule;
-use crate::error::{RecipeError, RecipeTextProblem, TextError};
-use crate::recipe::*;
+use crate::error::{RecipeTextProblem, TextError};
+use crate::recipe_settings::*;
 use crate::units::{BodyDirection, HandChoice, RecipeLength, RecipeSeconds, UnitError};
 use chereme_sign::query::TokenQuery;
 
 const MAX_PARSE_DEPTH: usize = 32;
-
-impl FromStr for Recipe {
-    type Err = RecipeError;
-
-    fn from_str(text: &str) -> Result<Self, RecipeError> {
-        let tokens = lex_recipe_text(text)?;
-        let mut parser = RecipeParser {
-            text,
-            tokens,
-            at: 0,
-            depth: 0,
-        };
-        let root = parser.parse_sequence()?;
-        if parser.peek_recipe_token().is_some() {
-            return Err(parser
-                .expected_text_error("\"|\", \"then\" or the end", &["then"])
-                .into());
-        }
-        Self::new(root)
-    }
-}
 
 /// A parsed value, or the fault and its place.
 pub(crate) type ParsedText<T> = Result<T, TextError>;
@@ -43,82 +22,37 @@ pub(crate) struct RecipeParser<'a> {
     depth: usize,
 }
 
-impl RecipeParser<'_> {
-    fn parse_sequence(&mut self) -> ParsedText<RecipeNode> {
+impl<'a> RecipeParser<'a> {
+    /// Returns a parser at the start of a text.
+    pub(crate) fn for_recipe_text(text: &'a str) -> ParsedText<Self> {
+        Ok(Self {
+            text,
+            tokens: lex_recipe_text(text)?,
+            at: 0,
+            depth: 0,
+        })
+    }
+
+    /// Enters one more level of parentheses.
+    pub(crate) fn enter_parentheses(&mut self) -> ParsedText<()> {
         self.depth += 1;
         if self.depth > MAX_PARSE_DEPTH {
             return Err(self.fault_at_position(RecipeTextProblem::TooDeep(MAX_PARSE_DEPTH)));
         }
-        let first = self.parse_pipe()?;
-        let mut next = Vec::new();
-        while self.accept_word("then") {
-            let via = self.parse_transition()?.unwrap_or_default();
-            let node = self.parse_pipe()?;
-            next.push(JoinedPiece { via, node });
-        }
+        Ok(())
+    }
+
+    /// Leaves a level of parentheses.
+    pub(crate) fn leave_parentheses(&mut self) {
         self.depth -= 1;
-        Ok(if next.is_empty() {
-            first
-        } else {
-            RecipeNode::Then(RecipeChain {
-                first: Box::new(first),
-                next,
-            })
-        })
     }
 
-    fn parse_pipe(&mut self) -> ParsedText<RecipeNode> {
-        let of = self.parse_source()?;
-        let mut steps = Vec::new();
-        while self.accept_kind(RecipeTokenKind::Pipe) {
-            steps.push(self.parse_operator_step()?);
-        }
-        Ok(if steps.is_empty() {
-            of
-        } else {
-            RecipeNode::Pipe(OperatorPipe {
-                of: Box::new(of),
-                steps,
-            })
-        })
+    /// Returns whether nothing is left.
+    pub(crate) fn is_at_text_end(&self) -> bool {
+        self.peek_recipe_token().is_none()
     }
 
-    fn parse_source(&mut self) -> ParsedText<RecipeNode> {
-        if self.accept_kind(RecipeTokenKind::Open) {
-            let inside = self.parse_sequence()?;
-            if !self.accept_kind(RecipeTokenKind::Close) {
-                return Err(self.expected_text_error("\")\"", &[]));
-            }
-            return Ok(inside);
-        }
-        if self.accept_word("spell") {
-            return self.parse_spell_source();
-        }
-        if self.accept_word("point") {
-            return self.parse_point_source();
-        }
-        if self.accept_word("cue") {
-            return self.parse_cue_source();
-        }
-        if self.accept_word("hamnosys") {
-            let notation = self.parse_notation_source("the symbols of a sign, in quotes")?;
-            return Ok(RecipeNode::Hamnosys(notation));
-        }
-        if self.accept_word("sigml") {
-            let notation = self.parse_notation_source("a SiGML file or a notated sign")?;
-            return Ok(RecipeNode::Sigml(notation));
-        }
-        if self
-            .current_word()
-            .is_some_and(|word| Step::operator_first_words().contains(&word))
-        {
-            return Err(self.expected_text_error("a sign, \"spell\", \"point\" or \"(\"", &[]));
-        }
-        self.parse_recipe_name("a sign, \"spell\", \"point\" or \"(\"")
-            .map(RecipeNode::Sign)
-    }
-
-    fn parse_notation_source(&mut self, what: &'static str) -> ParsedText<NotationSettings> {
+    pub(crate) fn parse_notation_settings(&mut self, what: &'static str) -> ParsedText<NotationSettings> {
         let mut notation = NotationSettings {
             of: self.parse_recipe_name(what)?,
             language: None,
@@ -136,7 +70,7 @@ impl RecipeParser<'_> {
         }
     }
 
-    fn parse_spell_source(&mut self) -> ParsedText<RecipeNode> {
+    pub(crate) fn parse_spell_settings(&mut self) -> ParsedText<SpellSettings> {
         let mut spell = SpellSettings {
             word: self.parse_recipe_name("the word to spell")?,
             hand: HandChoice::Dominant,
@@ -157,12 +91,12 @@ impl RecipeParser<'_> {
             } else if let Some(via) = self.parse_transition()? {
                 spell.via = via;
             } else {
-                return Ok(RecipeNode::Spell(spell));
+                return Ok(spell);
             }
         }
     }
 
-    fn parse_cue_source(&mut self) -> ParsedText<RecipeNode> {
+    pub(crate) fn parse_cue_settings(&mut self) -> ParsedText<CueSettings> {
         let mut cue = CueSettings {
             text: self.parse_recipe_name("the text to cue, in quotes")?,
             phones: None,
@@ -195,12 +129,12 @@ impl RecipeParser<'_> {
             } else if self.accept_word("on") {
                 cue.on = Some(self.parse_recipe_name("a signer")?);
             } else {
-                return Ok(RecipeNode::Cue(cue));
+                return Ok(cue);
             }
         }
     }
 
-    fn parse_point_source(&mut self) -> ParsedText<RecipeNode> {
+    pub(crate) fn parse_point_settings(&mut self) -> ParsedText<PointSettings> {
         let hand = self.parse_hand_choice().unwrap_or(HandChoice::Dominant);
         self.expect_word("at", "a hand or \"at\"")?;
         let mut point = PointSettings {
@@ -221,20 +155,9 @@ impl RecipeParser<'_> {
             } else if let Some(via) = self.parse_transition()? {
                 point.via = via;
             } else {
-                return Ok(RecipeNode::Point(point));
+                return Ok(point);
             }
         }
-    }
-
-    fn parse_operator_step(&mut self) -> ParsedText<Step> {
-        if let Some(word) = self.current_word().map(str::to_owned) {
-            self.at += 1;
-            if let Some(step) = Step::parse(self, &word) {
-                return step;
-            }
-            self.at -= 1;
-        }
-        Err(self.expected_text_error("an operator", &Step::operator_first_words()))
     }
 
     pub(crate) fn parse_value_choice(&mut self) -> ParsedText<ValueChoice> {
@@ -556,12 +479,8 @@ impl RecipeParser<'_> {
         is_match
     }
 
-    /// Reads a comma if one is next.
-    pub(crate) fn accept_comma(&mut self) -> bool {
-        self.accept_kind(RecipeTokenKind::Comma)
-    }
-
-    fn accept_kind(&mut self, kind: RecipeTokenKind) -> bool {
+    /// Reads a sign of this kind if one is next.
+    pub(crate) fn accept_kind(&mut self, kind: RecipeTokenKind) -> bool {
         let is_match = self.peek_recipe_token().is_some_and(|token| token.kind == kind);
         self.at += usize::from(is_match);
         is_match

@@ -1,73 +1,22 @@
-//! Prints the tree as text.
+//! Prints names and settings as they stand in a recipe.
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::recipe::*;
+use crate::recipe_settings::*;
 use crate::units::{BodyDirection, HandChoice, RecipeLength};
 
-impl Display for Recipe {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.root)
-    }
-}
-
-impl Display for RecipeNode {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Sign(address) => write!(f, "{}", QuotedName(address)),
-            Self::Spell(spell) => write!(f, "{spell}"),
-            Self::Point(point) => write!(f, "{point}"),
-            Self::Cue(cue) => write!(f, "{cue}"),
-            Self::Hamnosys(notation) => write!(f, "hamnosys {notation}"),
-            Self::Sigml(notation) => write!(f, "sigml {notation}"),
-            Self::Pipe(pipe) => {
-                write_node_within(f, &pipe.of, matches!(*pipe.of, Self::Then(_)))?;
-                pipe.steps.iter().try_for_each(|step| write!(f, " | {step}"))
-            }
-            Self::Then(then) => {
-                write_node_within(f, &then.first, false)?;
-                then.next.iter().try_for_each(|joined| {
-                    write!(f, " then{} ", joined.via)?;
-                    write_node_within(f, &joined.node, matches!(joined.node, Self::Then(_)))
-                })
-            }
-        }
-    }
-}
-
-fn write_node_within(f: &mut Formatter<'_>, node: &RecipeNode, parentheses: bool) -> fmt::Result {
-    if parentheses {
-        write!(f, "({node})")
-    } else {
-        write!(f, "{node}")
-    }
-}
-
-/// Words with a meaning in several places; as names they are quoted, and so are the words of operators.
-const RESERVED_RECIPE_WORDS: [&str; 14] = [
-    "then",
-    "via",
-    "with",
-    "on",
-    "hold",
-    "by",
-    "at",
-    "_",
-    "best",
-    "in",
-    "out",
-    "about",
-    "forwards",
-    "backwards",
+/// Every word with a meaning somewhere in recipes; as a name it is quoted.
+#[rustfmt::skip]
+const RESERVED_RECIPE_WORDS: [&str; 45] = [
+    // Words of several places.
+    "then", "via", "with", "on", "hold", "by", "at", "_", "best", "in", "out", "about", "forwards", "backwards",
+    // The words that begin sources.
+    "spell", "point", "cue", "hamnosys", "sigml",
+    // The words that begin operators, which a test compares with the list of operators, and those inside their settings.
+    "configure", "place", "orient", "travel", "amplify", "repeat", "reverse", "swap", "mirror", "retime",
+    "span", "trim", "from", "to", "nonmanual",
+    "near", "using", "palm", "fingers", "scale", "tempo", "gap", "me", "you", "over", "phases",
 ];
-
-/// Returns whether a word has a meaning somewhere in recipes.
-fn is_reserved(word: &str) -> bool {
-    let mut operators = Step::SPELLINGS.iter();
-    RESERVED_RECIPE_WORDS.contains(&word)
-        || RecipeNode::SOURCE_FIRST_WORDS.contains(&word)
-        || operators.any(|(words, keywords)| words.contains(&word) || keywords.contains(&word))
-}
 
 /// A name in the spelling of recipes: plain if possible, else quoted.
 pub(crate) struct QuotedName<'a>(pub(crate) &'a str);
@@ -93,7 +42,7 @@ fn is_plain(name: &str) -> bool {
     let special = |c: char| c.is_whitespace() || "|,()\"".contains(c);
     !name.is_empty()
         && !name.contains(special)
-        && !is_reserved(name)
+        && !RESERVED_RECIPE_WORDS.contains(&name)
         && BodyDirection::from_word(name).is_none()
         && HandChoice::from_word(name).is_none()
 }

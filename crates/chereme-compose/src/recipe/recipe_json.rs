@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::{Recipe, RecipeNode};
 use crate::error::RecipeError;
-use crate::recipe::{Recipe, RecipeNode};
 
 /// The version of the tree that this engine reads and writes.
 pub const RECIPE_TREE_VERSION: u64 = 1;
