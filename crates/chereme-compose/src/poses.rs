@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::StepError;
 use crate::recipe_settings::ValueChoice;
-use crate::sources::MaterialSigner;
-use crate::sources::{ComponentValue, MovementMaterial, RecipeSources, TokenExample, ValueMeaning};
+use crate::sources::{ComponentValue, MaterialSigner, MovementMaterial, RecipeSources, TokenExample, ValueMeaning};
 
 /// A chosen posture of the hand.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

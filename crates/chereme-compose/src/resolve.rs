@@ -14,8 +14,7 @@ use crate::ops::notated_operator::NotationSpelling;
 use crate::ops::{point, spell};
 use crate::recipe::*;
 use crate::recipe_inputs::{MaterialInput, RecipeInput, RecipeInputs};
-use crate::sources::MaterialSigner;
-use crate::sources::{LearnedProfile, MovementMaterial, RecipeSources};
+use crate::sources::{LearnedProfile, MaterialSigner, MovementMaterial, RecipeSources};
 
 use former_part::FormerPart;
 

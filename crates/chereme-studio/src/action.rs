@@ -1,7 +1,7 @@
 //! The table of everything that keys, menus and the command palette can request; each row is an [`Action`].
 //!
 //! An action has no data; its object is the selection. To add one, write a row into [`table`] and a match arm in the code
-//! of its [`ActionOwner`]; an action that only shows a pane or runs a use case needs no arm.
+//! of its [`ActionOwner`]; an action that only shows a pane needs no arm.
 
 /// Declares the actions.
 macro_rules! actions {
@@ -42,12 +42,9 @@ macro_rules! actions {
 
 mod action_table;
 
-use crate::context::PaneInput;
-use crate::keys::DefaultKeymap;
-use crate::keys::chord::KeyChord;
-use crate::panes::PaneKind;
+use crate::key_chord::{DefaultKeymap, KeyChord};
+use crate::layout::PaneKind;
 use crate::words::InterfaceText;
-use crate::work::CorpusJob;
 
 pub(crate) use action_table::{ACTIONS, Action};
 
@@ -105,8 +102,6 @@ pub(crate) enum ActionOwner {
     Player,
     /// The window, with a corpus open.
     WithCorpus,
-    /// The window, which runs the use case that the function returns for what is selected, or shows why it cannot be run.
-    Runs(fn(&PaneInput<'_>) -> Result<CorpusJob, InterfaceText>),
     /// The pane of this kind.
     In(PaneKind),
 }

@@ -8,22 +8,23 @@ use chereme_motion::RecordingInstant;
 use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui, ViewportCommand};
 use egui_tiles::Tree;
 
-use crate::StudioOptions;
 use crate::action::Action;
 use crate::clipboard::WindowClipboard;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, DisplayState, PaneInput};
-use crate::draft::DraftFile;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::file_dialogs::{ChooserResult, FileChooser};
 use crate::film::RecordingFilms;
 use crate::keys::ActionKeys;
 use crate::keys::queue::KeyQueue;
+use crate::layout::PaneKind;
 use crate::miniatures::MiniatureFigures;
 use crate::model::CorpusSnapshot;
+use crate::model::display_state::DisplayState;
 use crate::model::reel::MovementReel;
 use crate::overlay::WindowOverlays;
+use crate::panes::PaneSet;
 use crate::panes::carry::{self, TabSpring};
-use crate::panes::{PaneKind, PaneSet};
+use crate::panes::timeline::draft_file::DraftFile;
 use crate::script::script_fonts::UnreportedScripts;
 use crate::settings::{StudioFolders, StudioSettings};
 use crate::start::StartPage;
@@ -32,7 +33,7 @@ use crate::work::begin::{CorpusOpening, OpeningInProgress};
 use crate::work::desk::{CorpusDesk, DeskNews, WindowWaker};
 use crate::work::{WorkLane, WorkOutcome, movement_jobs};
 use crate::workbench::TileWorkbench;
-use crate::{layout, theme};
+use crate::{StudioOptions, layout, script, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
 pub struct Studio {
@@ -169,6 +170,7 @@ impl Studio {
         let ctx = ui.ctx().clone();
         if self.ctx.set(ctx.clone()).is_ok() {
             theme::install_studio_theme(&ctx);
+            script::install_script_support(&ctx);
         }
         theme::apply_theme_settings(&ctx, &self.settings);
         self.fit_layout_to_window(ctx.content_rect().size());

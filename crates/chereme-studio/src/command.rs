@@ -1,4 +1,4 @@
-//! Every possible request, as one value: menus, keys, palette and panes send the same commands.
+//! Every possible request, as one value: menus, keys, palette and panes send the same commands; the requests of a frame.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -8,14 +8,12 @@ use chereme_corpus::recipe::{PlacementGoal, RecipeLength};
 use chereme_motion::{RecordingInstant, TimeSpan};
 
 use crate::action::Action;
-use crate::file_dialogs::ChooserPurpose;
+use crate::model::InspectedThing;
 use crate::model::generated::GeneratedClip;
 use crate::model::model_handle::{PlacementHandle, TravelCourse};
-use crate::panes::DraggedToken;
-use crate::panes::inspector::InspectedThing;
-use crate::panes::stage::StageSettings;
+use crate::settings::stage_settings::StageSettings;
 use crate::settings::{SearchHistory, StudioSettings};
-use crate::words::InterfaceText;
+use crate::words::{InterfaceText, agreement, shell as words, studies_words};
 use crate::work::begin::CorpusOpening;
 use crate::work::{CorpusJob, WorkId};
 
@@ -50,7 +48,7 @@ pub(crate) enum WindowCommand {
     Seek(RecordingInstant),
     /// Move the playhead of the stage, even if it shows generated movement.
     Cue(RecordingInstant),
-    /// Note the placement value that was clicked on the body: [`DisplayState::spot`](crate::context::DisplayState::spot).
+    /// Note the placement value that was clicked on the body: [`DisplayState::spot`](crate::model::display_state::DisplayState::spot).
     Spot(Option<String>),
     /// Play at that multiple of the recorded speed.
     Speed(f64),
@@ -58,10 +56,10 @@ pub(crate) enum WindowCommand {
     /// something in a recording end it too.
     Made(Option<Arc<GeneratedClip>>),
     /// Set the placement that can be dragged on the stage, or `None` to remove it:
-    /// [`DisplayState::handle`](crate::context::DisplayState::handle).
+    /// [`DisplayState::handle`](crate::model::display_state::DisplayState::handle).
     Handle(Option<PlacementHandle>),
     /// Set the path that can be pulled on the stage, or `None` to remove it:
-    /// [`DisplayState::course`](crate::context::DisplayState::course).
+    /// [`DisplayState::course`](crate::model::display_state::DisplayState::course).
     Course(Option<Box<TravelCourse>>),
     /// Change the path of a card, which was pulled or drawn: the card's number, and the points of the path as lengths
     /// to the left, up and forward.
@@ -104,4 +102,143 @@ pub(crate) enum WindowCommand {
     Notify(String, InterfaceText),
     /// Dismiss a notice.
     Dismiss(u64),
+}
+
+/// The purpose of a chooser, which decides how the chosen path is used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ChooserPurpose {
+    /// A corpus to open.
+    Corpus,
+    /// Where to create a new corpus.
+    NewCorpus,
+    /// Where to save a copy of the open corpus.
+    Copy,
+    /// A folder to make a corpus of.
+    CorpusOfFolder,
+    /// Files to import into the open corpus.
+    Files,
+    /// A folder to import into the open corpus.
+    Folder,
+    /// A corpus to merge into the open one.
+    Merge,
+    /// A folder for the questionnaire of a study.
+    Questionnaire,
+    /// Files of answers to a study.
+    Answers,
+    /// Where to write the report of a study.
+    Report,
+    /// A table of trials for the plan of a study.
+    Trials,
+    /// A map of the columns of tables with one participant a row.
+    Columns,
+    /// The file of a plan of a study.
+    Plan,
+    /// Where to write the plan of a study.
+    SavePlan,
+    /// Where to write the answers to a study.
+    AnswersTable,
+    /// Where to write the disagreements of two annotators.
+    Disagreements,
+    /// A media file for the recording with that row id; it replaces the track with the given row id, if any.
+    Media(i64, Option<i64>),
+}
+
+impl ChooserPurpose {
+    /// Returns the title of the chooser.
+    pub(crate) fn chooser_title(self) -> InterfaceText {
+        match self {
+            Self::Corpus => words::START_OPEN,
+            Self::NewCorpus => words::START_NEW,
+            Self::Copy => words::SAVE_COPY,
+            Self::CorpusOfFolder | Self::Folder => words::START_IMPORT,
+            Self::Files => words::CHOOSE_FILES,
+            Self::Merge => words::CHOOSE_CORPUS,
+            Self::Questionnaire => studies_words::FOLDER,
+            Self::Answers => studies_words::DISK_FILES,
+            Self::Report => studies_words::REPORT_PATH,
+            Self::Trials => studies_words::CHOOSE_TABLE,
+            Self::Columns => studies_words::CHOOSE_MAP,
+            Self::Plan => studies_words::PLAN_OF_FILE,
+            Self::SavePlan => studies_words::PLAN_FILE,
+            Self::AnswersTable => studies_words::ANSWERS_TABLE,
+            Self::Disagreements => agreement::TABLE_FILE,
+            Self::Media(..) => words::CHOOSE_MEDIA,
+        }
+    }
+
+    /// Returns the command that uses the chosen paths; `None` without a path.
+    pub(crate) fn command_for_paths(self, mut paths: Vec<PathBuf>) -> Option<WindowCommand> {
+        let first = match self {
+            Self::Files | Self::Folder | Self::Merge if !paths.is_empty() => {
+                return Some(WindowCommand::Import(paths));
+            }
+            _ if paths.is_empty() => return None,
+            Self::Questionnaire
+            | Self::Answers
+            | Self::Report
+            | Self::Trials
+            | Self::Columns
+            | Self::Plan
+            | Self::SavePlan
+            | Self::AnswersTable
+            | Self::Disagreements => {
+                return Some(WindowCommand::Studied(self, paths));
+            }
+            Self::Media(recording, track) => {
+                return Some(WindowCommand::Media(recording, track, paths.swap_remove(0)));
+            }
+            Self::Copy => return Some(WindowCommand::SaveCopy(paths.swap_remove(0))),
+            _ => paths.swap_remove(0),
+        };
+        Some(WindowCommand::Begin(match self {
+            Self::NewCorpus => CorpusOpening::New(first),
+            Self::CorpusOfFolder => CorpusOpening::Folder(first),
+            _ => CorpusOpening::Open(first),
+        }))
+    }
+}
+
+/// A token that is dragged from one pane to another: the payload of egui's drag and drop.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct DraggedToken {
+    pub(crate) token: i64,
+    pub(crate) gloss: String,
+}
+
+/// The requests of a frame; carried out after it, in order.
+#[derive(Debug, Default)]
+pub(crate) struct CommandOutbox {
+    commands: Vec<WindowCommand>,
+    next: u64,
+}
+
+impl CommandOutbox {
+    /// Returns an empty outbox that continues the work numbers of `other`.
+    pub(crate) fn after_outbox(other: &Self) -> Self {
+        Self {
+            commands: Vec::new(),
+            next: other.next,
+        }
+    }
+
+    pub(crate) fn send_command(&mut self, command: WindowCommand) {
+        self.commands.push(command);
+    }
+
+    /// Requests a job, and returns the id that its outcome carries.
+    pub(crate) fn request_work(&mut self, job: CorpusJob) -> WorkId {
+        self.next += 1;
+        let id = WorkId(self.next);
+        self.commands.push(WindowCommand::Work(id, job));
+        id
+    }
+
+    /// Moves the playhead.
+    pub(crate) fn send_seek(&mut self, at: RecordingInstant) {
+        self.commands.push(WindowCommand::Seek(at));
+    }
+
+    pub(crate) fn take_commands(&mut self) -> Vec<WindowCommand> {
+        std::mem::take(&mut self.commands)
+    }
 }

@@ -8,20 +8,19 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::action::{Action, ActionOwner};
 use crate::app::Studio;
-use crate::command::WindowCommand;
-use crate::context::{DisplayState, PaneInput, StageMovement};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, DraggedToken, WindowCommand};
 use crate::keys::ActionKeys;
-use crate::layout::{self, BusyTask};
+use crate::layout::{self, BusyTask, PaneKind};
 use crate::model::CorpusSnapshot;
+use crate::model::display_state::{DisplayState, StageMovement};
 use crate::model::generated::GeneratedClip;
-use crate::panes::{ActionOutcome, DraggedToken, PaneKind, recombine};
+use crate::panes::{ActionOutcome, recombine};
 use crate::player::{OpeningPreview, StagePlayer};
 use crate::settings::ThemeChoice;
 use crate::theme;
-use crate::words::{InterfaceText, shell as words};
+use crate::words::shell as words;
 use crate::work::begin::{CorpusOpening, OpeningInProgress};
-use crate::work::{CorpusJob, recordings_jobs, whole_corpus};
+use crate::work::{recordings_jobs, whole_corpus};
 
 const SECOND_MICROS: i64 = 1_000_000;
 /// Time added on either side of the selection when playing around it, in microseconds; as in ELAN.
@@ -198,8 +197,7 @@ impl Studio {
             ActionOwner::Player => self.act_on_player(action),
             ActionOwner::WithCorpus if self.may_act(action) => self.act_on_corpus(action, ctx),
             ActionOwner::In(pane) if self.may_act(action) => self.act_in(pane, action, ctx),
-            ActionOwner::Runs(use_case) if self.may_act(action) => self.run_use_case(use_case, ctx),
-            ActionOwner::WithCorpus | ActionOwner::In(_) | ActionOwner::Runs(_) => {}
+            ActionOwner::WithCorpus | ActionOwner::In(_) => {}
         }
     }
 
@@ -218,19 +216,12 @@ impl Studio {
         self.desk.is_some()
     }
 
-    /// Runs a use case on the selection, or shows why it cannot be run.
-    fn run_use_case(&mut self, use_case: fn(&PaneInput<'_>) -> Result<CorpusJob, InterfaceText>, ctx: &Context) {
-        match self.pane_input(ctx).map(|seen| use_case(&seen)) {
-            Some(Ok(job)) => {
-                self.out.request_work(job);
-            }
-            Some(Err(text)) => self.out.send_command(WindowCommand::Cannot(text)),
-            None => {}
-        }
-    }
-
     fn act_on_corpus(&mut self, action: Action, ctx: &Context) {
         match action {
+            Action::Check if self.snapshot.is_some() => {
+                self.out
+                    .request_work(whole_corpus::check_corpus_job(!self.is_read_only()));
+            }
             Action::Undo | Action::Redo => self.walk_one(action == Action::Undo),
             Action::ClearSelection => {
                 self.shown.span = None;

@@ -1,5 +1,6 @@
 //! The file choosers of the system, a complement to typed paths, which always work.
 
+use crate::command::ChooserPurpose;
 use std::future::Future;
 use std::path::PathBuf;
 use std::pin::Pin;
@@ -9,48 +10,8 @@ use std::task::{Context, Poll, Wake as TaskWake};
 use rfd::{AsyncFileDialog, FileHandle};
 
 use crate::command::WindowCommand;
-use crate::words::{InterfaceLanguage, InterfaceText, agreement, shell as words, studies_words};
-use crate::work::begin::CorpusOpening;
+use crate::words::{InterfaceLanguage, shell as words};
 use crate::work::desk::WindowWaker;
-
-/// The purpose of a chooser, which decides how the chosen path is used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ChooserPurpose {
-    /// A corpus to open.
-    Corpus,
-    /// Where to create a new corpus.
-    NewCorpus,
-    /// Where to save a copy of the open corpus.
-    Copy,
-    /// A folder to make a corpus of.
-    CorpusOfFolder,
-    /// Files to import into the open corpus.
-    Files,
-    /// A folder to import into the open corpus.
-    Folder,
-    /// A corpus to merge into the open one.
-    Merge,
-    /// A folder for the questionnaire of a study.
-    Questionnaire,
-    /// Files of answers to a study.
-    Answers,
-    /// Where to write the report of a study.
-    Report,
-    /// A table of trials for the plan of a study.
-    Trials,
-    /// A map of the columns of tables with one participant a row.
-    Columns,
-    /// The file of a plan of a study.
-    Plan,
-    /// Where to write the plan of a study.
-    SavePlan,
-    /// Where to write the answers to a study.
-    AnswersTable,
-    /// Where to write the disagreements of two annotators.
-    Disagreements,
-    /// A media file for the recording with that row id; it replaces the track with the given row id, if any.
-    Media(i64, Option<i64>),
-}
 
 /// The chosen paths; empty if nothing was chosen.
 type ChosenPathsFuture = Pin<Box<dyn Future<Output = Vec<PathBuf>> + Send>>;
@@ -122,61 +83,6 @@ impl TaskWake for ChooserWaker {
     }
 }
 
-impl ChooserPurpose {
-    /// Returns the title of the chooser.
-    pub(crate) fn chooser_title(self) -> InterfaceText {
-        match self {
-            Self::Corpus => words::START_OPEN,
-            Self::NewCorpus => words::START_NEW,
-            Self::Copy => words::SAVE_COPY,
-            Self::CorpusOfFolder | Self::Folder => words::START_IMPORT,
-            Self::Files => words::CHOOSE_FILES,
-            Self::Merge => words::CHOOSE_CORPUS,
-            Self::Questionnaire => studies_words::FOLDER,
-            Self::Answers => studies_words::DISK_FILES,
-            Self::Report => studies_words::REPORT_PATH,
-            Self::Trials => studies_words::CHOOSE_TABLE,
-            Self::Columns => studies_words::CHOOSE_MAP,
-            Self::Plan => studies_words::PLAN_OF_FILE,
-            Self::SavePlan => studies_words::PLAN_FILE,
-            Self::AnswersTable => studies_words::ANSWERS_TABLE,
-            Self::Disagreements => agreement::TABLE_FILE,
-            Self::Media(..) => words::CHOOSE_MEDIA,
-        }
-    }
-
-    /// Returns the command that uses the chosen paths; `None` without a path.
-    pub(crate) fn command_for_paths(self, mut paths: Vec<PathBuf>) -> Option<WindowCommand> {
-        let first = match self {
-            Self::Files | Self::Folder | Self::Merge if !paths.is_empty() => {
-                return Some(WindowCommand::Import(paths));
-            }
-            _ if paths.is_empty() => return None,
-            Self::Questionnaire
-            | Self::Answers
-            | Self::Report
-            | Self::Trials
-            | Self::Columns
-            | Self::Plan
-            | Self::SavePlan
-            | Self::AnswersTable
-            | Self::Disagreements => {
-                return Some(WindowCommand::Studied(self, paths));
-            }
-            Self::Media(recording, track) => {
-                return Some(WindowCommand::Media(recording, track, paths.swap_remove(0)));
-            }
-            Self::Copy => return Some(WindowCommand::SaveCopy(paths.swap_remove(0))),
-            _ => paths.swap_remove(0),
-        };
-        Some(WindowCommand::Begin(match self {
-            Self::NewCorpus => CorpusOpening::New(first),
-            Self::CorpusOfFolder => CorpusOpening::Folder(first),
-            _ => CorpusOpening::Open(first),
-        }))
-    }
-}
-
 /// Shows the file chooser of the desktop.
 fn native(what: ChooserPurpose, language: InterfaceLanguage) -> ChosenPathsFuture {
     let dialog = AsyncFileDialog::new().set_title(what.chooser_title().text_in_language(language));
@@ -231,6 +137,7 @@ fn native(what: ChooserPurpose, language: InterfaceLanguage) -> ChosenPathsFutur
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::work::begin::CorpusOpening;
 
     fn ended(show: ShowChooser, what: ChooserPurpose, after: f64) -> ChooserResult {
         let mut chooser = FileChooser { show, open: None };

@@ -1,12 +1,70 @@
-//! The places of the panes.
+//! The panes by name, and their places.
 
 use eframe::egui::{Id, Vec2, vec2};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
-use crate::panes::PaneKind;
+use crate::words::{self, InterfaceText};
 
 const LAYOUT_TREE_ID: &str = "panes";
+
+/// One of the panes; its name is part of stored layouts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PaneKind {
+    Library,
+    Map,
+    Cue,
+    Faces,
+    Agreement,
+    Studies,
+    Stage,
+    Timeline,
+    Search,
+    Recombine,
+    Inspector,
+    History,
+    Import,
+    Film,
+}
+
+impl PaneKind {
+    pub(crate) const ALL_PANE_KINDS: [Self; 14] = [
+        Self::Library,
+        Self::Map,
+        Self::Cue,
+        Self::Faces,
+        Self::Agreement,
+        Self::Studies,
+        Self::Stage,
+        Self::Timeline,
+        Self::Search,
+        Self::Recombine,
+        Self::Inspector,
+        Self::History,
+        Self::Import,
+        Self::Film,
+    ];
+
+    pub(crate) fn pane_title(self) -> InterfaceText {
+        match self {
+            Self::Library => words::library::TITLE,
+            Self::Map => words::map_words::TITLE,
+            Self::Cue => words::cue_words::TITLE,
+            Self::Faces => words::faces_words::TITLE,
+            Self::Agreement => words::agreement::TITLE,
+            Self::Studies => words::studies_words::TITLE,
+            Self::Stage => words::stage_words::TITLE,
+            Self::Timeline => words::timeline::TITLE,
+            Self::Search => words::search_words::TITLE,
+            Self::Recombine => words::recombine_words::TITLE,
+            Self::Inspector => words::inspector::TITLE,
+            Self::History => words::history_words::TITLE,
+            Self::Import => words::import_words::TITLE,
+            Self::Film => words::film_words::TITLE,
+        }
+    }
+}
 
 /// The user's task, which decides the panes that get room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::Studio;
-use crate::command::WindowCommand;
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::overlay::notices::NoticeOffer;
 use crate::words::{fill_text_braces, shell};
 use crate::work::begin::CorpusOpening;

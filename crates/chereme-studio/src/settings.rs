@@ -1,5 +1,8 @@
 //! The settings that the window keeps between sessions: a JSON file in the platform's settings folder.
 
+pub(crate) mod stage_settings;
+pub(crate) mod timeline_settings;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
@@ -8,12 +11,12 @@ use std::path::{Path, PathBuf};
 use egui_tiles::Tree;
 use serde::{Deserialize, Serialize};
 
-use crate::keys::{DefaultKeymap, ReboundKeys};
-use crate::panes::PaneKind;
-use crate::panes::stage::StageSettings;
-use crate::panes::timeline::TimelineSettings;
-use crate::panes::timeline::timeline_data::TimeWindow;
+use crate::key_chord::{DefaultKeymap, ReboundKeys};
+use crate::layout::PaneKind;
+use crate::model::time_window::TimeWindow;
 use crate::player::SteppingSettings;
+use crate::settings::stage_settings::StageSettings;
+use crate::settings::timeline_settings::TimelineSettings;
 use crate::words::InterfaceLanguage;
 
 /// How many recently opened corpora are kept.

@@ -112,7 +112,6 @@ pub(crate) fn hand_theme_colours(dark: bool) -> [Color32; 2] {
 /// Sets up a context once: our fonts and spacing, and shapes that are cheap to draw.
 pub(crate) fn install_studio_theme(ctx: &Context) {
     ctx.set_fonts(fonts());
-    crate::script::install_script_support(ctx);
     ctx.add_plugin(crate::pixel_rects::ShapeSimplifier);
     ctx.style_mut_of(Theme::Light, |style| refine(style, false));
     ctx.style_mut_of(Theme::Dark, |style| refine(style, true));

@@ -7,8 +7,10 @@ use eframe::egui::{
 };
 use egui_tiles::{Behavior, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
 
-use crate::context::{CommandOutbox, PaneInput};
-use crate::panes::{PaneKind, PaneSet, carry, focused_widget};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
+use crate::layout::PaneKind;
+use crate::panes::{PaneSet, carry, focused_widget};
 use crate::words::shell as words;
 
 /// The panes, as drawn by the tile layout.

@@ -10,8 +10,7 @@ use crate::ops::StepOutcome;
 use crate::poses::{self, HandPose};
 use crate::recipe_inputs::MaterialInput;
 use crate::recipe_settings::CueSettings;
-use crate::sources::MaterialSigner;
-use crate::sources::{ComponentValue, ValueMeaning};
+use crate::sources::{ComponentValue, MaterialSigner, ValueMeaning};
 use crate::work::WorkingClip;
 
 /// The body that cues.

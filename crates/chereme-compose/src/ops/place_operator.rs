@@ -24,8 +24,7 @@ use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{OperatorNeighbours, OperatorSyntax, Step, StepOperator, StepOutcome};
 use crate::recipe_settings::StraightLeg;
-use crate::sources::MaterialSigner;
-use crate::sources::MovementMaterial;
+use crate::sources::{MaterialSigner, MovementMaterial};
 use crate::text::{ParsedText, QuotedName, RecipeParser, point_text, write_option, write_separated_list};
 use crate::units::{BodyDirection, HandChoice, RecipeLength};
 

@@ -9,17 +9,13 @@ use crate::arm;
 use crate::body::SignerFrame;
 use crate::course::TransitionCourses;
 use crate::error::StepError;
-use crate::ops::StepOutcome;
 use crate::ops::travel::wrist_path;
-use crate::ops::{join, place_operator};
+use crate::ops::{StepOutcome, join, place_operator};
 use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::poses::{self, HandPose, PoseOrigin};
-use crate::recipe_inputs::MaterialInput;
-use crate::recipe_inputs::PlaceInput;
-use crate::recipe_settings::PointSettings;
-use crate::recipe_settings::TransitionProfile;
-use crate::sources::MaterialSigner;
-use crate::sources::{LearnedProfile, LearnedReaches};
+use crate::recipe_inputs::{MaterialInput, PlaceInput};
+use crate::recipe_settings::{PointSettings, TransitionProfile};
+use crate::sources::{LearnedProfile, LearnedReaches, MaterialSigner};
 use crate::work::{JointGroup, WorkingClip, find_joint_groups};
 
 /// The body that points.

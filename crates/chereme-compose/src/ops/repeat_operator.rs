@@ -17,15 +17,13 @@ use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
-use crate::check;
 use crate::error::RecipeError;
 use crate::ops::{FieldSetting, OperatorField, OperatorSyntax, StepOperator, StepOutcome};
 use crate::recipe_settings::{PostureTransition, TransitionProfile};
-use crate::sources::LearnedProfile;
-use crate::sources::MaterialSigner;
-use crate::stroke;
+use crate::sources::{LearnedProfile, MaterialSigner};
 use crate::text::{ParsedText, RecipeParser, write_option};
 use crate::units::{RecipeFactor, RecipeSeconds};
+use crate::{check, stroke};
 
 /// Settings of `repeat 3 scale 0.8 tempo 1.2 gap 0.1s`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use chereme_motion::glam::{DMat3, DQuat, DVec3};
 use chereme_motion::{BodyAnatomy, BodyPart, BodySide, FrameRate, JointChannel, LocalPose, ModelPose, Skeleton};
 
-use crate::arm;
-use crate::body;
 use crate::contact::{self, ContactEffect, ContactsToKeep};
 use crate::error::StepError;
 use crate::recipe_settings::ArmSolverMethod;
 use crate::work::{JointColumns, WorkingClip};
+use crate::{arm, body};
 
 /// Movement on another skeleton, and its contacts.
 pub(crate) struct TouchingMovement {

@@ -5,23 +5,17 @@ use chereme_motion::{BodySide, TimeSpan};
 use chereme_sign::{ComponentReading, SignComponent};
 
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
-use crate::arm;
 use crate::body::SignerFrame;
 use crate::course::{TransitionCourse, TransitionCourses};
 use crate::error::StepError;
-use crate::ops::StepOutcome;
-use crate::ops::{join, place_operator};
+use crate::ops::{StepOutcome, join, place_operator};
 use crate::outcome::{GeneratedNote, NoteSubject};
-use crate::poses;
-use crate::recipe_inputs::LetterInput;
-use crate::recipe_inputs::MaterialInput;
-use crate::recipe_settings::SpellSettings;
-use crate::recipe_settings::TransitionProfile;
-use crate::sources::LearnedProfile;
-use crate::sources::MaterialSigner;
-use crate::sources::{MedianTime, SpellingTimes};
+use crate::recipe_inputs::{LetterInput, MaterialInput};
+use crate::recipe_settings::{SpellSettings, TransitionProfile};
+use crate::sources::{LearnedProfile, MaterialSigner, MedianTime, SpellingTimes};
 use crate::units::RecipeSeconds;
 use crate::work::{JointGroup, WorkingClip};
+use crate::{arm, poses};
 
 /// The body that spells.
 pub(crate) const SPELL_BODY_SLOT: AnswerSlot<MaterialInput> = AnswerSlot::new("spell");

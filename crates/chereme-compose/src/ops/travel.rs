@@ -27,8 +27,7 @@ use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
 use crate::ops::{OperatorDescription, OperatorSyntax, StepOperator, StepOutcome};
 use crate::recipe_settings::{PostureTransition, TransitionProfile};
-use crate::sources::LearnedProfile;
-use crate::sources::MaterialSigner;
+use crate::sources::{LearnedProfile, MaterialSigner};
 use crate::text::{ParsedText, RecipeParser, point_text, write_option, write_separated_list};
 use crate::units::{BodyDirection, HandChoice};
 

@@ -1,8 +1,7 @@
 //! Tests of the choice of a sign as the source of a value, and that stored choices give the same movement again.
 
 use super::*;
-use crate::evaluate_recipe;
-use crate::resolve_recipe;
+use crate::{evaluate_recipe, resolve_recipe};
 
 #[test]
 fn values_are_replaced_one_by_one_and_joined() {

@@ -1,7 +1,6 @@
 //! A draft gives the same result as an evaluation from scratch, and evaluates only the changed parts.
 
-use crate::evaluate_recipe;
-use crate::resolve_recipe;
+use crate::{evaluate_recipe, resolve_recipe};
 use std::cell::RefCell;
 
 use super::*;

@@ -1,7 +1,6 @@
 //! Pieces that are joined, movement on another body, and the speed that steps add.
 
-use crate::evaluate_recipe;
-use crate::resolve_recipe;
+use crate::{evaluate_recipe, resolve_recipe};
 use std::sync::Arc;
 
 use chereme_motion::glam::DQuat;

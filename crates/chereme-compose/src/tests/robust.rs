@@ -1,8 +1,7 @@
 //! Bodies with missing parts, and operators in any order.
 
 use super::*;
-use crate::evaluate_recipe;
-use crate::resolve_recipe;
+use crate::{evaluate_recipe, resolve_recipe};
 
 /// Returns a shelf whose first sign's body lacks the joints whose names start with `without`.
 fn lacking(without: &str) -> Shelf {

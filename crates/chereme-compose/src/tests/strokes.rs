@@ -1,7 +1,6 @@
 //! Operators change the stroke of a sign: its rests stay, its hands stay together, and each goes to its own side.
 
-use crate::evaluate_recipe;
-use crate::resolve_recipe;
+use crate::{evaluate_recipe, resolve_recipe};
 use chereme_motion::ModelPose;
 use chereme_sign::ComponentReading;
 

@@ -1,11 +1,9 @@
 //! The notes of operators on the signs they generate, and the moment at which a place is measured.
 
 use super::*;
-use crate::LetterStroke;
-use crate::body;
-use crate::evaluate_recipe;
 use crate::recipe_settings::RecipeHandPoint;
 use crate::work::WorkingClip;
+use crate::{LetterStroke, body, evaluate_recipe};
 
 /// The notes on a hand: component, part, value, and the time in milliseconds.
 fn said(made: &GeneratedMovement, side: BodySide, component: SignComponent) -> Vec<(String, String, i64, i64)> {

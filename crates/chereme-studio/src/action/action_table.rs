@@ -2,15 +2,13 @@
 //!
 //! A row: the variant, the name in the settings file, which with `menu-` before it is the id of its words; menu, where its keys count, who
 //! carries it out, whether it changes the corpus (`edits`: annotations at once) and whether a held key repeats it, and the keys of ELAN 6.9, of Praat
-//! and of video editors. Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's. `Runs` holds a use
-//! case on the selection, as a closure that returns its job.
+//! and of video editors. Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's.
 
 use super::{ActionContext, ActionMenu, ActionOwner, ActionRow};
-use crate::panes::PaneKind::{
+use crate::layout::PaneKind::{
     Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Studies, Timeline,
 };
-use crate::words::{InterfaceText, shell};
-use crate::work::{CorpusJob, WorkOutcome};
+use crate::words::InterfaceText;
 
 actions! {
     OpenStarter "file.starter" File, Everywhere, Window, "none" "none" "none";
@@ -22,17 +20,7 @@ actions! {
     MergeCorpus "file.merge" File, Corpus, WithCorpus, changes, "none" "none" "none";
     Export "file.export" File, Corpus, Window, "Ctrl+Shift+E" "=" "=";
     Close "file.close" File, Corpus, Window, "Ctrl+W" "=" "=";
-    Check "file.check" File, Corpus, Runs(|seen| {
-        let mend = !seen.snapshot.is_read_only();
-        Ok(CorpusJob::new_long_job(shell::TASK_CHECK, move |corpus, progress| {
-            let report = corpus.check_corpus(false, progress)?;
-            let mended = match mend && !report.ok {
-                true => corpus.check_corpus(true, progress)?,
-                false => report,
-            };
-            Ok(WorkOutcome::Checked(mended))
-        }))
-    }), "none" "none" "none";
+    Check "file.check" File, Corpus, WithCorpus, "none" "none" "none";
     Settings "file.settings" File, Everywhere, Window, "Ctrl+Comma" "=" "=";
     Quit "file.quit" File, Everywhere, Window, "Ctrl+Q" "=" "=";
     Undo "edit.undo" Edit, Corpus, WithCorpus, changes repeats, "Ctrl+Z" "=" "=";

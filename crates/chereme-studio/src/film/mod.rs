@@ -4,20 +4,17 @@
 //! |---|---|
 //! | `projector` | the thread of a film, which finds, opens and decodes it |
 //! | `screen` | a film on the screen: its current frame, and its place on the recording's clock |
-//! | `ui` | the widgets |
 
-mod film_ui;
-mod projector;
-mod screen;
+pub(crate) mod projector;
+pub(crate) mod screen;
 
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::MediaTrackRow;
 use chereme_motion::RecordingInstant;
-use eframe::egui::{Context, Id, Rect, Ui};
+use eframe::egui::{Context, Id};
 
-use crate::context::{CommandOutbox, PaneInput};
 use crate::model::CorpusSnapshot;
 use screen::FilmScreen;
 
@@ -90,9 +87,9 @@ impl RecordingFilms {
         self.screens.borrow().iter().all(FilmScreen::is_pictured)
     }
 
-    /// Shows the films next to each other.
-    pub(crate) fn show_films(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, rect: Rect) {
-        film_ui::show_film_screens(&mut self.screens.borrow_mut(), ui, seen, out, rect);
+    /// Borrows the films, to be drawn.
+    pub(crate) fn borrow_screens(&self) -> RefMut<'_, Vec<FilmScreen>> {
+        self.screens.borrow_mut()
     }
 
     /// Notes that the film pane is in sight, so that the stage does not show the films too.

@@ -24,17 +24,17 @@ const PROJECTOR_STACK_BYTES: usize = 16 << 20;
 
 /// A request for a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct FilmRequest {
-    pub(super) frame: usize,
+pub(crate) struct FilmRequest {
+    pub(crate) frame: usize,
     /// The largest size of the picture, in pixels.
-    pub(super) within: [usize; 2],
+    pub(crate) within: [usize; 2],
     /// Whether the film plays forwards.
-    pub(super) playing: bool,
+    pub(crate) playing: bool,
 }
 
 /// The state of the file.
 #[derive(Debug, Clone, Default)]
-pub(super) enum FilmFileState {
+pub(crate) enum FilmFileState {
     /// The file is being searched and opened.
     #[default]
     Coming,
@@ -48,20 +48,20 @@ pub(super) enum FilmFileState {
 
 /// A decoded picture.
 #[derive(Clone)]
-pub(super) struct DecodedPicture {
-    pub(super) frame: usize,
-    pub(super) image: Arc<ColorImage>,
+pub(crate) struct DecodedPicture {
+    pub(crate) frame: usize,
+    pub(crate) image: Arc<ColorImage>,
     /// Serial number, counting up from picture to picture.
-    pub(super) number: u64,
+    pub(crate) number: u64,
 }
 
 /// The latest state of a film.
 #[derive(Clone, Default)]
-pub(super) struct FilmNews {
-    pub(super) known: FilmFileState,
-    pub(super) shot: Option<DecodedPicture>,
+pub(crate) struct FilmNews {
+    pub(crate) known: FilmFileState,
+    pub(crate) shot: Option<DecodedPicture>,
     /// The latest frame that could not be decoded, and the reason.
-    pub(super) damaged: Option<(usize, String)>,
+    pub(crate) damaged: Option<(usize, String)>,
 }
 
 #[derive(Default)]
@@ -78,13 +78,13 @@ struct ProjectorShared {
 }
 
 /// The handle of a film's thread.
-pub(super) struct FilmProjector {
+pub(crate) struct FilmProjector {
     shared: Arc<ProjectorShared>,
 }
 
 impl FilmProjector {
     /// Starts the thread for the film of a track; the thread calls `wake` when there is something new.
-    pub(super) fn new(track: MediaTrackRow, corpus: &Path, wake: impl Fn() + Send + 'static) -> Self {
+    pub(crate) fn new(track: MediaTrackRow, corpus: &Path, wake: impl Fn() + Send + 'static) -> Self {
         let shared = Arc::<ProjectorShared>::default();
         let thread_shared = shared.clone();
         let corpus = corpus.to_owned();
@@ -103,13 +103,13 @@ impl FilmProjector {
     }
 
     /// Requests a picture; an earlier request that has not been started is dropped.
-    pub(super) fn wish_picture(&self, wish: FilmRequest) {
+    pub(crate) fn wish_picture(&self, wish: FilmRequest) {
         lock_held_mutex(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
 
     /// Returns the latest state of the film.
-    pub(super) fn latest_film_news(&self) -> FilmNews {
+    pub(crate) fn latest_film_news(&self) -> FilmNews {
         lock_held_mutex(&self.shared.news).clone()
     }
 }

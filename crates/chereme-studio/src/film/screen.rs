@@ -10,22 +10,22 @@ use eframe::egui::{Context, TextureHandle, TextureOptions};
 use super::projector::{FilmFileState, FilmNews, FilmProjector, FilmRequest};
 
 /// A film with its current picture.
-pub(super) struct FilmScreen {
-    pub(super) track: MediaTrackRow,
+pub(crate) struct FilmScreen {
+    pub(crate) track: MediaTrackRow,
     projector: FilmProjector,
-    pub(super) news: FilmNews,
-    pub(super) texture: Option<TextureHandle>,
+    pub(crate) news: FilmNews,
+    pub(crate) texture: Option<TextureHandle>,
     /// The serial number of the picture in the texture.
     held: u64,
     wished: Option<FilmRequest>,
     /// The frame that stays while the recording moves, so that the film can be aligned with the recording.
-    pub(super) loose: Option<usize>,
+    pub(crate) loose: Option<usize>,
     /// The start of the film while the user drags it, in microseconds on the recording's clock.
-    pub(super) dragged: Option<i64>,
+    pub(crate) dragged: Option<i64>,
 }
 
 impl FilmScreen {
-    pub(super) fn new(track: MediaTrackRow, corpus: &Path, ctx: &Context) -> Self {
+    pub(crate) fn new(track: MediaTrackRow, corpus: &Path, ctx: &Context) -> Self {
         let wake = ctx.clone();
         Self {
             projector: FilmProjector::new(track.clone(), corpus, move || wake.request_repaint()),
@@ -40,7 +40,7 @@ impl FilmScreen {
     }
 
     /// Returns the screen with the track's newest entry in the corpus.
-    pub(super) fn with_moved_track(self, track: &MediaTrackRow) -> Self {
+    pub(crate) fn with_moved_track(self, track: &MediaTrackRow) -> Self {
         Self {
             track: track.clone(),
             dragged: None,
@@ -49,7 +49,7 @@ impl FilmScreen {
     }
 
     /// Returns the times of the frames, once the film is open.
-    pub(super) fn frame_times(&self) -> Option<&Arc<FilmTimes>> {
+    pub(crate) fn frame_times(&self) -> Option<&Arc<FilmTimes>> {
         match &self.news.known {
             FilmFileState::Open(_, times) => Some(times),
             _ => None,
@@ -57,22 +57,22 @@ impl FilmScreen {
     }
 
     /// Returns whether the film was not found, or cannot be played.
-    pub(super) fn is_missing(&self) -> bool {
+    pub(crate) fn is_missing(&self) -> bool {
         matches!(self.news.known, FilmFileState::Gone(_) | FilmFileState::Refused(..))
     }
 
     /// Returns the place of the film's time 0 on the recording's clock, in microseconds.
-    pub(super) fn film_offset_micros(&self) -> i64 {
+    pub(crate) fn film_offset_micros(&self) -> i64 {
         self.dragged.unwrap_or(self.track.offset_us)
     }
 
     /// Returns the end of the film on the recording's clock, in microseconds.
-    pub(super) fn film_end_micros(&self) -> Option<i64> {
+    pub(crate) fn film_end_micros(&self) -> Option<i64> {
         Some(self.frame_times()?.film_end() + self.track.offset_us)
     }
 
     /// Returns the frame at a moment of the recording.
-    pub(super) fn screen_frame_at(&self, at: RecordingInstant) -> Option<usize> {
+    pub(crate) fn screen_frame_at(&self, at: RecordingInstant) -> Option<usize> {
         match self.loose {
             Some(frame) => Some(frame),
             None => self
@@ -83,7 +83,7 @@ impl FilmScreen {
 
     /// Returns the start of the frame that lies `frames` frames after the one at `at`. Outside of the film, the first
     /// or the last frame counts.
-    pub(super) fn step_film_frame(&self, at: RecordingInstant, frames: i64) -> Option<RecordingInstant> {
+    pub(crate) fn step_film_frame(&self, at: RecordingInstant, frames: i64) -> Option<RecordingInstant> {
         let times = self.frame_times()?;
         let film_time = at.instant_micros() - self.film_offset_micros();
         let last = times.film_frame_count().checked_sub(1)?;
@@ -98,12 +98,12 @@ impl FilmScreen {
     }
 
     /// Returns the offset at which `frame` begins at the moment `at` of the recording, in microseconds.
-    pub(super) fn offset_for_frame(&self, frame: usize, at: RecordingInstant) -> Option<i64> {
+    pub(crate) fn offset_for_frame(&self, frame: usize, at: RecordingInstant) -> Option<i64> {
         Some(at.instant_micros() - self.frame_times()?.film_frame_start(frame))
     }
 
     /// Fetches the latest picture from the projector, and requests the picture of a frame.
-    pub(super) fn fetch_projected_picture(
+    pub(crate) fn fetch_projected_picture(
         &mut self,
         frame: Option<usize>,
         within: [usize; 2],
@@ -132,7 +132,7 @@ impl FilmScreen {
     }
 
     /// Returns whether the picture is the latest requested one, or that one cannot be decoded.
-    pub(super) fn is_pictured(&self) -> bool {
+    pub(crate) fn is_pictured(&self) -> bool {
         let Some(wish) = self.wished else {
             return !matches!(self.news.known, FilmFileState::Coming);
         };

@@ -1,39 +1,16 @@
-//! Keys and their actions: default keymaps as a table, the user's changes, and matching.
+//! Keys and their actions: a keymap with the user's changes, and matching.
 
-pub(crate) mod chord;
 pub(crate) mod keys_gestures;
 pub(crate) mod queue;
 
 use std::collections::BTreeMap;
 
 use eframe::egui::{Event, Key, Modifiers};
-use serde::{Deserialize, Serialize};
 
 use crate::action::{ACTIONS, Action, ActionContext, ActionOwner, ActionRow};
-use crate::panes::PaneKind;
-use crate::words::{InterfaceLanguage, InterfaceText, shell};
-use chord::KeyChord;
-
-/// A set of default keys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum DefaultKeymap {
-    /// Those of ELAN.
-    #[default]
-    Elan,
-    /// Those of Praat, as far as it has any.
-    Praat,
-    /// Those of video editors: J, K, L.
-    Editor,
-}
-
-impl DefaultKeymap {
-    pub(crate) const ALL_KEYMAPS: [(Self, InterfaceText); 3] = [
-        (Self::Elan, shell::KEYMAP_ELAN),
-        (Self::Praat, shell::KEYMAP_PRAAT),
-        (Self::Editor, shell::KEYMAP_EDITOR),
-    ];
-}
+use crate::key_chord::{DefaultKeymap, KeyChord, ReboundKeys};
+use crate::layout::PaneKind;
+use crate::words::InterfaceLanguage;
 
 /// The keys of every action: a keymap with the user's own changes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -42,9 +19,6 @@ pub(crate) struct ActionKeys {
     /// The language of the keys' names.
     language: InterfaceLanguage,
 }
-
-/// Keys that the user gave to actions, by action id; an empty list removes all keys of the action.
-pub(crate) type ReboundKeys = BTreeMap<String, Vec<KeyChord>>;
 
 /// The state of the window when a key is pressed.
 #[derive(Debug, Clone, Copy)]

@@ -11,8 +11,7 @@ use chereme_figure::{ClipFraming, FigureView, PaperTheme, RasterImage, SignerBod
 use chereme_motion::{BodyAnatomy, BodySide, Clip, FacePosture, HandAngles, ModelPose, Skeleton};
 use eframe::egui::{Color32, ColorImage, Context};
 
-use super::miniatures_data;
-use super::{MiniatureFocus, MiniatureSource, PictureStripKey};
+use super::{MiniatureFocus, MiniatureSource, PictureStripKey, miniatures_data};
 use crate::model::generated::GeneratedClip;
 
 /// Frames of the window after which a figure that was not requested again is no longer drawn.

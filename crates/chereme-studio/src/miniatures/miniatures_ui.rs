@@ -16,7 +16,7 @@ use super::{
     MiniatureCell, MiniatureFigures, MiniatureFocus, MiniatureMotion, MiniatureSource, MiniatureTexture,
     PictureStripKey, WindowThreadState, miniatures_data,
 };
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
 use crate::model::generated::GeneratedClip;
 use crate::words::{InterfaceLanguage, stage_words as words};
 use crate::work::movement_jobs;
@@ -50,14 +50,14 @@ impl MiniatureFigures {
     pub(crate) fn show_figure(
         &self,
         ui: &mut Ui,
-        seen: &PaneInput<'_>,
+        language: InterfaceLanguage,
         out: &mut CommandOutbox,
         cell: &MiniatureCell,
         name: &str,
     ) -> Response {
         let (rect, response) = ui.allocate_exact_size(cell.size, Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
-        self.paint_figure(ui, seen, out, cell, rect);
+        self.paint_figure(ui, language, out, cell, rect);
         paint_cell_edge(ui, &response, rect);
         response
     }
@@ -66,7 +66,7 @@ impl MiniatureFigures {
     pub(crate) fn paint_figure(
         &self,
         ui: &Ui,
-        seen: &PaneInput<'_>,
+        language: InterfaceLanguage,
         out: &mut CommandOutbox,
         cell: &MiniatureCell,
         rect: Rect,
@@ -91,7 +91,7 @@ impl MiniatureFigures {
         if cell.clock.is_some() {
             ui.ctx().request_repaint_after_secs(LOOP_REPAINT_SECONDS as f32);
         }
-        self.put_cell_sight(ui, seen.language, &key, sight, rect);
+        self.put_cell_sight(ui, language, &key, sight, rect);
     }
 
     /// Paints movement outside of any corpus over `rect`, for the start page.
@@ -126,7 +126,7 @@ impl MiniatureFigures {
     pub(crate) fn show_hand_posture(
         &self,
         ui: &mut Ui,
-        seen: &PaneInput<'_>,
+        language: InterfaceLanguage,
         side: BodySide,
         angles: &HandAngles,
         size: Vec2,
@@ -134,7 +134,7 @@ impl MiniatureFigures {
     ) -> Response {
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
-        self.paint_hand(ui, seen.language, side, angles, rect);
+        self.paint_hand(ui, language, side, angles, rect);
         paint_cell_edge(ui, &response, rect);
         response
     }
@@ -205,7 +205,7 @@ impl MiniatureFigures {
             MiniatureMotion::Made(_) => return,
             MiniatureMotion::Span(..) if cache.asked.len() >= MAX_REQUESTED_MOVEMENTS => return,
             MiniatureMotion::Span(recording, span) => {
-                let job = movement_jobs::load_stretch_job(*recording, *span);
+                let job = movement_jobs::load_stretch_job(*recording, *span, miniatures_data::loop_shown_span);
                 cache.asked.insert(out.request_work(job), source.clone());
                 MiniatureFilm::Loading
             }

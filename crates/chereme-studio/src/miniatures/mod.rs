@@ -16,7 +16,6 @@ mod draw;
 mod miniatures_data;
 mod miniatures_ui;
 
-pub(crate) use miniatures_data::loop_shown_span;
 pub(crate) use miniatures_ui::{paint_still_placeholder, paint_text_placeholder};
 
 use std::cell::RefCell;

@@ -1,8 +1,10 @@
 //! The window's data about the corpus: an immutable snapshot, and the movement on the stage.
 
+pub(crate) mod display_state;
 pub(crate) mod generated;
 pub(crate) mod model_handle;
 pub(crate) mod reel;
+pub(crate) mod time_window;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -42,6 +44,17 @@ pub(crate) struct FoundAnnotation<'a> {
     pub(crate) tier: &'a TierContents,
     /// Index in the tier's columns.
     pub(crate) at: usize,
+}
+
+/// Something that the inspector can show.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum InspectedThing {
+    Token(i64),
+    Sign(i64),
+    Signer(i64),
+    Recording(i64),
+    /// A value of the inventory with that row id.
+    Value(i64, String),
 }
 
 /// The sign of a token.

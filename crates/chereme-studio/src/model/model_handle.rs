@@ -1,11 +1,10 @@
 //! A placement of the open recipe that can be dragged on the stage.
 
 use chereme_corpus::recipe::{
-    HandChoice, MeasuredSpline, PlacementGoal, RecipeLength, TravelSettings, mean_of_directions,
+    BodyDirection, HandChoice, MeasuredSpline, PlacementGoal, RecipeLength, StraightLeg, TravelSettings,
+    mean_of_directions,
 };
 use chereme_motion::glam::DVec3;
-
-use crate::panes::recombine::{offset_legs, points_of};
 
 /// A placement in the recipe, as its card holds it.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,6 +81,51 @@ impl PlacementHandle {
             PlacementGoal::AtPoint(_) => PlacementGoal::AtPoint(value.map(RecipeLength::Metres)),
         }
     }
+}
+
+/// Returns the legs of an offset to the left, up and forward, in metres; an empty list for a zero offset.
+pub(crate) fn legs_of(offset: [f64; 3]) -> Vec<StraightLeg> {
+    let axes = [
+        (BodyDirection::Left, BodyDirection::Right),
+        (BodyDirection::Up, BodyDirection::Down),
+        (BodyDirection::Forward, BodyDirection::Back),
+    ];
+    let leg = |(metres, (plus, minus)): (f64, (BodyDirection, BodyDirection))| StraightLeg {
+        towards: vec![if metres < 0.0 { minus } else { plus }],
+        distance: RecipeLength::Metres(metres.abs()),
+        time: None,
+    };
+    let all = offset.into_iter().zip(axes);
+    all.filter(|(metres, _)| *metres != 0.0).map(leg).collect()
+}
+
+/// Returns the legs of an offset; one leg of length zero for a zero offset, so that it remains an offset.
+pub(crate) fn offset_legs(offset: [f64; 3]) -> Vec<StraightLeg> {
+    let mut legs = legs_of(offset);
+    if legs.is_empty() {
+        legs.push(StraightLeg {
+            towards: vec![BodyDirection::Up],
+            distance: RecipeLength::Metres(0.0),
+            time: None,
+        });
+    }
+    legs
+}
+
+/// Returns the points of a path, in metres to the left, up and forward of its beginning: those of its curve, or the
+/// ends of its legs.
+pub(crate) fn points_of(travel: &TravelSettings, arm: f64) -> Vec<DVec3> {
+    if !travel.through.is_empty() {
+        let point = |at: &[RecipeLength; 3]| DVec3::from(at.map(|length| length.length_in_metres(arm)));
+        return travel.through.iter().map(point).collect();
+    }
+    let mut position = DVec3::ZERO;
+    let legs = travel.path.iter();
+    legs.map(|leg| {
+        position += mean_of_directions(&leg.towards).unwrap_or_default() * leg.distance.length_in_metres(arm);
+        position
+    })
+    .collect()
 }
 
 #[cfg(test)]

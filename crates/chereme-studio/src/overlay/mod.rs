@@ -4,7 +4,6 @@ pub(crate) mod notices;
 pub(crate) mod overlay_export;
 pub(crate) mod overlay_keys;
 pub(crate) mod overlay_palette;
-pub(crate) mod overlay_remedy;
 pub(crate) mod overlay_settings;
 pub(crate) mod overlay_steps;
 pub(crate) mod overlay_trouble;

@@ -11,17 +11,15 @@ use eframe::egui::{
     Stroke, Style, TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::{overlay_remedy, overlay_trouble};
+use super::overlay_trouble;
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
-use crate::file_dialogs::ChooserPurpose;
-use crate::theme;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
 use crate::theme::ThemeColours;
 use crate::words::{
     InterfaceLanguage, InterfaceText, fill_text_braces, history_words, shell as words, translate_library_message,
 };
 use crate::work::WorkOutcome;
+use crate::{theme, window_remedy};
 
 /// How long a hint is shown, in seconds.
 const HINT_SECONDS: f64 = 5.0;
@@ -312,7 +310,7 @@ impl NoticeBoard {
         let spoken_text = |text: &String| translate_library_message(text, language);
         let faults = faults.map(|fault| {
             let message = spoken_text(&fault.message);
-            match overlay_remedy::window_remedy_text(&fault.remedy, language) {
+            match window_remedy::window_remedy_text(&fault.remedy, language) {
                 Some(remedy) => format!("{}: {message} ({remedy})", fault.place),
                 None => format!("{}: {message}", fault.place),
             }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, RowName};
 use eframe::egui::{Align2, Button, Context, Id, Key, ProgressBar, RichText, ScrollArea, Ui, Window};
 
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::complete_pane::CompletionLine;
 use crate::panes::import::PathCompletions;
 use crate::panes::recombine::selected_token;

@@ -7,11 +7,10 @@ use eframe::egui::{
 };
 
 use crate::action::{ACTIONS, Action, ActionMenu, ActionRow};
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
-use crate::keys::chord::KeyChord;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::key_chord::{DefaultKeymap, KeyChord};
+use crate::keys::ActionKeys;
 use crate::keys::keys_gestures::GESTURES;
-use crate::keys::{ActionKeys, DefaultKeymap};
 use crate::script::script_edit;
 use crate::settings::StudioSettings;
 use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, gestures_words, shell as words};

@@ -4,8 +4,7 @@ use chereme_sign::text::fold_text;
 use eframe::egui::{Align2, Button, Context, Id, Key, Modifiers, ScrollArea, TextEdit, Window, vec2};
 
 use crate::action::{ACTIONS, ActionContext as Where, ActionRow};
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
+use crate::command::{CommandOutbox, WindowCommand};
 use crate::keys::ActionKeys;
 use crate::script::script_edit;
 use crate::words::{InterfaceLanguage, shell as words};

@@ -3,9 +3,8 @@
 use eframe::egui::{Align2, Context, DragValue, Grid, Id, Slider, Ui, Window};
 
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
-use crate::keys::DefaultKeymap;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::key_chord::DefaultKeymap;
 use crate::player::SteppingSettings;
 use crate::settings::{StudioSettings, ThemeChoice};
 use crate::words::{InterfaceLanguage, shell as words};

@@ -181,7 +181,7 @@ fn hand_with_straight_fingers(straight: usize) -> HandAngles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::keys::{DefaultKeymap, ReboundKeys};
+    use crate::key_chord::{DefaultKeymap, ReboundKeys};
 
     #[test]
     fn every_key_named_in_a_step_belongs_to_an_action() {

@@ -6,7 +6,7 @@ use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::words::localized_message;
 use chereme_corpus::{CorpusError, DatabaseFailureCause};
 
-use super::overlay_remedy;
+use crate::window_remedy;
 use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, trouble_words as words};
 
 /// The report of a failure.
@@ -31,7 +31,7 @@ pub(crate) fn failure_report(
     let of_corpus = error.error_remedy();
     let remedy_text = of_corpus
         .as_ref()
-        .and_then(|remedy| overlay_remedy::window_remedy_text(remedy, language));
+        .and_then(|remedy| window_remedy::window_remedy_text(remedy, language));
     if language == InterfaceLanguage::English {
         return FailureReport {
             text: error.to_string(),

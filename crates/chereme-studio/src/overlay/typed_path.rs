@@ -6,7 +6,7 @@ use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::{Align2, Button, Context, Id, Key, RichText, TextEdit, Window};
 
 use crate::app::Studio;
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::ChooserPurpose;
 use crate::panes::complete_pane::CompletionLine;
 use crate::panes::import::PathCompletions;
 use crate::words::{InterfaceText, fill_text_braces, shell as words};

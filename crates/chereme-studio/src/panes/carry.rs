@@ -5,12 +5,12 @@ use eframe::egui::{
     Vec2, vec2,
 };
 
-use super::inspector::InspectedThing;
-use super::{DraggedToken, PaneKind};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::context::PaneInput;
+use crate::layout::PaneKind;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
+use crate::model::InspectedThing;
 use crate::words::{library as words, search_words};
 
 /// Side of the figure under the pointer, in points.
@@ -83,7 +83,7 @@ pub(crate) fn show_carried_sign(ctx: &Context, seen: &PaneInput<'_>, out: &mut C
                     ui.allocate_exact_size(Vec2::splat(CARRIED_FIGURE_SIDE), eframe::egui::Sense::hover());
                 let cell =
                     MiniatureCell::new(motion, rect.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
-                seen.little.paint_figure(ui, seen, out, &cell, rect);
+                seen.little.paint_figure(ui, seen.language, out, &cell, rect);
             }
             ui.label(picture.gloss);
         });

@@ -2,11 +2,10 @@
 
 use eframe::egui::{Button, Rect, Sense, Ui, vec2};
 
-use super::{ActionOutcome, PaneInterface};
+use super::{ActionOutcome, PaneInterface, film_screens};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::film::RecordingFilms;
 use crate::miniatures;
 use crate::words::film_words as words;
@@ -20,7 +19,7 @@ impl PaneInterface for FilmPane {
         RecordingFilms::pane_is_seen(ui.ctx());
         let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
         if seen.films.are_there() {
-            seen.films.show_films(ui, seen, out, whole);
+            film_screens::show_film_screens(ui, seen, out, whole);
         } else {
             show_absent_film(ui, seen, out, whole);
         }

@@ -1,7 +1,7 @@
 //! The panes: each a module with rows computed by plain functions (`data`) and widgets (`ui`).
 //!
-//! To add one: a variant of [`PaneKind`] with its title, a field of [`PaneSet`] with its arms, a place in
-//! [`layout::of`](crate::layout::of), and an action that shows it.
+//! To add one: a variant of [`PaneKind`] with its title and a place in its layouts (both in `layout`), a field of [`PaneSet`]
+//! with its arms, and an action that shows it.
 
 pub(crate) mod agreement;
 pub(crate) mod carry;
@@ -10,6 +10,7 @@ pub(crate) mod complete_pane;
 pub(crate) mod cue;
 pub(crate) mod faces;
 pub(crate) mod film_pane;
+mod film_screens;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
@@ -28,77 +29,13 @@ use eframe::egui::{
     Align2, Color32, Id, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui, WidgetInfo,
     WidgetText, pos2, vec2,
 };
-use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::words::{self, InterfaceText};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
+use crate::layout::PaneKind;
+use crate::words::InterfaceText;
 use crate::work::{WorkId, WorkResult};
-
-/// One of the panes; its name is part of stored layouts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum PaneKind {
-    Library,
-    Map,
-    Cue,
-    Faces,
-    Agreement,
-    Studies,
-    Stage,
-    Timeline,
-    Search,
-    Recombine,
-    Inspector,
-    History,
-    Import,
-    Film,
-}
-
-impl PaneKind {
-    pub(crate) const ALL_PANE_KINDS: [Self; 14] = [
-        Self::Library,
-        Self::Map,
-        Self::Cue,
-        Self::Faces,
-        Self::Agreement,
-        Self::Studies,
-        Self::Stage,
-        Self::Timeline,
-        Self::Search,
-        Self::Recombine,
-        Self::Inspector,
-        Self::History,
-        Self::Import,
-        Self::Film,
-    ];
-
-    pub(crate) fn pane_title(self) -> InterfaceText {
-        match self {
-            Self::Library => words::library::TITLE,
-            Self::Map => words::map_words::TITLE,
-            Self::Cue => words::cue_words::TITLE,
-            Self::Faces => words::faces_words::TITLE,
-            Self::Agreement => words::agreement::TITLE,
-            Self::Studies => words::studies_words::TITLE,
-            Self::Stage => words::stage_words::TITLE,
-            Self::Timeline => words::timeline::TITLE,
-            Self::Search => words::search_words::TITLE,
-            Self::Recombine => words::recombine_words::TITLE,
-            Self::Inspector => words::inspector::TITLE,
-            Self::History => words::history_words::TITLE,
-            Self::Import => words::import_words::TITLE,
-            Self::Film => words::film_words::TITLE,
-        }
-    }
-}
-
-/// A token that is dragged from one pane to another: the payload of egui's drag and drop.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct DraggedToken {
-    pub(crate) token: i64,
-    pub(crate) gloss: String,
-}
 
 /// The outcome of an action that was offered to a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use chereme_corpus::CorpusError;
 
-use super::inspector::InspectedThing;
 use super::library::library_data::SignMovement;
 use super::without_movement::MovementAbsence;
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::model::InspectedThing;
 use crate::model::generated::GeneratedClip;
 use crate::work::{WorkId, WorkOutcome, WorkResult, recombining};
 

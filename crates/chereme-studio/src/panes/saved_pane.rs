@@ -6,9 +6,8 @@ use eframe::egui::{Button, Id, Ui};
 
 use super::complete_pane::CompletionLine;
 use super::import::PathCompletions;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::words::{InterfaceText, fill_text_braces, studies_words as words};
 use crate::work::WorkId;
 

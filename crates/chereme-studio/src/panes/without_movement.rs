@@ -2,8 +2,8 @@
 
 use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::recombine::recipe_of;
 use crate::words::{fill_text_braces, library as words};
 

@@ -32,9 +32,9 @@ use eframe::egui::{
     WidgetInfo, WidgetText, pos2, vec2,
 };
 
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::panes::inspector::InspectedThing;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 use crate::script::script_edit;
 use crate::words::{fill_text_braces, pickers as words};
 use pickers_cells::{PickerCell, PickerCells};

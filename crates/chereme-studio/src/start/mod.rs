@@ -15,8 +15,7 @@ use chereme_motion::TimeSpan;
 
 use crate::action::Action;
 use crate::app::Studio;
-use crate::command::WindowCommand;
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::panes::list_row;
 use crate::script::script_edit;
 use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, shell as words};

@@ -8,7 +8,6 @@ use chereme_motion::TimeSpan;
 use eframe::egui::{Color32, ColorImage};
 
 use super::{CorpusJob, JobAbout, WorkLane, WorkOutcome};
-use crate::miniatures::loop_shown_span;
 
 /// The room for the picture of a film in a list, in pixels.
 const FILM_STILL_SIZE_PIXELS: [usize; 2] = [288, 288];
@@ -52,10 +51,10 @@ pub(crate) fn load_points_job(recording: i64, span: TimeSpan) -> CorpusJob {
 
 /// Loads the beginning of the usable movement of a span of a recording, or a picture of its film if nothing moves; if
 /// both are missing, that is not an error.
-pub(crate) fn load_stretch_job(recording: i64, span: TimeSpan) -> CorpusJob {
+pub(crate) fn load_stretch_job(recording: i64, span: TimeSpan, shown_part: fn(TimeSpan) -> TimeSpan) -> CorpusJob {
     CorpusJob::new(JobAbout::LITTLE_FIGURE_JOB_ABOUT, move |corpus, _| {
         let address = CorpusAddress::Recording(RowName::Number(recording));
-        let span = loop_shown_span(corpus.usable_part(&address, Some(span)).unwrap_or(span));
+        let span = shown_part(corpus.usable_part(&address, Some(span)).unwrap_or(span));
         let moving = movement_in(corpus, recording, span).ok();
         match moving.filter(|moving| moving.clip.clip_frame_count() > 0) {
             Some(moving) => Ok(WorkOutcome::Stretch(Some(Arc::new(moving)))),

@@ -6,7 +6,7 @@ use chereme_corpus::{
 };
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
-use crate::panes::inspector::InspectedThing;
+use crate::model::InspectedThing;
 use crate::words::shell;
 
 /// Changes a recording.

@@ -1,4 +1,4 @@
-//! Jobs on the whole corpus: its history and merging.
+//! Jobs on the whole corpus: its history, merging and checking.
 
 use std::path::PathBuf;
 
@@ -54,4 +54,16 @@ pub(crate) fn merge_corpus_job(other: PathBuf) -> CorpusJob {
 /// Decides the conflict of a merge with that number.
 pub(crate) fn decide_conflict_job(number: usize, decision: ConflictDecision) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.decide_conflicts(&[number], decision))
+}
+
+/// Checks the corpus, and mends what can be mended if `mend` is set.
+pub(crate) fn check_corpus_job(mend: bool) -> CorpusJob {
+    CorpusJob::new_long_job(shell::TASK_CHECK, move |corpus, progress| {
+        let report = corpus.check_corpus(false, progress)?;
+        let mended = match mend && !report.ok {
+            true => corpus.check_corpus(true, progress)?,
+            false => report,
+        };
+        Ok(WorkOutcome::Checked(mended))
+    })
 }

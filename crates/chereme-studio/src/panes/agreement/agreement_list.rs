@@ -6,8 +6,8 @@ use eframe::egui::{EventFilter, Id, Key, Modifiers, Response, ScrollArea, Ui};
 use super::agreement_data::{DisagreementKinds, DisagreementOrder};
 use super::{AgreementPane, AgreementView};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::{combo, list_row_at, scrolled_to};
 use crate::words::{agreement as words, fill_text_braces};
 

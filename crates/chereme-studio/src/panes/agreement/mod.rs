@@ -15,11 +15,10 @@ use self::agreement_data::{AgreementChoices, DisagreementKey, DisagreementKinds,
 use super::saved_pane::{SavedFile, SavedTo};
 use super::{ActionOutcome, PaneInterface, combo, reach_focus};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
-use crate::overlay::overlay_remedy;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::script::script_edit;
+use crate::window_remedy;
 use crate::words::{InterfaceLanguage, agreement as words, fill_text_braces, shell, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, comparing};
 
@@ -325,7 +324,7 @@ impl AgreementPane {
                 translate_library_message(&wrong.text, seen.language),
             );
             let helps = wrong.remedy.as_ref();
-            if let Some(helps) = helps.and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language)) {
+            if let Some(helps) = helps.and_then(|remedy| window_remedy::window_remedy_text(remedy, seen.language)) {
                 ui.weak(helps);
             }
         }

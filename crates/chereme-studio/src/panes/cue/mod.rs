@@ -12,8 +12,8 @@ use eframe::egui::{Button, CollapsingHeader, DragValue, Response, RichText, Role
 
 use super::{PaneInterface, combo};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::script::script_edit;
 use crate::words::{InterfaceText, cue_words as words, fill_text_braces, translate_library_message};

@@ -9,8 +9,8 @@ use eframe::egui::{
 };
 
 use super::{FacesPane, counted_face_text, faces_data};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureFocus, MiniatureMotion};
 use crate::words::{InterfaceText, faces_words as words, fill_text_braces};
 use crate::work::recombining;
@@ -153,7 +153,7 @@ impl FacesPane {
                 let cell = MiniatureCell::new(motion, picture.size())
                     .with_picture_focus(focus)
                     .with_playing_clock(into);
-                seen.little.paint_figure(ui, seen, out, &cell, picture);
+                seen.little.paint_figure(ui, seen.language, out, &cell, picture);
             }
             None => {
                 let back = ui.visuals().extreme_bg_color;

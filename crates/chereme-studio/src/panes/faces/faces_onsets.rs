@@ -7,7 +7,8 @@ use eframe::egui::{
 
 use super::FacesPane;
 use super::faces_data::OnsetExtent;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::words::{InterfaceText, faces_words as words, fill_text_braces};
 use crate::work::faces_jobs;
 

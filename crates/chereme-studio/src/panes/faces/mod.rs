@@ -15,8 +15,8 @@ use eframe::egui::{Button, ScrollArea, Ui};
 
 use self::faces_data::ComparedChannels;
 use super::{PaneInterface, combo};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::words::{InterfaceText, faces_words as words, fill_text_braces, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, analysis, faces_jobs};

@@ -4,8 +4,8 @@ use chereme_corpus::{ConflictCandidate, ConflictDecision, CorpusConflict};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::words::merge_words as words;
 use crate::work::whole_corpus;
 

@@ -13,7 +13,8 @@ use eframe::egui::{
 
 use super::PaneInterface;
 use crate::action::Action;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::script::script_edit;
 use crate::words::{InterfaceLanguage, fill_text_braces, history_words as words};
 use crate::work::whole_corpus;

@@ -7,11 +7,11 @@ use eframe::egui::{Align, CollapsingHeader, ComboBox, Grid, Id, RichText, Role, 
 
 use super::import_known::ImportCorrections;
 use super::{import_body, import_data, import_people};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::overlay::overlay_remedy;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::complete_pane::{CompletionLine, fitting_candidates, show_completion_line};
 use crate::panes::timeline::tier_box;
+use crate::window_remedy;
 use crate::words::{fill_text_braces, import_words as words, shell, translate_library_message};
 
 /// Shows the interpretation of a file.
@@ -228,7 +228,7 @@ fn show_file_findings(ui: &mut Ui, seen: &PaneInput<'_>, file: &FileReport) {
         let text = RichText::new(format!("{place}{message}")).small().color(colour);
         ui.label(text);
         let remedy = finding.remedy.as_ref();
-        if let Some(remedy) = remedy.and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language)) {
+        if let Some(remedy) = remedy.and_then(|remedy| window_remedy::window_remedy_text(remedy, seen.language)) {
             let text = fill_text_braces(seen.say_text(shell::REMEDY), &[("remedy", &remedy)]);
             ui.label(RichText::new(text).small());
         }

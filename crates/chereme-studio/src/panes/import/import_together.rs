@@ -7,8 +7,8 @@ use chereme_corpus::MergeReport;
 use eframe::egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
 
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::words::{fill_text_braces, import_words as words, merge_words, shell, translate_library_message};
 use crate::work::{WorkId, whole_corpus};
 

@@ -16,10 +16,9 @@ use eframe::egui::{Align, Button, Id, Layout, ProgressBar, RichText, ScrollArea,
 
 use super::PaneInterface;
 use super::complete_pane::CompletionLine;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
-use crate::overlay::overlay_remedy;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::window_remedy;
 use crate::words::{fill_text_braces, import_words as words, shell, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, exchange};
 use import_known::ImportCorrections;
@@ -225,7 +224,7 @@ impl PaneInterface for ImportPane {
             ui.label(RichText::new(message).color(seen.pane_colours().trouble));
             let remedy = remedy
                 .as_ref()
-                .and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language));
+                .and_then(|remedy| window_remedy::window_remedy_text(remedy, seen.language));
             if let Some(remedy) = remedy {
                 ui.label(fill_text_braces(seen.say_text(shell::REMEDY), &[("remedy", &remedy)]));
             }

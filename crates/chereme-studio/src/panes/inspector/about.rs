@@ -7,16 +7,15 @@ use chereme_corpus::{
 use chereme_motion::{BodySide, RecordingInstant};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
 
-use super::inspector_data;
 use super::inspector_edit::{
     name_and_value, show_editable_line, show_editable_notes, show_inspector_choice, show_inspector_grid,
     show_line_with_completion, show_part_title,
 };
 use super::inspector_ui::{show_inspector_lines, show_thing_link};
-use super::{InspectedThing, InspectorPane};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use super::{InspectorPane, inspector_data};
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 use crate::panes::complete_pane::fitting_candidates;
 use crate::panes::import::import_people;
 use crate::panes::library::library_data as library;

@@ -7,7 +7,8 @@ use eframe::egui::{Id, Ui};
 
 use super::inspector_data;
 use super::inspector_edit::{name_and_value, show_editable_line, show_inspector_choice, show_inspector_grid};
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::words::{fill_text_braces, inspector as words};
 use crate::work::editing;
 

@@ -6,9 +6,10 @@ use eframe::egui::{CollapsingHeader, Id, Label, RichText, Ui};
 
 use super::inspector_edit::{name_and_value, show_editable_field, show_inspector_grid};
 use super::inspector_ui::{set_annotation, show_thing_link, span_text, values_like};
-use super::{InspectedThing, InspectorPane, inspector_data, inspector_notation};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use super::{InspectorPane, inspector_data, inspector_notation};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 use crate::panes::library::library_data::origin_text;
 use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;

@@ -6,14 +6,15 @@ use chereme_corpus::{
 use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::{CollapsingHeader, Id, RichText, TextStyle, TextWrapMode, Ui, WidgetText};
 
+use super::InspectorPane;
 use super::about::{self, recording_more, show_recording_details, show_signer_details, signer_more};
 use super::inspector_data::{self, InspectorLine};
 use super::inspector_edit::{
     name_and_value, show_editable_line, show_inspector_grid, show_line_with_completion, show_part_title,
 };
-use super::{InspectedThing, InspectorPane};
-use crate::context::{CommandOutbox, PaneInput};
-use crate::model::FoundAnnotation;
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
+use crate::model::{FoundAnnotation, InspectedThing};
 use crate::panes::complete_pane::fitting_candidates;
 use crate::panes::timeline::timeline_data::{time_text, value_text};
 use crate::words::{InterfaceText, inspector as words, timeline};

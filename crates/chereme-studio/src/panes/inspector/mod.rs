@@ -14,20 +14,11 @@ use chereme_corpus::ObjectDetails;
 use eframe::egui::{ScrollArea, Ui};
 
 use super::PaneInterface;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 use crate::words::inspector as words;
 use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};
-
-/// Something that the inspector can show.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum InspectedThing {
-    Token(i64),
-    Sign(i64),
-    Signer(i64),
-    Recording(i64),
-    /// A value of the inventory with that row id.
-    Value(i64, String),
-}
 
 /// Row ids of the selected recording, tier and annotation.
 type SelectedRowIds = (Option<i64>, Option<i64>, Option<i64>);

@@ -5,7 +5,8 @@ use eframe::egui::{Align2, Id, Key, Modifiers, ScrollArea, Ui, Window, vec2};
 
 use super::{LibraryList, LibraryPane};
 use crate::action::Action;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::panes::ActionOutcome;
 use crate::words::{fill_text_braces, library as words, shell};
 use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};

@@ -6,8 +6,8 @@ use eframe::egui::{Align2, Button, Id, Key, Modifiers, ScrollArea, Ui, Window, v
 use super::library_data::LibraryRow;
 use super::{LibraryList, LibraryPane};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::ActionOutcome;
 use crate::words::{fill_text_braces, library as words, shell};
 use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};

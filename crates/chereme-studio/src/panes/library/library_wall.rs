@@ -11,7 +11,8 @@ use eframe::egui::{
 
 use super::library_data::SignMovement;
 use super::{LibraryList, LibraryPane, row_id};
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
 use crate::panes::search::walked;
 
@@ -227,7 +228,7 @@ fn show_looped_motion(
     match motion {
         Some(motion) => {
             let cell = MiniatureCell::new(motion, rect.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
-            seen.little.paint_figure(ui, seen, out, &cell, rect);
+            seen.little.paint_figure(ui, seen.language, out, &cell, rect);
         }
         None => miniatures::paint_still_placeholder(ui, seen.language, rect),
     }

@@ -14,14 +14,14 @@ use eframe::egui::{
     WidgetInfo, vec2,
 };
 
-use super::inspector::InspectedThing;
 use super::notated_pane::AnimatedNotations;
 use super::without_movement::{self, MovementAbsence};
-use super::{ActionOutcome, DraggedToken, PaneInterface};
+use super::{ActionOutcome, PaneInterface};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
+use crate::model::InspectedThing;
 use crate::script::script_edit;
 use crate::words::{InterfaceLanguage, fill_text_braces, library as words};
 use crate::work::{WorkId, WorkResult};
@@ -403,14 +403,14 @@ fn show_row_figure(
         cell = cell.with_playing_clock(miniatures::figure_loop_clock(ui));
     }
     let rect = Rect::from_center_size(centre, cell.size);
-    seen.little.paint_figure(ui, seen, out, &cell, rect);
+    seen.little.paint_figure(ui, seen.language, out, &cell, rect);
     let mut tooltip = Tooltip::for_enabled(response);
     tooltip.popup = tooltip.popup.align(RectAlign::RIGHT_START);
     tooltip.show(|ui| {
         let size = Vec2::splat(LARGE_PICTURE_SIDE);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let large = MiniatureCell::new(motion, size).with_playing_clock(miniatures::figure_loop_clock(ui));
-        seen.little.paint_figure(ui, seen, out, &large, rect);
+        seen.little.paint_figure(ui, seen.language, out, &large, rect);
     });
 }
 

@@ -15,10 +15,10 @@ use eframe::egui::{
 use super::PaneInterface;
 use super::library::library_data::SignMovement;
 use super::notated_pane::AnimatedNotations;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
-use crate::panes::inspector::InspectedThing;
+use crate::model::InspectedThing;
 use crate::words::{fill_text_braces, inspector, map_words as words, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
 use map_data::{MapView, OccupiedLabels};
@@ -268,7 +268,7 @@ impl MapPane {
             };
             rooms.insert(at, room);
             let cell = MiniatureCell::new(motion, room.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
-            seen.little.paint_figure(ui, seen, out, &cell, room);
+            seen.little.paint_figure(ui, seen.language, out, &cell, room);
             if marked {
                 let stroke = Stroke::new(2.0, accent);
                 let painter = ui.painter();

@@ -5,13 +5,12 @@ use eframe::egui::{
     TextStyle, Ui, WidgetInfo, vec2,
 };
 
-use super::RecombinePane;
 use super::live::{CardNote, RecipeTrouble};
 use super::stack::{CardContent, CardStack, RecipeCard};
-use super::{catalogue, recombine_fields, recombine_settings};
+use super::{RecombinePane, catalogue, recombine_fields, recombine_settings};
 use crate::action::Action;
 use crate::context::PaneInput;
-use crate::overlay::overlay_remedy;
+use crate::window_remedy;
 use crate::words::{
     InterfaceLanguage, fill_text_braces, recombine_words as words, search_words, translate_library_message,
 };
@@ -297,7 +296,7 @@ fn show_results(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Opt
             .remedy
             .as_ref()
             .filter(|remedy| !trouble.text.contains(remedy.remedy_text()))
-            .and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language))
+            .and_then(|remedy| window_remedy::window_remedy_text(remedy, seen.language))
         {
             ui.label(RichText::new(remedy).small());
         }

@@ -9,8 +9,7 @@ use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::{CorpusError, MeantName, RecombinationResult};
 
 use super::stack::CardStack;
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
+use crate::command::{CommandOutbox, WindowCommand};
 use crate::work::recombining::{self, OpenRecipeDraft};
 use crate::work::{WorkId, WorkOutcome, WorkResult};
 

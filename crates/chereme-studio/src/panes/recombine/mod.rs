@@ -20,10 +20,10 @@ use chereme_corpus::recipe::{PlacementGoal, Recipe, RecipeError, RecipeLength, R
 use chereme_corpus::{CorpusOverview, OperationRow, RecombinationResult};
 use eframe::egui::{Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, Ui};
 
-use super::{ActionOutcome, DraggedToken, PaneInterface, carry};
+use super::{ActionOutcome, PaneInterface, carry};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::model::model_handle::{PlacementHandle, TravelCourse};
 use crate::script::script_edit;
@@ -31,9 +31,7 @@ use crate::words::{fill_text_braces, recombine_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult};
 use live::RecipePreview;
 pub(crate) use recombine_fields::{recipe_of, selected_token};
-pub(crate) use recombine_path::{
-    draw_on_stage, drawing_card_id, lengths_from_position, offset_legs, points_of, points_of_line,
-};
+pub(crate) use recombine_path::{draw_on_stage, drawing_card_id, lengths_from_position, points_of_line};
 use recombine_steps::StepHistory;
 use stack::{CardContent, CardStack, RecipeCard};
 

@@ -1,5 +1,6 @@
 //! Widgets for the settings of operators with several settings.
 
+use crate::model::model_handle::legs_of;
 use chereme_corpus::recipe::{
     AxisTurn, BodyDirection, ConfigureSettings, OrientSettings, PlaceSettings, PlacementGoal, RecipeDegrees,
     RecipeFactor, RecipeHandPoint, RecipeLength, RecipeSeconds, RetimePace, RetimeSettings, ValueChoice,
@@ -129,7 +130,7 @@ pub(super) fn show_place_settings(ui: &mut Ui, seen: &PaneInput<'_>, at: Setting
         changed |= recombine_fields::show_hands_choice(ui, seen, &mut it.hand, true);
         if show_value_choice(ui, seen.say_text(words::WHERE_TO), &mut kind, &all) {
             it.to = match kind {
-                GoalKind::By => PlacementGoal::By(recombine_path::legs_of([0.0, 0.1, 0.0])),
+                GoalKind::By => PlacementGoal::By(legs_of([0.0, 0.1, 0.0])),
                 GoalKind::At => PlacementGoal::At(String::new()),
                 GoalKind::Point => PlacementGoal::AtPoint([0.0, 1.2, 0.4].map(RecipeLength::Metres)),
                 GoalKind::Near => PlacementGoal::Near {

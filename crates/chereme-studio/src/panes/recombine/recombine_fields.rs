@@ -14,10 +14,10 @@ use eframe::egui::{
     Button, ComboBox, DragValue, Id, Label, Response, RichText, Role, Slider, SliderClamping, Ui, WidgetInfo,
 };
 
+use crate::command::DraggedToken;
 use crate::context::PaneInput;
-use crate::panes::DraggedToken;
+use crate::model::InspectedThing;
 use crate::panes::complete_pane::{CompletionLine, fitting_candidates, show_completion_line};
-use crate::panes::inspector::InspectedThing;
 use crate::panes::library::library_data;
 use crate::pickers::{self, ValuePicker};
 use crate::words::{InterfaceText, recombine_words as words};

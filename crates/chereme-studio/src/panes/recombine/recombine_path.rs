@@ -1,8 +1,6 @@
 //! Offsets and paths of the hands: an offset as three lengths, and a path drawn with the pointer.
 
-use chereme_corpus::recipe::{
-    BodyDirection, MeasuredSpline, RecipeLength, StraightLeg, TravelSettings, mean_of_directions,
-};
+use chereme_corpus::recipe::{BodyDirection, MeasuredSpline, RecipeLength, StraightLeg, TravelSettings};
 use chereme_motion::glam::DVec3;
 use eframe::egui::{
     Align2, Context, Id, Pos2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
@@ -10,6 +8,7 @@ use eframe::egui::{
 
 use super::recombine_fields::{self, round_shown_number, show_field_caption, show_value_choice};
 use crate::context::PaneInput;
+use crate::model::model_handle::{offset_legs, points_of};
 use crate::words::{fill_text_braces, recombine_words as words};
 
 /// Width of the space that the drawing board shows, in metres.
@@ -18,35 +17,6 @@ const DRAWING_BOARD_WIDTH_METRES: f32 = 0.8;
 const MIN_DRAWN_LINE_METRES: f64 = 0.02;
 /// The most points of a drawn path.
 const MAX_DRAWN_PATH_POINTS: usize = 24;
-
-/// Returns the legs of an offset to the left, up and forward, in metres; an empty list for a zero offset.
-pub(super) fn legs_of(offset: [f64; 3]) -> Vec<StraightLeg> {
-    let axes = [
-        (BodyDirection::Left, BodyDirection::Right),
-        (BodyDirection::Up, BodyDirection::Down),
-        (BodyDirection::Forward, BodyDirection::Back),
-    ];
-    let leg = |(metres, (plus, minus)): (f64, (BodyDirection, BodyDirection))| StraightLeg {
-        towards: vec![if metres < 0.0 { minus } else { plus }],
-        distance: RecipeLength::Metres(metres.abs()),
-        time: None,
-    };
-    let all = offset.into_iter().zip(axes);
-    all.filter(|(metres, _)| *metres != 0.0).map(leg).collect()
-}
-
-/// Returns the legs of an offset; one leg of length zero for a zero offset, so that it remains an offset.
-pub(crate) fn offset_legs(offset: [f64; 3]) -> Vec<StraightLeg> {
-    let mut legs = legs_of(offset);
-    if legs.is_empty() {
-        legs.push(StraightLeg {
-            towards: vec![BodyDirection::Up],
-            distance: RecipeLength::Metres(0.0),
-            time: None,
-        });
-    }
-    legs
-}
 
 /// Returns the sum of legs in metres to the left, up and forward; `None` if a leg does not follow one axis.
 pub(super) fn offset_of(legs: &[StraightLeg]) -> Option<[f64; 3]> {
@@ -216,22 +186,6 @@ pub(crate) fn lengths_from_position(place: DVec3) -> [RecipeLength; 3] {
     place.to_array().map(|value| RecipeLength::Metres(cm(value) / 100.0))
 }
 
-/// Returns the points of a path, in metres to the left, up and forward of its beginning: those of its curve, or the
-/// ends of its legs.
-pub(crate) fn points_of(travel: &TravelSettings, arm: f64) -> Vec<DVec3> {
-    if !travel.through.is_empty() {
-        let point = |at: &[RecipeLength; 3]| DVec3::from(at.map(|length| length.length_in_metres(arm)));
-        return travel.through.iter().map(point).collect();
-    }
-    let mut position = DVec3::ZERO;
-    let legs = travel.path.iter();
-    legs.map(|leg| {
-        position += mean_of_directions(&leg.towards).unwrap_or_default() * leg.distance.length_in_metres(arm);
-        position
-    })
-    .collect()
-}
-
 /// Returns the id of the card whose path the next drag on the stage draws.
 pub(crate) fn drawing_card_id(ctx: &Context) -> Option<u64> {
     ctx.data(|data| data.get_temp(Id::unique(DRAWING_CARD_KEY)))
@@ -384,6 +338,7 @@ fn draw_path_board(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::model_handle::legs_of;
 
     #[test]
     fn offsets_convert_to_legs_along_the_axes_and_back() {

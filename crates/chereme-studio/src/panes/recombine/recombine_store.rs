@@ -4,8 +4,8 @@ use chereme_corpus::RecombinationResult;
 use eframe::egui::{Button, RichText, Ui};
 
 use super::RecombinePane;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::CorpusSnapshot;
 use crate::panes::button_width;
 use crate::words::{fill_text_braces, recombine_words as words};

@@ -3,7 +3,8 @@
 use chereme_corpus::{CorpusAddress, RecordOrigin, SignSuggestions};
 use eframe::egui::{RichText, Ui};
 
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::panes::list_row;
 use crate::words::{InterfaceText, fill_text_braces, recombine_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult, recombining};

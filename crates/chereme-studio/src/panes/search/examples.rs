@@ -7,9 +7,9 @@ use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::query::ExampleToken;
 
 use super::search_builder::{self, QueryCondition};
-use crate::context::{CommandOutbox, PaneInput};
-use crate::model::TokenSign;
-use crate::panes::inspector::InspectedThing;
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
+use crate::model::{InspectedThing, TokenSign};
 use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};
 
 /// The known examples; others are looked up.

@@ -34,13 +34,13 @@ use chereme_corpus::{CorpusError, CorpusOverview, SearchOptions};
 use chereme_sign::query::{ExampleToken, QueryExpression, TokenQuery};
 use eframe::egui::{ScrollArea, Ui};
 
-use super::inspector::InspectedThing;
 use super::notated_pane::AnimatedNotations;
 use super::without_movement::{self, MovementAbsence};
-use super::{ActionOutcome, DraggedToken, PaneInterface};
+use super::{ActionOutcome, PaneInterface};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 use crate::words::{fill_text_braces, search_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
 pub(crate) use hits::walk_hit_grid as walked;

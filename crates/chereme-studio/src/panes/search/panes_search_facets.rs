@@ -12,9 +12,9 @@ use eframe::egui::{
 };
 
 use super::search_rows::{component_text, feature_text};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::panes::inspector::InspectedThing;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 use crate::panes::library::library_data::origin_named;
 use crate::pickers;
 use crate::words::{InterfaceText, fill_text_braces, library, recombine_words, search_words as words};

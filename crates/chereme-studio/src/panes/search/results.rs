@@ -10,10 +10,10 @@ use eframe::egui::{
 
 use super::hits::{self, HitSort, hit_coding_values};
 use super::{ResultsView, SearchPane};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureFocus, MiniatureMotion};
-use crate::panes::{DraggedToken, carry, scrolled_to};
+use crate::panes::{carry, scrolled_to};
 use crate::pickers;
 use crate::words::{InterfaceText, fill_text_braces, search_words as words};
 
@@ -134,7 +134,7 @@ fn draw_result_figure(
             if playing {
                 little = little.with_playing_clock(miniatures::figure_loop_clock(ui));
             }
-            seen.little.paint_figure(ui, seen, out, &little, picture);
+            seen.little.paint_figure(ui, seen.language, out, &little, picture);
             if notated {
                 paint_coding_pictures(ui, seen, &hit, picture, true);
             }

@@ -13,8 +13,8 @@ use eframe::egui::{
 
 use super::search_suggest::{self, CompletionOffers};
 use crate::context::PaneInput;
-use crate::overlay::overlay_remedy;
 use crate::script::script_edit;
+use crate::window_remedy;
 use crate::words::{fill_text_braces, search_words as words, translate_library_message};
 
 /// The text of the query, and the state of its completions.
@@ -238,7 +238,7 @@ impl QueryField {
                 seen.pane_colours().trouble
             };
             let message = translate_library_message(&error.message, seen.language);
-            let remedy = overlay_remedy::window_remedy_text(&error.remedy, seen.language);
+            let remedy = window_remedy::window_remedy_text(&error.remedy, seen.language);
             let words = match remedy.filter(|remedy| !remedy.is_empty()) {
                 Some(remedy) => format!("{message}: {remedy}"),
                 None => message,

@@ -9,9 +9,9 @@ use super::{
     search_symbols, side_column,
 };
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::overlay::overlay_remedy;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::window_remedy;
 use crate::words::{InterfaceLanguage, fill_text_braces, search_words as words, translate_library_message};
 
 /// A pane wider than this, in points, has room for facets beside its results.
@@ -88,7 +88,7 @@ impl SearchPane {
             }
             ui.label(RichText::new(translation).small().color(trouble));
             let remedy = wrong.remedy.as_ref();
-            if let Some(remedy) = remedy.and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language)) {
+            if let Some(remedy) = remedy.and_then(|remedy| window_remedy::window_remedy_text(remedy, seen.language)) {
                 ui.label(RichText::new(remedy).small());
             }
             let mended = wrong.mended.clone();

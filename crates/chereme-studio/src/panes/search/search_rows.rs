@@ -8,7 +8,8 @@ use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Sense, Slider, U
 
 use super::examples::KnownExamples;
 use super::search_builder::{self, ConditionRelation, ConditionSubject, QueryCondition, format_query_pattern};
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
 use crate::model::TokenSign;
 use crate::panes::library::library_data::origin_named;
@@ -564,7 +565,7 @@ fn like_ui(
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let motion = MiniatureMotion::Span(recording, span);
         let cell = MiniatureCell::new(motion, size).with_playing_clock(miniatures::figure_loop_clock(ui));
-        seen.little.paint_figure(ui, seen, out, &cell, rect);
+        seen.little.paint_figure(ui, seen.language, out, &cell, rect);
     }
     let name = match example.gloss.as_str() {
         "" => "…",

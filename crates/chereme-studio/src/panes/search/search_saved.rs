@@ -8,8 +8,8 @@ use chereme_sign::query::TokenQuery;
 use chereme_sign::text::fold_text;
 use eframe::egui::{Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Ui, WidgetInfo};
 
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::script::script_edit;
 use crate::settings::{SavedSearch, SearchHistory};
 use crate::words::{fill_text_braces, search_words as words};

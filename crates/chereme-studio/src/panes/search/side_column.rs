@@ -12,8 +12,8 @@ use super::hits::QueryAnswer;
 use super::search_builder;
 use super::search_rows::component_text;
 use super::search_saved::{SavedSearchList, only_counted};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::words::{InterfaceText, fill_text_braces, search_words as words, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, analysis, searching};
 

@@ -6,7 +6,8 @@ use eframe::egui::{
 };
 
 use super::search_builder::with_value;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::miniatures;
 use crate::pickers::{self, ValuePicker};
 use crate::words::{InterfaceText, search_words as words};

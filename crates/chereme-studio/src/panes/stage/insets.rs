@@ -13,8 +13,8 @@ use eframe::egui::{
 use super::StagePane;
 use super::stage_data::{self, StageInset, StagePart};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::pickers;
 use crate::words::{fill_text_braces, stage_words as words};
 

@@ -45,24 +45,22 @@ use chereme_motion::{BodySide, ModelPose};
 use eframe::egui::{Context, Id, Rect, TextureHandle, Ui};
 
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::panes::{ActionOutcome, PaneInterface};
+use crate::settings::stage_settings::{DEFAULT_TRAIL_REACH_SECONDS, OriginalComparison, WantedInsets};
 use crate::work::{WorkId, WorkResult};
 use artist::StageArtist;
 use original::OriginalMovements;
-use stage_data::{OriginalComparison, StageExtras, StageEye, StageLook, WantedInsets};
+use stage_data::{StageExtras, StageEye, StageLook};
 use stage_marks::PlacementZone;
 use stage_points::RecordingPoints;
 use stage_scene::{PostureSource, StageSubject};
-pub(crate) use stage_view_settings::StageSettings;
 
 /// The step of a key for turning, in shares of the picture's height, and for magnification.
 const KEY_STEP: f32 = 0.06;
 const KEY_ZOOM: f32 = 1.15;
-/// Usual reach of trails, in seconds.
-const DEFAULT_TRAIL_REACH_SECONDS: f64 = 0.4;
 
 /// The pane.
 pub(crate) struct StagePane {
@@ -279,10 +277,10 @@ impl StagePane {
 impl PaneInterface for StagePane {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         if !std::mem::replace(&mut self.remembered, true) {
-            seen.settings.stage.apply_stage_settings(self);
+            self.apply_stage_settings(&seen.settings.stage);
         }
         stage_ui::show_stage_pane(self, ui, seen, out);
-        let settings = StageSettings::from_stage_pane(self);
+        let settings = self.stage_settings();
         if settings != seen.settings.stage {
             out.send_command(WindowCommand::Stage(Box::new(settings)));
         }

@@ -6,7 +6,8 @@ use chereme_corpus::{DisplayedMovement, MadePart};
 use chereme_motion::RecordingInstant;
 
 use super::stage_scene::StageSubject;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::work::{WorkId, WorkOutcome, WorkResult, movement_jobs};
 
 /// The originals of the movement on the stage.

@@ -10,8 +10,8 @@ use glam::{DMat3, DVec3};
 use super::StagePane;
 use super::gizmo::{SightRay, SignerDirections};
 use super::stage_data::StagePart;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::recombine::{draw_on_stage, drawing_card_id, lengths_from_position, points_of_line};
 use crate::words::{fill_text_braces, recombine_words as words};
 

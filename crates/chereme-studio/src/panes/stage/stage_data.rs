@@ -1,11 +1,11 @@
 //! The cameras and the division of the stage, without widgets.
 
+use crate::settings::stage_settings::{OriginalComparison, WantedInsets};
 use chereme_figure::FigureView;
 use chereme_figure::camera::FigureCamera;
 use chereme_motion::RecordingInstant;
 use eframe::egui::{Align2, Pos2, Rect, Vec2};
 use glam::{Quat, Vec3};
-use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 
@@ -110,31 +110,6 @@ impl StageEye {
     }
 }
 
-/// How generated movement and its original are shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum OriginalComparison {
-    /// Side by side.
-    #[default]
-    Beside,
-    /// The original above the generated movement, transparent.
-    Over,
-    /// Without the original.
-    Alone,
-}
-
-impl OriginalComparison {
-    pub(crate) const ALL_COMPARISONS: [Self; 3] = [Self::Beside, Self::Over, Self::Alone];
-
-    pub(crate) fn next(self) -> Self {
-        match self {
-            Self::Beside => Self::Over,
-            Self::Over => Self::Alone,
-            Self::Alone => Self::Beside,
-        }
-    }
-}
-
 /// The contents of a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum StagePartContent {
@@ -221,27 +196,6 @@ pub(crate) struct StageExtras {
     pub(crate) grid: bool,
     /// Whether markers are shown beside the signer.
     pub(crate) points: bool,
-}
-
-/// The close-ups in the corners of the stage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub(crate) struct WantedInsets {
-    /// Both hands.
-    pub(crate) hands: bool,
-    /// Whether hands are turned so that the palms are visible and the fingers point up.
-    pub(crate) palms: bool,
-    pub(crate) face: bool,
-}
-
-impl Default for WantedInsets {
-    fn default() -> Self {
-        Self {
-            hands: true,
-            palms: false,
-            face: false,
-        }
-    }
 }
 
 /// A close-up in a corner of a part of the stage.

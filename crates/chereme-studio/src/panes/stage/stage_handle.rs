@@ -12,8 +12,8 @@ use super::gizmo::{self, GizmoDragStart, GizmoLayout, HandlePart, SightRay, Sign
 use super::stage_data::StagePart as Pane;
 use super::{MovementIdentity, StagePane, stage_ui};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::model_handle::PlacementHandle;
 use crate::words::{fill_text_braces, recombine_words, stage_words as words};
 

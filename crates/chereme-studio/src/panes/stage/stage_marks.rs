@@ -8,9 +8,9 @@ use eframe::egui::{Align2, Painter, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetI
 use glam::DVec3;
 
 use super::stage_scene::StageSubject;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::panes::inspector::InspectedThing;
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::InspectedThing;
 
 /// A placement value, as a position on a body.
 #[derive(Debug, Clone, PartialEq)]

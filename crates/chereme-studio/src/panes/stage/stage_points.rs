@@ -8,7 +8,8 @@ use chereme_figure::mesh::TriangleMesh;
 use chereme_figure::{FigureView, PaperTheme, PointCloud};
 use chereme_motion::{MarkerTrack, RecordingInstant, TimeSpan};
 
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::work::{WorkId, WorkOutcome, WorkResult, movement_jobs};
 
 /// Length of a piece, in microseconds.

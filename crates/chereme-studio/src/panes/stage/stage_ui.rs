@@ -14,17 +14,19 @@ use eframe::egui::{
 use super::artist::{CameraPicture, PosedFigure, ShapeSheet, StageArtist, StageRequest};
 use super::captions::{NARROW_PICTURE_WIDTH_POINTS, show_original_signer, show_stage_notes};
 pub(super) use super::captions::{chip_on, paint_caption_chip};
-use super::stage_data::{self, OriginalComparison, StageInset, StageLook, StagePart, StagePartContent, VIEW_ACTIONS};
+use super::stage_data::{StageInset, StageLook, StagePart, StagePartContent, VIEW_ACTIONS};
 use super::stage_scene::StageSubject;
 use super::{
-    StageEye, StagePane, insets, original, preview, stage_course, stage_handle, stage_marks, stage_movement_source,
-    tools, transport,
+    StageEye, StagePane, insets, original, preview, stage_course, stage_data, stage_handle, stage_marks,
+    stage_movement_source, tools, transport,
 };
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::film::RecordingFilms;
 use crate::miniatures;
+use crate::panes::film_screens;
+use crate::settings::stage_settings::OriginalComparison;
 use crate::words::{InterfaceText, stage_words as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
@@ -104,7 +106,7 @@ fn show_stage_films(
         return Some(whole);
     }
     if why_nothing(stage, seen) == Some(words::NO_MOVEMENT) {
-        seen.films.show_films(ui, seen, out, whole);
+        film_screens::show_film_screens(ui, seen, out, whole);
         return None;
     }
     // The longer side is divided.
@@ -116,7 +118,7 @@ fn show_stage_films(
         let middle = half(whole.top(), whole.bottom());
         (whole.with_max_y(middle - 2.0), whole.with_min_y(middle + 2.0))
     };
-    seen.films.show_films(ui, seen, out, film);
+    film_screens::show_film_screens(ui, seen, out, film);
     Some(rest)
 }
 

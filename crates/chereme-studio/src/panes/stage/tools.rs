@@ -5,10 +5,10 @@ use eframe::egui::{
 };
 
 use super::StagePane;
-use super::stage_data::OriginalComparison;
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::settings::stage_settings::OriginalComparison;
 use crate::words::{fill_text_braces, stage_words as words};
 
 /// The width of a generated sign's name, in points.

@@ -8,8 +8,8 @@ use eframe::egui::{
 };
 
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::timeline::timeline_data::time_text;
 use crate::player::PLAYBACK_SPEEDS;
 use crate::words::{InterfaceText, fill_text_braces, stage_words as words};

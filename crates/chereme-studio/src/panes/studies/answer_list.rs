@@ -7,8 +7,8 @@ use eframe::egui::{Button, ScrollArea, Ui};
 
 use super::studies_draft::show_draft_text_line;
 use super::{SavedFile, SavedTo, StudiesPane, studies_data};
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox};
+use crate::context::PaneInput;
 use crate::panes::{combo, list_row};
 use crate::words::{fill_text_braces, shell, studies_words as words};
 use crate::work::{WorkId, studying};

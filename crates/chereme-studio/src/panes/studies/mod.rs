@@ -25,10 +25,9 @@ use self::drafted::{DraftedPlan, StudyDraft};
 use self::studies_trials::RequestedTrialClip;
 use super::saved_pane::{PathField, SavedFile, SavedTo};
 use super::{PaneInterface, list_row, reach_focus};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
-use crate::overlay::overlay_remedy;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::window_remedy;
 use crate::words::{
     InterfaceLanguage, InterfaceText, fill_text_braces, shell, studies_words as words, translate_library_message,
 };
@@ -95,7 +94,7 @@ impl StudyFault {
     /// Returns the remedy, if the window has one.
     fn helps(&self, language: InterfaceLanguage) -> Option<String> {
         let remedy = self.remedy.as_ref()?;
-        overlay_remedy::window_remedy_text(remedy, language)
+        window_remedy::window_remedy_text(remedy, language)
     }
 }
 

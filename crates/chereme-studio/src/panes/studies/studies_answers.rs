@@ -8,9 +8,8 @@ use eframe::egui::{Button, CollapsingHeader, Grid, ScrollArea, Ui};
 
 use super::studies_draft::{show_remove_line_button, text_block};
 use super::{PathField, StudiesPane, answer_list, progress};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::import::PathCompletions;
 use crate::words::{fill_text_braces, shell, studies_words as words, translate_library_message};
 use crate::work::{WorkId, studying};

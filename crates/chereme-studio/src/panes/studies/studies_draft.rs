@@ -5,9 +5,8 @@ use eframe::egui::{Button, CollapsingHeader, DragValue, Response, Role, ScrollAr
 
 use super::drafted::StudyDraft;
 use super::{StudiesPane, StudyFault, hypotheses, progress, wording};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::{carry, combo, recombine};
 use crate::script::script_edit;
 use crate::words::{fill_text_braces, shell, studies_words as words};

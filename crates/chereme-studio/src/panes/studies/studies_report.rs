@@ -8,8 +8,8 @@ use chereme_corpus::study::report::StudyReport;
 use eframe::egui::{Button, Ui};
 
 use super::{PathField, StudiesPane, progress, studies_data, studies_figures};
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox};
+use crate::context::PaneInput;
 use crate::panes::import::PathCompletions;
 use crate::words::{fill_text_braces, studies_words as words};
 use crate::work::{WorkId, studying};

@@ -8,8 +8,8 @@ use chereme_sign::SignerHandedness;
 use eframe::egui::{ScrollArea, Ui};
 
 use super::{StudiesPane, studies_data};
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::panes::list_row;
 use crate::words::{fill_text_braces, studies_words as words};

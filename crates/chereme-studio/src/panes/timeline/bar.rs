@@ -7,10 +7,10 @@ use eframe::egui::{Button, Color32, ScrollArea, TextStyle, Ui};
 
 use super::timeline_edit::TimelineScene;
 use super::timeline_rows::{build_timeline_rows, hidden_count};
-use super::timeline_view_settings::TimelineSettings;
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::settings::timeline_settings::TimelineSettings;
 use crate::words::{InterfaceText, fill_text_braces, timeline as words};
 use crate::work::editing;
 
@@ -66,7 +66,7 @@ pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mu
             show_tool_menu(ui, seen, seen.say_text(words::SNAP), &SNAP_MODE_ACTIONS, out);
         }
         let mut lanes = vec![(Action::Overview, words::LANES)];
-        lanes.extend(super::timeline_lanes::CurveLane::ALL_CURVE_LANES.map(|(_, action, text)| (action, text)));
+        lanes.extend(super::timeline_lanes::CURVE_LANES.map(|(_, action, text)| (action, text)));
         show_tool_menu(ui, seen, seen.say_text(words::LANES), &lanes, out);
         show_tiers_menu(ui, scene, tiers_title, out);
         ui.spacing_mut().item_spacing.x = 8.0;

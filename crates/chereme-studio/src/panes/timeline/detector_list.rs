@@ -5,7 +5,7 @@ use eframe::egui::{Align2, Button, Id, Key, Label, Modifiers, Ui, Window, vec2};
 
 use super::timeline_edit::TimelineScene;
 use super::{TimelinePane, proposals};
-use crate::context::CommandOutbox;
+use crate::command::CommandOutbox;
 use crate::words::{fill_text_braces, shell, timeline as words};
 use crate::work::analysis;
 

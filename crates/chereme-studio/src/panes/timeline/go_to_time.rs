@@ -8,8 +8,7 @@ use eframe::egui::{Align2, Id, Key, Label, Modifiers, Role, TextEdit, Ui, Widget
 use super::TimelinePane;
 use super::timeline_data::time_text;
 use super::timeline_edit::TimelineScene;
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
+use crate::command::{CommandOutbox, WindowCommand};
 use crate::script::script_edit;
 use crate::words::{fill_text_braces, shell, timeline as words};
 

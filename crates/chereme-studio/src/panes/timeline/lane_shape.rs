@@ -1,6 +1,6 @@
 //! The geometry of lanes, without widgets: their height, their scale, and the line through their frames.
 
-use super::timeline_lanes::CurveLane;
+use crate::settings::timeline_settings::CurveLane;
 use crate::words::{InterfaceLanguage, timeline as words};
 
 /// The height of a lane, in points: with room, with little room, and folded.

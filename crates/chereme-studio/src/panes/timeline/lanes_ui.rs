@@ -7,10 +7,11 @@ use eframe::egui::{
 
 use super::lane_shape::{self, CURVE_LANE_HEIGHT_POINTS, FOLDED_LANE_HEIGHT_POINTS, WantedLanes};
 use super::timeline_edit::TimelineScene;
-use super::timeline_lanes::{CurveLane, FrameRun, MovementFrames};
+use super::timeline_lanes::{FrameRun, MovementFrames};
 use super::timeline_ui::TimelineDrawing;
 use super::{timeline_lanes, timeline_paint, timeline_view_settings};
 use crate::context::PaneInput;
+use crate::settings::timeline_settings::CurveLane;
 use crate::theme;
 use crate::words::{fill_text_braces, timeline as words};
 
@@ -59,7 +60,7 @@ impl TimelineDrawing<'_, '_> {
             return;
         }
         let shown = |(lane, ..): &(CurveLane, _, _)| settings.lanes.contains(lane);
-        let all: Vec<_> = CurveLane::ALL_CURVE_LANES.into_iter().filter(shown).collect();
+        let all: Vec<_> = timeline_lanes::CURVE_LANES.into_iter().filter(shown).collect();
         let stored: Vec<String> = {
             let all = self.timeline.curves.nonzero_stored_curves();
             all.into_iter().map(str::to_owned).collect()

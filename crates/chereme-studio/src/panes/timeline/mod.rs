@@ -22,6 +22,7 @@
 mod above;
 pub(crate) mod bar;
 mod detector_list;
+pub(crate) mod draft_file;
 mod drag;
 mod dragged;
 mod editor;
@@ -58,18 +59,17 @@ use eframe::egui::{Context, Id};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::time_window::TimeWindow;
 use crate::panes::{ActionOutcome, PaneInterface};
 use crate::player::StagePlayer;
 use crate::words::timeline as words;
 use crate::work::{WorkId, WorkOutcome, WorkResult, editing};
 use chereme_sign::tier::tier_spans::{self, SpanItem};
 use editor::{EditTarget, ValueEditing};
-use timeline_data::TimeWindow;
 use timeline_edit::TimelineScene;
 use timeline_parts::{RequestedChanges, TimelineBoxes, TimelineView, ValueEntry};
-pub(crate) use timeline_view_settings::TimelineSettings;
 
 /// Returns a recording with one tier of annotations, each given as id, start and end.
 #[cfg(test)]

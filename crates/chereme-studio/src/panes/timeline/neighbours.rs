@@ -9,7 +9,7 @@ use super::tier_spans::{DragGrip, SpanItem};
 use super::timeline_edit::{self, TimelineScene};
 use super::{ChangeFollowUp, GhostAnnotation, TimelinePane};
 use crate::action::Action;
-use crate::context::CommandOutbox;
+use crate::command::CommandOutbox;
 use crate::panes::ActionOutcome;
 use crate::words::{shell, timeline as words};
 

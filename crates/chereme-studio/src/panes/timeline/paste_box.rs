@@ -3,10 +3,9 @@
 use chereme_corpus::annotate_paste::PastePlan;
 use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
 
-use super::TimelinePane;
 use super::timeline_edit::TimelineScene;
-use super::timeline_paste;
-use crate::context::CommandOutbox;
+use super::{TimelinePane, timeline_paste};
+use crate::command::CommandOutbox;
 use crate::words::{fill_text_braces, shell, timeline as words};
 
 /// The most lines in the list.

@@ -9,8 +9,8 @@ use super::timeline_edit::TimelineScene;
 use super::timeline_rows::{TimelineRow, build_timeline_rows};
 use super::{TimelinePane, dragged, timeline_data};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::panes::ActionOutcome;
 use crate::words::timeline as words;
 

@@ -9,7 +9,8 @@ use eframe::egui::{Align2, ComboBox, Grid, Id, Key, Modifiers, Popup, Role, Ui, 
 
 use super::TimelinePane;
 use super::timeline_edit::TimelineScene;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::CommandOutbox;
+use crate::context::PaneInput;
 use crate::panes::combo;
 use crate::panes::search::field_text;
 use crate::script::script_edit;

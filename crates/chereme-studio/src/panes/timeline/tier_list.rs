@@ -8,7 +8,7 @@ use super::dragged::{self, TierTiming};
 use super::tier_spans::SpanItem;
 use super::timeline_edit::{TimelineScene, holds_proposals, no_room};
 use super::{ChangeFollowUp, TimelinePane};
-use crate::context::CommandOutbox;
+use crate::command::CommandOutbox;
 use crate::script::script_edit;
 use crate::words::{InterfaceText, timeline as words};
 

@@ -1,16 +1,16 @@
 //! Movement as lanes below the ruler: measured piece by piece in the background, stored, and thinned to the columns of
 //! the screen.
 
+use crate::settings::timeline_settings::CurveLane;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_corpus::ClipKinematicCurves;
 use chereme_motion::{FrameRate, RecordingInstant, TimeSpan};
-use serde::{Deserialize, Serialize};
 
 use super::lane_shape;
-use super::timeline_data::TimeWindow;
 use crate::action::Action;
-use crate::context::CommandOutbox;
+use crate::command::CommandOutbox;
+use crate::model::time_window::TimeWindow;
 use crate::words::{InterfaceText, timeline as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult, movement_jobs};
 
@@ -20,37 +20,14 @@ const LANE_SUMMARY_FRAMES: usize = 16;
 /// Values of a stored curve up to this count as zero.
 const NEGLIGIBLE_CURVE_VALUE: f64 = 1e-3;
 
-/// A lane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum CurveLane {
-    Speed,
-    Aperture,
-    Palm,
-    Distance,
-    /// The curves stored with the movement, each in its own lane.
-    Face,
-}
-
-impl CurveLane {
-    /// Every lane with the action that shows it and its name.
-    pub(crate) const ALL_CURVE_LANES: [(Self, Action, InterfaceText); 5] = [
-        (Self::Speed, Action::LaneSpeed, words::LANE_SPEED),
-        (Self::Aperture, Action::LaneAperture, words::LANE_APERTURE),
-        (Self::Palm, Action::LanePalm, words::LANE_PALM),
-        (Self::Distance, Action::LaneDistance, words::LANE_DISTANCE),
-        (Self::Face, Action::LaneFace, words::LANE_FACE),
-    ];
-
-    /// Returns the number of curves: one for each hand, or one for both.
-    pub(crate) fn lane_curve_count(self) -> usize {
-        match self {
-            Self::Distance => 1,
-            Self::Face => 0,
-            _ => 2,
-        }
-    }
-}
+/// Every lane with the action that shows it and its name.
+pub(crate) const CURVE_LANES: [(CurveLane, Action, InterfaceText); 5] = [
+    (CurveLane::Speed, Action::LaneSpeed, words::LANE_SPEED),
+    (CurveLane::Aperture, Action::LaneAperture, words::LANE_APERTURE),
+    (CurveLane::Palm, Action::LanePalm, words::LANE_PALM),
+    (CurveLane::Distance, Action::LaneDistance, words::LANE_DISTANCE),
+    (CurveLane::Face, Action::LaneFace, words::LANE_FACE),
+];
 
 /// The frames of a recording's movement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

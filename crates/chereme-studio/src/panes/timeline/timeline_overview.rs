@@ -10,9 +10,10 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use super::timeline_data::{TimeWindow, time_text};
+use super::timeline_data::time_text;
 use super::timeline_edit::TimelineScene;
 use super::timeline_ui::TimelineDrawing;
+use crate::model::time_window::TimeWindow;
 use crate::words::{fill_text_braces, timeline as words};
 
 const OVERVIEW_HEIGHT_POINTS: f32 = 26.0;

@@ -9,8 +9,10 @@ use eframe::egui::{
 };
 
 use super::drag::GestureSight;
-use super::timeline_data::{self, AnnotationBar, TimeWindow};
+use super::timeline_data;
+use super::timeline_data::AnnotationBar;
 use crate::context::PaneInput;
+use crate::model::time_window::TimeWindow;
 use crate::pickers::pickers_data as pickers;
 use crate::words::{InterfaceLanguage, timeline as words};
 

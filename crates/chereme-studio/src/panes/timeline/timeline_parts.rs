@@ -6,13 +6,13 @@ use std::sync::Arc;
 use chereme_motion::{RecordingInstant, TimeSpan};
 
 use super::editor::ValueEditing;
-use super::timeline_data::TimeWindow;
 use super::{
     AnnotationDraft, BegunAnnotation, ChangeFollowUp, GhostAnnotation, detector_list, go_to_time, paste_box, tier_box,
     tier_list, timeline_values,
 };
 use crate::context::PaneInput;
 use crate::model::OpenedRecording;
+use crate::model::time_window::TimeWindow;
 use crate::pickers::ValuePicker;
 use crate::work::WorkId;
 

@@ -6,13 +6,11 @@ use chereme_corpus::annotate_clipboard::{self, ClipboardText, CopiedAnnotation, 
 use chereme_corpus::annotate_paste::{PastePlan, PastedAnnotation, inventory_allows_value, plan_paste};
 use chereme_corpus::{AnnotationChange, RecordingContents, TierContents, requests};
 
-use super::dragged;
 use super::timeline_data::time_text;
 use super::timeline_edit::{self, TimelineScene};
-use super::{ChangeFollowUp, GhostAnnotation, TimelinePane, paste_box, tier_list};
+use super::{ChangeFollowUp, GhostAnnotation, TimelinePane, dragged, paste_box, tier_list};
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::CommandOutbox;
+use crate::command::{CommandOutbox, WindowCommand};
 use crate::panes::ActionOutcome;
 use crate::words::{InterfaceText, fill_text_braces, shell, timeline as words};
 

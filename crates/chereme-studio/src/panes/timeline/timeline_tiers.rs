@@ -12,7 +12,7 @@ use super::tier_box::{TierBox, TierBoxPurpose};
 use super::timeline_edit::TimelineScene;
 use super::{TimelinePane, timeline_view_settings};
 use crate::action::Action;
-use crate::context::CommandOutbox;
+use crate::command::CommandOutbox;
 use crate::panes::ActionOutcome;
 use crate::words::timeline as words;
 use crate::work::editing;

@@ -10,15 +10,17 @@ use eframe::egui::{
     vec2,
 };
 
-use super::timeline_data::{self, TimeWindow, time_text};
+use super::timeline_data::time_text;
 use super::timeline_edit::TimelineScene;
 use super::timeline_rows::TimelineRow;
 use super::{
-    TimelinePane, bar, detector_list, go_to_time, paste_box, proposals, select, tier_box, tier_list, timeline_paint,
+    TimelinePane, bar, detector_list, go_to_time, paste_box, proposals, select, tier_box, tier_list, timeline_data,
+    timeline_paint,
 };
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::model::time_window::TimeWindow;
 use crate::words::{fill_text_braces, timeline as words};
 
 /// The least width of the column of tier names in points, and its greatest share of the pane.

@@ -1,49 +1,13 @@
 //! Settings of the timeline: stored, and changed by actions.
 
+use crate::settings::timeline_settings::TimelineSettings;
 use std::collections::BTreeSet;
 
-use chereme_corpus::snap::SnapKinds;
-use serde::{Deserialize, Serialize};
-
 use super::tier_spans::NeighbourMode;
-use super::timeline_lanes::CurveLane;
+use super::timeline_lanes;
 use crate::action::Action;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-
-/// Settings of the timeline.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub(crate) struct TimelineSettings {
-    /// How an edit treats neighbouring annotations.
-    pub(crate) mode: NeighbourMode,
-    /// The kinds of times that drags snap to.
-    pub(crate) snaps: SnapKinds,
-    /// The visible lanes of movement.
-    pub(crate) lanes: BTreeSet<CurveLane>,
-    /// The lanes that are folded to their names.
-    pub(crate) folded_lanes: BTreeSet<CurveLane>,
-    /// Whether a strip shows the whole recording while only a part is visible.
-    pub(crate) overview: bool,
-    /// Names of tiers whose children are folded.
-    pub(crate) folded: BTreeSet<String>,
-    /// Names of hidden tiers.
-    pub(crate) hidden: BTreeSet<String>,
-}
-
-impl Default for TimelineSettings {
-    fn default() -> Self {
-        Self {
-            mode: NeighbourMode::default(),
-            snaps: SnapKinds::default(),
-            lanes: BTreeSet::new(),
-            folded_lanes: BTreeSet::new(),
-            overview: true,
-            folded: BTreeSet::new(),
-            hidden: BTreeSet::new(),
-        }
-    }
-}
+use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 
 impl TimelineSettings {
     /// Returns the settings after an action; `None` if the action does not change them.
@@ -59,7 +23,7 @@ impl TimelineSettings {
             Action::Overview => settings.overview = !settings.overview,
             Action::ShowTiers => settings.hidden.clear(),
             _ => {
-                let (lane, ..) = CurveLane::ALL_CURVE_LANES
+                let (lane, ..) = timeline_lanes::CURVE_LANES
                     .into_iter()
                     .find(|(_, of, _)| *of == action)?;
                 toggle_in_set(&mut settings.lanes, lane);
@@ -78,7 +42,7 @@ impl TimelineSettings {
             Action::SnapBoundaries => self.snaps.boundaries,
             Action::SnapMinima => self.snaps.minima,
             Action::Overview => self.overview,
-            _ => CurveLane::ALL_CURVE_LANES
+            _ => timeline_lanes::CURVE_LANES
                 .iter()
                 .any(|(lane, of, _)| *of == action && self.lanes.contains(lane)),
         }

@@ -9,13 +9,12 @@ use eframe::egui::{
     UiBuilder, WidgetInfo, WidgetText, pos2, vec2,
 };
 
-use super::projector::FilmFileState;
-use super::screen::FilmScreen;
-use crate::command::WindowCommand;
-use crate::context::{CommandOutbox, PaneInput};
-use crate::file_dialogs::ChooserPurpose;
-use crate::overlay::overlay_remedy;
-use crate::panes::inspector::InspectedThing;
+use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
+use crate::film::projector::FilmFileState;
+use crate::film::screen::FilmScreen;
+use crate::model::InspectedThing;
+use crate::window_remedy;
 use crate::words::{fill_text_braces, film_words as words, translate_library_message};
 use crate::work::recordings_jobs;
 
@@ -29,13 +28,8 @@ const FILM_GAP_POINTS: f32 = 6.0;
 const MAX_PICTURE_PIXELS: [usize; 2] = [1280, 1280];
 
 /// Shows films next to each other, or above each other if that makes them larger.
-pub(super) fn show_film_screens(
-    screens: &mut [FilmScreen],
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    rect: Rect,
-) {
+pub(crate) fn show_film_screens(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, rect: Rect) {
+    let mut screens = seen.films.borrow_screens();
     // Films that cannot be shown take a line each, below those that can.
     let shown = screens.iter().filter(|screen| !screen.is_missing()).count();
     let lines = match shown {
@@ -146,7 +140,7 @@ fn unshown_film_reason(screen: &FilmScreen, seen: &PaneInput<'_>) -> String {
         }
         FilmFileState::Refused(why, remedy) => {
             let raw_remedy = remedy.as_ref();
-            let remedy = raw_remedy.and_then(|remedy| overlay_remedy::window_remedy_text(remedy, seen.language));
+            let remedy = raw_remedy.and_then(|remedy| window_remedy::window_remedy_text(remedy, seen.language));
             let parts = [Some(translate_library_message(why, seen.language)), remedy];
             let shown: Vec<String> = parts.into_iter().flatten().collect();
             shown.join("\n\n")

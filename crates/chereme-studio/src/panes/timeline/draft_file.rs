@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::panes::timeline::AnnotationDraft;
+use super::AnnotationDraft;
 use crate::settings::{StudioFolders, write_whole};
 
 /// The draft file of one corpus.

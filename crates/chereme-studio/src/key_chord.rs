@@ -1,12 +1,37 @@
-//! A key with its modifiers, as people write it.
+//! A key with its modifiers, as people write it; the sets of default keys.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
 use eframe::egui::{Key, Modifiers};
 use serde::{Deserialize, Serialize};
 
-use crate::words::{InterfaceLanguage, key_names as words};
+use crate::words::{InterfaceLanguage, InterfaceText, key_names as words, shell};
+
+/// A set of default keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum DefaultKeymap {
+    /// Those of ELAN.
+    #[default]
+    Elan,
+    /// Those of Praat, as far as it has any.
+    Praat,
+    /// Those of video editors: J, K, L.
+    Editor,
+}
+
+impl DefaultKeymap {
+    pub(crate) const ALL_KEYMAPS: [(Self, InterfaceText); 3] = [
+        (Self::Elan, shell::KEYMAP_ELAN),
+        (Self::Praat, shell::KEYMAP_PRAAT),
+        (Self::Editor, shell::KEYMAP_EDITOR),
+    ];
+}
+
+/// Keys that the user gave to actions, by action id; an empty list removes all keys of the action.
+pub(crate) type ReboundKeys = BTreeMap<String, Vec<KeyChord>>;
 
 /// A key with its modifiers: `Ctrl+Shift+Space`. Ctrl is the command key on a Mac.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
