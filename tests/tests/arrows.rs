@@ -1,6 +1,6 @@
 //! The arrows between the crates, and what comes from outside: read from `cargo metadata`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 use chereme_tests::repository;
@@ -287,9 +287,11 @@ fn licence_expressions_are_evaluated_correctly() {
 /// The modules of the corpus that its database module may use. `words` has what an operation did, which the history stores.
 const BELOW_THE_DATABASE: [&str; 4] = ["db", "error", "progress", "words"];
 
-/// Returns the code of a file without its tests.
+/// Returns the code of a file without the tests at its end.
 fn code(text: &str) -> &str {
-    text.split("#[cfg(test)]").next().unwrap_or_default()
+    let marks = text.match_indices("#[cfg(test)]\nmod ");
+    let mut test_starts = marks.filter(|(at, _)| text[*at..].lines().nth(1).is_some_and(|line| line.ends_with('{')));
+    test_starts.next().map_or(text, |(at, _)| &text[..at])
 }
 
 #[test]
@@ -323,4 +325,154 @@ fn the_search_engine_is_named_in_one_folder() {
         .partition(|path| path.starts_with(room));
     assert!(!inside.is_empty(), "the engine has moved");
     assert!(outside.is_empty(), "{outside:?}");
+}
+
+/// Crates whose rooms still form larger circles. A crate that has opened its circles leaves this list.
+const CRATES_WITH_CIRCLES: [&str; 1] = ["chereme-corpus"];
+/// The most rooms of a circle: a parent and the types that its children share.
+const MAX_CIRCLE_ROOMS: usize = 3;
+
+/// The rooms of a crate, which are its top-level modules, and the rooms that each uses, with one file that does.
+type RoomArrows = BTreeMap<String, BTreeMap<String, String>>;
+
+/// Returns the names that follow `crate::` in some code, and those that as many `super::` as reach the crate's root precede.
+fn root_names(code: &str, depth: usize) -> BTreeSet<String> {
+    let above = "super::".repeat(depth);
+    let mut names = BTreeSet::new();
+    let after_root = code.split("crate::").skip(1).chain(code.split(&above).skip(1));
+    for part in after_root {
+        let Some(group) = part.strip_prefix('{') else {
+            names.insert(part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+            continue;
+        };
+        let (mut inside, mut at_root, mut name) = (0, true, String::new());
+        for c in group.chars() {
+            match c {
+                '{' => inside += 1,
+                '}' if inside > 0 => inside -= 1,
+                ',' | '}' if inside == 0 => {
+                    names.insert(std::mem::take(&mut name));
+                    at_root = true;
+                    if c == '}' {
+                        break;
+                    }
+                }
+                ':' => at_root = false,
+                c if at_root && (c.is_alphanumeric() || c == '_') => name.push(c),
+                _ => {}
+            }
+        }
+    }
+    names
+}
+
+/// Returns the arrows between the rooms of a crate; a name that the root exports counts as its room.
+fn room_arrows(name: &str, files: &[repository::TextFile]) -> RoomArrows {
+    let folder = format!("crates/{name}/src/");
+    let own: Vec<(Vec<&str>, &repository::TextFile)> = files
+        .iter()
+        .filter(|file| !file.is_test() && !file.path.ends_with("_tests.rs"))
+        .filter_map(|file| {
+            Some((
+                file.path
+                    .strip_prefix(&folder)?
+                    .trim_end_matches(".rs")
+                    .split('/')
+                    .collect(),
+                file,
+            ))
+        })
+        .collect();
+    let rooms: BTreeSet<&str> = own
+        .iter()
+        .map(|(parts, _)| parts[0])
+        .filter(|room| !["lib", "main", "bin"].contains(room))
+        .collect();
+    let root = own.iter().find(|(parts, _)| parts == &["lib"]);
+    let mut exported: BTreeMap<&str, &str> = BTreeMap::new();
+    for export in root
+        .map_or("", |(_, file)| file.text.as_str())
+        .split("pub use ")
+        .skip(1)
+    {
+        let (room, items) = export
+            .split(';')
+            .next()
+            .and_then(|text| text.split_once("::"))
+            .unwrap_or_default();
+        let items = items
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .filter(|item| !item.is_empty());
+        exported.extend(items.map(|item| (item, room)));
+    }
+    let mut arrows = RoomArrows::new();
+    for (parts, file) in own.iter().filter(|(parts, _)| rooms.contains(parts[0])) {
+        let depth = parts.len() - usize::from(parts.last() == Some(&"mod"));
+        for used in root_names(code(&file.text), depth) {
+            let room = rooms.get(used.as_str()).or_else(|| exported.get(used.as_str()));
+            if let Some(room) = room.filter(|room| **room != parts[0]) {
+                let from = arrows.entry(parts[0].to_owned()).or_default();
+                from.entry((*room).to_owned()).or_insert_with(|| file.path.clone());
+            }
+        }
+    }
+    arrows
+}
+
+/// Returns the rooms that can be reached from a room.
+fn reached_rooms<'a>(arrows: &'a RoomArrows, start: &str) -> BTreeSet<&'a str> {
+    let mut reached = BTreeSet::new();
+    let mut ahead: Vec<&str> = arrows
+        .get(start)
+        .into_iter()
+        .flat_map(BTreeMap::keys)
+        .map(String::as_str)
+        .collect();
+    while let Some(room) = ahead.pop() {
+        if reached.insert(room) {
+            ahead.extend(
+                arrows
+                    .get(room)
+                    .into_iter()
+                    .flat_map(BTreeMap::keys)
+                    .map(String::as_str),
+            );
+        }
+    }
+    reached
+}
+
+#[test]
+fn the_rooms_of_a_crate_form_no_large_circle() {
+    let files = repository::rust_files();
+    let mut faults = BTreeSet::new();
+    for (name, _) in ARROWS {
+        let arrows = room_arrows(name, &files);
+        assert!(
+            name == "chereme-tests" || name == "chereme-data" || !arrows.is_empty(),
+            "the rooms of {name} were not found"
+        );
+        for room in arrows.keys() {
+            let there = reached_rooms(&arrows, room);
+            let circle: BTreeSet<&str> = there
+                .into_iter()
+                .filter(|other| reached_rooms(&arrows, other).contains(room.as_str()))
+                .collect();
+            if circle.len() <= MAX_CIRCLE_ROOMS || CRATES_WITH_CIRCLES.contains(&name) {
+                continue;
+            }
+            for (from, to) in circle
+                .iter()
+                .flat_map(|from| arrows[*from].iter().map(move |to| (from, to)))
+            {
+                if circle.contains(to.0.as_str()) {
+                    faults.insert(format!("{name}: {from} uses {} in {}", to.0, to.1));
+                }
+            }
+        }
+    }
+    assert!(
+        faults.is_empty(),
+        "these arrows form a circle; move what both need to a lower room, or pass it: {faults:#?}"
+    );
 }

@@ -1,5 +1,17 @@
 //! The window: one frame after the other.
 
+mod app_overlays;
+mod dispatch;
+mod key_queue;
+mod menu_and_status;
+mod missing_file;
+mod opening;
+mod share;
+mod start_page;
+
+use crate::app::key_queue::KeyQueue;
+use crate::app::menu_and_status::MenuWalk;
+use crate::app::start_page::StartPage;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
@@ -15,7 +27,6 @@ use crate::context::PaneInput;
 use crate::file_dialogs::{ChooserResult, FileChooser};
 use crate::film::RecordingFilms;
 use crate::keys::ActionKeys;
-use crate::keys::queue::KeyQueue;
 use crate::layout::PaneKind;
 use crate::miniatures::MiniatureFigures;
 use crate::model::CorpusSnapshot;
@@ -27,7 +38,6 @@ use crate::panes::carry::{self, TabSpring};
 use crate::panes::timeline::draft_file::DraftFile;
 use crate::script::script_fonts::UnreportedScripts;
 use crate::settings::{StudioFolders, StudioSettings};
-use crate::start::StartPage;
 use crate::words::InterfaceText;
 use crate::work::begin::{CorpusOpening, OpeningInProgress};
 use crate::work::desk::{CorpusDesk, DeskNews, WindowWaker};
@@ -78,7 +88,7 @@ pub struct Studio {
     unreported: UnreportedScripts,
     pub(crate) clipboard: WindowClipboard,
     pub(crate) overlays: WindowOverlays,
-    pub(crate) walk: crate::menu_and_status::MenuWalk,
+    walk: MenuWalk,
     pub(crate) out: CommandOutbox,
     pub(crate) drafts: DraftFile,
     /// Key under which the view of the open corpus is stored in the settings.
@@ -154,7 +164,7 @@ impl Studio {
             unreported: UnreportedScripts::default(),
             clipboard: WindowClipboard::default(),
             overlays: WindowOverlays::default(),
-            walk: crate::menu_and_status::MenuWalk::default(),
+            walk: MenuWalk::default(),
             out,
             drafts: DraftFile::default(),
             view: None,
@@ -352,7 +362,10 @@ impl Studio {
         let now = ctx.input(|input| input.time);
         match self.chooser.take_chooser_result(&self.wake, now) {
             Some(ChooserResult::Command(command)) => self.out.send_command(command),
-            Some(ChooserResult::NoChooser(what)) => self.ask_path(what),
+            Some(ChooserResult::NoChooser(what)) => {
+                let corpus = self.shown_corpus_path().cloned();
+                self.overlays.typed_path.ask_for_path(what, corpus.as_deref());
+            }
             Some(ChooserResult::Nothing) | None => {}
         }
     }

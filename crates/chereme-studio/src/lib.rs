@@ -4,48 +4,37 @@
 //! [`chereme_corpus`], and never waits for it; everything a person does is a
 //! command, carried out after the frame or by a thread beside it.
 //!
+//! Each room uses only rooms in the lines above its own, or earlier in its line; a test of the arrows keeps it so.
+//!
 //! | module | holds |
 //! |---|---|
-//! | `app` | the window: one frame after the other |
-//! | `action` | the table of everything that keys, menus and the palette can request |
-//! | `command`, `dispatch` | every possible request, and the one place that carries requests out |
-//! | `opening` | opens and closes corpora, takes newer snapshots |
-//! | `context` | the input of a pane, its requests, and the selection |
-//! | `model` | the corpus at one moment; movement in pieces around the playhead |
-//! | `work` | use cases of the corpus on threads, with progress and stopping |
-//! | `keys` | default keymaps as a table, the user's changes, matching |
-//! | `words` | every text in English and French |
-//! | `player` | the transport |
-//! | `miniatures` | looping little figures, for any pane |
-//! | `film` | the recording's films, in step with the playhead |
+//! | `words`, `error` | every text; the reasons why the window cannot open |
+//! | `pixel_rects`, `player`, `window_remedy` | shapes as rectangles of whole pixels; the transport; remedies in the window's words |
+//! | `key_chord`, `layout` | keys with modifiers, default keymaps; the panes by name, and their places |
+//! | `model`, `film`, `work` | the corpus at one moment, what is shown and selected; films; use cases on threads |
+//! | `settings`, `theme`, `script` | the stored settings; colours and fonts; text in the scripts of the world |
+//! | `action`, `keys`, `clipboard` | the table of everything that keys, menus and the palette can request; matching of keys |
+//! | `command`, `file_dialogs` | every possible request as one value, and the requests of a frame; file choosers of the system |
+//! | `miniatures`, `start_wall` | looping little figures, for any pane; the wall of signs without a corpus |
+//! | `context` | what a pane sees while it draws |
 //! | `pickers` | boxes in which a value is chosen by its look |
-//! | `share` | the contents of the stage as a film, a picture or a body |
-//! | `clipboard`, `file_dialogs` | the clipboard and the file choosers of the system |
-//! | `draft` | unfinished text, kept through a crash |
-//! | `settings`, `layout`, `theme` | the stored settings, the places of the panes, colours and fonts |
-//! | `script` | text in the scripts of the world: fonts, and text that is read from the right |
-//! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
-//! | `menu_and_status`, `start`, `overlay` | menus and status line, the page without a corpus, windows above the panes |
-//! | `pixel_rects` | shapes as rectangles of whole pixels |
-//! | `error` | the reasons why the window cannot open |
+//! | `panes` | one module each: rows by plain functions, and widgets |
+//! | `overlay`, `workbench` | windows above the panes; the tiles with the panes |
+//! | `app` | the window: its frames, and one file each for keys, menus, requests, opening, sharing, the start page |
 
 mod action;
 mod app;
 mod clipboard;
 mod command;
 mod context;
-mod dispatch;
 mod error;
 mod file_dialogs;
 mod film;
 mod key_chord;
 mod keys;
 mod layout;
-mod menu_and_status;
 mod miniatures;
-mod missing_file;
 mod model;
-mod opening;
 mod overlay;
 mod panes;
 mod pickers;
@@ -53,8 +42,7 @@ mod pixel_rects;
 mod player;
 mod script;
 mod settings;
-mod share;
-mod start;
+mod start_wall;
 mod theme;
 mod window_remedy;
 mod words;

@@ -1,7 +1,6 @@
 //! Keys and their actions: a keymap with the user's changes, and matching.
 
 pub(crate) mod keys_gestures;
-pub(crate) mod queue;
 
 use std::collections::BTreeMap;
 

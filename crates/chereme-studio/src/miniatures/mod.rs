@@ -1,11 +1,11 @@
 //! Looping little figures: movement at a glance, for results, cards and pickers.
 //!
-//! Any pane shows one with [`MiniatureFigures::show_figure`], through [`PaneInput::little`](crate::context::PaneInput::little):
+//! Any pane shows one with [`MiniatureFigures::show_figure`], through the `little` of what it sees:
 //!
 //! ```text
 //! let motion = Motion::Span(recording, span);
 //! let cell = Cell::new(motion, vec2(150.0, 150.0)).playing(miniatures::clock(ui));
-//! if seen.little.show(ui, seen, out, &cell, "BOL").clicked() { … }
+//! if seen.little.show_figure(ui, seen.language, out, &cell, "BOL").clicked() { … }
 //! ```
 //!
 //! Movement is loaded on its own lane and drawn by its own thread, the middle picture first, then ever finer steps;

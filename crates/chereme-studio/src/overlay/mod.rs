@@ -11,8 +11,6 @@ pub(crate) mod typed_path;
 
 use eframe::egui::{Context, Key, Modifiers};
 
-use crate::app::Studio;
-
 /// All windows above the panes.
 #[derive(Default)]
 pub(crate) struct WindowOverlays {
@@ -29,38 +27,6 @@ impl WindowOverlays {
     /// Returns whether one of them takes all keys now.
     pub(crate) fn takes_keys(&self) -> bool {
         self.palette.is_palette_open() || self.keys.is_listening()
-    }
-}
-
-impl Studio {
-    fn exporting(&mut self, ctx: &Context) {
-        let mut export = std::mem::take(&mut self.overlays.export);
-        let mut out = std::mem::take(&mut self.out);
-        if let (Some(seen), Some(desk)) = (self.pane_input(ctx), &self.desk) {
-            export.ui(ctx, &seen, &self.settings, &desk.path, &mut out);
-        }
-        (self.overlays.export, self.out) = (export, out);
-    }
-
-    /// Draws the open ones.
-    pub(crate) fn draw_open_overlays(&mut self, ctx: &Context) {
-        let place = self.snapshot.is_some();
-        let Self {
-            overlays,
-            keys,
-            settings,
-            out,
-            little,
-            ..
-        } = self;
-        overlays.notices.ui(ctx, settings.language, out);
-        overlays.palette.ui(ctx, keys, settings.language, place, out);
-        overlays.keys.ui(ctx, keys, settings, out);
-        overlays.settings.ui(ctx, settings, out);
-        overlays.steps.ui(ctx, keys, little, settings.language);
-        self.exporting(ctx);
-        self.typing_path(ctx);
-        self.overlays.notices.take_escape(ctx);
     }
 }
 

@@ -12,7 +12,7 @@ use crate::action::Action;
 use crate::keys::ActionKeys;
 use crate::miniatures::{self, MiniatureFigures, MiniatureFocus};
 use crate::model::generated::GeneratedClip;
-use crate::start::start_wall;
+use crate::start_wall;
 use crate::theme::{self, ThemeColours};
 use crate::words::{InterfaceLanguage, InterfaceText, steps_words as words};
 

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::{Align2, Button, Context, Id, Key, RichText, TextEdit, Window};
 
-use crate::app::Studio;
-use crate::command::ChooserPurpose;
+use crate::command::{ChooserPurpose, CommandOutbox};
 use crate::panes::complete_pane::CompletionLine;
 use crate::panes::import::PathCompletions;
-use crate::words::{InterfaceText, fill_text_braces, shell as words};
+use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, shell as words};
 use crate::work::begin::with_extension;
 
 /// The width of the window in points, if the window around it is wide enough.
@@ -27,14 +26,92 @@ pub(crate) struct TypedPath {
 }
 
 impl TypedPath {
-    /// Opens the window; `start` is the path that the field begins with.
-    pub(crate) fn ask_for_path(&mut self, what: ChooserPurpose, start: String) {
+    /// Opens the window, because the system has no file chooser; the field begins with a path beside the corpus.
+    pub(crate) fn ask_for_path(&mut self, what: ChooserPurpose, corpus: Option<&Path>) {
+        let corpus_folder = corpus.and_then(Path::parent).map(Path::to_owned);
+        let existing_folder = corpus_folder.filter(|folder| folder.is_dir());
+        let here = existing_folder.or_else(|| std::env::current_dir().ok());
+        let here = here.unwrap_or_default();
+        let start = match what {
+            ChooserPurpose::NewCorpus => free_file_path(&here, "corpus"),
+            ChooserPurpose::Copy => {
+                let raw_stem = corpus.and_then(Path::file_stem);
+                let stem = raw_stem.unwrap_or_default().to_string_lossy();
+                free_file_path(&here, &format!("{stem}-copy"))
+            }
+            // The separator at the end lets the list offer the contents of the folder.
+            _ => here.join(""),
+        };
         *self = Self {
             what: Some(what),
-            text: start,
+            text: start.display().to_string(),
             fresh: true,
             paths: PathCompletions::default(),
         };
+    }
+
+    /// Shows the window while it is open; Enter and its button use the path, Escape closes it.
+    pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &mut CommandOutbox) {
+        let Some(what) = self.what else {
+            return;
+        };
+        let title = what.chooser_title().text_in_language(language);
+        let (mut open, mut used) = (true, None);
+        let window = Window::new(title)
+            .id(Id::unique("typed path"))
+            .open(&mut open)
+            .pivot(Align2::CENTER_CENTER)
+            .default_pos(ctx.content_rect().center())
+            .constrain_to(ctx.content_rect())
+            .resizable(false);
+        window.show(ctx, |ui| {
+            ui.set_width(PATH_WINDOW_WIDTH.min(ctx.content_rect().width() - 40.0));
+            let label = ui.label(words::NO_CHOOSER.text_in_language(language));
+            let id = Id::unique("typed path field");
+            if self.fresh {
+                let end = CCursor::new(self.text.chars().count());
+                let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+                state.cursor.set_char_range(Some(CCursorRange::one(end)));
+                TextEdit::store_state(ui.ctx(), id, state);
+            }
+            let TypedPath { paths, text, fresh, .. } = &mut *self;
+            let typed = paths.show_path_field(ui, id, CompletionLine::default(), text);
+            let entered = typed.response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            // The window is measured first, and cannot have the keyboard then.
+            if *fresh {
+                typed.response.request_focus();
+                *fresh = ui.is_sizing_pass();
+            }
+            typed.response.labelled_by(label.id);
+            let path = PathBuf::from(text.trim());
+            let empty = path.as_os_str().is_empty();
+            let wrong = (!empty).then(|| why_not(what, &path)).flatten();
+            ui.horizontal(|ui| {
+                let ready = !empty && wrong.is_none();
+                let name = RichText::new(button_text(what).text_in_language(language)).strong();
+                let button = ui.add_enabled(ready, Button::new(name));
+                if button.clicked() || (entered && ready) {
+                    used = Some(path);
+                } else if entered {
+                    self.fresh = true;
+                }
+                if ui.button(words::CANCEL.text_in_language(language)).clicked() {
+                    self.what = None;
+                }
+            });
+            if let Some((why, path)) = &wrong {
+                let reason = fill_text_braces(why.text_in_language(language), &[("path", &path.display())]);
+                ui.weak(reason);
+            }
+        });
+        if let Some(path) = used {
+            self.what = None;
+            if let Some(command) = what.command_for_paths(vec![path]) {
+                out.send_command(command);
+            }
+        } else if !open || super::take_escape_key(ctx) {
+            self.what = None;
+        }
     }
 }
 
@@ -98,102 +175,14 @@ fn free_file_path(folder: &Path, stem: &str) -> PathBuf {
     free.unwrap_or_else(|| name(1000))
 }
 
-impl Studio {
-    /// Opens the window for a path, because the system has no file chooser.
-    pub(crate) fn ask_path(&mut self, what: ChooserPurpose) {
-        let corpus = self.shown_corpus_path().cloned();
-        let corpus_folder = corpus.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let existing_folder = corpus_folder.filter(|folder| folder.is_dir());
-        let here = existing_folder.or_else(|| std::env::current_dir().ok());
-        let here = here.unwrap_or_default();
-        let start = match what {
-            ChooserPurpose::NewCorpus => free_file_path(&here, "corpus"),
-            ChooserPurpose::Copy => {
-                let raw_stem = corpus.as_deref().and_then(Path::file_stem);
-                let stem = raw_stem.unwrap_or_default().to_string_lossy();
-                free_file_path(&here, &format!("{stem}-copy"))
-            }
-            // The separator at the end lets the list offer the contents of the folder.
-            _ => here.join(""),
-        };
-        self.overlays.typed_path.ask_for_path(what, start.display().to_string());
-    }
-
-    /// Shows the window for a path while it is open; Enter and its button use the path, Escape closes it.
-    pub(super) fn typing_path(&mut self, ctx: &Context) {
-        let Some(what) = self.overlays.typed_path.what else {
-            return;
-        };
-        let language = self.settings.language;
-        let Self { overlays, out, .. } = self;
-        let asking = &mut overlays.typed_path;
-        let title = what.chooser_title().text_in_language(language);
-        let (mut open, mut used) = (true, None);
-        let window = Window::new(title)
-            .id(Id::unique("typed path"))
-            .open(&mut open)
-            .pivot(Align2::CENTER_CENTER)
-            .default_pos(ctx.content_rect().center())
-            .constrain_to(ctx.content_rect())
-            .resizable(false);
-        window.show(ctx, |ui| {
-            ui.set_width(PATH_WINDOW_WIDTH.min(ctx.content_rect().width() - 40.0));
-            let label = ui.label(words::NO_CHOOSER.text_in_language(language));
-            let id = Id::unique("typed path field");
-            if asking.fresh {
-                let end = CCursor::new(asking.text.chars().count());
-                let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-                state.cursor.set_char_range(Some(CCursorRange::one(end)));
-                TextEdit::store_state(ui.ctx(), id, state);
-            }
-            let TypedPath { paths, text, fresh, .. } = &mut *asking;
-            let typed = paths.show_path_field(ui, id, CompletionLine::default(), text);
-            let entered = typed.response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            // The window is measured first, and cannot have the keyboard then.
-            if *fresh {
-                typed.response.request_focus();
-                *fresh = ui.is_sizing_pass();
-            }
-            typed.response.labelled_by(label.id);
-            let path = PathBuf::from(text.trim());
-            let empty = path.as_os_str().is_empty();
-            let wrong = (!empty).then(|| why_not(what, &path)).flatten();
-            ui.horizontal(|ui| {
-                let ready = !empty && wrong.is_none();
-                let name = RichText::new(button_text(what).text_in_language(language)).strong();
-                let button = ui.add_enabled(ready, Button::new(name));
-                if button.clicked() || (entered && ready) {
-                    used = Some(path);
-                } else if entered {
-                    asking.fresh = true;
-                }
-                if ui.button(words::CANCEL.text_in_language(language)).clicked() {
-                    asking.what = None;
-                }
-            });
-            if let Some((why, path)) = &wrong {
-                let reason = fill_text_braces(why.text_in_language(language), &[("path", &path.display())]);
-                ui.weak(reason);
-            }
-        });
-        if let Some(path) = used {
-            asking.what = None;
-            if let Some(command) = what.command_for_paths(vec![path]) {
-                out.send_command(command);
-            }
-        } else if !open || super::take_escape_key(ctx) {
-            asking.what = None;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use egui_kittest::Harness;
     use egui_kittest::kittest::{NodeT, Queryable};
 
     use super::*;
-    use crate::{InterfaceLanguage, StudioOptions};
+    use crate::StudioOptions;
+    use crate::app::Studio;
     use chereme_corpus::Corpus;
 
     type Driven<'a> = Harness<'a, Studio>;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use chereme_motion::{RecordingInstant, TimeSpan};
 
-use crate::app::Studio;
+use super::Studio;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::film::RecordingFilms;
 use crate::layout::PaneKind;

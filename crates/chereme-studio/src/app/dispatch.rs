@@ -6,8 +6,8 @@ use chereme_corpus::MediaChange;
 use chereme_motion::{FrameRate, RecordingInstant, TimeSpan};
 use eframe::egui::{Context, ViewportCommand};
 
+use super::Studio;
 use crate::action::{Action, ActionOwner};
-use crate::app::Studio;
 use crate::command::{ChooserPurpose, DraggedToken, WindowCommand};
 use crate::keys::ActionKeys;
 use crate::layout::{self, BusyTask, PaneKind};

@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use eframe::egui::{Context, Event, InputState, Key, Popup};
 
-use super::KeyContext;
+use super::Studio;
 use crate::action::{Action, ActionMenu, ActionOwner};
-use crate::app::Studio;
 use crate::command::WindowCommand;
+use crate::keys::KeyContext;
 use crate::layout::PaneKind;
 use crate::panes::timeline;
 use crate::words::{fill_text_braces, timeline as words};

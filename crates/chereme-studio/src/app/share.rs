@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use chereme_corpus::{CorpusAddress, ExportOptions, ExportWhat, PictureOptions, RowName};
 use eframe::egui::Context;
 
+use super::Studio;
 use crate::action::Action;
-use crate::app::Studio;
 use crate::command::WindowCommand;
 use crate::overlay::overlay_export::{ExportObject, file_name};
 use crate::panes::recombine::selected_token;

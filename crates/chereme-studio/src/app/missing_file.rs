@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{Context, ViewportCommand};
 
-use crate::app::Studio;
+use super::Studio;
 use crate::command::{ChooserPurpose, WindowCommand};
 use crate::overlay::notices::NoticeOffer;
 use crate::words::{fill_text_braces, shell};

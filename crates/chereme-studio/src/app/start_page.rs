@@ -1,7 +1,5 @@
 //! The page without a corpus: the starter corpus, recent ones, a path, a folder to import, and a wall of signs.
 
-pub(crate) mod start_wall;
-
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -13,11 +11,12 @@ use eframe::egui::{
 
 use chereme_motion::TimeSpan;
 
+use super::Studio;
 use crate::action::Action;
-use crate::app::Studio;
 use crate::command::{ChooserPurpose, WindowCommand};
 use crate::panes::list_row;
 use crate::script::script_edit;
+use crate::start_wall;
 use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, shell as words};
 use crate::work::begin::CorpusOpening;
 

@@ -2,8 +2,8 @@
 
 use eframe::egui::{Align, Button, Id, Key, Layout, MenuBar, Modifiers, Popup, ProgressBar, ScrollArea, Ui, Vec2};
 
+use super::Studio;
 use crate::action::{ACTIONS, Action, ActionContext, ActionMenu};
-use crate::app::Studio;
 use crate::command::WindowCommand;
 use crate::layout::BusyTask;
 use crate::panes::history::history_data as history;

@@ -1,0 +1,43 @@
+//! The windows above the panes: each gets its part of the window's state.
+
+use eframe::egui::Context;
+
+use super::Studio;
+
+impl Studio {
+    fn exporting(&mut self, ctx: &Context) {
+        let mut export = std::mem::take(&mut self.overlays.export);
+        let mut out = std::mem::take(&mut self.out);
+        if let (Some(seen), Some(desk)) = (self.pane_input(ctx), &self.desk) {
+            export.ui(ctx, &seen, &self.settings, &desk.path, &mut out);
+        }
+        (self.overlays.export, self.out) = (export, out);
+    }
+
+    /// Draws the open ones.
+    pub(crate) fn draw_open_overlays(&mut self, ctx: &Context) {
+        let place = self.snapshot.is_some();
+        let Self {
+            overlays,
+            keys,
+            settings,
+            out,
+            little,
+            ..
+        } = self;
+        overlays.notices.ui(ctx, settings.language, out);
+        overlays.palette.ui(ctx, keys, settings.language, place, out);
+        overlays.keys.ui(ctx, keys, settings, out);
+        overlays.settings.ui(ctx, settings, out);
+        overlays.steps.ui(ctx, keys, little, settings.language);
+        self.exporting(ctx);
+        let Self {
+            overlays,
+            settings,
+            out,
+            ..
+        } = self;
+        overlays.typed_path.ui(ctx, settings.language, out);
+        self.overlays.notices.take_escape(ctx);
+    }
+}
