@@ -122,7 +122,7 @@ impl HandFormTable {
     /// with it. Residuals are weighted roots of mean squares in degrees. Longer notation costs more, the
     /// `loose`r the hands are. `None` if no angle is known.
     ///
-    pub(super) fn nearest_hand_form(
+    pub(super) fn nearest_handshape(
         &self,
         hand: &HandAngles,
         known: &KnownHandAngles,
@@ -419,7 +419,7 @@ mod tests {
         for form in plain_hand_forms().step_by(7) {
             let shape = bare_handshape(form);
             let hand = hand_angles(&shape, language);
-            let found = forms.nearest_hand_form(&hand, &known, 1.0).expect("found");
+            let found = forms.nearest_handshape(&hand, &known, 1.0).expect("found");
             assert!(
                 is_same(&found.best, &shape, language),
                 "{shape:?}\n{:?} {}",
@@ -460,7 +460,7 @@ mod tests {
         ];
         for shape in cases {
             let hand = hand_angles(&shape, language);
-            let found = forms.nearest_hand_form(&hand, &known, 1.0).expect("found");
+            let found = forms.nearest_handshape(&hand, &known, 1.0).expect("found");
             assert!(
                 is_same(&found.best, &shape, language),
                 "{shape:?}\n{:?} {}",
@@ -489,7 +489,7 @@ mod tests {
         for (own, other) in hand[..5].iter_mut().zip(thumb) {
             *own = (*own + other) / 2.0;
         }
-        let found = forms.nearest_hand_form(&HandAngles::from_array(hand), &known, 1.0);
+        let found = forms.nearest_handshape(&HandAngles::from_array(hand), &known, 1.0);
         assert_eq!(found.expect("found").best, pointing);
     }
 
@@ -504,11 +504,11 @@ mod tests {
             for (n, angle) in all.iter_mut().enumerate() {
                 *angle += 0.09 * ((n * 7 + 3) as f64).sin();
             }
-            let found = forms.nearest_hand_form(&HandAngles::from_array(all), &known, 1.0);
+            let found = forms.nearest_handshape(&HandAngles::from_array(all), &known, 1.0);
             assert_eq!(found.expect("found").best.form.class, class);
         }
         known.0.fill(0.0);
-        assert!(forms.nearest_hand_form(&HandAngles::default(), &known, 1.0).is_none());
+        assert!(forms.nearest_handshape(&HandAngles::default(), &known, 1.0).is_none());
     }
 
     fn of_class(class: HandClass) -> HandshapeForm {

@@ -145,7 +145,7 @@ fn separation(
     second: &HandGoalFrames<'_>,
     frame: usize,
 ) -> DVec3 {
-    let [Some(a), Some(b)] = [first, second].map(|wanted| PlacedHand::place_hand_at_frame(wanted, frame)) else {
+    let [Some(a), Some(b)] = [first, second].map(|wanted| PlacedHand::posed_hand_at_frame(wanted, frame)) else {
         return DVec3::ZERO;
     };
     let Some((deepest, sum)) = hand_overlap_depth(length, [&a, &b]) else {
@@ -166,7 +166,7 @@ pub(super) fn may_hands_penetrate(
 ) -> bool {
     let hands = [(first, apart), (second, -apart)];
     let [Some(a), Some(b)] = hands.map(|(wanted, by)| {
-        let hand = PlacedHand::place_hand_at_frame(wanted, frame)?;
+        let hand = PlacedHand::posed_hand_at_frame(wanted, frame)?;
         let wrist = hand.wrist + by * 0.5;
         Some(PlacedHand { wrist, ..hand })
     }) else {
@@ -213,7 +213,7 @@ pub(super) struct PlacedHand<'a> {
 
 impl<'a> PlacedHand<'a> {
     /// Returns the hand in a frame; `None` if its skeleton has no fingers.
-    pub(super) fn place_hand_at_frame(wanted: &'a HandGoalFrames<'_>, frame: usize) -> Option<Self> {
+    pub(super) fn posed_hand_at_frame(wanted: &'a HandGoalFrames<'_>, frame: usize) -> Option<Self> {
         let (turned, offset) = match wanted.wrist[frame] {
             Some(turn) => (wanted.turns[frame] * turn, turn.inverse() * wanted.offsets[frame]),
             None => (wanted.turns[frame], wanted.offsets[frame]),

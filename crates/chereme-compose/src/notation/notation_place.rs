@@ -40,14 +40,14 @@ impl SignPlanner<'_> {
     pub(crate) fn place_hands(&mut self, place: &HandPlace, named: ActingHands) {
         match place {
             HandPlace::Body(body) if let Some(near) = self.still_near(body, named) => {
-                self.by_each_other(&near, named);
+                self.place_hands_together(&near, named);
             }
             HandPlace::Body(body) => {
                 self.near = None;
                 // Two hands at one place would be in each other.
                 let apart = self.symmetric || named.iter().all(Option::is_some);
                 for (n, frame) in iterate_acting_hands(named) {
-                    let goal = self.on_body(n, body, frame, apart);
+                    let goal = self.goal_at_body_place(n, body, frame, apart);
                     self.settle_hand_points(n, &goal);
                     self.define_numbered_place(body.define, n);
                     self.at_body[n] = Some(body.clone());
@@ -56,12 +56,12 @@ impl SignPlanner<'_> {
             HandPlace::Hand(site) => match named {
                 [Some(a), Some(b)] if a.is_mirrored_by(&b) => {
                     let hands = meeting_constellation(site);
-                    self.by_each_other(&hands, named);
+                    self.place_hands_together(&hands, named);
                 }
-                _ => self.on_hand(site, named),
+                _ => self.place_hand_at_other_hand(site, named),
             },
             HandPlace::Hands(hands) if self.is_lone(hands, named) => self.place_lone_hand(hands, named),
-            HandPlace::Hands(constellation) => self.by_each_other(constellation, named),
+            HandPlace::Hands(constellation) => self.place_hands_together(constellation, named),
             HandPlace::Split(a, b) => {
                 let mut each = [(0, a), (1, b)];
                 // A hand that is placed at the other one follows it.
@@ -119,7 +119,7 @@ impl SignPlanner<'_> {
     }
 
     /// Returns the goal of a hand for a place on the body or in space; `apart` if the other hand goes there too.
-    fn on_body(&mut self, n: usize, place: &BodyPlace, frame: ActingFrame, apart: bool) -> PlaceGoal {
+    fn goal_at_body_place(&mut self, n: usize, place: &BodyPlace, frame: ActingFrame, apart: bool) -> PlaceGoal {
         let side = self.signer.sides[n];
         let site = self.planned_hands().body_place_site(n, place, frame);
         let contact = place.contact;
@@ -194,7 +194,7 @@ impl SignPlanner<'_> {
     }
 
     /// Moves an acting hand to a site of the other hand.
-    fn on_hand(&mut self, site: &HandSite, named: ActingHands) {
+    fn place_hand_at_other_hand(&mut self, site: &HandSite, named: ActingHands) {
         let acting = usize::from(named[0].is_none());
         let other = 1 - acting;
         let frame = named[acting].unwrap_or_else(|| self.signer.own_frame());
@@ -239,7 +239,7 @@ impl SignPlanner<'_> {
             place.contact = hands.contact.or(place.contact);
             let by = known_place.and_then(|known| known.by);
             place.by = hands.dominant.clone().or(place.by).or(by);
-            let goal = self.on_body(n, &place, frame, self.symmetric);
+            let goal = self.goal_at_body_place(n, &place, frame, self.symmetric);
             self.settle_hand_points(n, &goal);
             self.define_numbered_place(hands.define, n);
             self.at_body[n] = Some(place);
@@ -247,7 +247,7 @@ impl SignPlanner<'_> {
     }
 
     /// Moves the hands together, and both to a place.
-    fn by_each_other(&mut self, hands: &HandConstellation, named: ActingHands) {
+    fn place_hands_together(&mut self, hands: &HandConstellation, named: ActingHands) {
         let hands = &self.remember_constellation(hands);
         self.near = (hands.contact == Some(PlaceContact::Close)).then(|| hands.clone());
         if matches!(hands.contact, Some(PlaceContact::Interlock | PlaceContact::Cross)) {
@@ -333,13 +333,13 @@ impl SignPlanner<'_> {
     /// that meet, else before the chest.
     fn centre(&mut self, hands: &HandConstellation, frame: ActingFrame, points: &[Vec<NotatedHandPoint>; 2]) -> DVec3 {
         if let Some(place) = &hands.at {
-            return self.on_body(0, place, frame, false).at;
+            return self.goal_at_body_place(0, place, frame, false).at;
         }
         if self.begun {
             let [own, other] = [0, 1].map(|n| self.planned_hands().at_hand(n, &points[n]).0);
             return (own + other) / 2.0;
         }
-        self.on_body(0, &BodyPlace::default(), frame, false).at
+        self.goal_at_body_place(0, &BodyPlace::default(), frame, false).at
     }
 }
 

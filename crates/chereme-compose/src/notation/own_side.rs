@@ -43,7 +43,7 @@ pub(crate) fn keep_hands_own_side(
                 return 0.0;
             }
             let both = [0, 1].map(|n| {
-                let hand = PlacedHand::place_hand_at_frame(wanted[n], frame);
+                let hand = PlacedHand::posed_hand_at_frame(wanted[n], frame);
                 let reach = hand.map(|hand| hand.least_plane_distance(middle, outwards[n]));
                 reach.map_or(0.0, |least| FINGER_FLESH * length - least)
             });

@@ -66,7 +66,7 @@ pub(super) fn go_round(stage: &StandingBody, wanted: &mut HandGoalFrames<'_>, ra
     let soft = tuned().skull.soft;
     let deepest = |frame: usize| {
         let free = 1.0 - wanted.touch[frame];
-        let hand = PlacedHand::place_hand_at_frame(wanted, frame).filter(|_| free > 0.0)?;
+        let hand = PlacedHand::posed_hand_at_frame(wanted, frame).filter(|_| free > 0.0)?;
         if !hand.may_touch(skull.middle, skull.skull_ball_radius()) {
             return None;
         }

@@ -17,7 +17,7 @@ use crate::error::{RecipeError, StepError};
 use crate::ops::place_operator::{self, describe_reach};
 use crate::ops::travel::wrist_path;
 use crate::ops::{
-    FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, say_operator,
+    FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, component_notes,
 };
 use crate::recipe_settings::ArmSolverMethod;
 use crate::stroke::SignStroke;
@@ -122,7 +122,7 @@ pub(crate) fn amplify_hand_paths(
     let rest = SignStroke::of_work(work)?.describe_rests(work);
     let reach = scale_wrist_paths(work, sides, factor)?;
     let stands = factor < STILL_HAND_FACTOR;
-    say_operator::withdraw_hand_notes(work, sides, operator, |component, feature| {
+    component_notes::withdraw_hand_notes(work, sides, operator, |component, feature| {
         component == SignComponent::Movement && (feature == Some("size") || stands && feature != Some("phase"))
     });
     work.note_changed_groups(sides.iter().map(|&side| JointGroup::Arm(side)), operator);

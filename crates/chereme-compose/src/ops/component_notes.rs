@@ -83,7 +83,7 @@ pub(crate) fn record_component_value(
 
 /// Notes the place of a moved hand: `value`, over the times of its earlier placements, or over `frames` if it had no
 /// placement. Without a value, it only withdraws the earlier placements.
-pub(crate) fn record_hand_place(
+pub(crate) fn record_placement_note(
     work: &mut WorkingClip,
     side: BodySide,
     value: Option<&str>,

@@ -9,7 +9,7 @@ use chereme_sign::{ComponentReading, SignComponent};
 
 use crate::course::TransitionCourse;
 use crate::error::StepError;
-use crate::ops::say_operator;
+use crate::ops::component_notes;
 use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::poses::{self, HandPose};
 use crate::work::{JointGroup, WorkingClip};
@@ -203,7 +203,7 @@ pub(crate) fn configure_hand_values(
         }
     }
     if values.iter().any(Option::is_some) {
-        say_operator::withdraw_hand_notes(work, &[side], operator, |component, feature| {
+        component_notes::withdraw_hand_notes(work, &[side], operator, |component, feature| {
             component == SignComponent::Configuration && feature.is_some_and(|name| name != "handedness")
         });
     }

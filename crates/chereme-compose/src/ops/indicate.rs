@@ -18,7 +18,7 @@ use crate::error::{RecipeError, StepError};
 use crate::ops::place_operator::{self, describe_reach};
 use crate::ops::travel::{STILL_WRIST_MOVEMENT_M, withdraw_moved_notes, wrist_path};
 use crate::ops::{
-    FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, say_operator,
+    FieldSetting, OperatorDescription, OperatorField, OperatorSyntax, StepOperator, StepOutcome, component_notes,
 };
 use crate::outcome::NoteSubject;
 use crate::recipe_inputs::PlaceInput;
@@ -296,7 +296,7 @@ pub(crate) fn indicate_places(
         for &side in &sides {
             let frames = still_stroke_frames(work, side, &stroke, at == 1)?;
             let what = NoteSubject::Component(SignComponent::Placement, None);
-            say_operator::record_component_value(work, side, what, value, frames, operator);
+            component_notes::record_component_value(work, side, what, value, frames, operator);
         }
     }
     did.push(format!(

@@ -21,6 +21,7 @@ use crate::work::WorkingClip;
 
 pub(crate) mod amplify;
 pub(crate) mod clear;
+pub(crate) mod component_notes;
 pub(crate) mod configure;
 pub(crate) mod cut;
 mod description;
@@ -38,7 +39,6 @@ pub(crate) mod repeat_operator;
 pub(crate) mod retarget;
 pub(crate) mod retime;
 pub(crate) mod reverse;
-pub(crate) mod say_operator;
 pub(crate) mod spell;
 pub(crate) mod then;
 pub(crate) mod travel;

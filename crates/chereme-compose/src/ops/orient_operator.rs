@@ -8,7 +8,7 @@ use chereme_sign::words::InterfaceText;
 use crate::arm::{self, WristReach};
 use crate::body::SignerFrame;
 use crate::error::StepError;
-use crate::ops::{OperatorDescription, place_operator, say_operator};
+use crate::ops::{OperatorDescription, component_notes, place_operator};
 use crate::outcome::NoteSubject;
 use crate::recipe_settings::ArmSolverMethod;
 use crate::stroke::SignStroke;
@@ -225,7 +225,7 @@ pub(crate) fn orient_hands(
             ));
         }
     }
-    say_operator::withdraw_hand_notes(work, sides, operator, |component, _| {
+    component_notes::withdraw_hand_notes(work, sides, operator, |component, _| {
         component == SignComponent::Orientation
     });
     for &side in sides {
@@ -260,16 +260,16 @@ fn record_directions(work: &mut WorkingClip, frame: &SignerFrame, middle: usize,
     let start = middle - (0..middle).rev().take_while(same).count();
     let end = middle + (middle..work.frames).take_while(same).count();
     let values = [
-        ("fingers", say_operator::nearest_direction_name(fingers)),
+        ("fingers", component_notes::nearest_direction_name(fingers)),
         (
             "palm",
-            say_operator::palm_direction_name(fingers, palm).map(str::to_owned),
+            component_notes::palm_direction_name(fingers, palm).map(str::to_owned),
         ),
     ];
     for (feature, value) in values {
         if let Some(value) = value {
             let what = NoteSubject::Component(SignComponent::Orientation, Some(feature.to_owned()));
-            say_operator::record_component_value(work, side, what, &value, start..end.max(start + 1), operator);
+            component_notes::record_component_value(work, side, what, &value, start..end.max(start + 1), operator);
         }
     }
 }

@@ -7,7 +7,7 @@ use chereme_sign::words::InterfaceText;
 use crate::arm::{self, HELP_FROM, WristReach};
 use crate::body::{self, SignerFrame};
 use crate::error::StepError;
-use crate::ops::{OperatorDescription, clear, say_operator};
+use crate::ops::{OperatorDescription, clear, component_notes};
 use crate::recipe_inputs::PlaceInput;
 use crate::recipe_settings::{ArmSolverMethod, RecipeHandPoint};
 use crate::stroke::SignStroke;
@@ -500,7 +500,7 @@ fn place_working_hands(
             }
             if by != DVec3::ZERO || value.is_some() {
                 let value = value.as_deref().filter(|_| away.is_none());
-                say_operator::record_hand_place(work, side, value, frames.clone(), operator);
+                component_notes::record_placement_note(work, side, value, frames.clone(), operator);
             }
         }
         if by != DVec3::ZERO {

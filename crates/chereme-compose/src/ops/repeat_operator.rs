@@ -8,7 +8,7 @@ use crate::contact::{self, ContactEffect, ContactsToKeep};
 use crate::course::TransitionCourses;
 use crate::error::StepError;
 use crate::ops::join::{self, MovementSeam};
-use crate::ops::{OperatorDescription, amplify, cut, retime, say_operator};
+use crate::ops::{OperatorDescription, amplify, component_notes, cut, retime};
 use crate::outcome::NoteSubject;
 use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
@@ -268,6 +268,6 @@ fn note_repetition_count(work: &mut WorkingClip, times: usize, operator: &str) {
         .collect();
     for side in sides {
         let what = NoteSubject::Component(SignComponent::Movement, Some("repetition".to_owned()));
-        say_operator::record_component_value(work, side, what, value, 0..work.frames, operator);
+        component_notes::record_component_value(work, side, what, value, 0..work.frames, operator);
     }
 }

@@ -5,7 +5,7 @@ use chereme_sign::SignComponent;
 use chereme_sign::words::InterfaceText;
 
 use crate::error::StepError;
-use crate::ops::{OperatorDescription, join, say_operator};
+use crate::ops::{OperatorDescription, component_notes, join};
 use crate::outcome::NoteSubject;
 use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
@@ -172,7 +172,7 @@ pub(crate) fn retime_movement(
     let other = map.new.last() != map.old.last();
     warp(work, &map)?;
     if other {
-        say_operator::withdraw_hand_notes(work, &BodySide::BOTH_SIDES, operator, |component, feature| {
+        component_notes::withdraw_hand_notes(work, &BodySide::BOTH_SIDES, operator, |component, feature| {
             component == SignComponent::Movement && feature == Some("manner")
         });
     }

@@ -4,7 +4,7 @@ use chereme_motion::TimeSpan;
 use chereme_sign::ComponentReading;
 use chereme_sign::words::InterfaceText;
 
-use crate::ops::say_operator;
+use crate::ops::component_notes;
 use crate::outcome::NoteSubject;
 use crate::work::{JointGroup, WorkingClip};
 use std::fmt::{self, Display, Formatter};
@@ -87,7 +87,7 @@ pub(crate) fn reverse_movement(work: &mut WorkingClip) -> Vec<String> {
         else {
             continue;
         };
-        match say_operator::backwards_value(*component, feature.as_deref(), value) {
+        match component_notes::backwards_value(*component, feature.as_deref(), value) {
             Some(other) if other == value => {}
             Some(other) => note.value = ComponentReading::Value(other),
             None => {

@@ -10,7 +10,7 @@ use crate::course::TransitionCourse;
 use crate::curve::MeasuredSpline;
 use crate::error::StepError;
 use crate::ops::place_operator::{self, describe_reach};
-use crate::ops::{retime, say_operator};
+use crate::ops::{component_notes, retime};
 use crate::outcome::NoteSubject;
 use crate::recipe_settings::{ArmSolverMethod, StraightLeg};
 use crate::stroke::SignStroke;
@@ -461,24 +461,24 @@ fn note_drawn_path(
         let shape = curve.map(MeasuredSpline::spline_shape_name);
         let one = match (path, curve) {
             (_, Some(curve)) if shape != Some("circle") && shape != Some("path") => {
-                say_operator::nearest_direction_name(frame.to_body(curve.spline_point_at(1.0)))
+                component_notes::nearest_direction_name(frame.to_body(curve.spline_point_at(1.0)))
             }
-            ([leg], _) => say_operator::nearest_direction_name(frame.to_body(frame.leg_in_model(leg))),
+            ([leg], _) => component_notes::nearest_direction_name(frame.to_body(frame.leg_in_model(leg))),
             _ => None,
         };
         let shape = shape.unwrap_or(if one.is_some() { "straight" } else { "path" });
         let movement = |part: Option<&str>| NoteSubject::Component(SignComponent::Movement, part.map(str::to_owned));
-        say_operator::record_component_value(work, side, movement(None), shape, all.clone(), operator);
+        component_notes::record_component_value(work, side, movement(None), shape, all.clone(), operator);
         if let Some(direction) = one {
             let what = movement(Some("direction"));
-            say_operator::record_component_value(work, side, what, &direction, all.clone(), operator);
+            component_notes::record_component_value(work, side, what, &direction, all.clone(), operator);
         }
     }
 }
 
 /// Withdraws notes on the place and the movement of hands whose movement changed; phases stay.
 pub(crate) fn withdraw_moved_notes(work: &mut WorkingClip, sides: &[BodySide], operator: &str) {
-    say_operator::withdraw_hand_notes(work, sides, operator, |component, feature| match component {
+    component_notes::withdraw_hand_notes(work, sides, operator, |component, feature| match component {
         SignComponent::Placement => true,
         SignComponent::Movement => feature != Some("phase"),
         _ => false,

@@ -1,7 +1,7 @@
 //! Tests of angles from markers, on hands that are generated from angles.
 
 use super::*;
-use crate::cue::generate::generate_hand::{place_hand, shape_angles};
+use crate::cue::generate::generate_hand::{hand_marker_positions, shape_angles};
 
 #[test]
 fn an_angle_is_wrapped_to_the_range_of_a_finger_s_bend() {
@@ -22,8 +22,8 @@ fn an_angle_is_wrapped_to_the_range_of_a_finger_s_bend() {
 #[test]
 fn angles_of_a_generated_hand_are_computed_from_its_markers() {
     // The skin does not slide, so that the markers of a phalange lie along its bone.
-    let placed = |joints| -> HandMarkerFrame { place_hand(&joints, 0.0).into_iter().map(Some).collect() };
-    let rest = place_hand(&[0.0; 22], 0.0);
+    let placed = |joints| -> HandMarkerFrame { hand_marker_positions(&joints, 0.0).into_iter().map(Some).collect() };
+    let rest = hand_marker_positions(&[0.0; 22], 0.0);
     let straight = compute_hand_angles(&placed([0.0; 22]), &rest[HAND_BACK_MARKERS]);
     for shape in 0..=8 {
         let mut joints = shape_angles(shape);
@@ -51,7 +51,7 @@ fn angles_of_a_generated_hand_are_computed_from_its_markers() {
 #[test]
 fn markers_of_a_generated_thumb_lie_along_its_bones() {
     for shape in 0..=8 {
-        let at = place_hand(&shape_angles(shape), 1.0);
+        let at = hand_marker_positions(&shape_angles(shape), 1.0);
         let apart = |a: usize, b: usize| at[FIRST_THUMB_MARKER + a].distance(at[FIRST_THUMB_MARKER + b]);
         for (part, length) in [42.0, 32.0, 26.0].into_iter().enumerate() {
             let is = apart(2 * part, 2 * part + 1);
@@ -64,7 +64,7 @@ fn markers_of_a_generated_thumb_lie_along_its_bones() {
 fn skin_slides_and_lifts_by_millimetres() {
     for shape in 0..=8 {
         let joints = shape_angles(shape);
-        let (bare, skin) = (place_hand(&joints, 0.0), place_hand(&joints, 1.0));
+        let (bare, skin) = (hand_marker_positions(&joints, 0.0), hand_marker_positions(&joints, 1.0));
         for (marker, (a, b)) in bare.iter().zip(&skin).enumerate() {
             // At most 3 mm and 2.4 mm along the bone, and 1 mm off it.
             let off = a.distance(*b);
@@ -83,7 +83,7 @@ fn skin_slides_and_lifts_by_millimetres() {
 
 #[test]
 fn markers_of_a_straight_finger_lie_above_its_bones_at_their_shares() {
-    let at = place_hand(&[0.0; 22], 1.0);
+    let at = hand_marker_positions(&[0.0; 22], 1.0);
     for (n, bones) in [(0, [45.0, 26.0, 22.0]), (3, [36.0, 20.0, 20.0])] {
         let own = &at[first_finger_marker(n)..first_finger_marker(n) + 8];
         let base = own[0].x - 0.2 * bones[0];

@@ -45,7 +45,7 @@ pub fn shape_angles(shape: u8) -> [f64; GENERATED_JOINT_COUNT] {
 }
 
 /// Returns the positions of the hand's markers in the space of the forearm, which lies along x and ends at the wrist.
-pub(in crate::cue) fn place_hand(angles: &[f64; GENERATED_JOINT_COUNT], skin: f64) -> Vec<DVec3> {
+pub(in crate::cue) fn hand_marker_positions(angles: &[f64; GENERATED_JOINT_COUNT], skin: f64) -> Vec<DVec3> {
     let mut points = Vec::with_capacity(HAND_MARKER_COUNT);
     for (x, y, z) in [
         (-200.0, 20.0, 10.0),

@@ -16,7 +16,7 @@ use chereme_sign::cue::{self, CuedUtterance};
 
 use super::cue_hand::HandMarkerFrame;
 use super::rigid::RigidMotion;
-use generate_hand::place_hand;
+use generate_hand::hand_marker_positions;
 
 pub use crate::random::RandomNumbers;
 pub use generate_face::throat_weights;
@@ -401,7 +401,7 @@ fn animate_generated_take(
         if free {
             at = DVec3::new(-150.0, 0.0, 250.0);
         }
-        let local = place_hand(&angles, settings.skin);
+        let local = hand_marker_positions(&angles, settings.skin);
         let tip = super::cue_hand::HandModel::pointing_fingertip(&local, shape).unwrap_or(DVec3::ZERO);
         let before = n.checked_sub(2).map_or(0, |n| keys[n].shape);
         let other = super::cue_hand::HandModel::pointing_fingertip(&local, before).unwrap_or(tip);

@@ -94,7 +94,7 @@ impl<'a> SceneReadings<'a> {
         }
         let nearest_shape = self
             .forms
-            .nearest_hand_form(&track.angles[frame], &track.known, self.scene.loose);
+            .nearest_handshape(&track.angles[frame], &track.known, self.scene.loose);
         self.shapes.borrow_mut().insert(key, nearest_shape.clone());
         nearest_shape
     }

@@ -8,7 +8,7 @@ use chereme_sign::SignComponent;
 
 use crate::body;
 use crate::contact::{self, BodyTouch};
-use crate::ops::say_operator;
+use crate::ops::component_notes;
 use crate::outcome::NoteSubject;
 use crate::recipe_settings::RecipeHandPoint;
 use crate::stroke::SignStroke;
@@ -54,7 +54,7 @@ pub(super) fn find_placement_anchor(
     let about = NoteSubject::Component(SignComponent::Movement, Some("phase".to_owned()));
     let strokes = work.notes.iter().filter(|note| {
         let stroke = note.value.reading_value() == Some("stroke");
-        stroke && note.about == about && say_operator::is_of(work, note, &[side])
+        stroke && note.about == about && component_notes::is_of(work, note, &[side])
     });
     let strokes = strokes.filter_map(|note| {
         let note_frames = work.rate.frames_in(note.span);
