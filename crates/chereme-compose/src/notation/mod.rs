@@ -49,7 +49,7 @@ mod lean;
 mod life;
 mod lift;
 #[cfg(test)]
-mod natural;
+mod natural_tests;
 mod notation_arm;
 mod notation_bulk;
 mod notation_motion;

@@ -7,8 +7,7 @@ use eframe::egui::emath::GuiRounding;
 use eframe::egui::epaint::RectShape;
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align, Color32, ColorImage, Galley, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, TextureOptions, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, ColorImage, Galley, Rect, Stroke, StrokeKind, TextStyle, TextureOptions, Ui, Vec2, pos2, vec2,
 };
 
 use super::draw::{DrawingBoardState, MiniatureFilm, MiniatureMovement};
@@ -45,23 +44,6 @@ enum CellSight {
 }
 
 impl MiniatureFigures {
-    #[allow(dead_code, reason = "for results and cards")]
-    /// Shows a little figure as a clickable widget with the accessible name `name`.
-    pub(crate) fn show_figure(
-        &self,
-        ui: &mut Ui,
-        language: InterfaceLanguage,
-        out: &mut CommandOutbox,
-        cell: &MiniatureCell,
-        name: &str,
-    ) -> Response {
-        let (rect, response) = ui.allocate_exact_size(cell.size, Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
-        self.paint_figure(ui, language, out, cell, rect);
-        paint_cell_edge(ui, &response, rect);
-        response
-    }
-
     /// Paints a little figure over `rect`; the caller handles clicks.
     pub(crate) fn paint_figure(
         &self,
@@ -119,24 +101,6 @@ impl MiniatureFigures {
         self.board.wake_drawing_thread();
         ui.ctx().request_repaint_after_secs(LOOP_REPAINT_SECONDS as f32);
         self.put_cell_sight(ui, language, &key, sight, rect);
-    }
-
-    /// Shows a posture of one hand, with the accessible name `name`: the picture of a handshape.
-    #[allow(dead_code, reason = "for pickers")]
-    pub(crate) fn show_hand_posture(
-        &self,
-        ui: &mut Ui,
-        language: InterfaceLanguage,
-        side: BodySide,
-        angles: &HandAngles,
-        size: Vec2,
-        name: &str,
-    ) -> Response {
-        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
-        self.paint_hand(ui, language, side, angles, rect);
-        paint_cell_edge(ui, &response, rect);
-        response
     }
 
     /// Paints a posture of one hand over `rect`.
@@ -302,19 +266,6 @@ fn strip_sight_at(state: &mut DrawingBoardState, key: &PictureStripKey, clock: O
         Some((index, image)) => CellSight::Picture(index, image),
         None => CellSight::Preparing,
     }
-}
-
-/// Paints the edge of a clickable cell under the pointer or with the focus.
-fn paint_cell_edge(ui: &Ui, response: &Response, rect: Rect) {
-    let stroke = if response.has_focus() {
-        Stroke::new(2.0, ui.visuals().hyperlink_color)
-    } else if response.hovered() {
-        ui.visuals().widgets.hovered.bg_stroke
-    } else {
-        return;
-    };
-    ui.painter()
-        .rect_stroke(rect, PICTURE_CORNER_RADIUS, stroke, StrokeKind::Inside);
 }
 
 /// Paints the placeholder of a missing picture: head and shoulders, faintly.

@@ -1,16 +1,16 @@
 //! Looping little figures: movement at a glance, for results, cards and pickers.
 //!
-//! Any pane shows one with [`MiniatureFigures::show_figure`], through the `little` of what it sees:
+//! Any pane paints one with [`MiniatureFigures::paint_figure`], through the `little` of what it sees:
 //!
 //! ```text
-//! let motion = Motion::Span(recording, span);
-//! let cell = Cell::new(motion, vec2(150.0, 150.0)).playing(miniatures::clock(ui));
-//! if seen.little.show_figure(ui, seen.language, out, &cell, "BOL").clicked() { … }
+//! let motion = MiniatureMotion::Span(recording, span);
+//! let cell = MiniatureCell::new(motion, size).with_playing_clock(miniatures::figure_loop_clock(ui));
+//! seen.little.paint_figure(ui, seen.language, out, &cell, rect);
 //! ```
 //!
 //! Movement is loaded on its own lane and drawn by its own thread, the middle picture first, then ever finer steps;
-//! pictures are kept until there are too many of them. The window only shows finished pictures. [`MiniatureFigures::show_hand_posture`] shows
-//! a posture of one hand alone, the picture of a handshape.
+//! pictures are kept until there are too many of them. The window only shows finished pictures.
+//! [`MiniatureFigures::paint_hand`] paints a posture of one hand alone, the picture of a handshape.
 
 mod draw;
 mod miniatures_data;
@@ -37,7 +37,6 @@ pub(crate) enum MiniatureMotion {
     /// A span of a recording; a very short one is a single posture.
     Span(i64, TimeSpan),
     /// Generated movement outside of recordings.
-    #[allow(dead_code, reason = "for cards of recipes")]
     Made(Arc<GeneratedClip>),
 }
 
@@ -48,7 +47,6 @@ pub(crate) enum MiniatureFocus {
     #[default]
     Signing,
     /// A close view of one hand that follows it.
-    #[allow(dead_code, reason = "for results found by their handshape")]
     Hand(BodySide),
     /// A close view of the face that follows it.
     Face,
@@ -84,7 +82,6 @@ impl MiniatureCell {
     }
 
     /// Returns the cell with another focus.
-    #[allow(dead_code, reason = "for results found by their handshape")]
     pub(crate) fn with_picture_focus(self, focus: MiniatureFocus) -> Self {
         Self { focus, ..self }
     }

@@ -43,12 +43,10 @@ impl Default for CompletionLine<'_> {
 
 /// The outcome of the line in this frame.
 pub(crate) struct CompletionOutcome {
-    #[allow(dead_code, reason = "what else lies on the line")]
     pub(crate) response: Response,
     /// Whether the text has changed.
     pub(crate) changed: bool,
     /// Whether a candidate was taken, or Enter pressed.
-    #[allow(dead_code, reason = "not every line does something at once")]
     pub(crate) entered: bool,
 }
 

@@ -224,7 +224,6 @@ pub(crate) fn show_picker_below(
 
 /// Paints the picture of a value if it has one: a hand, a place on the body, a glyph, an arrow. Returns whether there
 /// is one.
-#[allow(dead_code, reason = "for whoever shows values")]
 pub(crate) fn paint_inventory_value(
     ui: &Ui,
     rect: Rect,

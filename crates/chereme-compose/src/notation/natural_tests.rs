@@ -18,8 +18,8 @@ use super::*;
 use crate::outcome::NoteSubject;
 use crate::testing::Axes;
 
-mod natural_tables;
-mod planned;
+mod planned_tests;
+mod table_tests;
 
 fn alive(sign: &NotatedSign) -> GeneratedMovement {
     animate_signs(&[sign], &stage(Axes::Odd), &AnimatorSettings::default()).expect("it can be animated")
