@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use chereme_corpus::recipe::Step;
-use chereme_corpus::words::InterfaceText;
+use chereme_corpus::words::{InterfaceLanguage, InterfaceText};
 use chereme_corpus::{CorpusAddress, PictureOptions, ProgressReceiver, RecombinationResult, draw_clip};
 use serde_json::json;
 
@@ -43,7 +43,7 @@ fn recipe_help_text() -> String {
             true => format!("\n  {recipe}\n{:EXAMPLE_EFFECTS_COLUMN$}", ""),
             false => format!("\n  {recipe:<width$}", width = EXAMPLE_EFFECTS_COLUMN - 2),
         };
-        format!("{before}{}", effect.en)
+        format!("{before}{}", effect.text_in_language(InterfaceLanguage::English))
     };
     let operators: String = examples.map(line).collect();
     format!("{RECIPE_SOURCES_HELP}{operators}\n\n{RECIPE_UTTERANCES_HELP}")

@@ -9,6 +9,7 @@ use chereme_sign::words::InterfaceText;
 use chereme_sign::{SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::NodeAnswers;
 use crate::arm::WristReach;
 use crate::check;
@@ -39,21 +40,10 @@ pub struct AmplifySettings {
 
 impl OperatorSyntax for AmplifySettings {
     const OPERATOR_NAME: &'static str = "amplify";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Size", "Ampleur"),
-        hint: InterfaceText::new("larger or smaller movement", "mouvement plus ample ou plus petit"),
-        examples: &[(
-            "amplify both 1.5",
-            InterfaceText::new("larger paths", "de plus grands trajets"),
-        )],
-        messages: &[
-            InterfaceText::new(
-                "the hands' paths are {share} as large",
-                "les trajets des mains font {share} de leur taille",
-            ),
-            InterfaceText::new("nothing to do", "rien à faire"),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "amplify",
+        "larger-paths": "amplify both 1.5"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self {

@@ -18,6 +18,7 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -50,46 +51,13 @@ const CONFIGURE_COURSE_SLOT: AnswerSlot<LearnedProfile> = AnswerSlot::new("confi
 
 impl OperatorSyntax for ConfigureSettings {
     const OPERATOR_NAME: &'static str = "configure";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Handshape", "Configuration"),
-        hint: InterfaceText::new("another shape of the hand", "une autre forme de la main"),
-        examples: &[
-            (
-                "configure right U",
-                InterfaceText::new("another handshape", "une autre configuration"),
-            ),
-            (
-                "configure both from LION",
-                InterfaceText::new("the handshapes of another sign", "les configurations d’un autre signe"),
-            ),
-            (
-                "configure right U, _",
-                InterfaceText::new(
-                    "for each shape that the sign holds in turn; _ keeps one",
-                    "pour chaque forme que le signe tient tour à tour ; _ en garde une",
-                ),
-            ),
-            (
-                "configure right best(configuration=U signer=same)",
-                InterfaceText::new(
-                    "that of the best hit of a query",
-                    "celle du meilleur résultat d’une requête",
-                ),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new(
-                "{value} becomes {other} over {span}, from {origin}",
-                "{value} devient {other} sur {span}, d’après {origin}",
-            ),
-            InterfaceText::new(
-                "the shape changes in {is} s instead of {asked} s: the sign leaves no more time",
-                "la forme change en {is} s au lieu de {asked} s : le signe ne laisse pas plus de temps",
-            ),
-            InterfaceText::new("(no value)", "(sans valeur)"),
-            InterfaceText::new("no value is given", "aucune valeur n’est donnée"),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "configure",
+        "another-handshape": "configure right U",
+        "handshapes-another-sign": "configure both from LION",
+        "for-each-shape": "configure right U, _",
+        "best-hit-query": "configure right best(configuration=U signer=same)"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let hand = parser.parse_hand_choice().unwrap_or(HandChoice::Dominant);

@@ -13,6 +13,7 @@ use chereme_sign::SignerHandedness;
 use chereme_sign::words::InterfaceText;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::NodeAnswers;
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -36,24 +37,11 @@ pub struct SpanSettings {
 
 impl OperatorSyntax for SpanSettings {
     const OPERATOR_NAME: &'static str = "span";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Part", "Extrait"),
-        hint: InterfaceText::new("a part of the movement", "une partie du mouvement"),
-        examples: &[
-            ("span 0.4s..1.9s", InterfaceText::new("a part of it", "une partie")),
-            (
-                "span 0.4s..",
-                InterfaceText::new("all from a time on", "tout à partir d’un temps"),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new("the movement ends at {time}", "le mouvement finit à {time}"),
-            InterfaceText::new(
-                "kept {from} to {to} of {all}: frames {first} to {last}",
-                "gardé de {from} à {to} sur {all} : images {first} à {last}",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "span",
+        "part": "span 0.4s..1.9s",
+        "all-from-time": "span 0.4s.."
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         parse_movement_part(parser)
@@ -129,31 +117,10 @@ pub(crate) struct Trim;
 
 impl OperatorSyntax for Trim {
     const OPERATOR_NAME: &'static str = "trim";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Trim", "Rogner"),
-        hint: InterfaceText::new(
-            "without rest and odd first and last frames",
-            "sans repos ni images fausses au début et à la fin",
-        ),
-        examples: &[(
-            "trim",
-            InterfaceText::new(
-                "rest and odd first and last frames cut off",
-                "le repos et les images fausses des bouts coupés",
-            ),
-        )],
-        messages: &[
-            InterfaceText::new(
-                "the movement from rest and back to it is left out: the phases of the sign are known",
-                "le mouvement depuis le repos et vers lui est laissé de côté : les phases du signe sont connues",
-            ),
-            InterfaceText::new("left out {what}", "laissé de côté : {what}"),
-            InterfaceText::new(
-                "the movement has no rest before or after it",
-                "le mouvement n’a pas de repos avant ou après",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "trim",
+        "rest-odd-first": "trim"
+    );
 
     fn parse_operator_text(_parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self)

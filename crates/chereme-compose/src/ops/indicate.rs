@@ -9,6 +9,7 @@ use chereme_sign::words::InterfaceText;
 use chereme_sign::{SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::arm::{self, WristReach};
 use crate::body::arm_length;
@@ -51,34 +52,10 @@ const INDICATE_END_SLOTS: [AnswerSlot<PlaceInput>; 2] =
 impl OperatorSyntax for IndicateSettings {
     const OPERATOR_NAME: &'static str = "indicate";
     const OPERATOR_WORDS: &'static [&'static str] = &["from", "to"];
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Direct", "Diriger"),
-        hint: InterfaceText::new(
-            "between other places, as a directional verb",
-            "entre d’autres lieux, comme un verbe directionnel",
-        ),
-        examples: &[(
-            "from me to left",
-            InterfaceText::new(
-                "a directional verb between other places",
-                "un verbe directionnel entre d’autres lieux",
-            ),
-        )],
-        messages: &[
-            InterfaceText::new(
-                "{spot} is {cm} cm nearer, as far as the arms reach",
-                "{spot} est plus près de {cm} cm, autant que les bras atteignent",
-            ),
-            InterfaceText::new(
-                "the path of {from} cm became {to} cm",
-                "le trajet de {from} cm est devenu {to} cm",
-            ),
-            InterfaceText::new(
-                "neither where it starts nor where it ends is given",
-                "ni son départ ni son arrivée ne sont donnés",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "indicate",
+        "directional-verb-between": "from me to left"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, word: &str) -> ParsedText<Self> {
         let from = (word == "from").then(|| parser.parse_signing_spot()).transpose()?;

@@ -19,6 +19,7 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::NodeAnswers;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::RecipeError;
@@ -34,12 +35,10 @@ pub(crate) struct Swap;
 
 impl OperatorSyntax for Swap {
     const OPERATOR_NAME: &'static str = "swap";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Swap hands", "Échanger les mains"),
-        hint: InterfaceText::new("the arms exchange their movement", "les bras échangent leurs rôles"),
-        examples: &[("swap", InterfaceText::new("the arms exchanged", "les bras échangés"))],
-        messages: &[],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "swap",
+        "arms-exchanged": "swap"
+    );
 
     fn parse_operator_text(_parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self)
@@ -84,28 +83,10 @@ pub struct MirrorSettings {
 
 impl OperatorSyntax for MirrorSettings {
     const OPERATOR_NAME: &'static str = "mirror";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Mirror", "Miroir"),
-        hint: InterfaceText::new("one arm copies the other", "un bras copie l’autre"),
-        examples: &[(
-            "mirror right",
-            InterfaceText::new("the left arm like the right one", "le bras gauche comme le droit"),
-        )],
-        messages: &[
-            InterfaceText::new(
-                "one arm is copied to the other; name right, left, dominant or weak",
-                "un bras est copié sur l’autre ; nommez right, left, dominant ou weak",
-            ),
-            InterfaceText::new(
-                "the hands go through each other in {n} frames, from {first} on; take one aside, as with: place left by left 5cm",
-                "les mains se traversent dans {n} images, à partir de {first} ; écartez-en une, comme avec : place left by left 5cm",
-            ),
-            InterfaceText::new(
-                "joints without a counterpart stay as they were: {names}",
-                "les articulations sans pendant restent comme elles étaient : {names}",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "mirror",
+        "left-arm-like": "mirror right"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let from = parser.parse_hand_choice().unwrap_or(HandChoice::Dominant);

@@ -44,6 +44,7 @@ pub(crate) mod then;
 pub(crate) mod travel;
 
 pub use description::OperatorDescription;
+use description::described_operator;
 pub use field_operator::{OperatorField, OperatorSetting as FieldSetting};
 
 /// The effect of an operator, and its part in checks, answers and contacts.

@@ -16,6 +16,7 @@ use chereme_motion::BodySide;
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -82,58 +83,11 @@ impl NonmanualSettings {
 
 impl OperatorSyntax for NonmanualSettings {
     const OPERATOR_NAME: &'static str = "nonmanual";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Face and head", "Visage et tête"),
-        hint: InterfaceText::new("head and face of another sign", "tête et visage d’un autre signe"),
-        examples: &[
-            (
-                "nonmanual from BOL",
-                InterfaceText::new("head and face of another sign", "tête et visage d’un autre signe"),
-            ),
-            (
-                "nonmanual wh from BOL over 0.4s..1.9s by phases",
-                InterfaceText::new(
-                    "an expression, fitted to a part by its milestones",
-                    "une expression, ajustée à une partie par ses jalons",
-                ),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new(
-                "{n} joints of the head from {sign} ({own} s stretched to {time} s)",
-                "{n} articulations de la tête d’après {sign} ({own} s étirées à {time} s)",
-            ),
-            InterfaceText::new(
-                "{function} from {sign}: {own} onto {target}",
-                "{function} d’après {sign} : {own} sur {target}",
-            ),
-            InterfaceText::new("the name of the function is empty", "le nom de la fonction est vide"),
-            InterfaceText::new(
-                "milestones decrease; write M1 to M5 in order of time",
-                "les jalons reculent ; écrivez M1 à M5 dans l’ordre du temps",
-            ),
-            InterfaceText::new(
-                "a part such as 0.4s..1.9s, or five times with commas between",
-                "une partie comme 0.4s..1.9s, ou cinq temps séparés par des virgules",
-            ),
-            InterfaceText::new(
-                "the mouth keeps its own movement",
-                "la bouche garde son propre mouvement",
-            ),
-            InterfaceText::new(
-                "the first {time} s lie before the movement and are not seen",
-                "les premières {time} s sont avant le mouvement et ne se voient pas",
-            ),
-            InterfaceText::new(
-                "the last {time} s lie after the movement and are not seen",
-                "les dernières {time} s sont après le mouvement et ne se voient pas",
-            ),
-            InterfaceText::new(
-                "{head} joints of the head and {trunk} of the trunk",
-                "{head} articulations de la tête et {trunk} du tronc",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "nonmanual",
+        "head-face-another": "nonmanual from BOL",
+        "expression-fitted-part": "nonmanual wh from BOL over 0.4s..1.9s by phases"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let function = match parser.current_word() {

@@ -19,6 +19,7 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::NodeAnswers;
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -57,44 +58,11 @@ pub struct AxisTurn {
 
 impl OperatorSyntax for OrientSettings {
     const OPERATOR_NAME: &'static str = "orient";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Orientation", "Orientation"),
-        hint: InterfaceText::new("the hands turned", "les mains tournées"),
-        examples: &[
-            (
-                "orient right palm up fingers forward",
-                InterfaceText::new(
-                    "another direction of palm and fingers",
-                    "une autre direction de la paume et des doigts",
-                ),
-            ),
-            (
-                "orient right by 30deg about up",
-                InterfaceText::new("turned about a direction", "tournée autour d’un axe"),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new(
-                "the {side} hand is turned by {angle}",
-                "la main {side} est tournée de {angle}",
-            ),
-            InterfaceText::new(
-                "the {limb} wrist bends by {angle}, more than wrists can",
-                "le poignet {limb} se plie de {angle}, plus qu’un poignet ne peut",
-            ),
-            InterfaceText::new(
-                "neither palm nor fingers nor a turn is given",
-                "ni la paume, ni les doigts, ni une rotation ne sont donnés",
-            ),
-            InterfaceText::new(
-                "the palm faces across the fingers, so both cannot have the same direction or opposite ones",
-                "la paume est tournée en travers des doigts : ils ne peuvent avoir ni la même direction, ni des directions opposées",
-            ),
-            InterfaceText::new("\"about\" and a direction", "\"about\" et une direction"),
-            InterfaceText::new("\"palm\", \"fingers\" or \"by\"", "\"palm\", \"fingers\" ou \"by\""),
-            InterfaceText::new("an angle, such as {example}", "un angle, comme {example}"),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "orient",
+        "another-direction-palm": "orient right palm up fingers forward",
+        "turned-about-direction": "orient right by 30deg about up"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let mut orient = Self {

@@ -18,6 +18,7 @@ use std::ops::Range;
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::{self, AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -78,115 +79,14 @@ const PLACE_GOAL_SLOT: AnswerSlot<PlaceInput> = AnswerSlot::new("place/to");
 
 impl OperatorSyntax for PlaceSettings {
     const OPERATOR_NAME: &'static str = "place";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Place", "Emplacement"),
-        hint: InterfaceText::new("the hands elsewhere", "les mains ailleurs"),
-        examples: &[
-            (
-                "place both by left 25cm up 5cm",
-                InterfaceText::new("another place: moved", "un autre emplacement : déplacé"),
-            ),
-            (
-                "place right at chin with index",
-                InterfaceText::new(
-                    "at a placement, touched with the index finger",
-                    "à un emplacement, touché de l’index",
-                ),
-            ),
-            (
-                "place right at 0cm,120cm,40cm",
-                InterfaceText::new(
-                    "at a point: to the left, up from the floor, forward",
-                    "à un point : à gauche, au-dessus du sol, en avant",
-                ),
-            ),
-            (
-                "place both near BOL by up 5cm",
-                InterfaceText::new("at the place of another sign", "à l’emplacement d’un autre signe"),
-            ),
-            (
-                "place both by up 10cm using fabrik",
-                InterfaceText::new(
-                    "with another solver of the arms",
-                    "avec une autre méthode pour les bras",
-                ),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new("the place is from {origin}", "l’emplacement vient de {origin}"),
-            InterfaceText::new(
-                "what counts is the contact at {time}, where the {part} was at the {place}",
-                "ce qui compte est le contact à {time}, où {part} était à : {place}",
-            ),
-            InterfaceText::new(
-                "out of reach: the wrist stays {cm} cm short at frame {n}",
-                "hors de portée : il manque {cm} cm au poignet à l’image {n}",
-            ),
-            InterfaceText::new(
-                "the collar bone helped in {n} frames, beyond {share} of the arm's length",
-                "la clavicule a aidé dans {n} images, au-delà de {share} de la longueur du bras",
-            ),
-            InterfaceText::new("moved {way}", "déplacé : {way}"),
-            InterfaceText::new("the {side} hand is moved {way}", "la main {side} est déplacée : {way}"),
-            InterfaceText::new(
-                "the rest before {start} and after {end} stays as it is",
-                "le repos avant {start} et après {end} reste tel quel",
-            ),
-            InterfaceText::new(
-                "the rest before {time} stays as it is",
-                "le repos avant {time} reste tel quel",
-            ),
-            InterfaceText::new(
-                "the rest after {time} stays as it is",
-                "le repos après {time} reste tel quel",
-            ),
-            InterfaceText::new(
-                "the right hand is kept out of head and trunk: moved by up to {rest}",
-                "la main droite est tenue hors de la tête et du tronc : déplacée de {rest}",
-            ),
-            InterfaceText::new(
-                "the left hand is kept out of head and trunk: moved by up to {rest}",
-                "la main gauche est tenue hors de la tête et du tronc : déplacée de {rest}",
-            ),
-            InterfaceText::new(
-                "the right hand is {cm} cm away from the place, so its placement is left open",
-                "la main droite est à {cm} cm du lieu, son emplacement reste donc ouvert",
-            ),
-            InterfaceText::new(
-                "the left hand is {cm} cm away from the place, so its placement is left open",
-                "la main gauche est à {cm} cm du lieu, son emplacement reste donc ouvert",
-            ),
-            InterfaceText::new(
-                "the place is that of the contact at {time}: the {part} at the mouth",
-                "l’emplacement est celui du contact à {time} : {part} à la bouche",
-            ),
-            InterfaceText::new(
-                "the place is that of the contact at {time}: the {part} at the chin",
-                "l’emplacement est celui du contact à {time} : {part} au menton",
-            ),
-            InterfaceText::new(
-                "the place is that of the contact at {time}: the {part} at the chest",
-                "l’emplacement est celui du contact à {time} : {part} à la poitrine",
-            ),
-            InterfaceText::new(
-                "the place is that of the contact at {time}: the {part} at the {place}",
-                "l’emplacement est celui du contact à {time} : {part} à {place}",
-            ),
-            InterfaceText::new("the name of the placement is empty", "le nom de l’emplacement est vide"),
-            InterfaceText::new(
-                "a hand, \"by\", \"at\" or \"near\"",
-                "une main, \"by\", \"at\" ou \"near\"",
-            ),
-            InterfaceText::new(
-                "a placement or a point such as 0cm,120cm,30cm",
-                "un emplacement ou un point comme 0cm,120cm,30cm",
-            ),
-            InterfaceText::new(
-                "the wrist leaves the arm's reach fast: beyond {share}% of its length it lags behind, so that the elbow opens smoothly",
-                "le poignet quitte vite la portée du bras : au-delà de {share} % de sa longueur il prend du retard, pour que le coude s’ouvre sans à-coup",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "place",
+        "another-place-moved": "place both by left 25cm up 5cm",
+        "at-placement-touched": "place right at chin with index",
+        "at-point-left": "place right at 0cm,120cm,40cm",
+        "at-place-another": "place both near BOL by up 5cm",
+        "with-another-solver": "place both by up 10cm using fabrik"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let hand = parser.parse_hand_choice().unwrap_or(HandChoice::Both);

@@ -16,6 +16,7 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::error::RecipeError;
 use crate::ops::{FieldSetting, OperatorField, OperatorSyntax, StepOperator, StepOutcome};
@@ -52,36 +53,10 @@ const REPEAT_COURSE_SLOT: AnswerSlot<LearnedProfile> = AnswerSlot::new("repeat/v
 
 impl OperatorSyntax for RepeatSettings {
     const OPERATOR_NAME: &'static str = "repeat";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Repeat", "Répéter"),
-        hint: InterfaceText::new("again and again", "encore et encore"),
-        examples: &[(
-            "repeat 3 scale 0.8 tempo 1.2 gap 0.1s",
-            InterfaceText::new(
-                "again, each smaller and faster",
-                "de nouveau, toujours plus petit et plus vite",
-            ),
-        )],
-        messages: &[
-            InterfaceText::new(
-                "out of reach: a wrist stays {cm} cm short",
-                "hors de portée : il manque {cm} cm à un poignet",
-            ),
-            InterfaceText::new(
-                "{times} times, {gap} frames between",
-                "{times} fois, {gap} images entre deux",
-            ),
-            InterfaceText::new(
-                "the hands do not go back to rest between them",
-                "les mains ne reviennent pas au repos entre deux",
-            ),
-            InterfaceText::new("repetition {n} to {next}: {what}", "répétition {n} à {next} : {what}"),
-            InterfaceText::new("repetition {n}: {what}", "répétition {n} : {what}"),
-            InterfaceText::new("repetition {one} to {next}", "de la répétition {one} à {next}"),
-            InterfaceText::new("how often, such as 2", "combien de fois, comme 2"),
-            InterfaceText::new("the number of times", "le nombre de fois"),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "repeat",
+        "again-each-smaller": "repeat 3 scale 0.8 tempo 1.2 gap 0.1s"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let mut repeat = Self {

@@ -13,6 +13,7 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::NodeAnswers;
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -41,35 +42,12 @@ pub enum RetimePace {
 
 impl OperatorSyntax for RetimeSettings {
     const OPERATOR_NAME: &'static str = "retime";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Speed", "Vitesse"),
-        hint: InterfaceText::new("slower or faster", "plus lent ou plus vite"),
-        examples: &[
-            (
-                "retime 150%",
-                InterfaceText::new("slower: half as long again", "plus lent : une fois et demie la durée"),
-            ),
-            (
-                "retime to 2s",
-                InterfaceText::new(
-                    "as slow or fast as the time demands",
-                    "aussi lent ou vite que la durée le veut",
-                ),
-            ),
-            (
-                "retime 1, 50%, to 0.3s",
-                InterfaceText::new("phase by phase", "phase par phase"),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new("{from} s became {to} s", "{from} s sont devenus {to} s"),
-            InterfaceText::new("no pace is given", "aucune allure n’est donnée"),
-            InterfaceText::new(
-                "a factor, such as 150%, or \"to\" and a time",
-                "un facteur, comme 150%, ou \"to\" et un temps",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "retime",
+        "slower-half-long": "retime 150%",
+        "slow-fast-time": "retime to 2s",
+        "phase-by-phase": "retime 1, 50%, to 0.3s"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let mut paces = Vec::new();

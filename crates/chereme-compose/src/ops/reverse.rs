@@ -11,6 +11,7 @@ use std::fmt::{self, Display, Formatter};
 
 use chereme_sign::SignerHandedness;
 
+use super::described_operator;
 use crate::answers::NodeAnswers;
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::StepError;
@@ -22,18 +23,10 @@ pub(crate) struct Reverse;
 
 impl OperatorSyntax for Reverse {
     const OPERATOR_NAME: &'static str = "reverse";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Reverse", "Inverser"),
-        hint: InterfaceText::new("backwards", "à l’envers"),
-        examples: &[("reverse", InterfaceText::new("backwards", "à l’envers"))],
-        messages: &[
-            InterfaceText::new("{n} frames played backwards", "{n} images jouées à l’envers"),
-            InterfaceText::new(
-                "{component} {value} is no longer written: it runs the other way",
-                "{component} {value} n’est plus dit : il va dans l’autre sens",
-            ),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "reverse",
+        "backwards": "reverse"
+    );
 
     fn parse_operator_text(_parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         Ok(Self)

@@ -21,6 +21,7 @@ use std::fmt::{self, Display, Formatter};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
+use super::described_operator;
 use crate::answers::{AnswerSlot, CorpusAsker, NodeAnswers};
 use crate::check;
 use crate::contact::{ContactEffect, ContactsToKeep};
@@ -71,53 +72,11 @@ const TRAVEL_COURSE_SLOT: AnswerSlot<LearnedProfile> = AnswerSlot::new("travel/v
 
 impl OperatorSyntax for TravelSettings {
     const OPERATOR_NAME: &'static str = "travel";
-    const OPERATOR_DESCRIPTION: OperatorDescription = OperatorDescription {
-        title: InterfaceText::new("Path", "Trajet"),
-        hint: InterfaceText::new("the hands moved along a path", "les mains portées le long d’un chemin"),
-        examples: &[
-            (
-                "travel right down 20cm in 0.4s then up 20cm in 0.4s",
-                InterfaceText::new(
-                    "along a path: each leg has its own time",
-                    "le long d’un trajet : chaque étape a son temps",
-                ),
-            ),
-            (
-                "travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s",
-                InterfaceText::new(
-                    "along a curve: left, up, forward",
-                    "le long d’une courbe : gauche, haut, avant",
-                ),
-            ),
-        ],
-        messages: &[
-            InterfaceText::new(
-                "the sign became {to} s long instead of {from} s, so that the path has its time",
-                "le signe dure {to} s au lieu de {from} s, pour que le trajet ait son temps",
-            ),
-            InterfaceText::new(
-                UNUSED_TIME_WARNING,
-                "le temps après \"via\" n’est pas utilisé : segments et courbes ont le leur, comme left 5cm in 0.2s",
-            ),
-            InterfaceText::new("the legs take {times}", "les étapes durent {times}"),
-            InterfaceText::new(
-                "{cm} cm in {time} s is faster than people sign",
-                "{cm} cm en {time} s, c’est plus vite qu’on ne signe",
-            ),
-            InterfaceText::new("1 leg, {cm} cm in all", "1 étape, {cm} cm en tout"),
-            InterfaceText::new("{n} legs, {cm} cm in all", "{n} étapes, {cm} cm en tout"),
-            InterfaceText::new(
-                "legs and a curve are given: keep one of them",
-                "des segments et une courbe sont donnés : gardez l’un des deux",
-            ),
-            InterfaceText::new(
-                "only a curve has a time; each leg has its own, such as left 5cm in 0.2s",
-                "seule une courbe a un temps ; chaque segment a le sien, comme left 5cm in 0.2s",
-            ),
-            InterfaceText::new("the curve has more than 64 points", "la courbe a plus de 64 points"),
-            InterfaceText::new("a curve of {cm} cm ({what})", "une courbe de {cm} cm ({what})"),
-        ],
-    };
+    const OPERATOR_DESCRIPTION: OperatorDescription = described_operator!(
+        "travel",
+        "along-path-each": "travel right down 20cm in 0.4s then up 20cm in 0.4s",
+        "along-curve-left": "travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s"
+    );
 
     fn parse_operator_text(parser: &mut RecipeParser<'_>, _word: &str) -> ParsedText<Self> {
         let hand = match parser.is_length_next() {

@@ -1,7 +1,6 @@
 //! Guides with examples in French, line by line, such as the help of queries.
 
 use chereme_analysis::detect::ALL_DETECTORS;
-use chereme_compose::recipe::Step;
 
 use super::InterfaceLanguage;
 use super::phrases::{PhraseBook, phrase_book};
@@ -32,16 +31,13 @@ fn translated_line(line: &str, book: &PhraseBook, language: InterfaceLanguage) -
     line.to_owned()
 }
 
-/// Returns in `language` what an example of an operator does, or what a detector finds.
+/// Returns in `language` what a detector finds.
 fn described_effect(english: &str, language: InterfaceLanguage) -> Option<&'static str> {
-    let examples = Step::DESCRIPTIONS.iter().flat_map(|step| step.examples);
-    let effects = examples.map(|(_, effect)| (effect.en, effect.text_in_language(language)));
-    let detectors = ALL_DETECTORS
+    let mut detectors = ALL_DETECTORS
         .iter()
         .map(|detector| detector.detector_description().finds);
-    let mut described = effects.chain(detectors.map(|finds| (finds.en, finds.text_in_language(language))));
-    let matched_effect = described.find(|(known, _)| *known == english);
-    matched_effect.map(|(_, spoken)| spoken)
+    let matched_detector = detectors.find(|finds| finds.en == english);
+    matched_detector.map(|finds| finds.text_in_language(language))
 }
 
 #[cfg(test)]

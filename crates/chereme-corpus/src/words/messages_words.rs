@@ -4,7 +4,6 @@
 //! variable part is put into that language as well if the files have it, and copied otherwise.
 
 use chereme_analysis::detect::ALL_DETECTORS;
-use chereme_compose::recipe::Step;
 
 use super::InterfaceLanguage;
 use super::count::counted_in_french;
@@ -20,13 +19,12 @@ pub(super) fn translate_message_text(text: &str, language: InterfaceLanguage) ->
     }
 }
 
-/// Returns the messages that stand beside the code of operators and detectors.
+/// Returns the messages that stand beside the code of detectors.
 pub(super) fn described_messages() -> impl Iterator<Item = PhrasePair> {
-    let operators = Step::DESCRIPTIONS.iter().flat_map(|step| step.messages);
     let detectors = ALL_DETECTORS
         .iter()
         .flat_map(|detector| detector.detector_description().messages);
-    operators.chain(detectors).map(|text| PhrasePair {
+    detectors.map(|text| PhrasePair {
         english: BlankedPhrase::from_form(text.en),
         other: BlankedPhrase::from_form(text.fr),
     })
