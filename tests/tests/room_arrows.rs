@@ -8,9 +8,6 @@ use regex::Regex;
 /// The largest number of rooms that may use each other in a circle.
 const MAX_ROOMS_IN_CIRCLE: usize = 3;
 
-/// Crates with a larger circle.
-const CRATES_WITH_LARGE_CIRCLES: [&str; 2] = ["chereme-compose", "chereme-studio"];
-
 /// The rooms of a crate, each with the rooms that it uses, and a file that does.
 type RoomArrows = BTreeMap<String, BTreeMap<String, String>>;
 
@@ -155,13 +152,6 @@ fn rooms_form_no_large_circles() {
         let circles = room_circles(&arrows);
         let is_large = |circle: &&BTreeSet<&str>| circle.len() > MAX_ROOMS_IN_CIRCLE;
         let large = circles.iter().find(is_large);
-        if CRATES_WITH_LARGE_CIRCLES.contains(&name.as_str()) {
-            assert!(
-                large.is_some(),
-                "{name} has no large circle any more: take it from the list"
-            );
-            continue;
-        }
         for (from, to) in large
             .into_iter()
             .flat_map(|circle| circle.iter().map(move |room| (*room, circle)))

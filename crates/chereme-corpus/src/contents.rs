@@ -5,8 +5,8 @@ use chereme_sign::SignerHandedness;
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::db::lexicons::{self, LexiconRow};
 use crate::curves::face_stage;
+use crate::db::lexicons::{self, LexiconRow};
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_contents as rows;
 use crate::db::stored_inventories::load_inventory_rows as inventory_rows;

@@ -49,8 +49,6 @@ pub struct LexiconChange {
 pub enum LinkedRecordings {
     /// These.
     Named(Vec<RowName>),
-    /// Those with a token that a query finds.
-    Query(String),
     /// All of the corpus.
     All,
 }
@@ -107,14 +105,14 @@ impl Corpus {
     /// for which that is new.
     ///
     /// # Errors
-    /// Fails if there is no such lexicon or recording, or the query is wrong.
+    /// Fails if there is no such lexicon or recording.
     pub fn link_lexicon(
         &mut self,
         lexicon: Option<&str>,
         recordings: &LinkedRecordings,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<Vec<String>> {
-        let ids = self.linked_recording_ids(recordings, progress)?;
+        let ids = self.linked_recording_ids(recordings)?;
         self.store.operation_with_progress(progress, |connection, progress| {
             let lexicon = lexicon.map(|name| require_lexicon(connection, name)).transpose()?;
             let total = Some(ids.len() as u64);
@@ -141,11 +139,7 @@ impl Corpus {
         })
     }
 
-    fn linked_recording_ids(
-        &mut self,
-        recordings: &LinkedRecordings,
-        progress: &mut ProgressReceiver<'_>,
-    ) -> CorpusResult<BTreeSet<i64>> {
+    fn linked_recording_ids(&self, recordings: &LinkedRecordings) -> CorpusResult<BTreeSet<i64>> {
         let connection = self.store.read_connection();
         match recordings {
             LinkedRecordings::Named(names) => {
@@ -153,10 +147,6 @@ impl Corpus {
                     .iter()
                     .map(|name| address::find_recording_by_name(connection, name));
                 found.map(|row| Ok(row?.id)).collect()
-            }
-            LinkedRecordings::Query(query) => {
-                let tokens = self.tokens_found(query, progress)?;
-                Ok(tokens.iter().filter_map(|token| token.recording_id).collect())
             }
             LinkedRecordings::All => {
                 let rows = stored_recordings::load_recording_rows(connection)?;

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, ProgressReceiver, ProgressStep,
-    RowName,
+    Corpus, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, ProgressReceiver,
+    ProgressStep, RowName,
 };
 use clap::{Args, Subcommand};
 
@@ -95,12 +95,15 @@ struct LexiconRecordingArgs {
 }
 
 impl LexiconRecordingArgs {
-    fn linked_recordings(&self) -> LinkedRecordings {
-        match &self.query {
-            Some(query) => LinkedRecordings::Query(query.clone()),
+    fn linked_recordings(&self, corpus: &mut Corpus, progress: &mut ProgressReceiver<'_>) -> Result<LinkedRecordings> {
+        Ok(match &self.query {
+            Some(query) => {
+                let ids = corpus.recordings_of_query(query, progress)?;
+                LinkedRecordings::Named(ids.into_iter().map(RowName::Number).collect())
+            }
             None if self.all => LinkedRecordings::All,
             None => LinkedRecordings::Named(self.recordings.clone()),
-        }
+        })
     }
 }
 
@@ -142,11 +145,13 @@ pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOut
             corpus.change_lexicon(&set.lexicon, &change)?;
         }
         Some(LexiconAction::Link(link)) => {
-            let names = corpus.link_lexicon(Some(&link.lexicon), &link.recordings.linked_recordings(), progress)?;
+            let recordings = link.recordings.linked_recordings(&mut corpus, progress)?;
+            let names = corpus.link_lexicon(Some(&link.lexicon), &recordings, progress)?;
             print_linked_recordings(&names, output)?;
         }
         Some(LexiconAction::Unlink(recordings)) => {
-            let names = corpus.link_lexicon(None, &recordings.linked_recordings(), progress)?;
+            let recordings = recordings.linked_recordings(&mut corpus, progress)?;
+            let names = corpus.link_lexicon(None, &recordings, progress)?;
             print_linked_recordings(&names, output)?;
         }
     }

@@ -408,7 +408,7 @@ fn files_appear_whole_and_replace_nothing_unasked() {
         .expect("exported");
     let text = std::fs::read_to_string(&there).expect("text");
     assert!(
-        text.starts_with("token,gloss,recording,start_s,end_s,origin,signer,hand,citation,"),
+        text.starts_with("token,gloss,lexicon,recording,start_s,end_s,origin,signer,hand,citation,"),
         "{text}"
     );
     assert_eq!(report.files[0].bytes, text.len() as u64);

@@ -7,10 +7,10 @@ use chereme_sign::ErrorRemedy;
 use chereme_sign::text::fold_text;
 
 use super::ImportJob;
-use super::import_report::ReportFinding;
 use crate::db::lexicons::{self, LexiconRow};
 use crate::error::CorpusResult;
 use crate::lexicon;
+use crate::report_finding::ReportFinding;
 
 /// Returns the lexicon of a table: the one that the options name, otherwise that of its earlier import, whose file is
 /// `earlier`; otherwise a new one with the name of the file. Nothing for a table of an older corpus whose signs belong to

@@ -31,6 +31,7 @@ mod text_match;
 mod time_relations;
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 
 use chereme_sign::query::{LikeSearch, QueryError, QueryExpression, QueryTest, TestSubject, TextPattern, TokenQuery};
 use rusqlite::Connection;
@@ -104,6 +105,19 @@ impl Corpus {
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<SearchAnswer> {
         self.evaluate_with_context(query, progress, &mut |ask, query| answer_query(ask, query, options))
+    }
+
+    /// Returns the recordings with a token that a query finds.
+    ///
+    /// # Errors
+    /// Fails if the query cannot be read; [`CorpusError::Stopped`].
+    pub fn recordings_of_query(
+        &mut self,
+        query: &str,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<BTreeSet<i64>> {
+        let tokens = self.tokens_found(query, progress)?;
+        Ok(tokens.iter().filter_map(|token| token.recording_id).collect())
     }
 
     /// Returns the tokens that a query finds, in the order of their rows.

@@ -59,7 +59,6 @@ texts! {
     SIGN: "sign", "signe";
     TIER: "tier", "acteur";
     INVENTORY: "inventory", "inventaire";
-    LEXICON: "lexicon", "lexique";
     SIGN_LANGUAGE: "sign language", "langue des signes";
     FILE: "file", "fichier";
     TOKEN: "token", "occurrence";
