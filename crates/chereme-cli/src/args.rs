@@ -1,6 +1,6 @@
 //! The options of all commands, and readers for arguments that several commands share.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,9 @@ use anyhow::Result;
 use chereme_corpus::words::{InterfaceLanguage, fill_text_braces, trouble_words};
 use chereme_corpus::{Corpus, CorpusError};
 use chereme_motion::BodySide;
-use clap::builder::PossibleValuesParser;
-use clap::{CommandFactory, Parser, ValueEnum};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 
 use crate::commands::Command;
 use crate::output::write_to_stderr;
@@ -67,19 +68,36 @@ impl CommandLine {
     }
 }
 
-/// A side, as the word for it in an argument.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum SideWord {
-    Right,
-    Left,
-}
+/// The sides of a body.
+pub(crate) const BODY_SIDE_CHOICES: NamedChoices<BodySide> =
+    NamedChoices(&[("right", "", BodySide::Right), ("left", "", BodySide::Left)]);
 
-impl SideWord {
-    pub(crate) fn to_body_side(self) -> BodySide {
-        match self {
-            Self::Right => BodySide::Right,
-            Self::Left => BodySide::Left,
-        }
+/// The values of an argument: the name of each, what it does, unless the name says it, and what it stands for in the library.
+#[derive(Clone)]
+pub(crate) struct NamedChoices<T: 'static>(pub(crate) &'static [(&'static str, &'static str, T)]);
+
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for NamedChoices<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<T, clap::Error> {
+        let names = PossibleValuesParser::new(self.0.iter().map(|choice| choice.0));
+        let name = names.parse_ref(command, argument, value)?;
+        let choice = self.0.iter().find(|choice| choice.0 == name);
+        choice
+            .map(|choice| choice.2.clone())
+            .ok_or_else(|| clap::Error::new(ErrorKind::InvalidValue))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(self.0.iter().map(|(name, effect, _)| match *effect {
+            "" => PossibleValue::new(name),
+            effect => PossibleValue::new(name).help(effect),
+        })))
     }
 }
 

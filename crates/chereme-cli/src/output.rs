@@ -13,7 +13,7 @@ use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::words::{
     InterfaceLanguage, InterfaceText, counted_in, fill_text_braces, filled_message, trouble_words,
 };
-use chereme_corpus::{ProgressStep, ProgressUnit};
+use chereme_corpus::{ProgressListener, ProgressStep, ProgressUnit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -269,9 +269,11 @@ impl CommandProgressBar {
         bar.enable_steady_tick(Duration::from_millis(200));
         Self { bar, unit: None }
     }
+}
 
+impl ProgressListener for CommandProgressBar {
     /// Shows a step; after Ctrl-C it asks the work to stop, which leaves the corpus as it was.
-    pub(crate) fn show_progress_step(&mut self, step: ProgressStep<'_>) -> ControlFlow<()> {
+    fn hear_progress_step(&mut self, step: ProgressStep<'_>) -> ControlFlow<()> {
         if self.unit != Some(step.unit) {
             self.unit = Some(step.unit);
             let counts = match step.unit {

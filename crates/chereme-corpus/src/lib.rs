@@ -176,7 +176,7 @@ pub use pairs::{DenseSign, MinimalPair, MinimalPairs, PairOptions};
 pub use paths::paths_like;
 pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
-pub use progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+pub use progress::{ProgressListener, ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 pub use propose::{
     AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier, proposed_for,
 };
@@ -284,7 +284,7 @@ impl Corpus {
     /// # Errors
     /// Fails if nothing is left to undo, or if another change has touched a row of the operation since.
     pub fn undo_operation(&mut self) -> CorpusResult<OperationRow> {
-        self.undo_with_progress(&mut ProgressReceiver::new(&mut ignore_progress_step))
+        self.undo_with_progress(&mut ProgressReceiver::silent_progress())
     }
 
     /// Undoes as [`undo_operation`](Self::undo_operation) does, and can be stopped.
@@ -300,7 +300,7 @@ impl Corpus {
     /// # Errors
     /// Fails if nothing is left to redo, or if a row of the operation is not as the undo left it.
     pub fn redo_operation(&mut self) -> CorpusResult<OperationRow> {
-        self.redo_with_progress(&mut ProgressReceiver::new(&mut ignore_progress_step))
+        self.redo_with_progress(&mut ProgressReceiver::silent_progress())
     }
 
     /// Redoes as [`redo_operation`](Self::redo_operation) does, and can be stopped.

@@ -28,13 +28,31 @@ pub enum ProgressUnit {
     Items,
 }
 
+/// Something that hears of the steps of long work, such as a progress bar or a closure.
+pub trait ProgressListener {
+    /// Hears of a step, and decides whether the work goes on.
+    fn hear_progress_step(&mut self, step: ProgressStep<'_>) -> ControlFlow<()>;
+}
+
+impl<F: FnMut(ProgressStep<'_>) -> ControlFlow<()>> ProgressListener for F {
+    fn hear_progress_step(&mut self, step: ProgressStep<'_>) -> ControlFlow<()> {
+        self(step)
+    }
+}
+
 /// Receiver of every [`ProgressStep`], which decides whether to go on; stopping leaves the corpus unchanged.
-pub struct ProgressReceiver<'a>(&'a mut dyn FnMut(ProgressStep<'_>) -> ControlFlow<()>);
+pub struct ProgressReceiver<'a>(Option<&'a mut dyn ProgressListener>);
 
 impl<'a> ProgressReceiver<'a> {
-    /// Returns progress that calls `hear` at each step.
-    pub fn new(hear: &'a mut dyn FnMut(ProgressStep<'_>) -> ControlFlow<()>) -> Self {
-        Self(hear)
+    /// Returns progress that a listener hears.
+    pub fn new(listener: &'a mut dyn ProgressListener) -> Self {
+        Self(Some(listener))
+    }
+
+    /// Returns progress of which nobody hears, and which never stops.
+    #[must_use]
+    pub fn silent_progress() -> Self {
+        Self(None)
     }
 
     /// Reports a step.
@@ -42,9 +60,10 @@ impl<'a> ProgressReceiver<'a> {
     /// # Errors
     /// [`CorpusError::Stopped`] if the receiver asks to stop.
     pub fn report_step(&mut self, step: ProgressStep<'_>) -> CorpusResult<()> {
-        match (self.0)(step) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(CorpusError::Stopped),
+        let heard = self.0.as_mut().map(|listener| listener.hear_progress_step(step));
+        match heard {
+            Some(ControlFlow::Break(())) => Err(CorpusError::Stopped),
+            _ => Ok(()),
         }
     }
 }

@@ -775,10 +775,7 @@ mod tests {
         let figures = |corpus: &mut Corpus| {
             let mut hear = ignore_progress_step;
             let stats = corpus.lexicon_statistics(&Default::default(), &mut ProgressReceiver::new(&mut hear));
-            let pairs = corpus.minimal_pairs(
-                &Default::default(),
-                &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
-            );
+            let pairs = corpus.minimal_pairs(&Default::default(), &mut crate::ProgressReceiver::silent_progress());
             let answer = corpus
                 .search_tokens("configuration=* or placement=*", &SearchOptions::default())
                 .expect("found");

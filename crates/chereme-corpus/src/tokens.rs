@@ -20,7 +20,7 @@ use crate::db::stored_search::search_answers;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::words::effect::OperationEffect;
 use counted_reading::AnnotatedGloss;
 
@@ -74,8 +74,7 @@ pub(crate) fn update_recording_tokens(
     window: Option<TimeSpan>,
     inventories: &[StoredInventory],
 ) -> CorpusResult<()> {
-    let mut hear = ignore_progress_step;
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::silent_progress();
     derive_with_progress(connection, recording, window, inventories, progress)
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow::Break;
 
 use chereme_corpus::{
-    Corpus, CorpusAddress, CorpusError, ImportOptions, NotationStaging, PictureOptions, ProgressReceiver,
+    Corpus, CorpusAddress, CorpusError, ImportOptions, NotationStaging, PictureOptions, ProgressReceiver, ProgressStep,
     SignTranscription, ignore_progress_step, starter_files,
 };
 use chereme_sign::hamnosys::{BodyLocation, HamnosysSign, HandPlace, NonmanualActs, from_names, parse_hamnosys};
@@ -113,7 +113,10 @@ fn check_transcribed_locations(mut corpus: Corpus) {
     for (n, names) in LED_AWAY.into_iter().enumerate() {
         let (written, transcribed) = there_and_back(&mut corpus, n, names);
         let address = format!("S{n}").parse().expect("an address");
-        let stopped = corpus.transcribe_movement(&address, &mut ProgressReceiver::new(&mut |_| Break(())));
+        let stopped = corpus.transcribe_movement(
+            &address,
+            &mut ProgressReceiver::new(&mut |_: ProgressStep<'_>| Break(())),
+        );
         assert!(matches!(stopped, Err(CorpusError::Stopped)), "{names}");
         let sites = |sign: &HamnosysSign| match &sign.parts[0].posture.place {
             Some(HandPlace::Body(place)) => (place.site, place.second, place.contact),

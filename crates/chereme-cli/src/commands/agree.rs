@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::{
     AgreeOptions, AnnotatorAgreement, CorpusError, DisagreementSide, MeasureFigure, NumberQuartiles, ProgressReceiver,
-    ProgressStep, RowName, TableMoment, USUAL_MEASURES, ValueDisagreement,
+    RowName, TableMoment, USUAL_MEASURES, ValueDisagreement,
 };
 use serde_json::json;
 
@@ -137,8 +137,7 @@ pub(super) fn run(cli: &CommandLine, args: &AgreeArgs, output: &mut CommandOutpu
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = args.agreement_arg_options()?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let mut progress = ProgressReceiver::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut bar);
     let agreement = corpus.compare_annotators(&options, &mut progress)?;
     let adjudicated = match &args.into {
         Some(into) => Some(corpus.adjudicate_tiers(&options, into, &mut progress)?),

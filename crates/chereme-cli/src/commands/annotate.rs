@@ -11,10 +11,10 @@ use chereme_corpus::{
     CorpusError, NeighbourMode, ProgressReceiver, ReportFinding, RowName, TableMoment, TableTimeUnit, TierRequestName,
     TierSelection, ValueSearch,
 };
-use clap::{Subcommand, ValueEnum};
+use clap::Subcommand;
 
 use super::tiers_command;
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::{CommandOutput, CommandProgressBar};
 use crate::streams;
 
@@ -37,8 +37,8 @@ pub(crate) struct AnnotateArgs {
     #[arg(long, global = true)]
     snap: bool,
     /// The treatment of annotations in the way of one that is added or moved
-    #[arg(long, global = true, value_enum, default_value_t = ModeWord::Normal, hide_possible_values = false)]
-    mode: ModeWord,
+    #[arg(long, global = true, value_parser = NEIGHBOUR_MODE_CHOICES, default_value = "normal", hide_possible_values = false)]
+    mode: NeighbourMode,
     /// Report the ids of all annotations; without it of at most 100 in JSON, and of at most 20 in text
     #[arg(long, global = true)]
     ids: bool,
@@ -46,25 +46,20 @@ pub(crate) struct AnnotateArgs {
     action: AnnotateCommand,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ModeWord {
-    /// They stay, and the change is refused
-    Normal,
-    /// They are pushed along as far as necessary
-    Bulldozer,
-    /// All later annotations of the tier move along
-    Shift,
-}
-
-impl ModeWord {
-    fn mode(self) -> NeighbourMode {
-        match self {
-            Self::Normal => NeighbourMode::Normal,
-            Self::Bulldozer => NeighbourMode::Bulldozer,
-            Self::Shift => NeighbourMode::Shift,
-        }
-    }
-}
+/// What becomes of annotations in the way.
+const NEIGHBOUR_MODE_CHOICES: NamedChoices<NeighbourMode> = NamedChoices(&[
+    ("normal", "They stay, and the change is refused", NeighbourMode::Normal),
+    (
+        "bulldozer",
+        "They are pushed along as far as necessary",
+        NeighbourMode::Bulldozer,
+    ),
+    (
+        "shift",
+        "All later annotations of the tier move along",
+        NeighbourMode::Shift,
+    ),
+]);
 
 #[derive(Debug, Subcommand)]
 enum AnnotateCommand {
@@ -204,7 +199,7 @@ pub(super) fn run(cli: &CommandLine, args: &AnnotateArgs, output: &mut CommandOu
     let recording = recording_name.as_ref();
     let options = AnnotateOptions {
         snap: args.snap,
-        mode: args.mode.mode(),
+        mode: args.mode,
         ..AnnotateOptions::default()
     };
     let actions = match &args.action {
@@ -234,8 +229,7 @@ pub(super) fn run(cli: &CommandLine, args: &AnnotateArgs, output: &mut CommandOu
     };
     let changes: Vec<AnnotationChange> = actions.into_iter().map(AnnotationChange::from).collect();
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let report = corpus.annotate_corpus(&changes, &options, &mut ProgressReceiver::new(&mut hear))?;
+    let report = corpus.annotate_corpus(&changes, &options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     print_annotate_report(report, args.ids, output)
 }
@@ -311,8 +305,7 @@ fn annotate_from_table(
     let bytes = bytes_of(file)?;
     let name = file.display().to_string();
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     Ok(corpus.annotate_table(&bytes, &name, recording, options, progress)?)
 }
 
@@ -349,8 +342,7 @@ fn paste_annotation_table(
             .with_advice("save it as UTF-8")
     })?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let (report, odd) = corpus.paste_annotations(recording, &text, &name, &options, progress)?;
     drop(bar);
     for line in &odd {
@@ -444,8 +436,7 @@ fn replace_annotation_texts(
         tiers: tiers.clone(),
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let done = corpus.replace_values(&find, with, &within, *dry_run, progress)?;
     drop(bar);
     for value in done.values.iter().take(MAX_PRINTED_IDS) {
@@ -489,8 +480,7 @@ fn shift_annotations(
         tiers: tiers.clone(),
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let report = corpus.shift_tiers(&within, *by, *dry_run, &mut ProgressReceiver::new(&mut hear))?;
+    let report = corpus.shift_tiers(&within, *by, *dry_run, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     if *dry_run {
         output.write_output_line("nothing is written; it would be:")?;

@@ -31,8 +31,7 @@ pub(super) fn run(cli: &CommandLine, args: &CheckArgs, output: &mut CommandOutpu
         corpus.accept_rows()?;
     }
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let report = corpus.check_corpus(args.mend, &mut ProgressReceiver::new(&mut hear))?;
+    let report = corpus.check_corpus(args.mend, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     let questions = report.questions.len() as u64;
     for fault in report.all_findings() {

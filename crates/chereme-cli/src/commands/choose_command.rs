@@ -4,13 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    ChooseOptions, ExpressionFunction, NoPath, PerformanceChoice, ProgressReceiver, ProgressStep, RankedPerformance,
-    RankingCriterion,
+    ChooseOptions, ExpressionFunction, NoPath, PerformanceChoice, ProgressReceiver, RankedPerformance, RankingCriterion,
 };
-use clap::ValueEnum;
 use serde_json::json;
 
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Rank recorded expressions of the face, such as those of a negation, for a sentence, and animate it with one of them
@@ -43,8 +41,8 @@ pub(crate) struct ChooseArgs {
     #[arg(long = "for", value_name = "TOKEN")]
     target: String,
     /// The order of the ranking
-    #[arg(long, value_enum, default_value = "nearest")]
-    rank: RankArg,
+    #[arg(long, value_parser = RANKING_CHOICES, default_value = "nearest")]
+    rank: RankingCriterion,
     #[command(flatten)]
     comparing: PerformanceComparing,
     /// How many performances to report
@@ -88,30 +86,30 @@ impl PerformanceComparing {
     }
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum RankArg {
-    /// The most similar to the sentence's own face; the medoid if that face was not recorded
-    Nearest,
-    /// The least similar to the sentence's own face
-    Farthest,
-    /// The most similar to all others
-    Medoid,
-}
+/// The orders of a ranking.
+const RANKING_CHOICES: NamedChoices<RankingCriterion> = NamedChoices(&[
+    (
+        "nearest",
+        "The most similar to the sentence's own face; the medoid if that face was not recorded",
+        RankingCriterion::Nearest,
+    ),
+    (
+        "farthest",
+        "The least similar to the sentence's own face",
+        RankingCriterion::Farthest,
+    ),
+    ("medoid", "The most similar to all others", RankingCriterion::Medoid),
+]);
 
 pub(super) fn run(cli: &CommandLine, args: &ChooseArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = ChooseOptions {
-        rank: match args.rank {
-            RankArg::Nearest => RankingCriterion::Nearest,
-            RankArg::Farthest => RankingCriterion::Farthest,
-            RankArg::Medoid => RankingCriterion::Medoid,
-        },
+        rank: args.rank,
         limit: args.limit,
         ..args.comparing.choose_options()
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let function = ExpressionFunction::from_function_name(&args.function);
     let choice = corpus.choose_performances(&function, &args.target.parse()?, &options, progress)?;
     drop(bar);

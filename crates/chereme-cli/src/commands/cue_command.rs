@@ -6,10 +6,9 @@ use anyhow::{Result, bail};
 use chereme_corpus::recipe::PhaseRule;
 use chereme_corpus::{CueOptions, cue_phones_of_file};
 use chereme_sign::cue::PhoneAlphabet;
-use clap::ValueEnum;
 
 use super::keys_command::SpokenInput;
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::CommandOutput;
 
 /// Generate cued speech for a text: the cueing hand next to the speaking face, on any body
@@ -35,8 +34,8 @@ pub(crate) struct CueArgs {
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
     /// The rule for the timing of hand and fingers
-    #[arg(long, value_enum, default_value = "paper")]
-    by: RuleWord,
+    #[arg(long, value_parser = PHASE_RULE_CHOICES, default_value = "paper")]
+    by: PhaseRule,
     /// The duration of sounds as a multiple of the usual one, from 0.1 to 10; without it 1.6
     #[arg(long, value_name = "FACTOR")]
     pace: Option<f64>,
@@ -54,26 +53,14 @@ pub(crate) struct CueArgs {
     draw: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum RuleWord {
-    Paper,
-    Attina,
-    Sppas,
-    Duchnowski,
-    Measured,
-}
-
-impl From<RuleWord> for PhaseRule {
-    fn from(word: RuleWord) -> Self {
-        match word {
-            RuleWord::Paper => Self::Paper,
-            RuleWord::Attina => Self::Attina,
-            RuleWord::Sppas => Self::Sppas,
-            RuleWord::Duchnowski => Self::Duchnowski,
-            RuleWord::Measured => Self::Measured,
-        }
-    }
-}
+/// The rules for the timing of hand and fingers.
+pub(super) const PHASE_RULE_CHOICES: NamedChoices<PhaseRule> = NamedChoices(&[
+    ("paper", "", PhaseRule::Paper),
+    ("attina", "", PhaseRule::Attina),
+    ("sppas", "", PhaseRule::Sppas),
+    ("duchnowski", "", PhaseRule::Duchnowski),
+    ("measured", "", PhaseRule::Measured),
+]);
 
 pub(super) fn run(cli: &CommandLine, args: &CueArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
@@ -97,7 +84,7 @@ pub(super) fn run(cli: &CommandLine, args: &CueArgs, output: &mut CommandOutput)
     let options = CueOptions {
         reading,
         signer: args.signer.clone(),
-        phase: args.by.into(),
+        phase: args.by,
         left: args.left,
     };
     let mut done = corpus.generate_cued_speech(&text, &options, args.gloss.as_deref())?;

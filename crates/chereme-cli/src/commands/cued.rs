@@ -6,11 +6,12 @@ use anyhow::Result;
 use chereme_corpus::recipe::PhaseRule;
 use chereme_corpus::{
     CueConfusion, CueCosts, CueOptions, CuedOptions, DictionaryCueOptions, FromDictionary, ProgressReceiver,
-    ProgressStep, RestoreOptions, RowName, SlipKind, read_marker_labels,
+    RestoreOptions, RowName, SlipKind, read_marker_labels,
 };
+use chereme_sign::cue::PhoneAlphabet;
 use clap::Subcommand;
 
-use super::cue_command::RuleWord;
+use super::cue_command::PHASE_RULE_CHOICES;
 use super::track_command::parse_recording_address;
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -117,14 +118,14 @@ enum CuedCommand {
         /// The text, or phones with --phones
         text: String,
         /// Read the input as phones in this alphabet
-        #[arg(long, value_enum, value_name = "ALPHABET")]
-        phones: Option<super::keys_command::AlphabetWord>,
+        #[arg(long, value_parser = super::keys_command::PHONE_ALPHABET_CHOICES, value_name = "ALPHABET")]
+        phones: Option<PhoneAlphabet>,
         /// The recordings from which the dictionary is cut
         #[arg(long = "from", value_name = "RECORDING", value_parser = parse_recording_address)]
         recordings: Vec<RowName>,
         /// The rule for the timing of hand and fingers
-        #[arg(long, value_enum, default_value = "paper")]
-        by: RuleWord,
+        #[arg(long, value_parser = PHASE_RULE_CHOICES, default_value = "paper")]
+        by: PhaseRule,
         /// The duration of sounds as a multiple of the usual one, from 0.1 to 10; without it 1.6
         #[arg(long, value_name = "FACTOR")]
         pace: Option<f64>,
@@ -161,8 +162,7 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
         labels: labels.unwrap_or_default(),
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let mut progress = ProgressReceiver::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut bar);
     match &args.action {
         CuedCommand::Markers { recording } => {
             let marker_sets = corpus.cued_markers(recording, &options)?;
@@ -391,10 +391,10 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
             gloss,
         } => {
             let mut how = CueOptions {
-                phase: PhaseRule::from(*by),
+                phase: *by,
                 ..CueOptions::default()
             };
-            how.reading.phones = phones.map(Into::into);
+            how.reading.phones = *phones;
             how.reading.pace = *pace;
             how.reading.code.clone_from(&options.code);
             how.reading.variants.clone_from(&options.variants);

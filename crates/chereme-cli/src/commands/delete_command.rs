@@ -53,8 +53,7 @@ pub(super) fn run(cli: &CommandLine, args: &DeleteArgs, output: &mut CommandOutp
         dry_run: args.dry_run,
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let done = corpus.delete_objects(&args.what, options, &mut ProgressReceiver::new(&mut hear))?;
+    let done = corpus.delete_objects(&args.what, options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     print_deleted(&done, options.dependents, output)?;
     output.set_json_document(done)

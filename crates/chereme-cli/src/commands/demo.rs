@@ -115,11 +115,10 @@ impl DemoRun {
         )?;
         let mut corpus = Corpus::create_corpus(&self.path, &cli.history_author())?;
         let mut bar = CommandProgressBar::new();
-        let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
         let report = corpus.import_paths(
             &[files],
             &ImportOptions::default(),
-            &mut ProgressReceiver::new(&mut hear),
+            &mut ProgressReceiver::new(&mut bar),
         )?;
         drop(bar);
         let made: Vec<String> = report
@@ -201,13 +200,12 @@ impl DemoRun {
             let to = self.folder.join(name);
             let gloss = to.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let address = gloss.unwrap_or_default().parse()?;
-            let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
             let options = PictureOptions::default();
             drawn.push(self.demo_corpus()?.draw_movement_file(
                 &address,
                 &to,
                 &options,
-                &mut ProgressReceiver::new(&mut hear),
+                &mut ProgressReceiver::new(&mut bar),
             )?);
         }
         drop(bar);
@@ -229,8 +227,7 @@ impl DemoRun {
             (ExportWhat::All, "enriched"),
         ] {
             let to = self.folder.join(name);
-            let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-            let progress = &mut ProgressReceiver::new(&mut hear);
+            let progress = &mut ProgressReceiver::new(&mut bar);
             written.push(
                 self.demo_corpus()?
                     .export_corpus(&what, &to, &ExportOptions::default(), progress)?,

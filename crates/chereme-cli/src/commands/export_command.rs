@@ -78,8 +78,7 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
         with_history: args.with_history,
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     if streams::is_standard(&args.to) {
         streams::not_with_json(output.is_json())?;
         if args.format.is_none() {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Corpus, CorpusAddress, FaceFinding, FaceSystem, ProgressReceiver, ProgressStep};
+use chereme_corpus::{Corpus, CorpusAddress, FaceFinding, FaceSystem, ProgressReceiver};
 use serde_json::json;
 
 use crate::args::CommandLine;
@@ -95,8 +95,7 @@ fn print_face_proposals(
     output: &mut CommandOutput,
 ) -> Result<()> {
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let proposals = corpus.propose_nonmanuals(address, store, &mut ProgressReceiver::new(&mut hear))?;
+    let proposals = corpus.propose_nonmanuals(address, store, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
     let rows: Vec<Vec<String>> = proposals

@@ -53,8 +53,7 @@ pub(super) fn run(cli: &CommandLine, args: &ForgetArgs, output: &mut CommandOutp
     };
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let done = corpus.forget_signer(signer, !args.yes, &mut ProgressReceiver::new(&mut hear))?;
+    let done = corpus.forget_signer(signer, !args.yes, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     print_forgotten(&done, output)?;
     output.set_json_document(done)

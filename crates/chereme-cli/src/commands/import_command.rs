@@ -10,10 +10,10 @@ use chereme_corpus::{
     Corpus, CorpusError, FileJoining, FileReport, FileStatus, ImportOptions, ImportReport, JoinedRecording, OwnEdits,
     ProgressReceiver, RecordOrigin, ReportFinding, TierMapping,
 };
+use chereme_motion::BodySide;
 use chereme_motion::anatomy::RolesError;
-use clap::ValueEnum;
 
-use crate::args::{CommandLine, SideWord, read_named_text, wrong_text};
+use crate::args::{BODY_SIDE_CHOICES, CommandLine, NamedChoices, read_named_text, wrong_text};
 use crate::output::{CommandOutput, CommandProgressBar};
 use crate::streams::{self, StandInFile};
 
@@ -47,8 +47,8 @@ pub(crate) struct ImportArgs {
     #[arg(long, value_name = "NAME")]
     signer: Option<String>,
     /// The signer's dominant hand
-    #[arg(long, value_enum)]
-    handedness: Option<SideWord>,
+    #[arg(long, value_parser = BODY_SIDE_CHOICES)]
+    handedness: Option<BodySide>,
     /// The unit of length of the movement files: m, cm, mm, inch, ft, acclaim, or metres per unit
     #[arg(long, value_parser = parse_length_unit)]
     unit: Option<f64>,
@@ -74,8 +74,8 @@ pub(crate) struct ImportArgs {
     #[arg(long)]
     mine: bool,
     /// The origin of the recordings
-    #[arg(long, value_enum)]
-    origin: Option<OriginWord>,
+    #[arg(long, value_parser = RECORD_ORIGIN_CHOICES)]
+    origin: Option<RecordOrigin>,
     /// The terms under which the recordings may be used
     #[arg(long, value_name = "TEXT")]
     licence: Option<String>,
@@ -90,8 +90,8 @@ pub(crate) struct ImportArgs {
     #[arg(long, value_name = "RECORDING", value_parser = super::track_command::parse_recording_address)]
     into: Option<chereme_corpus::RowName>,
     /// The evidence that joins files into one recording
-    #[arg(long, value_enum, value_name = "EVIDENCE", default_value_t)]
-    join: JoinWord,
+    #[arg(long, value_parser = FILE_JOINING_CHOICES, value_name = "EVIDENCE", default_value = "certain")]
+    join: FileJoining,
     /// The start of the files' tracks on the recording's clock, such as 0.48s
     #[arg(long, value_name = "TIME", value_parser = super::track_command::parse_time_micros, allow_hyphen_values = true,
           default_value = "0s")]
@@ -141,25 +141,32 @@ fn parse_import_rate(text: &str) -> Result<chereme_motion::FrameRate, String> {
     rate.ok_or_else(|| "write a whole number such as 50, or a fraction such as 30000/1001".to_owned())
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum OriginWord {
-    Captured,
-    Made,
-    Generated,
-}
+/// The origins of recordings.
+const RECORD_ORIGIN_CHOICES: NamedChoices<RecordOrigin> = NamedChoices(&[
+    ("captured", "", RecordOrigin::Captured),
+    ("made", "", RecordOrigin::Made),
+    ("generated", "", RecordOrigin::Generated),
+]);
 
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
-enum JoinWord {
-    /// Folder and name, what an annotation file says, and a true timecode within a folder
-    #[default]
-    Certain,
-    /// Also the same name in another folder, if only one recording has it
-    Name,
-    /// Also any timecode, in neighbouring folders too
-    Timecode,
-    /// Folder and name alone
-    None,
-}
+/// The evidence that joins files.
+const FILE_JOINING_CHOICES: NamedChoices<FileJoining> = NamedChoices(&[
+    (
+        "certain",
+        "Folder and name, what an annotation file says, and a true timecode within a folder",
+        FileJoining::Certain,
+    ),
+    (
+        "name",
+        "Also the same name in another folder, if only one recording has it",
+        FileJoining::Name,
+    ),
+    (
+        "timecode",
+        "Also any timecode, in neighbouring folders too",
+        FileJoining::Timecode,
+    ),
+    ("none", "Folder and name alone", FileJoining::None),
+]);
 
 /// The lengths in metres that a unit of length may have: from a micrometre to a kilometre.
 const LENGTH_UNIT_METRES: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
@@ -193,8 +200,7 @@ pub(super) fn run(cli: &CommandLine, args: &ImportArgs, output: &mut CommandOutp
         cli.open_cli_corpus(path)?
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let report = corpus.import_paths(&files, &options, &mut ProgressReceiver::new(&mut hear));
+    let report = corpus.import_paths(&files, &options, &mut ProgressReceiver::new(&mut bar));
     drop(bar);
     let empty = |report: &ImportReport| report.has_refusals() && report.created.values().all(|count| *count == 0);
     if fresh && scratch.is_none() {
@@ -270,22 +276,15 @@ fn import_options(args: &ImportArgs) -> Result<ImportOptions> {
         let advice = "write a JSON object such as {\"tiers\": {\"Tier 1\": \"right.configuration\"}}";
         Ok(TierMapping::from_json(&text).map_err(|error| wrong_text(path, error, advice))?)
     });
-    let origin = |origin: OriginWord| match origin {
-        OriginWord::Captured => RecordOrigin::Captured,
-        OriginWord::Made => RecordOrigin::Made,
-        OriginWord::Generated => RecordOrigin::Generated,
-    };
     Ok(ImportOptions {
         signer: args.signer.clone(),
-        handedness: args
-            .handedness
-            .map(|hand| hand.to_body_side().body_side_name().to_owned()),
+        handedness: args.handedness.map(|hand| hand.body_side_name().to_owned()),
         metres_per_unit: args.unit,
         axes: args.axes,
         roles: roles.transpose()?,
         mend_root: args.mend_root,
         mapping: mapping.transpose()?.unwrap_or_default(),
-        origin: args.origin.map(origin),
+        origin: args.origin,
         licence: args.licence.clone(),
         lexicon: args.lexicon.clone(),
         sign_language: args.sign_language.clone(),
@@ -296,12 +295,7 @@ fn import_options(args: &ImportArgs) -> Result<ImportOptions> {
             _ => OwnEdits::Ask,
         },
         into: args.into.clone(),
-        joining: match args.join {
-            JoinWord::Certain => FileJoining::Certain,
-            JoinWord::Name => FileJoining::Name,
-            JoinWord::Timecode => FileJoining::Timecode,
-            JoinWord::None => FileJoining::None,
-        },
+        joining: args.join,
         offset_us: args.offset,
         clock: args.timecode,
         rate: args.rate,

@@ -6,9 +6,8 @@ use anyhow::{Result, bail};
 use chereme_corpus::{CueKey, KeysOptions, cue_keys, cue_keys_of_file, cue_phones_of_espeak};
 use chereme_sign::cue::PhoneAlphabet;
 use chereme_sign::cue::french::{PronunciationOptions, SchwaCondition};
-use clap::ValueEnum;
 
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::CommandOutput;
 use crate::streams;
 
@@ -54,8 +53,8 @@ pub(super) struct SpokenInput {
     #[arg(long, value_name = "TIER", requires = "from")]
     pub(super) tier: Option<String>,
     /// Read the input as phones in this alphabet
-    #[arg(long, value_enum, value_name = "ALPHABET")]
-    phones: Option<AlphabetWord>,
+    #[arg(long, value_parser = PHONE_ALPHABET_CHOICES, value_name = "ALPHABET")]
+    phones: Option<PhoneAlphabet>,
     /// Take the pronunciation from the program espeak-ng, which must be installed
     #[arg(long, conflicts_with_all = ["from", "phones"])]
     espeak: bool,
@@ -69,8 +68,8 @@ pub(super) struct SpokenInput {
     #[arg(long)]
     no_liaison: bool,
     /// The pronunciation of an e at the end of a word
-    #[arg(long, value_enum, default_value = "usual")]
-    schwa: SchwaWord,
+    #[arg(long, value_parser = SCHWA_CHOICES, default_value = "usual")]
+    schwa: SchwaCondition,
 }
 
 impl SpokenInput {
@@ -102,50 +101,30 @@ impl SpokenInput {
     pub(super) fn spoken_keys_options(&self, pace: Option<f64>) -> KeysOptions {
         KeysOptions {
             code: self.code.clone(),
-            phones: self.phones.map(PhoneAlphabet::from),
+            phones: self.phones,
             variants: self.variants.clone(),
             french: PronunciationOptions {
                 liaison: !self.no_liaison,
-                schwa: self.schwa.into(),
+                schwa: self.schwa,
             },
             pace,
         }
     }
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum AlphabetWord {
-    Sampa,
-    Ipa,
-    Mfa,
-}
+/// The alphabets of phones.
+pub(super) const PHONE_ALPHABET_CHOICES: NamedChoices<PhoneAlphabet> = NamedChoices(&[
+    ("sampa", "", PhoneAlphabet::Sampa),
+    ("ipa", "", PhoneAlphabet::Ipa),
+    ("mfa", "", PhoneAlphabet::Mfa),
+]);
 
-impl From<AlphabetWord> for PhoneAlphabet {
-    fn from(word: AlphabetWord) -> Self {
-        match word {
-            AlphabetWord::Sampa => Self::Sampa,
-            AlphabetWord::Ipa => Self::Ipa,
-            AlphabetWord::Mfa => Self::Mfa,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum SchwaWord {
-    Usual,
-    Dropped,
-    Said,
-}
-
-impl From<SchwaWord> for SchwaCondition {
-    fn from(word: SchwaWord) -> Self {
-        match word {
-            SchwaWord::Usual => Self::Usual,
-            SchwaWord::Dropped => Self::Dropped,
-            SchwaWord::Said => Self::Said,
-        }
-    }
-}
+/// The pronunciations of an e at the end of a word.
+const SCHWA_CHOICES: NamedChoices<SchwaCondition> = NamedChoices(&[
+    ("usual", "", SchwaCondition::Usual),
+    ("dropped", "", SchwaCondition::Dropped),
+    ("said", "", SchwaCondition::Said),
+]);
 
 pub(super) fn run(_: &CommandLine, args: &KeysArgs, output: &mut CommandOutput) -> Result<()> {
     let spoken = &args.spoken;

@@ -131,8 +131,7 @@ impl LexiconScopeArgs {
 pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     match &args.action {
         None => {}
         Some(LexiconAction::Set(set)) => {

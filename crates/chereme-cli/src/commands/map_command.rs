@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{MapOptions, ProgressReceiver, ProgressStep};
+use chereme_corpus::{MapOptions, ProgressReceiver};
 use chereme_sign::SignComponent;
 use serde_json::json;
 
@@ -46,8 +46,7 @@ pub(super) fn run(cli: &CommandLine, args: &MapArgs, output: &mut CommandOutput)
         scope: args.scope.lexicon_scope(),
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let map = corpus.arrange_sign_map(&options, &mut ProgressReceiver::new(&mut hear))?;
+    let map = corpus.arrange_sign_map(&options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     if let Some(to) = &args.to {
         if streams::is_standard(to) {

@@ -8,11 +8,10 @@ use chereme_corpus::words::merge_words as words;
 use chereme_corpus::{
     ConflictDecision, CorpusConflict, CorpusError, ImportOptions, MergeReport, OwnEdits, ProgressReceiver, merge_files,
 };
-use clap::ValueEnum;
 use serde_json::json;
 
 use super::diff;
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::{CommandOutput, CommandProgressBar};
 use crate::streams;
 
@@ -60,22 +59,23 @@ pub(crate) struct ConflictsArgs {
     /// The conflicts to decide, by their numbers, or all
     numbers: Vec<String>,
     /// The candidate to take
-    #[arg(long, value_enum)]
-    take: Option<ConflictTake>,
+    #[arg(long, value_parser = DECISION_CHOICES)]
+    take: Option<ConflictDecision>,
     /// List decided conflicts, too
     #[arg(long)]
     decided: bool,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ConflictTake {
-    /// Your candidate stays
-    Mine,
-    /// The other candidate takes its place
-    Theirs,
-    /// Both stay
-    Both,
-}
+/// The candidates that a decision takes.
+const DECISION_CHOICES: NamedChoices<ConflictDecision> = NamedChoices(&[
+    ("mine", "Your candidate stays", ConflictDecision::Mine),
+    (
+        "theirs",
+        "The other candidate takes its place",
+        ConflictDecision::Theirs,
+    ),
+    ("both", "Both stay", ConflictDecision::Both),
+]);
 
 pub(super) fn merge_corpora(cli: &CommandLine, args: &MergeArgs, output: &mut CommandOutput) -> Result<()> {
     if is_corpus(&args.mine) && streams::is_standard(&args.other) {
@@ -108,8 +108,7 @@ fn is_corpus(path: &Path) -> bool {
 fn corpora(cli: &CommandLine, args: &MergeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.mine)?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let report = corpus.merge_corpus(&args.other, args.base.as_deref(), progress)?;
     drop(bar);
     print_merge_report(&report, output)?;
@@ -200,8 +199,7 @@ fn file_into_corpus(cli: &CommandLine, args: &MergeArgs, output: &mut CommandOut
         ..ImportOptions::default()
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let report = corpus.import_paths(std::slice::from_ref(&args.other), &options, progress)?;
     drop(bar);
     for file in &report.files {
@@ -265,7 +263,7 @@ pub(super) fn list_or_decide_conflicts(
     output: &mut CommandOutput,
 ) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
-    let Some(take) = args.take else {
+    let Some(decision) = args.take else {
         if let Some(number) = args.numbers.first() {
             return Err(CorpusError::from_wrong_message("no decision is given")
                 .with_error_place(number.clone())
@@ -302,11 +300,6 @@ pub(super) fn list_or_decide_conflicts(
             .with_advice("name them by their numbers, or write all")
             .into());
     }
-    let decision = match take {
-        ConflictTake::Mine => ConflictDecision::Mine,
-        ConflictTake::Theirs => ConflictDecision::Theirs,
-        ConflictTake::Both => ConflictDecision::Both,
-    };
     let decided = corpus.decide_conflicts(&conflict_numbers, decision)?;
     list_merge_conflicts(&decided, output)?;
     output.set_json_document(json!({ "total": decided.len(), "rows": decided }))

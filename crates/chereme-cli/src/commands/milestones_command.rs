@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ExpressionFunction, MilestoneOptions, ProgressReceiver, ProgressStep};
+use chereme_corpus::{ExpressionFunction, MilestoneOptions, ProgressReceiver};
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -55,8 +55,7 @@ pub(super) fn run(cli: &CommandLine, args: &MilestonesArgs, output: &mut Command
         dry_run: args.dry_run,
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let milestone_table = corpus.derive_face_milestones(&options, &mut ProgressReceiver::new(&mut hear))?;
+    let milestone_table = corpus.derive_face_milestones(&options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     let seconds = |at: chereme_corpus::RecordingInstant| format!("{:.3}", at.instant_seconds());
     let rows: Vec<Vec<String>> = milestone_table

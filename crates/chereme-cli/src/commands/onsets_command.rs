@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ExpressionFunction, NumberQuartiles, ProgressReceiver, ProgressStep};
+use chereme_corpus::{ExpressionFunction, NumberQuartiles, ProgressReceiver};
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -40,9 +40,8 @@ pub(crate) struct OnsetsArgs {
 pub(super) fn run(cli: &CommandLine, args: &OnsetsArgs, output: &mut CommandOutput) -> Result<()> {
     let corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
     let function = args.function.as_deref().map(ExpressionFunction::from_function_name);
-    let onset_table = corpus.measure_nonmanual_onsets(function.as_ref(), &mut ProgressReceiver::new(&mut hear))?;
+    let onset_table = corpus.measure_nonmanual_onsets(function.as_ref(), &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     let text = |quartiles: &NumberQuartiles| {
         format!(

@@ -3,12 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{EmptyCellTreatment, PairOptions, ProgressReceiver, ProgressStep};
-use clap::ValueEnum;
+use chereme_corpus::{EmptyCellTreatment, PairOptions, ProgressReceiver};
 use serde_json::json;
 
 use super::lexicon_command::LexiconScopeArgs;
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Count the minimal pairs of a lexicon
@@ -28,42 +27,37 @@ pub(crate) struct PairsArgs {
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     fields: Vec<String>,
     /// The treatment of empty fields
-    #[arg(long, value_enum, default_value_t = EmptyWord::Value)]
-    empty: EmptyWord,
+    #[arg(long, value_parser = EMPTY_CELL_CHOICES, default_value = "value")]
+    empty: EmptyCellTreatment,
     /// List the pairs
     #[arg(long)]
     list: bool,
 }
 
-/// The treatment of empty fields, as the word for it in an argument.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum EmptyWord {
-    /// An empty field is a value like any other
-    Value,
-    /// An empty field is unknown: signs with an empty field do not count
-    Unknown,
-}
-
-impl From<EmptyWord> for EmptyCellTreatment {
-    fn from(word: EmptyWord) -> Self {
-        match word {
-            EmptyWord::Value => Self::Value,
-            EmptyWord::Unknown => Self::Unknown,
-        }
-    }
-}
+/// The treatments of empty fields.
+pub(super) const EMPTY_CELL_CHOICES: NamedChoices<EmptyCellTreatment> = NamedChoices(&[
+    (
+        "value",
+        "An empty field is a value like any other",
+        EmptyCellTreatment::Value,
+    ),
+    (
+        "unknown",
+        "An empty field is unknown: signs with an empty field do not count",
+        EmptyCellTreatment::Unknown,
+    ),
+]);
 
 pub(super) fn run(cli: &CommandLine, args: &PairsArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = PairOptions {
         fields: args.fields.clone(),
-        empty: args.empty.into(),
+        empty: args.empty,
         query: (!args.query.is_empty()).then(|| args.query.join(" ")),
         scope: args.scope.lexicon_scope(),
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let pair_report = corpus.minimal_pairs(&options, &mut ProgressReceiver::new(&mut hear))?;
+    let pair_report = corpus.minimal_pairs(&options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     output.filled_line(
         "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both \

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    ALL_DETECTORS, AcceptanceResult, AnnotationDetector, CorpusAddress, DetectOptions, ProgressReceiver, ProgressStep,
+    ALL_DETECTORS, AcceptanceResult, AnnotationDetector, CorpusAddress, DetectOptions, ProgressReceiver,
     ProposalChoice, ProposalResult, ProposeOptions, ProposeScope,
 };
 use chereme_sign::SignComponent;
@@ -75,8 +75,7 @@ fn detectors() -> Vec<PossibleValue> {
 pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let mut progress = ProgressReceiver::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut bar);
     let scope = match &args.only {
         None => ProposeScope::All,
         Some(only) => corpus.propose_scope(&only.parse::<CorpusAddress>()?)?,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{LeftOutSigns, ProgressReceiver, ProgressStep, PublishOptions};
+use chereme_corpus::{LeftOutSigns, ProgressReceiver, PublishOptions};
 
 use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
@@ -81,8 +81,7 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
         own_body: args.own_body,
     };
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let done = corpus.publish_dictionary(&args.to, &options, &mut ProgressReceiver::new(&mut hear))?;
+    let done = corpus.publish_dictionary(&args.to, &options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     output.filled_line(
         "published {signs}, {moving} of them with movement: {path}",

@@ -139,7 +139,6 @@ pub(super) fn print_recombination(
     let mut document = serde_json::to_value(done)?;
     if let Some(path) = draw {
         let mut bar = CommandProgressBar::new();
-        let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
         let title = if done.gloss.is_empty() {
             &done.recipe
         } else {
@@ -149,7 +148,7 @@ pub(super) fn print_recombination(
             force: true,
             ..PictureOptions::default()
         };
-        let progress = &mut ProgressReceiver::new(&mut hear);
+        let progress = &mut ProgressReceiver::new(&mut bar);
         let picture = draw_clip(done.into(), title, path, &options, progress)?;
         drop(bar);
         output.filled_line("drew {path}", &[&path.display()])?;

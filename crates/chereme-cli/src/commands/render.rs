@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{ANIMATION_SPEEDS, CorpusAddress, DrawnPicture, OutputAudience, PictureOptions, ProgressReceiver};
+use chereme_motion::BodySide;
 
-use crate::args::{CommandLine, SideWord};
+use crate::args::{BODY_SIDE_CHOICES, CommandLine};
 use crate::output::{CommandOutput, CommandProgressBar, write_to_stderr};
 use crate::streams;
 
@@ -63,8 +64,8 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     face: bool,
     /// The hand on which handshapes are drawn
-    #[arg(long, value_enum, default_value_t = SideWord::Right)]
-    hand: SideWord,
+    #[arg(long, value_parser = BODY_SIDE_CHOICES, default_value = "right")]
+    hand: BodySide,
     /// Replace a file that exists already
     #[arg(long)]
     force: bool,
@@ -116,13 +117,12 @@ pub(super) fn run(cli: &CommandLine, args: &RenderArgs, output: &mut CommandOutp
                 Some((inventory, value)) => (inventory, Some(value)),
                 None => (name, None),
             };
-            corpus.draw_handshapes(inventory, value, args.hand.to_body_side(), to, &options)?
+            corpus.draw_handshapes(inventory, value, args.hand, to, &options)?
         }
         None => {
             let addresses: Vec<CorpusAddress> = args.what.iter().map(|what| what.parse()).collect::<Result<_, _>>()?;
             let mut bar = CommandProgressBar::new();
-            let mut hear = |step: chereme_corpus::ProgressStep<'_>| bar.show_progress_step(step);
-            corpus.draw_together(&addresses, to, &options, &mut ProgressReceiver::new(&mut hear))?
+            corpus.draw_together(&addresses, to, &options, &mut ProgressReceiver::new(&mut bar))?
         }
     };
     if let Some(stand) = &stand {

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, ProgressReceiver, ProgressStep, SearchHit,
-    SearchOptions, TallyRow, components_text,
+    Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, ProgressReceiver, SearchHit, SearchOptions,
+    TallyRow, components_text,
 };
 use clap::ValueEnum;
 
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Find the tokens that answer a query
@@ -42,8 +42,8 @@ pub(crate) struct SearchArgs {
     #[arg(long, default_value_t = 0, value_name = "N")]
     offset: usize,
     /// The order of the results
-    #[arg(long, value_enum, default_value_t = SearchOrderWord::Rank)]
-    sort: SearchOrderWord,
+    #[arg(long, value_parser = HIT_ORDER_CHOICES, default_value = "rank")]
+    sort: HitOrder,
     /// Leave out the counts of values
     #[arg(long)]
     no_facets: bool,
@@ -81,17 +81,17 @@ enum TableFormat {
     Tsv,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum SearchOrderWord {
-    /// The best first if the query ranks, otherwise by recording and time
-    Rank,
-    /// By gloss
-    Gloss,
-    /// By recording and time
-    Place,
-    /// The longest first
-    Duration,
-}
+/// The orders of hits.
+const HIT_ORDER_CHOICES: NamedChoices<HitOrder> = NamedChoices(&[
+    (
+        "rank",
+        "The best first if the query ranks, otherwise by recording and time",
+        HitOrder::Rank,
+    ),
+    ("gloss", "By gloss", HitOrder::Gloss),
+    ("place", "By recording and time", HitOrder::Place),
+    ("duration", "The longest first", HitOrder::Duration),
+]);
 
 /// The number of values of a field that are shown without `--facets`.
 const TABLE_FACETS: usize = 8;
@@ -121,18 +121,12 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
         return Err(error.with_advice("name its fields with --count or --cross").into());
     }
     let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
-    let order = match args.sort {
-        SearchOrderWord::Rank => HitOrder::Rank,
-        SearchOrderWord::Gloss => HitOrder::Gloss,
-        SearchOrderWord::Place => HitOrder::Place,
-        SearchOrderWord::Duration => HitOrder::Duration,
-    };
     let options = SearchOptions {
         limit,
         offset: args.offset,
         facets: !args.no_facets,
         facet_values: args.facets.unwrap_or(FACET_VALUES),
-        order,
+        order: args.sort,
     };
     let query = args.query.join(" ");
     let mut answer = corpus.search_tokens(&query, &options)?;
@@ -200,8 +194,7 @@ fn print_token_tally(
     output: &mut CommandOutput,
 ) -> Result<()> {
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let mut progress = ProgressReceiver::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut bar);
     let tally = corpus.tally_values(&args.query.join(" "), fields, &mut progress)?;
     let columns: Vec<&str> = match tally.columns.is_empty() {
         true => vec!["tokens"],

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::{
     BattisonConditions, EmptyCellTreatment, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue, HandCondition,
-    LexiconStatistics, ProgressReceiver, ProgressStep, StatsEstimate, StatsFinding, StatsOptions,
+    LexiconStatistics, ProgressReceiver, StatsEstimate, StatsFinding, StatsOptions,
 };
 
 use super::lexicon_command::LexiconScopeArgs;
-use super::pairs_command::EmptyWord;
+use super::pairs_command::EMPTY_CELL_CHOICES;
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
 
@@ -56,8 +56,8 @@ pub(crate) struct StatsArgs {
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     fields: Vec<String>,
     /// The treatment of empty fields
-    #[arg(long, value_enum, default_value_t = EmptyWord::Value)]
-    empty: EmptyWord,
+    #[arg(long, value_parser = EMPTY_CELL_CHOICES, default_value = "value")]
+    empty: EmptyCellTreatment,
     /// All values of this field, and its contrasts
     #[arg(long, value_name = "FIELD")]
     of: Option<String>,
@@ -91,7 +91,7 @@ impl StatsArgs {
     fn stats_options(&self) -> StatsOptions {
         StatsOptions {
             fields: self.fields.clone(),
-            empty: EmptyCellTreatment::from(self.empty),
+            empty: self.empty,
             query: (!self.query.is_empty()).then(|| self.query.join(" ")),
             scope: self.scope.lexicon_scope(),
             of: self.of.clone(),
@@ -112,8 +112,7 @@ const MOST_GLOSSES: usize = 12;
 pub(super) fn run(cli: &CommandLine, args: &StatsArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let lexicon_statistics = corpus.lexicon_statistics(&args.stats_options(), &mut ProgressReceiver::new(&mut hear))?;
+    let lexicon_statistics = corpus.lexicon_statistics(&args.stats_options(), &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     if let Some(of) = &lexicon_statistics.of {
         in_depth(of, args.limit, output)?;

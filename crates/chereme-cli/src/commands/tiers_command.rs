@@ -7,10 +7,11 @@ use chereme_corpus::{
     SignChange, SignerChange, TierPropertyChange, TierRequestName, TierScheme, TierStereotype, TierTopic,
     TierValueSource,
 };
+use chereme_motion::BodySide;
 use clap::{Subcommand, ValueEnum};
 
 use super::annotate;
-use crate::args::SideWord;
+use crate::args::BODY_SIDE_CHOICES;
 use crate::output::CommandOutput;
 use crate::words::tier_roles_help;
 
@@ -113,8 +114,8 @@ pub(super) enum TierCommand {
         #[arg(long)]
         name: Option<String>,
         /// The dominant hand
-        #[arg(long, value_enum)]
-        handedness: Option<SideWord>,
+        #[arg(long, value_parser = BODY_SIDE_CHOICES)]
+        handedness: Option<BodySide>,
     },
     /// Change a sign: its gloss, remarks and translations
     Sign {
@@ -341,7 +342,7 @@ pub(super) fn run(
         } => {
             let change = SignerChange {
                 name: name.clone(),
-                handedness: handedness.map(|word| Some(word.to_body_side())),
+                handedness: handedness.map(Some),
                 notes: None,
             };
             let named = match signer.parse()? {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{CorpusAddress, ProgressReceiver, ProgressStep, TranscribedFeature};
+use chereme_corpus::{CorpusAddress, ProgressReceiver, TranscribedFeature};
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -51,8 +51,7 @@ pub(super) fn run(cli: &CommandLine, args: &TranscribeArgs, output: &mut Command
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let address: CorpusAddress = args.token.parse()?;
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let written = if args.store {
         corpus.store_transcription(&address, args.force, progress)?
     } else {

@@ -46,7 +46,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use self::file_identity::FileIdentity;
 use self::unfinished::UnfinishedFile;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::words::effect::OperationEffect;
 
 pub(crate) use open::SCHEMA_VERSION;
@@ -170,8 +170,7 @@ impl<D: DerivedData> CorpusStore<D> {
         &mut self,
         work: impl FnOnce(&Connection) -> CorpusResult<(T, OperationEffect)>,
     ) -> CorpusResult<T> {
-        let mut hear = ignore_progress_step;
-        let progress = &mut ProgressReceiver::new(&mut hear);
+        let progress = &mut ProgressReceiver::silent_progress();
         self.operation_with_progress(progress, |connection, _| work(connection))
     }
 

@@ -34,6 +34,8 @@ pub(super) fn lexicon_of_table(job: &mut ImportJob<'_>, earlier: Option<i64>) ->
 #[derive(Default)]
 pub(super) struct LexiconCells {
     column: Option<usize>,
+    /// The title of the column.
+    pub(super) title: Option<String>,
     /// The lexicons by name.
     pub(super) lexicons: BTreeMap<String, i64>,
     /// Whether every row names one.
@@ -66,6 +68,7 @@ impl LexiconCells {
             cells.lexicons.insert(name.to_owned(), lexicon.id);
         }
         cells.column = Some(column);
+        cells.title = Some(table.columns[column].title.clone());
         Ok(cells)
     }
 

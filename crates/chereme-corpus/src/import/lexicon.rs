@@ -538,7 +538,9 @@ fn import_entry(
             signs::insert_token(connection, &row)?
         }
     };
+    let lexicon_title = signs.by_row.title.as_deref();
     let attributes: Vec<AttributeRow> = (entry.attributes.iter())
+        .filter(|(name, _)| Some(name.as_str()) != lexicon_title)
         .map(|(name, text)| AttributeRow {
             name: name.clone(),
             text: text.clone(),

@@ -25,10 +25,7 @@ fn asked(corpus: &mut Corpus, fields: &[&str], empty: EmptyCellTreatment) -> Min
         ..PairOptions::default()
     };
     corpus
-        .minimal_pairs(
-            &options,
-            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
-        )
+        .minimal_pairs(&options, &mut crate::ProgressReceiver::silent_progress())
         .expect("counted")
 }
 
@@ -74,10 +71,7 @@ fn pairs_differ_in_one_field_and_name_it() {
         };
         assert!(
             corpus
-                .minimal_pairs(
-                    &options,
-                    &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step)
-                )
+                .minimal_pairs(&options, &mut crate::ProgressReceiver::silent_progress())
                 .is_err()
         );
     }
@@ -107,10 +101,7 @@ fn named_sets_of_fields_fit_the_titles_of_signbank() {
         ..PairOptions::default()
     };
     let error = corpus
-        .minimal_pairs(
-            &options,
-            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
-        )
+        .minimal_pairs(&options, &mut crate::ProgressReceiver::silent_progress())
         .expect_err("no such column")
         .to_string();
     let said = "no imported table has a column \"Strong Hands\" with the others; did you mean \"Strong Hand\"?";

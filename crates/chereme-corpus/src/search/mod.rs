@@ -40,7 +40,7 @@ use crate::Corpus;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_search as rows;
 use crate::error::{CorpusError, CorpusResult, WrongQuery};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 pub use crate::db::stored_search::search_answers::OpinionStanding;
 use answer::DocumentRanks;
@@ -90,8 +90,7 @@ impl Corpus {
     /// [`CorpusError::Query`] with the place in the query that cannot be understood, or that names a value, signer or the
     /// like that does not exist.
     pub fn search_tokens(&mut self, query: &str, options: &SearchOptions) -> CorpusResult<SearchAnswer> {
-        let mut hear = ignore_progress_step;
-        self.search_until(query, options, &mut ProgressReceiver::new(&mut hear))
+        self.search_until(query, options, &mut ProgressReceiver::silent_progress())
     }
 
     /// Searches as [`search_tokens`](Self::search_tokens) does, and stops if `progress` asks to; it is called many times a second.
@@ -174,7 +173,7 @@ impl Corpus {
                 Err(CorpusError::Index(_)) | Ok(Err(QueryFailure::Other(CorpusError::Index(_)))) if !mended => {
                     mended = true;
                     self.store
-                        .rebuild_search_index(&mut ProgressReceiver::new(&mut ignore_progress_step))?;
+                        .rebuild_search_index(&mut ProgressReceiver::silent_progress())?;
                     self.store.index().note_rebuilt();
                     continue;
                 }

@@ -162,7 +162,7 @@ fn a_field_in_depth_counts_the_pairs_that_the_minimal_pairs_count() {
                 fields: by(&fields).fields,
                 ..PairOptions::default()
             },
-            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
+            &mut crate::ProgressReceiver::silent_progress(),
         )
         .expect("counted");
     for field in fields {

@@ -13,11 +13,11 @@ use chereme_corpus::study::study_plan::{
 use chereme_corpus::study::{
     AnswersFile, AnswersOptions, ColumnUse, QuestionnaireOptions, StudyRequest, split_quoted_words,
 };
-use chereme_corpus::{Corpus, FileStatus, ProgressReceiver, ProgressStep};
-use clap::{Subcommand, ValueEnum};
+use chereme_corpus::{Corpus, FileStatus, ProgressReceiver};
+use clap::Subcommand;
 
 use super::import_command::print_finding;
-use crate::args::{CommandLine, read_named_text};
+use crate::args::{CommandLine, NamedChoices, read_named_text};
 use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Run a perceptual study: plan it, build its questionnaire, import the answers, report on them
@@ -162,8 +162,8 @@ struct NewArgs {
     #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(i64).range(2..=9))]
     scale: i64,
     /// The order of conditions
-    #[arg(long, value_enum, default_value_t = ConditionOrderWord::Latin)]
-    order: ConditionOrderWord,
+    #[arg(long, value_parser = CONDITION_ORDER_CHOICES, default_value = "latin")]
+    order: ConditionOrder,
     /// The seed of all shuffles
     #[arg(long, default_value_t = 1, value_name = "N")]
     seed: u64,
@@ -179,14 +179,15 @@ struct NewArgs {
     distance_from: Option<String>,
 }
 
-/// The order of conditions.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ConditionOrderWord {
-    /// Balanced Latin square: each condition follows each other equally often
-    Latin,
-    /// Shuffled
-    Random,
-}
+/// The orders of conditions.
+const CONDITION_ORDER_CHOICES: NamedChoices<ConditionOrder> = NamedChoices(&[
+    (
+        "latin",
+        "Balanced Latin square: each condition follows each other equally often",
+        ConditionOrder::Latin,
+    ),
+    ("random", "Shuffled", ConditionOrder::Random),
+]);
 
 /// Parses a condition.
 fn parse_study_condition(text: &str) -> Result<(String, String), String> {
@@ -220,8 +221,7 @@ pub(super) fn run(cli: &CommandLine, args: &StudyArgs, output: &mut CommandOutpu
 
 fn run_study_action(cli: &CommandLine, action: &StudyCommand, output: &mut CommandOutput) -> Result<()> {
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let mut progress = ProgressReceiver::new(&mut hear);
+    let mut progress = ProgressReceiver::new(&mut bar);
     match action {
         StudyCommand::New(new) => plan_new_study(cli, new, &mut progress, output),
         StudyCommand::Show { corpus, name } => {
@@ -302,8 +302,7 @@ fn import_study_answers(
     output: &mut CommandOutput,
 ) -> Result<ExitCode> {
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let progress = &mut ProgressReceiver::new(&mut hear);
+    let progress = &mut ProgressReceiver::new(&mut bar);
     let mut corpus = cli.open_cli_corpus(corpus)?;
     let report = corpus.import_answers_by(name, files, options, progress)?;
     drop(bar);
@@ -383,10 +382,7 @@ fn plan_new_study(
                 questions: args.asks.clone(),
                 scale: args.scale,
                 design: TrialDesign {
-                    order: match args.order {
-                        ConditionOrderWord::Latin => ConditionOrder::Latin,
-                        ConditionOrderWord::Random => ConditionOrder::Random,
-                    },
+                    order: args.order,
                     seed: args.seed,
                     blocks: args.blocks,
                     between: args.between,

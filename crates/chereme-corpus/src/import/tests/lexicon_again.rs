@@ -14,10 +14,7 @@ fn pairs(corpus: &mut Corpus, fields: &[&str]) -> (usize, usize) {
         ..PairOptions::default()
     };
     let found = corpus
-        .minimal_pairs(
-            &options,
-            &mut crate::ProgressReceiver::new(&mut crate::ignore_progress_step),
-        )
+        .minimal_pairs(&options, &mut crate::ProgressReceiver::silent_progress())
         .expect("counted");
     (found.total, found.entries)
 }

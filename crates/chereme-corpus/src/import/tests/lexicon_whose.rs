@@ -4,14 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
+use crate::ProgressReceiver;
 use crate::lexicon::{LexiconChange, LexiconScope, LinkedRecordings};
 use crate::pairs::PairOptions;
-use crate::{ProgressReceiver, ignore_progress_step};
 
 fn import_with(corpus: &mut Corpus, path: &Path, options: &ImportOptions) -> FileReport {
-    let mut hear = ignore_progress_step;
     let report = corpus
-        .import_paths(&[path.to_owned()], options, &mut ProgressReceiver::new(&mut hear))
+        .import_paths(&[path.to_owned()], options, &mut ProgressReceiver::silent_progress())
         .expect("imported");
     report.files.into_iter().next().expect("a file")
 }
@@ -119,7 +118,7 @@ fn signs_of_two_lexicons_are_compared_only_if_that_is_asked() {
             scope,
             ..PairOptions::default()
         };
-        let counted = corpus.minimal_pairs(&options, &mut ProgressReceiver::new(&mut ignore_progress_step));
+        let counted = corpus.minimal_pairs(&options, &mut ProgressReceiver::silent_progress());
         counted.map(|pairs| pairs.total)
     };
     // ASL: BOOK and TREE, MOTHER and TREE; BSL: BOOK and MOTHER.
@@ -154,8 +153,7 @@ fn glosses_of_a_recording_mean_the_lexicon_to_which_it_is_linked() {
     );
     import_file(&mut corpus, &rows("two.csv"));
     assert_eq!(found(&mut corpus, "lexicon=two").len(), 2);
-    let mut hear = ignore_progress_step;
-    let silent = &mut ProgressReceiver::new(&mut hear);
+    let silent = &mut ProgressReceiver::silent_progress();
     let linked = corpus
         .link_lexicon(Some("two"), &LinkedRecordings::All, silent)
         .expect("linked");
@@ -209,7 +207,6 @@ fn notation_and_tables_of_one_named_lexicon_are_one_sign_each() {
         lexicon: Some("A/B".into()),
         ..ImportOptions::default()
     };
-    let mut hear = ignore_progress_step;
-    let refused = corpus.import_paths(&[bsl], &wrong, &mut ProgressReceiver::new(&mut hear));
+    let refused = corpus.import_paths(&[bsl], &wrong, &mut ProgressReceiver::silent_progress());
     assert!(!format!("{refused:?}").contains("Imported"), "{refused:?}");
 }

@@ -34,7 +34,7 @@ use crate::db::DerivedData;
 use crate::db::stored_search::{self as rows, SearchIndexState, TokenDocument};
 use crate::error::{CorpusError, CorpusResult};
 use crate::foreign_code::catch_panic;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
+use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 use directory::MemoryFolder;
 use index_read::{IndexReading, KnownLabels};
@@ -106,8 +106,7 @@ impl SearchIndex {
     /// Rebuilds the index in a transaction of its own.
     fn mend_search_index(&mut self, connection: &Connection, noteworthy: bool) -> CorpusResult<()> {
         let transaction = rows::begin_write_transaction(connection)?;
-        let mut hear = ignore_progress_step;
-        self.rebuild_derived_data(&transaction, &mut ProgressReceiver::new(&mut hear))?;
+        self.rebuild_derived_data(&transaction, &mut ProgressReceiver::silent_progress())?;
         transaction.commit()?;
         self.rebuilt.set(self.rebuilt.get() || noteworthy);
         Ok(())
