@@ -226,7 +226,8 @@ mod tests {
                 for (id, phrase) in phrases {
                     let kind = id.split('-').next().unwrap_or_default();
                     let kinds = [
-                        "message", "line", "help", "title", "guide", "menu", "page", "language", "history", "noun",
+                        "message", "line", "help", "title", "guide", "menu", "page", "operator", "language", "history",
+                        "noun",
                     ];
                     assert!(kinds.contains(&kind), "{}", phrase.place);
                     let place = phrase.place.clone();

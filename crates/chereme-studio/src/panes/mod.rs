@@ -15,6 +15,7 @@ pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
+pub(crate) mod list_keys;
 pub(crate) mod map;
 mod notated_pane;
 pub(crate) mod recombine;

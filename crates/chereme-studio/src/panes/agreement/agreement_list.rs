@@ -1,14 +1,14 @@
 //! The list of disagreements: its filters, and rows that open their places.
 
 use chereme_corpus::{AnnotatorAgreement, DisagreementKind};
-use eframe::egui::{EventFilter, Id, Key, Modifiers, Response, ScrollArea, Ui};
+use eframe::egui::{Id, Response, ScrollArea, Ui};
 
 use super::agreement_data::{DisagreementKinds, DisagreementOrder};
 use super::{AgreementPane, AgreementView};
 use crate::action::Action;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
-use crate::panes::{combo, list_row_at, scrolled_to};
+use crate::panes::{combo, list_keys, list_row_at, scrolled_to};
 use crate::words::{agreement as words, fill_text_braces};
 
 /// The height of a row, in heights of a button.
@@ -159,23 +159,7 @@ impl AgreementPane {
         let Some(now) = now.or((focused == row_id(0)).then_some(0)) else {
             return;
         };
-        let last = self.rows.len() - 1;
-        let mut to = None;
-        ui.input_mut(|input| {
-            for (key, by) in [
-                (Key::ArrowUp, -1),
-                (Key::ArrowDown, 1),
-                (Key::PageUp, -8),
-                (Key::PageDown, 8),
-                (Key::Home, isize::MIN / 2),
-                (Key::End, isize::MAX / 2),
-            ] {
-                if input.consume_key(Modifiers::NONE, key) {
-                    to = Some(now.saturating_add_signed(by).min(last));
-                }
-            }
-        });
-        if let Some(to) = to {
+        if let Some(to) = list_keys::take_list_keys(ui, now, self.rows.len()) {
             self.open_disagreement(to, seen, out);
             self.reach = Some(to);
         }
@@ -188,11 +172,7 @@ impl AgreementPane {
             response.request_focus();
         }
         if response.has_focus() {
-            let arrows = EventFilter {
-                vertical_arrows: true,
-                ..EventFilter::default()
-            };
-            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+            list_keys::keep_arrow_keys(ui, response.id, false);
         }
     }
 }

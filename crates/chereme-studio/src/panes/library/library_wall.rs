@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use chereme_corpus::SignGlance;
 use chereme_motion::TimeSpan;
 use eframe::egui::{
-    Align2, Key, Modifiers, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle,
-    TextWrapMode, Ui, Vec2, WidgetInfo, WidgetText, pos2, vec2,
+    Align2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2,
+    WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use super::library_data::SignMovement;
@@ -14,7 +14,7 @@ use super::{LibraryList, LibraryPane, row_id};
 use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
-use crate::panes::search::walked;
+use crate::panes::list_keys;
 
 /// The least width of a figure, the gap between two, and the height of the text below one, in points.
 const MIN_WALL_FIGURE_WIDTH: f32 = 124.0;
@@ -139,29 +139,8 @@ impl LibraryPane {
         if total == 0 || ui.memory(|memory| memory.focused()) != Some(row_id(self.at)) {
             return;
         }
-        let mut step = None;
-        ui.input_mut(|input| {
-            for (key, by) in [
-                (Key::ArrowLeft, [-1, 0]),
-                (Key::ArrowRight, [1, 0]),
-                (Key::ArrowUp, [0, -1]),
-                (Key::ArrowDown, [0, 1]),
-                (Key::PageUp, [0, -6]),
-                (Key::PageDown, [0, 6]),
-                (Key::Home, [isize::MIN / 2, 0]),
-                (Key::End, [isize::MAX / 2, 0]),
-            ] {
-                if input.consume_key(Modifiers::NONE, key) {
-                    step = Some(by);
-                }
-            }
-        });
-        if let Some(step) = step {
-            self.at = match step {
-                [by, _] if by < -1 => 0,
-                [by, _] if by > 1 => total - 1,
-                step => walked(self.at, total, columns, step),
-            };
+        if let Some(to) = list_keys::take_grid_keys(ui, self.at, total, columns, 6) {
+            self.at = to;
             self.reach = Some(self.at);
         }
     }

@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use chereme_motion::TimeSpan;
 use eframe::egui::{
-    Align, EventFilter, Id, Key, Layout, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, Tooltip, Ui, Vec2,
-    WidgetInfo, vec2,
+    Align, Id, Key, Layout, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, Tooltip, Ui, Vec2, WidgetInfo,
+    vec2,
 };
 
 use super::notated_pane::AnimatedNotations;
@@ -22,6 +22,7 @@ use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
 use crate::model::InspectedThing;
+use crate::panes::list_keys;
 use crate::script::script_edit;
 use crate::words::{InterfaceLanguage, fill_text_braces, library as words};
 use crate::work::{WorkId, WorkResult};
@@ -203,22 +204,7 @@ impl LibraryPane {
         if total == 0 || ui.memory(|memory| memory.focused()) != Some(row_id(self.at)) {
             return;
         }
-        let mut to = None;
-        ui.input_mut(|input| {
-            for (key, by) in [
-                (Key::ArrowUp, -1),
-                (Key::ArrowDown, 1),
-                (Key::PageUp, -8),
-                (Key::PageDown, 8),
-                (Key::Home, isize::MIN / 2),
-                (Key::End, isize::MAX / 2),
-            ] {
-                if input.consume_key(Modifiers::NONE, key) {
-                    to = Some(self.at.saturating_add_signed(by).min(total - 1));
-                }
-            }
-        });
-        if let Some(to) = to {
+        if let Some(to) = list_keys::take_list_keys(ui, self.at, total) {
             (self.at, self.reach) = (to, Some(to));
         }
     }
@@ -232,11 +218,7 @@ impl LibraryPane {
         if response.has_focus() {
             self.at = at;
             self.focused = Some(at);
-            let arrows = EventFilter {
-                vertical_arrows: true,
-                ..EventFilter::default()
-            };
-            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+            list_keys::keep_arrow_keys(ui, response.id, false);
         }
     }
 

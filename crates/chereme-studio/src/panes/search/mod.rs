@@ -43,7 +43,7 @@ use crate::context::PaneInput;
 use crate::model::InspectedThing;
 use crate::words::{fill_text_braces, search_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
-pub(crate) use hits::walk_hit_grid as walked;
+pub(crate) use hits::walk_hit_grid;
 use hits::{HIT_PAGE_SIZE, HitSort, MAX_HIT_NEIGHBOURS, QueryAnswer};
 pub(crate) use search_builder::with_value;
 use search_field::QueryField;

@@ -4,8 +4,8 @@ use chereme_corpus::{OpinionStanding, SearchHit, TrackKind};
 use chereme_motion::BodySide;
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
-    Align2, CursorIcon, EventFilter, FontId, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, CursorIcon, FontId, Id, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::hits::{self, HitSort, hit_coding_values};
@@ -13,7 +13,7 @@ use super::{ResultsView, SearchPane};
 use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureFocus, MiniatureMotion};
-use crate::panes::{carry, scrolled_to};
+use crate::panes::{carry, list_keys, scrolled_to};
 use crate::pickers;
 use crate::words::{InterfaceText, fill_text_braces, search_words as words};
 
@@ -511,12 +511,7 @@ fn make_hit_clickable(
     }
     if response.has_focus() {
         search.at = at;
-        let arrows = EventFilter {
-            horizontal_arrows: true,
-            vertical_arrows: true,
-            ..EventFilter::default()
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
+        list_keys::keep_arrow_keys(ui, id, true);
     }
     let tip = fill_text_braces(seen.say_text(words::HIT_TIP), &[("hit", &name)]);
     response.on_hover_text(tip)
@@ -542,29 +537,8 @@ fn handle_result_arrow_keys(search: &mut SearchPane, ui: &Ui, columns: usize, to
     if focus != Some(Id::unique("hits").with(search.at)) || total == 0 {
         return;
     }
-    let mut step = None;
-    ui.input_mut(|input| {
-        for (key, by) in [
-            (Key::ArrowLeft, [-1, 0]),
-            (Key::ArrowRight, [1, 0]),
-            (Key::ArrowUp, [0, -1]),
-            (Key::ArrowDown, [0, 1]),
-            (Key::PageUp, [0, -8]),
-            (Key::PageDown, [0, 8]),
-        ] {
-            if input.consume_key(Modifiers::NONE, key) {
-                step = Some(by);
-            }
-        }
-        if input.consume_key(Modifiers::NONE, Key::Home) {
-            step = Some([-(search.at as isize), 0]);
-        }
-        if input.consume_key(Modifiers::NONE, Key::End) {
-            step = Some([(total - 1 - search.at) as isize, 0]);
-        }
-    });
-    if let Some(step) = step {
-        search.move_cursor_to_hit(hits::walk_hit_grid(search.at, total, columns, step));
+    if let Some(to) = list_keys::take_grid_keys(ui, search.at, total, columns, 8) {
+        search.move_cursor_to_hit(to);
     }
 }
 

@@ -367,9 +367,7 @@ fn signer_joints(stage: &StagePane) -> Option<usize> {
 fn send_picture_request(stage: &mut StagePane, seen: &PaneInput<'_>, look: StageLook, pose: &ModelPose) {
     let theme = if look.dark { PaperTheme::Dark } else { PaperTheme::Light };
     let end = seen.shown.on_stage().whole.span_end_instant();
-    let (Some((_, signer)), Some(artist)) = (&mut stage.signer, &stage.artist) else {
-        return;
-    };
+    let Some((_, signer)) = &mut stage.signer else { return };
     let mut figures = vec![PosedFigure {
         face: stage_movement_source(seen).source_face_at(look.at),
         ..PosedFigure::at_rest(signer.body.clone(), pose.clone())
@@ -453,25 +451,11 @@ fn send_picture_request(stage: &mut StagePane, seen: &PaneInput<'_>, look: Stage
             fine: true,
         });
     }
-    stage.wished += 1;
-    artist.request_stage_pictures(StageRequest {
-        number: stage.wished,
-        figures,
-        panes,
-        style: FigureStyle {
-            theme,
-            samples: look.samples,
-            threads: threads(),
-            ..FigureStyle::default()
-        },
-    });
-    stage.asked = Some(look);
+    request_looked_pictures(stage, look, figures, panes);
 }
 
 /// Requests pictures of points alone.
 fn wish_points(stage: &mut StagePane, look: StageLook, mesh: TriangleMesh) {
-    let theme = if look.dark { PaperTheme::Dark } else { PaperTheme::Light };
-    let Some(artist) = &stage.artist else { return };
     let mesh = std::sync::Arc::new(mesh);
     let mut panes = Vec::new();
     for (eye, _, size) in &look.parts {
@@ -494,13 +478,24 @@ fn wish_points(stage: &mut StagePane, look: StageLook, mesh: TriangleMesh) {
             fine: false,
         });
     }
+    request_looked_pictures(stage, look, Vec::new(), panes);
+}
+
+/// Requests the pictures of a look, and remembers it.
+fn request_looked_pictures(
+    stage: &mut StagePane,
+    look: StageLook,
+    figures: Vec<PosedFigure>,
+    panes: Vec<CameraPicture>,
+) {
+    let Some(artist) = &stage.artist else { return };
     stage.wished += 1;
     artist.request_stage_pictures(StageRequest {
         number: stage.wished,
-        figures: Vec::new(),
+        figures,
         panes,
         style: FigureStyle {
-            theme,
+            theme: if look.dark { PaperTheme::Dark } else { PaperTheme::Light },
             samples: look.samples,
             threads: threads(),
             ..FigureStyle::default()

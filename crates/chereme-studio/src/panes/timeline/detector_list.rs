@@ -1,9 +1,10 @@
 //! The list to choose the detector that proposes annotations.
 
 use chereme_corpus::{ALL_DETECTORS, DetectOptions, ProposeScope};
-use eframe::egui::{Align2, Button, Id, Key, Label, Modifiers, Ui, Window, vec2};
+use eframe::egui::{Button, Key, Label, Modifiers, Ui, vec2};
 
 use super::timeline_edit::TimelineScene;
+use super::timeline_parts::box_window;
 use super::{TimelinePane, proposals};
 use crate::command::CommandOutbox;
 use crate::words::{fill_text_braces, shell, timeline as words};
@@ -36,11 +37,7 @@ pub(super) fn show_detector_list(
     let mut done = enter.then_some(list.chosen);
     let mut closed = escape;
     let scope = proposals::current_propose_scope(scene);
-    Window::new(scene.seen.say_text(words::DETECT_TITLE))
-        .id(Id::unique("timeline detectors"))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+    box_window(scene.seen.say_text(words::DETECT_TITLE), "timeline detectors")
         .fixed_size(vec2(360.0, 200.0))
         .show(ui.ctx(), |ui| {
             let text = match &scope {

@@ -3,11 +3,12 @@
 use chereme_corpus::TableMoment;
 use chereme_corpus::snap::RecordingFrameTimes;
 use chereme_motion::{RecordingInstant, TimeSpan};
-use eframe::egui::{Align2, Id, Key, Label, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2};
+use eframe::egui::{Id, Key, Label, Modifiers, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::TimelinePane;
 use super::timeline_data::time_text;
 use super::timeline_edit::TimelineScene;
+use super::timeline_parts::box_window;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::script::script_edit;
 use crate::words::{fill_text_braces, shell, timeline as words};
@@ -82,11 +83,7 @@ pub(super) fn show_go_to_time(
         None => frames,
     };
     let mut to = None;
-    Window::new(say(words::GO_TITLE))
-        .id(Id::unique("timeline go"))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+    box_window(say(words::GO_TITLE), "timeline go")
         .fixed_size(vec2(330.0, 120.0))
         .show(ui.ctx(), |ui| {
             let field = TextEdit::singleline(&mut shown.text)

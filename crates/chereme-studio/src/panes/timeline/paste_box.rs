@@ -1,9 +1,10 @@
 //! The list of pasted lines without a place, shown before anything is pasted.
 
 use chereme_corpus::annotate_paste::PastePlan;
-use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
+use eframe::egui::{Key, Label, Modifiers, ScrollArea, Ui, vec2};
 
 use super::timeline_edit::TimelineScene;
+use super::timeline_parts::box_window;
 use super::{TimelinePane, timeline_paste};
 use crate::command::CommandOutbox;
 use crate::words::{fill_text_braces, shell, timeline as words};
@@ -31,11 +32,7 @@ pub(super) fn show_paste_box(
     let (mut keep, mut drop) = (pressed(Key::Enter), pressed(Key::Escape));
     let say = |text| scene.seen.say_text(text);
     let PasteBox { plan } = &shown;
-    Window::new(say(words::PASTE_TITLE))
-        .id(Id::unique("timeline paste"))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+    box_window(say(words::PASTE_TITLE), "timeline paste")
         .fixed_size(vec2(380.0, 260.0))
         .show(ui.ctx(), |ui| {
             ui.add(Label::new(say(words::PASTE_ABOUT)).wrap());

@@ -5,10 +5,11 @@ use chereme_corpus::{
     TierRequestName, TierRole, TierStereotype,
 };
 use chereme_sign::ComponentField;
-use eframe::egui::{Align2, ComboBox, Grid, Id, Key, Modifiers, Popup, Role, Ui, WidgetInfo, Window, vec2};
+use eframe::egui::{ComboBox, Grid, Id, Key, Modifiers, Popup, Role, Ui, WidgetInfo};
 
 use super::TimelinePane;
 use super::timeline_edit::TimelineScene;
+use super::timeline_parts::box_window;
 use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::panes::combo;
@@ -288,20 +289,15 @@ pub(super) fn show_tier_box(
         TierBoxPurpose::Copy(_) => words::COPY_TIER_TITLE,
     };
     let mut done = TierBoxButton::Nothing;
-    Window::new(say(title))
-        .id(Id::unique("timeline tier"))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
-        .show(ui.ctx(), |ui| {
-            match tier.what {
-                TierBoxPurpose::Remove(id) => report_removed_tiers(ui, scene, id, &tier.name),
-                TierBoxPurpose::Copy(_) => copy_form(ui, scene.seen, &mut tier),
-                _ => show_tier_form(ui, scene, &mut tier),
-            }
-            ui.add_space(8.0);
-            done = show_tier_box_buttons(ui, scene.seen, &tier);
-        });
+    box_window(say(title), "timeline tier").show(ui.ctx(), |ui| {
+        match tier.what {
+            TierBoxPurpose::Remove(id) => report_removed_tiers(ui, scene, id, &tier.name),
+            TierBoxPurpose::Copy(_) => copy_form(ui, scene.seen, &mut tier),
+            _ => show_tier_form(ui, scene, &mut tier),
+        }
+        ui.add_space(8.0);
+        done = show_tier_box_buttons(ui, scene.seen, &tier);
+    });
     if escape || done == TierBoxButton::Cancel {
         return;
     }

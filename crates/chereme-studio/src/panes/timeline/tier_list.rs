@@ -2,11 +2,12 @@
 
 use chereme_corpus::{TierContents, requests};
 use chereme_sign::text::fold_text;
-use eframe::egui::{Align2, Button, Id, Key, Modifiers, Role, ScrollArea, Ui, WidgetInfo, Window, vec2};
+use eframe::egui::{Button, Id, Key, Modifiers, Role, ScrollArea, Ui, WidgetInfo, vec2};
 
 use super::dragged::{self, TierTiming};
 use super::tier_spans::SpanItem;
 use super::timeline_edit::{TimelineScene, holds_proposals, no_room};
+use super::timeline_parts::box_window;
 use super::{ChangeFollowUp, TimelinePane};
 use crate::command::CommandOutbox;
 use crate::script::script_edit;
@@ -72,12 +73,7 @@ pub(super) fn show_tier_chooser(
         words::COPY_TITLE
     };
     let title = scene.seen.say_text(title_text);
-    let window = Window::new(title)
-        .id(Id::unique("timeline tiers"))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
-        .fixed_size(vec2(320.0, 300.0));
+    let window = box_window(title, "timeline tiers").fixed_size(vec2(320.0, 300.0));
     window.show(ui.ctx(), |ui| {
         let field = script_edit::draw_text_line(ui, &mut choose.text, |field| {
             field

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use chereme_motion::{RecordingInstant, TimeSpan};
+use eframe::egui::{Align2, Id, Window, vec2};
 
 use super::editor::ValueEditing;
 use super::{
@@ -15,6 +16,15 @@ use crate::model::OpenedRecording;
 use crate::model::time_window::TimeWindow;
 use crate::pickers::ValuePicker;
 use crate::work::WorkId;
+
+/// Returns the window of a box in the middle of the timeline, which cannot be folded or resized.
+pub(super) fn box_window(title: &str, id: &str) -> Window<'static> {
+    Window::new(title.to_owned())
+        .id(Id::unique(id))
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+}
 
 /// The visible part of each recording.
 #[derive(Default)]
