@@ -220,6 +220,7 @@ mod tests {
         let draw = |ui: &mut Ui, state: &mut (String, Option<TextEditOutput>)| {
             if ui.ctx().cumulative_pass_nr() == 0 {
                 crate::theme::install_studio_theme(ui.ctx());
+                crate::script::install_script_support(ui.ctx());
             }
             let (text, output) = state;
             let shown = draw_text_line(ui, text, |edit| edit.desired_width(300.0));
@@ -260,6 +261,7 @@ mod tests {
         let draw = move |ui: &mut Ui, seen: &mut Option<(Arc<Galley>, usize)>| {
             if ui.ctx().cumulative_pass_nr() == 0 {
                 crate::theme::install_studio_theme(ui.ctx());
+                crate::script::install_script_support(ui.ctx());
             }
             let mut own = text.to_owned();
             let shown = draw_text_block(ui, &mut own, |edit| edit.desired_width(60.0));

@@ -254,6 +254,7 @@ mod tests {
     fn context() -> Context {
         let ctx = Context::default();
         crate::theme::install_studio_theme(&ctx);
+        crate::script::install_script_support(&ctx);
         for _ in 0..2 {
             let mut output = ctx.run_ui(RawInput::default(), |_| {});
             output.textures_delta.clear();
