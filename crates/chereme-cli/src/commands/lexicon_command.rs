@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, ProgressReceiver,
-    ProgressStep, RowName,
+    Corpus, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, ProgressReceiver, RowName,
 };
 use clap::{Args, Subcommand};
 
