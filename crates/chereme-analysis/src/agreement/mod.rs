@@ -7,6 +7,7 @@
 //! | [`unitizing`] | alpha over time: alpha_U, the u-alpha family, frames |
 //! | [`gamma`] | alignment of least disorder, gamma and gamma_cat |
 //! | [`segments`] | boundary similarity, WindowDiff, Pk |
+//! | [`span_measures`] | mF1B, mF1S, IoU, offsets, splits and merges of segmentations with gaps |
 //! | [`agreement_resample`] | percentile intervals from a seed |
 //!
 //! A figure that is undefined is an [`UndefinedAgreement`] with its reason, never NaN, 0 or 1. Times are whole numbers of any unit;
@@ -30,6 +31,7 @@ pub mod gamma;
 pub mod items;
 pub mod matching;
 pub mod segments;
+pub mod span_measures;
 #[cfg(test)]
 mod tests;
 pub mod unitizing;

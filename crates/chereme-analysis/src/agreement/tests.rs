@@ -289,3 +289,30 @@ fn very_many_overlapping_units_are_refused_and_as_many_in_a_row_are_aligned() {
     assert_eq!(align(1), Err(UndefinedAgreement::TooMany));
     assert_eq!(align(10_000), Ok(2100));
 }
+
+#[test]
+fn offsets_splits_and_merges_of_spans_have_signs_and_are_pooled() {
+    use crate::agreement::span_measures::{compare_span_lists, divide_evenly, grid_frames};
+
+    let mut all = compare_span_lists(&[0..10, 20..40], &[2..9, 20..29, 31..40]);
+    assert_eq!((all.splits, all.merges), (1, 0));
+    assert_eq!(
+        (all.begin_offsets.clone(), all.end_offsets.clone()),
+        (vec![2, 0], vec![-1, -11])
+    );
+    all.add_span_comparison(&compare_span_lists(&[0..10, 12..20], &[0..20]));
+    assert_eq!(
+        (all.splits, all.merges, all.first_count, all.second_count),
+        (1, 1, 4, 4)
+    );
+    assert_eq!(all.span_count_ratio(), Ok(1.0));
+    assert_eq!(divide_evenly(0..10, 3), [0..3, 3..6, 6..10]);
+    assert_eq!(divide_evenly(0..10, 0), []);
+    assert_eq!(grid_frames(19_999, 60_000), 0..2);
+    assert_eq!(grid_frames(0, 1), 0..1, "a span has a frame at least");
+    let touching = compare_span_lists(&[0..5, 5..9], &[0..5, 6..9]);
+    assert_eq!(
+        touching.boundaries[0].hits, 3,
+        "frames next to each other are one boundary"
+    );
+}

@@ -355,3 +355,45 @@ fn segmentations() {
         }
     }
 }
+
+/// Compares a figure with a list of shares in percent.
+fn check_shares(place: &str, figures: &[crate::agreement::span_measures::HitCounts], wanted: &Value) {
+    let wanted = wanted.as_array().expect("figures");
+    for (counts, wanted) in figures.iter().zip(wanted) {
+        let figure = 100.0 * counts.f1_measure().unwrap_or(0.0);
+        let wanted = wanted.as_f64().expect("a figure");
+        assert!((figure - wanted).abs() < 1e-6, "{place}: {figure}, wanted {wanted}");
+    }
+}
+
+#[test]
+fn figures_of_spans_with_gaps() {
+    use crate::agreement::span_measures::compare_span_lists;
+
+    for case in cases("detection") {
+        let id = case["id"].as_str().expect("an id");
+        let spans = |name: &str| -> Vec<std::ops::Range<i64>> {
+            let all = case[name].as_array().expect("spans").iter();
+            let frame = |value: &Value| value.as_i64().expect("a frame");
+            all.map(|span| frame(&span[0])..frame(&span[1])).collect()
+        };
+        let compared = compare_span_lists(&spans("gold"), &spans("predicted"));
+        let results = &case["results"];
+        check_shares(id, &compared.spans, &results["renz_sign"]["F1S"]);
+        if results["renz_boundary"].get("F1B").is_some() {
+            check_shares(id, &compared.boundaries, &results["renz_boundary"]["F1B"]);
+        }
+        let means = [compared.mean_span_f1(), compared.mean_boundary_f1()];
+        let is_empty = compared.first_count + compared.second_count == 0;
+        assert_eq!(means.map(|mean| mean.is_err()), [is_empty; 2], "{id}");
+        let overlap = compared.mean_pair_overlap().unwrap_or(0.0);
+        // The other program's overlap of disjoint spans is negative.
+        let wanted = results["renz_sign"]["mean_iou"].as_f64().unwrap_or(0.0).max(0.0);
+        assert!((overlap - wanted).abs() < TOLERANCE, "{id}: {overlap} {wanted}");
+        let frames = compared.frame_overlap().unwrap_or(1.0);
+        let wanted = results["moryossef"]["iou"].as_f64().expect("a figure");
+        assert!((frames - wanted).abs() < TOLERANCE, "{id}: {frames} {wanted}");
+        let percent = compared.span_count_ratio().map(|ratio| 100.0 * ratio);
+        check(id, percent, &results["moryossef"]["segments_percent"], 1e-6);
+    }
+}
