@@ -1,30 +1,29 @@
 //! Detectors, which find annotations in movement, behind one trait.
 //!
-//! A detector gets the movement and the face of a signer ([`ObservedSigner`]) and returns [`DetectedStretch`]s: a span, a field, a
+//! A detector gets the movement and the face of a signer ([`ObservedSigner`]) and returns [`DetectedStretch`]s: a span, a tier, a
 //! value, a confidence and the evidence. It stores nothing. The caller chooses the tiers and writes the detections with
 //! the origin of a detector, so that the codings of people stay apart.
 //!
-//! To add one, write a module beside `strokes` with a type that implements [`AnnotationDetector`], and add it to [`ALL_DETECTORS`].
-//! `chereme propose --detector` and the window offer every detector of that list by its name and its words.
+//! To add one, write a module beside `detect_signs` with a type that implements [`AnnotationDetector`], and add it to [`ALL_DETECTORS`].
+//! `chereme detect` and the window offer every detector of that list by its name and its words.
 
 mod detect_nonmanuals;
-mod detect_strokes;
+mod detect_signs;
 
+use crate::cut::UncutReason;
+use crate::nonmanuals::ObservedFaceCurves;
 use chereme_motion::{BodyAnatomy, Clip, RecordingInstant, TimeSpan};
 use chereme_sign::ComponentField;
 use chereme_sign::words::InterfaceText;
-use serde::Serialize;
-
-use crate::nonmanuals::ObservedFaceCurves;
 pub use detect_nonmanuals::NonmanualDetector;
-pub use detect_strokes::StrokeDetector;
+pub use detect_signs::{SignDetector, UNKNOWN_GLOSS};
 
 /// Every detector.
-pub const ALL_DETECTORS: &[&dyn AnnotationDetector] = &[&NonmanualDetector, &StrokeDetector];
+pub const ALL_DETECTORS: &[&dyn AnnotationDetector] = &[&NonmanualDetector, &SignDetector { sign_cost: None }];
 
 /// Finds annotations in what was observed.
 pub trait AnnotationDetector: Sync {
-    /// Returns the name, such as `strokes`.
+    /// Returns the name, such as `signs`.
     fn detector_name(&self) -> &'static str;
 
     /// Returns the words about the detector that people read.
@@ -33,13 +32,16 @@ pub trait AnnotationDetector: Sync {
     /// Returns the parts of a signer that it examines; it finds nothing if all of them are missing.
     fn examines(&self) -> &'static [SignerPart];
 
-    /// Returns the fields that it may write. A stored proposal does not name its detector, so no two detectors write the
-    /// same field: the earlier proposals of its fields are its own, and another run replaces them.
-    fn detected_fields(&self) -> Vec<ComponentField>;
+    /// Returns the subjects that it may write about. A stored proposal does not name its detector, so no two detectors share a
+    /// subject: the earlier proposals of its subjects are its own, and another run replaces them.
+    fn detected_subjects(&self) -> Vec<DetectedSubject>;
 
-    /// Returns the detections, field by field in order of time, without overlaps in a field; empty if the parts that it
+    /// Returns the detections, subject by subject in order of time, without overlaps in a subject; empty if the parts that it
     /// examines were not observed.
-    fn detect_annotations(&self, observed: &ObservedSigner<'_>) -> Vec<DetectedStretch>;
+    ///
+    /// # Errors
+    /// [`UncutReason`] if it can say why it finds nothing.
+    fn detect_annotations(&self, observed: &ObservedSigner<'_>) -> Result<Vec<DetectedStretch>, UncutReason>;
 }
 
 /// The words about a detector, in English and French.
@@ -57,8 +59,6 @@ pub struct DetectorDescription {
 pub enum SignerPart {
     /// The movement of the whole body and the hands.
     Body,
-    /// The movement of the arms, from the collar bones to the wrists; all other joints of the observed clip may be at rest.
-    Arms,
     /// The curves of face and head.
     Face,
 }
@@ -84,18 +84,27 @@ pub struct ObservedBody<'a> {
 }
 
 /// A stretch of movement in which a value was detected.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DetectedStretch {
     /// The time of the value on the recording's clock.
     pub span: TimeSpan,
-    /// The field, such as `right.movement.phase` or `nonmanual.brows`.
-    pub field: ComponentField,
-    /// The value of the field's inventory.
+    /// The subject, by which its tier is chosen.
+    pub subject: DetectedSubject,
+    /// The gloss of a sign, or the value of the field's inventory.
     pub value: String,
     /// The confidence, from 0 to 1.
     pub confidence: f64,
     /// The evidence, with its numbers.
     pub why: String,
+}
+
+/// What a detection is about.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DetectedSubject {
+    /// A sign, whose value is its gloss.
+    Sign,
+    /// A field, such as `right.movement.phase` or `nonmanual.brows`.
+    Field(ComponentField),
 }
 
 /// Returns the detector of that name.
@@ -110,45 +119,40 @@ pub fn find_detector(name: &str) -> Option<&'static dyn AnnotationDetector> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::strokes::tests::bending;
+    use crate::cut::tests::signed_clip;
 
     #[test]
     fn detectors_are_found_by_name_and_detect_nothing_without_input() {
-        for it in ALL_DETECTORS {
-            let found = find_detector(it.detector_name()).map(AnnotationDetector::detector_name);
-            assert_eq!(found, Some(it.detector_name()));
-            let words = it.detector_description();
+        for detector in ALL_DETECTORS {
+            let same = find_detector(detector.detector_name()).map(AnnotationDetector::detector_name);
+            assert_eq!(same, Some(detector.detector_name()));
+            let words = detector.detector_description();
             assert!(!words.finds.en.is_empty() && !words.finds.fr.is_empty());
-            assert!(!it.examines().is_empty());
-            assert!(
-                it.detect_annotations(&ObservedSigner::default()).is_empty(),
-                "{}",
-                it.detector_name()
-            );
+            assert!(!detector.examines().is_empty());
+            let detections = detector.detect_annotations(&ObservedSigner::default());
+            assert_eq!(detections, Ok(Vec::new()), "{}", detector.detector_name());
         }
-        assert!(find_detector("signs").is_none());
+        assert!(find_detector("waves").is_none());
     }
 
     #[test]
-    fn no_two_detectors_write_the_same_field() {
-        let mut all: Vec<String> = Vec::new();
-        for it in ALL_DETECTORS {
-            let own = it.detected_fields();
-            assert!(!own.is_empty(), "{}", it.detector_name());
-            all.extend(own.iter().map(ToString::to_string));
+    fn no_two_detectors_write_about_the_same_subject() {
+        let mut all: Vec<DetectedSubject> = Vec::new();
+        for detector in ALL_DETECTORS {
+            let subjects = detector.detected_subjects();
+            assert!(!subjects.is_empty(), "{}", detector.detector_name());
+            for subject in subjects {
+                assert!(!all.contains(&subject), "{subject:?}");
+                all.push(subject);
+            }
         }
-        let count = all.len();
-        all.sort_unstable();
-        all.dedup();
-        assert_eq!(all.len(), count, "{all:?}");
     }
 
     #[test]
-    fn every_detector_gives_spans_fields_and_confidences() {
-        let step = |s: f64| s.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * s.clamp(0.0, 1.0));
-        let (clip, anatomy) = bending(|t| step(2.0 * t - 1.0) - step(2.0 * t - 3.0));
+    fn every_detector_gives_spans_subjects_and_confidences() {
+        let (clip, anatomy) = signed_clip(1, 1.0);
         let raised: Vec<f64> = (0..200)
-            .map(|n| if (50..100).contains(&n) { 1.0 } else { 0.2 })
+            .map(|frame| if (50..100).contains(&frame) { 1.0 } else { 0.2 })
             .collect();
         let observed = ObservedSigner {
             body: Some(ObservedBody {
@@ -162,29 +166,21 @@ mod tests {
                 ..ObservedFaceCurves::default()
             }),
         };
-        for (name, field, count) in [
-            ("nonmanuals", "nonmanual.brows", 1),
-            ("strokes", "right.movement.phase", 2),
-        ] {
-            let found = find_detector(name).expect(name).detect_annotations(&observed);
-            assert_eq!(found.len(), count, "{found:?}");
-            for pair in found.windows(2) {
-                assert!(
-                    pair[0].span.span_end_instant() <= pair[1].span.span_start_instant(),
-                    "{pair:?}"
-                );
+        for (name, start) in [("nonmanuals", 1.0), ("signs", 10.0)] {
+            let detector = find_detector(name).expect(name);
+            let detections = detector.detect_annotations(&observed).expect("detections");
+            for pair in detections.windows(2) {
+                let is_same = pair[0].subject == pair[1].subject;
+                let is_before = pair[0].span.span_end_instant() <= pair[1].span.span_start_instant();
+                assert!(!is_same || is_before, "{pair:?}");
             }
-            let own = find_detector(name).expect(name).detected_fields();
-            for it in &found {
-                assert_eq!(it.field.to_string(), field);
-                assert!(own.contains(&it.field), "{it:?}");
-                assert!(!it.span.is_empty() && (0.0..=1.0).contains(&it.confidence));
+            let subjects = detector.detected_subjects();
+            for detection in &detections {
+                assert!(subjects.contains(&detection.subject), "{detection:?}");
+                assert!(!detection.span.is_empty() && (0.0..=1.0).contains(&detection.confidence));
+                assert!(detection.span.span_start_instant() >= RecordingInstant::from_seconds(start));
             }
+            assert!(!detections.is_empty(), "{name}");
         }
-        let hands = StrokeDetector.detect_annotations(&observed);
-        assert!(hands[0].span.span_start_instant() >= RecordingInstant::from_seconds(10.0));
-        let brows = NonmanualDetector.detect_annotations(&observed);
-        assert_eq!(brows[0].span.span_start_instant(), RecordingInstant::from_seconds(1.0));
-        assert_eq!(brows[0].span.span_end_instant(), RecordingInstant::from_seconds(2.0));
     }
 }

@@ -5,6 +5,7 @@
 //! | [`agreement`](mod@agreement) | how far annotators agree: on values, on spans, on both |
 //! | [`align`](mod@align) | the shift at which two signals of one event are most similar |
 //! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
+//! | [`cut`](mod@cut) | a take cut into signs, and hands into phases of movement |
 //! | [`detect`] | detectors behind one trait: spans, fields, values and confidences |
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | speed, aperture and palm direction of the hands, frame by frame |
@@ -21,6 +22,7 @@
 pub mod agreement;
 pub mod align;
 pub mod cue;
+pub mod cut;
 pub mod detect;
 pub mod dtw;
 pub mod kinematics;

@@ -444,11 +444,11 @@ fn every_detector_is_named_in_the_help_and_in_the_error_for_an_unknown_one() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
-    let done = desk.json(&format!("propose {path} --detector strokes"));
-    for key in ["annotations", "recordings", "unobserved", "found"] {
+    let done = desk.json(&format!("propose {path} --detector signs"));
+    for key in ["annotations", "recordings", "unobserved", "found", "without"] {
         assert!(done.get(key).is_some(), "{key} of {done}");
     }
-    assert_eq!(done["detector"], "strokes");
+    assert_eq!(done["detector"], "signs");
     let undone = desk.run(&format!("undo {path}"));
     assert_eq!(undone.status.code(), Some(0));
     let refused = desk.run(&format!("propose {path} --detector waves"));

@@ -2,43 +2,79 @@
 
 pub(crate) mod detect_faces;
 
+use std::ops::Range;
+
+use chereme_analysis::cut::{BaselineCuts, UncutReason, cut_baselines};
 use chereme_analysis::detect::{
-    ALL_DETECTORS, AnnotationDetector, DetectedStretch, ObservedBody, ObservedSigner, SignerPart, find_detector,
+    ALL_DETECTORS, AnnotationDetector, DetectedStretch, DetectedSubject, ObservedBody, ObservedSigner, SignDetector,
+    SignerPart, find_detector,
 };
 use chereme_formats::roles::AnnotatedHands;
 use chereme_formats::table::annotations::TableMoment;
-use chereme_motion::{RecordingInstant, TimeSpan};
-use chereme_sign::{ComponentField, TierRole};
+use chereme_motion::ends::OddFrames;
+use chereme_motion::{BodyAnatomy, RecordingInstant, TimeSpan};
+use chereme_sign::TierRole;
 use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
 use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName};
-use crate::db::stored_columns::AnnotationOrigin;
+use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin};
 use crate::db::stored_recordings::{self, RecordingRow};
-use crate::db::stored_tiers;
+use crate::db::stored_tiers::{self, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
-use crate::propose::{ProposeScope, proposal_tier};
-use crate::words::effect::OperationEffect;
+use crate::propose::{
+    PROPOSAL_TIER_SUFFIX, ProposalAcceptor, ProposeScope, accepting_tier, proposal_tier, proposed_for,
+};
+use crate::words::effect::{AnnotationEffect, OperationEffect};
 
 use detect_faces::FaceCurves;
 pub use detect_faces::FaceProposals;
 
-/// The length of movement that is examined at once, in microseconds: two hours.
-const DETECTION_PIECE_US: i64 = 7_200_000_000;
+/// The length of movement that is examined at once, in microseconds: ten minutes.
+const DETECTION_PIECE_US: i64 = 600_000_000;
 /// The time before and after such a piece that is read with it, in microseconds.
 const DETECTION_MARGIN_US: i64 = 10_000_000;
 
-/// Options of a detection: the detector, and the recordings.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Options of a detection: the detector, the recordings, and the use of what it finds.
+#[derive(Debug, Clone, PartialEq)]
 pub struct DetectOptions {
     /// The name of the detector, one of [`ALL_DETECTORS`].
     pub detector: String,
     /// The recordings; of a token or a span, the detections that overlap it.
     pub scope: ProposeScope,
+    /// The use of the detections.
+    pub use_as: DetectionUse,
+    /// The cost of a sign for the detector of signs, if not the usual one: a larger one gives fewer signs.
+    pub sign_cost: Option<f64>,
+}
+
+/// The use of detections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DetectionUse {
+    /// They are shown, and nothing is written.
+    Shown,
+    /// They become proposals, on tiers of their own.
+    #[default]
+    Proposed,
+    /// They become codings by the author of the corpus, on the author's own tiers, where nothing else lies.
+    Coded,
+}
+
+impl DetectOptions {
+    /// Returns the options that propose what a detector finds in its usual way.
+    #[must_use]
+    pub fn propose_with(detector: impl Into<String>, scope: ProposeScope) -> Self {
+        Self {
+            detector: detector.into(),
+            scope,
+            use_as: DetectionUse::Proposed,
+            sign_cost: None,
+        }
+    }
 }
 
 /// The result of a detection.
@@ -54,6 +90,17 @@ pub struct DetectionReport {
     pub unobserved: u64,
     /// The proposals of each recording with any.
     pub found: Vec<DetectedIn>,
+    /// The recordings in which nothing was found, each with the reason, if the detector knows it.
+    pub without: Vec<UndetectedIn>,
+}
+
+/// A recording in which nothing was found.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct UndetectedIn {
+    /// The recording's name.
+    pub recording: String,
+    /// The reason, and what can be done.
+    pub why: String,
 }
 
 /// The proposals for a recording.
@@ -68,16 +115,16 @@ pub struct DetectedIn {
 /// A proposed annotation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProposedAnnotation {
-    /// The field that it describes.
+    /// Its subject.
     #[serde(skip)]
-    pub field: ComponentField,
+    pub subject: DetectedSubject,
     /// The tier on which it belongs.
     pub tier: String,
     /// Its start on the recording's clock, in microseconds.
     pub start_us: i64,
     /// The first microsecond after it.
     pub end_us: i64,
-    /// The value of the field's inventory.
+    /// The gloss of a sign, or the value of the field's inventory.
     pub value: String,
     /// The confidence, from 0 to 1.
     pub confidence: f64,
@@ -87,16 +134,24 @@ pub struct ProposedAnnotation {
 
 impl ProposedAnnotation {
     /// Creates the proposal for a detection in a recording that ends at `end`, in microseconds.
-    fn new(it: DetectedStretch, end: i64) -> Self {
+    fn new(detection: DetectedStretch, end: i64) -> Self {
         Self {
-            tier: proposal_tier(&it.field),
-            start_us: it.span.span_start_instant().instant_micros().min(end),
-            end_us: it.span.span_end_instant().instant_micros().min(end),
-            value: it.value,
-            confidence: (it.confidence * 1000.0).round() / 1000.0,
-            why: it.why,
-            field: it.field,
+            tier: subject_tier(&detection.subject),
+            start_us: detection.span.span_start_instant().instant_micros().min(end),
+            end_us: detection.span.span_end_instant().instant_micros().min(end),
+            value: detection.value,
+            confidence: (detection.confidence * 1000.0).round() / 1000.0,
+            why: detection.why,
+            subject: detection.subject,
         }
+    }
+}
+
+/// Returns the name of the tier for proposals about a subject, such as `gloss (proposed)`.
+fn subject_tier(subject: &DetectedSubject) -> String {
+    match subject {
+        DetectedSubject::Sign => format!("gloss{PROPOSAL_TIER_SUFFIX}"),
+        DetectedSubject::Field(field) => proposal_tier(field),
     }
 }
 
@@ -110,12 +165,13 @@ pub(crate) struct ProposalChanges {
 }
 
 impl Corpus {
-    /// Runs a detector on recordings, and writes its detections onto tiers of their own, named for example
-    /// `movement.phase right (proposed)`.
+    /// Runs a detector on recordings, and by default writes its detections onto tiers of their own, named for example
+    /// `gloss (proposed)`.
     ///
     /// Each is an annotation by a detector ([`AnnotationOrigin::Detector`]) with its confidence. Earlier proposals on
-    /// the tiers of its fields that nobody has changed are replaced, even if nothing is found there any more; annotations of
-    /// people stay. All of it is one operation, which one undo reverts. Movement is examined in pieces of two hours.
+    /// the tiers of its subjects that nobody has changed are replaced, even if nothing is found there any more; annotations of
+    /// people stay. All of it is one operation, which one undo reverts. Movement is examined in pieces of ten minutes, without
+    /// odd frames at its ends.
     ///
     /// # Errors
     /// [`CorpusError::Stopped`] if `progress` asks to stop before anything is written. Fails if there is no such detector,
@@ -126,9 +182,19 @@ impl Corpus {
         options: &DetectOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<DetectionReport> {
-        let detector = find_detector_by_name(&options.detector)?;
+        let priced = SignDetector {
+            sign_cost: options.sign_cost,
+        };
+        let detector: &dyn AnnotationDetector = match find_detector_by_name(&options.detector)? {
+            detector if detector.detector_name() == priced.detector_name() => &priced,
+            detector if options.sign_cost.is_some() => {
+                let text = format!("{} has no cost of a sign", detector.detector_name());
+                return Err(CorpusError::from_wrong_message(text).with_advice("leave the cost out, or detect signs"));
+            }
+            detector => detector,
+        };
         let connection = self.store.read_connection();
-        let (all, within) = examined(connection, &options.scope)?;
+        let (all, within) = recordings_of_scope(connection, &options.scope)?;
         let mut detected = DetectionReport {
             detector: options.detector.clone(),
             ..DetectionReport::default()
@@ -141,16 +207,28 @@ impl Corpus {
                 total: Some(all.len() as u64),
                 unit: ProgressUnit::Items,
             })?;
-            let Some(mut proposals) = propose_for_recording(connection, detector, row)? else {
-                if options.scope != ProposeScope::All {
-                    return Err(unobserved(detector, row));
-                }
-                detected.unobserved += 1;
-                continue;
-            };
             let span = within.unwrap_or_else(|| whole_recording_span(row));
+            let mut proposals = match propose_for_recording(connection, detector, row)? {
+                Detections::Found(proposals) => proposals,
+                Detections::Nothing(why) => {
+                    let recording = row.name.clone();
+                    detected.without.push(UndetectedIn { recording, why });
+                    Vec::new()
+                }
+                Detections::Unobserved => {
+                    if !matches!(options.scope, ProposeScope::All | ProposeScope::Recordings(_)) {
+                        return Err(unobserved(detector, row));
+                    }
+                    detected.unobserved += 1;
+                    continue;
+                }
+            };
             proposals.retain(|proposal| span_overlaps_times(span, proposal.start_us, proposal.end_us));
-            changes.take_proposals(connection, row.id, span, detector, &proposals)?;
+            let coder = match options.use_as {
+                DetectionUse::Coded => Some(self.proposal_acceptor(row.id)?),
+                DetectionUse::Shown | DetectionUse::Proposed => None,
+            };
+            changes.take_proposals(connection, row.id, span, detector, &proposals, coder.as_ref())?;
             if !proposals.is_empty() {
                 detected.found.push(DetectedIn {
                     recording: row.name.clone(),
@@ -158,8 +236,10 @@ impl Corpus {
                 });
             }
         }
-        detected.annotations = changes.added;
-        detected.recordings = self.store_proposals(&changes, progress)?;
+        if options.use_as != DetectionUse::Shown {
+            detected.annotations = changes.added;
+            detected.recordings = self.store_proposals(&changes, options.use_as, progress)?;
+        }
         Ok(detected)
     }
 
@@ -167,17 +247,22 @@ impl Corpus {
     pub(crate) fn store_proposals(
         &mut self,
         changes: &ProposalChanges,
+        use_as: DetectionUse,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<Vec<String>> {
         if changes.changes.is_empty() {
             return Ok(Vec::new());
         }
+        type EffectOf = fn(AnnotationEffect) -> OperationEffect;
+        let (effect, origin): (EffectOf, _) = match use_as {
+            DetectionUse::Coded => (OperationEffect::Annotate, AnnotationOrigin::Human),
+            DetectionUse::Shown | DetectionUse::Proposed => (OperationEffect::Propose, AnnotationOrigin::Detector),
+        };
         let options = AnnotateOptions {
-            origin: AnnotationOrigin::Detector,
+            origin,
             ..AnnotateOptions::default()
         };
-        let propose = OperationEffect::Propose;
-        let report = self.annotate_with(propose, &changes.tiers, &changes.changes, &options, progress)?;
+        let report = self.annotate_with(effect, &changes.tiers, &changes.changes, &options, progress)?;
         Ok(report.recordings)
     }
 }
@@ -196,9 +281,18 @@ fn find_detector_by_name(name: &str) -> CorpusResult<&'static dyn AnnotationDete
 }
 
 /// Returns the recordings of a scope, and the span that detections must overlap.
-fn examined(connection: &Connection, scope: &ProposeScope) -> CorpusResult<(Vec<RecordingRow>, Option<TimeSpan>)> {
+pub(crate) fn recordings_of_scope(
+    connection: &Connection,
+    scope: &ProposeScope,
+) -> CorpusResult<(Vec<RecordingRow>, Option<TimeSpan>)> {
     Ok(match scope {
         ProposeScope::All => (stored_recordings::load_recording_rows(connection)?, None),
+        ProposeScope::Recordings(names) => {
+            let rows = names
+                .iter()
+                .map(|name| address::find_recording_by_name(connection, name));
+            (rows.collect::<CorpusResult<_>>()?, None)
+        }
         ProposeScope::Recording(name) => (vec![address::find_recording_by_name(connection, name)?], None),
         ProposeScope::Span(name, span) => (vec![address::find_recording_by_name(connection, name)?], Some(*span)),
         ProposeScope::Token(token) => {
@@ -208,117 +302,166 @@ fn examined(connection: &Connection, scope: &ProposeScope) -> CorpusResult<(Vec<
     })
 }
 
-/// Returns the proposals of a detector for a recording; `None` if the recording has no part that it examines.
+/// The detections in a recording.
+pub(crate) enum Detections {
+    /// The proposals.
+    Found(Vec<ProposedAnnotation>),
+    /// The reason why there are none.
+    Nothing(String),
+    /// The recording has no part that the detector examines.
+    Unobserved,
+}
+
+/// Returns the proposals of a detector for a recording.
 pub(crate) fn propose_for_recording(
     connection: &Connection,
     detector: &dyn AnnotationDetector,
     row: &RecordingRow,
-) -> CorpusResult<Option<Vec<ProposedAnnotation>>> {
+) -> CorpusResult<Detections> {
     let examines = |part| detector.examines().contains(&part);
-    let groups: &[ChannelGroup] = match (examines(SignerPart::Body), examines(SignerPart::Arms)) {
-        (true, _) => &ChannelGroup::ALL_CHANNEL_GROUPS,
-        (false, true) => &[ChannelGroup::RightArm, ChannelGroup::LeftArm],
-        (false, false) => &[],
-    };
-    let moves = !groups.is_empty() && stored_recordings::body_track(connection, row.id)?.is_some();
+    let moves = examines(SignerPart::Body) && stored_recordings::body_track(connection, row.id)?.is_some();
     let face = match examines(SignerPart::Face) {
         true => FaceCurves::read_face_curves(connection, row)?,
         false => None,
     };
     if !moves && face.is_none() {
-        return Ok(None);
+        return Ok(Detections::Unobserved);
     }
     let face = face.as_ref();
     let detections = match moves {
         true => {
-            let track = MotionTrack::open_motion_track(connection, row.id)?;
-            in_pieces(
-                connection,
-                detector,
-                &track,
-                groups,
-                face,
-                DETECTION_PIECE_US,
-                DETECTION_MARGIN_US,
-            )?
+            let take = ExaminedTake::open_examined_take(connection, row, face)?;
+            take.detect_in_pieces(detector, DETECTION_PIECE_US, DETECTION_MARGIN_US)?
         }
         false => detector.detect_annotations(&ObservedSigner {
             body: None,
             face: face.map(FaceCurves::detector_curves),
         }),
     };
-    let detected = detections.into_iter();
-    let kept_proposals = detected.map(|detection| ProposedAnnotation::new(detection, row.duration_us));
-    Ok(Some(
-        kept_proposals
-            .filter(|proposal| proposal.end_us > proposal.start_us)
-            .collect(),
-    ))
+    let detections = match detections {
+        Ok(detections) => detections,
+        Err(reason) => return Ok(Detections::Nothing(reason.to_string())),
+    };
+    let mut proposals: Vec<ProposedAnnotation> = detections
+        .into_iter()
+        .map(|detection| ProposedAnnotation::new(detection, row.duration_us))
+        .collect();
+    proposals.retain(|proposal| proposal.end_us > proposal.start_us);
+    Ok(Detections::Found(proposals))
 }
 
-/// Returns the detections in a movement, field by field in order of time, which is examined in pieces of so many
-/// microseconds, each with some time around it; each detection belongs to the piece in which it starts.
-fn in_pieces(
-    connection: &Connection,
-    detector: &dyn AnnotationDetector,
-    track: &MotionTrack,
-    groups: &[ChannelGroup],
-    face: Option<&FaceCurves>,
-    piece: i64,
-    around: i64,
-) -> CorpusResult<Vec<DetectedStretch>> {
-    let anatomy = track.track_anatomy(connection)?;
-    let first = track.row.offset_us;
-    let instant_at = |micros: i64| RecordingInstant::from_micros(first.saturating_add(micros));
-    let length = track
-        .rate
-        .frame_start_instant(track.motion_frame_count())
-        .instant_micros();
-    let mut all: Vec<DetectedStretch> = Vec::new();
-    let mut start = 0;
-    loop {
-        let end = start + piece;
-        let is_last = end >= length;
-        let wanted = match (start, is_last) {
-            (0, _) => instant_at(0),
-            _ => instant_at(start - around),
+/// The movement of a recording that a detector examines, without odd frames at its ends.
+pub(crate) struct ExaminedTake<'a> {
+    connection: &'a Connection,
+    track: MotionTrack,
+    anatomy: BodyAnatomy,
+    sound: Range<usize>,
+    face: Option<&'a FaceCurves>,
+}
+
+impl<'a> ExaminedTake<'a> {
+    pub(crate) fn open_examined_take(
+        connection: &'a Connection,
+        row: &RecordingRow,
+        face: Option<&'a FaceCurves>,
+    ) -> CorpusResult<Self> {
+        let track = MotionTrack::open_motion_track(connection, row.id)?;
+        let anatomy = track.track_anatomy(connection)?;
+        let all = track.motion_frame_count();
+        let sound = match row.origin {
+            RecordOrigin::Made => 0..all,
+            _ => OddFrames::remaining_frames(all, &track.odd_frames(connection, &anatomy)?),
         };
-        let wanted_frames = track.frames_in(TimeSpan::span_between(wanted, instant_at(end + around)));
-        let frames = match is_last {
-            true => wanted_frames.start..track.motion_frame_count(),
-            false => wanted_frames,
-        };
-        let begins = instant_at(track.rate.frame_start_instant(frames.start).instant_micros());
-        let clip = track.read_motion_clip(connection, frames, groups)?;
-        let detections = detector.detect_annotations(&ObservedSigner {
-            body: Some(ObservedBody {
-                clip: &clip,
-                anatomy: &anatomy,
-                start: begins,
-            }),
-            face: face.map(FaceCurves::detector_curves),
-        });
-        let starts_inside = |detection: &DetectedStretch| {
-            let from = detection.span.span_start_instant();
-            (start == 0 || from >= instant_at(start)) && (is_last || from < instant_at(end))
-        };
-        for it in detections.into_iter().filter(starts_inside) {
-            let is_known = |known: &DetectedStretch| {
-                known.field == it.field && known.span.span_end_instant() > it.span.span_start_instant()
+        Ok(Self {
+            connection,
+            track,
+            anatomy,
+            sound,
+            face,
+        })
+    }
+
+    /// Returns the cuts of the take in the simplest ways, on the recording's clock.
+    pub(crate) fn cut_into_baselines(&self) -> CorpusResult<BaselineCuts> {
+        let sound = self.sound.clone();
+        let start = self.track.row.offset_us + self.track.rate.frame_start_instant(sound.start).instant_micros();
+        let clip = self
+            .track
+            .read_motion_clip(self.connection, sound, &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+        let mut cuts = cut_baselines(&clip, &self.anatomy);
+        for span in cuts.activities.iter_mut().chain(&mut cuts.speed_minima) {
+            *span = span.shifted_span(start);
+        }
+        Ok(cuts)
+    }
+
+    /// Returns the detections, subject by subject in order of time. The movement is examined in pieces of so many
+    /// microseconds, each with some time around it; each detection belongs to the piece in which it starts.
+    fn detect_in_pieces(
+        &self,
+        detector: &dyn AnnotationDetector,
+        piece: i64,
+        around: i64,
+    ) -> CorpusResult<Result<Vec<DetectedStretch>, UncutReason>> {
+        let rate = self.track.rate;
+        let frame_micros = |frame: usize| rate.frame_start_instant(frame).instant_micros();
+        let first = self.track.row.offset_us + frame_micros(self.sound.start);
+        let instant_at = |micros: i64| RecordingInstant::from_micros(first.saturating_add(micros));
+        let length = frame_micros(self.sound.end) - frame_micros(self.sound.start);
+        let mut all: Vec<DetectedStretch> = Vec::new();
+        let mut reason = None;
+        let mut start = 0;
+        loop {
+            let end = start + piece;
+            let is_last = end >= length;
+            let wanted = TimeSpan::span_between(instant_at((start - around).max(0)), instant_at(end + around));
+            let wanted_frames = self.track.frames_in(wanted);
+            let frames = match is_last {
+                true => wanted_frames.start.max(self.sound.start)..self.sound.end,
+                false => wanted_frames.start.max(self.sound.start)..wanted_frames.end.min(self.sound.end),
             };
-            let is_near = start > 0 && it.span.span_start_instant() < instant_at(start + around);
-            if !is_near || !all.iter().any(is_known) {
-                all.push(it);
+            let begins = RecordingInstant::from_micros(self.track.row.offset_us + frame_micros(frames.start));
+            let clip = self
+                .track
+                .read_motion_clip(self.connection, frames, &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+            let detections = detector.detect_annotations(&ObservedSigner {
+                body: Some(ObservedBody {
+                    clip: &clip,
+                    anatomy: &self.anatomy,
+                    start: begins,
+                }),
+                face: self.face.map(FaceCurves::detector_curves),
+            });
+            let detections = detections.unwrap_or_else(|why| {
+                reason = Some(why);
+                Vec::new()
+            });
+            let starts_inside = |detection: &DetectedStretch| {
+                let from = detection.span.span_start_instant();
+                (start == 0 || from >= instant_at(start)) && (is_last || from < instant_at(end))
+            };
+            for detection in detections.into_iter().filter(starts_inside) {
+                let overlaps = |earlier: &DetectedStretch| {
+                    earlier.subject == detection.subject
+                        && earlier.span.span_end_instant() > detection.span.span_start_instant()
+                };
+                let is_near = start > 0 && detection.span.span_start_instant() < instant_at(start + around);
+                if !is_near || !all.iter().any(overlaps) {
+                    all.push(detection);
+                }
             }
-        }
-        if is_last {
-            if start > 0 {
-                let fields = detector.detected_fields();
-                all.sort_by_key(|detection| fields.iter().position(|field| *field == detection.field));
+            if is_last {
+                if start > 0 {
+                    let subjects = detector.detected_subjects();
+                    all.sort_by_key(|detection| subjects.iter().position(|subject| *subject == detection.subject));
+                }
+                return Ok(match reason {
+                    Some(why) if all.is_empty() => Err(why),
+                    _ => Ok(all),
+                });
             }
-            return Ok(all);
+            start = end;
         }
-        start = end;
     }
 }
 
@@ -337,13 +480,15 @@ fn whole_recording_span(row: &RecordingRow) -> TimeSpan {
     )
 }
 
-fn span_overlaps_times(span: TimeSpan, start: i64, end: i64) -> bool {
+/// Returns whether a span and a stretch of microseconds have time in common.
+pub(crate) fn span_overlaps_times(span: TimeSpan, start: i64, end: i64) -> bool {
     start < span.span_end_instant().instant_micros() && span.span_start_instant().instant_micros() < end
 }
 
 impl ProposalChanges {
-    /// Adds the changes that store the proposals of a detector for a recording: on each tier of its fields they replace
-    /// the annotations of detectors that overlap `within`, and leave out what other annotations occupy.
+    /// Adds the changes that store the proposals of a detector for a recording: on each tier of its subjects they replace
+    /// the annotations of detectors that overlap `within`, and leave out what other annotations occupy. With a `coder` they
+    /// go onto that person's tiers, and replace nothing.
     pub(crate) fn take_proposals(
         &mut self,
         connection: &Connection,
@@ -351,35 +496,55 @@ impl ProposalChanges {
         within: TimeSpan,
         detector: &dyn AnnotationDetector,
         proposals: &[ProposedAnnotation],
+        coder: Option<&ProposalAcceptor>,
     ) -> CorpusResult<()> {
         let tier_rows = stored_tiers::load_tier_rows(connection, recording)?;
-        for field in detector.detected_fields() {
-            let name = proposal_tier(&field);
-            let mut field_proposals = proposals.iter().filter(|proposal| proposal.tier == name).peekable();
+        let is_name_used = |name: &str| tier_rows.iter().any(|row| row.name == name);
+        for subject in detector.detected_subjects() {
+            let proposal_name = subject_tier(&subject);
+            let mut tier = new_subject_tier(recording, &subject);
+            let known_tier = match coder {
+                None => tier_rows.iter().find(|row| row.name == proposal_name),
+                Some(coder) => {
+                    let own_name = proposed_for(&proposal_name).unwrap_or(&proposal_name);
+                    tier.name = match is_name_used(own_name) {
+                        true => format!("{own_name} ({})", coder.author),
+                        false => own_name.to_owned(),
+                    };
+                    let row = TierRow {
+                        name: proposal_name.clone(),
+                        role: tier.role.clone(),
+                        hand: tier.hand,
+                        ..TierRow::default()
+                    };
+                    accepting_tier(&row, tier_rows.iter(), coder)
+                }
+            };
             let mut occupied = Vec::new();
-            match (tier_rows.iter().find(|row| row.name == name), field_proposals.peek()) {
-                (Some(row), _) => {
-                    for old in stored_tiers::load_tier_annotation_rows(connection, row.id)? {
-                        if old.origin == AnnotationOrigin::Detector
-                            && span_overlaps_times(within, old.start_us, old.end_us)
-                        {
-                            let annotation = AnnotationName::Number(old.id);
-                            self.changes.push(AnnotationAction::Remove { annotation }.into());
-                        } else {
-                            occupied.push(old.start_us..old.end_us);
-                        }
+            if let Some(row) = known_tier {
+                tier.name.clone_from(&row.name);
+                for old in stored_tiers::load_tier_annotation_rows(connection, row.id)? {
+                    let is_replaced = coder.is_none()
+                        && old.origin == AnnotationOrigin::Detector
+                        && span_overlaps_times(within, old.start_us, old.end_us);
+                    if is_replaced {
+                        let annotation = AnnotationName::Number(old.id);
+                        self.changes.push(AnnotationAction::Remove { annotation }.into());
+                    } else {
+                        occupied.push(old.start_us..old.end_us);
                     }
                 }
-                (None, Some(first)) => self.tiers.push(tier_of(recording, first)),
-                (None, None) => {}
             }
-            for it in field_proposals {
+            let name = tier.name.clone();
+            let mut needed_tier = known_tier.is_none().then_some(tier);
+            for proposal in proposals.iter().filter(|proposal| proposal.subject == subject) {
                 let mut others = occupied.iter();
-                if others.any(|own| own.start < it.end_us && it.start_us < own.end) {
+                if others.any(|other| other.start < proposal.end_us && proposal.start_us < other.end) {
                     continue;
                 }
-                occupied.push(it.start_us..it.end_us);
-                self.changes.push(addition(recording, it));
+                self.tiers.extend(needed_tier.take());
+                occupied.push(proposal.start_us..proposal.end_us);
+                self.changes.push(addition(recording, &name, proposal));
                 self.added += 1;
             }
         }
@@ -387,25 +552,30 @@ impl ProposalChanges {
     }
 }
 
-/// Returns the new tier for a proposal and others of its field.
-fn tier_of(recording: i64, proposal: &ProposedAnnotation) -> NewTier {
-    let field = &proposal.field;
-    let role = TierRole::Component {
-        component: field.component,
-        feature: field.feature.clone(),
+/// Returns the new tier for proposals about a subject.
+fn new_subject_tier(recording: i64, subject: &DetectedSubject) -> NewTier {
+    let (role, hand) = match subject {
+        DetectedSubject::Sign => (TierRole::Gloss, None),
+        DetectedSubject::Field(field) => {
+            let role = TierRole::Component {
+                component: field.component,
+                feature: field.feature.clone(),
+            };
+            (role, field.hand)
+        }
     };
-    let mut tier = NewTier::new(RowName::Number(recording), proposal.tier.clone(), role);
-    tier.hand = field.hand.map(AnnotatedHands::One);
+    let mut tier = NewTier::new(RowName::Number(recording), subject_tier(subject), role);
+    tier.hand = hand.map(AnnotatedHands::One);
     tier
 }
 
-/// Returns the change that adds a proposal to its tier.
-fn addition(recording: i64, proposal: &ProposedAnnotation) -> AnnotationChange {
+/// Returns the change that adds a proposal to a tier.
+fn addition(recording: i64, tier: &str, proposal: &ProposedAnnotation) -> AnnotationChange {
     let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
     AnnotationAction::Add {
         tier: TierRequestName::Of {
             recording: RowName::Number(recording),
-            tier: proposal.tier.clone(),
+            tier: tier.to_owned(),
         },
         start: time(proposal.start_us),
         end: time(proposal.end_us),
@@ -437,18 +607,21 @@ mod tests {
             .import_paths(&[path], &options, &mut ProgressReceiver::new(&mut hear))
             .expect("taken in");
         let connection = corpus.store.read_connection();
-        let track = MotionTrack::open_motion_track(connection, 1).expect("a track");
-        let strokes = find_detector("strokes").expect("a detector");
-        let found = |piece: i64, around: i64| {
-            let groups = [ChannelGroup::RightArm, ChannelGroup::LeftArm];
-            in_pieces(connection, strokes, &track, &groups, None, piece, around).expect("examined")
+        let row = stored_recordings::load_recording_row(connection, 1).expect("a recording");
+        let take = ExaminedTake::open_examined_take(connection, &row, None).expect("a take");
+        let signs = find_detector("signs").expect("a detector");
+        let detect = |piece: i64, around: i64| {
+            let detections = take.detect_in_pieces(signs, piece, around).expect("examined");
+            detections.expect("signs")
         };
-        let whole = found(DETECTION_PIECE_US, DETECTION_MARGIN_US);
+        let whole = detect(DETECTION_PIECE_US, DETECTION_MARGIN_US);
         assert!(whole.len() > 4, "{whole:?}");
-        assert_eq!(found(2_000_000, DETECTION_MARGIN_US), whole);
-        let parts = found(3_000_000, 2_000_000);
+        assert_eq!(detect(2_000_000, DETECTION_MARGIN_US), whole);
+        let parts = detect(3_000_000, 2_000_000);
         let facts = |all: &[DetectedStretch]| -> Vec<(String, String)> {
-            let facts = all.iter().map(|it| (it.field.to_string(), it.value.clone()));
+            let facts = all
+                .iter()
+                .map(|detection| (format!("{:?}", detection.subject), detection.value.clone()));
             facts.collect()
         };
         assert_eq!(facts(&parts), facts(&whole));

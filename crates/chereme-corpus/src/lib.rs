@@ -87,9 +87,9 @@ pub use chereme_sign::{TierRole, TierStereotype, TierTopic};
 
 pub use address::{CorpusAddress, RecordingStretch, RowName};
 pub use agree::{
-    AdjudicationResult, AgreeOptions, AnnotatorAgreement, DisagreementCounts, DisagreementKind, DisagreementSide,
-    FEWEST_UNITS, FigureInterval, MEASURE_NAMES, MeasureFigure, PairAgreement, USUAL_MEASURES, UnitCounts,
-    ValueAgreement, ValueConfusion, ValueDisagreement, alike_tiers,
+    AdjudicationResult, AgreeOptions, AnnotatorAgreement, BaselineAgreement, DisagreementCounts, DisagreementKind,
+    DisagreementSide, FEWEST_UNITS, FigureInterval, MEASURE_NAMES, MeasureFigure, PairAgreement, USUAL_MEASURES,
+    UnitCounts, ValueAgreement, ValueConfusion, ValueDisagreement, alike_tiers,
 };
 pub use animate::NotationStaging;
 pub use annotate::{
@@ -100,6 +100,7 @@ pub use annotate::{
 pub use annotate::{annotate_clipboard, annotate_paste, drag_limits, requests, snap, tier_values};
 pub use author::determine_author;
 pub use check::{CheckReport, CorpusFault};
+pub use chereme_analysis::cut::CutOptions;
 pub use chereme_analysis::detect::{ALL_DETECTORS, AnnotationDetector, NonmanualDetector};
 pub use chereme_analysis::kinematics::{ClipKinematicCurves, HandCurves};
 pub use chereme_analysis::phases::{NoPath, PhaseScore};
@@ -142,7 +143,9 @@ pub use db::stored_tiers::{TierRow, TierShown};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
 pub use details::{ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue};
-pub use detect::{DetectOptions, DetectedIn, DetectionReport, FaceProposals, ProposedAnnotation};
+pub use detect::{
+    DetectOptions, DetectedIn, DetectionReport, DetectionUse, FaceProposals, ProposedAnnotation, UndetectedIn,
+};
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{CorpusError, CorpusResult, DatabaseFailureCause, FailedStep, MeantName, WrongQuery};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};

@@ -21,6 +21,7 @@ use crate::contents::ProposalAcceptor;
 use crate::db::signs;
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::{stored_recordings, stored_tiers};
+use crate::detect::{recordings_of_scope, span_overlaps_times};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::search::{SearchHit, SearchOptions};
@@ -43,6 +44,8 @@ pub enum ProposeScope {
     All,
     /// Those of a recording.
     Recording(RowName),
+    /// Those of several recordings.
+    Recordings(Vec<RowName>),
     /// Those of a recording that overlap a span.
     Span(RowName, TimeSpan),
     /// A single one.
@@ -101,7 +104,7 @@ impl ProposalResult {
 }
 
 /// The suffix of the names of tiers with proposals.
-const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
+pub(crate) const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
 
 /// Returns the name of the tier that accepted values from a tier with proposals are moved to; `None` for other tiers.
 #[must_use]
@@ -185,6 +188,40 @@ impl Corpus {
                     .with_advice("name one, such as recording:3 or token:41"),
             ),
         }
+    }
+
+    /// Returns the scope that a text names: all of the corpus if it is empty, else that of an address, or the recordings of the
+    /// tokens that a query finds.
+    ///
+    /// # Errors
+    /// Fails if the address names nothing in the corpus, or the query is wrong.
+    pub fn propose_scope_of_text(&mut self, text: &str) -> CorpusResult<ProposeScope> {
+        if text.trim().is_empty() {
+            return Ok(ProposeScope::All);
+        }
+        let unaddressed = match text.parse::<CorpusAddress>() {
+            Ok(address) => match self.propose_scope(&address) {
+                Ok(scope) => return Ok(scope),
+                Err(error) => Some(error),
+            },
+            Err(_) => None,
+        };
+        let options = SearchOptions {
+            limit: None,
+            facets: false,
+            ..SearchOptions::default()
+        };
+        let is_query = text.contains(['=', '~', '<', '>']);
+        if let (Some(error), false) = (unaddressed, is_query) {
+            return Err(error);
+        }
+        let hits = self.search_tokens(text, &options)?.hits;
+        let names: BTreeSet<String> = hits.into_iter().filter_map(|hit| hit.recording).collect();
+        if names.is_empty() {
+            let wrong = format!("{text} finds no token with a recording");
+            return Err(CorpusError::from_wrong_message(wrong).with_advice("name a recording, such as recording:3"));
+        }
+        Ok(ProposeScope::Recordings(names.into_iter().map(RowName::Text).collect()))
     }
 
     /// Proposes one component for every token of the corpus without a value for it, see [`propose_components`](Self::propose_components).
@@ -271,6 +308,7 @@ impl Corpus {
                 report.findings.push(format!("{why}: {}", names.join(", ")));
             }
         }
+        report.findings.extend(self.uncut_takes(&options.scope)?);
         let (new, changes) = self.proposal_changes(values)?;
         report.annotations = changes.len() as u64;
         for change in &changes {
@@ -308,12 +346,9 @@ impl Corpus {
                 .join(", ");
             return Err(CorpusError::from_wrong_message(text).with_advice(format!("what can be proposed: {readable}")));
         }
-        let name = match scope {
-            ProposeScope::Recording(name) | ProposeScope::Span(name, _) => {
-                Some(crate::address::find_recording_by_name(self.store.read_connection(), name)?.name)
-            }
-            ProposeScope::All | ProposeScope::Token(_) => None,
-        };
+        let (recordings, span) = recordings_of_scope(self.store.read_connection(), scope)?;
+        let names: BTreeSet<String> = recordings.into_iter().map(|row| row.name).collect();
+        let is_of_names = |hit: &SearchHit| hit.recording.as_ref().is_some_and(|name| names.contains(name));
         let options = SearchOptions {
             limit: None,
             facets: false,
@@ -326,17 +361,30 @@ impl Corpus {
             _ if opinions.contains(&hit.token) => false,
             ProposeScope::All => true,
             ProposeScope::Token(token) => hit.token == *token,
-            ProposeScope::Recording(_) => hit.recording == name,
-            ProposeScope::Span(_, span) => {
-                let (Some(start), Some(end)) = (hit.start_us, hit.end_us) else {
-                    return false;
-                };
-                let shares = start < span.span_end_instant().instant_micros()
-                    && end > span.span_start_instant().instant_micros();
-                hit.recording == name && shares
+            ProposeScope::Recording(_) | ProposeScope::Recordings(_) => is_of_names(hit),
+            ProposeScope::Span(..) => {
+                let times = span.zip(hit.start_us.zip(hit.end_us));
+                let shares = times.is_some_and(|(span, (start, end))| span_overlaps_times(span, start, end));
+                is_of_names(hit) && shares
             }
         };
         Ok(answer.hits.into_iter().filter(is_in).collect())
+    }
+
+    /// Returns a finding for takes of a scope that move but have no signs yet: it names the command that cuts them.
+    fn uncut_takes(&self, scope: &ProposeScope) -> CorpusResult<Option<String>> {
+        let connection = self.store.read_connection();
+        let mut uncut_names = Vec::new();
+        for recording in recordings_of_scope(connection, scope)?.0 {
+            let is_uncut = signs::tokens_of_recording(connection, recording.id)?.is_empty();
+            if is_uncut && stored_recordings::body_track(connection, recording.id)?.is_some() {
+                uncut_names.push(recording.name);
+            }
+        }
+        Ok((!uncut_names.is_empty()).then(|| {
+            let names = uncut_names.join(", ");
+            format!("no signs are marked yet, so nothing is proposed for them; `chereme detect CORPUS signs in RECORDING --propose` cuts takes into signs: {names}")
+        }))
     }
 
     /// Returns the recording of a token if no joint of its body turns.
@@ -437,35 +485,23 @@ impl Corpus {
     /// Fails if nothing has the name in the scope, or the corpus cannot be read.
     pub fn find_proposals(&self, choice: &ProposalChoice) -> CorpusResult<Vec<i64>> {
         let connection = self.store.read_connection();
-        let (recordings, span) = match &choice.scope {
-            ProposeScope::All => (stored_recordings::load_recording_rows(connection)?, None),
-            ProposeScope::Recording(name) => (vec![crate::address::find_recording_by_name(connection, name)?], None),
-            ProposeScope::Span(name, span) => (
-                vec![crate::address::find_recording_by_name(connection, name)?],
-                Some(*span),
-            ),
-            ProposeScope::Token(token) => {
-                let stretch = crate::address::find_addressed_stretch(connection, &CorpusAddress::Token(*token))?;
-                (vec![stretch.recording], Some(stretch.span))
-            }
-        };
+        let (recordings, span) = recordings_of_scope(connection, &choice.scope)?;
         let mut proposals = Vec::new();
         for recording in recordings {
             for tier in stored_tiers::load_tier_rows(connection, recording.id)? {
-                let (Some(name), Some((component, _))) = (proposed_for(&tier.name), tier.role.role_component()) else {
+                let Some(name) = proposed_for(&tier.name) else {
                     continue;
                 };
                 let is_named = |wanted: &String| *wanted == tier.name || *wanted == name;
                 let is_chosen = choice.tiers.is_empty() || choice.tiers.iter().any(is_named);
-                if !is_chosen || !(choice.components.is_empty() || choice.components.contains(&component)) {
+                let component = tier.role.role_component().map(|(component, _)| component);
+                let is_wanted_part = |wanted: &SignComponent| Some(*wanted) == component;
+                if !is_chosen || !(choice.components.is_empty() || choice.components.iter().any(is_wanted_part)) {
                     continue;
                 }
                 let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?.into_iter();
                 let is_wanted = |row: &stored_tiers::AnnotationRow| {
-                    let shares = |span: TimeSpan| {
-                        row.start_us < span.span_end_instant().instant_micros()
-                            && row.end_us > span.span_start_instant().instant_micros()
-                    };
+                    let shares = |span: TimeSpan| span_overlaps_times(span, row.start_us, row.end_us);
                     let sure = choice
                         .least_confidence
                         .is_none_or(|least| row.confidence >= Some(least));

@@ -64,7 +64,7 @@ impl Corpus {
 
 /// Updates the tokens of a recording from its tiers; tokens that remain keep their rows.
 ///
-/// Each annotation with a value on a gloss tier is a token. Its values are those of the component tiers during it, as far as
+/// Each annotation with a value on a gloss tier is a token, unless it is a proposal. Its values are those of the component tiers during it, as far as
 /// they [count](counted_reading), except the phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens near
 /// that time are derived, which suffices after a change within it. Values are converted to the ids of the tiers'
 /// inventories.
@@ -208,7 +208,7 @@ impl AnnotationsByTime {
     ) -> CorpusResult<Self> {
         let all = stored_tiers::load_tier_rows(connection, recording.id)?;
         let is_coding = |tier: &&TierRow| !tier.is_of_phases();
-        let of_glosses = || all.iter().filter(|tier| tier.role == TierRole::Gloss);
+        let of_glosses = || all.iter().filter(|tier| tier.holds_glosses());
         let of_components = || {
             let coded = |tier: &&TierRow| tier.role.role_component().is_some();
             all.iter().filter(coded).filter(is_coding)

@@ -42,6 +42,7 @@ help-command-import-import-recordings-annotations-lexicons-inventories-into = Im
 help-command-import-files-folders-standard-input-with-kind = Files and folders; - is standard input, with its kind in --format
 help-command-import-kind-file-on-standard-input-as = The kind of the file on standard input, as an extension: eaf, bvh, csv, sigml ...
 help-command-import-name-recording-table-on-standard-input = The name of the recording or table on standard input
+help-command-import-give-each-take-without-tokens = Give each take without tokens one whose gloss is the take's name, over the sign that is found in its movement
 help-command-import-report-what-would-done-write-nothing = Report what would be done, and write nothing
 help-command-import-keep-your-edits-take-file-s = Keep your edits and take the file's other changes; if both changed the same annotation, yours stays
 help-command-import-take-everything-from-file-even-if = Take everything from the file, even if it takes back your edits

@@ -1,8 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
 line-command-propose-accepted = { $n } accepted
-line-command-propose-proposed-in = proposed: { $annotations } in { $recordings }
-line-command-propose-nothing-examine-in = nothing to examine in { $recordings }
 line-command-propose-in-for-could-not-read-from = { $annotations } in { $recordings }, for { $tokens }; { $unread } could not be read from movement
 line-command-propose-left-because-something-else-lies = left, because something else lies in their place: { $n }
 line-command-propose-by-confidence = by confidence, from: { $counts }
@@ -18,8 +16,8 @@ help-command-propose-accept-those-tiers-with-this-name = Accept those of tiers w
 help-command-propose-accept-those-with-this-confidence = Accept those with this confidence or more, from 0 to 1
 help-command-propose-with-accept-proposals-become-your-own = With --accept, proposals become your own codings on the tiers that you have for that component and hand; empty tiers of proposals are removed. Without numbers all are accepted, or those of a component, --for, --tier and --confidence.
 help-command-propose-movement-each-token-transcribed-values-written = The movement of each token is transcribed, and the values are written on separate tiers, such as "configuration dominant (proposed)", as annotations of a detector. They do not count in searches, counts, statistics, recipes and exports of tokens until a person accepts them; the condition `proposed:yes` reads them. A call is one operation, which `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
-help-command-propose-with-detector-no-transcription-runs-detector = With --detector no transcription runs: the detector examines whole recordings, and its detections are written on tiers such as "movement.phase right (proposed)", where they replace earlier ones that nobody has changed.
-help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens whose movement could not be transcribed, "recordings", the names of those with new annotations, and "by_confidence", the numbers of annotations for each tenth of confidence. With --accept it gives what `annotate` gives, and "left", the number of proposals for which there is no room. With --detector it gives "detector", "annotations", "recordings", "unobserved", the number of recordings without the part that the detector examines, and "found", the proposals of each recording with tier, times, value, confidence and evidence.
+help-command-propose-with-detector-short-for-detect = With --detector no transcription runs; it is short for `detect --propose`.
+help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens whose movement could not be transcribed, "recordings", the names of those with new annotations, and "by_confidence", the numbers of annotations for each tenth of confidence. With --accept it gives what `annotate` gives, and "left", the number of proposals for which there is no room. With --detector it gives what `detect` gives.
 help-command-propose-finds-proposed-codings-too = (finds proposed codings, too)
 help-command-propose-takes-all-them-back = (takes all of them back)
 message-command-propose-numbers-name-proposals-already = numbers of annotations name proposals already: leave out the component, --for, --tier and --confidence

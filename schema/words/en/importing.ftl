@@ -1,5 +1,8 @@
 ## Messages: `{ $name }` is a variable part.
 
+message-importing-no-sign-found-so-gloss-covers = no sign was found, so the gloss covers the whole take: { $why }
+message-importing-signs-found-between-rests = { $n } signs were found between rests; the gloss covers the longest one
+message-importing-detect-shows-all-of-them = `chereme detect CORPUS signs in RECORDING` shows all of them
 message-importing-file-has-more-than-bytes = the file has more than { $n } bytes
 message-importing-file-has-bytes = the file has { $n } bytes
 message-importing-numbers-in-column-may-have-comma = numbers in the column { $name } may have a comma before decimals or before thousands; { $text } was read as { $number }, and so were { $n } in all

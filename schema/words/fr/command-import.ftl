@@ -42,6 +42,7 @@ help-command-import-import-recordings-annotations-lexicons-inventories-into = Im
 help-command-import-files-folders-standard-input-with-kind = Fichiers et dossiers ; - est l’entrée standard, et --format en donne le genre
 help-command-import-kind-file-on-standard-input-as = Le genre de fichier de l’entrée standard, par son extension : eaf, bvh, csv, sigml ...
 help-command-import-name-recording-table-on-standard-input = Le nom de l’enregistrement ou de la table de l’entrée standard
+help-command-import-give-each-take-without-tokens = Donner à chaque prise sans occurrence une occurrence dont la glose est le nom de la prise, sur le signe trouvé dans son mouvement
 help-command-import-report-what-would-done-write-nothing = Dire ce qui serait fait, sans rien écrire
 help-command-import-keep-your-edits-take-file-s = Garder vos modifications et prendre les autres du fichier ; si les deux ont changé la même annotation, la vôtre reste
 help-command-import-take-everything-from-file-even-if = Tout prendre du fichier, même si cela annule vos modifications

@@ -1,8 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
 line-command-propose-accepted = accepté : { $n }
-line-command-propose-proposed-in = proposé : { $annotations } dans { $recordings }
-line-command-propose-nothing-examine-in = rien à examiner dans { $recordings }
 line-command-propose-in-for-could-not-read-from = { $annotations } dans { $recordings }, pour { $tokens } ; illisible dans le mouvement : { $unread }
 line-command-propose-left-because-something-else-lies = laissées, car autre chose occupe leur place : { $n }
 line-command-propose-by-confidence = par confiance, à partir de : { $counts }
@@ -18,8 +16,8 @@ help-command-propose-accept-those-tiers-with-this-name = Accepter celles des act
 help-command-propose-accept-those-with-this-confidence = Accepter celles dont la confiance atteint ce nombre, de 0 à 1
 help-command-propose-with-accept-proposals-become-your-own = Avec --accept, les propositions deviennent vos propres codages, sur les acteurs que vous avez pour ce composant et cette main ; les acteurs de propositions devenus vides sont supprimés. Sans numéros, toutes sont acceptées, ou celles d’un composant, de --for, de --tier et de --confidence.
 help-command-propose-movement-each-token-transcribed-values-written = Le mouvement de chaque occurrence est transcrit, et les valeurs sont écrites sur des acteurs à part, comme « configuration dominant (proposed) », en annotations d’un détecteur. Elles ne comptent ni dans les recherches, les décomptes et les statistiques, ni dans les recettes et les exports d’occurrences, tant que personne ne les a acceptées ; la condition `proposed:yes` les lit. Un appel est une opération, que `undo` annule. Ctrl-C l’arrête et laisse le corpus tel qu’il était.
-help-command-propose-with-detector-no-transcription-runs-detector = Avec --detector rien n’est transcrit : le détecteur examine des enregistrements entiers, et ce qu’il trouve est écrit sur des acteurs comme « movement.phase right (proposed) », à la place de ses propositions d’avant que personne n’a modifiées.
-help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` donne "tokens" et "annotations", les nombres de celles qui ont été écrites, "unread", le nombre d’occurrences dont le mouvement n’a pas pu être transcrit, "recordings", les noms de ceux qui ont de nouvelles annotations, et "by_confidence", les nombres d’annotations par dixième de confiance. Avec --accept il donne ce que donne `annotate`, et "left", le nombre de propositions pour lesquelles il n’y a pas de place. Avec --detector il donne "detector", "annotations", "recordings", "unobserved", le nombre d’enregistrements sans la partie que le détecteur examine, et "found", les propositions de chaque enregistrement avec acteur, temps, valeur, confiance et indices.
+help-command-propose-with-detector-short-for-detect = Avec --detector rien n’est transcrit ; c’est une forme brève de `detect --propose`.
+help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` donne "tokens" et "annotations", les nombres de celles qui ont été écrites, "unread", le nombre d’occurrences dont le mouvement n’a pas pu être transcrit, "recordings", les noms de ceux qui ont de nouvelles annotations, et "by_confidence", les nombres d’annotations par dixième de confiance. Avec --accept il donne ce que donne `annotate`, et "left", le nombre de propositions pour lesquelles il n’y a pas de place. Avec --detector il donne ce que donne `detect`.
 help-command-propose-finds-proposed-codings-too = (trouve aussi les codages proposés)
 help-command-propose-takes-all-them-back = (les retire tous)
 message-command-propose-numbers-name-proposals-already = des numéros d’annotations désignent déjà des propositions : omettez la composante, --for, --tier et --confidence

@@ -1,5 +1,8 @@
 ## Messages: `{ $name }` is a variable part.
 
+message-importing-no-sign-found-so-gloss-covers = aucun signe n’a été trouvé, donc la glose couvre toute la prise : { $why }
+message-importing-signs-found-between-rests = { $n } signes ont été trouvés entre des repos ; la glose couvre le plus long
+message-importing-detect-shows-all-of-them = `chereme detect CORPUS signs in RECORDING` les montre tous
 message-importing-file-has-more-than-bytes = le fichier a plus de { $n } octets
 message-importing-file-has-bytes = le fichier a { $n } octets
 message-importing-numbers-in-column-may-have-comma = les nombres de la colonne { $name } peuvent avoir une virgule avant les décimales ou avant les milliers ; { $text } a été lu { $number }, comme { $n } en tout

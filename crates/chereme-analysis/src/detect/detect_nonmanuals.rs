@@ -4,7 +4,8 @@ use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::words::InterfaceText;
 use chereme_sign::{ComponentField, SignComponent};
 
-use super::{AnnotationDetector, DetectedStretch, DetectorDescription, ObservedSigner, SignerPart};
+use super::{AnnotationDetector, DetectedStretch, DetectedSubject, DetectorDescription, ObservedSigner, SignerPart};
+use crate::cut::UncutReason;
 use crate::nonmanuals::{PROPOSED_FACE_FEATURES, propose_face_actions};
 
 /// Detector of actions of brows, lids, gaze, mouth and head, by the rules of [`nonmanuals`](crate::nonmanuals).
@@ -44,29 +45,28 @@ impl AnnotationDetector for NonmanualDetector {
         &[SignerPart::Face]
     }
 
-    fn detected_fields(&self) -> Vec<ComponentField> {
-        PROPOSED_FACE_FEATURES.map(nonmanual_field).to_vec()
+    fn detected_subjects(&self) -> Vec<DetectedSubject> {
+        PROPOSED_FACE_FEATURES.map(nonmanual_subject).to_vec()
     }
 
-    fn detect_annotations(&self, observed: &ObservedSigner<'_>) -> Vec<DetectedStretch> {
+    fn detect_annotations(&self, observed: &ObservedSigner<'_>) -> Result<Vec<DetectedStretch>, UncutReason> {
         let Some(curves) = &observed.face else {
-            return Vec::new();
+            return Ok(Vec::new());
         };
         let frame_instant = |frame: usize| RecordingInstant::from_seconds(frame as f64 / curves.rate);
         let raw_proposals = propose_face_actions(curves).into_iter();
-        raw_proposals
-            .map(|proposal| DetectedStretch {
-                span: TimeSpan::span_between(frame_instant(proposal.frames.start), frame_instant(proposal.frames.end)),
-                field: nonmanual_field(proposal.feature),
-                value: proposal.value.to_owned(),
-                confidence: proposal.confidence,
-                why: proposal.why,
-            })
-            .collect()
+        let detections = raw_proposals.map(|proposal| DetectedStretch {
+            span: TimeSpan::span_between(frame_instant(proposal.frames.start), frame_instant(proposal.frames.end)),
+            subject: nonmanual_subject(proposal.feature),
+            value: proposal.value.to_owned(),
+            confidence: proposal.confidence,
+            why: proposal.why,
+        });
+        Ok(detections.collect())
     }
 }
 
-/// Returns the field of a part of face or head.
-fn nonmanual_field(feature: &str) -> ComponentField {
-    ComponentField::new(SignComponent::NonManual).with_field_feature(feature)
+/// Returns the subject of a part of face or head.
+fn nonmanual_subject(feature: &str) -> DetectedSubject {
+    DetectedSubject::Field(ComponentField::new(SignComponent::NonManual).with_field_feature(feature))
 }

@@ -20,15 +20,15 @@ mod restated;
 
 /// A hand's place in the signer's space, the directions of its axis and palm, and its shape.
 #[derive(Clone)]
-pub(super) struct Held {
-    pub(super) at: DVec3,
+pub(crate) struct Held {
+    pub(crate) at: DVec3,
     pub(super) along: DVec3,
     pub(super) palm: DVec3,
     pub(super) shape: Handshape,
 }
 
 impl Held {
-    pub(super) fn new(at: [f64; 3], along: &str, palm: &str, class: HandClass) -> Self {
+    pub(crate) fn new(at: [f64; 3], along: &str, palm: &str, class: HandClass) -> Self {
         let along: SpatialDirection = along.parse().expect("a direction");
         let palm: CompassDirection = palm.parse().expect("a palm");
         let mut shape = Handshape::default();
@@ -41,7 +41,7 @@ impl Held {
         }
     }
 
-    pub(super) fn moved(&self, by: DVec3) -> Self {
+    pub(crate) fn moved(&self, by: DVec3) -> Self {
         Self {
             at: self.at + by,
             ..self.clone()
@@ -56,7 +56,7 @@ impl Held {
         }
     }
 
-    pub(super) fn mirrored(&self) -> Self {
+    pub(crate) fn mirrored(&self) -> Self {
         let flip = |v: DVec3| DVec3::new(-v.x, v.y, v.z);
         Self {
             at: flip(self.at),
@@ -105,7 +105,7 @@ fn body() -> Skeleton {
 
 /// Builds a clip: a hold of half a second, `seconds` of movement, and a hold. A hand that `at` leaves out
 /// hangs at rest.
-pub(super) fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, BodyAnatomy) {
+pub(crate) fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, BodyAnatomy) {
     let skeleton = Arc::new(body());
     let anatomy = BodyAnatomy::detect_anatomy(&skeleton);
     let rate = FrameRate::new(60, 1).expect("a rate");
@@ -144,7 +144,7 @@ pub(super) fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> Manua
     written.sign.parts.into_iter().next().expect("one part")
 }
 
-pub(super) fn ease(time: f64) -> f64 {
+pub(crate) fn ease(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }
 

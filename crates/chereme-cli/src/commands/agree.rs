@@ -24,7 +24,11 @@ use crate::output::{CommandOutput, CommandProgressBar};
 /// alignment; chance is drawn as in pygamma-agreement); label_raw, label_kappa, label_pi, label_ac1, label_alpha,
 /// label_alpha_features (values of matched units alone; the last weighs the features of handshapes); overlap_a, overlap_b
 /// (ELAN's ratio of overlap, from either tier); frames_raw, frames_kappa, frames_alpha (10 ms each); boundaries (boundary
-/// similarity of tiers without gaps). A measure that is undefined has a reason instead of a number. With fewer than 10
+/// similarity of tiers without gaps); segment_mf1s, segment_mf1b, segment_f1, segment_iou, segment_overlap, segment_count,
+/// segment_splits, segment_merges (spans alone on a grid of 40 ms, the tier of --a being the truth: mF1S and mF1B of Renz et
+/// al., F1 of spans that share more than half, IoU of frames, mean overlap of pairs, and for each true unit the units, splits
+/// and merges of --b). Asked for by name, and with movement, they are printed beside the simplest ways to cut the takes:
+/// uniform with the true count, every minimum of speed, one span an activity. A measure that is undefined has a reason instead of a number. With fewer than 10
 /// units, or one value, only counts are printed.
 ///
 /// Intervals hold 95 of 100 draws of units, or of recordings if there are 10 or more. That of gamma only shows how exact
@@ -32,8 +36,8 @@ use crate::output::{CommandOutput, CommandProgressBar};
 ///
 /// `--json` gives "a", "b", "values", "units_a", "units_b", "matched", "equal", "unmatched_a", "unmatched_b",
 /// "left_out_a", "left_out_b", "counts_only", "measures" (each with "value" or null, "why", and "interval"), "onset_s" and
-/// "offset_s" (b less a: "q1", "median", "q3"), "by_value", "disagreements" (their numbers), "pairs" (each pair of tiers) and
-/// "findings"; with --list "list", with --confusion "confusion", with --into "adjudicated".
+/// "offset_s" (b less a: "q1", "median", "q3"), "by_value", "disagreements" (their numbers), "pairs" (each pair of tiers),
+/// "baselines" (each "baseline" with its "measures") and "findings"; with --list "list", with --confusion "confusion", with --into "adjudicated".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -204,7 +208,7 @@ fn print_agreement(found: &AnnotatorAgreement, args: &AgreeArgs, output: &mut Co
             &[&quartiles(onset), &quartiles(offset)],
         )?;
     }
-    if found.counts_only {
+    if found.counts_only && found.baselines.is_empty() {
         output.write_output_line("too few units or values for figures; with --json they are computed all the same")?;
         return Ok(());
     }
@@ -220,6 +224,13 @@ fn print_agreement(found: &AnnotatorAgreement, args: &AgreeArgs, output: &mut Co
         })
         .collect();
     output.write_titled_table(&["measure", "value", "95 %", "draws"], &rows)?;
+    for baseline in &found.baselines {
+        let shown = baseline.measures.iter().filter(|(name, _)| args.prints(name));
+        let figures: Vec<String> = shown
+            .map(|(name, figure)| format!("{name} {}", format_figure_value(figure, output)))
+            .collect();
+        output.filled_line("baseline {name}: {figures}", &[&baseline.baseline, &figures.join(", ")])?;
+    }
     let shown_values = found.by_value.iter().take(MAX_PRINTED_VALUES);
     let rows: Vec<Vec<String>> = shown_values
         .map(|entry| {

@@ -24,6 +24,7 @@ Examples:
   chereme import mine.chereme FOLDER
   chereme import mine.chereme take.bvh take.eaf --dry-run
   chereme import ngt.chereme sigml/
+  chereme import mine.chereme takes/ --gloss-from-name
   chereme import mine.chereme take.eaf --merge
   chereme import mine.chereme take.eaf --map tiers.json
   chereme import mine.chereme face.csv --into recording:3 --offset 0.48s
@@ -40,6 +41,9 @@ pub(crate) struct ImportArgs {
     /// The name of the recording or table on standard input
     #[arg(long, value_name = "NAME", default_value = "stdin")]
     name: String,
+    /// Give each take without tokens one whose gloss is the take's name, over the sign that is found in its movement
+    #[arg(long)]
+    gloss_from_name: bool,
     /// Report what would be done, and write nothing
     #[arg(long)]
     dry_run: bool,
@@ -299,6 +303,7 @@ fn import_options(args: &ImportArgs) -> Result<ImportOptions> {
         offset_us: args.offset,
         clock: args.timecode,
         rate: args.rate,
+        gloss_from_name: args.gloss_from_name,
         dry_run: args.dry_run,
         standard_input: None,
     })

@@ -11,6 +11,7 @@ mod cue_command;
 mod cued;
 mod delete_command;
 mod demo;
+mod detect_command;
 mod diff;
 mod export_command;
 mod face_command;
@@ -103,6 +104,7 @@ commands! {
     Cue => cue_command::run(CueArgs);
     Cued => cued::run(CuedArgs);
     Propose => propose_command::run(ProposeArgs);
+    Detect => detect_command::run(DetectArgs);
     Keys => keys_command::run(KeysArgs);
     Check => check_command::run(CheckArgs) or past_checking;
     Diff => diff::run(DiffArgs);

@@ -4,11 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    ALL_DETECTORS, AcceptanceResult, AnnotationDetector, CorpusAddress, DetectOptions, ProgressReceiver,
-    ProposalChoice, ProposalResult, ProposeOptions, ProposeScope,
+    AcceptanceResult, CorpusAddress, DetectOptions, ProgressReceiver, ProposalChoice, ProposalResult, ProposeOptions,
+    ProposeScope,
 };
 use chereme_sign::SignComponent;
-use clap::builder::PossibleValue;
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
@@ -20,8 +19,7 @@ use crate::output::{CommandOutput, CommandProgressBar};
 /// exports of tokens until a person accepts them; the condition `proposed:yes` reads them. A call is one operation, which
 /// `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
 ///
-/// With --detector no transcription runs: the detector examines whole recordings, and its detections are written on
-/// tiers such as "movement.phase right (proposed)", where they replace earlier ones that nobody has changed.
+/// With --detector no transcription runs; it is short for `detect --propose`.
 ///
 /// With --accept, proposals become your own codings on the tiers that you have for that component and hand; empty tiers of
 /// proposals are removed. Without numbers all are accepted, or those of a component, --for, --tier and --confidence.
@@ -29,15 +27,13 @@ use crate::output::{CommandOutput, CommandProgressBar};
 /// `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens
 /// whose movement could not be transcribed, "recordings", the names of those with new annotations, and "by_confidence", the
 /// numbers of annotations for each tenth of confidence. With --accept it gives what `annotate` gives, and "left", the number
-/// of proposals for which there is no room. With --detector
-/// it gives "detector", "annotations", "recordings", "unobserved", the number of recordings without the part that the
-/// detector examines, and "found", the proposals of each recording with tier, times, value, confidence and evidence.
+/// of proposals for which there is no room. With --detector it gives what `detect` gives.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   chereme propose mine.chereme configuration
   chereme propose mine.chereme --for recording:3
-  chereme propose mine.chereme --detector strokes --for recording:3
+  chereme propose mine.chereme --detector signs --for recording:3
   chereme propose mine.chereme --accept 41 42
   chereme propose mine.chereme configuration --for recording:3 --accept --confidence 0.8
   chereme search mine.chereme \"configuration=U proposed:yes\"    (finds proposed codings, too)
@@ -51,7 +47,7 @@ pub(crate) struct ProposeArgs {
     #[arg(long = "for", value_name = "ADDRESS")]
     only: Option<String>,
     /// Run this detector on every recording, or on that of --for
-    #[arg(long, value_name = "NAME", value_parser = detectors(), conflicts_with = "component")]
+    #[arg(long, value_name = "NAME", value_parser = super::detect_command::list_detector_names(), conflicts_with = "component")]
     detector: Option<String>,
     /// Accept these proposals, by the numbers of their annotations, as codings of your own; without numbers all that the other options name
     #[arg(long, value_name = "NUMBER", conflicts_with = "detector", num_args = 0..)]
@@ -62,14 +58,6 @@ pub(crate) struct ProposeArgs {
     /// Accept those with this confidence or more, from 0 to 1
     #[arg(long, value_name = "NUMBER", requires = "accept")]
     confidence: Option<f64>,
-}
-
-/// Returns the names of all detectors, each with the annotations that it finds.
-fn detectors() -> Vec<PossibleValue> {
-    let named = |detector: &&dyn AnnotationDetector| {
-        PossibleValue::new(detector.detector_name()).help(detector.detector_description().finds.en)
-    };
-    ALL_DETECTORS.iter().map(named).collect()
 }
 
 pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOutput) -> Result<()> {
@@ -115,24 +103,8 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
         return output.set_json_document(accepted);
     }
     if let Some(detector) = &args.detector {
-        let options = DetectOptions {
-            detector: detector.clone(),
-            scope,
-        };
-        let detected = corpus.run_detection(&options, &mut progress)?;
-        drop(bar);
-        output.filled_line(
-            "proposed: {annotations} in {recordings}",
-            &[
-                &output.format_counted_noun(detected.annotations, "annotations"),
-                &output.format_counted_noun(detected.recordings.len() as u64, "recordings"),
-            ],
-        )?;
-        if detected.unobserved > 0 {
-            let unobserved = output.format_counted_noun(detected.unobserved, "recordings");
-            output.filled_line("nothing to examine in {recordings}", &[&unobserved])?;
-        }
-        return output.set_json_document(detected);
+        let options = DetectOptions::propose_with(detector, scope);
+        return super::detect_command::run_and_report_detection(&mut corpus, &options, output);
     }
     let options = ProposeOptions {
         components: match args.component {

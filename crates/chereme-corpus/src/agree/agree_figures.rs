@@ -1,6 +1,7 @@
 //! The measures of all pairs of tiers together, and of each pair.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use chereme_analysis::agreement::agreement_resample::{BootstrapInterval, draw_bootstrap_samples};
 use chereme_analysis::agreement::gamma::{AlignmentCosts, GammaAgreement, GammaSampling, measure_gamma_agreement};
@@ -9,6 +10,7 @@ use chereme_analysis::agreement::matching::{
     HolleReinRow, HolleReinTable, build_matching_rows, match_overlapping_units, overlap_ratio,
 };
 use chereme_analysis::agreement::segments::{SegmentationEdits, count_segmentation_edits};
+use chereme_analysis::agreement::span_measures::{SpanComparison, compare_span_lists, grid_frames};
 use chereme_analysis::agreement::unitizing::{alpha_u, measure_frame_agreement, u_alpha, unitizing_disagreements};
 use chereme_analysis::agreement::{AgreementMeasure, AnnotatedUnit, AnnotationContinuum, UndefinedAgreement};
 use serde::Serialize;
@@ -27,8 +29,11 @@ use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit as Amount};
 /// - `alpha_u`: Krippendorff's alpha of spans and values; `u_alpha`, `u_alpha_spans`, `cu_alpha`: those of 2016.
 /// - `gamma`, `gamma_cat`: Mathet's, by alignment; `label_…`: values of matched units alone.
 /// - `overlap_a`, `overlap_b`: ELAN's ratio, which depends on the first tier; `frames_…`: 10 ms each, gaps are a value.
-/// - `boundary_similarity_measure`: boundary similarity of tiers without gaps, at 40 ms.
-pub const MEASURE_NAMES: [&str; 23] = [
+/// - `boundaries`: boundary similarity of tiers without gaps, at 40 ms.
+/// - `segment_…`: spans on a grid of 40 ms whatever their values, the first tier being the truth: mF1S and mF1B of Renz et al.,
+///   F1 of spans that overlap by more than half, IoU of all frames, mean overlap of matched pairs, units of the second for each
+///   of the first, and splits and merges for each unit of the first.
+pub const MEASURE_NAMES: [&str; 31] = [
     "kappa_ipf",
     "raw",
     "matched",
@@ -52,6 +57,14 @@ pub const MEASURE_NAMES: [&str; 23] = [
     "frames_kappa",
     "frames_alpha",
     "boundaries",
+    "segment_mf1s",
+    "segment_mf1b",
+    "segment_f1",
+    "segment_iou",
+    "segment_overlap",
+    "segment_count",
+    "segment_splits",
+    "segment_merges",
 ];
 
 /// The measures that are shown to people who ask for no others.
@@ -269,6 +282,7 @@ pub(super) fn measure_agreement(
         by_value: by_value(coded, &all),
         disagreements: count_disagreement_kinds(&list),
         pairs,
+        baselines: Vec::new(),
         findings,
         confusion: value_confusions(coded, &all),
         list,
@@ -350,7 +364,44 @@ fn measures_without_gamma(
     if options.wants_measure("boundaries") {
         add("boundaries", boundary_similarity_measure(all));
     }
+    let mut segment_names = MEASURE_NAMES.iter().filter(|name| name.starts_with(SEGMENT_PREFIX));
+    if segment_names.any(|name| options.wants_measure(name)) {
+        let mut compared = SpanComparison::default();
+        for one in all {
+            compared.add_span_comparison(&compare_span_lists(&unit_frames(one.first), &unit_frames(one.second)));
+        }
+        for (name, measure) in segment_measures(&compared) {
+            add(name, measure);
+        }
+    }
     figures
+}
+
+/// The beginning of the names of measures of segments.
+pub(super) const SEGMENT_PREFIX: &str = "segment_";
+
+/// Returns the measures of segments, in the order of their names.
+pub(super) fn segment_measures(compared: &SpanComparison) -> [(&'static str, AgreementMeasure); 8] {
+    let for_each = |count: usize| match compared.first_count {
+        0 => Err(UndefinedAgreement::Missing),
+        units => Ok(count as f64 / units as f64),
+    };
+    [
+        ("segment_mf1s", compared.mean_span_f1()),
+        ("segment_mf1b", compared.mean_boundary_f1()),
+        ("segment_f1", compared.half_overlap_f1()),
+        ("segment_iou", compared.frame_overlap()),
+        ("segment_overlap", compared.mean_pair_overlap()),
+        ("segment_count", compared.span_count_ratio()),
+        ("segment_splits", for_each(compared.splits)),
+        ("segment_merges", for_each(compared.merges)),
+    ]
+}
+
+/// Returns the spans of units in frames of the grid.
+pub(super) fn unit_frames(units: &[AnnotatedUnit]) -> Vec<Range<i64>> {
+    let frames = units.iter().map(|unit| grid_frames(unit.start * 1000, unit.end * 1000));
+    frames.collect()
 }
 
 /// Returns the measures that follow from the table of Holle and Rein; with one value chance explains all.

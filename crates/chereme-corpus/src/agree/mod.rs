@@ -5,6 +5,7 @@ mod adjudicate;
 mod agree_figures;
 mod agree_tiers;
 mod alike;
+mod baselines;
 mod disagreements;
 #[cfg(test)]
 mod tests;
@@ -164,6 +165,16 @@ pub struct PairAgreement {
     pub measures: Vec<(&'static str, MeasureFigure)>,
 }
 
+/// What a simple way to cut takes reaches against the first annotator.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BaselineAgreement {
+    /// Its name: `uniform` with the true count, `speed_minima` or `activities`.
+    pub baseline: &'static str,
+    /// The measures of segments.
+    #[serde(serialize_with = "agree_figures::serialize_figures_in_order")]
+    pub measures: Vec<(&'static str, MeasureFigure)>,
+}
+
 /// The agreement of two annotators, over all pairs of tiers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AnnotatorAgreement {
@@ -191,6 +202,10 @@ pub struct AnnotatorAgreement {
     pub disagreements: DisagreementCounts,
     /// Each pair of tiers.
     pub pairs: Vec<PairAgreement>,
+    /// The measures of segments that the simplest ways to cut these takes reach against the first annotator, if measures of
+    /// segments are asked for by name and all recordings have movement.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub baselines: Vec<BaselineAgreement>,
     /// Remarks for the user.
     pub findings: Vec<String>,
     /// The values of matched units that differ, most frequent first.
@@ -219,6 +234,14 @@ impl Corpus {
     ) -> CorpusResult<AnnotatorAgreement> {
         options.check_agree_options()?;
         let coded = agree_tiers::read_tier_pairs(self, options)?;
-        agree_figures::measure_agreement(&coded, options, progress)
+        let mut agreement = agree_figures::measure_agreement(&coded, options, progress)?;
+        if options
+            .measures
+            .iter()
+            .any(|name| name.starts_with(agree_figures::SEGMENT_PREFIX))
+        {
+            agreement.baselines = baselines::measure_baselines(self, &coded, progress)?;
+        }
+        Ok(agreement)
     }
 }

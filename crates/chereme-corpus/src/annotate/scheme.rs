@@ -121,7 +121,7 @@ fn add_planned_tiers(
 fn plan_default_tiers(connection: &Connection, recording: &RecordingRow) -> CorpusResult<Vec<PlannedTier>> {
     let participant = recording_signer_name(connection, recording)?;
     let there = rows::load_tier_rows(connection, recording.id)?;
-    let gloss_row = there.into_iter().find(|row| row.role == TierRole::Gloss);
+    let gloss_row = there.into_iter().find(TierRow::holds_glosses);
     let gloss = gloss_row.map_or_else(|| "Gloss".to_owned(), |row| row.name);
     let make = |name: String, role, hand, parent: Option<TierStereotype>| {
         let tier = NewTier {

@@ -80,6 +80,11 @@ impl TierRow {
         }
     }
 
+    /// Returns whether the tier holds glosses of signs, rather than proposals for some.
+    pub(crate) fn holds_glosses(&self) -> bool {
+        self.role == TierRole::Gloss && crate::propose::proposed_for(&self.name).is_none()
+    }
+
     /// Returns whether the tier divides movement into phases, which belong to a stretch of signing rather than to a
     /// sign.
     pub(crate) fn is_of_phases(&self) -> bool {

@@ -6,7 +6,7 @@ use chereme_motion::{FacePosture, RecordingInstant, TimeSpan};
 use rusqlite::Connection;
 use serde::Serialize;
 
-use super::{ProposalChanges, ProposedAnnotation};
+use super::{DetectionUse, Detections, ProposalChanges, ProposedAnnotation};
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName, find_addressed_recording};
 use crate::curves::face_captured::{CapturedFace, captured_with, no_face};
@@ -162,8 +162,11 @@ impl Corpus {
         let connection = self.store.read_connection();
         let recording = find_addressed_recording(connection, address)?;
         let row = address::find_recording_by_name(connection, &RowName::Number(recording))?;
-        let detected = super::propose_for_recording(connection, &NonmanualDetector, &row)?;
-        let proposals = detected.ok_or_else(|| no_face(&row.name))?;
+        let proposals = match super::propose_for_recording(connection, &NonmanualDetector, &row)? {
+            Detections::Found(proposals) => proposals,
+            Detections::Nothing(_) => Vec::new(),
+            Detections::Unobserved => return Err(no_face(&row.name)),
+        };
         let mut written = 0;
         if store {
             let mut changes = ProposalChanges::default();
@@ -171,8 +174,8 @@ impl Corpus {
                 RecordingInstant::RECORDING_START,
                 RecordingInstant::from_micros(row.duration_us),
             );
-            changes.take_proposals(connection, recording, full_span, &NonmanualDetector, &proposals)?;
-            self.store_proposals(&changes, progress)?;
+            changes.take_proposals(connection, recording, full_span, &NonmanualDetector, &proposals, None)?;
+            self.store_proposals(&changes, DetectionUse::Proposed, progress)?;
             written = changes.added;
         }
         Ok(FaceProposals {

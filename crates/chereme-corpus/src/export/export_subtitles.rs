@@ -21,7 +21,7 @@ pub(super) fn subtitle_tier_groups(connection: &Connection, recording: i64) -> C
     let mut groups: Vec<Vec<TierRow>> = Vec::new();
     let roles: [&dyn Fn(&TierRow) -> bool; 3] = [
         &|row| row.role == TierRole::Translation,
-        &|row| row.role == TierRole::Gloss,
+        &TierRow::holds_glosses,
         // Imported subtitles, whose file does not say whether they translate.
         &|row| row.name == subtitles::VOICELESS_TIER_NAME,
     ];

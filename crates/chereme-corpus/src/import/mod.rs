@@ -10,6 +10,7 @@ mod import_captured;
 mod import_clock;
 pub(crate) mod import_eaf;
 mod import_film;
+mod import_glosses;
 mod import_inventory;
 mod import_joining;
 mod import_lexicons;
@@ -110,6 +111,8 @@ pub struct ImportOptions {
     pub clock: Option<RecordingInstant>,
     /// The frame rate of films whose files do not state it.
     pub rate: Option<FrameRate>,
+    /// Whether each recording that moves and has no token gets one over its sign, with its name as the gloss.
+    pub gloss_from_name: bool,
     /// Whether the import only reports what it would do, and writes nothing.
     pub dry_run: bool,
     /// The temporary file that holds standard input; the corpus and the report know it as `-`.
@@ -277,6 +280,9 @@ impl Corpus {
                 annotated: annotated_stems(&files),
             };
             import.import_candidate_files(&files, &mut report, progress)?;
+            if options.gloss_from_name {
+                import_glosses::add_glosses_from_names(connection, &mut report.files, progress)?;
+            }
             import.warn_of_mapping(&mut report);
             let effect = report.import_effect();
             if options.dry_run {

@@ -9,7 +9,6 @@ use chereme_compose::{
 };
 use chereme_motion::glam::DVec3;
 use chereme_motion::{BodyAnatomy, BodySide, Clip};
-use chereme_sign::TierRole;
 use rusqlite::Connection;
 
 use crate::db::stored_columns::RecordOrigin;
@@ -151,7 +150,7 @@ fn learning_pieces(connection: &Connection) -> CorpusResult<Vec<(i64, usize)>> {
 /// Returns whether a recording has a tier of glosses, as recordings of signing do.
 fn has_glosses(connection: &Connection, recording: i64) -> CorpusResult<bool> {
     let tiers = stored_tiers::load_tier_rows(connection, recording)?;
-    Ok(tiers.iter().any(|tier| tier.role == TierRole::Gloss))
+    Ok(tiers.iter().any(stored_tiers::TierRow::holds_glosses))
 }
 
 /// Returns how long hands hold a handshape that follows or precedes another within a second on the same tier, and the

@@ -240,10 +240,10 @@ impl FacesPane {
             && let Some(id) = recording
         {
             out.request_work(analysis::run_detector_job(
-                DetectOptions {
-                    detector: NonmanualDetector.detector_name().to_owned(),
-                    scope: ProposeScope::Recording(RowName::Number(id)),
-                },
+                DetectOptions::propose_with(
+                    NonmanualDetector.detector_name(),
+                    ProposeScope::Recording(RowName::Number(id)),
+                ),
                 seen.language,
             ));
         }

@@ -43,7 +43,7 @@ pub(super) fn show_detector_list(
             let text = match &scope {
                 ProposeScope::Token(_) => words::DETECT_SIGN,
                 ProposeScope::Span(..) => words::DETECT_SPAN,
-                ProposeScope::Recording(_) | ProposeScope::All => words::DETECT_RECORDING,
+                ProposeScope::Recording(_) | ProposeScope::Recordings(_) | ProposeScope::All => words::DETECT_RECORDING,
             };
             ui.add(Label::new(scene.seen.say_text(text)).wrap());
             for (at, detector) in ALL_DETECTORS.iter().enumerate() {
@@ -66,10 +66,7 @@ pub(super) fn show_detector_list(
         });
     match done.and_then(|at| ALL_DETECTORS.get(at)) {
         Some(detector) => {
-            let options = DetectOptions {
-                detector: detector.detector_name().to_owned(),
-                scope,
-            };
+            let options = DetectOptions::propose_with(detector.detector_name(), scope);
             let work = out.request_work(analysis::run_detector_job(options, scene.seen.language));
             timeline.asked.proposing = Some(work);
         }

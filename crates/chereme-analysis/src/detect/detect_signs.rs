@@ -1,0 +1,110 @@
+//! The detector of signs, and of the phases of each hand.
+
+use chereme_motion::BodySide;
+use chereme_sign::words::InterfaceText;
+use chereme_sign::{ComponentField, SignComponent};
+
+use super::{AnnotationDetector, DetectedStretch, DetectedSubject, DetectorDescription, ObservedSigner, SignerPart};
+use crate::cut::{CutOptions, CutRule, TakeCut, UncutReason, cut_take};
+
+/// The value of a sign that nobody has glossed; a question mark would be no value.
+pub const UNKNOWN_GLOSS: &str = "UNGLOSSED";
+
+/// Detector of signs between and within activities, and of each hand's preparation, stroke, hold and retraction, by the
+/// rules of [`cut`](crate::cut).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SignDetector {
+    /// The cost of a sign, if not the usual one: a larger one gives fewer signs.
+    pub sign_cost: Option<f64>,
+}
+
+const PEELED: InterfaceText = InterfaceText::new(
+    "the only sign between two rests, by the {side} hand",
+    "seul signe entre deux repos, de la main {side}",
+);
+const PEELED_BY_BOTH: InterfaceText = InterfaceText::new(
+    "the only sign between two rests, by both hands; the {side} hand leads",
+    "seul signe entre deux repos, des deux mains ; la main {side} mène",
+);
+const DECODED: InterfaceText = InterfaceText::new(
+    "one of several signs between two rests, by the {side} hand",
+    "un de plusieurs signes entre deux repos, de la main {side}",
+);
+const DECODED_BY_BOTH: InterfaceText = InterfaceText::new(
+    "one of several signs between two rests, by both hands; the {side} hand leads",
+    "un de plusieurs signes entre deux repos, des deux mains ; la main {side} mène",
+);
+const PHASE: InterfaceText = InterfaceText::new(
+    "part of the sign that this hand makes",
+    "partie du signe que fait cette main",
+);
+
+impl AnnotationDetector for SignDetector {
+    fn detector_name(&self) -> &'static str {
+        "signs"
+    }
+
+    fn detector_description(&self) -> &'static DetectorDescription {
+        const SIGN_DESCRIPTION: DetectorDescription = DetectorDescription {
+            finds: InterfaceText::new(
+                "signs, and the preparation, stroke, hold and retraction of each hand",
+                "signes, et préparation, noyau, tenue et rétraction de chaque main",
+            ),
+            messages: &[DECODED_BY_BOTH, DECODED, PEELED_BY_BOTH, PEELED, PHASE],
+        };
+        &SIGN_DESCRIPTION
+    }
+
+    fn examines(&self) -> &'static [SignerPart] {
+        &[SignerPart::Body]
+    }
+
+    fn detected_subjects(&self) -> Vec<DetectedSubject> {
+        let phases = BodySide::BOTH_SIDES.map(|side| DetectedSubject::Field(phase_field(side)));
+        [DetectedSubject::Sign].into_iter().chain(phases).collect()
+    }
+
+    fn detect_annotations(&self, observed: &ObservedSigner<'_>) -> Result<Vec<DetectedStretch>, UncutReason> {
+        let Some(body) = observed.body else {
+            return Ok(Vec::new());
+        };
+        let options = self
+            .sign_cost
+            .map_or_else(CutOptions::default, |sign_cost| CutOptions { sign_cost });
+        let TakeCut { signs, phases } = cut_take(body.clip, body.anatomy, options)?;
+        let start = body.start.instant_micros();
+        let mut stretches = Vec::new();
+        for sign in signs {
+            let why = match (sign.rule, sign.is_two_handed) {
+                (CutRule::Peeled, false) => PEELED,
+                (CutRule::Peeled, true) => PEELED_BY_BOTH,
+                (CutRule::Decoded, false) => DECODED,
+                (CutRule::Decoded, true) => DECODED_BY_BOTH,
+            };
+            stretches.push(DetectedStretch {
+                span: sign.span.shifted_span(start),
+                subject: DetectedSubject::Sign,
+                value: UNKNOWN_GLOSS.to_owned(),
+                confidence: sign.confidence,
+                why: why.en.replace("{side}", sign.dominant.body_side_name()),
+            });
+        }
+        for (side, hand_phases) in BodySide::BOTH_SIDES.into_iter().zip(phases) {
+            stretches.extend(hand_phases.into_iter().map(|phase| DetectedStretch {
+                span: phase.span.shifted_span(start),
+                subject: DetectedSubject::Field(phase_field(side)),
+                value: phase.kind.phase_name().to_owned(),
+                confidence: phase.confidence,
+                why: PHASE.en.to_owned(),
+            }));
+        }
+        Ok(stretches)
+    }
+}
+
+/// Returns the field of the phases of a side.
+fn phase_field(side: BodySide) -> ComponentField {
+    ComponentField::new(SignComponent::Movement)
+        .with_field_feature("phase")
+        .with_field_hand(side)
+}
