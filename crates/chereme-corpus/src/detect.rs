@@ -1,6 +1,7 @@
 //! Annotations that detectors find in recordings, stored as proposals on tiers of their own.
 
 pub(crate) mod detect_faces;
+mod detect_glosses;
 
 use std::ops::Range;
 
@@ -20,19 +21,19 @@ use serde::Serialize;
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
 use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName};
+use crate::contents::ProposalAcceptor;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin};
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_tiers::{self, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
-use crate::propose::{
-    PROPOSAL_TIER_SUFFIX, ProposalAcceptor, ProposeScope, accepting_tier, proposal_tier, proposed_for,
-};
+use crate::propose::{PROPOSAL_TIER_SUFFIX, ProposeScope, accepting_tier, proposal_tier, proposed_for};
 use crate::words::effect::{AnnotationEffect, OperationEffect};
 
 use detect_faces::FaceCurves;
 pub use detect_faces::FaceProposals;
+pub use detect_glosses::GLOSSES_FROM_NAMES;
 
 /// The length of movement that is examined at once, in microseconds: ten minutes.
 const DETECTION_PIECE_US: i64 = 600_000_000;

@@ -144,7 +144,8 @@ pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
 pub use details::{ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue};
 pub use detect::{
-    DetectOptions, DetectedIn, DetectionReport, DetectionUse, FaceProposals, ProposedAnnotation, UndetectedIn,
+    DetectOptions, DetectedIn, DetectionReport, DetectionUse, FaceProposals, GLOSSES_FROM_NAMES, ProposedAnnotation,
+    UndetectedIn,
 };
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{CorpusError, CorpusResult, DatabaseFailureCause, FailedStep, MeantName, WrongQuery};
@@ -160,9 +161,9 @@ pub use forget::{ForgottenSigner, StillSaidText};
 pub use forms::{EmptyCellTreatment, FIELD_SETS, FormSource};
 pub use import::{
     AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileJoin, FileJoining, FileReport,
-    FileStatus, ImportOptions, ImportReport, JoinReason, JoinedFile, JoinedRecording, JointRole, MovementRead, OwnEdit,
-    OwnEdits, ReimportChanges, RootRead, SharedPart, TiersRead, TrackRead, UnreadFileKind, read_stream, readable_files,
-    time_of_day,
+    FileStatus, ImportCompletion, ImportOptions, ImportReport, JoinReason, JoinedFile, JoinedRecording, JointRole,
+    MovementRead, OwnEdit, OwnEdits, ReimportChanges, RootRead, SharedPart, TiersRead, TrackRead, UnreadFileKind,
+    read_stream, readable_files, time_of_day,
 };
 pub use info::{AttributeInfo, CorpusInfo, InventoryInfo, SignerInfo, TrackAmount};
 pub use inventories::StoredInventory;

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::token::{ComponentSpan, owning_token_index};
-use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignPhase, SignerHandedness, TierRole};
+use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignPhase, SignerHandedness};
 use rusqlite::Connection;
 
 use crate::Corpus;

@@ -273,7 +273,7 @@ fn codings_proposed_for_an_uncut_take_name_the_command_that_cuts_it() {
 #[test]
 fn a_take_named_by_its_gloss_gets_one_token_over_its_sign_or_over_the_whole() {
     let options = ImportOptions {
-        gloss_from_name: true,
+        completion: Some(chereme_corpus::GLOSSES_FROM_NAMES),
         ..ImportOptions::default()
     };
     for (bvh, is_whole) in [(bowl_file(), false), (still_file(), true)] {

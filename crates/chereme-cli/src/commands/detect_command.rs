@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    ALL_DETECTORS, AnnotationDetector, Corpus, CutOptions, DetectOptions, DetectionUse, ProgressReceiver, ProgressStep,
+    ALL_DETECTORS, AnnotationDetector, Corpus, CutOptions, DetectOptions, DetectionUse, ProgressReceiver,
 };
 use clap::builder::PossibleValue;
 
@@ -104,8 +104,7 @@ pub(super) fn run_and_report_detection(
     output: &mut CommandOutput,
 ) -> Result<()> {
     let mut bar = CommandProgressBar::new();
-    let mut hear = |step: ProgressStep<'_>| bar.show_progress_step(step);
-    let detected = corpus.run_detection(options, &mut ProgressReceiver::new(&mut hear))?;
+    let detected = corpus.run_detection(options, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
     if options.use_as == DetectionUse::Shown {
         let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);

@@ -7,8 +7,8 @@ use std::process::ExitCode;
 use anyhow::Result;
 use chereme_corpus::words::{InterfaceLanguage, fill_text_braces, trouble_words};
 use chereme_corpus::{
-    Corpus, CorpusError, FileJoining, FileReport, FileStatus, ImportOptions, ImportReport, JoinedRecording, OwnEdits,
-    ProgressReceiver, RecordOrigin, ReportFinding, TierMapping,
+    Corpus, CorpusError, FileJoining, FileReport, FileStatus, GLOSSES_FROM_NAMES, ImportOptions, ImportReport,
+    JoinedRecording, OwnEdits, ProgressReceiver, RecordOrigin, ReportFinding, TierMapping,
 };
 use chereme_motion::BodySide;
 use chereme_motion::anatomy::RolesError;
@@ -303,7 +303,7 @@ fn import_options(args: &ImportArgs) -> Result<ImportOptions> {
         offset_us: args.offset,
         clock: args.timecode,
         rate: args.rate,
-        gloss_from_name: args.gloss_from_name,
+        completion: args.gloss_from_name.then_some(GLOSSES_FROM_NAMES),
         dry_run: args.dry_run,
         standard_input: None,
     })

@@ -10,7 +10,6 @@ mod import_captured;
 mod import_clock;
 pub(crate) mod import_eaf;
 mod import_film;
-mod import_glosses;
 mod import_inventory;
 mod import_joining;
 mod import_lexicons;
@@ -111,13 +110,19 @@ pub struct ImportOptions {
     pub clock: Option<RecordingInstant>,
     /// The frame rate of films whose files do not state it.
     pub rate: Option<FrameRate>,
-    /// Whether each recording that moves and has no token gets one over its sign, with its name as the gloss.
-    pub gloss_from_name: bool,
+    /// Work that completes the import within its operation, such as [`GLOSSES_FROM_NAMES`](crate::GLOSSES_FROM_NAMES).
+    pub completion: Option<ImportCompletion>,
     /// Whether the import only reports what it would do, and writes nothing.
     pub dry_run: bool,
     /// The temporary file that holds standard input; the corpus and the report know it as `-`.
     pub standard_input: Option<PathBuf>,
 }
+
+/// Work on the imported files that rooms above the import do, within its operation.
+#[derive(Debug, Clone, Copy)]
+pub struct ImportCompletion(pub(crate) CompleteImport);
+
+type CompleteImport = fn(&Connection, &mut [FileReport], &mut ProgressReceiver<'_>) -> CorpusResult<()>;
 
 /// The treatment of edits in the corpus that a file would revert when it is imported again.
 ///
@@ -280,8 +285,8 @@ impl Corpus {
                 annotated: annotated_stems(&files),
             };
             import.import_candidate_files(&files, &mut report, progress)?;
-            if options.gloss_from_name {
-                import_glosses::add_glosses_from_names(connection, &mut report.files, progress)?;
+            if let Some(ImportCompletion(complete)) = options.completion {
+                complete(connection, &mut report.files, progress)?;
             }
             import.warn_of_mapping(&mut report);
             let effect = report.import_effect();

@@ -6,13 +6,14 @@ use chereme_motion::RecordingInstant;
 use chereme_sign::TierRole;
 use rusqlite::Connection;
 
-use super::import_report::{FileReport, FileStatus, ReportFinding};
+use super::{Detections, propose_for_recording};
 use crate::address::{self, RowName};
 use crate::annotate::{AnnotateOptions, AnnotationAction, NewTier, TierRequestName, write_tiers};
 use crate::db::{signs, stored_recordings, stored_tiers};
-use crate::detect::{Detections, propose_for_recording};
 use crate::error::CorpusResult;
+use crate::import::{FileReport, FileStatus, ImportCompletion};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::report_finding::ReportFinding;
 
 /// A cost of a sign at which every activity is one sign.
 const ONE_SIGN_COST: f64 = 1e9;
@@ -20,8 +21,11 @@ const ONE_SIGN_COST: f64 = 1e9;
 /// The tier of the glosses.
 const GLOSS_TIER: &str = "gloss";
 
+/// Gives each imported take that moves and has no token one over its sign; its gloss is the name of the take.
+pub const GLOSSES_FROM_NAMES: ImportCompletion = ImportCompletion(add_glosses_from_names);
+
 /// Adds a token to each imported recording that moves and has none; its gloss is the recording's name.
-pub(super) fn add_glosses_from_names(
+fn add_glosses_from_names(
     connection: &Connection,
     files: &mut [FileReport],
     progress: &mut ProgressReceiver<'_>,
