@@ -24,11 +24,11 @@ use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, Annot
 use crate::contents::ProposalAcceptor;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin};
 use crate::db::stored_recordings::{self, RecordingRow};
-use crate::db::stored_tiers::{self, TierRow};
+use crate::db::stored_tiers::{self, PROPOSAL_TIER_SUFFIX, TierRow, proposed_for};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
-use crate::propose::{PROPOSAL_TIER_SUFFIX, ProposeScope, accepting_tier, proposal_tier, proposed_for};
+use crate::propose::{ProposeScope, accepting_tier, proposal_tier};
 use crate::words::effect::{AnnotationEffect, OperationEffect};
 
 use detect_faces::FaceCurves;

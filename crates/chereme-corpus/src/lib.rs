@@ -139,7 +139,7 @@ pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 pub use db::stored_delete::RecordingBelongings;
 pub use db::stored_recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::stored_rows::KeptSearch;
-pub use db::stored_tiers::{TierRow, TierShown};
+pub use db::stored_tiers::{TierRow, TierShown, proposed_for};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
 pub use details::{ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue};
@@ -181,9 +181,7 @@ pub use paths::paths_like;
 pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
 pub use progress::{ProgressListener, ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
-pub use propose::{
-    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier, proposed_for,
-};
+pub use propose::{AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier};
 pub use publish::{LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
 pub use report_finding::ReportFinding;

@@ -20,7 +20,8 @@ use crate::annotate::{
 use crate::contents::ProposalAcceptor;
 use crate::db::signs;
 use crate::db::stored_columns::AnnotationOrigin;
-use crate::db::{stored_recordings, stored_tiers};
+use crate::db::stored_recordings;
+use crate::db::stored_tiers::{self, PROPOSAL_TIER_SUFFIX, proposed_for};
 use crate::detect::{recordings_of_scope, span_overlaps_times};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
@@ -101,15 +102,6 @@ impl ProposalResult {
         SignComponent::Movement,
         SignComponent::Orientation,
     ];
-}
-
-/// The suffix of the names of tiers with proposals.
-pub(crate) const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
-
-/// Returns the name of the tier that accepted values from a tier with proposals are moved to; `None` for other tiers.
-#[must_use]
-pub fn proposed_for(tier: &str) -> Option<&str> {
-    tier.strip_suffix(PROPOSAL_TIER_SUFFIX)
 }
 
 /// Returns the tier on which an annotator accepts proposals, of all tiers of their recording: that of the same subject and

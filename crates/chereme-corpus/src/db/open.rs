@@ -416,11 +416,11 @@ fn take_steps(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Cor
     }
     if version < EFFECTS_STORED_FROM {
         upgrade::read_old_summaries(&transaction)?;
-        // An index of version 12 has no seal of its own; the next search builds it again.
-        super::stored_search::delete_files(&transaction)?;
     }
     if version < LEXICONS_SINCE && version > 0 {
         upgrade::give_signs_lexicons(&transaction)?;
+        // The index knows no lexicons; the next search builds it again.
+        super::stored_search::delete_files(&transaction)?;
     }
     upgrade::rewrite_json_rules(&transaction)?;
     stored_roles::add_missing(&transaction)?;

@@ -60,6 +60,15 @@ pub struct TierShown {
     pub hidden: bool,
 }
 
+/// The suffix of the names of tiers with proposals.
+pub(crate) const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
+
+/// Returns the name of the tier that accepted values from a tier with proposals are moved to; `None` for other tiers.
+#[must_use]
+pub fn proposed_for(tier: &str) -> Option<&str> {
+    tier.strip_suffix(PROPOSAL_TIER_SUFFIX)
+}
+
 impl TierRow {
     /// Returns the tier's display settings from ELAN.
     #[must_use]
@@ -82,7 +91,7 @@ impl TierRow {
 
     /// Returns whether the tier holds glosses of signs, rather than proposals for some.
     pub(crate) fn holds_glosses(&self) -> bool {
-        self.role == TierRole::Gloss && crate::propose::proposed_for(&self.name).is_none()
+        self.role == TierRole::Gloss && proposed_for(&self.name).is_none()
     }
 
     /// Returns whether the tier divides movement into phases, which belong to a stretch of signing rather than to a

@@ -13,7 +13,6 @@ use super::lexicons;
 use super::stored_history;
 use super::stored_motion::to_hex_text;
 use crate::error::CorpusResult;
-use crate::paths::legible_path_text;
 use crate::words::old_effect::effect_of_summary;
 
 /// The name of tracks that hold the scalar curves of generated movement.
@@ -62,7 +61,11 @@ pub(super) fn give_signs_lexicons(connection: &Connection) -> CorpusResult<()> {
     let tables: BTreeSet<String> = tables_of_signs.values().flatten().cloned().collect();
     let mut lexicons: BTreeMap<String, i64> = BTreeMap::new();
     for table in tables {
-        let stem = Path::new(&table).file_stem().map(legible_path_text).unwrap_or_default();
+        let stem = Path::new(&table)
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
         let name = lexicons::free_lexicon_name(connection, &stem)?;
         let lexicon = lexicons::insert_lexicon(connection, &name)?;
         connection.execute(
