@@ -100,12 +100,6 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
         })
     }
 
-    /// Returns the points.
-    #[must_use]
-    pub fn cloud_markers(&self) -> &MarkerTrack {
-        self.markers.borrow()
-    }
-
     /// Returns whether the points have no depth, so that only the view from the front shows them.
     #[must_use]
     pub fn is_flat(&self) -> bool {

@@ -263,13 +263,6 @@ impl ComponentField {
         self
     }
 
-    /// Returns this field in `phase`.
-    #[must_use]
-    pub fn with_field_phase(mut self, phase: SignPhase) -> Self {
-        self.phase = Some(phase);
-        self
-    }
-
     /// Returns this field with `dominant` and `weak` turned into `right` and `left`.
     #[must_use]
     pub fn resolve_field_hand(mut self, handedness: SignerHandedness) -> Self {

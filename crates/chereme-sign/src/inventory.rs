@@ -223,12 +223,6 @@ impl ComponentInventory {
         std::iter::successors(self.value_by_id(id), up).take(self.values.len() + 1)
     }
 
-    /// Returns the values that `matches` all the features wanted, in their order; see
-    /// [`InventoryValue::matches_features`].
-    pub fn with_features<'a>(&'a self, wanted: &'a [&'a str]) -> impl Iterator<Item = &'a InventoryValue> {
-        self.values.iter().filter(|value| value.matches_features(wanted))
-    }
-
     /// Returns every feature that any value has, in alphabetical order.
     #[must_use]
     pub fn feature_names(&self) -> BTreeSet<&str> {

@@ -129,11 +129,6 @@ impl ExpressionFunction {
         FUNCTION_NAMES.iter().any(|(id, _)| *id == self.0)
     }
 
-    /// Returns the names of the functions that are known.
-    pub fn known_function_names() -> impl Iterator<Item = &'static str> {
-        FUNCTION_NAMES.iter().map(|(id, _)| *id)
-    }
-
     /// Returns the sign at which its body is cut: the second for negation, the last for all others.
     #[must_use]
     pub fn body_cut(&self) -> BodyCut {

@@ -32,7 +32,7 @@ pub use role::{AnnotatedHands, RoleError, RoleWords, TierRole, TierTopic};
 pub use tier_check::{MAX_TIER_DEPTH, NamedAnnotation, TierViolation, check_tier_set, check_tiers};
 pub use tier_plan::plan_tier_change;
 
-use crate::component::{ComponentField, ComponentReading, HandRef};
+use crate::component::{ComponentReading, HandRef};
 use chereme_motion::TimeSpan;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -172,20 +172,6 @@ impl Tier {
     #[must_use]
     pub fn is_alignable(&self) -> bool {
         self.tier_stereotype().is_none_or(TierStereotype::is_alignable)
-    }
-
-    /// Returns the field that the tier codes; `None` for a tier that codes no component.
-    #[must_use]
-    pub fn tier_coded_field(&self) -> Option<ComponentField> {
-        match &self.role {
-            TierRole::Component { component, feature } => Some(ComponentField {
-                hand: self.hand,
-                component: *component,
-                feature: feature.clone(),
-                phase: None,
-            }),
-            _ => None,
-        }
     }
 }
 

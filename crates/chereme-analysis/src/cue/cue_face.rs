@@ -14,8 +14,6 @@ use super::rigid::RigidMotion;
 /// The positions of the face's markers in one frame, in millimetres; nothing for a hidden marker.
 pub type FaceMarkerFrame = Vec<Option<DVec3>>;
 
-/// The number of components of a face.
-pub const FACE_COMPONENT_COUNT: usize = 7;
 /// The number of rounds in which the weights of the throat and the components are determined.
 const FACE_FITTING_ROUNDS: usize = 5;
 

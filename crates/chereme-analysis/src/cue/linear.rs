@@ -40,12 +40,6 @@ impl DenseMatrix {
         self.rows
     }
 
-    /// Returns the number of columns.
-    #[must_use]
-    pub fn matrix_column_count(&self) -> usize {
-        self.cols
-    }
-
     /// Returns a row.
     #[must_use]
     pub fn matrix_row(&self, row: usize) -> &[f64] {

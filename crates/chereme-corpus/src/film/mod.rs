@@ -236,12 +236,6 @@ impl FilmFile {
         })
     }
 
-    /// Returns the path of the file.
-    #[must_use]
-    pub fn film_path(&self) -> &Path {
-        &self.path
-    }
-
     /// Returns the film's facts.
     #[must_use]
     pub fn film_facts(&self) -> &FilmFacts {

@@ -61,9 +61,6 @@ pub enum TableTimeUnit {
 }
 
 impl TableTimeUnit {
-    /// The units.
-    pub const ALL_TIME_UNITS: [Self; 3] = [Self::Seconds, Self::Milliseconds, Self::Frames];
-
     /// Returns `s`, `ms` or `frames`.
     #[must_use]
     pub fn time_unit_name(self) -> &'static str {
