@@ -33,6 +33,7 @@ tuned_numbers! {
         weight: f64,
         cost: f64,
         slider: f64,
+        second: f64,
         shortest: usize,
         gap: usize,
         longest: usize,

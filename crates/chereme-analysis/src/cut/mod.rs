@@ -214,8 +214,16 @@ fn cut_activity(curves: &TakeCurves, odds: &FrameOdds, activity: &PeeledSign, op
     let step = (CURVE_RATE / FRAME_RATE) as usize;
     let last_frame = odds.sign.len();
     let frames = activity.activity.start / step..activity.activity.end.div_ceil(step).min(last_frame);
-    let decoded = odds.decode_signs(frames, tuned().decoder.weight, options.sign_cost);
-    if decoded.len() < 2 {
+    let numbers = &tuned().decoder;
+    let decode = |cost: f64| odds.decode_signs(frames.clone(), numbers.weight, cost);
+    let decoded = decode(options.sign_cost);
+    // Two signs are often the halves of one that repeats or is a compound.
+    let is_one = match decoded.len() {
+        0 | 1 => true,
+        2 => decode(options.sign_cost + numbers.second).len() < 2,
+        _ => false,
+    };
+    if is_one {
         let (begin, end) = (*activity.sign.start(), *activity.sign.end());
         let [supported, unsupported] = tuned().confidence.peeled;
         let is_supported = decoded.first().is_some_and(|span| {
