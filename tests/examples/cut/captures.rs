@@ -1,4 +1,4 @@
-//! Captures: those of the starter corpus with their tokens, and others whose cuts are printed.
+//! Takes of the starter corpus with their tokens, and captures whose cuts are printed.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use chereme_motion::{RecordingInstant, TimeSpan};
 
 use crate::{Result, TrueTake, bodies};
 
-/// Returns the captures of the starter corpus that have tokens.
+/// Returns the takes of the starter corpus that have tokens.
 pub(crate) fn starter_takes() -> Result<Vec<TrueTake>> {
     let folder = tempfile::tempdir()?;
     for (path, bytes) in chereme_corpus::starter_files() {

@@ -2,8 +2,8 @@
 //!
 //! Strings of eight signs each are generated from notation on the body, from rest to rest, at three tempi, without and with
 //! noise, and signs alone, from a seed. The signs are halved by a hash of their names. Truth is the time from the first to the
-//! last posture of each sign. The captures of the starter corpus are cut as well, their truth being the tokens of their
-//! annotator. Each table has the baselines. `... -- takes FILE.bvh...` prints the cuts of captures; `... -- learn STRINGS
+//! last posture of each sign. The takes of the starter corpus, which are made as well, are cut, too; their truth is their
+//! tokens. Each table has the baselines. `... -- takes FILE.bvh...` prints the cuts of captures; `... -- learn STRINGS
 //! SIGML-FOLDER BODY.bvh...` learns the weights from the tuning half, and prints them for `schema/cutting.json`.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
@@ -56,9 +56,9 @@ fn print_tables(folder: &Path, body: &Path, count: usize) -> Result<()> {
         println!("\n### Generated signs alone, {half}: {} takes\n", alone.len());
         print_methods(&alone);
     }
-    let captures = captures::starter_takes()?;
-    println!("\n### Captures of the starter corpus: {} takes\n", captures.len());
-    print_methods(&captures);
+    let starter = captures::starter_takes()?;
+    println!("\n### Takes of the starter corpus, also made: {} takes\n", starter.len());
+    print_methods(&starter);
     Ok(())
 }
 
