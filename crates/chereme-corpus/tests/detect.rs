@@ -285,6 +285,7 @@ fn a_take_named_by_its_gloss_gets_one_token_over_its_sign_or_over_the_whole() {
             .expect("listed");
         let start = listing.rows[0]["start_us"].as_i64().expect("a time");
         assert_eq!(start == 0, is_whole);
+        assert_eq!(report.created.get("annotations"), Some(&1));
         let notes = &report.files[0].findings;
         let note = notes.iter().find(|note| note.message.starts_with("no sign was found"));
         assert_eq!(note.is_some(), is_whole, "{notes:?}");

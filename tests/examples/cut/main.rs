@@ -57,7 +57,10 @@ fn print_tables(folder: &Path, body: &Path, count: usize) -> Result<()> {
         print_methods(&alone);
     }
     let starter = captures::starter_takes()?;
-    println!("\n### Takes of the starter corpus, also made: {} takes\n", starter.len());
+    println!(
+        "\n### Takes of the starter corpus, also made: {} takes\n",
+        starter.len()
+    );
     print_methods(&starter);
     Ok(())
 }

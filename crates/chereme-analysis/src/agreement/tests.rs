@@ -300,7 +300,7 @@ fn offsets_splits_and_merges_of_spans_have_signs_and_are_pooled() {
         (all.begin_offsets.clone(), all.end_offsets.clone()),
         (vec![2, 0], vec![-1, -11])
     );
-    all.add_span_comparison(&compare_span_lists(&[0..10, 12..20], &[0..20]));
+    all.add_span_comparison(&compare_span_lists(&[0..10, 12..20], std::slice::from_ref(&(0..20))));
     assert_eq!(
         (all.splits, all.merges, all.first_count, all.second_count),
         (1, 1, 4, 4)

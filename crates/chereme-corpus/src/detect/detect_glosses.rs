@@ -11,7 +11,7 @@ use crate::address::{self, RowName};
 use crate::annotate::{AnnotateOptions, AnnotationAction, NewTier, TierRequestName, write_tiers};
 use crate::db::{signs, stored_recordings, stored_tiers};
 use crate::error::CorpusResult;
-use crate::import::{FileReport, FileStatus, ImportCompletion};
+use crate::import::{FileStatus, ImportCompletion, ImportReport};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
@@ -27,11 +27,11 @@ pub const GLOSSES_FROM_NAMES: ImportCompletion = ImportCompletion(add_glosses_fr
 /// Adds a token to each imported recording that moves and has none; its gloss is the recording's name.
 fn add_glosses_from_names(
     connection: &Connection,
-    files: &mut [FileReport],
+    report: &mut ImportReport,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
-    let total = files.len() as u64;
-    for (done, file) in files.iter_mut().enumerate() {
+    let total = report.files.len() as u64;
+    for (done, file) in report.files.iter_mut().enumerate() {
         let (FileStatus::Imported, Some(name)) = (file.status, &file.recording) else {
             continue;
         };
@@ -93,6 +93,9 @@ fn add_glosses_from_names(
             value: row.name.clone(),
             confidence: None,
         };
+        for (what, count) in [("tiers", new_tier.iter().len()), ("annotations", 1), ("tokens", 1)] {
+            *report.created.entry(what).or_default() += count as u64;
+        }
         write_tiers(
             connection,
             new_tier.as_slice(),

@@ -122,7 +122,7 @@ pub struct ImportOptions {
 #[derive(Debug, Clone, Copy)]
 pub struct ImportCompletion(pub(crate) CompleteImport);
 
-type CompleteImport = fn(&Connection, &mut [FileReport], &mut ProgressReceiver<'_>) -> CorpusResult<()>;
+type CompleteImport = fn(&Connection, &mut ImportReport, &mut ProgressReceiver<'_>) -> CorpusResult<()>;
 
 /// The treatment of edits in the corpus that a file would revert when it is imported again.
 ///
@@ -286,7 +286,7 @@ impl Corpus {
             };
             import.import_candidate_files(&files, &mut report, progress)?;
             if let Some(ImportCompletion(complete)) = options.completion {
-                complete(connection, &mut report.files, progress)?;
+                complete(connection, &mut report, progress)?;
             }
             import.warn_of_mapping(&mut report);
             let effect = report.import_effect();
