@@ -220,7 +220,11 @@ fn cut_activity(curves: &TakeCurves, odds: &FrameOdds, activity: &PeeledSign, op
     // Two signs are often the halves of one that repeats or is a compound.
     let is_one = match decoded.len() {
         0 | 1 => true,
-        2 => decode(options.sign_cost + numbers.second).len() < 2,
+        // Whoever asks for more signs wants them parted more readily.
+        2 => {
+            let readiness = (options.sign_cost / numbers.cost).clamp(0.0, 1.0);
+            decode(options.sign_cost + readiness * numbers.second).len() < 2
+        }
         _ => false,
     };
     if is_one {
