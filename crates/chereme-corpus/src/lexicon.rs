@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_sign::ErrorRemedy;
 use chereme_sign::text::nearest_candidate;
 use rusqlite::Connection;
 
@@ -170,8 +171,8 @@ pub(crate) fn require_lexicon(connection: &Connection, name: &str) -> CorpusResu
             right: near.to_owned(),
         }));
     Err(error.with_advice(match names.as_slice() {
-        [] => "the corpus has no lexicon: import a table or notation with --lexicon NAME".to_owned(),
-        names => format!("the lexicons are: {}", names.join(", ")),
+        [] => ErrorRemedy::command_remedy("the corpus has no lexicon: import a table or notation with --lexicon NAME"),
+        names => ErrorRemedy::from(format!("the lexicons are: {}", names.join(", "))),
     }))
 }
 
@@ -244,6 +245,8 @@ pub(crate) fn keep_scope_rows<T>(
     let list: Vec<String> = named.map(|(name, count)| format!("{name} ({count})")).collect();
     Err(
         CorpusError::from_wrong_message(format!("these signs belong to several lexicons: {}", list.join(", ")))
-            .with_advice("choose one with --lexicon NAME, or take all of them as one with --across"),
+            .with_advice(ErrorRemedy::command_remedy(
+                "choose one with --lexicon NAME, or take all of them as one with --across",
+            )),
     )
 }

@@ -67,6 +67,9 @@ pub struct ProposalResult {
     pub recordings: Vec<String>,
     /// The number of annotations by confidence: each tenth by its lower end, such as `0.9`, and `unknown`.
     pub by_confidence: BTreeMap<String, u64>,
+    /// The recordings that move, but have no signs yet for which something could be proposed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub uncut: Vec<String>,
     /// Notes on what is not proposed.
     pub findings: Vec<String>,
 }
@@ -300,7 +303,12 @@ impl Corpus {
                 report.findings.push(format!("{why}: {}", names.join(", ")));
             }
         }
-        report.findings.extend(self.uncut_takes(&options.scope)?);
+        report.uncut = self.uncut_takes(&options.scope)?;
+        if !report.uncut.is_empty() {
+            let names = report.uncut.join(", ");
+            let text = format!("no signs are marked yet, so nothing is proposed for them: {names}");
+            report.findings.push(text);
+        }
         let (new, changes) = self.proposal_changes(values)?;
         report.annotations = changes.len() as u64;
         for change in &changes {
@@ -363,8 +371,8 @@ impl Corpus {
         Ok(answer.hits.into_iter().filter(is_in).collect())
     }
 
-    /// Returns a finding for takes of a scope that move but have no signs yet: it names the command that cuts them.
-    fn uncut_takes(&self, scope: &ProposeScope) -> CorpusResult<Option<String>> {
+    /// Returns the takes of a scope that move but have no signs yet.
+    fn uncut_takes(&self, scope: &ProposeScope) -> CorpusResult<Vec<String>> {
         let connection = self.store.read_connection();
         let mut uncut_names = Vec::new();
         for recording in recordings_of_scope(connection, scope)?.0 {
@@ -373,10 +381,7 @@ impl Corpus {
                 uncut_names.push(recording.name);
             }
         }
-        Ok((!uncut_names.is_empty()).then(|| {
-            let names = uncut_names.join(", ");
-            format!("no signs are marked yet, so nothing is proposed for them; `chereme detect CORPUS signs in RECORDING --propose` cuts takes into signs: {names}")
-        }))
+        Ok(uncut_names)
     }
 
     /// Returns the recording of a token if no joint of its body turns.

@@ -255,7 +255,7 @@ fn signs_are_shown_proposed_or_coded_and_proposals_are_no_tokens() {
 }
 
 #[test]
-fn codings_proposed_for_an_uncut_take_name_the_command_that_cuts_it() {
+fn codings_proposed_for_an_uncut_take_say_that_it_has_no_signs() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = bowl(folder.path());
     let options = ProposeOptions {
@@ -264,8 +264,15 @@ fn codings_proposed_for_an_uncut_take_name_the_command_that_cuts_it() {
     };
     let mut hear = ignore_progress_step;
     let proposed = corpus.propose_components(&options, &mut ProgressReceiver::new(&mut hear));
-    let findings = proposed.expect("proposed").findings;
-    assert!(findings[0].contains("chereme detect CORPUS signs"), "{findings:?}");
+    let proposed = proposed.expect("proposed");
+    let findings = proposed.findings;
+    assert_eq!(
+        findings,
+        [format!(
+            "no signs are marked yet, so nothing is proposed for them: {}",
+            proposed.uncut[0]
+        )]
+    );
     let french = localized_message(&findings[0], InterfaceLanguage::French).expect("French");
     assert!(french.starts_with("aucun signe n’est encore marqué"), "{french}");
 }

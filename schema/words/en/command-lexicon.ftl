@@ -8,7 +8,7 @@ message-command-lexicon-no-lexicon = the corpus has no lexicon: import a table o
 ## Help of commands and options.
 
 help-command-lexicon-list-change-link = List the lexicons of a corpus, say what they are, and link recordings to them
-help-command-lexicon-sign-is-entry = A sign is an entry of a lexicon: BOOK of an American and BOOK of a British lexicon are two signs. An imported table is a lexicon with the name of its file, unless `chereme import --lexicon` names one. Where several lexicons have a gloss, write which one is meant: sign:NGT/BOOK. Queries know lexicon=NGT, language=dse and file=ngt.csv.
+help-command-lexicon-sign-is-entry = A sign is an entry of a lexicon: BOOK of an American and BOOK of a British lexicon are two signs. An imported table is a lexicon with the name of its file, unless the import names one. Where several lexicons have a gloss, write which one is meant: sign:NGT/BOOK. Queries know lexicon=NGT, language=dse and file=ngt.csv.
 help-command-lexicon-glosses-looked-up = The glosses of a recording's tiers are looked up in the lexicon to which the recording is linked; those that it does not have are signs of no lexicon. The recordings of a corpus with one lexicon are linked to it; with several, link them yourself. Without an action the lexicons are listed. `--json` gives for each "id", "name", "language", "version", "terms", "citation", "notes", "signs", "files", "recordings" and "tokens".
 help-command-lexicon-say-what-it-is = Say what a lexicon is: its name, language, version, terms, and how to cite it
 help-command-lexicon-look-up = Look up the glosses of recordings in a lexicon from now on

@@ -8,7 +8,7 @@ message-command-lexicon-no-lexicon = le corpus n’a pas de lexique : importez u
 ## Help of commands and options.
 
 help-command-lexicon-list-change-link = Lister les lexiques d’un corpus, dire ce qu’ils sont et y lier des enregistrements
-help-command-lexicon-sign-is-entry = Un signe est une entrée d’un lexique : BOOK d’un lexique américain et BOOK d’un lexique britannique sont deux signes. Une table importée est un lexique du nom de son fichier, sauf si `chereme import --lexicon` en nomme un. Si plusieurs lexiques ont une glose, écrivez lequel est voulu : sign:NGT/BOOK. Les requêtes connaissent lexicon=NGT, language=dse et file=ngt.csv.
+help-command-lexicon-sign-is-entry = Un signe est une entrée d’un lexique : BOOK d’un lexique américain et BOOK d’un lexique britannique sont deux signes. Une table importée est un lexique du nom de son fichier, sauf si l’importation en nomme un. Si plusieurs lexiques ont une glose, écrivez lequel est voulu : sign:NGT/BOOK. Les requêtes connaissent lexicon=NGT, language=dse et file=ngt.csv.
 help-command-lexicon-glosses-looked-up = Les gloses des acteurs d’un enregistrement sont cherchées dans le lexique auquel l’enregistrement est lié ; celles qu’il n’a pas sont des signes d’aucun lexique. Les enregistrements d’un corpus qui a un seul lexique y sont liés ; s’il en a plusieurs, liez-les vous-même. Sans action, les lexiques sont listés. `--json` donne pour chacun "id", "name", "language", "version", "terms", "citation", "notes", "signs", "files", "recordings" et "tokens".
 help-command-lexicon-say-what-it-is = Dire ce qu’est un lexique : son nom, sa langue, sa version, ses conditions et comment le citer
 help-command-lexicon-look-up = Chercher désormais les gloses d’enregistrements dans un lexique

@@ -15,7 +15,7 @@ use crate::output::{CommandOutput, CommandProgressBar};
 /// List the lexicons of a corpus, say what they are, and link recordings to them
 ///
 /// A sign is an entry of a lexicon: BOOK of an American and BOOK of a British lexicon are two signs. An imported table is
-/// a lexicon with the name of its file, unless `chereme import --lexicon` names one. Where several lexicons have a gloss,
+/// a lexicon with the name of its file, unless the import names one. Where several lexicons have a gloss,
 /// write which one is meant: sign:NGT/BOOK. Queries know lexicon=NGT, language=dse and file=ngt.csv.
 ///
 /// The glosses of a recording's tiers are looked up in the lexicon to which the recording is linked; those that it does

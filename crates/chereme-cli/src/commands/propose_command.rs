@@ -132,5 +132,8 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
     for finding in &proposed.findings {
         output.write_warning(finding)?;
     }
+    if !proposed.uncut.is_empty() {
+        output.write_note("`chereme detect CORPUS signs in RECORDING --propose` cuts takes into signs")?;
+    }
     output.set_json_document(proposed)
 }

@@ -3,7 +3,7 @@
 use chereme_analysis::detect::{DetectedSubject, SignDetector};
 use chereme_formats::table::annotations::TableMoment;
 use chereme_motion::RecordingInstant;
-use chereme_sign::TierRole;
+use chereme_sign::{ErrorRemedy, TierRole};
 use rusqlite::Connection;
 
 use super::{Detections, propose_for_recording};
@@ -70,7 +70,7 @@ fn add_glosses_from_names(
                 "{} signs were found between rests; the gloss covers the longest one",
                 sign_times.len()
             );
-            let remedy = "`chereme detect CORPUS signs in RECORDING` shows all of them";
+            let remedy = ErrorRemedy::command_remedy("`chereme detect CORPUS signs in RECORDING` shows all of them");
             file.findings.push(ReportFinding::finding_warning(text, remedy));
         }
         let [start, end] = longest.copied().unwrap_or([0, row.duration_us]);
