@@ -197,7 +197,8 @@ fn the_same_seed_gives_the_same_document_and_stopping_stops() {
         let other = turned.measures.iter().find(|it| it.0 == *name);
         let other = other.and_then(|it| it.1.value);
         match (figure.value, other) {
-            (Some(one), Some(other)) if !name.starts_with("overlap") => {
+            // Measures of segments take the first annotator as the truth.
+            (Some(one), Some(other)) if !name.starts_with("overlap") && !name.starts_with("segment_") => {
                 // ELAN's 20 rounds of fitting scale rows before columns, so that the last digits depend on the order.
                 let tolerance = if *name == "kappa_ipf" { 1e-5 } else { 1e-9 };
                 assert!((one - other).abs() < tolerance, "{name}: {one} {other}");
