@@ -180,7 +180,7 @@ fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
     let all = Modifiers::COMMAND | Modifiers::SHIFT | Modifiers::ALT;
     window.key_press_modifiers(all, Key::P);
     window.run_steps(4);
-    let strokes = window.get_by_label_contains("strokes: strokes of each wrist");
+    let strokes = window.get_by_label_contains("signs: signs, and the preparation");
     strokes.click();
     window.run_steps(4);
     idle(&mut window);
@@ -222,7 +222,7 @@ fn accepting_ends_at_proposals_whose_places_are_taken() {
     idle(&mut window);
     let all = Modifiers::COMMAND | Modifiers::SHIFT | Modifiers::ALT;
     press(&mut window, all, Key::P);
-    let strokes = window.get_by_label_contains("strokes: strokes of each wrist");
+    let strokes = window.get_by_label_contains("signs: signs, and the preparation");
     strokes.click();
     let proposed = |name: &str| name.ends_with("(proposed)");
     until(&mut window, "the strokes", |window| count(window, proposed) > 0);

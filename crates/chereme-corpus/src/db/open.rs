@@ -11,6 +11,7 @@ use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 
+use super::stored_search::SearchIndexState;
 use super::unfinished::{UnfinishedFile, remove_leftovers};
 use super::{damaged_row_error, seals, stale_log, stored_roles, upgrade};
 use crate::error::{CorpusError, CorpusResult};
@@ -421,6 +422,8 @@ fn take_steps(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Cor
         upgrade::give_signs_lexicons(&transaction)?;
         // The index knows no lexicons; the next search builds it again.
         super::stored_search::delete_files(&transaction)?;
+        super::stored_search::seal_files(&transaction)?;
+        SearchIndexState::record_indexed_changes(&transaction, 0, 0)?;
     }
     upgrade::rewrite_json_rules(&transaction)?;
     stored_roles::add_missing(&transaction)?;

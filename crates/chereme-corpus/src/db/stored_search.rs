@@ -26,7 +26,9 @@ pub(crate) fn count_token_touches(connection: &Connection) -> CorpusResult<i64> 
         .prepare_cached(
             "SELECT count(*) FROM temp.change
              WHERE tbl IN ('token', 'token_value', 'sign_text', 'annotation')
-                OR (kind = 'u' AND tbl IN ('sign', 'tier', 'recording', 'signer'))",
+                OR (kind = 'u' AND tbl IN ('sign', 'tier', 'recording', 'signer', 'lexicon'))
+                OR (kind <> 'u' AND tbl = 'source_file'
+                    AND coalesce(after, before) ->> '$.recording_id' IS NOT NULL)",
         )?
         .query_row([], |row| row.get(0))?;
     Ok(count)

@@ -102,5 +102,6 @@ texts! {
     ABOUT_FEATURES: "Values of matched units, weighed by the features of handshapes", "Valeurs des unités qui se correspondent, pesées par les traits des configurations";
     ABOUT_OVERLAP: "ELAN’s ratio of overlap, which depends on the tier that it begins with", "Le taux de recouvrement d’ELAN, qui dépend de l’acteur de départ";
     ABOUT_FRAMES: "Stretches of 10 ms each; gaps are a value", "Tranches de 10 ms ; les vides sont une valeur";
+    ABOUT_SEGMENTS: "Segments alone, whatever their values, on a grid of 40 ms; the first tier is the truth", "Les seuls segments, quelles que soient leurs valeurs, sur une grille de 40 ms ; le premier acteur est la vérité";
     ABOUT_BOUNDARIES: "Similarity of boundaries, for tiers without gaps", "Similarité des frontières, pour des acteurs sans vides";
 }

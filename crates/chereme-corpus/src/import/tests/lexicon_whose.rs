@@ -90,6 +90,10 @@ fn one_gloss_in_two_tables_is_two_signs() {
         ..LexiconChange::default()
     };
     corpus.change_lexicon("asl", &change).expect("changed");
+    let check = corpus
+        .check_corpus(false, &mut ProgressReceiver::silent_progress())
+        .expect("checked");
+    assert_eq!(check.all_findings().next(), None, "the index has followed");
     assert_eq!(found(&mut corpus, "language=ase").len(), 3);
     assert_eq!(found(&mut corpus, "lexicon=ASL").len(), 3);
     corpus.undo_operation().expect("undone");

@@ -282,6 +282,7 @@ pub(super) fn measure_meaning(measure: &str) -> Option<InterfaceText> {
         it if it.starts_with("label_") => words::ABOUT_LABELS,
         it if it.starts_with("overlap_") => words::ABOUT_OVERLAP,
         it if it.starts_with("frames_") => words::ABOUT_FRAMES,
+        it if it.starts_with("segment_") => words::ABOUT_SEGMENTS,
         _ => return None,
     })
 }
