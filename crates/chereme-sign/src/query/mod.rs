@@ -148,8 +148,8 @@ The token as a whole
   origin=captured,made,lexicon,generated
   hand=right,left,dominant,weak,both      of its annotation, else of its values
   signer=  recording=  sign=  token=  tier=  inventory=
-  lexicon=NGT   file=ngt.csv              whose sign it is, and where it came from
-  language=dse                            the sign language of its lexicon (ISO 639-3)
+  lexicon=NGT   file=ngt.csv              whose sign it is; where it came from
+  language=dse                            its sign language, by ISO 639-3
 
 Who says so: proposals and disputed values are read only where asked for
   proposed:yes                            a detector proposes something
