@@ -210,13 +210,13 @@ impl Corpus {
             })?;
             let span = within.unwrap_or_else(|| whole_recording_span(row));
             let mut proposals = match propose_for_recording(connection, detector, row)? {
-                Detections::Found(proposals) => proposals,
-                Detections::Nothing(why) => {
+                DetectionOutcome::Found(proposals) => proposals,
+                DetectionOutcome::Nothing(why) => {
                     let recording = row.name.clone();
                     detected.without.push(UndetectedIn { recording, why });
                     Vec::new()
                 }
-                Detections::Unobserved => {
+                DetectionOutcome::Unobserved => {
                     if !matches!(options.scope, ProposeScope::All | ProposeScope::Recordings(_)) {
                         return Err(unobserved(detector, row));
                     }
@@ -304,10 +304,10 @@ pub(crate) fn recordings_of_scope(
 }
 
 /// The detections in a recording.
-pub(crate) enum Detections {
+pub(crate) enum DetectionOutcome {
     /// The proposals.
     Found(Vec<ProposedAnnotation>),
-    /// The reason why there are none.
+    /// It found nothing, for this reason.
     Nothing(String),
     /// The recording has no part that the detector examines.
     Unobserved,
@@ -318,7 +318,7 @@ pub(crate) fn propose_for_recording(
     connection: &Connection,
     detector: &dyn AnnotationDetector,
     row: &RecordingRow,
-) -> CorpusResult<Detections> {
+) -> CorpusResult<DetectionOutcome> {
     let examines = |part| detector.examines().contains(&part);
     let moves = examines(SignerPart::Body) && stored_recordings::body_track(connection, row.id)?.is_some();
     let face = match examines(SignerPart::Face) {
@@ -326,7 +326,7 @@ pub(crate) fn propose_for_recording(
         false => None,
     };
     if !moves && face.is_none() {
-        return Ok(Detections::Unobserved);
+        return Ok(DetectionOutcome::Unobserved);
     }
     let face = face.as_ref();
     let detections = match moves {
@@ -341,14 +341,14 @@ pub(crate) fn propose_for_recording(
     };
     let detections = match detections {
         Ok(detections) => detections,
-        Err(reason) => return Ok(Detections::Nothing(reason.to_string())),
+        Err(reason) => return Ok(DetectionOutcome::Nothing(reason.to_string())),
     };
     let mut proposals: Vec<ProposedAnnotation> = detections
         .into_iter()
         .map(|detection| ProposedAnnotation::new(detection, row.duration_us))
         .collect();
     proposals.retain(|proposal| proposal.end_us > proposal.start_us);
-    Ok(Detections::Found(proposals))
+    Ok(DetectionOutcome::Found(proposals))
 }
 
 /// The movement of a recording that a detector examines, without odd frames at its ends.

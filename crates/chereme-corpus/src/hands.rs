@@ -1,4 +1,4 @@
-//! What of a take is usable: the frames that pictures, transcription, comparison and publishing use, and the corrections of
+//! The usable part of a take: the frames that pictures, transcription, comparison and publishing use, and the corrections of
 //! a signer's finger angles, relative to the straightest and most bent postures in the signer's takes.
 
 use std::cell::RefCell;

@@ -59,7 +59,7 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if the corpus cannot be read.
-    pub fn lexicons(&self) -> CorpusResult<Vec<LexiconContents>> {
+    pub fn list_lexicons(&self) -> CorpusResult<Vec<LexiconContents>> {
         lexicons::load_lexicon_contents(self.store.read_connection())
     }
 

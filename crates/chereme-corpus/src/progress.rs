@@ -49,7 +49,7 @@ impl<'a> ProgressReceiver<'a> {
         Self(Some(listener))
     }
 
-    /// Returns progress of which nobody hears, and which never stops.
+    /// Returns a receiver that nobody listens to, and that never stops the work.
     #[must_use]
     pub fn silent_progress() -> Self {
         Self(None)

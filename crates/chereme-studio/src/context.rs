@@ -1,4 +1,4 @@
-//! What a pane sees while it draws.
+//! The input of a pane while it draws.
 
 use crate::model::display_state::DisplayState;
 use std::collections::BTreeMap;

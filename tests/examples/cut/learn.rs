@@ -9,9 +9,9 @@ use crate::{Result, TrueTake, strings};
 /// The time around a boundary that counts as it, in seconds.
 const BOUNDARY_SECONDS: f64 = 0.045;
 /// The penalty on the square of each weight of standardised numbers, for each frame.
-const RIDGE: f64 = 1e-3;
+const RIDGE_WEIGHT: f64 = 1e-3;
 /// Steps of Newton's method; it needs fewer.
-const STEPS: usize = 12;
+const FITTING_STEPS: usize = 12;
 
 /// Learns from strings and signs alone on several bodies, and prints the weights as JSON.
 pub(crate) fn print_weights(folder: &Path, bodies: &[&str], count: usize) -> Result<()> {
@@ -95,7 +95,7 @@ impl FrameTable {
             })
             .collect();
         let mut weights = vec![0.0; width + 1];
-        for _ in 0..STEPS {
+        for _ in 0..FITTING_STEPS {
             let mut gradient = vec![0.0; width + 1];
             let mut curvature = vec![vec![0.0; width + 1]; width + 1];
             for (row, labels) in standard.iter().zip(&self.labels) {
@@ -110,7 +110,7 @@ impl FrameTable {
                 }
             }
             for n in 0..=width {
-                let ridge = if n == 0 { 1e-9 } else { RIDGE } * count;
+                let ridge = if n == 0 { 1e-9 } else { RIDGE_WEIGHT } * count;
                 gradient[n] -= ridge * weights[n];
                 curvature[n][n] += ridge;
             }

@@ -14,21 +14,21 @@ use chereme_sign::hamnosys::NotatedSign;
 use crate::{Result, TrueTake, bodies};
 
 /// How many signs a string has.
-const SIGNS: usize = 8;
+const STRING_SIGN_COUNT: usize = 8;
 /// The seed of everything.
-const SEED: u64 = 56;
+const STRINGS_SEED: u64 = 56;
 /// The tempi: the length of a take as a multiple of the animator's.
-const TEMPI: [f64; 3] = [1.0, 0.75, 0.55];
+const STRING_TEMPI: [f64; 3] = [1.0, 0.75, 0.55];
 /// Standard deviations of the noise of each joint, in degrees.
-const NOISE: [f64; 3] = [0.0, 0.2, 0.5];
+const NOISE_DEGREES: [f64; 3] = [0.0, 0.2, 0.5];
 
 /// Generates strings of signs of one half of the names.
 pub(crate) fn generate_strings(folder: &Path, body: &Path, count: usize, is_tuned: bool) -> Result<Vec<TrueTake>> {
     let source = SignSource::open_half(folder, body, is_tuned)?;
-    let mut random = RandomNumbers::new(SEED);
+    let mut random = RandomNumbers::new(STRINGS_SEED);
     let mut takes = Vec::new();
     for number in 0..count {
-        let signs: Vec<&(String, NotatedSign)> = (0..SIGNS)
+        let signs: Vec<&(String, NotatedSign)> = (0..STRING_SIGN_COUNT)
             .map(|_| &source.signs[random.random_below(source.signs.len())])
             .collect();
         takes.extend(source.take(&signs, number, &mut random));
@@ -39,7 +39,7 @@ pub(crate) fn generate_strings(folder: &Path, body: &Path, count: usize, is_tune
 /// Generates signs alone.
 pub(crate) fn generate_isolated(folder: &Path, body: &Path, count: usize, is_tuned: bool) -> Result<Vec<TrueTake>> {
     let source = SignSource::open_half(folder, body, is_tuned)?;
-    let mut random = RandomNumbers::new(SEED + 1);
+    let mut random = RandomNumbers::new(STRINGS_SEED + 1);
     let mut takes = Vec::new();
     for number in 0..count {
         let sign = &source.signs[random.random_below(source.signs.len())];
@@ -68,8 +68,8 @@ impl SignSource {
         let settings = AnimatorSettings::default();
         let notated: Vec<&NotatedSign> = signs.iter().map(|(_, sign)| sign).collect();
         let made = animate_signs(&notated, &self.stage, &settings).ok()?;
-        let tempo = TEMPI[number % TEMPI.len()];
-        let noise = NOISE[(number / TEMPI.len()) % NOISE.len()];
+        let tempo = STRING_TEMPI[number % STRING_TEMPI.len()];
+        let noise = NOISE_DEGREES[(number / STRING_TEMPI.len()) % NOISE_DEGREES.len()];
         let names: Vec<&str> = signs.iter().map(|(name, _)| name.as_str()).collect();
         Some(TrueTake {
             name: names.join(" "),

@@ -18,23 +18,23 @@ pub struct SignDetector {
     pub sign_cost: Option<f64>,
 }
 
-const PEELED: InterfaceText = InterfaceText::new(
+const PEELED_SIGN_TEXT: InterfaceText = InterfaceText::new(
     "the only sign between two rests, by the {side} hand",
     "seul signe entre deux repos, de la main {side}",
 );
-const PEELED_BY_BOTH: InterfaceText = InterfaceText::new(
+const PEELED_BY_BOTH_TEXT: InterfaceText = InterfaceText::new(
     "the only sign between two rests, by both hands; the {side} hand leads",
     "seul signe entre deux repos, des deux mains ; la main {side} mène",
 );
-const DECODED: InterfaceText = InterfaceText::new(
+const DECODED_SIGN_TEXT: InterfaceText = InterfaceText::new(
     "one of several signs between two rests, by the {side} hand",
     "un de plusieurs signes entre deux repos, de la main {side}",
 );
-const DECODED_BY_BOTH: InterfaceText = InterfaceText::new(
+const DECODED_BY_BOTH_TEXT: InterfaceText = InterfaceText::new(
     "one of several signs between two rests, by both hands; the {side} hand leads",
     "un de plusieurs signes entre deux repos, des deux mains ; la main {side} mène",
 );
-const PHASE: InterfaceText = InterfaceText::new(
+const SIGN_PHASE_TEXT: InterfaceText = InterfaceText::new(
     "part of the sign that this hand makes",
     "partie du signe que fait cette main",
 );
@@ -50,7 +50,13 @@ impl AnnotationDetector for SignDetector {
                 "signs, and the preparation, stroke, hold and retraction of each hand",
                 "signes, et préparation, noyau, tenue et rétraction de chaque main",
             ),
-            messages: &[DECODED_BY_BOTH, DECODED, PEELED_BY_BOTH, PEELED, PHASE],
+            messages: &[
+                DECODED_BY_BOTH_TEXT,
+                DECODED_SIGN_TEXT,
+                PEELED_BY_BOTH_TEXT,
+                PEELED_SIGN_TEXT,
+                SIGN_PHASE_TEXT,
+            ],
         };
         &SIGN_DESCRIPTION
     }
@@ -76,10 +82,10 @@ impl AnnotationDetector for SignDetector {
         let mut stretches = Vec::new();
         for sign in signs {
             let why = match (sign.rule, sign.is_two_handed) {
-                (CutRule::Peeled, false) => PEELED,
-                (CutRule::Peeled, true) => PEELED_BY_BOTH,
-                (CutRule::Decoded, false) => DECODED,
-                (CutRule::Decoded, true) => DECODED_BY_BOTH,
+                (CutRule::Peeled, false) => PEELED_SIGN_TEXT,
+                (CutRule::Peeled, true) => PEELED_BY_BOTH_TEXT,
+                (CutRule::Decoded, false) => DECODED_SIGN_TEXT,
+                (CutRule::Decoded, true) => DECODED_BY_BOTH_TEXT,
             };
             stretches.push(DetectedStretch {
                 span: sign.span.shifted_span(start),
@@ -95,7 +101,7 @@ impl AnnotationDetector for SignDetector {
                 subject: DetectedSubject::Field(phase_field(side)),
                 value: phase.kind.phase_name().to_owned(),
                 confidence: phase.confidence,
-                why: PHASE.en.to_owned(),
+                why: SIGN_PHASE_TEXT.en.to_owned(),
             }));
         }
         Ok(stretches)

@@ -154,7 +154,7 @@ pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOut
         }
     }
     drop(bar);
-    let lexicons = corpus.lexicons()?;
+    let lexicons = corpus.list_lexicons()?;
     print_lexicons(&lexicons, output)?;
     output.set_json_document(lexicons)
 }

@@ -165,7 +165,7 @@ pub struct PairAgreement {
     pub measures: Vec<(&'static str, MeasureFigure)>,
 }
 
-/// What a simple way to cut takes reaches against the first annotator.
+/// The agreement of a simple way to cut takes with the first annotator.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BaselineAgreement {
     /// Its name: `uniform` with the true count, `speed_minima` or `activities`.

@@ -178,7 +178,7 @@ pub(crate) fn lexicon_of_file(connection: &Connection, file: i64) -> CorpusResul
     Ok(lexicon.flatten())
 }
 
-/// What a lexicon holds.
+/// A lexicon with the amount of its contents.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct LexiconContents {
     /// The lexicon.

@@ -6,7 +6,7 @@ use chereme_motion::{FacePosture, RecordingInstant, TimeSpan};
 use rusqlite::Connection;
 use serde::Serialize;
 
-use super::{DetectionUse, Detections, ProposalChanges, ProposedAnnotation};
+use super::{DetectionOutcome, DetectionUse, ProposalChanges, ProposedAnnotation};
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName, find_addressed_recording};
 use crate::curves::face_captured::{CapturedFace, captured_with, no_face};
@@ -163,9 +163,9 @@ impl Corpus {
         let recording = find_addressed_recording(connection, address)?;
         let row = address::find_recording_by_name(connection, &RowName::Number(recording))?;
         let proposals = match super::propose_for_recording(connection, &NonmanualDetector, &row)? {
-            Detections::Found(proposals) => proposals,
-            Detections::Nothing(_) => Vec::new(),
-            Detections::Unobserved => return Err(no_face(&row.name)),
+            DetectionOutcome::Found(proposals) => proposals,
+            DetectionOutcome::Nothing(_) => Vec::new(),
+            DetectionOutcome::Unobserved => return Err(no_face(&row.name)),
         };
         let mut written = 0;
         if store {

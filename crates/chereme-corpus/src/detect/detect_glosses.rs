@@ -6,7 +6,7 @@ use chereme_motion::RecordingInstant;
 use chereme_sign::{ErrorRemedy, TierRole};
 use rusqlite::Connection;
 
-use super::{Detections, propose_for_recording};
+use super::{DetectionOutcome, propose_for_recording};
 use crate::address::{self, RowName};
 use crate::annotate::{AnnotateOptions, AnnotationAction, NewTier, TierRequestName, write_tiers};
 use crate::db::{signs, stored_recordings, stored_tiers};
@@ -52,14 +52,14 @@ fn add_glosses_from_names(
         let mut sign_times: Vec<[i64; 2]> = Vec::new();
         let mut reason = None;
         match propose_for_recording(connection, &one_sign, &row)? {
-            Detections::Found(proposals) => {
+            DetectionOutcome::Found(proposals) => {
                 let found_signs = proposals
                     .iter()
                     .filter(|proposal| proposal.subject == DetectedSubject::Sign);
                 sign_times.extend(found_signs.map(|sign| [sign.start_us, sign.end_us]));
             }
-            Detections::Nothing(why) => reason = Some(why),
-            Detections::Unobserved => {}
+            DetectionOutcome::Nothing(why) => reason = Some(why),
+            DetectionOutcome::Unobserved => {}
         }
         let longest = sign_times.iter().max_by_key(|[start, end]| end - start);
         if let (None, Some(why)) = (longest, reason) {

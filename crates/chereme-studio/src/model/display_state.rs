@@ -1,4 +1,4 @@
-//! What the window shows and what is selected.
+//! The state of the display: shown objects, and the selection.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -61,7 +61,7 @@ fn one_gloss_in_two_tables_is_two_signs() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus_of_two(folder.path());
     let counts: Vec<(String, i64)> = corpus
-        .lexicons()
+        .list_lexicons()
         .expect("lexicons")
         .into_iter()
         .map(|contents| (contents.lexicon.name, contents.signs))
