@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::hamnosys::{BodyLanguage, LanguageError};
+use chereme_sign::hamnosys::{BodyLanguage, BodyLanguageError};
 use serde::{Deserialize, Serialize};
 
 /// Numbers of body language that replace the default ones; see [`BodyLanguage`].
@@ -75,8 +75,8 @@ impl BodyLanguageChanges {
     /// Returns the whole body language: the default one with these numbers and places.
     ///
     /// # Errors
-    /// [`LanguageError`] if a name is unknown or a number out of range.
-    pub fn whole_body_language(&self) -> Result<BodyLanguage, LanguageError> {
+    /// [`BodyLanguageError`] if a name is unknown or a number out of range.
+    pub fn whole_body_language(&self) -> Result<BodyLanguage, BodyLanguageError> {
         let value_entries = self.values.iter();
         let values = value_entries.map(|(name, value)| (name.as_str(), value.value));
         let mut complete_language = BodyLanguage::default_body_language().with_measured(values)?;

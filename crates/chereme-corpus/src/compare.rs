@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use chereme_formats::compare::{self, MergeConflict, MergedTranscript, TranscriptDifference};
-use chereme_formats::eaf::{self, AnnotationTranscript, eaf_raw, patch_eaf, to_raw};
+use chereme_formats::eaf::{self, AnnotationTranscript, eaf_document_from_transcript, eaf_raw, patch_eaf};
 use chereme_formats::table::annotations;
 use chereme_formats::{subtitles, textgrid};
 use chereme_sign::ErrorRemedy;
@@ -148,7 +148,7 @@ fn write_eaf(mine: &[u8], whole: &AnnotationTranscript) -> CorpusResult<Vec<u8>>
     let decoded = eaf::decode_eaf(mine).map_err(fault)?;
     let (template, _) = eaf_raw::read_eaf_document(decoded.text.as_bytes()).map_err(fault)?;
     let mut bytes = Vec::new();
-    eaf_raw::write_eaf_document(&to_raw(whole, &template), &mut bytes)
+    eaf_raw::write_eaf_document(&eaf_document_from_transcript(whole, &template), &mut bytes)
         .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     Ok(bytes)
 }

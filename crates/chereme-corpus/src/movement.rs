@@ -603,7 +603,7 @@ pub(crate) fn columns_of(hierarchy: &BvhHierarchy, joints: &[usize]) -> Vec<usiz
 }
 
 /// Stores `frames` frames of columns from `first_frame` on, group by group.
-pub(crate) fn store_block(
+pub(crate) fn store_block_groups(
     connection: &Connection,
     track: i64,
     groups: &[(ChannelGroup, Vec<usize>)],

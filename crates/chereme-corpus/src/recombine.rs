@@ -445,7 +445,7 @@ fn store_movement(
                 exceptions: Vec::new(),
             })
             .collect();
-        movement::store_block(connection, track, &numbers, first, rows.len(), &part)?;
+        movement::store_block_groups(connection, track, &numbers, first, rows.len(), &part)?;
     }
     curves::store_generated_curves(connection, recording, &made.curves, rate, clip.clip_frame_count())?;
     Ok(())

@@ -36,7 +36,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     };
 
     // The document is the file as ELAN has it: time slots, tier types, ids.
-    let document = eaf_convert::to_raw(&transcript, &eaf_raw::EafDocument::default());
+    let document = eaf_convert::eaf_document_from_transcript(&transcript, &eaf_raw::EafDocument::default());
     let mut file = Vec::new();
     eaf_raw::write_eaf_document(&document, &mut file)?;
     println!("{}", String::from_utf8_lossy(&file));

@@ -1,7 +1,9 @@
 //! EAF files: values read, findings, refusals, and round trips.
 
 use chereme_formats::eaf::eaf_raw::{self, AnnotationAnchor, EafDocument};
-use chereme_formats::eaf::{AnnotationTranscript, EafError, read_eaf, to_raw, transcript_from_eaf};
+use chereme_formats::eaf::{
+    AnnotationTranscript, EafError, eaf_document_from_transcript, read_eaf, transcript_from_eaf,
+};
 use std::path::{Path, PathBuf};
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2024-01-01T00:00:00Z\" FORMAT=\"3.0\" VERSION=\"3.0\">\n";
@@ -116,7 +118,7 @@ fn comes_back(bytes: &[u8]) {
         |it: &&chereme_formats::ImportFinding| !it.message.contains("kept aside") && !it.message.contains("is not a");
     assert_eq!(findings.iter().find(loud), None);
     let (meant, _) = transcript_from_eaf(&document);
-    let back = to_raw(&meant, &document);
+    let back = eaf_document_from_transcript(&meant, &document);
     let text = written(&back);
     let (back, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("what was written is read");
     let (mut again, findings) = transcript_from_eaf(&back);
@@ -167,7 +169,7 @@ fn shared_time_slots_stay_shared_when_written() {
         &(tier("p root", "a1:ts1-ts4=x") + &tier("c time p", "a3:ts1-ts2=i a4:ts2-ts4=j")),
     );
     let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
-    let back = to_raw(&transcript_from_eaf(&document).0, &document);
+    let back = eaf_document_from_transcript(&transcript_from_eaf(&document).0, &document);
     assert_eq!(back.time_order.len(), 3);
     assert_eq!(
         back.tiers[1].annotations[0].anchor,
@@ -423,7 +425,7 @@ fn the_last_used_id_is_updated_as_the_last_property() {
         "<HEADER><PROPERTY NAME=\"lastUsedAnnotationId\">7</PROPERTY><PROPERTY NAME=\"URN\">u</PROPERTY></HEADER>",
     );
     let (document, _) = eaf_raw::read_eaf_document(text.as_bytes()).expect("a document");
-    let back = to_raw(&transcript_from_eaf(&document).0, &document);
+    let back = eaf_document_from_transcript(&transcript_from_eaf(&document).0, &document);
     let properties: Vec<(&str, &str)> = back
         .header
         .properties
@@ -444,7 +446,7 @@ fn an_annotation_keeps_its_milliseconds_until_it_is_moved() {
     );
     transcript.tiers[0].annotations[0].span = snapped;
     let values = |transcript: &AnnotationTranscript| {
-        to_raw(transcript, &document)
+        eaf_document_from_transcript(transcript, &document)
             .time_order
             .iter()
             .map(|slot| slot.value)
@@ -597,7 +599,7 @@ fn flipped_bytes_do_no_harm() {
         }
         if let Ok((document, _)) = eaf_raw::read_eaf_document(&bytes) {
             let (transcript, _) = transcript_from_eaf(&document);
-            let out = written(&to_raw(&transcript, &document));
+            let out = written(&eaf_document_from_transcript(&transcript, &document));
             assert!(eaf_raw::read_eaf_document(out.as_bytes()).is_ok());
             let again = written(&document);
             assert_eq!(

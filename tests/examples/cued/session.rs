@@ -124,7 +124,7 @@ fn take(folder: &Path, name: &str, text: &str, take: &GeneratedTake, frames: &mu
         let tiers = tiers(take, text);
         let (grid, _) = textgrid::write_textgrid(&tiers, TextGridForm::Long, end);
         fs::write(folder.join(format!("c3d/{name}.TextGrid")), grid)?;
-        let document = eaf::to_raw(&tiers, &eaf::eaf_raw::EafDocument::default());
+        let document = eaf::eaf_document_from_transcript(&tiers, &eaf::eaf_raw::EafDocument::default());
         let mut bytes = Vec::new();
         eaf::eaf_raw::write_eaf_document(&document, &mut bytes)?;
         fs::write(folder.join(format!("trc/{name}.eaf")), bytes)?;

@@ -1,6 +1,6 @@
 //! Agreement on values of the same items.
 //!
-//! Values are numbers of categories; for weighted kappa and ordinal alpha they are positions in an order, which counts
+//! Values are numbers of categories; for ordinal alpha they are positions in an order, which counts
 //! categories that nobody used, too. An item with one value takes part in no pair.
 
 use std::collections::BTreeMap;
@@ -9,15 +9,6 @@ use super::{AgreementMeasure, UndefinedAgreement, below_chance, beyond_chance};
 
 /// The values of one item, one place for each annotator.
 pub type AnnotatedItem = Vec<Option<usize>>;
-
-/// The weight of a disagreement in weighted kappa.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DisagreementWeight {
-    /// The distance of the two positions.
-    Linear,
-    /// Its square.
-    Quadratic,
-}
 
 /// The squared difference of two values in alpha.
 #[derive(Clone, Copy)]
@@ -148,7 +139,7 @@ impl AgreementCounts {
         beyond_chance(raw, both.map(|(a, b)| ((a + b) / total).powi(2)).sum())
     }
 
-    /// Returns Gwet's AC1 (2008) of two annotators, see [`item_gwet_ac1`].
+    /// Returns Gwet's AC1 (2008) of two annotators: chance is `Σ p (1 - p) / (q - 1)` over the q used values.
     ///
     /// # Errors
     /// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
@@ -172,90 +163,6 @@ impl AgreementCounts {
         }
         below_chance(1.0 - raw, expected, UndefinedAgreement::OneValue)
     }
-}
-
-/// Returns weighted kappa (Cohen 1968): `1 - Σ w O / Σ w E` over positions in an order.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
-pub fn weighted_kappa(items: &[AnnotatedItem], weight: DisagreementWeight) -> AgreementMeasure {
-    let pairs = annotator_value_pairs(items);
-    if pairs.is_empty() {
-        return Err(UndefinedAgreement::NoPair);
-    }
-    let counts = AgreementCounts::from_value_pairs(&pairs);
-    let cost = |a: usize, b: usize| {
-        let apart = a.abs_diff(b) as f64;
-        match weight {
-            DisagreementWeight::Linear => apart,
-            DisagreementWeight::Quadratic => apart * apart,
-        }
-    };
-    let observed: f64 = pairs.iter().map(|(a, b)| cost(*a, *b)).sum();
-    let mut expected = 0.0;
-    for (a, row) in counts.rows.iter().enumerate() {
-        for (b, column) in counts.columns.iter().enumerate() {
-            expected += cost(a, b) * row * column;
-        }
-    }
-    below_chance(
-        observed,
-        expected / counts.total_pair_count(),
-        UndefinedAgreement::OneValue,
-    )
-}
-
-/// Returns the kappa of Fleiss (1971) for any number of annotators who all gave a value to each item.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::Missing`], [`UndefinedAgreement::OneValue`].
-pub fn fleiss_kappa(items: &[AnnotatedItem]) -> AgreementMeasure {
-    let each = items.first().map_or(0, Vec::len);
-    if each < 2 {
-        return Err(UndefinedAgreement::NoPair);
-    }
-    let full = |item: &AnnotatedItem| item.len() == each && item.iter().all(Option::is_some);
-    if !items.iter().all(full) {
-        return Err(UndefinedAgreement::Missing);
-    }
-    let counts = count_given_values(items);
-    let all = (items.len() * each) as f64;
-    let chance = counts.values().map(|count| (count / all).powi(2)).sum();
-    beyond_chance(item_raw_agreement(items)?, chance)
-}
-
-/// Returns Gwet's AC1 (2008) for any number of annotators: chance is `Σ p (1 - p) / (q - 1)` over the q used values.
-///
-/// The agreement is the mean over the items with two values; shares of values are means over items with any.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
-pub fn item_gwet_ac1(items: &[AnnotatedItem]) -> AgreementMeasure {
-    let (mut agreed, mut several, mut any) = (0.0, 0.0, 0.0);
-    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
-    for item in items {
-        let mut counts: BTreeMap<usize, f64> = BTreeMap::new();
-        for value in item.iter().flatten() {
-            *counts.entry(*value).or_default() += 1.0;
-        }
-        let all: f64 = counts.values().sum();
-        if all == 0.0 {
-            continue;
-        }
-        any += 1.0;
-        for (value, count) in &counts {
-            *shares.entry(*value).or_default() += count / all;
-        }
-        if all >= 2.0 {
-            several += 1.0;
-            let equal = counts.values().map(|count| count * (count - 1.0));
-            agreed += equal.sum::<f64>() / (all * (all - 1.0));
-        }
-    }
-    if several == 0.0 {
-        return Err(UndefinedAgreement::NoPair);
-    }
-    gwet_of(agreed / several, shares.values().map(|share| share / any))
 }
 
 fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> AgreementMeasure {

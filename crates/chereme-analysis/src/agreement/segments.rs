@@ -1,4 +1,4 @@
-//! Agreement of two segmentations without gaps: boundary similarity (Fournier 2013), WindowDiff, Pk.
+//! Agreement of two segmentations without gaps: boundary similarity (Fournier 2013).
 
 use super::{AgreementMeasure, UndefinedAgreement};
 
@@ -16,8 +16,6 @@ pub struct SegmentationEdits {
     pub transpositions: usize,
     /// The sum of the distances of these boundaries, in steps.
     pub distance: usize,
-    /// Places where a boundary may be.
-    pub places: usize,
 }
 
 impl SegmentationEdits {
@@ -27,7 +25,6 @@ impl SegmentationEdits {
         self.additions += other.additions;
         self.transpositions += other.transpositions;
         self.distance += other.distance;
-        self.places += other.places;
     }
 
     /// Returns the boundary similarity of the edits, see [`boundary_similarity`].
@@ -49,7 +46,6 @@ impl SegmentationEdits {
 #[must_use]
 pub fn count_segmentation_edits(first: &SegmentMasses, second: &SegmentMasses, near: usize) -> SegmentationEdits {
     let (a, b) = (boundary_places(first), boundary_places(second));
-    let length = first.iter().sum::<usize>().max(second.iter().sum::<usize>());
     let mut near_pairs: Vec<(usize, usize, usize)> = Vec::new();
     for (at, place) in a.iter().enumerate() {
         let from = b.partition_point(|boundary| boundary + near <= *place);
@@ -63,7 +59,6 @@ pub fn count_segmentation_edits(first: &SegmentMasses, second: &SegmentMasses, n
     near_pairs.sort_unstable();
     let (mut of_a, mut of_b) = (vec![false; a.len()], vec![false; b.len()]);
     let mut edits = SegmentationEdits {
-        places: length.saturating_sub(1),
         additions: a.len() + b.len(),
         ..SegmentationEdits::default()
     };
@@ -104,57 +99,6 @@ pub fn boundary_similarity(first: &SegmentMasses, second: &SegmentMasses, near: 
     count_segmentation_edits(first, second, near).boundary_similarity(near)
 }
 
-/// Returns segmentation similarity (Fournier and Inkpen 2012): as boundary similarity, over all places for a boundary.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoBoundary`].
-pub fn segmentation_similarity(first: &SegmentMasses, second: &SegmentMasses, near: usize) -> AgreementMeasure {
-    let edits = count_segmentation_edits(first, second, near);
-    if edits.additions + edits.transpositions + edits.matches == 0 {
-        return Err(UndefinedAgreement::NoBoundary);
-    }
-    Ok(1.0 - segmentation_edit_cost(&edits, near) / edits.places as f64)
-}
-
 fn segmentation_edit_cost(edits: &SegmentationEdits, near: usize) -> f64 {
     edits.additions as f64 + edits.distance as f64 / near.max(1) as f64
-}
-
-/// Returns WindowDiff (Pevzner and Hearst 2002): the share of windows with different numbers of boundaries; a window is
-/// half a mean segment of the second segmentation long.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoBoundary`] if no window fits.
-pub fn window_diff(first: &SegmentMasses, second: &SegmentMasses) -> AgreementMeasure {
-    compare_segmentation_windows(first, second, |a, b| a != b)
-}
-
-/// Returns Pk (Beeferman, Berger and Lafferty 1999): the share of windows whose two ends are in one segment for one of
-/// the two only.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoBoundary`] if no window fits.
-pub fn segmentation_pk(first: &SegmentMasses, second: &SegmentMasses) -> AgreementMeasure {
-    compare_segmentation_windows(first, second, |a, b| (a == 0) != (b == 0))
-}
-
-fn compare_segmentation_windows(
-    first: &SegmentMasses,
-    second: &SegmentMasses,
-    differ: impl Fn(usize, usize) -> bool,
-) -> AgreementMeasure {
-    let length: usize = second.iter().sum();
-    let half = length as f64 / second.len().max(1) as f64 / 2.0;
-    let window = (half.round_ties_even() as usize).max(2);
-    if first.iter().sum::<usize>() != length || window >= length {
-        return Err(UndefinedAgreement::NoBoundary);
-    }
-    let (a, b) = (boundary_places(first), boundary_places(second));
-    let within = |places: &[usize], start: usize| {
-        let before = |end: usize| places.partition_point(|place| *place <= end);
-        before(start + window) - before(start)
-    };
-    let count = length - window;
-    let wrong = (0..count).filter(|start| differ(within(&a, *start), within(&b, *start)));
-    Ok(wrong.count() as f64 / count as f64)
 }

@@ -200,10 +200,10 @@ impl<'a> PosedBody<'a> {
     /// apart.
     pub(super) fn find_hand_place(&self, n: usize, symmetric: bool) -> Option<LikelyHandPlace> {
         let hand = self.hands[n].as_ref()?;
-        self.place_given_hand(n, hand, symmetric)
+        self.find_given_hand_place(n, hand, symmetric)
     }
 
-    fn place_given_hand(&self, n: usize, hand: &PosedHand, symmetric: bool) -> Option<LikelyHandPlace> {
+    fn find_given_hand_place(&self, n: usize, hand: &PosedHand, symmetric: bool) -> Option<LikelyHandPlace> {
         let all = self.candidate_hand_places(n, hand, symmetric, PlaceScope::No);
         let lower = |a: &&PlaceCandidate<'_>, b: &&PlaceCandidate<'_>| a.score.total_cmp(&b.score);
         let best = all.iter().min_by(lower)?;

@@ -6,7 +6,7 @@ use chereme_formats::eaf::eaf_convert::{
     AnnotationAddress, AnnotationTiming, ControlledVocabulary, TranscriptAnnotation, TranscriptTier, VocabularyEntry,
     VocabularyEntryValue,
 };
-use chereme_formats::eaf::{AnnotationTranscript, eaf_raw, to_raw};
+use chereme_formats::eaf::{AnnotationTranscript, eaf_document_from_transcript, eaf_raw};
 use chereme_motion::{BodySide, TimeSpan};
 use chereme_sign::TierStereotype;
 use chereme_sign::inventory::builtin_by_id;
@@ -76,7 +76,8 @@ pub(crate) fn write(take: &Take, signs: &[TimeSpan], notes: &[Note], used: &Used
         ..AnnotationTranscript::default()
     };
     let mut bytes = Vec::new();
-    eaf_raw::write_eaf_document(&to_raw(&transcript, &template()), &mut bytes).expect("memory takes every byte");
+    eaf_raw::write_eaf_document(&eaf_document_from_transcript(&transcript, &template()), &mut bytes)
+        .expect("memory takes every byte");
     bytes
 }
 

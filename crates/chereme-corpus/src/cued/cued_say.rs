@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use super::cued_dictionary::{DikeyBook, REST_DIKEY_END, cut_dikey_book, dikey_end_name, pair_name};
 use super::cued_targets::{ScoredSpan, insert_scored_tier};
-use super::{CuedOptions, key_name, round_to_decimals};
+use super::{CuedOptions, cue_key_name, round_to_decimals};
 use crate::Corpus;
 use crate::address::RowName;
 use crate::cue::{CueOptions, KeysOptions};
@@ -350,7 +350,7 @@ impl SentenceMovement {
                 let place = tip.map_or(0, |tip| book.known.placements.most_probable_class(&tip.to_array()));
                 right[0] += u64::from(shape == key.shape);
                 right[1] += u64::from(place == key.placement);
-                sentence_piece.read = Some(key_name(place, shape));
+                sentence_piece.read = Some(cue_key_name(place, shape));
                 if shape != key.shape || place != key.placement {
                     misread.push(sentence_piece.clone());
                 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::capture::{KeyedTake, load_keyed_takes};
 use super::recognise::train_key_recognisers;
-use super::{CuedOptions, key_name, round_to_decimals};
+use super::{CuedOptions, cue_key_name, round_to_decimals};
 use crate::Corpus;
 use crate::address::RowName;
 use crate::atomic_write;
@@ -262,7 +262,7 @@ fn found_keys(own: &KeyedTake, shown: &[KeyGestures]) -> Vec<FoundKey> {
     };
     let keys = own.keys.iter().zip(shown);
     keys.map(|(key, shown)| FoundKey {
-        key: key_name(key.placement, key.shape),
+        key: cue_key_name(key.placement, key.shape),
         kind: KeySounds::key_sounds_name(key.kind),
         a1_us: take.take_time_micros(key.a1),
         hand_us: time_of(&shown.hand),

@@ -70,7 +70,7 @@ fn placement_name(number: u8) -> &'static str {
 }
 
 /// Returns a key in the usual notation, such as `mouth-4`.
-fn key_name(placement: u8, shape: u8) -> String {
+fn cue_key_name(placement: u8, shape: u8) -> String {
     format!("{}-{shape}", placement_name(placement))
 }
 

@@ -6,7 +6,7 @@ use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
 use super::capture::{KeyedTake, load_keyed_takes};
-use super::{CuedOptions, key_name, placement_name, round_to_decimals};
+use super::{CuedOptions, cue_key_name, placement_name, round_to_decimals};
 use crate::Corpus;
 use crate::address::RowName;
 use crate::error::{CorpusError, CorpusResult};
@@ -153,8 +153,8 @@ impl Corpus {
                     misread.push(MisreadKey {
                         recording: own.take.row.name.clone(),
                         at_us: own.take.take_time_micros(shown.hand.frame as f64 / own.take.rate),
-                        key: key_name(key.placement, key.shape),
-                        read: key_name(read.0, read.1),
+                        key: cue_key_name(key.placement, key.shape),
+                        read: cue_key_name(read.0, read.1),
                     });
                 }
             }

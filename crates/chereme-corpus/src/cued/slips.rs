@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::capture::{key_tier, keys_from_timed_utterance, load_cuer_take, load_keyed_takes, load_recording_phones};
 use super::recognise::train_key_recognisers;
-use super::{CuedOptions, key_name};
+use super::{CuedOptions, cue_key_name};
 use crate::Corpus;
 use crate::address::{self, RowName};
 use crate::cue::KeysOptions;
@@ -224,8 +224,8 @@ fn substitution(own: &ExpectedKey, other: ProducedKey) -> Option<CueSlip> {
     Some(CueSlip {
         kind: classify_key_slip(own.expected_key_parts(), (other.0, other.1))?,
         at_us: Some(other.2),
-        predicted: Some(key_name(own.placement, own.shape)),
-        produced: Some(key_name(other.0, other.1)),
+        predicted: Some(cue_key_name(own.placement, own.shape)),
+        produced: Some(cue_key_name(other.0, other.1)),
     })
 }
 
@@ -291,7 +291,7 @@ fn align_key_sequences(expected: &[ExpectedKey], produced: &[ProducedKey]) -> (u
             slips.push(CueSlip {
                 kind: SlipKind::Deletion,
                 at_us: expected[i].at,
-                predicted: Some(key_name(expected[i].placement, expected[i].shape)),
+                predicted: Some(cue_key_name(expected[i].placement, expected[i].shape)),
                 produced: None,
             });
         } else {
@@ -300,7 +300,7 @@ fn align_key_sequences(expected: &[ExpectedKey], produced: &[ProducedKey]) -> (u
                 kind: SlipKind::Insertion,
                 at_us: Some(produced[j].2),
                 predicted: None,
-                produced: Some(key_name(produced[j].0, produced[j].1)),
+                produced: Some(cue_key_name(produced[j].0, produced[j].1)),
             });
         }
     }

@@ -119,7 +119,7 @@ impl<D: DerivedData> CorpusStore<D> {
     }
 
     fn store_from_connection(connection: Connection, path: &Path, author: &str) -> CorpusResult<Self> {
-        stored_history::record_changes(&connection)?;
+        stored_history::create_change_triggers(&connection)?;
         let (place, author) = (OpenPlace(FileIdentity::from_file_path(path)), author.to_owned());
         Ok(Self {
             connection,

@@ -69,7 +69,7 @@ pub(super) fn create_corpus_file(
         UnfinishedFile::create_unfinished_file(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
     // The temporary name says nothing to the caller.
     make_database_file(making.unfinished_path(), fill).map_err(|error| error.of_file(path))?;
-    publish_unfinished_file(&making, path)?;
+    give_file_final_name(&making, path)?;
     drop(making);
     Ok(open_corpus_file(path)?.0)
 }
@@ -86,7 +86,7 @@ pub(super) fn copy_corpus_file(connection: &Connection, path: &Path) -> CorpusRe
     let copy = Connection::open(making.unfinished_path())?;
     copy.pragma_update(None, "journal_mode", "WAL")?;
     copy.close().map_err(|(_, error)| error)?;
-    publish_unfinished_file(&making, path)
+    give_file_final_name(&making, path)
 }
 
 fn make_database_file(path: &Path, fill: impl FnOnce(&Connection) -> CorpusResult<()>) -> CorpusResult<()> {
@@ -101,7 +101,7 @@ fn make_database_file(path: &Path, fill: impl FnOnce(&Connection) -> CorpusResul
 }
 
 /// Gives a complete file its final name if that is free: a link never replaces an existing file.
-fn publish_unfinished_file(making: &UnfinishedFile, path: &Path) -> CorpusResult<()> {
+fn give_file_final_name(making: &UnfinishedFile, path: &Path) -> CorpusResult<()> {
     let published = match fs::hard_link(making.unfinished_path(), path) {
         // Some file systems do not support links.
         Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => making.rename_unfinished(path),

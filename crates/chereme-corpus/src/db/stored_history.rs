@@ -19,9 +19,9 @@ use super::seals::{self, SealChanges};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::words::effect::OperationEffect;
-use tracked::{TRACKED_TABLE_REFERENCES, from_image, load_table_columns, row_image};
+use tracked::{TRACKED_TABLE_REFERENCES, column_from_image_sql, load_table_columns, row_image};
 
-pub(super) use tracked::record_changes;
+pub(super) use tracked::create_change_triggers;
 pub(crate) use tracked::{are_image_values_equal, refers_to};
 
 const PART_BYTES: usize = 4 << 20;
@@ -119,13 +119,21 @@ pub(super) fn finish_operation(
         changes += 1;
         report_change_progress(progress, "history", changes)?;
         if lines.len() >= PART_BYTES {
-            seals.turn_part(operation, part, &write_part(connection, operation, part, &lines)?);
+            seals.turn_part(
+                operation,
+                part,
+                &store_changeset_part(connection, operation, part, &lines)?,
+            );
             part += 1;
             lines.clear();
         }
     }
     if !lines.is_empty() {
-        seals.turn_part(operation, part, &write_part(connection, operation, part, &lines)?);
+        seals.turn_part(
+            operation,
+            part,
+            &store_changeset_part(connection, operation, part, &lines)?,
+        );
     }
     if changes == 0 {
         connection.execute("DELETE FROM operation WHERE id = ?1", [operation])?;
@@ -154,7 +162,7 @@ fn report_change_progress(progress: &mut ProgressReceiver<'_>, task: &str, done:
 }
 
 /// Stores lines as a part of a changeset, and returns its bytes.
-fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) -> CorpusResult<Vec<u8>> {
+fn store_changeset_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) -> CorpusResult<Vec<u8>> {
     let data = zstd::encode_all(lines, 3)
         .map_err(|error| damaged_row_error(format!("changeset {operation}"), error.to_string()))?;
     connection.execute(
@@ -169,7 +177,7 @@ pub(super) fn undo_newest_operation(
     author: &str,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<OperationRow> {
-    let target = stacks(connection)?.0.pop().ok_or_else(|| {
+    let target = load_undo_and_redo_stacks(connection)?.0.pop().ok_or_else(|| {
         CorpusError::from_wrong_message("there is nothing to undo")
             .with_advice(ErrorRemedy::command_remedy("`chereme log CORPUS` lists all operations"))
     })?;
@@ -181,7 +189,7 @@ pub(super) fn redo_undone_operation(
     author: &str,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<OperationRow> {
-    let target = stacks(connection)?.1.pop().ok_or_else(|| {
+    let target = load_undo_and_redo_stacks(connection)?.1.pop().ok_or_else(|| {
         CorpusError::from_wrong_message("there is nothing to redo")
             .with_advice("only what was undone last, with no other work since, can be done again")
     })?;
@@ -194,7 +202,7 @@ pub(super) fn redo_undone_operation(
 }
 
 /// Returns the operations that are in effect and can be undone, and those that can be redone, oldest first.
-fn stacks(connection: &Connection) -> CorpusResult<(Vec<i64>, Vec<i64>)> {
+fn load_undo_and_redo_stacks(connection: &Connection) -> CorpusResult<(Vec<i64>, Vec<i64>)> {
     let mut statement = connection.prepare_cached("SELECT id, kind, target FROM operation ORDER BY id")?;
     let mut rows = statement.query([])?;
     let (mut done, mut undone) = (Vec::new(), Vec::new());
@@ -283,7 +291,7 @@ pub(super) fn replace_part(
         "DELETE FROM changeset WHERE operation_id = ?1 AND part = ?2",
         params![operation, part],
     )?;
-    write_part(connection, operation, part, lines.as_bytes())?;
+    store_changeset_part(connection, operation, part, lines.as_bytes())?;
     connection.execute(
         "UPDATE operation SET changes = changes + ?2 WHERE id = ?1",
         params![operation, added],
@@ -338,7 +346,7 @@ pub(crate) fn each_change(
 
 /// Returns the number of operations that can be undone, and of those that can be redone.
 pub(crate) fn count_undo_redo_steps(connection: &Connection) -> CorpusResult<(usize, usize)> {
-    let (done, undone) = stacks(connection)?;
+    let (done, undone) = load_undo_and_redo_stacks(connection)?;
     Ok((done.len(), undone.len()))
 }
 
@@ -387,12 +395,12 @@ impl InverseStatements {
         let columns = load_table_columns(connection, table)?;
         let key = columns[0].name.clone();
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-        let values: Vec<String> = columns.iter().map(from_image).collect();
+        let values: Vec<String> = columns.iter().map(column_from_image_sql).collect();
         // A column that the row image of an earlier version lacks keeps its value.
         let settings: Vec<String> = columns
             .iter()
             .map(|column| {
-                let (name, value) = (&column.name, from_image(column));
+                let (name, value) = (&column.name, column_from_image_sql(column));
                 format!("{name} = iif(json_type(?1, '$.{name}') IS NULL, {name}, {value})")
             })
             .collect();
@@ -517,7 +525,7 @@ pub(crate) fn operations_since(connection: &Connection, operation: i64) -> Corpu
 
 /// Returns the newest operations first.
 pub(crate) fn load_newest_operations(connection: &Connection, limit: usize) -> CorpusResult<Vec<OperationRow>> {
-    let (done, _) = stacks(connection)?;
+    let (done, _) = load_undo_and_redo_stacks(connection)?;
     let mut statement = connection.prepare_cached(
         "SELECT id, at, author, kind, target, name, summary, effect, changes
          FROM operation ORDER BY id DESC LIMIT ?1",

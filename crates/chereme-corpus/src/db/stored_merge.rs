@@ -7,7 +7,9 @@ use rusqlite::{Connection, OptionalExtension, params};
 use serde_json::{Map, Value};
 
 use super::stored_history;
-use super::stored_history::tracked::{TRACKED_TABLE_REFERENCES, from_image, load_table_columns, refers_to, row_image};
+use super::stored_history::tracked::{
+    TRACKED_TABLE_REFERENCES, column_from_image_sql, load_table_columns, refers_to, row_image,
+};
 use crate::error::CorpusResult;
 
 /// A row as JSON; columns that refer to other rows hold their uids.
@@ -275,7 +277,10 @@ pub(crate) fn insert_row_image(connection: &Connection, table: &str, image: &Row
         .filter(|column| image.contains_key(&column.name) && column.name != "id")
         .collect();
     let names: Vec<&str> = image_columns.iter().map(|column| column.name.as_str()).collect();
-    let values: Vec<String> = image_columns.iter().map(|column| from_image(column)).collect();
+    let values: Vec<String> = image_columns
+        .iter()
+        .map(|column| column_from_image_sql(column))
+        .collect();
     let sql = format!(
         "INSERT INTO main.{table} ({}) VALUES ({})",
         names.join(","),
@@ -292,7 +297,7 @@ pub(crate) fn update_row_image(connection: &Connection, table: &str, id: i64, im
     let settings: Vec<String> = all
         .iter()
         .filter(|column| image.contains_key(&column.name) && column.name != "id")
-        .map(|column| format!("{} = {}", column.name, from_image(column)))
+        .map(|column| format!("{} = {}", column.name, column_from_image_sql(column)))
         .collect();
     if settings.is_empty() {
         return Ok(());

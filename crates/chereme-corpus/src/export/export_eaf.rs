@@ -13,7 +13,7 @@ use chereme_formats::eaf::eaf_convert::{
     AnnotationAddress, AnnotationTiming, AnnotationTranscript, ControlledVocabulary, TranscriptAnnotation,
     TranscriptMedia, TranscriptTier, VocabularyEntry, VocabularyEntryValue,
 };
-use chereme_formats::eaf::{decode_eaf, eaf_raw, patch_eaf, to_raw, transcript_from_eaf};
+use chereme_formats::eaf::{decode_eaf, eaf_document_from_transcript, eaf_raw, patch_eaf, transcript_from_eaf};
 use chereme_formats::roles::{self, TierMapping};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
@@ -52,7 +52,7 @@ pub(super) fn write_recording_eaf(
     {
         return out.write_all(&patched).map_err(fault);
     }
-    eaf_raw::write_eaf_document(&to_raw(&transcript, &template), out).map_err(fault)
+    eaf_raw::write_eaf_document(&eaf_document_from_transcript(&transcript, &template), out).map_err(fault)
 }
 
 /// Returns the tiers of a recording, for export to formats of other programs.

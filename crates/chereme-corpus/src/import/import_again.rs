@@ -259,13 +259,13 @@ fn replace_markers(
         }
     }
     let Some(old) = old else {
-        if before.is_empty() && beside::keep_beside(job, row.id, row.offset_us, anatomy, report)?.is_some() {
+        if before.is_empty() && beside::store_leaf_markers(job, row.id, row.offset_us, anatomy, report)?.is_some() {
             job.count_created_rows("tracks", 1);
         }
         return Ok(());
     };
     stored_tracks::remove_track(job.connection, old.id)?;
-    match beside::keep_beside(job, row.id, old.offset_us, anatomy, report)? {
+    match beside::store_leaf_markers(job, row.id, old.offset_us, anatomy, report)? {
         Some(new) => {
             stored_tracks::rename_track(job.connection, new, &old.name)?;
             if let Some(clock) = old.clock_us {

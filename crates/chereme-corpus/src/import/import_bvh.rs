@@ -74,7 +74,7 @@ pub(super) fn import_bvh(job: &mut ImportJob<'_>, progress: &mut ProgressReceive
     let groups = understanding.column_groups(&hierarchy);
     while more {
         let first = usize::try_from(block.first_frame).unwrap_or(usize::MAX);
-        movement::store_block(job.connection, track, &groups, first, block.frames, &block.columns)?;
+        movement::store_block_groups(job.connection, track, &groups, first, block.frames, &block.columns)?;
         progress.report_step(ProgressStep {
             task: &job.file_name,
             done: reader.bytes_read(),
@@ -113,7 +113,7 @@ pub(super) fn import_bvh(job: &mut ImportJob<'_>, progress: &mut ProgressReceive
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
     report_odd_frames(job, recording, &mut report, progress)?;
     let offset_us = job.options.offset_us;
-    let kept = super::import_tracks::keep_beside(job, track, offset_us, &understanding.anatomy, &mut report)?;
+    let kept = super::import_tracks::store_leaf_markers(job, track, offset_us, &understanding.anatomy, &mut report)?;
     job.count_created_rows("tracks", usize::from(kept.is_some()));
     report.recording = Some(stored_recordings::load_recording_row(job.connection, recording)?.name);
     Ok(report)

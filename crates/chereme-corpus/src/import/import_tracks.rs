@@ -189,7 +189,7 @@ fn length_us(track: &TrackContent) -> i64 {
 }
 
 /// Stores the optical markers among the skeleton's leaf joints as a track of points, and returns that.
-pub(super) fn keep_beside(
+pub(super) fn store_leaf_markers(
     job: &ImportJob<'_>,
     track: i64,
     offset_us: i64,

@@ -78,9 +78,9 @@ impl QueryContext<'_> {
     }
 
     /// Returns the documents that the index has for a probe.
-    pub(crate) fn run(&self, probe: &IndexProbe) -> CorpusResult<DocumentList> {
+    pub(crate) fn run_index_probe(&self, probe: &IndexProbe) -> CorpusResult<DocumentList> {
         self.go_on()?;
-        self.now.docs(probe)
+        self.now.find_matching_documents(probe)
     }
 
     /// Fails if the caller no longer wants an answer.

@@ -94,7 +94,7 @@ fn score_like_example(
         let each = weight / total / slots.len() as f64;
         for slot in slots {
             let probe = IndexProbe::from_reading_terms(slot.slot_terms(ask)?);
-            for doc in ask.run(&probe)? {
+            for doc in ask.run_index_probe(&probe)? {
                 *scores.entry(doc).or_default() += each;
             }
         }

@@ -146,7 +146,7 @@ impl Corpus {
         ask: &mut dyn FnMut(&QueryContext<'_>, &TokenQuery) -> QueryResult<T>,
     ) -> CorpusResult<T> {
         const MAX_SEARCH_ATTEMPTS: usize = 8;
-        let parsed = saved_search::parse_saved_query(self.store.read_connection(), query)?;
+        let parsed = saved_search::parse_query_with_saved(self.store.read_connection(), query)?;
         let hear = RefCell::new(|done| {
             progress.report_step(ProgressStep {
                 task: "",

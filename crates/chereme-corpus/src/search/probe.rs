@@ -95,7 +95,7 @@ pub(crate) type FacetCounts = BTreeMap<String, BTreeMap<String, usize>>;
 /// An index over the documents of a corpus, at one moment.
 pub(crate) trait DocumentIndex {
     /// Returns the documents that match a probe.
-    fn docs(&self, probe: &IndexProbe) -> CorpusResult<DocumentList>;
+    fn find_matching_documents(&self, probe: &IndexProbe) -> CorpusResult<DocumentList>;
 
     /// Returns the terms of a field that begin with `prefix` and for which `wanted` returns true, in order.
     fn field_terms(

@@ -41,7 +41,7 @@ impl Corpus {
                     Some((id, _)) => rows::update_saved_search(connection, id, &search)?,
                     None => rows::insert_saved_search(connection, &search)?,
                 }
-                parse_saved_query(connection, &format!("@{}", search.name))?;
+                parse_query_with_saved(connection, &format!("@{}", search.name))?;
                 names.push(search.name);
             }
             Ok(((), OperationEffect::KeepSearch { names }))
@@ -134,7 +134,7 @@ struct SearchesInUse {
 /// # Errors
 /// Fails if it cannot be understood, also with the saved searches written out, or a saved search does not exist or names
 /// itself.
-pub(crate) fn parse_saved_query(connection: &Connection, query: &str) -> CorpusResult<TokenQuery> {
+pub(crate) fn parse_query_with_saved(connection: &Connection, query: &str) -> CorpusResult<TokenQuery> {
     let mut used = SearchesInUse::default();
     let parsed = parsed_inside(connection, query, &mut used)?;
     if used.count > 0 {

@@ -102,7 +102,7 @@ fn of_value<'k>(
     let mut kinds = Vec::new();
     if !aliases.is_empty() {
         let count = |(text, terms): (String, Vec<&str>)| -> QueryResult<(String, usize)> {
-            Ok((text, ask.run(&IndexProbe::from_reading_terms(terms))?.len()))
+            Ok((text, ask.run_index_probe(&IndexProbe::from_reading_terms(terms))?.len()))
         };
         kinds.push(FindingKind::Equal {
             field: test.field.to_string(),

@@ -132,11 +132,11 @@ pub(crate) fn evaluate_query_plan(
     };
     let candidates = || match within {
         Some(within) => Ok(within.to_vec()),
-        None => ask.run(&IndexProbe::All),
+        None => ask.run_index_probe(&IndexProbe::All),
     };
     match plan {
-        QueryPlan::Index(probe) => Ok(inside(ask.run(probe)?)),
-        QueryPlan::Without(probe) => Ok(inside(ask.run(&probe.clone().invert_probe())?)),
+        QueryPlan::Index(probe) => Ok(inside(ask.run_index_probe(probe)?)),
+        QueryPlan::Without(probe) => Ok(inside(ask.run_index_probe(&probe.clone().invert_probe())?)),
         QueryPlan::And(plans) => {
             let mut order: Vec<&QueryPlan> = plans.iter().collect();
             order.sort_by_key(|plan| effort(plan));
@@ -157,7 +157,7 @@ pub(crate) fn evaluate_query_plan(
         QueryPlan::Beside(beside) => beside.filter_related_candidates(ask, candidates()?),
         QueryPlan::Whole(text) => {
             let candidates = match &text.narrowed {
-                Some(probe) => inside(ask.run(probe)?),
+                Some(probe) => inside(ask.run_index_probe(probe)?),
                 None => candidates()?,
             };
             text_match::filter_whole_texts(ask, text, candidates)

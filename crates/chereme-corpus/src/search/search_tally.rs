@@ -276,7 +276,7 @@ fn having(
     let terms = known.terms.iter();
     let field_terms = terms.filter(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
     let texts: Vec<&str> = field_terms.map(|(_, _, term)| term.as_str()).collect();
-    let docs = ask.run(&IndexProbe::from_reading_terms(texts))?;
+    let docs = ask.run_index_probe(&IndexProbe::from_reading_terms(texts))?;
     Ok(docs::intersect_documents(&docs, found))
 }
 
@@ -288,7 +288,7 @@ fn of_mark(
     let prefix = mark.property_term_prefix();
     let mut groups = Vec::new();
     for term in ask.now.field_terms(IndexTextField::Reading, &prefix, &|_| true)? {
-        let docs = ask.run(&IndexProbe::from_reading_terms([&term]))?;
+        let docs = ask.run_index_probe(&IndexProbe::from_reading_terms([&term]))?;
         let value = term[prefix.len()..].to_owned();
         groups.push((value, docs::intersect_documents(&docs, found)));
     }

@@ -18,7 +18,10 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// their parent; ends within one that were never set stay unset; elsewhere ELAN requires times, and they get the values
 /// from reading. `lastUsedAnnotationId` is computed again and comes last.
 #[must_use]
-pub fn to_raw<'a>(transcript: &AnnotationTranscript, template: &EafDocument<'a>) -> EafDocument<'a> {
+pub fn eaf_document_from_transcript<'a>(
+    transcript: &AnnotationTranscript,
+    template: &EafDocument<'a>,
+) -> EafDocument<'a> {
     let mut document = EafDocument {
         author: transcript.author.clone().into(),
         date: transcript.date.clone().into(),

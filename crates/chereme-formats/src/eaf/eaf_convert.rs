@@ -1,6 +1,6 @@
 //! Converts a raw document to its meaning.
 
-pub use super::back::to_raw;
+pub use super::back::eaf_document_from_transcript;
 pub use crate::transcript::{
     AnnotationAddress, AnnotationTiming, AnnotationTranscript, ControlledVocabulary, TranscriptAnnotation,
     TranscriptMedia, TranscriptTier, VocabularyEntry, VocabularyEntryValue,

@@ -34,7 +34,7 @@ pub mod eaf_convert;
 pub mod eaf_raw;
 pub mod eaf_settings;
 
-pub use eaf_convert::{AnnotationTranscript, to_raw, transcript_from_eaf};
+pub use eaf_convert::{AnnotationTranscript, eaf_document_from_transcript, transcript_from_eaf};
 pub use encoding::{DecodedEafText, decode_eaf};
 pub use error::EafError;
 pub use patch::{patch_eaf, same_meaning};

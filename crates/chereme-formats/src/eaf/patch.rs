@@ -8,7 +8,7 @@ mod slots;
 pub use same::same_meaning;
 
 use super::EafError;
-use super::back::to_raw;
+use super::back::eaf_document_from_transcript;
 use super::eaf_convert::from_raw_placed;
 use super::eaf_layout::{EafLayout, TextEdits};
 use super::eaf_raw::{self, EafDocument};
@@ -66,7 +66,10 @@ fn patch_document_text(
     };
     let refs = work.patch_time_slots()?;
     work.patch_file_annotations(&refs)?;
-    let (old, new) = (to_raw(before, document), to_raw(after, document));
+    let (old, new) = (
+        eaf_document_from_transcript(before, document),
+        eaf_document_from_transcript(after, document),
+    );
     work.patch_file_tiers(&new, &old, &refs)?;
     work.patch_document_parts(&old, &new)?;
     work.edits.apply_text_edits(document.source.0)

@@ -3,7 +3,7 @@
 use chereme_motion::{RecordingInstant, TimeSpan};
 
 use super::{findings, transcript};
-use crate::eaf::{self, AnnotationTranscript, eaf_raw, patch_eaf, to_raw, transcript_from_eaf};
+use crate::eaf::{self, AnnotationTranscript, eaf_document_from_transcript, eaf_raw, patch_eaf, transcript_from_eaf};
 use crate::golden::{compare, put};
 use crate::table::annotations::{TableTimeUnit, read_change_table as read_table};
 use crate::table::annotations::{is_export, read_elan_table as exported};
@@ -97,9 +97,12 @@ fn golden_annotation_documents_read_and_written() {
         put(&mut out, written(&document));
         let (meant, _) = transcript_from_eaf(&document);
         put(&mut out, "### from its meaning");
-        put(&mut out, written(&to_raw(&meant, &document)));
+        put(&mut out, written(&eaf_document_from_transcript(&meant, &document)));
         put(&mut out, "### from its meaning alone");
-        put(&mut out, written(&to_raw(&meant, &eaf_raw::EafDocument::default())));
+        put(
+            &mut out,
+            written(&eaf_document_from_transcript(&meant, &eaf_raw::EafDocument::default())),
+        );
         put(
             &mut out,
             format!("check {:?}", eaf_raw::check_eaf_references(&document)),

@@ -16,7 +16,7 @@ const LANGUAGE_FILE_VERSION: u32 = 1;
 
 /// The reason why a file of body language is refused.
 #[derive(Debug, thiserror::Error)]
-pub enum LanguageError {
+pub enum BodyLanguageError {
     /// It is not JSON of this form.
     #[error("not a file of body language: {0}; its form is that of body_language.json")]
     Form(#[from] serde_json::Error),
@@ -111,9 +111,9 @@ macro_rules! body_language {
             /// Every value's name and unit, in the order of the file.
             pub const LANGUAGE_VALUE_NAMES: &'static [(&'static str, &'static str)] = &[$(($name, $unit)),*];
 
-            fn complete(values: &BTreeMap<String, (f64, String, String)>) -> Result<Self, LanguageError> {
+            fn complete(values: &BTreeMap<String, (f64, String, String)>) -> Result<Self, BodyLanguageError> {
                 Ok(Self {
-                    $($field: values.get($name).ok_or(LanguageError::Missing($name))?.0,)*
+                    $($field: values.get($name).ok_or(BodyLanguageError::Missing($name))?.0,)*
                     places: BTreeMap::new(),
                 })
             }
@@ -310,7 +310,7 @@ impl BodyLanguage {
         }
     }
 
-    fn parse_body_language(text: &str) -> Result<Self, LanguageError> {
+    fn parse_body_language(text: &str) -> Result<Self, BodyLanguageError> {
         let file = read_language_file(text)?;
         Self::complete(&file.values)
     }
@@ -318,8 +318,8 @@ impl BodyLanguage {
     /// Reads all values and places of a file of the same form.
     ///
     /// # Errors
-    /// [`LanguageError`] for a name that is unknown, a wrong unit, or a number out of range.
-    pub fn parse_language_changes(text: &str) -> Result<LanguageChanges, LanguageError> {
+    /// [`BodyLanguageError`] for a name that is unknown, a wrong unit, or a number out of range.
+    pub fn parse_language_changes(text: &str) -> Result<LanguageChanges, BodyLanguageError> {
         let file = read_language_file(text)?;
         let values = file.values.into_iter();
         Ok(LanguageChanges {
@@ -332,7 +332,7 @@ impl BodyLanguage {
     ///
     /// # Errors
     /// The same as [`parse_language_changes`](Self::parse_language_changes)'s.
-    pub fn with_file(&self, text: &str) -> Result<Self, LanguageError> {
+    pub fn with_file(&self, text: &str) -> Result<Self, BodyLanguageError> {
         let LanguageChanges { values, places } = Self::parse_language_changes(text)?;
         let values = values.iter().map(|(name, value)| (name.as_str(), *value));
         let mut changed = self.with_measured(values)?;
@@ -344,8 +344,11 @@ impl BodyLanguage {
     /// found in captured signs; names are those of [`LANGUAGE_VALUE_NAMES`](Self::LANGUAGE_VALUE_NAMES).
     ///
     /// # Errors
-    /// [`LanguageError`] if a name is unknown or a number out of range.
-    pub fn with_measured<'a>(&self, values: impl IntoIterator<Item = (&'a str, f64)>) -> Result<Self, LanguageError> {
+    /// [`BodyLanguageError`] if a name is unknown or a number out of range.
+    pub fn with_measured<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, BodyLanguageError> {
         let mut changed = self.clone();
         for (name, value) in values {
             check_language_value(name, value, None)?;
@@ -357,10 +360,10 @@ impl BodyLanguage {
     }
 }
 
-fn read_language_file(text: &str) -> Result<LanguageFile, LanguageError> {
+fn read_language_file(text: &str) -> Result<LanguageFile, BodyLanguageError> {
     let file: LanguageFile = serde_json::from_str(text)?;
     if file.version != LANGUAGE_FILE_VERSION {
-        return Err(LanguageError::Version(file.version));
+        return Err(BodyLanguageError::Version(file.version));
     }
     for (name, (value, unit, _)) in &file.values {
         check_language_value(name, *value, Some(unit))?;
@@ -369,17 +372,17 @@ fn read_language_file(text: &str) -> Result<LanguageFile, LanguageError> {
     Ok(file)
 }
 
-fn check_place(name: &str, by: &[f64; 3]) -> Result<(), LanguageError> {
+fn check_place(name: &str, by: &[f64; 3]) -> Result<(), BodyLanguageError> {
     let landmark_names = BodyAnatomy::landmark_names();
     if !landmark_names.iter().any(|known| known == name) {
         let nearest = crate::text::nearest_candidate(name, landmark_names.iter().map(String::as_str));
-        return Err(LanguageError::Place {
+        return Err(BodyLanguageError::Place {
             name: name.to_owned(),
             nearest: nearest.map(str::to_owned),
         });
     }
     match by.iter().find(|by| !(-1.0..=1.0).contains(*by)) {
-        Some(&by) => Err(LanguageError::Far {
+        Some(&by) => Err(BodyLanguageError::Far {
             name: name.to_owned(),
             by,
         }),
@@ -387,19 +390,19 @@ fn check_place(name: &str, by: &[f64; 3]) -> Result<(), LanguageError> {
     }
 }
 
-fn check_language_value(name: &str, value: f64, found: Option<&str>) -> Result<(), LanguageError> {
+fn check_language_value(name: &str, value: f64, found: Option<&str>) -> Result<(), BodyLanguageError> {
     let entry = BodyLanguage::LANGUAGE_VALUE_NAMES
         .iter()
         .find(|(known, _)| *known == name);
     let Some(&(_, unit)) = entry else {
         let names = BodyLanguage::LANGUAGE_VALUE_NAMES.iter().map(|(name, _)| *name);
-        return Err(LanguageError::Unknown {
+        return Err(BodyLanguageError::Unknown {
             name: name.to_owned(),
             nearest: crate::text::nearest_candidate(name, names).map(str::to_owned),
         });
     };
     if let Some(found) = found.filter(|found| *found != unit) {
-        return Err(LanguageError::Unit {
+        return Err(BodyLanguageError::Unit {
             name: name.to_owned(),
             found: found.to_owned(),
             unit,
@@ -413,7 +416,7 @@ fn check_language_value(name: &str, value: f64, found: Option<&str>) -> Result<(
         _ => 10.0,
     };
     if !(0.0..=most).contains(&value) {
-        return Err(LanguageError::Range {
+        return Err(BodyLanguageError::Range {
             name: name.to_owned(),
             value,
             most,

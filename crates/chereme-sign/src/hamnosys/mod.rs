@@ -80,7 +80,7 @@ pub mod tree;
 pub use direction::{CompassDirection, SpatialDirection};
 pub use error::{HamnosysError, HamnosysFinding};
 pub use garbled::{is_garbled, repair_garbled_symbols};
-pub use hamnosys_language::{BodyLanguage, LanguageChanges, LanguageError};
+pub use hamnosys_language::{BodyLanguage, BodyLanguageError, LanguageChanges};
 pub use hamnosys_lex::{MAX_SYMBOLS, from_names, in_plain_symbols, spelled_symbols, to_names};
 pub use hamnosys_nonmanual::{NonmanualAct, NonmanualActs, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};
 pub use hamnosys_notated::NotatedSign;

@@ -49,6 +49,7 @@ fn figures_of_items() {
             .collect();
         let pairs = AgreementCounts::from_value_pairs(&items::annotator_value_pairs(&all));
         let two = coders.len() == 2;
+        let complete = all.iter().all(|item| item.iter().all(Option::is_some));
         // Some programs give 1 for one value; here it is undefined.
         let one_value = order.len() < 2;
         for (name, result) in case["results"].as_object().expect("results") {
@@ -57,15 +58,17 @@ fn figures_of_items() {
             let found = match name.as_str() {
                 "raw" => items::item_raw_agreement(&all),
                 "cohen_kappa" => pairs.cohen_kappa(),
-                "cohen_kappa_linear" => items::weighted_kappa(&all, DisagreementWeight::Linear),
-                "cohen_kappa_quadratic" => items::weighted_kappa(&all, DisagreementWeight::Quadratic),
                 "scott_pi" => pairs.scott_pi(),
-                "fleiss_kappa" => items::fleiss_kappa(&all),
                 "alpha_nominal" => items::krippendorff_alpha(&all, AlphaScale::Nominal),
                 "alpha_ordinal" => items::krippendorff_alpha(&all, AlphaScale::Ordinal),
                 "alpha_interval" => items::krippendorff_alpha(&all, AlphaScale::Interval),
-                "gwet_ac1" => items::item_gwet_ac1(&all),
-                "alpha_nominal_other" => continue,
+                "gwet_ac1" if two && complete => pairs.counted_gwet_ac1(),
+                // No command offers weighted and Fleiss' kappa, nor AC1 of more than two annotators.
+                "cohen_kappa_linear"
+                | "cohen_kappa_quadratic"
+                | "fleiss_kappa"
+                | "gwet_ac1"
+                | "alpha_nominal_other" => continue,
                 other => panic!("{other} is not compared"),
             };
             if one_value && name != "raw" {
@@ -81,10 +84,6 @@ fn figures_of_items() {
             check(&at, found, wanted, tolerance);
             if two && name == "alpha_nominal" {
                 check(&at, pairs.counted_nominal_alpha(), wanted, TOLERANCE);
-            }
-            let complete = all.iter().all(|item| item.iter().all(Option::is_some));
-            if two && complete && name == "gwet_ac1" {
-                check(&at, pairs.counted_gwet_ac1(), wanted, 5e-6);
             }
         }
     }
@@ -329,21 +328,12 @@ fn segmentations() {
             let found = match name.as_str() {
                 "boundary_similarity_nt2" => segments::boundary_similarity(&first, &second, 2),
                 "boundary_similarity_nt3" => segments::boundary_similarity(&first, &second, 3),
-                "segmentation_similarity" => segments::segmentation_similarity(&first, &second, 2),
-                "window_diff" | "pk" if first.iter().sum::<usize>() < 2 => {
-                    assert!(
-                        segments::segmentation_pk(&first, &second).is_err(),
-                        "{at}: no window fits"
-                    );
-                    continue;
-                }
-                "window_diff" => segments::window_diff(&first, &second),
-                "pk" => segments::segmentation_pk(&first, &second),
+                "segmentation_similarity" | "window_diff" | "pk" => continue,
                 "edits" => {
                     let found = segments::count_segmentation_edits(&first, &second, 2);
                     if wanted.get("raises").is_none() {
-                        let counts = [found.additions, found.transpositions, found.matches, found.places];
-                        let names = ["additions", "transpositions", "matches", "pbs"];
+                        let counts = [found.additions, found.transpositions, found.matches];
+                        let names = ["additions", "transpositions", "matches"];
                         let expected = names.map(|it| wanted[it].as_u64().expect("a count") as usize);
                         assert_eq!(counts, expected, "{at}");
                     }

@@ -230,7 +230,7 @@ impl PosedBody<'_> {
     /// Returns the place nearest to a point that both hands share; empty in neutral space.
     fn shared_point_place(&self, at: DVec3) -> Option<LikelyHandPlace> {
         let ahead = self.dominant_palm_distance();
-        let mut placed = self.place_given_hand(0, &PosedHand::spot_between_hands(at, ahead), false)?;
+        let mut placed = self.find_given_hand_place(0, &PosedHand::spot_between_hands(at, ahead), false)?;
         placed.place.by = None;
         let neutral = self.body_spot_at(0, &NEUTRAL_SPACE_SITE)?;
         let off = at - self.hand_point_goal(&neutral, None, 0, ahead, false);

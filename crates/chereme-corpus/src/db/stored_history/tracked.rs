@@ -111,7 +111,7 @@ const ANNOTATION_TOUCHING_CHANGES: [(&str, &str, &str, &str); 3] = [
 ];
 
 /// Creates this connection's triggers, which record every change of a tracked table.
-pub(in crate::db) fn record_changes(connection: &Connection) -> CorpusResult<()> {
+pub(in crate::db) fn create_change_triggers(connection: &Connection) -> CorpusResult<()> {
     let mut sql = String::from(
         "CREATE TEMP TABLE change (
              seq INTEGER PRIMARY KEY, tbl TEXT NOT NULL, kind TEXT NOT NULL,
@@ -223,7 +223,7 @@ pub(crate) fn refers_to(table: &str, column: &str) -> Option<&'static str> {
 }
 
 /// Returns the SQL expression for a column's value in the JSON row `?1`.
-pub(in crate::db) fn from_image(column: &TrackedColumn) -> String {
+pub(in crate::db) fn column_from_image_sql(column: &TrackedColumn) -> String {
     let name = &column.name;
     if column.blob {
         // The image of a null is the same as that of no bytes, and no column holds no bytes.
@@ -260,7 +260,7 @@ mod tests {
         let table = "CREATE TABLE t (x REAL, b BLOB, s TEXT, n INTEGER) STRICT";
         connection.execute_batch(table).expect("created");
         let all = load_table_columns(&connection, "t").expect("columns");
-        let values: Vec<String> = all.iter().map(from_image).collect();
+        let values: Vec<String> = all.iter().map(column_from_image_sql).collect();
         let image = format!("SELECT {} FROM t AS r", row_image(&all, "r"));
         let insert = format!("INSERT INTO t VALUES ({})", values.join(","));
         let mut state = 1_u64;

@@ -53,7 +53,7 @@ pub(super) fn read_movement_again(
             if regrouped {
                 let first = usize::try_from(block.first_frame).unwrap_or(usize::MAX);
                 let (frames, columns) = (block.frames, &block.columns);
-                movement::store_block(job.connection, row.id, &groups, first, frames, columns)?;
+                movement::store_block_groups(job.connection, row.id, &groups, first, frames, columns)?;
             }
             progress.report_step(ProgressStep {
                 task: &job.file_name,

@@ -144,7 +144,7 @@ fn time_name(field: TimeField) -> &'static str {
 }
 
 impl DocumentIndex for IndexReading<'_> {
-    fn docs(&self, probe: &IndexProbe) -> CorpusResult<DocumentList> {
+    fn find_matching_documents(&self, probe: &IndexProbe) -> CorpusResult<DocumentList> {
         Ok(self
             .searcher
             .search(&*self.fields.probe_to_query(probe), &AllDocumentsCollector)?)

@@ -194,7 +194,7 @@ pub(super) fn cue_placement_title(id: &str, language: InterfaceLanguage) -> Stri
 }
 
 /// Returns the spoken name of a key: its placement and the number of its handshape.
-pub(super) fn key_name(placement_id: &str, shape: u8, language: InterfaceLanguage) -> String {
+pub(super) fn translated_cue_key_name(placement_id: &str, shape: u8, language: InterfaceLanguage) -> String {
     format!("{} {shape}", cue_placement_title(placement_id, language))
 }
 
@@ -261,7 +261,7 @@ pub(super) fn key_sets(choices: &CueChoices, language: InterfaceLanguage) -> [(I
             return None;
         };
         Some(PracticeItem {
-            word: key_name(&key.placement, key.shape, language),
+            word: translated_cue_key_name(&key.placement, key.shape, language),
             input: (*input).to_owned(),
         })
     };
@@ -375,7 +375,7 @@ mod tests {
 
     fn keys(reading: &CuedReading) -> Vec<String> {
         let keys = reading.keys.iter();
-        keys.map(|key| key_name(&key.placement, key.shape, InterfaceLanguage::English))
+        keys.map(|key| translated_cue_key_name(&key.placement, key.shape, InterfaceLanguage::English))
             .collect()
     }
 

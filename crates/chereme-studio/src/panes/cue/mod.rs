@@ -18,7 +18,7 @@ use crate::model::generated::GeneratedClip;
 use crate::script::script_edit;
 use crate::words::{InterfaceText, cue_words as words, fill_text_braces, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, analysis, recombining};
-use cue_data::{CueChoices, CueExercise, CuedReading, PhoneCorrections, key_name};
+use cue_data::{CueChoices, CueExercise, CuedReading, PhoneCorrections, translated_cue_key_name};
 
 /// Time without changes, in seconds, after which a text is shown on the stage.
 const CUE_SETTLE_SECONDS: f64 = 0.5;
@@ -206,7 +206,7 @@ impl CuePane {
         let mut toggled = None;
         ui.horizontal_wrapped(|ui| {
             for (at, key) in reading.keys.iter().enumerate() {
-                let key_label = key_name(&key.placement, key.shape, seen.language);
+                let key_label = translated_cue_key_name(&key.placement, key.shape, seen.language);
                 let mut text = RichText::new(match key.other {
                     Some(_) => format!("{key_label} ?\n{}", key.phones),
                     None => format!("{key_label}\n{}", key.phones),
@@ -216,7 +216,7 @@ impl CuePane {
                 }
                 let name = match &key.other {
                     Some((.., place)) => {
-                        let other = key_name(place, key.shape, seen.language);
+                        let other = translated_cue_key_name(place, key.shape, seen.language);
                         let values: [(&str, &dyn std::fmt::Display); 3] =
                             [("key", &key_label), ("phones", &key.phones), ("other", &other)];
                         fill_text_braces(seen.say_text(words::DOUBT), &values)
