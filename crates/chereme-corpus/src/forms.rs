@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::lexicon::{self, LexiconColumn, LexiconColumnMeaning, LexiconEntry, SignLexicon};
 use chereme_formats::roles::AnnotatedHands;
-use chereme_sign::ComponentField;
 use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
+use chereme_sign::{ComponentField, SignComponent};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -120,6 +120,8 @@ pub(crate) struct FormField {
     pub(crate) name: String,
     /// The field of queries, such as `dominant.configuration`; nothing for a column that codes no component.
     pub(crate) coding: Option<String>,
+    /// The component that it codes, in whatever phase.
+    pub(crate) component: Option<SignComponent>,
 }
 
 /// A sign with its cells, an empty one for a field without value.
@@ -131,6 +133,8 @@ pub(crate) struct SignForm {
     pub(crate) cells: Vec<String>,
     /// The line of the table.
     pub(crate) line: Option<u64>,
+    /// The row of the token that it describes.
+    pub(crate) token: Option<i64>,
 }
 
 impl SignForms {
@@ -146,6 +150,7 @@ impl SignForms {
                 gloss: gloss.clone(),
                 cells: cells.map(Option::unwrap_or_default).collect(),
                 line: None,
+                token: None,
             }
         });
         Self {
@@ -153,6 +158,7 @@ impl SignForms {
             fields: fields
                 .into_iter()
                 .map(|name| FormField {
+                    component: name.parse().ok().map(|field: ComponentField| field.component),
                     coding: Some(name.clone()),
                     name,
                 })
@@ -344,6 +350,10 @@ fn of_tables(
         let named = fields.iter().zip(&places).map(|(name, at)| FormField {
             name: name.clone(),
             coding: coding_of_column(&table.columns[*at]),
+            component: match table.columns[*at].meaning {
+                LexiconColumnMeaning::Coding { component, .. } => Some(component),
+                _ => None,
+            },
         });
         columns.get_or_insert_with(|| named.collect());
         let place = file.path.as_ref().unwrap_or(&file.name);
@@ -358,6 +368,7 @@ fn of_tables(
                     gloss: standing.gloss.clone(),
                     cells: (places.iter()).map(|at| entry.cells[*at].trim().to_owned()).collect(),
                     line: Some(entry.line),
+                    token: Some(standing.token),
                 };
                 (standing.sign, form)
             })
@@ -427,6 +438,7 @@ fn of_codings(
     let tokens = keep_scope_rows(connection, scope, tokens, |token| token.sign_id)?;
     let all = tokens.len() as u64;
     let mut codings = Vec::new();
+    let mut coded_tokens = Vec::new();
     for (done, token) in tokens.into_iter().enumerate() {
         if done % FORM_REPORT_STEP_TOKENS == 0 {
             progress.report_step(ProgressStep {
@@ -439,6 +451,7 @@ fn of_codings(
         let coding = corpus.coding_of(&token)?;
         if !coding.is_empty() {
             codings.push((token.gloss, coding));
+            coded_tokens.push(token.id);
         }
     }
     let coded: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
@@ -465,7 +478,11 @@ fn of_codings(
         [] => coded.iter().map(|name| (*name).clone()).collect(),
         some => some.iter().map(wanted).collect::<CorpusResult<_>>()?,
     };
-    Ok(SignForms::forms_from_codings(&codings, keys, source))
+    let mut forms = SignForms::forms_from_codings(&codings, keys, source);
+    for (form, token) in forms.rows.iter_mut().zip(coded_tokens) {
+        form.token = Some(token);
+    }
+    Ok(forms)
 }
 
 /// Returns the cells as numbers that are equal if the texts are equal, and the text of each number; the empty cell is 0.

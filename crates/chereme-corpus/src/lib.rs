@@ -194,7 +194,8 @@ pub use search::{
 pub use starter::{StarterSign, built_in_body, starter_files, starter_signs, unpack_starter};
 pub use stats::{
     BattisonConditions, ChanceAssociation, CrossCell, FieldAssociation, FieldContrast, FieldInDepth, FieldStatistics,
-    FieldValue, HandCondition, IntervalEnds, LexiconStatistics, StatsEstimate, StatsFinding, StatsOptions, TwoHands,
+    FieldValue, HandCondition, IntervalEnds, LexiconStatistics, MeasuredSign, NeighbourDefinition, SignMeasureOptions,
+    SignMeasures, StatsEstimate, StatsFinding, StatsOptions, TwoHands,
 };
 pub use suggest::{MinimalPairPartner, SignSuggestions};
 pub use track::{

@@ -24,16 +24,12 @@ help-command-search-replace-search-saved-under-name = Replace the search that is
 help-command-search-delete-saved-search-name = Delete the saved search NAME
 help-command-search-show-at-most-n-tokens = Show at most N tokens
 help-command-search-skip-first-n-tokens = Skip the first N tokens
-help-command-search-order-results = The order of the results
+help-command-search-order-results = The order of the results: rank (the best first if the query ranks, otherwise by recording and time), gloss, place (recording and time), duration (the longest first), or an attribute such as density; with - before it the greatest first
 help-command-search-leave-out-counts-values = Leave out the counts of values
 help-command-search-query-finds-lexicon-entries-like-captured = A query finds lexicon entries like captured tokens. Quote it for your shell, for example 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'. Any query can contain @NAME for a search that was saved with --keep NAME; `chereme list CORPUS searches` lists the saved ones.
 help-command-search-table-for-people-read = A table for people to read
 help-command-search-commas-between-cells = Commas between the cells
 help-command-search-tabs-between-cells = Tabs between the cells
-help-command-search-best-first-if-query-ranks-otherwise = The best first if the query ranks, otherwise by recording and time
-help-command-search-by-gloss = By gloss
-help-command-search-by-recording-time = By recording and time
-help-command-search-longest-first = The longest first
 
 ## Titles of columns.
 

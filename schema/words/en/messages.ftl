@@ -13,7 +13,6 @@ message-messages-file-damaged = the file is damaged: { $why }
 message-messages-left-out-first = left out of { $where }, the first { $gloss }: { $why }
 message-messages-words-name-no-symbol = words that name no symbol
 message-messages-there-no-field-attribute = there is no field or attribute { $name }
-message-messages-there-no-field-attributes-not-counted = there is no field { $name }, and attributes are not counted
 message-messages-file-has-too-many-bytes = the file has too many bytes
 message-messages-no-column-called-gloss = no column is called a gloss
 message-messages-movement-has-no-frames = the movement has no frames

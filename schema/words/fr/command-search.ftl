@@ -24,16 +24,12 @@ help-command-search-replace-search-saved-under-name = Remplacer la recherche enr
 help-command-search-delete-saved-search-name = Supprimer la recherche enregistrée NOM
 help-command-search-show-at-most-n-tokens = Montrer au plus N occurrences
 help-command-search-skip-first-n-tokens = Sauter les N premières occurrences
-help-command-search-order-results = L’ordre des résultats
+help-command-search-order-results = L’ordre des résultats : rank (les meilleurs d’abord si la requête classe, sinon par enregistrement et temps), gloss, place (enregistrement et temps), duration (les plus longs d’abord), ou un attribut comme density ; avec - devant, les plus grands d’abord
 help-command-search-leave-out-counts-values = Sans les comptes des valeurs
 help-command-search-query-finds-lexicon-entries-like-captured = Une requête trouve les entrées du lexique comme les occurrences captées. Mettez-la entre guillemets pour votre interpréteur de commandes, par exemple 'right.configuration=U placement=chin' ou 'gloss:BO* not weak.configuration=S'. Toute requête peut contenir @NOM pour une recherche enregistrée avec --keep NOM ; `chereme list CORPUS searches` énumère celles qui sont enregistrées.
 help-command-search-table-for-people-read = Un tableau à lire
 help-command-search-commas-between-cells = Des virgules entre les cellules
 help-command-search-tabs-between-cells = Des tabulations entre les cellules
-help-command-search-best-first-if-query-ranks-otherwise = Les meilleurs d’abord si la requête classe, sinon par enregistrement et temps
-help-command-search-by-gloss = Par glose
-help-command-search-by-recording-time = Par enregistrement et temps
-help-command-search-longest-first = Les plus longs d’abord
 
 ## Titles of columns.
 

@@ -23,6 +23,10 @@ message-command-stats-entries-do-not-keep-symmetry = entrées qui ne respectent 
 message-command-stats-entries-do-not-keep-dominance = entrées qui ne respectent pas la dominance : { $n }
 line-command-stats-without-one-handshapes = sans l’une des configurations : { $list }
 line-command-stats-entries = entrées : { $list }
+line-command-stats-entries-measured-neighbours-mean-median = entrées : { $n }, mesurées : { $m } ; voisins : moyenne { $mean }, médiane { $median } ; signes sans voisin : { $k }
+line-command-stats-fields-of-forms = champs : { $list }
+line-command-stats-signs-not-shown-to-json-have-all = signes non affichés : { $n } ; --to et --json les ont tous
+line-command-stats-entries-with-stored-measures = entrées aux mesures enregistrées : { $n }
 line-command-stats-table = table : { $path }
 
 ## Help of commands and options.
@@ -32,6 +36,15 @@ help-command-stats-every-sign-counts-once-by-citation = Chaque signe compte une 
 help-command-stats-entropy-in-bits-from-shares-as = L’entropie est en bits, à partir des parts telles quelles. La charge fonctionnelle d’un champ est la part de l’entropie des formes qui se perd sans lui, (H(L) - H(L sans lui)) / H(L) ; celle d’un contraste est la part qui se perd si ses deux valeurs n’en font qu’une. Les intervalles à 95 % sont ceux du jackknife sur les entrées, et de Wilson pour les parts. Des tirages avec remise prendraient deux fois la même entrée, un homonyme que le lexique n’a pas.
 help-command-stats-association-counts-entries-have-both-fields = L’association compte les entrées qui ont les deux champs : information mutuelle, chi carré et V de Cramér. p est la part des lexiques mélangés où ils vont ensemble au moins autant. Des champs à beaucoup de valeurs rares partagent de l’information par le seul hasard : comparez avec la moyenne des lexiques mélangés.
 help-command-stats-battison-s-conditions-symmetrical-signs-have = Conditions de Battison : les signes symétriques ont la même configuration aux deux mains ; les asymétriques ont la même, ou une configuration non marquée à la main dominée. Il faut le type du signe (1, 2s, 2a de Signbank, ou des mots comme ceux d’ASL-LEX) et les deux configurations.
+help-command-stats-per-sign-measures-each-sign-density = `--per sign` mesure chaque signe : densité (les voisins qui diffèrent dans `--within` champs au plus), paires minimales par champ, homonymes, famille (les signes égaux à la configuration près), part moyenne de ses valeurs et de ses paires de valeurs dans leurs champs, occurrences captées (les deux mains comptent une fois) et leurs signeurs. `--store` les garde avec les entrées : `density>20` est alors une requête, et `search --sort density`, `--count density` et les tables les connaissent.
+help-command-stats-measure-each-sign-instead-lexicon = Mesurer chaque signe au lieu du lexique
+help-command-stats-definition-neighbour = La définition d’un voisin
+help-command-stats-most-fields-neighbours-differ = Le nombre maximal de champs où des voisins diffèrent
+help-command-stats-store-measures-attributes-entries = Enregistrer les mesures comme attributs des entrées ; les précédentes sont remplacées
+help-command-stats-neighbours-homonyms-families-uses-each-sign = Voisins, homonymes, familles et usages de chaque signe
+help-command-stats-every-other-entry-at-most-homonyms = Toute autre entrée qui diffère dans ce nombre de champs au plus, homonymes compris, si une valeur est commune
+help-command-stats-every-other-entry-one-field-more = Toute autre entrée qui diffère dans un champ ou plus, jusqu’à ce nombre ; les homonymes n’en sont pas
+help-command-stats-every-other-form-so-many-fields = Toute autre forme jusqu’à ce nombre de champs ; les entrées d’une même forme comptent une fois
 help-command-stats-json-gives-source-columns-citations-tokens = `--json` donne "source" (columns, citations ou tokens), "entries", "compared", "forms", "entropy", "fields" (chacun avec "field", "values", "given", "empty", "successive", "entropy", "entropy_given", "load" et "frequent") et "findings" ; avec --of "of" ("values", "contrasts"), avec --between "between" ("n", "bits", "chi_square", "df", "cramers_v", "p", "p_bits", "chance", "rows", "columns", "cells"), avec --battison "battison" ("symmetry" et "dominance", chacune avec "exceptions"). Un nombre est "value" ou null, "why" et "interval".
 help-command-stats-tokens-instead-signs = (des occurrences au lieu de signes)
 help-command-stats-tokens-count-as-in-chereme-search = Les occurrences à compter, comme dans `chereme search`
@@ -41,7 +54,7 @@ help-command-stats-battison-s-conditions-on-signs-with = Les conditions de Batti
 help-command-stats-handshapes-count-as-unmarked-without-b = Les configurations qui comptent comme non marquées ; sinon B, A, S, C, O, 1, 5
 help-command-stats-most-values-contrasts-glosses-printed = Le nombre maximal de valeurs, de contrastes et de gloses affichés
 help-command-stats-number-shuffles-for-p-0-computes = Le nombre de mélanges pour p ; 0 n’en calcule pas
-help-command-stats-write-table-csv-cross-table-values = Écrire une table (.csv) : le tableau croisé, les valeurs d’un champ, les exceptions, ou sinon les champs
+help-command-stats-write-table-csv-cross-table-values = Écrire une table (.csv) : le tableau croisé, les valeurs d’un champ, les exceptions, les signes, ou sinon les champs
 
 ## Titles of columns.
 
@@ -53,6 +66,12 @@ title-command-stats-without-empty = sans vide
 title-command-stats-load = charge
 title-command-stats-load-2 = ± charge
 title-command-stats-most-frequent = les plus fréquentes
+title-command-stats-neighbours = voisins
+title-command-stats-homonyms = homonymes
+title-command-stats-family = famille
+title-command-stats-probability = probabilité
+title-command-stats-probability-pairs = des paires
+title-command-stats-signers = signeurs
 title-command-stats-minimal-pairs = paires minimales
 title-command-stats-strong-hand = main dominante
 title-command-stats-weak-hand = main dominée

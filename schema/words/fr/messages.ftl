@@ -13,7 +13,6 @@ message-messages-file-damaged = le fichier est abîmé : { $why }
 message-messages-left-out-first = laissé de côté ({ $where }, le premier : { $gloss }) : { $why }
 message-messages-words-name-no-symbol = des mots qui ne nomment aucun symbole
 message-messages-there-no-field-attribute = il n’y a ni champ ni attribut { $name }
-message-messages-there-no-field-attributes-not-counted = il n’y a pas de champ { $name }, et les attributs ne se comptent pas
 message-messages-file-has-too-many-bytes = le fichier a trop d’octets
 message-messages-no-column-called-gloss = aucune colonne ne s’appelle glose
 message-messages-movement-has-no-frames = le mouvement n’a pas d’images

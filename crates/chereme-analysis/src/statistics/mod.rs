@@ -14,6 +14,7 @@
 //! | two measures of the same things | [`spearman_correlation`], [`kendall_tau`] |
 //! | intervals and sameness | [`ParticipantResamples`], [`jackknife_interval`], [`conclude_equivalence`] |
 //! | values without an order | [`EqualityClasses`] (entropy), [`functional_load`], [`find_value_contrasts`], [`ValueAssociation`], [`ShuffledAssociation`] |
+//! | rows that differ in few fields | [`count_row_neighbours`] |
 //! | a model of answers on a scale | [`ordinal::fit_ordinal_model`] |
 //!
 //! ```
@@ -33,6 +34,7 @@ mod association;
 mod correlation;
 mod describe;
 mod information;
+mod neighbours;
 pub mod ordinal;
 mod shares;
 mod statistics_groups;
@@ -47,6 +49,7 @@ pub use describe::{GroupDescription, ValueRanks, mid_ranks, sorted_quantile};
 pub use information::{
     EqualityClasses, ValueContrast, find_value_contrasts, functional_load, functional_load_interval,
 };
+pub use neighbours::{RowNeighbours, count_row_neighbours};
 pub use shares::{FisherResult, fisher_exact_test, mcnemar_exact_test, wilson_interval};
 pub use statistics_groups::{
     EffectComparison, EffectSize, GroupEffect, KruskalWallis, MannWhitney, holm_p_values, kruskal_wallis, mann_whitney,

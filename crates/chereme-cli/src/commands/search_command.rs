@@ -10,7 +10,7 @@ use chereme_corpus::{
 };
 use clap::ValueEnum;
 
-use crate::args::{CommandLine, NamedChoices};
+use crate::args::CommandLine;
 use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Find the tokens that answer a query
@@ -41,9 +41,10 @@ pub(crate) struct SearchArgs {
     /// Skip the first N tokens
     #[arg(long, default_value_t = 0, value_name = "N")]
     offset: usize,
-    /// The order of the results
-    #[arg(long, value_parser = HIT_ORDER_CHOICES, default_value = "rank")]
-    sort: HitOrder,
+    /// The order of the results: rank (the best first if the query ranks, otherwise by recording and time), gloss, place
+    /// (recording and time), duration (the longest first), or an attribute such as density; with - before it the greatest first
+    #[arg(long, value_name = "ORDER", default_value = "rank", allow_hyphen_values = true)]
+    sort: String,
     /// Leave out the counts of values
     #[arg(long)]
     no_facets: bool,
@@ -71,6 +72,21 @@ fn facet_count(text: &str) -> Result<usize, String> {
     }
 }
 
+/// Returns the order that a word means: an attribute of this name unless it is one of the four words.
+fn parse_hit_order(word: &str) -> HitOrder {
+    let attribute = |name: &str| name.strip_prefix("attribute.").unwrap_or(name).to_owned();
+    match word {
+        "rank" => HitOrder::Rank,
+        "gloss" => HitOrder::Gloss,
+        "place" => HitOrder::Place,
+        "duration" => HitOrder::Duration,
+        _ => match word.strip_prefix('-') {
+            Some(name) => HitOrder::AttributeDescending(attribute(name)),
+            None => HitOrder::Attribute(attribute(word)),
+        },
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum TableFormat {
     /// A table for people to read
@@ -80,18 +96,6 @@ enum TableFormat {
     /// Tabs between the cells
     Tsv,
 }
-
-/// The orders of hits.
-const HIT_ORDER_CHOICES: NamedChoices<HitOrder> = NamedChoices(&[
-    (
-        "rank",
-        "The best first if the query ranks, otherwise by recording and time",
-        HitOrder::Rank,
-    ),
-    ("gloss", "By gloss", HitOrder::Gloss),
-    ("place", "By recording and time", HitOrder::Place),
-    ("duration", "The longest first", HitOrder::Duration),
-]);
 
 /// The number of values of a field that are shown without `--facets`.
 const TABLE_FACETS: usize = 8;
@@ -126,7 +130,7 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
         offset: args.offset,
         facets: !args.no_facets,
         facet_values: args.facets.unwrap_or(FACET_VALUES),
-        order: args.sort,
+        order: parse_hit_order(&args.sort),
     };
     let query = args.query.join(" ");
     let mut answer = corpus.search_tokens(&query, &options)?;

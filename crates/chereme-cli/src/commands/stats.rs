@@ -5,13 +5,14 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    BattisonConditions, EmptyCellTreatment, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue, HandCondition,
-    LexiconStatistics, ProgressReceiver, StatsEstimate, StatsFinding, StatsOptions,
+    BattisonConditions, Corpus, EmptyCellTreatment, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue,
+    HandCondition, LexiconStatistics, MeasuredSign, NeighbourDefinition, ProgressReceiver, SignMeasureOptions,
+    StatsEstimate, StatsFinding, StatsOptions,
 };
 
 use super::lexicon_command::LexiconScopeArgs;
 use super::pairs_command::EMPTY_CELL_CHOICES;
-use crate::args::CommandLine;
+use crate::args::{CommandLine, NamedChoices};
 use crate::output::{CommandOutput, CommandProgressBar};
 
 /// Describe a lexicon by numbers: entropy, functional load, association of fields, conditions on the hands
@@ -32,6 +33,11 @@ use crate::output::{CommandOutput, CommandProgressBar};
 /// unmarked one on the weak hand. They need the type of a sign (Signbank's 1, 2s, 2a, or words such as ASL-LEX's) and both
 /// handshapes.
 ///
+/// `--per sign` measures each sign: density (neighbours that differ in at most `--within` fields), minimal pairs by field,
+/// homonyms, family (signs that are equal but for the handshape), the mean share of its values and of its pairs of values in
+/// their fields, captured tokens (the two hands count once) and their signers. `--store` keeps them with the entries:
+/// `density>20` is then a query, and `search --sort density`, `--count density` and tables know them.
+///
 /// `--json` gives "source" (columns, citations or tokens), "entries", "compared", "forms", "entropy", "fields" (each with "field",
 /// "values", "given", "empty", "successive", "entropy", "entropy_given", "load" and "frequent") and "findings"; with --of
 /// "of" ("values", "contrasts"), with --between "between" ("n", "bits", "chi_square", "df", "cramers_v", "p", "p_bits",
@@ -44,7 +50,8 @@ Examples:
   chereme stats mine.chereme --fields S13 --of 'Handshape strong'
   chereme stats mine.chereme --between dominant.configuration placement --to table.csv
   chereme stats mine.chereme --fields Handedness,'Handshape strong','Handshape weak' --battison
-  chereme stats mine.chereme origin=captured   (tokens instead of signs)")]
+  chereme stats mine.chereme origin=captured   (tokens instead of signs)
+  chereme stats mine.chereme --fields S13 --per sign --store --to measures.csv")]
 pub(crate) struct StatsArgs {
     /// The corpus
     corpus: PathBuf,
@@ -70,6 +77,18 @@ pub(crate) struct StatsArgs {
     /// The handshapes that count as unmarked; without it B, A, S, C, O, 1, 5
     #[arg(long, value_name = "A,B,...", value_delimiter = ',', requires = "battison")]
     unmarked: Vec<String>,
+    /// Measure each sign instead of the lexicon
+    #[arg(long, value_parser = PER_SIGN_CHOICES, conflicts_with_all = ["of", "between", "battison"])]
+    per: Option<MeasuredThing>,
+    /// The definition of a neighbour
+    #[arg(long, value_parser = NEIGHBOUR_CHOICES, default_value = "asl-lex", requires = "per")]
+    neighbours: NeighbourDefinition,
+    /// The most fields in which neighbours differ
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "per", value_parser = clap::value_parser!(u8).range(1..=8))]
+    within: u8,
+    /// Store the measures as attributes of the entries; the earlier ones are replaced
+    #[arg(long, requires = "per")]
+    store: bool,
     /// The most values, contrasts and glosses that are printed
     #[arg(long, value_name = "N", default_value_t = 20)]
     limit: usize,
@@ -79,7 +98,7 @@ pub(crate) struct StatsArgs {
     /// The seed of all draws; the same seed gives the same numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Write a table (.csv): the cross table, the values of a field, the exceptions, or else the fields
+    /// Write a table (.csv): the cross table, the values of a field, the exceptions, the signs, or else the fields
     #[arg(long, value_name = "FILE")]
     to: Option<PathBuf>,
     /// Replace a table that exists already
@@ -104,6 +123,36 @@ impl StatsArgs {
     }
 }
 
+/// The things that are measured one by one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MeasuredThing {
+    Sign,
+}
+
+const PER_SIGN_CHOICES: NamedChoices<MeasuredThing> = NamedChoices(&[(
+    "sign",
+    "Neighbours, homonyms, families and uses of each sign",
+    MeasuredThing::Sign,
+)]);
+
+const NEIGHBOUR_CHOICES: NamedChoices<NeighbourDefinition> = NamedChoices(&[
+    (
+        "asl-lex",
+        "Every other entry that differs in at most so many fields, homonyms too, if one value is the same",
+        NeighbourDefinition::AslLex,
+    ),
+    (
+        "signbank",
+        "Every other entry that differs in one field or more, up to so many; homonyms are none",
+        NeighbourDefinition::Signbank,
+    ),
+    (
+        "corpus-tools",
+        "Every other form up to so many fields away; the entries of one form count once",
+        NeighbourDefinition::CorpusTools,
+    ),
+]);
+
 /// The most columns of a cross table that are printed.
 const MAX_CROSS_TABLE_COLUMNS: usize = 12;
 /// The most glosses that a finding names.
@@ -111,6 +160,9 @@ const MOST_GLOSSES: usize = 12;
 
 pub(super) fn run(cli: &CommandLine, args: &StatsArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    if args.per == Some(MeasuredThing::Sign) {
+        return measure_each_sign(&mut corpus, args, output);
+    }
     let mut bar = CommandProgressBar::new();
     let lexicon_statistics = corpus.lexicon_statistics(&args.stats_options(), &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
@@ -135,6 +187,74 @@ pub(super) fn run(cli: &CommandLine, args: &StatsArgs, output: &mut CommandOutpu
         output.filled_line("table: {path}", &[&path.display()])?;
     }
     output.set_json_document(lexicon_statistics)
+}
+
+fn measure_each_sign(corpus: &mut Corpus, args: &StatsArgs, output: &mut CommandOutput) -> Result<()> {
+    let options = SignMeasureOptions {
+        fields: args.fields.clone(),
+        empty: args.empty,
+        query: (!args.query.is_empty()).then(|| args.query.join(" ")),
+        scope: args.scope.lexicon_scope(),
+        definition: args.neighbours,
+        within: usize::from(args.within),
+    };
+    let mut bar = CommandProgressBar::new();
+    let measures = corpus.measure_signs(&options, &mut ProgressReceiver::new(&mut bar))?;
+    drop(bar);
+    output.filled_line(
+        "entries: {n}, measured: {m}; neighbours: mean {mean}, median {median}; signs without one: {k}",
+        &[
+            &measures.entries,
+            &measures.signs.len(),
+            &format!("{:.3}", measures.mean_density),
+            &measures.median_density,
+            &measures.without_neighbour,
+        ],
+    )?;
+    output.filled_line("fields: {list}", &[&measures.fields.join(", ")])?;
+    let mut by_density: Vec<&MeasuredSign> = measures.signs.iter().collect();
+    by_density.sort_by_key(|sign| std::cmp::Reverse(sign.density));
+    let share = |value: Option<f64>| value.map(|share| format!("{share:.4}")).unwrap_or_default();
+    let row = |sign: &&MeasuredSign| {
+        vec![
+            sign.gloss.clone(),
+            sign.density.to_string(),
+            sign.pairs.to_string(),
+            sign.homonyms.len().to_string(),
+            sign.family_size.map(|size| size.to_string()).unwrap_or_default(),
+            share(sign.probability),
+            share(sign.pair_probability),
+            sign.tokens.to_string(),
+            sign.signers.to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = by_density.iter().take(args.limit).map(row).collect();
+    output.write_titled_table(
+        &[
+            "gloss",
+            "neighbours",
+            "minimal pairs",
+            "homonyms",
+            "family",
+            "probability",
+            "of pairs",
+            "tokens",
+            "signers",
+        ],
+        &rows,
+    )?;
+    if let Some(more) = hidden_row_count(measures.signs.len(), args.limit) {
+        output.filled_line("signs that are not shown: {n}; --to and --json have all", &[&more])?;
+    }
+    if let Some(path) = &args.to {
+        measures.write_sign_measures(path, args.force)?;
+        output.filled_line("table: {path}", &[&path.display()])?;
+    }
+    if args.store {
+        let count = corpus.store_sign_measures(&measures)?;
+        output.filled_line("entries with stored measures: {n}", &[&count])?;
+    }
+    output.set_json_document(measures)
 }
 
 fn print_lexicon_overview(found: &LexiconStatistics, output: &mut CommandOutput) -> Result<()> {

@@ -1,6 +1,7 @@
 //! Rows of attributes: the properties of a sign in a table beyond its components.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use rusqlite::{Connection, params};
 
@@ -16,6 +17,17 @@ pub(crate) struct AttributeRow {
     pub(crate) text: String,
     /// The number in the cell, if it is one.
     pub(crate) number: Option<f64>,
+}
+
+/// The beginning of the name of every attribute that the program measured.
+pub(crate) const MEASURE_PREFIX: &str = "measure.";
+
+/// Sets the attributes that the program measured, and leaves those of tables as they are.
+pub(crate) fn set_token_measures(connection: &Connection, token: i64, rows: &[AttributeRow]) -> CorpusResult<()> {
+    let mut all = of_tokens(connection, &[token])?.remove(&token).unwrap_or_default();
+    all.retain(|row| !row.name.starts_with(MEASURE_PREFIX));
+    all.extend(rows.iter().cloned());
+    set_token_attributes(connection, token, &all)
 }
 
 /// Sets the attributes of a token; leaves rows that do not change untouched.
@@ -61,16 +73,15 @@ pub(crate) fn list_attribute_names(connection: &Connection) -> CorpusResult<Vec<
     Ok(names)
 }
 
-/// Returns the tokens with an attribute of one of these names that passes, and all tokens with such an attribute.
+/// Returns for each token the attributes of these names that count for it.
 ///
 /// A row of a table has its own attributes alone; every other token of a sign has those of the sign's rows.
-pub(crate) fn tokens_that(
+pub(crate) fn attributes_by_token(
     connection: &Connection,
     names: &[String],
-    passes: impl Fn(&AttributeRow) -> bool,
-) -> CorpusResult<(BTreeSet<i64>, BTreeSet<i64>)> {
-    let (mut entries, mut passing) = (BTreeSet::new(), BTreeSet::new());
-    let (mut signs, mut passing_signs) = (BTreeSet::new(), BTreeSet::new());
+) -> CorpusResult<BTreeMap<i64, Vec<Rc<AttributeRow>>>> {
+    let mut by_token: BTreeMap<i64, Vec<Rc<AttributeRow>>> = BTreeMap::new();
+    let mut by_sign: BTreeMap<i64, Vec<Rc<AttributeRow>>> = BTreeMap::new();
     let mut statement = connection.prepare_cached(
         "SELECT a.token_id, t.sign_id, a.text, a.number FROM attribute a
          JOIN token t ON t.id = a.token_id WHERE a.name = ?1",
@@ -78,34 +89,88 @@ pub(crate) fn tokens_that(
     for name in names {
         let mut rows = statement.query([name])?;
         while let Some(row) = rows.next()? {
-            let (token, sign): (i64, i64) = (row.get(0)?, row.get(1)?);
-            let attribute_row = AttributeRow {
+            let attribute_row = Rc::new(AttributeRow {
                 name: name.clone(),
                 text: row.get(2)?,
                 number: row.get(3)?,
-            };
-            entries.insert(token);
-            signs.insert(sign);
-            if passes(&attribute_row) {
-                passing.insert(token);
-                passing_signs.insert(sign);
-            }
+            });
+            by_token.entry(row.get(0)?).or_default().push(attribute_row.clone());
+            by_sign.entry(row.get(1)?).or_default().push(attribute_row);
         }
     }
-    let mut having = entries.clone();
-    let signs: Vec<i64> = signs.into_iter().collect();
+    let signs: Vec<i64> = by_sign.keys().copied().collect();
     let mut statement = connection.prepare_cached(
         "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))
              AND NOT (origin = 'lexicon' AND coalesce(instr(source, '\"cells\":'), 0))",
     )?;
     let mut rows = statement.query([json_list(&signs)])?;
     while let Some(row) = rows.next()? {
-        let (token, sign): (i64, i64) = (row.get(0)?, row.get(1)?);
-        if having.insert(token) && passing_signs.contains(&sign) {
-            passing.insert(token);
-        }
+        let sign: i64 = row.get(1)?;
+        by_token.entry(row.get(0)?).or_insert_with(|| by_sign[&sign].clone());
     }
-    Ok((passing, having))
+    Ok(by_token)
+}
+
+/// Returns the tokens with an attribute of one of these names that passes, and all tokens with such an attribute.
+pub(crate) fn tokens_that(
+    connection: &Connection,
+    names: &[String],
+    passes: impl Fn(&AttributeRow) -> bool,
+) -> CorpusResult<(BTreeSet<i64>, BTreeSet<i64>)> {
+    let by_token = attributes_by_token(connection, names)?;
+    let passing = by_token.iter().filter(|(_, rows)| rows.iter().any(|row| passes(row)));
+    Ok((
+        passing.map(|(token, _)| *token).collect(),
+        by_token.into_keys().collect(),
+    ))
+}
+
+/// Returns the day, in universal time, as `2026-11-29`.
+pub(crate) fn current_day(connection: &Connection) -> CorpusResult<String> {
+    Ok(connection.query_row("SELECT date('now')", [], |row| row.get(0))?)
+}
+
+/// A captured token of a sign: by whom, where and when.
+pub(crate) struct SignUse {
+    /// The row of the sign.
+    pub(crate) sign: i64,
+    /// The row of the recording.
+    pub(crate) recording: i64,
+    /// The row of the signer: the participant of its tier, otherwise that of the recording.
+    pub(crate) signer: Option<i64>,
+    /// The begin of the token.
+    pub(crate) start_us: i64,
+    /// The end of the token.
+    pub(crate) end_us: i64,
+}
+
+/// Returns the captured tokens of all signs, by sign, recording, signer and time.
+pub(crate) fn load_sign_uses(connection: &Connection) -> CorpusResult<Vec<SignUse>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.sign_id, t.recording_id, coalesce(p.id, r.signer_id) AS used_by, t.start_us, t.end_us
+         FROM token t JOIN recording r ON r.id = t.recording_id
+         LEFT JOIN annotation a ON a.id = t.annotation_id
+         LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant
+         WHERE t.origin = 'captured' ORDER BY t.sign_id, t.recording_id, used_by, t.start_us",
+    )?;
+    let rows = statement.query_map([], |row| {
+        Ok(SignUse {
+            sign: row.get(0)?,
+            recording: row.get(1)?,
+            signer: row.get(2)?,
+            start_us: row.get(3)?,
+            end_us: row.get(4)?,
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the sign of each of these tokens.
+pub(crate) fn signs_of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, i64>> {
+    let mut statement =
+        connection.prepare_cached("SELECT id, sign_id FROM token WHERE id IN (SELECT value FROM json_each(?1))")?;
+    let rows = statement.query_map([json_list(tokens)], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Summary of an attribute for an overview.

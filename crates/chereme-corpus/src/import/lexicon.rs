@@ -19,7 +19,7 @@ use super::{FileReport, FileStatus, ImportJob};
 use crate::db::edits;
 use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::db::stored_attributes::{self, AttributeRow};
+use crate::db::stored_attributes::{self, AttributeRow, MEASURE_PREFIX};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
@@ -539,7 +539,7 @@ fn import_entry(
         }
     };
     let lexicon_title = signs.by_row.title.as_deref();
-    let attributes: Vec<AttributeRow> = (entry.attributes.iter())
+    let mut attributes: Vec<AttributeRow> = (entry.attributes.iter())
         .filter(|(name, _)| Some(name.as_str()) != lexicon_title)
         .map(|(name, text)| AttributeRow {
             name: name.clone(),
@@ -547,6 +547,15 @@ fn import_entry(
             number: (numerals.get(name.as_str())).and_then(|column| column.parse_cell_number(text)),
         })
         .collect();
+    if is_known {
+        // What the program measured is not the table's to remove.
+        let stored = stored_attributes::of_tokens(connection, &[token])?.remove(&token);
+        let measures = stored
+            .into_iter()
+            .flatten()
+            .filter(|row| row.name.starts_with(MEASURE_PREFIX));
+        attributes.extend(measures);
+    }
     stored_attributes::set_token_attributes(connection, token, &attributes)?;
     let values: Vec<TokenValueRow> = entry
         .codings

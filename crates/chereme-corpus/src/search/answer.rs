@@ -1,8 +1,9 @@
 //! Answers: the tokens found, in order, with their coded values and the counts of each value.
 
-use chereme_sign::SignComponent;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use chereme_sign::SignComponent;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -10,8 +11,10 @@ use super::compile::{QueryContext, QueryResult};
 use super::docs::{DocumentList, DocumentTimes};
 use super::like::ExampleScores;
 use super::probe::{IndexDocument, NumberColumn, RowField};
+use super::search_attributes;
 use super::search_finding::QueryFinding;
 use super::search_plan::{self, QueryPlan};
+use crate::db::stored_attributes::AttributeRow;
 use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_search::search_answers::{self, CodedRow, OpinionStanding};
 
@@ -101,7 +104,7 @@ pub struct HitOpinion {
 ///
 /// Every order is completed by: recordings in the order in which they were stored, time, lexicon entries by gloss, the
 /// order in which tokens were stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum HitOrder {
     /// The most similar to an example first; then tokens whose whole gloss is the text, then a word of the gloss,
     /// part of a translation, part of a remark.
@@ -113,6 +116,10 @@ pub enum HitOrder {
     Gloss,
     /// The longest first, the lexicon last.
     Duration,
+    /// By an attribute: numbers in order, then texts in order, then tokens without the attribute.
+    Attribute(String),
+    /// By an attribute, the greatest number first.
+    AttributeDescending(String),
 }
 
 /// The sort key of a token.
@@ -122,7 +129,7 @@ type TokenSortKey = (u64, u64, u64, i64);
 pub(crate) fn order_document_page(
     ask: &QueryContext<'_>,
     found: &[IndexDocument],
-    order: HitOrder,
+    order: &HitOrder,
     ranks: &DocumentRanks,
     range: std::ops::Range<usize>,
 ) -> QueryResult<DocumentList> {
@@ -201,21 +208,28 @@ struct DocumentPlaces {
     sign: Box<dyn NumberColumn>,
     times: DocumentTimes,
     signs: Option<std::sync::Arc<super::search_known::KnownSigns>>,
+    /// The rank of each token with the attribute that gives the order.
+    attribute_ranks: BTreeMap<i64, u64>,
 }
 
 impl DocumentPlaces {
-    fn open_document_places(ask: &QueryContext<'_>, found: &[IndexDocument], order: HitOrder) -> QueryResult<Self> {
+    fn open_document_places(ask: &QueryContext<'_>, found: &[IndexDocument], order: &HitOrder) -> QueryResult<Self> {
         let times = DocumentTimes::open_document_times(ask.now)?;
-        let by_gloss = order == HitOrder::Gloss || found.iter().any(|doc| times.document_times(*doc).is_none());
+        let by_gloss = *order == HitOrder::Gloss || found.iter().any(|doc| times.document_times(*doc).is_none());
         Ok(Self {
             id: ask.now.open_row_column(RowField::Token)?,
             sign: ask.now.open_row_column(RowField::Sign)?,
             times,
             signs: by_gloss.then(|| ask.known_signs()).transpose()?,
+            attribute_ranks: match order {
+                HitOrder::Attribute(name) => rank_by_attribute(ask, name, false)?,
+                HitOrder::AttributeDescending(name) => rank_by_attribute(ask, name, true)?,
+                _ => BTreeMap::new(),
+            },
         })
     }
 
-    fn leading_sort_key(&self, doc: IndexDocument, order: HitOrder, rank: u64) -> u64 {
+    fn leading_sort_key(&self, doc: IndexDocument, order: &HitOrder, rank: u64) -> u64 {
         match order {
             HitOrder::Rank => rank,
             HitOrder::Place => 0,
@@ -224,6 +238,13 @@ impl DocumentPlaces {
                 Some((_, start, end)) => u64::MAX - 1 - end.abs_diff(start),
                 None => u64::MAX,
             },
+            HitOrder::Attribute(_) | HitOrder::AttributeDescending(_) => {
+                let token = self.id.document_number(doc);
+                token
+                    .and_then(|id| self.attribute_ranks.get(&id))
+                    .copied()
+                    .unwrap_or(u64::MAX)
+            }
         }
     }
 
@@ -239,6 +260,38 @@ impl DocumentPlaces {
         let rank = |signs: &super::search_known::KnownSigns| signs.rank.get(&self.sign.document_number(doc)?).copied();
         self.signs.as_deref().and_then(rank).unwrap_or(u64::MAX)
     }
+}
+
+/// Returns the rank of each token by the least of its values of an attribute, or by the greatest if `descending`: numbers
+/// before texts, in both directions.
+fn rank_by_attribute(ask: &QueryContext<'_>, name: &str, descending: bool) -> QueryResult<BTreeMap<i64, u64>> {
+    let attributes = search_attributes::load_token_attributes(ask, name)?;
+    let compare = |a: &AttributeRow, b: &AttributeRow| {
+        let by_value = match (a.number, b.number) {
+            (Some(one), Some(other)) => one.total_cmp(&other),
+            (None, None) => a.text.cmp(&b.text),
+            // Numbers stay before texts when the order is turned.
+            (one, _) => {
+                return if one.is_some() {
+                    Ordering::Less
+                } else {
+                    Ordering::Greater
+                };
+            }
+        };
+        if descending { by_value.reverse() } else { by_value }
+    };
+    let leading = attributes.iter().filter_map(|(token, rows)| {
+        let filled = rows.iter().filter(|row| !row.text.trim().is_empty());
+        Some((*token, filled.min_by(|a, b| compare(a, b))?))
+    });
+    let mut ordered_tokens: Vec<(i64, &std::rc::Rc<AttributeRow>)> = leading.collect();
+    ordered_tokens.sort_by(|a, b| compare(a.1, b.1));
+    let groups = ordered_tokens.chunk_by(|a, b| compare(a.1, b.1).is_eq());
+    let ranked = (0..)
+        .zip(groups)
+        .flat_map(|(rank, group)| group.iter().map(move |(token, _)| (*token, rank)));
+    Ok(ranked.collect())
 }
 
 /// Maps a time to a number that sorts in the same order, also for times before zero.

@@ -54,7 +54,7 @@ pub use search_finding::{FindingKind, QueryFinding};
 pub use search_tally::{NO_VALUE, TallyRow, ValueTally};
 
 /// The wanted part of an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SearchOptions {
     /// The most tokens to show; all by default.
     pub limit: Option<usize>,
@@ -268,7 +268,7 @@ fn answer_query(ask: &QueryContext<'_>, query: &TokenQuery, options: &SearchOpti
     let end = options
         .limit
         .map_or(usize::MAX, |limit| options.offset.saturating_add(limit));
-    let page = answer::order_document_page(ask, &docs, options.order, &ranks, options.offset..end)?;
+    let page = answer::order_document_page(ask, &docs, &options.order, &ranks, options.offset..end)?;
     let hits = answer::collect_search_hits(ask, &page, scores.as_ref())?;
     let (facets, facets_left_out) = if options.facets {
         search_facets::count_document_facets(ask, &docs, options.facet_values)?

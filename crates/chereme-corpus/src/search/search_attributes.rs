@@ -1,19 +1,21 @@
 //! Comparisons of attributes, answered from their rows.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use chereme_sign::query::{
     AttributeTest, CONFIDENCE_NAME, ComparisonOperator, MissingReason, QueryError, QueryTest, QueryValue,
     ValueComparison, WantedValue, parse_plain_number,
 };
-use chereme_sign::text::{fold_text, nearest_candidate};
+use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 
-use super::compile::{QueryContext, QueryResult};
+use super::compile::{QueryContext, QueryFailure, QueryResult};
 use super::probe::{IndexProbe, RowField};
 use super::search_plan::QueryPlan;
 use super::search_texts::TextGlob;
-use crate::db::stored_attributes::{self, AttributeRow};
+use crate::db::stored_attributes::{self, AttributeRow, MEASURE_PREFIX};
 use crate::db::stored_search::search_answers;
+use crate::error::CorpusError;
 
 /// Returns the plan for the tokens whose attribute passes.
 ///
@@ -29,11 +31,7 @@ pub(super) fn plan_attribute_test(
     wanted: &AttributeTest,
 ) -> QueryResult<QueryPlan> {
     let all = stored_attributes::list_attribute_names(ask.connection)?;
-    let names: Vec<String> = all
-        .iter()
-        .filter(|own| attribute_name_key(own) == attribute_name_key(name))
-        .cloned()
-        .collect();
+    let names = meant_attribute_names(&all, name);
     if let (true, CONFIDENCE_NAME, AttributeTest::Number(..)) = (names.is_empty(), name, wanted) {
         let passes = |number| wanted.accepts_attribute_number(number);
         let tokens = search_answers::tokens_of_confidence(ask.connection, &passes)?;
@@ -71,6 +69,39 @@ pub(super) fn plan_attribute_test(
     })
 }
 
+/// Returns the attributes that a name means: those of tables, otherwise the measure of that name.
+fn meant_attribute_names(all: &[String], name: &str) -> Vec<String> {
+    let with_key = |key: &str| -> Vec<String> {
+        let named = all.iter().filter(|own| attribute_name_key(own) == key);
+        named.cloned().collect()
+    };
+    let named = with_key(&attribute_name_key(name));
+    match named.is_empty() {
+        true => with_key(&attribute_name_key(&format!("{MEASURE_PREFIX}{name}"))),
+        false => named,
+    }
+}
+
+/// The values of an attribute by token.
+pub(super) type TokenAttributes = BTreeMap<i64, Vec<Rc<AttributeRow>>>;
+
+/// Returns the values of the attribute of this name, by token.
+///
+/// # Errors
+/// [`CorpusError::Wrong`] if no entry of the corpus has an attribute of this name.
+pub(super) fn load_token_attributes(ask: &QueryContext<'_>, name: &str) -> QueryResult<TokenAttributes> {
+    let all = stored_attributes::list_attribute_names(ask.connection)?;
+    let names = meant_attribute_names(&all, name);
+    if names.is_empty() {
+        let near = did_you_mean(nearest_candidate(name, all.iter().map(String::as_str)));
+        let error = CorpusError::from_wrong_message(format!("there is no field or attribute {name:?}{near}"));
+        return Err(QueryFailure::Other(
+            error.with_error_place(name).with_advice(name_attributes(&all)),
+        ));
+    }
+    Ok(stored_attributes::attributes_by_token(ask.connection, &names)?)
+}
+
 fn names_one(comparison: &ValueComparison) -> bool {
     let named = |value: &QueryValue| matches!(value.wanted, WantedValue::Named(_));
     comparison.values.iter().any(named)
@@ -97,22 +128,6 @@ fn attribute_name_key(name: &str) -> String {
 }
 
 fn unknown_attribute_error(test: &QueryTest, name: &str, all: &[String]) -> QueryError {
-    const MAX_NAMED_ATTRIBUTES: usize = 12;
-    let shown: Vec<&str> = all.iter().take(MAX_NAMED_ATTRIBUTES).map(String::as_str).collect();
-    let remedy = match all.len() {
-        0 => {
-            "the signs of this corpus have no attributes; columns of a lexicon table that are no components become some"
-                .to_owned()
-        }
-        count if count > MAX_NAMED_ATTRIBUTES => {
-            format!(
-                "the attributes are: {} and {} more",
-                shown.join(", "),
-                count - MAX_NAMED_ATTRIBUTES
-            )
-        }
-        _ => format!("the attributes are: {}", shown.join(", ")),
-    };
     let fields = ["duration", "start", "end"];
     let known_names = all.iter().map(String::as_str).chain(fields);
     let suggestion = nearest_candidate(name, known_names).map(|meant| {
@@ -126,7 +141,27 @@ fn unknown_attribute_error(test: &QueryTest, name: &str, all: &[String]) -> Quer
     QueryError {
         at: test.subject_at.char_range(),
         message: format!("there is no field or attribute {name:?}"),
-        remedy: remedy.into(),
+        remedy: name_attributes(all).into(),
         suggestion,
+    }
+}
+
+/// Returns the advice that names the attributes of the corpus.
+fn name_attributes(all: &[String]) -> String {
+    const MAX_NAMED_ATTRIBUTES: usize = 12;
+    let shown: Vec<&str> = all.iter().take(MAX_NAMED_ATTRIBUTES).map(String::as_str).collect();
+    match all.len() {
+        0 => {
+            "the signs of this corpus have no attributes; columns of a lexicon table that are no components become some"
+                .to_owned()
+        }
+        count if count > MAX_NAMED_ATTRIBUTES => {
+            format!(
+                "the attributes are: {} and {} more",
+                shown.join(", "),
+                count - MAX_NAMED_ATTRIBUTES
+            )
+        }
+        _ => format!("the attributes are: {}", shown.join(", ")),
     }
 }

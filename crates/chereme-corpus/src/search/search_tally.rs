@@ -10,7 +10,7 @@ use super::compile::{QueryContext, QueryFailure, QueryResult};
 use super::docs::{self, DocumentList};
 use super::probe::{IndexDocument, IndexProbe, IndexTextField, RowField};
 use super::search_known::KnownReading;
-use super::{compile, search_plan, wrong_query_error};
+use super::{compile, search_attributes, search_plan, wrong_query_error};
 use crate::Corpus;
 use crate::db::stored_search::search_answers::{self, NamedRowKind};
 use crate::db::stored_search::search_terms::{TokenProperty, hands_of, phase_counts, reading_term_text};
@@ -91,11 +91,13 @@ enum TallySubject {
     Component(ComponentField),
     Property(WholeTokenProperty),
     Gloss,
+    Attribute(String),
 }
 
 impl TallySubject {
     fn tally_subject_name(&self) -> String {
         match self {
+            Self::Attribute(name) => name.clone(),
             Self::Component(field) => field.to_string(),
             Self::Property(property) => property.property_name().to_owned(),
             Self::Gloss => TextField::Gloss.text_field_name().to_owned(),
@@ -117,11 +119,7 @@ fn parse_tally_subject(name: &str) -> CorpusResult<TallySubject> {
             TestSubject::Component(field, _) => Ok(TallySubject::Component(field.clone())),
             TestSubject::Property(property, _) => Ok(TallySubject::Property(*property)),
             TestSubject::Whole(TextField::Gloss, _) => Ok(TallySubject::Gloss),
-            TestSubject::Attribute(own, _) if own == name.trim() => Err(CorpusError::from_wrong_message(format!(
-                "there is no field {name:?}, and attributes are not counted"
-            ))
-            .with_error_place(name)
-            .with_advice(COUNTED_FIELDS_REMEDY)),
+            TestSubject::Attribute(own, _) => Ok(TallySubject::Attribute(own.clone())),
             _ => Err(uncounted(name)),
         },
         _ => Err(uncounted(name)),
@@ -129,7 +127,8 @@ fn parse_tally_subject(name: &str) -> CorpusResult<TallySubject> {
 }
 
 /// The remedy for a field whose values are not counted.
-const COUNTED_FIELDS_REMEDY: &str = "count a component such as placement, or gloss, signer, recording, origin, hand";
+const COUNTED_FIELDS_REMEDY: &str =
+    "count a component such as placement, an attribute, or gloss, signer, recording, origin, hand";
 
 fn uncounted(name: &str) -> CorpusError {
     CorpusError::from_wrong_message(format!("values of {name:?} are not counted"))
@@ -191,6 +190,7 @@ fn group_documents_by_value(
     subject: &TallySubject,
 ) -> QueryResult<Vec<(String, DocumentList)>> {
     let mut groups = match subject {
+        TallySubject::Attribute(name) => return group_documents_by_attribute(ask, found, name),
         TallySubject::Component(field) => of_component(ask, found, field)?,
         TallySubject::Gloss => of_rows(ask, found, RowField::Sign, NamedRowKind::Sign)?,
         TallySubject::Property(property) => match property {
@@ -233,6 +233,96 @@ fn group_documents_by_value(
     groups.push((NO_VALUE.to_owned(), unset));
     groups.retain(|(_, docs)| !docs.is_empty());
     Ok(groups)
+}
+
+/// The most different numbers that are counted one by one.
+const MAX_COUNTED_NUMBERS: usize = 20;
+
+/// Returns the values of an attribute with the documents that have each: texts the most frequent first; numbers in order,
+/// in about ten equal ranges if there are more than [`MAX_COUNTED_NUMBERS`].
+fn group_documents_by_attribute(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    name: &str,
+) -> QueryResult<Vec<(String, DocumentList)>> {
+    let attributes = search_attributes::load_token_attributes(ask, name)?;
+    let ids = ask.now.open_row_column(RowField::Token)?;
+    let mut by_text: BTreeMap<&str, DocumentList> = BTreeMap::new();
+    let mut numbered: Vec<(f64, IndexDocument)> = Vec::new();
+    let mut unset = DocumentList::new();
+    let mut only_numbers = true;
+    for doc in found {
+        ask.count_examined_row()?;
+        let rows = ids.document_number(*doc).and_then(|id| attributes.get(&id));
+        let filled = rows.into_iter().flatten().filter(|row| !row.text.trim().is_empty());
+        let mut values: Vec<_> = filled.map(|row| (row.text.trim(), row.number)).collect();
+        values.sort_by_key(|(text, _)| *text);
+        values.dedup_by_key(|(text, _)| *text);
+        if values.is_empty() {
+            unset.push(*doc);
+        }
+        for (text, number) in values {
+            match number {
+                Some(number) => numbered.push((number, *doc)),
+                None => only_numbers = false,
+            }
+            by_text.entry(text).or_default().push(*doc);
+        }
+    }
+    let mut groups = match only_numbers && !numbered.is_empty() {
+        true => group_documents_by_number(numbered),
+        false => {
+            let mut by_size: Vec<(String, DocumentList)> = by_text
+                .into_iter()
+                .map(|(text, docs)| (text.to_owned(), docs))
+                .collect();
+            by_size.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then_with(|| a.0.cmp(&b.0)));
+            by_size
+        }
+    };
+    if !unset.is_empty() {
+        groups.push((NO_VALUE.to_owned(), unset));
+    }
+    Ok(groups)
+}
+
+/// Returns documents by their numbers, in order; in ranges of a round width, each without its upper end, if there are many
+/// different numbers.
+fn group_documents_by_number(mut numbered: Vec<(f64, IndexDocument)>) -> Vec<(String, DocumentList)> {
+    numbered.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(&b.1)));
+    let different = numbered.chunk_by(|a, b| a.0 == b.0).count();
+    let (least, greatest) = (numbered[0].0, numbered[numbered.len() - 1].0);
+    let width = round_range_width((greatest - least) / 10.0);
+    let range_of = |number: f64| (number / width).floor();
+    let same_group = |a: &(f64, IndexDocument), b: &(f64, IndexDocument)| match different > MAX_COUNTED_NUMBERS {
+        true => range_of(a.0) == range_of(b.0),
+        false => a.0 == b.0,
+    };
+    let decimals = (-width.log10()).ceil().max(0.0) as usize;
+    let groups = numbered.chunk_by(same_group).map(|group| {
+        let first = group[0].0;
+        let label = match different > MAX_COUNTED_NUMBERS {
+            true => {
+                let start = range_of(first) * width;
+                format!("{start:.decimals$} to {:.decimals$}", start + width)
+            }
+            false => first.to_string(),
+        };
+        let mut docs: DocumentList = group.iter().map(|(_, doc)| *doc).collect();
+        // A sign with two rows of one range counts once.
+        docs.sort_unstable();
+        docs.dedup();
+        (label, docs)
+    });
+    groups.collect()
+}
+
+/// Returns the least of 1, 2 and 5 times a power of ten that is not below `width`.
+fn round_range_width(width: f64) -> f64 {
+    let power = 10_f64.powf(width.max(f64::MIN_POSITIVE).log10().floor());
+    let factors = [1.0, 2.0, 5.0, 10.0];
+    let wide_enough = factors.into_iter().find(|factor| factor * power >= width);
+    wide_enough.unwrap_or(10.0) * power
 }
 
 fn of_component(

@@ -94,6 +94,7 @@ pub(super) fn associate_fields(
         gloss: String::new(),
         cells: vec![row.cells[one].clone(), row.cells[other].clone()],
         line: None,
+        token: None,
     };
     let both = SignForms {
         fields: vec![forms.fields[one].clone(), forms.fields[other].clone()],

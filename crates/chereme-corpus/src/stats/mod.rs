@@ -2,6 +2,7 @@
 
 mod battison;
 mod between;
+mod sign_measures;
 mod stats_fields;
 mod stats_findings;
 mod stats_table;
@@ -13,6 +14,7 @@ use serde::Serialize;
 
 pub use battison::{BattisonConditions, HandCondition, TwoHands};
 pub use between::{ChanceAssociation, CrossCell, FieldAssociation};
+pub use sign_measures::{MeasuredSign, NeighbourDefinition, SignMeasureOptions, SignMeasures};
 pub use stats_fields::{FieldContrast, FieldInDepth, FieldStatistics, FieldValue};
 pub use stats_findings::StatsFinding;
 

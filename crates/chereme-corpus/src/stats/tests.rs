@@ -520,3 +520,124 @@ fn conditions_and_oddities_of_the_shared_lexicon_equal_an_independent_count() {
         found.findings
     );
 }
+
+fn measured(corpus: &mut Corpus, options: &SignMeasureOptions) -> SignMeasures {
+    corpus
+        .measure_signs(options, &mut ProgressReceiver::silent_progress())
+        .expect("measured")
+}
+
+fn measures_by(fields: &[&str], definition: NeighbourDefinition, within: usize) -> SignMeasureOptions {
+    SignMeasureOptions {
+        fields: fields.iter().map(|field| (*field).to_owned()).collect(),
+        definition,
+        within,
+        ..SignMeasureOptions::default()
+    }
+}
+
+#[test]
+fn each_sign_has_the_neighbours_of_the_definition() {
+    // A and B are homonyms, C differs in one field, D in two; E and F have nothing in common but empty cells.
+    let table = "gloss,handshape,location,movement direction\n\
+        A,B,chin,up\nB,B,chin,up\nC,S,chin,up\nD,S,chest,up\nE,,temple,\nF,,neck,\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus_with(folder.path(), table);
+    let fields = ["handshape", "location", "movement direction"];
+    for (definition, within, densities) in [
+        (NeighbourDefinition::AslLex, 1, [2, 2, 3, 1, 0, 0]),
+        (NeighbourDefinition::AslLex, 2, [3, 3, 3, 3, 0, 0]),
+        (NeighbourDefinition::Signbank, 1, [1, 1, 3, 1, 1, 1]),
+        (NeighbourDefinition::CorpusTools, 1, [1, 1, 2, 1, 1, 1]),
+    ] {
+        let measures = measured(&mut corpus, &measures_by(&fields, definition, within));
+        let counted: Vec<u64> = measures.signs.iter().map(|sign| sign.density).collect();
+        assert_eq!(counted, densities, "{definition:?} {within}");
+    }
+    let measures = measured(&mut corpus, &measures_by(&fields, NeighbourDefinition::AslLex, 1));
+    let [first, _, third, ..] = &measures.signs[..] else {
+        panic!("six signs");
+    };
+    assert_eq!(first.homonyms, ["B"]);
+    assert_eq!((third.family.as_deref(), third.family_size), (Some("A"), Some(3)));
+    assert_eq!(third.pairs_by_field["handshape"], 2);
+    assert_eq!(third.pairs_by_field["location"], 1);
+    // S is the handshape of two of four signs, chin the place of three of six, up the direction of all four.
+    assert_eq!(third.probability, Some((0.5 + 0.5 + 1.0) / 3.0));
+    // S with chin stands in one of four, S with up in two of four, chin with up in three of four.
+    assert_eq!(third.pair_probability, Some((0.25 + 0.5 + 0.75) / 3.0));
+}
+
+#[test]
+fn stored_measures_are_attributes_that_outlive_the_table() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = "gloss,handshape,location,Frequency\nA,B,chin,7\nB,S,chin,9\nC,S,chest,8\n";
+    let mut corpus = corpus_with(folder.path(), table);
+    let options = measures_by(&["handshape", "location"], NeighbourDefinition::AslLex, 1);
+    let measures = measured(&mut corpus, &options);
+    assert_eq!(corpus.store_sign_measures(&measures).expect("stored"), 3);
+    let glosses = |corpus: &mut Corpus, query: &str, order: crate::HitOrder| -> Vec<String> {
+        let options = crate::SearchOptions {
+            order,
+            ..crate::SearchOptions::default()
+        };
+        let answer = corpus.search_tokens(query, &options).expect("found");
+        answer.hits.into_iter().map(|hit| hit.gloss).collect()
+    };
+    let rank = crate::HitOrder::Rank;
+    assert_eq!(glosses(&mut corpus, "density>1", rank.clone()), ["B"]);
+    assert_eq!(
+        glosses(&mut corpus, "attribute.measure.density=1", rank.clone()),
+        ["A", "C"]
+    );
+    let by_frequency = crate::HitOrder::AttributeDescending("frequency".into());
+    assert_eq!(glosses(&mut corpus, "", by_frequency), ["B", "C", "A"]);
+    let by_density = crate::HitOrder::Attribute("density".into());
+    assert_eq!(glosses(&mut corpus, "", by_density), ["A", "C", "B"]);
+    let progress = &mut ProgressReceiver::silent_progress();
+    let tally = corpus
+        .tally_values("", &["density".to_owned()], progress)
+        .expect("counted");
+    let counts: Vec<String> = tally
+        .rows
+        .iter()
+        .map(|row| format!("{} {}", row.value, row.total))
+        .collect();
+    assert_eq!(counts, ["1 2", "2 1"]);
+    // The table comes again with another frequency; what was measured is not its to remove.
+    let file = folder.path().join("t.csv");
+    std::fs::write(&file, table.replace(",9", ",99")).expect("written");
+    let files = [file];
+    corpus
+        .import_paths(&files, &ImportOptions::default(), progress)
+        .expect("imported");
+    assert_eq!(glosses(&mut corpus, "density>1 frequency>90", rank), ["B"]);
+}
+
+#[test]
+fn densities_of_a_lexicon_are_those_of_an_independent_count() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus_of(folder.path(), &Path::new(&data).join("phonology/ngt_lexicon.tsv"));
+    // The mean, median, greatest and number of signs without a neighbour.
+    for (set, mean, median, greatest, without) in [
+        ("S13", 4.193, 1.0, 61, 733),
+        ("F7", 17.526, 7.0, 135, 261),
+        ("C3", 154.79, 119.0, 507, 8),
+    ] {
+        let measures = measured(&mut corpus, &measures_by(&[set], NeighbourDefinition::AslLex, 1));
+        let most = measures.signs.iter().map(|sign| sign.density).max();
+        assert!(
+            (measures.mean_density - mean).abs() < 0.005,
+            "{set} {}",
+            measures.mean_density
+        );
+        assert_eq!(
+            (measures.median_density, most, measures.without_neighbour),
+            (median, Some(greatest), without)
+        );
+    }
+}

@@ -87,6 +87,8 @@ pub enum OperationEffect {
     },
     /// A token became the citation form of its sign.
     SetCitation { token: i64, gloss: String },
+    /// The signs of a lexicon were measured.
+    MeasureSigns { signs: u64 },
     /// A lexicon got other properties.
     ChangeLexicon { lexicon: String },
     /// The glosses of recordings are looked up in a lexicon.
@@ -306,6 +308,7 @@ impl OperationEffect {
             Self::ChangeSign { .. } => "{former} to {sign}, {annotations}",
             Self::SetCitation { .. } => "token:{token} for {gloss}",
             Self::ChangeLexicon { .. } => "{lexicon}",
+            Self::MeasureSigns { .. } => "{signs} signs",
             Self::LinkLexicon { .. } => "{lexicon}: {recordings} recordings",
             Self::UnlinkLexicon { .. } => "{recordings} recordings",
             Self::Transcribe { .. } => "token:{token} {gloss}",

@@ -163,6 +163,29 @@ fn too_many_contrasts_are_refused() {
 
 proptest! {
     #[test]
+    fn neighbours_are_those_of_all_comparisons(
+        rows in prop::collection::vec(prop::collection::vec(0_u32..3, 5), 0..40),
+        most in 0_usize..7,
+    ) {
+        let counted = count_row_neighbours(&rows, most).unwrap();
+        for (place, row) in rows.iter().enumerate() {
+            let mut by_distance = vec![0; most.min(5) + 1];
+            let mut by_field = [0; 5];
+            for (_, other) in rows.iter().enumerate().filter(|(other, _)| *other != place) {
+                let differing: Vec<usize> = (0..5).filter(|field| row[*field] != other[*field]).collect();
+                if let Some(count) = by_distance.get_mut(differing.len()) {
+                    *count += 1;
+                }
+                if let [field] = differing[..] {
+                    by_field[field] += u64::from(most > 0);
+                }
+            }
+            prop_assert_eq!(&counted[place].by_distance, &by_distance);
+            prop_assert_eq!(&counted[place].by_field[..], &by_field[..]);
+        }
+    }
+
+    #[test]
     fn entropy_and_load_are_those_of_the_definitions(rows in lexicon()) {
         let forms = EqualityClasses::sort_by_keys(rows.iter());
         let whole = by_definition(rows.iter());

@@ -122,6 +122,7 @@ fn all_effects() -> Vec<OperationEffect> {
             recordings: 2,
         },
         Effect::UnlinkLexicon { recordings: 2 },
+        Effect::MeasureSigns { signs: 2145 },
         Effect::Transcribe {
             token: 7,
             gloss: gloss.clone(),
