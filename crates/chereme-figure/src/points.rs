@@ -213,7 +213,7 @@ fn cloud_point_colour(palette: &FigurePalette, theme: PaperTheme, group: &str, n
         palette.left.back.scale_colour(0.8)
     } else if upper.contains("FACE") {
         palette.mouth
-    } else if bare.starts_with(['R', 'r']) && !bare.to_ascii_lowercase().starts_with("left") {
+    } else if bare.starts_with(['R', 'r']) {
         palette.right.back.scale_colour(0.7)
     } else if bare.starts_with(['L', 'l']) {
         palette.left.back.scale_colour(0.7)

@@ -153,8 +153,9 @@ impl FacePosture {
     /// assert_eq!((face.jaw, face.brows), (0.4, [1.0, 1.0]));
     /// ```
     pub fn add_face_share(&mut self, other: &Self, weight: f64) {
-        for (own, more) in self.face_fields_mut().into_iter().zip(other.face_numbers()) {
-            *own = (*own + weight * more).clamp(-1.0, 1.0);
+        let sums = self.face_fields_mut().into_iter().zip(other.face_numbers());
+        for (position, (own, more)) in sums.enumerate() {
+            *own = (*own + weight * more).clamp(Self::least_face_number(position), 1.0);
         }
     }
 

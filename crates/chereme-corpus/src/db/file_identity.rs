@@ -44,7 +44,7 @@ fn device_file_number(file: &Metadata) -> Option<(u64, u64)> {
 
 /// Returns nothing: other systems do not let an open file be replaced.
 #[cfg(not(unix))]
-fn id(_: &Metadata) -> Option<(u64, u64)> {
+fn device_file_number(_: &Metadata) -> Option<(u64, u64)> {
     None
 }
 

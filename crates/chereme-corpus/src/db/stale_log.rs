@@ -52,7 +52,7 @@ fn file_placed_time(file: &Metadata) -> SystemTime {
 
 /// Returns when a file was written; other systems do not tell when it was put at its path.
 #[cfg(not(unix))]
-fn placed(file: &Metadata) -> SystemTime {
+fn file_placed_time(file: &Metadata) -> SystemTime {
     file.modified().unwrap_or(SystemTime::UNIX_EPOCH)
 }
 

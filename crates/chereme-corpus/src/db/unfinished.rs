@@ -114,7 +114,7 @@ fn is_free(path: &Path) -> bool {
 
 /// Returns nothing: a lock of other systems would keep the database from its own file.
 #[cfg(not(unix))]
-fn hold(_: File) -> Option<File> {
+fn hold_file_lock(_: File) -> Option<File> {
     None
 }
 

@@ -72,6 +72,7 @@ fn row_facet(
         let bar = counts[least - 1].0;
         counts.retain(|(count, _)| *count >= bar);
     }
+    let rare = all - counts.len();
     // Signs of several lexicons may have one gloss.
     let mut by_name: BTreeMap<String, usize> = BTreeMap::new();
     for (count, row) in counts {
@@ -80,8 +81,7 @@ fn row_facet(
         }
     }
     let mut named_counts: Vec<(String, usize)> = by_name.into_iter().collect();
-    keep_most_frequent(&mut named_counts, most);
-    let left_out = all - named_counts.len();
+    let left_out = rare + keep_most_frequent(&mut named_counts, most);
     Ok((named_counts, left_out))
 }
 

@@ -5,7 +5,7 @@ use super::stage_data::{StageExtras, StageEye, VIEW_ACTIONS};
 use crate::settings::stage_settings::{DEFAULT_TRAIL_REACH_SECONDS, StageSettings};
 
 impl StagePane {
-    /// Returns the settings of the self.
+    /// Returns these settings.
     pub(super) fn stage_settings(&self) -> StageSettings {
         let name = |eye: &StageEye| {
             let entry = VIEW_ACTIONS.iter().find(|(view, _)| *view == eye.view);

@@ -188,12 +188,13 @@ impl MeasuredCurves {
         all.into_iter().collect()
     }
 
-    /// Returns the same as [`columns`](Self::columns) for a stored curve.
+    /// Returns the same as [`curve_column_ranges`](Self::curve_column_ranges) for a stored curve.
     pub(super) fn stored_columns(&self, name: &str, window: &TimeWindow, width: usize) -> Vec<Option<(f32, f32)>> {
         self.series_column_ranges(|piece| piece.stored.get(name), window, width)
     }
 
-    /// Returns the number of a stored curve at a time; `None` if it is not measured.
+    /// Returns the number of a stored curve at a time; a curve that is not stored is at rest; `None` if its
+    /// piece is not loaded.
     pub(super) fn stored_at(&self, name: &str, micros: i64) -> Option<f32> {
         let frame = self.source?.movement_frame_at(micros);
         let piece = self.pieces.get(&(frame / LANE_PIECE_FRAMES))?;
@@ -205,8 +206,8 @@ impl MeasuredCurves {
         )
     }
 
-    /// Returns the visible frames of a curve as runs without gaps, each from left to right. Returns an empty list if
-    /// frames are too narrow to be drawn separately.
+    /// Returns the visible frames of a curve as runs without gaps, each from left to right. `None` if frames
+    /// are too narrow to be drawn separately.
     pub(super) fn visible_frame_runs(
         &self,
         of: (CurveLane, usize),
