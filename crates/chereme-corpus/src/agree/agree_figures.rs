@@ -180,6 +180,7 @@ struct MatchedUnits<'a> {
 impl<'a> MatchedUnits<'a> {
     fn match_pair_units(pair: &'a TierPair, share: f64) -> Self {
         let (first, second) = annotator_units(&pair.continuum);
+        // The rows of the table hold units without a partner too, so they need the pairs and all units.
         let pairs = match_overlapping_units(first, second, share);
         let rows = build_matching_rows(first, second, &pairs);
         Self {
@@ -210,6 +211,7 @@ impl<'a> MatchedUnits<'a> {
 /// Returns the units of the two annotators.
 pub(super) fn annotator_units(continuum: &AnnotationContinuum) -> (&[AnnotatedUnit], &[AnnotatedUnit]) {
     match continuum.annotator_tiers() {
+        // A continuum without any tier is one in which nobody coded anything.
         [first, second, ..] => (first, second),
         _ => (&[], &[]),
     }
@@ -231,6 +233,7 @@ pub(super) fn measure_agreement(
     for (pair, matched) in coded.pairs.iter().zip(&all) {
         let pair_counts = matched.matched_unit_counts(pair.left_out);
         counts.add_unit_counts(&pair_counts);
+        // A single pair has the measures of all pairs, which are computed once below.
         let measures = match coded.pairs.len() {
             1 => Vec::new(),
             _ => measures_without_gamma(&[pair], std::slice::from_ref(matched), coded, options),
@@ -248,8 +251,10 @@ pub(super) fn measure_agreement(
     if let [only] = &mut pairs[..] {
         only.measures.clone_from(&figures);
     }
+    // Intervals and gamma are added after the pair has taken its copy, which goes without them.
     add_intervals(&mut figures, &all, coded, options, progress)?;
     add_gamma(&mut figures, coded, options, progress)?;
+    // They were added in the order of their computation, and are reported in that of their names.
     let place = |name: &str| MEASURE_NAMES.iter().position(|measure| *measure == name);
     figures.sort_by_key(|(name, _)| place(name));
     let distances = ValueDistances::distances_of_coded(coded);
@@ -333,6 +338,7 @@ fn measures_without_gamma(
                 units += weight;
             }
         }
+        // Without any unit there is no weight, and no mean.
         let mean = |sum: f64| match units {
             0.0 => Err(UndefinedAgreement::BothEmpty),
             units => Ok(sum / units),
@@ -340,6 +346,7 @@ fn measures_without_gamma(
         add("overlap_a", mean(there));
         add("overlap_b", mean(back));
     }
+    // Alpha is a ratio of sums over all recordings, and no mean of the ratios of each.
     let one_by_one: Vec<AnnotationContinuum> = pairs.iter().map(|pair| pair.continuum.clone()).collect();
     let joined = AnnotationContinuum::join_continua(&one_by_one);
     if options.wants_measure("alpha_u") {
@@ -352,6 +359,7 @@ fn measures_without_gamma(
         add("cu_alpha", family.values);
     }
     if wants(&["frames_raw", "frames_kappa", "frames_alpha"]) {
+        // Without units all frames would be one gap, on which both agree wholly.
         let frame_measures = match joined.annotated_unit_count() {
             0 => None,
             _ => Some(measure_frame_agreement(&joined, MEASURE_FRAME_MS)),
@@ -407,6 +415,7 @@ pub(super) fn unit_frames(units: &[AnnotatedUnit]) -> Vec<Range<i64>> {
 /// Returns the measures that follow from the table of Holle and Rein; with one value chance explains all.
 fn of_table(table: &HolleReinTable, values: usize) -> [(&'static str, AgreementMeasure); 10] {
     let inner: &AgreementCounts = table.matched_pair_counts();
+    // With one value, whoever finds a unit gives it that value, so chance explains each agreement.
     let kappa_ipf = match values {
         0 => Err(UndefinedAgreement::BothEmpty),
         1 => Err(UndefinedAgreement::OneValue),
@@ -414,6 +423,7 @@ fn of_table(table: &HolleReinTable, values: usize) -> [(&'static str, AgreementM
     };
     let matched = match table.annotation_total() {
         0.0 => Err(UndefinedAgreement::BothEmpty),
+        // A matched pair holds two annotations, one of each annotator.
         total => Ok(2.0 * inner.total_pair_count() / total),
     };
     [
@@ -449,6 +459,7 @@ fn boundary_similarity_measure(all: &[MatchedUnits<'_>]) -> AgreementMeasure {
         .filter(|matched| !matched.first.is_empty() || !matched.second.is_empty())
     {
         for units in [one.first, one.second] {
+            // A gap shorter than a step vanishes on the grid, and is no gap for this measure.
             let apart = |pair: &[AnnotatedUnit]| pair[1].start - pair[0].end >= BOUNDARY_STEP_MS;
             if units.is_empty() || units.windows(2).any(apart) {
                 return Err(UndefinedAgreement::Gaps);
@@ -462,9 +473,12 @@ fn boundary_similarity_measure(all: &[MatchedUnits<'_>]) -> AgreementMeasure {
             .map(|unit| unit.end)
             .max()
             .unwrap_or(start);
+        // Half a step is added so that times are rounded to the nearest step, not down.
         let frame = |time: i64| ((time - start + BOUNDARY_STEP_MS / 2) / BOUNDARY_STEP_MS) as usize;
         let masses = |units: &[AnnotatedUnit]| -> Vec<usize> {
             let mut places: Vec<usize> = units.iter().map(|unit| frame(unit.start)).collect();
+            // Both segmentations must cover the same extent, so that the later of two first starts is moved
+            // to it.
             places[0] = 0;
             places.push(frame(end));
             places.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect()
@@ -488,9 +502,11 @@ fn add_intervals(
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
     let filled: Vec<&MatchedUnits<'_>> = all.iter().filter(|matched| !matched.rows.is_empty()).collect();
+    // Units of a recording depend on each other; with few recordings, drawing those says too little.
     let by_recording = filled.len() >= MIN_DRAWN_RECORDINGS;
     let every: Vec<HolleReinRow> = filled.iter().flat_map(|matched| matched.rows.iter().copied()).collect();
     let count = if by_recording { filled.len() } else { every.len() };
+    // A single unit or recording gives the same draw each time.
     if count < 2 || options.draws == 0 {
         return Ok(());
     }
@@ -500,6 +516,7 @@ fn add_intervals(
         .iter()
         .filter(|pair| pair.continuum.annotated_unit_count() > 0);
     let continua: Vec<&AnnotationContinuum> = pairs.map(|pair| &pair.continuum).collect();
+    // Alpha needs the gaps between units, and units that are drawn one by one have no place in time.
     let over_time = by_recording && options.wants_measure("alpha_u");
     let mut drawn: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     let (mut done, mut stopped) = (0_u64, Ok(()));
@@ -508,6 +525,7 @@ fn add_intervals(
             return;
         }
         done += 1;
+        // A report for each draw would take longer than the draw.
         if done % 64 == 0 {
             stopped = report_agreement_step(progress, "intervals", done, options.draws);
         }
@@ -576,6 +594,7 @@ fn add_gamma(
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
     let wanted = ["gamma", "gamma_cat"].map(|name| options.wants_measure(name));
+    // Gamma's chance comes from random continua; with none of them there is no gamma.
     if options.samples == 0 || wanted == [false, false] {
         return Ok(());
     }
@@ -603,6 +622,7 @@ fn add_gamma(
         ("gamma", MeasureFigure::from(measure)),
         ("gamma_cat", categorical.into()),
     ];
+    // The interval is that of gamma's chance; gamma_cat has none.
     gamma_figures[0].1.interval = interval.map(|ends| interval_of(ends, "samples"));
     let marked_figures = gamma_figures.into_iter().zip(wanted);
     figures.extend(marked_figures.filter(|(_, wanted)| *wanted).map(|(figure, _)| figure));
@@ -618,6 +638,7 @@ fn by_value(coded: &CodedTierPairs, all: &[MatchedUnits<'_>]) -> Vec<ValueAgreem
         all.iter().flat_map(|matched| matched.rows.iter().copied()),
         coded.values.len(),
     );
+    // The annotators' units of all recordings follow each other on one line, so that alpha has one chance.
     let continua: Vec<AnnotationContinuum> = coded.pairs.iter().map(|pair| pair.continuum.clone()).collect();
     let over_time = unitizing_disagreements(&AnnotationContinuum::join_continua(&continua));
     let mut counts = vec![[0_u64; 5]; coded.values.len()];
@@ -659,6 +680,7 @@ fn by_value(coded: &CodedTierPairs, all: &[MatchedUnits<'_>]) -> Vec<ValueAgreem
         }
     };
     let mut rows: Vec<ValueAgreement> = coded.values.iter().enumerate().map(value).collect();
+    // The most frequent value is first, and names settle ties so that the order never varies.
     rows.sort_by(|x, y| (y.a + y.b).cmp(&(x.a + x.b)).then(x.value.cmp(&y.value)));
     rows
 }

@@ -52,6 +52,7 @@ pub(super) fn read_tier_pairs(corpus: &Corpus, options: &AgreeOptions) -> Corpus
             .find(|candidate| Some(candidate.id) == tier.inventory_id);
         stored.map(|entry| &entry.inventory)
     };
+    // All tiers are read first: whether any annotation has a value decides how each is read.
     let mut all: Vec<(RecordingRow, [TierRow; 2], [Vec<AnnotationRow>; 2])> = Vec::new();
     for (recording, a, b) in named_pairs {
         let of_a = rows::load_tier_annotation_rows(connection, a.id)?;
@@ -75,11 +76,14 @@ pub(super) fn read_tier_pairs(corpus: &Corpus, options: &AgreeOptions) -> Corpus
                 .collect(),
             false => Vec::new(),
         };
+        // Two tiers with different inventories may spell one value in two ways, and neither spelling is the
+        // right one.
         let shared = inventory(&a).filter(|_| a.inventory_id == b.inventory_id);
         handshapes &= both_handshapes;
         let mut tiers = Vec::new();
         let (mut kept, mut left_out) = ([Vec::new(), Vec::new()], [0, 0]);
         for (side, annotations) in both.into_iter().enumerate() {
+            // With no values at all, an equal empty one lets the spans be compared.
             let value = |annotation: &AnnotationRow| match spans_only {
                 true => Some(String::new()),
                 false => annotation_coded_value(annotation, shared),
@@ -95,6 +99,7 @@ pub(super) fn read_tier_pairs(corpus: &Corpus, options: &AgreeOptions) -> Corpus
         let extent = annotated_extent_ms(&recording, &tiers, options);
         read.push((recording, [a, b], kept, left_out, extent, tiers));
     }
+    // The numbers are known only now, so that units are numbered again after all tiers were read.
     let sorted = values.sort_value_numbers();
     let pairs = read
         .into_iter()
@@ -139,8 +144,10 @@ fn units_from_annotations(
             continue;
         };
         let (start, end) = (milliseconds(row.start_us), milliseconds(row.end_us));
+        // A span of less than a millisecond can round to nothing, and a unit needs a length.
         all.push((AnnotatedUnit::new(start, end.max(start + 1), number(value)), row));
     }
+    // The units' order is that of the continuum; the id settles ties so that it never varies.
     all.sort_by_key(|(unit, row)| (*unit, row.id));
     let (units, rows) = all.into_iter().unzip();
     (units, rows, left_out)
@@ -184,6 +191,7 @@ fn is_of_handshapes(inventory: &ComponentInventory) -> bool {
 }
 
 fn milliseconds(micros: i64) -> i64 {
+    // Half a millisecond is added so that times are rounded to the nearest, also negative ones.
     micros.saturating_add(500).div_euclid(1000)
 }
 
@@ -300,6 +308,7 @@ fn find_tier_pairs(
         Some(name) => vec![address::find_recording_by_name(connection, name)?],
         None => stored_recordings::load_recording_rows(connection)?,
     };
+    // The names are kept for the refusal, which proposes the nearest one.
     let (mut found, mut names, mut annotators) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
     for recording in scope {
         let tiers = rows::load_tier_rows(connection, recording.id)?;
@@ -318,6 +327,8 @@ fn find_tier_pairs(
                     WantedTierForm::Name(name) => by_name(&tiers, name),
                     WantedTierForm::Annotator(name) => {
                         let mut annotator_tiers = tiers.iter().filter(|tier| is_by(tier, name));
+                        // Of several tiers of one annotator none can be chosen here, so that they count as
+                        // missing.
                         annotator_tiers.next().filter(|_| annotator_tiers.next().is_none())
                     }
                 };
@@ -328,6 +339,7 @@ fn find_tier_pairs(
             found.push((recording.clone(), a.clone(), b.clone()));
         }
     }
+    // An unknown annotator is the likelier mistake, and is named before the missing pair.
     if found.is_empty() {
         for wanted in [&a, &b] {
             if let WantedTierForm::Annotator(name) = wanted {
@@ -371,6 +383,7 @@ fn known_annotator(name: &str, annotators: &BTreeSet<String>) -> CorpusResult<()
 }
 
 fn no_pair(options: &AgreeOptions, names: &BTreeSet<String>) -> CorpusError {
+    // Only a name can be misspelt; a pattern matches or does not.
     let missing = [&options.a, &options.b].into_iter().find(|wanted| {
         matches!(WantedTierForm::read_wanted_tier(wanted), WantedTierForm::Name(name)
             if !name.contains('*') && !names.iter().any(|other| fold_text(other) == fold_text(&name)))
@@ -407,6 +420,7 @@ fn by_pattern<'a>(tiers: &'a [TierRow], a: &str, b: &str) -> Vec<(&'a TierRow, &
         let other = tiers.iter().find(|candidate| candidate.name == other_name)?;
         Some((tier, other))
     });
+    // Two equal patterns would pair each tier with itself.
     pairs.filter(|(a, b)| a.id != b.id).collect()
 }
 
@@ -430,6 +444,7 @@ fn by_annotator<'a>(
     findings: &mut Vec<String>,
 ) -> Vec<(&'a TierRow, &'a TierRow)> {
     let kind = |row: &TierRow| (row.tier_topic(), row.participant.clone());
+    // Names such as `Gloss-ANNA` and `Gloss-BEN` are equal once the annotators are taken out.
     let stem = |row: &TierRow, annotator: &str| fold_text(&row.name).replace(&fold_text(annotator), "");
     let mut pairs = Vec::new();
     for tier in tiers.iter().filter(|row| is_by(row, a)) {
@@ -441,6 +456,7 @@ fn by_annotator<'a>(
             .count();
         let same = others.iter().find(|row| stem(row, b) == stem(tier, a));
         match (&others[..], same) {
+            // Only one tier of the kind on either side: the names need not be alike.
             ([one], _) if own_count == 1 => pairs.push((tier, *one)),
             (_, Some(same)) => pairs.push((tier, *same)),
             ([], _) => {}

@@ -33,6 +33,7 @@ pub fn alike_tiers(tiers: &[TierContents]) -> Option<[i64; 2]> {
             if !may_be_compared(a, b) {
                 continue;
             }
+            // Common values only order the pairs: free texts about the same signs share many values, too.
             let pair_score = tier_pair_score(a, b) + 3.0 * common_value_share(of_a, of_b);
             if tier_pair_score(a, b) >= MIN_PROPOSAL_SCORE && best.is_none_or(|(most, _)| pair_score > most) {
                 best = Some((pair_score, [a.id, b.id]));
@@ -47,6 +48,7 @@ fn may_be_compared(a: &TierRow, b: &TierRow) -> bool {
     let may_be_same = |a: &Option<String>, b: &Option<String>| match (a, b) {
         (Some(a), Some(b)) => {
             let (a, b) = (fold_text(a.trim()), fold_text(b.trim()));
+            // What is not said on one tier does not contradict the other.
             a == b || a.is_empty() || b.is_empty()
         }
         _ => true,
@@ -79,6 +81,7 @@ fn names_are_alike(a: &str, b: &str) -> bool {
     let (a, b): (Vec<char>, Vec<char>) = (fold_text(a).chars().collect(), fold_text(b).chars().collect());
     let same = |pair: &(&char, &char)| pair.0 == pair.1;
     let before = a.iter().zip(&b).take_while(same).count();
+    // The ending may not use letters of the beginning again, as in `aa` and `aaa`.
     let rest = a.len().min(b.len()) - before;
     let ending_pairs = a.iter().rev().zip(b.iter().rev()).take(rest);
     let after = ending_pairs.take_while(same).count();

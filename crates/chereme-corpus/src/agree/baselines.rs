@@ -30,6 +30,7 @@ pub(super) fn measure_baselines(
             total: Some(coded.pairs.len() as u64),
             unit: ProgressUnit::Items,
         })?;
+        // A baseline over a part of the recordings could not be compared with the figures over all.
         if stored_recordings::body_track(connection, pair.recording.id)?.is_none() {
             return Ok(Vec::new());
         }
@@ -42,6 +43,7 @@ pub(super) fn measure_baselines(
             let micros = micros.map(|ends| ends.map(|instant| instant.instant_micros()));
             micros.map(|[start, end]| grid_frames(start, end)).collect::<Vec<_>>()
         };
+        // The even cut is given the true number of units, so that only its places can be wrong.
         let whole = grid_frames(0, pair.recording.duration_us);
         let cuts = [
             divide_evenly(whole, truth.len()),

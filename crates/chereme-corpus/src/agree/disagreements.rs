@@ -123,6 +123,7 @@ impl ValueDistances {
 
     /// Returns the distance of two values, from 0 to 1.
     pub(super) fn distance_between_values(&self, a: usize, b: usize) -> f64 {
+        // Values without features, such as `unclear`, are only equal or not.
         let of = |value: usize| self.parts.as_ref()?.get(value)?.as_ref();
         let (Some(one), Some(other)) = (of(a), of(b)) else {
             return f64::from(u8::from(a != b));

@@ -52,6 +52,7 @@ pub(crate) fn set_of_recording(connection: &Connection, id: i64, consent: Option
 
 /// Returns the participants that the tiers of recordings name: recording and name.
 pub(crate) fn list_tier_participants(connection: &Connection) -> CorpusResult<Vec<(i64, String)>> {
+    // Annotation files pad participants with blanks or leave them empty; neither names another person.
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT recording_id, trim(participant) FROM tier
          WHERE trim(coalesce(participant, '')) <> '' ORDER BY 1, 2",
@@ -67,6 +68,7 @@ pub(crate) fn list_recipe_movement_inputs(
     connection: &Connection,
     own: &str,
 ) -> CorpusResult<Vec<(i64, Option<i64>, bool)>> {
+    // The left join keeps the recipe without any input: it takes nobody's movement, which is known.
     let mut statement = connection.prepare_cached(
         "SELECT p.recording_id, i.recording_id,
              i.id IS NULL OR i.token_id IS NOT NULL OR i.address = ?1
@@ -79,6 +81,7 @@ pub(crate) fn list_recipe_movement_inputs(
 /// Returns the generated recordings whose recipes do not name the body that moves: they have no input, or a notation
 /// that was stored without its body, as earlier versions of the program did.
 pub(crate) fn without_body(connection: &Connection) -> CorpusResult<Vec<i64>> {
+    // An input with a token and a hash is a notation; only its material in the document can name the body.
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT p.recording_id FROM recipe p
          LEFT JOIN recipe_input i ON i.recipe_id = p.id
@@ -97,6 +100,7 @@ pub(crate) fn without_body(connection: &Connection) -> CorpusResult<Vec<i64>> {
 /// the recipe do not name them, as earlier versions of the program did: the generated recording, and that of the token if it
 /// is still there.
 pub(crate) fn unnamed_givers(connection: &Connection) -> CorpusResult<Vec<(i64, Option<i64>)>> {
+    // Postures and places are kept as addresses deep in the JSON; 7 is the place after the letters `token:`.
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT p.recording_id, t.recording_id FROM recipe p, json_tree(p.document, '$.inputs') it
          LEFT JOIN token t ON t.id = CAST(substr(it.atom, 7) AS INTEGER)

@@ -61,6 +61,8 @@ pub(crate) struct OmittedRows<'a> {
 
 /// Writes a compact copy of the database that does without some rows: nothing of them is in its bytes.
 pub(crate) fn copy_without(connection: &Connection, to: &Path, omitted: OmittedRows<'_>) -> CorpusResult<()> {
+    // Deleted rows stay in free pages of a file, so the copy is emptied first and then copied compactly
+    // again.
     let mut whole_name = to.file_name().unwrap_or_default().to_owned();
     whole_name.push(".whole");
     let whole = to.with_file_name(whole_name);

@@ -77,6 +77,7 @@ pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> C
             row.licence,
             row.notes
         ])?;
+    // A token repeats the origin of its recording, and would contradict it otherwise.
     connection
         .prepare_cached("UPDATE token SET origin = ?2 WHERE recording_id = ?1 AND origin <> ?2")?
         .execute(params![row.id, NamedColumn(row.origin)])?;
@@ -101,6 +102,7 @@ pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) 
 
 /// Returns the recordings that show a signer: the signer's own, and those with tiers for that participant.
 pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> CorpusResult<Vec<i64>> {
+    // A participant of a tier is linked to a signer by name alone, without a row.
     let mut statement = connection.prepare_cached(
         "SELECT id FROM recording WHERE signer_id = ?1
          UNION SELECT i.recording_id FROM tier i JOIN signer g ON g.name = i.participant

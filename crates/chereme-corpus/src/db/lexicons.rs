@@ -57,6 +57,7 @@ pub(crate) fn find_lexicon(connection: &Connection, name: &str) -> CorpusResult<
     let mut alike = lexicons
         .into_iter()
         .filter(|lexicon| fold_text(&lexicon.name) == folded);
+    // Of two names that are equal apart from case and accents neither is meant more than the other.
     Ok(alike.next().filter(|_| alike.next().is_none()))
 }
 
@@ -71,6 +72,7 @@ pub(crate) fn insert_lexicon(connection: &Connection, name: &str) -> CorpusResul
         .prepare_cached("INSERT INTO lexicon (name) VALUES (?1)")?
         .execute([name])?;
     let id = connection.last_insert_rowid();
+    // Before its first lexicon, a corpus has nothing to which a recording can be linked.
     connection
         .prepare_cached(
             "UPDATE recording SET lexicon_id = ?1
@@ -84,6 +86,7 @@ pub(crate) fn insert_lexicon(connection: &Connection, name: &str) -> CorpusResul
 pub(crate) fn free_lexicon_name(connection: &Connection, name: &str) -> CorpusResult<String> {
     let name = if name.trim().is_empty() { "lexicon" } else { name.trim() };
     let mut free_name = name.to_owned();
+    // The one without a number counts as the first.
     let mut number = 2;
     while find_lexicon(connection, &free_name)?.is_some() {
         free_name = format!("{name} ({number})");
@@ -113,6 +116,7 @@ pub(crate) fn update_lexicon(connection: &Connection, row: &LexiconRow) -> Corpu
 
 /// Returns the lexicon of a corpus that has only one.
 pub(crate) fn find_sole_lexicon(connection: &Connection) -> CorpusResult<Option<i64>> {
+    // Of several lexicons none is more likely than another, which SQL says as NULL.
     let sql = "SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon";
     Ok(connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?)
 }

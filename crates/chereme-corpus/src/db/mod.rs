@@ -102,6 +102,7 @@ impl<D: DerivedData> CorpusStore<D> {
         // A file that lost the row of its index is opened for `check`, which names that fault.
         let index_state = stored_search::SearchIndexState::read_index_state(&connection);
         let is_older = index_state.is_ok_and(|state| state.format < FIRST_FORMAT_WITH_OPINIONS);
+        // A read-only file keeps its old index, which is read as it is.
         if is_older && !connection.is_readonly("main")? {
             upgrade::set_proposals_apart(&connection)?;
         }
@@ -119,6 +120,7 @@ impl<D: DerivedData> CorpusStore<D> {
     }
 
     fn store_from_connection(connection: Connection, path: &Path, author: &str) -> CorpusResult<Self> {
+        // The triggers are temporary, so that each connection needs its own.
         stored_history::create_change_triggers(&connection)?;
         let (place, author) = (OpenPlace(FileIdentity::from_file_path(path)), author.to_owned());
         Ok(Self {
@@ -244,6 +246,7 @@ impl<D: DerivedData> CorpusStore<D> {
             .index
             .rebuild_derived_data(&transaction, progress)
             .and_then(|()| Ok(transaction.commit()?));
+        // The index in memory may have followed rows that were rolled back, so that it is read again.
         if done.is_err() {
             self.index = D::default();
         }
@@ -278,6 +281,7 @@ impl<D: DerivedData> CorpusStore<D> {
             self.index = D::default();
         }
         let value = done.map_err(|error| error.of_file(&self.path))?;
+        // The commit succeeds on an open file even if its name is gone or names another file.
         if self.place.0.is_same_file_present() {
             return Ok(value);
         }

@@ -122,6 +122,7 @@ pub(crate) fn set_token_notation(connection: &Connection, row: &NotationRow) -> 
         gloss: old.gloss.clone(),
         ..row.clone()
     };
+    // An update that changes nothing would still be recorded by the triggers as a change.
     if new == old {
         return Ok(());
     }

@@ -64,6 +64,7 @@ pub(super) fn create_corpus_file(
     if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
         return Err(CorpusError::from_file_failure(folder, ErrorKind::NotFound.into()));
     }
+    // A program that was ended while it created a corpus here left its unfinished file behind.
     remove_leftovers(path);
     let making =
         UnfinishedFile::create_unfinished_file(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
@@ -84,6 +85,7 @@ pub(super) fn copy_corpus_file(connection: &Connection, path: &Path) -> CorpusRe
         UnfinishedFile::create_unfinished_file(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
     super::dump::copy_database_compactly(connection, making.unfinished_path())?;
     let copy = Connection::open(making.unfinished_path())?;
+    // The compact copy does not take over the journal mode of the original.
     copy.pragma_update(None, "journal_mode", "WAL")?;
     copy.close().map_err(|(_, error)| error)?;
     give_file_final_name(&making, path)
@@ -92,6 +94,7 @@ pub(super) fn copy_corpus_file(connection: &Connection, path: &Path) -> CorpusRe
 fn make_database_file(path: &Path, fill: impl FnOnce(&Connection) -> CorpusResult<()>) -> CorpusResult<()> {
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let mut connection = Connection::open_with_flags(path, flags)?;
+    // The size of pages can be set only before the first table exists.
     connection.execute_batch("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;")?;
     configure_connection(&mut connection)?;
     connection.pragma_update(None, "application_id", APPLICATION_ID)?;
@@ -160,6 +163,8 @@ fn outwardly_wrong(path: &Path) -> CorpusResult<Option<(String, ErrorRemedy)>> {
 fn connect(path: &Path) -> CorpusResult<Connection> {
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let connection = Connection::open_with_flags(path, flags)?;
+    // SQLite touches the file at the first read only, so opening alone does not show that writing beside it
+    // fails.
     let read = connection.pragma_query_value(None, "schema_version", |row| row.get::<_, i32>(0));
     let shut = |code| matches!(code, ErrorCode::ReadOnly | ErrorCode::CannotOpen);
     match read {
@@ -179,6 +184,7 @@ fn immutable_file_uri(path: &Path) -> String {
     } else {
         path_text.into_owned()
     };
+    // The percent sign is first, or it would encode the other codes again.
     for (letter, code) in [("%", "%25"), ("?", "%3f"), ("#", "%23")] {
         name = name.replace(letter, code);
     }
@@ -203,6 +209,7 @@ pub(super) fn open_corpus_file(path: &Path) -> CorpusResult<(Connection, Option<
     let (mut connection, from) = open_checked_connection(path)?;
     let mut upgrade = None;
     if from < SCHEMA_VERSION {
+        // The copy is made before the upgrade, since an older program cannot open the file afterwards.
         let kept = copy_beside(&connection, path, &format!("version-{from}"))?;
         raise_schema_version(&mut connection, |_| Ok(())).map_err(|error| error.of_file(path))?;
         upgrade = Some(SchemaUpgrade {
@@ -240,6 +247,7 @@ pub(super) fn copy_beside(connection: &Connection, path: &Path, mark: &str) -> C
     let extension = path.extension().map(|suffix| suffix.to_string_lossy());
     let ending = extension.map_or(String::new(), |suffix| format!(".{suffix}"));
     let mut kept = path.with_file_name(format!("{stem}.{mark}{ending}"));
+    // The file without a number counts as the first.
     let mut count = 1;
     while kept.exists() {
         count += 1;
@@ -260,6 +268,7 @@ fn open_checked_connection(path: &Path) -> CorpusResult<(Connection, i32)> {
     if let Some((reason, remedy)) = outwardly_wrong(path)? {
         return Err(refuse(reason, remedy));
     }
+    // A log of another file would be read into this one as soon as it is opened.
     stale_log::set_aside(path, &immutable_file_uri(path))?;
     let mut connection = connect(path)?;
     let configured = configure_connection(&mut connection);
@@ -285,6 +294,7 @@ fn open_checked_connection(path: &Path) -> CorpusResult<(Connection, i32)> {
             "open it with a newer version of Chereme".into(),
         ));
     }
+    // A version of 0 with rows is damage; without rows, the program ended before its first commit.
     if version < 1 && holds_rows(&connection)? {
         return Err(refuse(
             format!("its version number is wrong: it is {version}, and the file holds data"),
@@ -297,6 +307,7 @@ fn open_checked_connection(path: &Path) -> CorpusResult<(Connection, i32)> {
             "delete it and create it again".into(),
         ));
     }
+    // Triggers and views run when a stranger's file is merely read; those of the search index alone are ours.
     let foreign: i64 = connection.query_row(
         "SELECT count(*) FROM sqlite_schema WHERE type = 'view'
             OR (type = 'trigger' AND name NOT LIKE 'search\\_%' ESCAPE '\\')
@@ -338,6 +349,7 @@ fn holds_rows(connection: &Connection) -> CorpusResult<bool> {
     let mut statement = connection.prepare(sql)?;
     let mut tables = statement.query([])?;
     while let Some(row) = tables.next()? {
+        // The names come from the file, which may be a stranger's; doubled quotes keep them names.
         let table = row.get::<_, String>(0)?.replace('"', "\"\"");
         let sql = format!("SELECT EXISTS (SELECT 1 FROM \"{table}\")");
         if connection.query_row(&sql, [], |row| row.get(0))? {
@@ -366,17 +378,20 @@ const REFUSED_AFTER: i32 = 804;
 
 /// Waits after a try to lock the database; returns whether to try again. `before` is the number of earlier waits.
 fn wait(before: i32) -> bool {
+    // It equals one number only, so that the report comes once for each wait.
     if before == REPORTED_AFTER
         && let Some(report) = WAITING_REPORT_FUNCTION.get()
     {
         report();
     }
+    // Pauses double from 1 ms up to the longest, so that a short lock costs hardly any time.
     std::thread::sleep(Duration::from_millis(MAX_RETRY_PAUSE_MS.min(1 << before.clamp(0, 5))));
     before < REFUSED_AFTER
 }
 
 pub(super) fn configure_connection(connection: &mut Connection) -> CorpusResult<()> {
     connection.busy_handler(Some(wait))?;
+    // Both guard against a file whose schema was written to do harm when it is read.
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
     // Without this flag statements are parsed again whenever a parameter changes.
@@ -398,6 +413,7 @@ fn raise_schema_version(
     connection: &mut Connection,
     fill: impl FnOnce(&Connection) -> CorpusResult<()>,
 ) -> CorpusResult<()> {
+    // SQLite ignores this setting within a transaction, so it stands outside of the steps.
     connection.pragma_update(None, "foreign_keys", false)?;
     let raised = take_steps(connection, fill);
     connection.pragma_update(None, "foreign_keys", true)?;
@@ -418,6 +434,7 @@ fn take_steps(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Cor
     if version < EFFECTS_STORED_FROM {
         upgrade::read_old_summaries(&transaction)?;
     }
+    // A new file, at version 0, has no signs yet.
     if version < LEXICONS_SINCE && version > 0 {
         upgrade::give_signs_lexicons(&transaction)?;
         // The index knows no lexicons; the next search builds it again.
@@ -428,12 +445,15 @@ fn take_steps(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Cor
     upgrade::rewrite_json_rules(&transaction)?;
     stored_roles::add_missing(&transaction)?;
     fill(&transaction)?;
+    // The seals cover the rows as the steps left them, so they come after all that writes rows.
     seals::seal_tables(&transaction, seals::sealed_tables())?;
     let broken = broken_references(&transaction)?;
+    // A damaged file may come with broken references, which the upgrade neither mends nor answers for.
     if broken > broken_before {
         let reason = format!("its upgrade would break {broken} references between rows");
         return Err(damaged_row_error(format!("schema version {version}"), reason));
     }
+    // The version is in the same transaction as the steps, so that no file is half upgraded.
     transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
     transaction.commit()?;
     Ok(())

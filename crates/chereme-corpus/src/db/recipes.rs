@@ -45,6 +45,7 @@ pub(crate) fn update_recipe_row(connection: &Connection, row: &RecipeRow) -> Cor
     connection
         .prepare_cached("UPDATE recipe SET text = ?2, document = ?3, report = ?4, engine = ?5 WHERE id = ?1")?
         .execute(params![row.id, row.text, row.document, row.report, row.engine])?;
+    // An input has no identity of its own; the caller writes the new ones.
     connection
         .prepare_cached("DELETE FROM recipe_input WHERE recipe_id = ?1")?
         .execute([row.id])?;
@@ -117,6 +118,7 @@ pub(crate) fn find_recording_recipe(connection: &Connection, recording: i64) -> 
 /// Returns the recording that provided the body of a generated recording: the first of its inputs, direct or indirect,
 /// that is not generated itself and has that skeleton.
 pub(crate) fn body_of(connection: &Connection, recording: i64, skeleton: i64) -> CorpusResult<Option<i64>> {
+    // `UNION` without `ALL` drops rows met before, so that recipes in a circle end.
     Ok(connection
         .prepare_cached(
             "WITH RECURSIVE source (recording_id, input) AS (
@@ -139,6 +141,7 @@ pub(crate) fn body_of(connection: &Connection, recording: i64, skeleton: i64) ->
 
 /// Returns the gloss and the recipe's JSON of generated tokens that are alone in their recording: token, gloss, JSON.
 pub(crate) fn of_lone_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<Vec<(i64, String, String)>> {
+    // Of several tokens in one recording, the recipe does not say which is its own.
     let mut statement = connection.prepare_cached(
         "SELECT t.id, s.gloss, r.document FROM token t
          JOIN sign s ON s.id = t.sign_id JOIN recipe r ON r.recording_id = t.recording_id
