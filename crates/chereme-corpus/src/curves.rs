@@ -113,6 +113,7 @@ fn load_recipe_curves(
             .shifted_instant(track.row.offset_us)
     };
     let span = TimeSpan::span_between(frame(frames.start), frame(frames.end));
+    // Tracks that share their frames need no blending, and only the span is read.
     if same && row.frames == Some(track.motion_frame_count() as u64) {
         let stored = track::track_read::read_track_curves(connection, &row, Some(span))?;
         let all = stored.track_curves().iter().map(|curve| GeneratedCurve {
@@ -142,6 +143,7 @@ fn load_recipe_curves(
 /// Reports whether non-manuals or a captured face accompany the movement of a stretch.
 pub(crate) fn has_some(connection: &Connection, stretch: &RecordingStretch) -> CorpusResult<bool> {
     let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    // One frame shows which curves there are.
     let first = 0..track.motion_frame_count().min(1);
     Ok(!of_track(connection, &track, first)?.is_empty())
 }

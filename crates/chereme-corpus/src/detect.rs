@@ -186,6 +186,7 @@ impl Corpus {
         let priced = SignDetector {
             sign_cost: options.sign_cost,
         };
+        // Only the detector of signs has a cost, so that it alone is replaced by one with the asked cost.
         let detector: &dyn AnnotationDetector = match find_detector_by_name(&options.detector)? {
             detector if detector.detector_name() == priced.detector_name() => &priced,
             detector if options.sign_cost.is_some() => {
@@ -217,6 +218,8 @@ impl Corpus {
                     Vec::new()
                 }
                 DetectionOutcome::Unobserved => {
+                    // Of many recordings some may have no body or face; one that is named alone should have
+                    // it.
                     if !matches!(options.scope, ProposeScope::All | ProposeScope::Recordings(_)) {
                         return Err(unobserved(detector, row));
                     }
@@ -224,6 +227,7 @@ impl Corpus {
                     continue;
                 }
             };
+            // Whole recordings are examined, since a detector needs what lies around a span to judge it.
             proposals.retain(|proposal| span_overlaps_times(span, proposal.start_us, proposal.end_us));
             let coder = match options.use_as {
                 DetectionUse::Coded => Some(self.proposal_acceptor(row.id)?),
@@ -251,6 +255,7 @@ impl Corpus {
         use_as: DetectionUse,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<Vec<String>> {
+        // An operation without changes would still show in the history.
         if changes.changes.is_empty() {
             return Ok(Vec::new());
         }
@@ -320,6 +325,7 @@ pub(crate) fn propose_for_recording(
     row: &RecordingRow,
 ) -> CorpusResult<DetectionOutcome> {
     let examines = |part| detector.examines().contains(&part);
+    // A track is read only for a detector that looks at that part.
     let moves = examines(SignerPart::Body) && stored_recordings::body_track(connection, row.id)?.is_some();
     let face = match examines(SignerPart::Face) {
         true => FaceCurves::read_face_curves(connection, row)?,
@@ -347,6 +353,7 @@ pub(crate) fn propose_for_recording(
         .into_iter()
         .map(|detection| ProposedAnnotation::new(detection, row.duration_us))
         .collect();
+    // A detection past the recording's end was cut to it above, and may have no length left.
     proposals.retain(|proposal| proposal.end_us > proposal.start_us);
     Ok(DetectionOutcome::Found(proposals))
 }
@@ -369,6 +376,7 @@ impl<'a> ExaminedTake<'a> {
         let track = MotionTrack::open_motion_track(connection, row.id)?;
         let anatomy = track.track_anatomy(connection)?;
         let all = track.motion_frame_count();
+        // Made movement has no trouble of a capture at its ends, such as a pose for calibration.
         let sound = match row.origin {
             RecordOrigin::Made => 0..all,
             _ => OddFrames::remaining_frames(all, &track.odd_frames(connection, &anatomy)?),
@@ -385,6 +393,7 @@ impl<'a> ExaminedTake<'a> {
     /// Returns the cuts of the take in the simplest ways, on the recording's clock.
     pub(crate) fn cut_into_baselines(&self) -> CorpusResult<BaselineCuts> {
         let sound = self.sound.clone();
+        // The cuts count from the first sound frame, and the track may begin later than the recording.
         let start = self.track.row.offset_us + self.track.rate.frame_start_instant(sound.start).instant_micros();
         let clip = self
             .track
@@ -417,6 +426,7 @@ impl<'a> ExaminedTake<'a> {
             let is_last = end >= length;
             let wanted = TimeSpan::span_between(instant_at((start - around).max(0)), instant_at(end + around));
             let wanted_frames = self.track.frames_in(wanted);
+            // The last piece takes the frames up to the sound end, whatever rounding does to its time.
             let frames = match is_last {
                 true => wanted_frames.start.max(self.sound.start)..self.sound.end,
                 false => wanted_frames.start.max(self.sound.start)..wanted_frames.end.min(self.sound.end),
@@ -433,10 +443,13 @@ impl<'a> ExaminedTake<'a> {
                 }),
                 face: self.face.map(FaceCurves::detector_curves),
             });
+            // A piece without detections is no failure of the take; the reason counts only if all pieces have
+            // none.
             let detections = detections.unwrap_or_else(|why| {
                 reason = Some(why);
                 Vec::new()
             });
+            // Margins overlap the neighbouring pieces, so that each detection counts in one piece only.
             let starts_inside = |detection: &DetectedStretch| {
                 let from = detection.span.span_start_instant();
                 (start == 0 || from >= instant_at(start)) && (is_last || from < instant_at(end))
@@ -446,12 +459,16 @@ impl<'a> ExaminedTake<'a> {
                     earlier.subject == detection.subject
                         && earlier.span.span_end_instant() > detection.span.span_start_instant()
                 };
+                // The same detection may begin on either side of a border, as pieces see different
+                // surroundings.
                 let is_near = start > 0 && detection.span.span_start_instant() < instant_at(start + around);
                 if !is_near || !all.iter().any(overlaps) {
                     all.push(detection);
                 }
             }
             if is_last {
+                // Pieces were appended one after another, and the sort is stable, so that times stay in
+                // order.
                 if start > 0 {
                     let subjects = detector.detected_subjects();
                     all.sort_by_key(|detection| subjects.iter().position(|subject| *subject == detection.subject));
@@ -521,6 +538,7 @@ impl ProposalChanges {
                     accepting_tier(&row, tier_rows.iter(), coder)
                 }
             };
+            // Annotations that stay, and proposals already taken, keep others from being laid over them.
             let mut occupied = Vec::new();
             if let Some(row) = known_tier {
                 tier.name.clone_from(&row.name);
@@ -537,6 +555,7 @@ impl ProposalChanges {
                 }
             }
             let name = tier.name.clone();
+            // A tier is created with its first proposal only, so that no empty tiers appear.
             let mut needed_tier = known_tier.is_none().then_some(tier);
             for proposal in proposals.iter().filter(|proposal| proposal.subject == subject) {
                 let mut others = occupied.iter();

@@ -81,6 +81,7 @@ pub(crate) fn channel_groups(skeleton: &Skeleton, anatomy: &BodyAnatomy) -> BTre
         (BodySide::Right, ChannelGroup::RightArm, ChannelGroup::RightHand),
         (BodySide::Left, ChannelGroup::LeftArm, ChannelGroup::LeftHand),
     ];
+    // Arms and hands come after the head, as collar bones may lie above the neck joint.
     for joint in top.map(|top| skeleton.joint_subtree(top)).unwrap_or_default() {
         group[joint] = ChannelGroup::Head;
     }
@@ -88,6 +89,7 @@ pub(crate) fn channel_groups(skeleton: &Skeleton, anatomy: &BodyAnatomy) -> BTre
         for joint in anatomy.arm_joints(side) {
             group[joint] = arm;
         }
+        // Fingers come last: they lie below the arm's joints.
         for joint in anatomy.finger_joints(side) {
             group[joint] = hand;
         }
@@ -126,6 +128,7 @@ impl TrackColumnLayout {
 
     /// Returns how many columns a joint has.
     fn joint_column_count(&self, joint: usize) -> usize {
+        // Four numbers of a quaternion, and three of a position.
         if self.moving.binary_search(&joint).is_ok() {
             7
         } else {
@@ -238,6 +241,7 @@ impl MotionTrack {
             .filter_map(|group| Some((group, named.get(group.channel_group_name())?.clone())))
             .collect();
         let joints = hierarchy.joints.len();
+        // Numbers of joints come from the file; a wrong one must not reach the arrays below.
         if groups.values().flatten().any(|&joint| joint >= joints) {
             return Err(bad("channel groups"));
         }
@@ -338,6 +342,7 @@ impl MotionTrack {
                     data,
                     hash,
                 } = block;
+                // A damaged count must not reserve memory for more than a block holds.
                 if frames > BLOCK_FRAMES {
                     return Err(damaged_row_error(
                         format!("block {}", stored_motion::to_hex_text(&hash)),
@@ -411,6 +416,7 @@ impl MotionTrack {
         let mut next = frames.start;
         for (first, columns) in &blocks {
             let length = columns.values().next().map_or(0, |column| column.mantissas.len());
+            // Blocks are whole, and the wanted frames may begin and end within one.
             let rows = next.saturating_sub(*first)..(frames.end - first).min(length);
             if *first > next || rows.is_empty() {
                 return Err(damaged_row_error(place(), format!("frame {next} is missing")));
@@ -418,6 +424,7 @@ impl MotionTrack {
             next = first + rows.end;
             builder.push_block_rows(rows, |at| columns.get(&at));
         }
+        // A skeleton without channels has no blocks, and nothing is missing from it.
         if next < frames.end && self.hierarchy.channel_count() > 0 {
             return Err(damaged_row_error(place(), format!("frame {next} is missing")));
         }
@@ -466,6 +473,7 @@ impl MotionTrack {
             for (columns, rows) in &parts {
                 let joint_numbers: Option<Vec<&Numbers>> =
                     joint_columns.clone().map(|column| columns.get(&column)).collect();
+                // The group of this joint was not asked for, so that it stays at rest.
                 let Some(found) = joint_numbers else {
                     channel.rotations.extend(rows.clone().map(|_| at.rest));
                     if let Some(places) = &mut channel.translations {
@@ -498,6 +506,7 @@ impl MotionTrack {
             .unwrap_or_default();
         let anatomy = BodyAnatomy::with_roles(first.clip_skeleton(), &roles)
             .map_err(|error| damaged_row_error(place, error.to_string()))?;
+        // A skeleton whose rest pose a body can assume is measured in that.
         if anatomy.is_posed() {
             return Ok(anatomy);
         }
@@ -512,6 +521,8 @@ impl MotionTrack {
             0..body_track.head_frame_count(),
             &ChannelGroup::ALL_CHANNEL_GROUPS,
         )?;
+        // Rows of skeletons may be shared though their units differ, so that the measured bodies are
+        // compared.
         let same = body.clip_skeleton() == first.clip_skeleton();
         Ok(measure_standing_anatomy(anatomy, if same { &body } else { &first }))
     }
@@ -531,6 +542,8 @@ impl MotionTrack {
         }
         let hips = anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
         let above = |joint: &usize| self.hierarchy.joints[*joint].parent;
+        // The hips' path depends on the joints above them alone, so that a long take is read without its
+        // limbs.
         let carriers: Vec<usize> = std::iter::successors(Some(hips), above).collect();
         let mut groups = ChannelGroup::ALL_CHANNEL_GROUPS.to_vec();
         groups.retain(|group| {
@@ -553,6 +566,7 @@ pub(crate) fn measure_standing_anatomy(anatomy: BodyAnatomy, head: &Clip) -> Bod
         return anatomy;
     }
     let first = anatomy.clone().with_clip(head);
+    // A take may begin with a pose for calibration, in which nobody is to be measured.
     match ClipEnds::examine_clip_ends(head, &first).sound.start {
         0 => first,
         sound => anatomy.with_reference(head.clip_skeleton(), &head.model_pose(sound)),

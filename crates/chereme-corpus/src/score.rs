@@ -85,6 +85,7 @@ impl Corpus {
                     "`chereme score CORPUS A B --face` compares expressions of the face",
                 )));
         }
+        // Fingers that rest throughout would make all handshapes equal, though nobody captured them.
         let uncaptured = hands::find_resting_hands(connection, &self.hands, recording)?;
         Ok(ScoredPiece { moving, uncaptured })
     }

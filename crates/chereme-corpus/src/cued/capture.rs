@@ -84,6 +84,7 @@ pub fn read_marker_labels(path: &Path) -> CorpusResult<Vec<(String, String)>> {
         .chain(cue_labels::face_marker_names())
         .collect();
     let mut all = Vec::new();
+    // Spreadsheets put a byte order mark before the first name.
     for (line, row) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         let row = row.trim();
         if row.is_empty() || row.starts_with('#') {
@@ -247,6 +248,7 @@ pub(super) fn load_cuer_take(
         let names: Vec<&str> = channel_names.iter().map(String::as_str).collect();
         let count = count_found_points(&map_marker_labels(&cue_labels::hand_marker_names(), &names, options))
             + count_found_points(&map_marker_labels(&cue_labels::face_marker_names(), &names, options));
+        // Of several tracks of markers the one with the most known labels shows the cuer.
         if best.as_ref().is_none_or(|(_, most)| count > *most) {
             best = Some((track.clone(), count));
         }
@@ -275,6 +277,7 @@ pub(super) fn load_cuer_take(
             .with_error_place(row.name.clone())
             .with_advice("export it from the camera system with a constant frame rate")
     })?;
+    // Models are in millimetres of a room, which a picture does not give.
     if !matches!(markers.marker_space(), MarkerSpace::World(_)) {
         return Err(no_markers(format!(
             "the points of {:?} lie on a picture, and not in a room",
@@ -328,6 +331,7 @@ fn fill_restored_positions(
             let points = cue_labels::match_cue_labels(&own, &names);
             for (seen, restored) in frames_of.iter_mut().zip(marker_positions_by_frame(&markers, &points)) {
                 for (seen, restored) in seen.iter_mut().zip(restored) {
+                    // A captured position always counts for more than a restored one.
                     *seen = seen.or(restored);
                 }
             }
@@ -385,6 +389,7 @@ pub(super) fn load_cuer_takes(
             continue;
         }
         let all = stored_tracks::load_track_rows(connection, row.id)?;
+        // A recording of somebody else's markers is no error when nobody named it.
         if all.iter().any(|track| track.kind == TrackKind::Markers)
             && let Ok(take) = load_cuer_take(connection, row, options)
         {
@@ -428,6 +433,7 @@ pub(super) fn load_keyed_takes(
     let code = options.load_cue_code()?;
     let takes = load_cuer_takes(connection, names, options)?;
     let faces = takes.iter().filter(|take| take.has_face());
+    // The head's rigid markers are learned once from all takes that show a face.
     let rigid = rigid_set(faces.flat_map(|take| take.face.iter()));
     let mut cued_takes = Vec::new();
     for take in takes {
@@ -471,12 +477,14 @@ pub(super) fn load_take_keys(
             .collect();
         let keys = own.iter().map(|key| {
             let (row, shape) = (&key.row, key.shape);
+            // The starts of phones are in order of time.
             let first = starts.partition_point(|start| *start < row.start_us);
             let within: Vec<i64> = starts[first..]
                 .iter()
                 .copied()
                 .take_while(|start| *start < row.end_us)
                 .collect();
+            // The number of phones within a key tells its sounds: two are a consonant and a vowel.
             let (kind, a2) = match within.as_slice() {
                 [_, vowel, ..] => (KeySounds::Pair, *vowel),
                 // A single vowel at the placement of consonants is ambiguous; at another placement it is a vowel.
@@ -584,6 +592,7 @@ pub(super) fn load_recording_phones(
         })
         .collect();
     let alphabet = guessed_alphabet(code, &phones);
+    // Phone tiers may leave pauses out, which a reading needs in order not to join words over them.
     Ok(Some((crate::cue::with_gaps(phones), alphabet)))
 }
 

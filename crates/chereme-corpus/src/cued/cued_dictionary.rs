@@ -218,6 +218,7 @@ fn coverage(dictionary: &DikeyDictionary, script: &str, options: &CuedOptions) -
                 shape: key.shape,
             })
         });
+        // Each sentence begins from the hand at rest, which makes a pair with its first key.
         let keys: Vec<DikeyEnd> = [REST_DIKEY_END].into_iter().chain(keys).collect();
         lines.push((line, text, keys));
     }
@@ -258,6 +259,7 @@ pub(super) fn cut_dikey_book(
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<DikeyBook> {
     let mut takes = load_keyed_takes(connection, recordings, options)?;
+    // Movements of other rates cannot be joined frame by frame; the first take decides.
     let rate = takes[0].take.rate;
     let mut left_out = Vec::new();
     takes.retain(|own| {
@@ -298,6 +300,7 @@ pub(super) fn cut_dikey_book(
             ),
         );
     }
+    // Components change little with more frames; evenly spaced ones stand for all takes.
     let step = flat.len().div_ceil(MOST_LEARNED).max(1);
     let some: Vec<Vec<f64>> = flat.iter().step_by(step).map(|row| (*row).clone()).collect();
     let components = PrincipalComponents::fit_principal_components(&some, KEPT_HAND_COMPONENTS, 0)
@@ -322,6 +325,7 @@ pub(super) fn cut_dikey_book(
                     parameters.extend(head);
                     parameters
                 }
+                // An empty row breaks the take where markers are hidden, and no movement is cut across it.
                 None => Vec::new(),
             })
             .collect();
@@ -360,6 +364,7 @@ fn in_head(own: &KeyedTake) -> Vec<HeadRow> {
     let frames = own.take.take_frame_count();
     let heads = &own.followed.head;
     let markers = own.take.hand_points.len();
+    // Gaps of up to a quarter of a second are short enough to be bridged by a line.
     let most = (0.25 * own.take.rate) as usize;
     let mut columns: Vec<Vec<Option<DVec3>>> = (0..markers)
         .map(|marker| {
@@ -379,6 +384,7 @@ fn in_head(own: &KeyedTake) -> Vec<HeadRow> {
                 row.extend(column[frame]?.to_array());
             }
             let head = heads[frame]?;
+            // The lever turns radians into millimetres, so that turns and shifts weigh alike.
             let turn = head.rotation.to_scaled_axis() * HEAD_LEVER_ARM_MM;
             let [a, b, c] = turn.to_array();
             let [x, y, z] = head.translation.to_array();
@@ -414,11 +420,13 @@ fn find_key_arrivals(own: &KeyedTake, shown: &[KeyGestures]) -> Vec<(DikeyEnd, u
         goals.push((REST_DIKEY_END, frame_of(first.hand.movement.start).min(last)));
     }
     for (key, shown) in own.keys.iter().zip(shown) {
+        // A key whose hand hardly moves has no arrival; its target stands for it.
         let arrived = if shown.hand.measured {
             frame_of(shown.hand.movement.end)
         } else {
             shown.hand.frame
         };
+        // Each movement needs at least a frame between its ends.
         let least = goals.last().map_or(0, |(_, frame)| frame + 2);
         let end = DikeyEnd {
             placement: key.placement,

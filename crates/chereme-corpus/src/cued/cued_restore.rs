@@ -159,6 +159,7 @@ impl Corpus {
         while ahead.peek().is_some() {
             let mut together: Vec<CuerTake> = Vec::new();
             let mut frames = 0;
+            // Takes are held in memory together only as long as there are cores for them.
             while together.len() < cores() && frames < MAX_FRAMES_RESTORED_TOGETHER {
                 let Some(row) = ahead.next() else { break };
                 let take = load_cuer_take(connection, row, &options.cued)?;
@@ -216,6 +217,7 @@ fn models(
     let lone_takes = |of: fn(&CuerTake) -> bool, other: fn(&CuerTake) -> bool| -> Vec<&CuerTake> {
         let matching_takes: Vec<&CuerTake> = all.iter().filter(|take| of(take)).collect();
         let alone: Vec<&CuerTake> = matching_takes.iter().copied().filter(|take| !other(take)).collect();
+        // Where the hand touches the face, each hides markers of the other; takes of one alone show all.
         if options.train.is_empty() && !alone.is_empty() {
             alone
         } else {
@@ -342,9 +344,11 @@ fn restored(
         counted.frames.fetch_add(1, Ordering::Relaxed);
         if let Some((model, _)) = &models.hand {
             let restored_hand = model.restore_hand_markers(
+                // Positions that were restored earlier must not be taken for captured ones.
                 &captured_frame_positions(take, &take.hand_points, frame),
                 before.as_ref(),
             );
+            // The posture of the frame before is the start of the search for the next one.
             before.clone_from(&restored_hand);
             hand_rows.push(restored_hand);
         }
@@ -460,6 +464,7 @@ fn add_restored_marker_set<'a>(
                 (None, Some((predicted, sd))) if predicted.is_finite() => {
                     report.hidden += 1;
                     report.restored += 1;
+                    // The deviation along one axis becomes that in the room, of three equal axes.
                     let sd = sd * 3f64.sqrt();
                     report.uncertain += u64::from(sd > UNCERTAIN_POSITION_DEVIATION_MM);
                     marker_report.frames += 1;

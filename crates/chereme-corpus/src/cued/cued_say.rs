@@ -178,6 +178,7 @@ impl Corpus {
         let book = match book_result {
             Ok(book) if book.dictionary.count_dikey_kinds() > 0 => book,
             Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
+            // Who named the takes wants their movement, and not a replacement.
             Err(error) if !recordings.is_empty() => return Err(error),
             other => {
                 let why = other
@@ -272,6 +273,7 @@ impl SentenceMovement {
             key_sound_times(&read.keys).ok_or_else(|| CorpusError::from_wrong_message("the keys have no times"))?;
         let mut times = plan_key_times(&sounds, rule, measured);
         let first = times.first().map_or(0.0, |key_times| key_times.m1.min(key_times.d1));
+        // The first movement begins before its sound; all is delayed so that the hand rests first.
         let lead = (REST_HOLD_SECONDS - first).max(REST_HOLD_SECONDS);
         for own in &mut times {
             for time in [&mut own.m1, &mut own.m2, &mut own.d1, &mut own.d2] {
@@ -343,9 +345,11 @@ impl SentenceMovement {
                 at_us: (time * 1e6).round() as i64,
                 read: None,
             };
+            // The last piece leads to rest, which is no key to be read.
             if n < keys {
                 let seen = self.followed.seven.get(frame).copied().flatten();
                 let shape = seen.map_or(0, |seven| book.known.shapes.most_probable_class(&seven));
+                // Where the hand points depends on the finger that the intended shape stretches.
                 let tip = self.followed.head_space_fingertip(key.shape, frame);
                 let place = tip.map_or(0, |tip| book.known.placements.most_probable_class(&tip.to_array()));
                 right[0] += u64::from(shape == key.shape);
@@ -361,6 +365,7 @@ impl SentenceMovement {
         let synthetic = self.pieces.iter().filter(|piece| piece.dikey.is_none()).count() as u64;
         let backed_off = self.pieces.iter().filter(|piece| piece.instead.is_some()).count() as u64;
         let steps = self.hand.windows(2).flat_map(|pair| {
+            // The tip is the last of the eight markers of a finger.
             let tips = (0..4).map(|finger| cue_labels::first_finger_marker(finger) + 7);
             tips.map(|tip| pair[0][tip].distance(pair[1][tip]))
                 .collect::<Vec<f64>>()
@@ -483,6 +488,7 @@ fn store_sentence_movement(
                 .map_or_else(String::new, |(from, to)| format!(" by {}", pair_name(from, to)));
             let (from, to) = piece.wanted;
             let value = format!("{}{stands} from {}", pair_name(from, to), piece.source);
+            // A piece reaches from the target of the key before to its own.
             row(micros(made.wanted[n].1), micros(made.wanted[n + 1].1), value)
         })
         .collect();
@@ -533,6 +539,7 @@ fn build_sentence_markers(made: &SentenceMovement, book: &DikeyBook) -> CorpusRe
     {
         points.push(point(name, &|frame| made.rigid[frame][n]));
     }
+    // The rate is a fraction of whole numbers; thousandths keep rates such as 59.94.
     let thousandths = (book.rate * 1000.0).round() as u32;
     let rate = FrameRate::new(thousandths, 1000).map_err(|error| fault(error.to_string()))?;
     let space = MarkerSpace::World(SpaceConvention {

@@ -122,6 +122,8 @@ impl Corpus {
         options: &CuedOptions,
     ) -> CorpusResult<Vec<CueTargets>> {
         let takes = load_keyed_takes(self.store.read_connection(), recordings, options)?;
+        // Targets lie where the recognisers are most certain, so that they are trained on the same takes
+        // first.
         let (_, shown) = train_key_recognisers(&takes)?;
         let mut take_targets: Vec<CueTargets> = takes
             .iter()
@@ -284,6 +286,7 @@ fn write_cue_movement_tiers(connection: &Connection, recording: i64, keys: &[Fou
     let mut before = "rest-0".to_owned();
     for key in keys {
         let shape = |key: &str| key.rsplit('-').next().unwrap_or_default().to_owned();
+        // Placements may have a hyphen of their own; the shape follows the last one.
         let place = |key: &str| {
             key.rsplit_once('-')
                 .map_or_else(String::new, |(place, _)| place.to_owned())
@@ -338,6 +341,7 @@ pub(super) fn write_tier(
             tier_name = format!("{name} (found)");
         }
     }
+    // A tier that is written again stays where it stood.
     let mut position = all.iter().map(|tier| tier.position + 1).max().unwrap_or(0);
     if let Some(old) = all.iter().find(|tier| tier.name == tier_name) {
         position = old.position;
@@ -365,6 +369,8 @@ pub(super) fn insert_scored_tier(
     let tier = stored_tiers::insert_tier(connection, tier)?;
     let mut free_from = i64::MIN;
     for (start, end, value, log) in rows {
+        // Annotations of one tier may not overlap, and predicted movements may; the earlier one keeps its
+        // end.
         let start = (*start).max(free_from).max(0);
         if start >= *end {
             continue;

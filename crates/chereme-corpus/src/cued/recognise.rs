@@ -93,6 +93,7 @@ impl Corpus {
             if all.len() < 2 {
                 (all, Vec::new())
             } else {
+                // Every second take, so that learning and test both span all sessions.
                 let mut parts = (Vec::new(), Vec::new());
                 for (n, one) in all.into_iter().enumerate() {
                     if n % 2 == 0 {
@@ -149,6 +150,7 @@ impl Corpus {
             }
             for (key, shown) in own.keys.iter().zip(shown) {
                 let read = (shown.hand.recognised, shown.fingers.recognised);
+                // A part that nobody could read has the number 0, and is hidden rather than misread.
                 if read != (key.placement, key.shape) && read.0 != 0 && read.1 != 0 {
                     misread.push(MisreadKey {
                         recording: own.take.row.name.clone(),

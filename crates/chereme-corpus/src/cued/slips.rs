@@ -154,6 +154,7 @@ impl Corpus {
             ),
         };
         if let Some(keys) = annotated {
+            // Placement 0 is the hand at rest, which is no produced key.
             let shown = keys.iter().filter(|key| key.placement > 0);
             let produced_keys = shown.map(|key| (key.placement, key.shape, key.row.start_us));
             let produced = comparable(produced_keys.collect())?;
@@ -162,7 +163,9 @@ impl Corpus {
             return Ok(report);
         }
         report.produced_by = "recognised";
+        // Its error says what the take itself lacks; a search through all takes would only miss it.
         load_cuer_take(connection, row, options)?;
+        // The recognisers learn from all takes, as one rarely shows every key often enough.
         let takes = load_keyed_takes(connection, &[], options)?;
         let (_, shown) = train_key_recognisers(&takes)?;
         let matching_take = takes.iter().zip(&shown).find(|(own, _)| own.take.row.name == name);
@@ -275,10 +278,12 @@ fn align_key_sequences(expected: &[ExpectedKey], produced: &[ProducedKey]) -> (u
             };
         }
     }
+    // The path is read from its end, so that the slips come out backwards.
     let (mut i, mut j) = (expected.len(), produced.len());
     let (mut right, mut slips) = (0, Vec::new());
     while i > 0 || j > 0 {
         let here = costs[i * width + j];
+        // Costs are sums of floats, and equal ones may differ in their last digits.
         let near = |value: f32| (here - value).abs() < 1e-4;
         if i > 0 && j > 0 && near(costs[(i - 1) * width + j - 1] + differs(i - 1, j - 1)) {
             (i, j) = (i - 1, j - 1);

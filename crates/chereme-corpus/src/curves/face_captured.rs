@@ -73,6 +73,7 @@ pub(crate) fn captured_with(
         }
         let channels = stored_tracks::load_channel_rows(connection, row.id)?;
         let names = channels.iter().map(|channel| channel.name.as_str());
+        // Channels of expressions, such as joy, do not give single numbers of a face.
         let Some(system) = FaceSystem::of_names(names).filter(|system| !system.expressions) else {
             continue;
         };
@@ -96,6 +97,7 @@ pub(crate) fn captured_with(
             fitted,
         }));
     }
+    // Channels of a face system are closer to what was measured than numbers derived from points.
     for row in all {
         if row.kind == TrackKind::Markers
             && let Some(found) = of_points(connection, recording, row, fits)?
@@ -132,6 +134,7 @@ fn of_points(
                 let span = rate.frame_range_span(part.clone()).shifted_span(row.offset_us);
                 let points = track::track_read::read_track_markers(connection, &row, Some(span))?;
                 let more = mesh.measure_face_frames(&points);
+                // The track states more frames than it has blocks for.
                 if more.is_empty() {
                     break;
                 }
@@ -155,6 +158,7 @@ fn of_points(
     let fitted = fits.apply_recording_fit(recording, &mut view);
     Ok(Some(CapturedFace {
         steps: CaptureFrameSteps::from_frame_times(&times, view.faces.len()),
+        // Points on film have no place of the head in space.
         usual_place: None,
         row,
         times,
@@ -213,8 +217,11 @@ impl CapturedFace {
         let (first, second, share) = self.place_of(moment);
         let (a, b) = (places.get(first)?, places.get(second)?);
         let usual = self.usual_place?;
+        // Only what differs from the usual place is leaning; the height of the head tells nothing about it.
         let [left, _, forward] = std::array::from_fn(|n| a[n] + (b[n] - a[n]) * share - usual[n]);
+        // A place far off, such as that of a person who steps aside, must not bend the trunk past 45 degrees.
         let turn = |away: f64| (away / HEAD_ABOVE_HIPS_M).clamp(-0.7, 0.7).asin();
+        // A lean to the left is a negative roll, as roll is positive to the right.
         Some([turn(forward), 0.0, -turn(left)])
     }
 
@@ -254,6 +261,7 @@ impl CapturedFace {
         let first = self.times.shown_frame_at(moment, last + 1).unwrap_or(0).min(last);
         let second = (first + 1).min(last);
         let share = (seconds - seconds_at(first)) / (seconds_at(second) - seconds_at(first));
+        // Two frames of one time divide zero by zero.
         first as f64 + if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) }
     }
 

@@ -47,6 +47,7 @@ impl ChannelCourse {
                 Some(track) => of_body(connection, track, channels)?,
                 None => None,
             };
+            // A skeleton that never turns the part does not hide the turns of a captured face.
             return Ok(turned.or_else(|| of_captured_turns(captured.as_ref()?, channels)));
         }
         match (&captured, &body) {
@@ -63,12 +64,14 @@ impl ChannelCourse {
         steps: (i64, i64),
     ) -> Option<Self> {
         let mut frames: Vec<(i64, f64)> = moments.map(RecordingInstant::instant_micros).zip(values).collect();
+        // Two frames of one moment would make a line without length.
         frames.dedup_by_key(|(at, _)| *at);
         (!frames.is_empty()).then_some(Self { frames, steps })
     }
 
     /// Returns the value at a time of the recording's clock; `None` if nothing was measured.
     fn course_value_at(&self, at: i64) -> Option<f64> {
+        // Moments are rounded to microseconds, so that half a step gets one more.
         let near = self.steps.0 / 2 + 1;
         let next = self.frames.partition_point(|(own, _)| *own <= at);
         let before = next.checked_sub(1).map(|before| self.frames[before]);
@@ -109,6 +112,7 @@ impl ChannelCourse {
             if ends.max(at) - began >= lasting {
                 return true;
             }
+            // The time on the other side of a gap is counted for itself, as nothing was measured between.
             if is_break {
                 from = None;
             }
@@ -159,6 +163,7 @@ fn of_body(connection: &Connection, track: &MotionTrack, channels: &[usize]) -> 
         let (heads, trunks) = face_head::in_frames(&clip, &anatomy);
         turns.extend(if is_head { heads } else { trunks });
     }
+    // Whether a part ever turns shows in all pieces together only.
     let turns = face_head::only_moving_turns(turns);
     Ok(turns.and_then(|turns| {
         let means = turns.iter().map(|turn| mean_turn(turn, channels));
@@ -167,6 +172,7 @@ fn of_body(connection: &Connection, track: &MotionTrack, channels: &[usize]) -> 
 }
 
 fn mean_turn(turn: &[f64; 3], channels: &[usize]) -> f64 {
+    // The turns of head and trunk both count from 0, wherever their channels lie.
     let sum: f64 = channels
         .iter()
         .map(|at| turn[at % FIRST_TRUNK_INDEX].to_degrees())
@@ -193,6 +199,7 @@ fn course_along_track(track: &MotionTrack, values: impl Iterator<Item = f64>) ->
             .shifted_instant(track.row.offset_us)
     };
     let step = track.rate.frame_start_instant(1).instant_micros();
+    // Movement has a frame at every step, so that none of its steps is a gap.
     ChannelCourse::new((0..track.motion_frame_count()).map(moment), values, (step, i64::MAX))
 }
 

@@ -8,6 +8,7 @@ const STILL_ROTATION_RADIANS: f64 = 0.008;
 
 /// Returns the rotation in model space for these angles.
 pub(crate) fn rotation_from_angles([pitch, yaw, roll]: [f64; 3]) -> DQuat {
+    // The head turns, then nods, then tilts, so that pitch and roll are those of the turned head.
     DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll)
 }
 
@@ -49,11 +50,13 @@ pub(crate) fn in_frames(clip: &Clip, anatomy: &BodyAnatomy) -> (Vec<[f64; 3]>, V
     let (mut heads, mut trunks) = (Vec::new(), Vec::new());
     for frame in 0..clip.clip_frame_count() {
         let pose = clip.model_pose(frame);
+        // Joints have axes of their own at rest; the rotation since then is the same in every skeleton.
         let from_rest = |joint: usize| pose.model_joint_rotation(joint) * rest.model_joint_rotation(joint).inverse();
         let against = |own: usize, below: Option<usize>| {
             angles_from_rotation(below.map_or(DQuat::IDENTITY, from_rest).inverse() * from_rest(own))
         };
         heads.extend(head.map(|own| against(own, chest.or(hips))));
+        // Without a chest the hips may stand for it, and nothing turns against itself.
         trunks.extend(chest.filter(|own| Some(*own) != hips).map(|own| against(own, hips)));
     }
     (heads, trunks)

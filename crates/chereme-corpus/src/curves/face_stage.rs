@@ -64,6 +64,7 @@ pub(crate) fn load_face_material(
     let body = own_body()?;
     let mut channels = body.clip.joint_channels().to_vec();
     for channel in &mut channels {
+        // The body stands in its first pose throughout; trunk and head are turned below.
         channel.rotations = vec![channel.rotations[0]; frames.len()];
         if let Some(places) = &mut channel.translations {
             *places = vec![places[0]; frames.len()];
@@ -74,6 +75,7 @@ pub(crate) fn load_face_material(
     let leans = frames.clone().map(|frame| (leaning(frame), DQuat::IDENTITY));
     turn_body_joint(&mut channels, &body, trunk, leans);
     let turns = frames.clone().map(|frame| {
+        // The head turns on a trunk that leans already, so that its own turn is not counted twice.
         let below = leaning(frame).map_or(DQuat::IDENTITY, face_head::rotation_from_angles);
         (face.blended_face_at(moment(frame)).1, below)
     });
@@ -93,6 +95,7 @@ pub(crate) fn load_face_material(
         Some(token) => (format!("token:{}", token.id), token.gloss.clone()),
         None => (format!("recording:{}", recording.id), recording.name.clone()),
     };
+    // Whatever the movement depends on is in its hash, so that a new fit or mapping gives another one.
     let name = format!(
         "face {} {frames:?} {} {} {} {:?}",
         stored_motion::track_hash(connection, face.row.id)?,
@@ -140,6 +143,7 @@ fn turn_body_joint(
     for (rotation, (turned, below)) in channels[joint].rotations.iter_mut().zip(turns) {
         if let Some(turned) = turned {
             let head_rotation = face_head::rotation_from_angles(turned) * pose.model_joint_rotation(joint);
+            // A stored rotation is relative to the parent, whose own turn is taken out.
             *rotation = ((below * above).inverse() * head_rotation).normalize();
         }
     }

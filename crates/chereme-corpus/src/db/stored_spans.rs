@@ -36,6 +36,7 @@ pub(crate) struct LexiconMovement {
 ///
 /// Annotations by the program itself (a detector, a recipe) are left out.
 pub(crate) fn movement_spans(connection: &Connection, most: usize) -> CorpusResult<Vec<MovementSpan>> {
+    // What the program itself found must not become the measure by which it is tuned.
     let mut statement = connection.prepare_cached(
         "SELECT t.recording_id, t.hand, t.feature, a.start_us, a.end_us, a.value, t.inventory_id
          FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id
@@ -63,6 +64,7 @@ pub(crate) fn movement_spans(connection: &Connection, most: usize) -> CorpusResu
 /// Returns up to `most` values of movement that lexicon entries state for captured tokens of the same sign that have no
 /// value of their own; by token, entry and place in the entry.
 pub(crate) fn lexicon_movements(connection: &Connection, most: usize) -> CorpusResult<Vec<LexiconMovement>> {
+    // A value of the token's own says what was performed; the entry only what is usual.
     let mut statement = connection.prepare_cached(
         "SELECT t.id, l.id, t.recording_id, t.start_us, t.end_us, v.feature, v.value
          FROM token t JOIN token l ON l.sign_id = t.sign_id AND l.origin = 'lexicon'

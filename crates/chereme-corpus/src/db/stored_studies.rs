@@ -73,6 +73,7 @@ pub(crate) fn find_study_row(connection: &Connection, name: &str) -> CorpusResul
             Ok((row.get(0)?, it))
         })
         .optional()?;
+    // A plan that was changed afterwards no longer describes what participants answered to.
     match study_row {
         Some((_, study)) if !study.is_whole() => Err(damaged_row_error(
             format!("the study {name:?}"),
@@ -131,6 +132,7 @@ pub(crate) fn replace_study_plan(connection: &Connection, id: i64, it: &StudyRow
 
 /// Removes a study with its participants and their answers.
 pub(crate) fn delete_study_row(connection: &Connection, id: i64) -> CorpusResult<()> {
+    // Answers refer to participants, and these to the study.
     for sql in [
         "DELETE FROM study_answer WHERE participant_id IN (SELECT id FROM study_participant WHERE study_id = ?1)",
         "DELETE FROM study_participant WHERE study_id = ?1",

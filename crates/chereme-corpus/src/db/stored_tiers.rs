@@ -73,6 +73,7 @@ impl TierRow {
     /// Returns the tier's display settings from ELAN.
     #[must_use]
     pub fn elan_display_settings(&self) -> TierShown {
+        // Most tiers have a source without settings, and parsing JSON for each is slow.
         let parsed_source = self.source.as_deref().filter(|text| text.contains("\"shown\""));
         let source = parsed_source.and_then(|text| serde_json::from_str::<serde_json::Value>(text).ok());
         let shown = source.and_then(|mut object| object.get_mut("shown").map(serde_json::Value::take));
@@ -299,6 +300,7 @@ pub(crate) fn find_tier_recording(connection: &Connection, tier: i64) -> CorpusR
 
 /// Returns one tier for each role and hand among the tiers of a name, except tiers without a role.
 pub(crate) fn roles_named(connection: &Connection, name: &str) -> CorpusResult<Vec<TierRow>> {
+    // SQLite fills the other columns from one row of each group, and any of them will do.
     let mut statement = connection.prepare_cached(&format!(
         "{SELECT_TIER_SQL} WHERE name = ?1 AND role <> 'free' GROUP BY role, component, feature, hand ORDER BY id"
     ))?;
@@ -446,6 +448,7 @@ pub(crate) fn annotations_near(
     start_us: i64,
     end_us: i64,
 ) -> CorpusResult<Vec<AnnotationRow>> {
+    // An index orders annotations by length, so that the longest is found at once.
     let sql = format!(
         "{SELECT_ANNOTATION_SQL} WHERE tier_id = ?1 AND end_us >= ?2 AND start_us <= ?3
              AND start_us >= ?2 - (SELECT a.end_us - a.start_us FROM annotation a WHERE a.tier_id = ?1

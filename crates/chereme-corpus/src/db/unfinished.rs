@@ -55,6 +55,7 @@ impl Drop for UnfinishedFile {
 /// Removes what killed programs left under temporary names for the place `to`.
 pub(crate) fn remove_leftovers(to: &Path) {
     let name = to.file_name().unwrap_or_default().to_string_lossy();
+    // A path without a folder has an empty parent, which cannot be read.
     let folder = to.parent().filter(|folder| !folder.as_os_str().is_empty());
     remove_leftovers_in(folder.unwrap_or(Path::new(".")), |own| own == name);
 }
@@ -86,6 +87,7 @@ fn main_name(name: &str) -> Option<&str> {
 /// Returns the final name of a file under a temporary name of this program.
 fn final_name(temporary: &str) -> Option<&str> {
     let (name, id) = temporary.strip_prefix('.')?.rsplit_once('.')?;
+    // Other programs use hidden names, too; 32 letters of version 7 are those of this program's own.
     let id = Uuid::parse_str(id).ok().filter(|_| id.len() == 32)?;
     (id.get_version_num() == 7).then_some(name)
 }
@@ -125,6 +127,7 @@ fn is_free(_: &Path) -> bool {
 
 /// Removes a file with its companions, or a folder; what is not there needs no removal.
 fn remove_unfinished_path(path: &Path) {
+    // A link is judged as such, so that nothing behind it is removed.
     if fs::symlink_metadata(path).is_ok_and(|found| found.is_dir()) {
         drop(fs::remove_dir_all(path));
         return;

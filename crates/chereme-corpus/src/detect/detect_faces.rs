@@ -64,6 +64,7 @@ impl FaceCurves {
 
     /// Reads as [`read_face_curves`](Self::read_face_curves) does, this many frames at once.
     pub(crate) fn in_pieces(connection: &Connection, row: &RecordingRow, piece: usize) -> CorpusResult<Option<Self>> {
+        // A damaged file may claim a duration of years; no more than a day of frames is prepared for.
         let frames = (row.duration_us.min(MAX_EXAMINED_TIME_US) as f64 / 1e6 * PROPOSAL_RATE_FPS) as usize;
         let wanted: Vec<usize> = Self::EXAMINED_CHANNEL_NAMES
             .iter()
@@ -75,6 +76,7 @@ impl FaceCurves {
         let mut channels: Vec<Option<Vec<f64>>> = vec![None; FACE_CHANNELS.len()];
         for start in (0..frames).step_by(piece) {
             let end = frames.min(start + piece);
+            // A recording may last hours longer than its capture; empty pieces cost neither memory nor time.
             if !shown(moment(start), moment(end)) {
                 continue;
             }
@@ -83,6 +85,7 @@ impl FaceCurves {
             for (&at, more) in wanted.iter().zip(piece_numbers.into_iter().flatten()) {
                 if let Some(more) = more {
                     let series = channels[at].get_or_insert_default();
+                    // Skipped pieces, and those before a channel first appears, have no number.
                     series.resize(start, f64::NAN);
                     series.extend(more);
                 }
@@ -102,6 +105,7 @@ impl FaceCurves {
         fits: &CorpusFits,
     ) -> CorpusResult<impl Fn(RecordingInstant, RecordingInstant) -> bool> {
         let captured = captured_with(connection, row.id, None, fits)?;
+        // A face lasts up to the longest step past its frame, so that a piece beside it may show it.
         let near = captured.as_ref().map_or(0, |face| face.capture_frame_steps().1);
         let mut moments: Vec<RecordingInstant> =
             captured.iter().flat_map(CapturedFace::capture_frame_moments).collect();
@@ -130,6 +134,7 @@ impl FaceCurves {
     /// Returns the curves as detectors examine them.
     pub(crate) fn detector_curves(&self) -> ObservedFaceCurves<'_> {
         let head = |at: usize| self.channels[at].as_deref();
+        // The first three channels are those of the head; the numbers of the face follow.
         let of = |name: &str| self.channels[FacePosture::face_number_position(name)? + 3].as_deref();
         ObservedFaceCurves {
             rate: PROPOSAL_RATE_FPS,

@@ -43,6 +43,7 @@ fn add_glosses_from_names(
         })?;
         let row = address::find_recording_by_name(connection, &RowName::Text(name.clone()))?;
         let moves = stored_recordings::body_track(connection, row.id)?.is_some();
+        // Tokens that came with a file say more than its name.
         if !moves || !signs::tokens_of_recording(connection, row.id)?.is_empty() {
             continue;
         }
@@ -61,6 +62,8 @@ fn add_glosses_from_names(
             DetectionOutcome::Nothing(why) => reason = Some(why),
             DetectionOutcome::Unobserved => {}
         }
+        // Several activities between rests are one sign and false starts; the longest is most likely the
+        // sign.
         let longest = sign_times.iter().max_by_key(|[start, end]| end - start);
         if let (None, Some(why)) = (longest, reason) {
             let text = format!("no sign was found, so the gloss covers the whole take: {why}");

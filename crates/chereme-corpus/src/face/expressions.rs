@@ -61,6 +61,7 @@ struct SignerSigns {
 }
 
 fn is_function_tier(row: &TierRow, named: Option<&str>) -> bool {
+    // Tiers are called `Clause type`, `clause_type` or `clauseType`; letters alone are compared.
     let plain: String = fold_text(&row.name)
         .chars()
         .filter(|letter| letter.is_alphanumeric())
@@ -91,6 +92,7 @@ pub(crate) fn load_recording_expressions(
     tier: Option<&str>,
 ) -> CorpusResult<Vec<FaceExpression>> {
     let all = stored_tiers::load_tier_rows(connection, recording)?;
+    // Milestones that stand on tiers take precedence over those derived from glosses.
     let mut written = load_written_expressions(connection, recording, &all, function)?;
     let mut expressions = Vec::new();
     for row in all.iter().filter(|row| is_function_tier(row, tier)) {
@@ -106,6 +108,7 @@ pub(crate) fn load_recording_expressions(
                 expression.function == annotation_function
                     && expression.milestones.expression_body_span().is_overlapping_span(span)
             };
+            // Glosses are read once for each tier, and only if it has an expression that needs them.
             let signing = match &signing {
                 Some(signing) => signing,
                 None => signing.insert(SignerSigns::load_participant_signs(
@@ -127,6 +130,7 @@ pub(crate) fn load_recording_expressions(
             expressions.push(signing.expression_over_annotation(recording, annotation_function, &annotation));
         }
     }
+    // What is left has milestones but no annotation of its function.
     expressions.extend(written);
     expressions.sort_by_key(|expression| (expression.milestones.m2, expression.annotation));
     Ok(expressions)
@@ -158,6 +162,7 @@ impl SignerSigns {
             signs.sort_by_key(|(span, _)| (span.span_start_instant(), span.span_end_instant()));
             let same = participant.is_none() || row.participant.as_deref() == participant;
             let other_hand = matches!(row.hand, Some(AnnotatedHands::One(HandRef::Left | HandRef::Weak)));
+            // The participant matters most, then the hand, and only then the number of signs.
             let rank = (same, !other_hand, signs.len());
             if best.1.is_empty() || rank > best.0 {
                 best = (rank, signs);
@@ -187,6 +192,7 @@ impl SignerSigns {
         of: &AnnotationRow,
     ) -> FaceExpression {
         let span = span_of(of);
+        // The signs of a neighbouring sentence must not limit the milestones of this one.
         let utterance = self
             .utterances
             .iter()
@@ -198,6 +204,7 @@ impl SignerSigns {
             .collect();
         let inside = |(sign, _): &&(TimeSpan, String)| span.has_instant(span_middle(*sign));
         let first = signs.iter().position(inside);
+        // The range ends after its last sign.
         let last = signs.iter().rposition(inside).map(|last| last + 1);
         let times: Vec<TimeSpan> = signs.iter().map(|(sign, _)| *sign).collect();
         let range = first.zip(last).map(|(first, last)| first..last);
@@ -205,6 +212,7 @@ impl SignerSigns {
             .clone()
             .and_then(|of| find_expression_milestones(&times, of, &function, UTTERANCE_EDGE_MICROS));
         let mut odd = Vec::new();
+        // Without glosses there is no transition to measure, so that onset and offset have a usual length.
         let marks = sign_milestones.unwrap_or_else(|| {
             odd.push("no gloss lies in it, so its own span stands for one sign".to_owned());
             ExpressionMilestones {
@@ -268,6 +276,7 @@ fn load_written_expressions(
 fn function_of_tier(name: &str) -> Option<ExpressionFunction> {
     let rest = name.strip_prefix(MILESTONE_TIER_PREFIX)?.trim();
     let bare = rest.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end();
+    // A function whose name has only digits keeps them, as they cannot be a number behind a name.
     let name = if bare.is_empty() { rest } else { bare };
     (!name.is_empty()).then(|| ExpressionFunction::from_function_name(name))
 }
@@ -302,11 +311,13 @@ fn join_milestone_phases(
             .iter()
             .position(|candidate| candidate == phase)?;
         let span = span_of(row);
+        // An undivided body reaches from M2 to M4 without M3, whose place stays empty.
         let one = row.value.starts_with("M2-M4");
         times[if one { 1 } else { phase_index }] = Some(span.span_start_instant());
         times[phase_index + 1] = Some(span.span_end_instant());
     }
     let is_undivided = times[2].is_none();
+    // Phases cut off by the recording's ends are missing: their milestones fall together with a neighbour's.
     for at in 1..5 {
         times[at] = times[at].or(times[at - 1]);
     }
@@ -355,6 +366,7 @@ pub(crate) fn find_expression_at(
         CorpusAddress::Recording(_) => {}
         other => {
             let stretch = crate::address::find_addressed_stretch(connection, other)?;
+            // A span or tier names no single sign, so that it does not choose among the expressions.
             if stretch.token.is_some() {
                 all.retain(|expression| {
                     expression

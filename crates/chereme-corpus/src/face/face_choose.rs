@@ -151,6 +151,7 @@ impl FaceScore {
             .enumerate()
             .map(|(at, channel)| {
                 let (mut sum, mut frames) = (0.0, 0.0);
+                // Phases weigh by their frames, so that the mean is over frames and not over phases.
                 for phase in &score.phases {
                     if let Some(difference) = phase.channels.get(at) {
                         sum += difference * phase.frames[0] as f64;
@@ -258,6 +259,7 @@ impl Corpus {
                 ),
             );
         }
+        // A body of one phase can be compared only with a body taken as one.
         let one = both
             .iter()
             .any(|performance| performance.expression.milestones.m3.is_none());
@@ -298,6 +300,8 @@ impl Corpus {
             Some(gold) if options.rank != RankingCriterion::Medoid && gold.shows_performance() => Some(gold),
             _ => None,
         };
+        // Without the sentence's own face nothing is far from it, and the medoid would answer another
+        // question.
         if gold.is_none() && options.rank == RankingCriterion::Farthest {
             return Err(faceless(target));
         }
@@ -363,6 +367,8 @@ impl Corpus {
             Ok(found) => Ok(found),
             Err(error) => {
                 let recording = find_addressed_recording(connection, target)?;
+                // Several expressions of the function exist, and the whole sentence must not stand in for a
+                // choice.
                 if !expressions::load_recording_expressions(connection, recording, Some(function), None)?.is_empty() {
                     return Err(error);
                 }
@@ -389,6 +395,7 @@ impl RankingRequest<'_> {
             None => {
                 let candidates = || others.iter().filter(|performance| performance.is_comparable());
                 let shown = candidates().filter(|performance| performance.columns[*at].is_some());
+                // A channel that few performances show would leave the others out of the ranking.
                 shown.count() * 2 >= candidates().count()
             }
         };
@@ -413,6 +420,7 @@ impl RankingRequest<'_> {
                 Err(error) => skipped.push((it.address.clone(), error.to_string())),
             }
         }
+        // Each against each grows with the square; references at even steps represent all recordings.
         let step = ready.len().div_ceil(MAX_MEDOID_REFERENCES).max(1);
         let references: Vec<usize> = match query {
             Some(_) => Vec::new(),
@@ -452,6 +460,8 @@ impl RankingRequest<'_> {
         };
         let channels: Vec<FaceChannel> = use_of.iter().map(|at| FACE_CHANNELS[self.asked[*at]]).collect();
         let explain = |&(score, at): &(f64, usize)| -> CorpusResult<RankedPerformance> {
+            // The most typical performance is explained against the second, as it differs from itself in
+            // nothing.
             let against = match (&query, at == *best) {
                 (Some(query), _) => query,
                 (None, false) => &ready[*best].1,
@@ -528,6 +538,7 @@ fn transfer_recipe_text(
     start: i64,
     token: &str,
 ) -> String {
+    // A recipe counts from the first frame of its material.
     let milestone_times = milestones.shift_milestones(-start).milestone_times();
     let times = milestone_times
         .map(|at| format!("{}s", at.instant_seconds()))
@@ -544,6 +555,7 @@ fn adapted(score: &PhasedScore) -> u64 {
 fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = thread::available_parallelism().map_or(1, usize::from).min(8);
     let part = items.len().div_ceil(threads).max(1);
+    // Starting threads takes longer than so few items.
     if items.len() < 64 || threads == 1 {
         return items.iter().map(work).collect();
     }

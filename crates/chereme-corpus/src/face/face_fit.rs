@@ -58,6 +58,7 @@ impl Corpus {
         let connection = self.store.read_connection();
         let recording = find_addressed_recording(connection, address)?;
         let row = address::find_recording_by_name(connection, &RowName::Number(recording))?;
+        // An earlier fit must not change the numbers from which this one is determined.
         let plain_capture = captured_with(connection, recording, None, &CorpusFits::default())?;
         let plain = plain_capture.ok_or_else(|| no_face(&row.name))?;
         let fit = FaceCalibration::calibration_from_view(&plain.view).ok_or_else(|| no_face(&row.name))?;
@@ -104,6 +105,7 @@ impl Corpus {
                 .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
             self.store.run_store_operation(|connection| {
                 stored_tracks::set_layout(connection, track.id, &text)?;
+                // A take without a signer keeps the fit for itself.
                 let signer = row.signer.as_ref().unwrap_or(&row.name).clone();
                 let (track, recording) = (track.name.clone(), row.name.clone());
                 let effect = OperationEffect::FitFace {

@@ -97,6 +97,7 @@ impl Corpus {
             })?;
             let expressions =
                 expressions::load_recording_expressions(connection, row.id, None, options.tier.as_deref())?;
+            // All functions are counted, so that people see which others they could ask for.
             for it in &expressions {
                 *report
                     .functions
@@ -136,6 +137,7 @@ impl Corpus {
         let mut written = 0;
         let mut taken: BTreeMap<(i64, String), i64> = BTreeMap::new();
         let mut derived: Vec<(&String, i64, FaceExpression)> = Vec::new();
+        // All removals come before the additions, as a new phase may lie where an old one goes.
         for (name, duration, it) in fresh {
             let connection = self.store.read_connection();
             let new_expression = rederived(connection, it)?;
@@ -150,6 +152,8 @@ impl Corpus {
             let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
                 continue;
             };
+            // Expressions of one function may overlap, and the annotations of a tier may not: others go to
+            // another tier.
             let mut number = 1;
             let tier = loop {
                 let tier = tier_name(&it.function, number);
@@ -233,6 +237,7 @@ fn tier_name(function: &ExpressionFunction, number: usize) -> String {
 
 /// Returns an expression with milestones that follow from the present glosses, ignoring earlier ones.
 fn rederived(connection: &rusqlite::Connection, it: &FaceExpression) -> CorpusResult<FaceExpression> {
+    // Nothing to derive from: no old phases, or phases that no annotation of a function stands behind.
     if it.stored.is_empty() || it.stored.contains(&it.annotation) {
         return Ok(it.clone());
     }
@@ -267,6 +272,7 @@ fn milestone_phase_annotations(marks: &ExpressionMilestones, duration: i64) -> V
             (ExpressionPhase::Rest, None) => "M2-M4".to_owned(),
             _ => phase.milestone_range_name().to_owned(),
         };
+        // Milestones may lie outside of the recording, where no annotation can; the value keeps them.
         if start > from {
             value.push_str(&format!(" from {}", span.span_start_instant()));
         }

@@ -123,8 +123,10 @@ impl Corpus {
             })?;
             for it in expressions::load_recording_expressions(connection, row.id, function, None)? {
                 let marks = it.milestones.milestone_times();
+                // Half a second more on both sides shows the face at rest before, and its return after.
                 let from = marks[0].shifted_instant(-UTTERANCE_EDGE_MICROS).instant_seconds();
                 let to = marks[4].shifted_instant(UTTERANCE_EDGE_MICROS).instant_seconds();
+                // A wrong end can make an expression of days, and each frame of it would be sampled.
                 if to - from > MAX_EXPRESSION_SECONDS {
                     report.too_long += 1;
                     continue;
@@ -198,6 +200,7 @@ impl Corpus {
 /// which it comes back, if it does. `None` if it is not active, or was not measured where it begins.
 fn find_channel_reach(column: &[f64], first: usize, last: usize, unit: f64) -> Option<(usize, Option<usize>)> {
     let mut before = column.get(..first)?.iter().copied();
+    // The first measured value before the signs is the channel at rest.
     let rest = before.find(|value| value.is_finite())?;
     let body = column.get(first..last.min(column.len()))?;
     let away = |value: f64| (value - rest).abs();
@@ -210,10 +213,12 @@ fn find_channel_reach(column: &[f64], first: usize, last: usize, unit: f64) -> O
         return None;
     }
     let (peak, half) = (first + at, away(*most) / 2.0);
+    // Beyond rest on the other side the channel is not in the expression, however far it goes.
     let side = (most - rest).signum();
     // The first frame without a number is the last one that is looked at.
     let out = |frame: &usize| column[*frame].is_nan() || (column[*frame] - rest) * side < half;
     let measured = |frame: &usize| !column[*frame].is_nan();
+    // Searched backwards from the peak, so that an earlier, separate movement does not count as the onset.
     let on = (0..peak).rev().find(out).filter(measured)? + 1;
     let off = (peak..column.len()).find(out).filter(measured);
     Some((on, off))
@@ -230,6 +235,7 @@ fn onsets_svg(onsets: &NonmanualOnsets) -> String {
     let spread = |of: OnsetRowQuartiles| {
         let drawn = onsets.rows.iter().filter_map(of);
         let ends = drawn.flat_map(|quartiles| [quartiles.q1, quartiles.q3]);
+        // A tenth of a second on both sides keeps zero inside, and the scale from a division by zero.
         ends.fold((-0.1_f64, 0.1_f64), |(low, high), end| (low.min(end), high.max(end)))
     };
     let height = 60 + ONSET_CHART_ROW_HEIGHT * onsets.rows.len();

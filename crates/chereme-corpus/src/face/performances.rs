@@ -58,6 +58,7 @@ pub const FACE_CHANNELS: [FaceChannel; 27] = {
     all[2] = new_face_channel("head_roll", 10.0, true);
     let mut index = 0;
     while index < FacePosture::FACE_NUMBER_COUNT {
+        // A quarter of the range of a face counts as 10 degrees of the head.
         all[index + 3] = new_face_channel(FacePosture::FACE_NUMBER_NAMES[index], 0.25, index < 3);
         index += 1;
     }
@@ -102,6 +103,7 @@ impl FacePerformance {
                     "{address} does not show {name}"
                 )));
             };
+            // Degrees and shares of a range become comparable, each in the unit of its channel.
             let unit = channel.counts_as_one;
             columns.push(column.iter().map(|value| value / unit).collect());
         }
@@ -112,6 +114,7 @@ impl FacePerformance {
         let mut marks = self
             .marks
             .map(|mark| mark.clamp(measured.start, measured.end) - measured.start);
+        // M3 on M2 leaves the stroke phase empty.
         if one {
             marks[2] = marks[1];
         }
@@ -148,6 +151,7 @@ impl FacePerformance {
         let first = frames.clone().find(shown).unwrap_or(frames.end);
         let end = frames.clone().rfind(shown).map_or(first, |last| last + 1);
         let (body, gaps) = (self.marks[1]..self.marks[3], first..end);
+        // Onset and offset may lack frames, but gaps in the body would stretch the alignment.
         if first > body.start.min(frames.end)
             || end < body.end.min(frames.end)
             || !gaps.clone().all(|frame| shown(&frame))
@@ -186,11 +190,13 @@ impl PerformancePool {
     ) -> CorpusResult<Arc<Vec<FacePerformance>>> {
         let newest = stored_history::find_newest_operation(connection)?;
         let key = (function.clone(), channels.to_vec());
+        // A corpus without operations has no number by which a change would show.
         if self.newest == newest && newest.is_some() && self.key.as_ref() == Some(&key) {
             return Ok(Arc::clone(&self.all));
         }
         // Taken, so that many performances are not copied.
         let before = std::mem::take(self);
+        // This process's own copy is newer than the one in the file.
         let kept = match before.newest {
             Some(at) if before.key.as_ref() == Some(&key) => Some((at, Arc::unwrap_or_clone(before.all))),
             _ => shelf::read_cached_performances(connection, function, channels),
@@ -201,6 +207,7 @@ impl PerformancePool {
         };
         let (all, many) = match (touched, kept) {
             (Some(touched), Some((_, kept))) => {
+                // Writing the file's copy again costs more than reading a few recordings.
                 let many = touched.len() > MAX_UNCACHED_RECORDINGS;
                 (renew_touched_performances(connection, &key, kept, &touched)?, many)
             }
@@ -254,6 +261,7 @@ fn renew_touched_performances(
     let mut kept = kept.into_iter().peekable();
     let mut all = Vec::with_capacity(kept.len());
     let fits = CorpusFits::load_corpus_fits(connection)?;
+    // Both lists are in order of recordings, so that they are merged in one pass.
     for row in stored_recordings::load_recording_rows(connection)? {
         while let Some(it) = kept.next_if(|performance| performance.expression.recording <= row.id) {
             if !touched.contains(&it.expression.recording) {
@@ -343,6 +351,7 @@ pub(crate) fn sample_channel_numbers(
     let (Some(first), Some(last)) = (moments.first(), moments.last()) else {
         return Ok(None);
     };
+    // The frames beside the first and the last moment are needed to blend with.
     let around = TimeSpan::span_between(
         first.shifted_instant(-PERFORMANCE_MARGIN_US),
         last.shifted_instant(PERFORMANCE_MARGIN_US),
@@ -353,12 +362,14 @@ pub(crate) fn sample_channel_numbers(
         Some(_) => Some(MotionTrack::open_motion_track(connection, recording)?),
         None => None,
     };
+    // The skeleton's own head says more than a face's; it is read only if a channel needs it.
     let mut turned = match &body {
         Some(track) if channels.iter().any(|at| *at < 3 || *at >= FIRST_TRUNK_INDEX) => {
             load_turns_at_moments(connection, track, around, moments)?
         }
         _ => HeadTrunkTurns::default(),
     };
+    // A captured face hides the one that a recipe made.
     let made = match &body {
         Some(track) if captured.is_none() => of_recipe(connection, track, around, moments)?,
         _ => None,
@@ -370,6 +381,8 @@ pub(crate) fn sample_channel_numbers(
         Some(face) => moments.iter().map(|at| face.is_measured_at(*at)).collect(),
         None => Vec::new(),
     };
+    // A face is blended across gaps so that it can be drawn; whoever compares must not take that for
+    // measured.
     let unmeasured = |frame: usize, number: f64| match measured.get(frame) {
         Some(false) => f64::NAN,
         _ => number,
@@ -417,6 +430,7 @@ pub(crate) fn sample_channel_numbers(
 /// Returns whether a movement was captured at a moment: a frame lasts until the next one.
 fn is_captured_at(track: &MotionTrack, at: RecordingInstant) -> bool {
     let frame_place = at.shifted_instant(-track.row.offset_us).instant_seconds() * track.rate.per_second();
+    // Half a frame before the first still rounds to it; after the last, a frame lasts its whole length.
     frame_place > -0.5 && frame_place < track.motion_frame_count() as f64 + NEAR_FRAME
 }
 
@@ -465,6 +479,7 @@ fn of_recipe(
     if frames.is_empty() {
         return Ok(None);
     }
+    // The whole track is read because frames are numbered from its start.
     let all_faces = faces_from_curves(&curves::of_track(connection, track, 0..track.motion_frame_count())?);
     let of = |at: &RecordingInstant| all_faces.get(nearest_track_frame(track, &frames, *at)).copied();
     let all = moments.iter().map(|at| of(at).unwrap_or_default());

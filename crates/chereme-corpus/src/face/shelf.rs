@@ -59,6 +59,7 @@ pub(super) fn write_cached_performances(
 }
 
 fn encode_performances(all: &[FacePerformance], channels: usize, newest: i64) -> Option<Vec<u8>> {
+    // Performances that are too long have marks but no numbers.
     let shown = |performance: &&FacePerformance| performance.columns.iter().any(Option::is_some);
     let numbers: usize = all.iter().filter(shown).map(|performance| performance.marks[4]).sum();
     if numbers.checked_mul(channels)? > MAX_CACHED_NUMBERS {
@@ -73,6 +74,7 @@ fn encode_performances(all: &[FacePerformance], channels: usize, newest: i64) ->
         let bits = performance.columns.iter().enumerate();
         bits.fold(0, |bits, (at, column)| bits | i64::from(column.is_some()) << at)
     };
+    // Each field of all rows is a column, as equal kinds of numbers compress best together.
     for column in [
         of(&|performance| performance.expression.recording),
         of(&|performance| performance.expression.annotation),
@@ -150,6 +152,7 @@ fn decode_performances(
     let mut bytes = CacheByteReader(data.strip_prefix(SHELF_FILE_MARK)?);
     let newest = bytes.read_cache_number()?.cast_signed();
     let count = usize::try_from(bytes.read_cache_number()?).ok()?;
+    // A damaged count must not reserve memory for more than a cache can hold.
     if count > MAX_CACHED_NUMBERS {
         return None;
     }
@@ -161,6 +164,7 @@ fn decode_performances(
     for _ in 0..2 {
         let text = std::str::from_utf8(bytes.read_cache_part()?).ok()?;
         let all: Vec<&str> = text.split('\0').collect();
+        // Splitting an empty text gives one empty part.
         if all.len() != count.max(1) {
             return None;
         }

@@ -41,6 +41,7 @@ struct TouchedRecordings {
 
 impl TouchedRecordings {
     fn add_row_change(&mut self, connection: &Connection, change: &RowChange) -> CorpusResult<()> {
+        // A row may have moved from one recording to another: both are affected.
         for row in [&change.before, &change.after] {
             if row.is_null() {
                 continue;

@@ -57,12 +57,14 @@ impl MergeWork<'_> {
         let files = stored_recordings::source_files(self.theirs.connection, id)?;
         let has_capture = files.iter().any(|file| file.is_capture());
         let mut same_capture = None;
+        // Without a capture, only equal annotation files can show that two recordings are one.
         for file in files.iter().filter(|file| !has_capture || file.is_capture()) {
             for own_file in stored_recordings::source_files_of_hash(self.connection, &file.hash)? {
                 let Some(recording) = own_file.recording_id.filter(|_| own_file.kind == file.kind) else {
                     continue;
                 };
                 let own_uid = db::uid_of(self.connection, "recording", recording)?.unwrap_or_default();
+                // A recording that both sides know already by its uid is another one.
                 let is_shared = self.theirs.find_row_id("recording", &own_uid)?.is_some();
                 if is_shared || self.joined_captures.contains(&recording) {
                     continue;
@@ -70,6 +72,7 @@ impl MergeWork<'_> {
                 if stored_recordings::load_recording_row(self.connection, recording)?.name == name {
                     return Ok(Some(recording));
                 }
+                // Two names for one capture are one take; one annotation file may well lie beside two.
                 same_capture = same_capture.or(Some(recording).filter(|_| has_capture));
             }
         }

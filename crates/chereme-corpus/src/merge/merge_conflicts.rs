@@ -102,6 +102,7 @@ pub(crate) fn store_conflict(connection: &Connection, open: &StoredConflict) -> 
     {
         return Ok(());
     }
+    // Conflicts are never deleted one by one, so that the count gives a free number.
     let number = all.len() + 1;
     let text = serde_json::to_string(open).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     db::set_note(connection, &format!("{CONFLICT_KEY_PREFIX}{number:06}"), &text)
@@ -157,6 +158,7 @@ pub(crate) fn keep_annotation(
 fn annotation_image(connection: &Connection, row: &AnnotationRow) -> CorpusResult<RowImage> {
     let value = serde_json::to_value(row).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     let mut image = value.as_object().cloned().unwrap_or_default();
+    // Numbers of rows hold in this corpus alone; uids hold in every copy.
     image.remove("id");
     let tier = db::uid_of(connection, "tier", row.tier_id)?;
     image.insert("tier_id".into(), tier.map_or(Value::Null, Value::String));
@@ -193,6 +195,7 @@ pub(crate) fn list_conflicts(connection: &Connection) -> CorpusResult<Vec<Corpus
         };
         let number = key[CONFLICT_KEY_PREFIX.len()..].parse().unwrap_or(0);
         let known_row = open.mine.as_ref().or(open.base.as_ref()).or(open.theirs.as_ref());
+        // The candidate in place is the annotation in the way, which need not be the same row.
         let mine = match &open.other {
             Some(other) => side.find_row_image("annotation", other)?.or(open.mine.clone()),
             None => open.mine.clone(),
@@ -298,6 +301,7 @@ fn conflict_candidate(table: &str, own: &RowImage, other: Option<&RowImage>) -> 
         Value::String(text) => text.clone(),
         other => other.to_string(),
     };
+    // Nobody can choose between two hashes or documents by looking at them.
     let silent = ["uid", "data", "document", "source", "hash"];
     let clauses: Vec<String> = own
         .iter()
@@ -393,6 +397,8 @@ impl Corpus {
                             .with_error_place(number.to_string())
                             .with_advice(ErrorRemedy::command_remedy("`chereme conflicts CORPUS` lists them"))
                     })?;
+                // The rules that are broken already are noted before the decisions, so that only new ones
+                // count.
                 for recording in recordings_of(connection, &open)? {
                     if let Entry::Vacant(free) = open_by_number.entry(recording) {
                         free.insert(rules::broken_tier_rules(connection, recording)?);
@@ -444,6 +450,7 @@ fn localize_row_image(side: &MergeSide<'_>, table: &str, image: &RowImage) -> Co
 /// Returns whether an annotation still overlaps a candidate: an earlier decision may have moved it away.
 fn still_overlaps(connection: &Connection, other: i64, theirs: Option<&RowImage>) -> CorpusResult<bool> {
     let time = |column: &str| theirs?.get(column)?.as_i64();
+    // Removed or without a time: nothing can show that it moved away.
     let (Some(start), Some(end)) = (time("start_us"), time("end_us")) else {
         return Ok(true);
     };
@@ -466,6 +473,8 @@ fn theirs(connection: &Connection, open: &StoredConflict) -> CorpusResult<()> {
             let mut image = localize_row_image(&side, &open.table, theirs)?;
             image.remove("uid");
             let mine = side.find_row_image(&open.table, &open.uid)?.unwrap_or_default();
+            // Only what the other side changed replaces fields here; the rest may have been edited since the
+            // merge.
             if open.table != "annotation" {
                 let base = open.base.clone().unwrap_or_default();
                 image.retain(|column, _| {
@@ -474,6 +483,7 @@ fn theirs(connection: &Connection, open: &StoredConflict) -> CorpusResult<()> {
             }
             db::update_row_image(connection, &open.table, id, &image)?;
             let name = |image: &RowImage| image.get("name").and_then(Value::as_str).map(str::to_owned);
+            // Participants of tiers are linked to signers by name, and follow a new one.
             if open.table == "signer"
                 && let (Some(old), Some(new)) = (name(&mine), name(&image))
             {
@@ -516,6 +526,7 @@ fn remove_whole(connection: &Connection, table: &str, id: i64) -> CorpusResult<(
         }
         _ => {}
     }
+    // Parts go first, and each with its own parts.
     for (part, _, id) in db::find_owned_rows(connection, table, id)? {
         remove_whole(connection, part, id)?;
     }
@@ -559,12 +570,14 @@ fn keep_both_candidates(connection: &Connection, open: &StoredConflict) -> Corpu
         .iter()
         .any(|neighbour| neighbour.start_us < end && start < neighbour.end_us);
     let symbolic = tier.stereotype.is_some_and(|stereotype| !stereotype.is_alignable());
+    // Where there is no room, or order stands for time, the second candidate gets a tier of its own.
     if meets || symbolic {
         let next = next_to(connection, &tier)?;
         image.insert("tier_id".into(), Value::from(next));
         image.insert("parent_id".into(), Value::Null);
         image.insert("position".into(), Value::from(0));
     }
+    // It is a second row beside the first, and needs a uid and an id of its own.
     image.remove("uid");
     image.insert("external_id".into(), Value::Null);
     db::insert_row_image(connection, "annotation", &image)?;

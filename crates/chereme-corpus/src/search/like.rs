@@ -70,6 +70,7 @@ fn score_like_example(
     token: &TokenRow,
 ) -> QueryResult<BTreeMap<IndexDocument, f64>> {
     let mut scores = BTreeMap::new();
+    // Without a choice of components all of them count alike.
     let on: Vec<(ComponentField, f64)> = if like.on.is_empty() {
         SignComponent::ALL_COMPONENTS
             .map(|component| (ComponentField::new(component), 1.0))
@@ -83,12 +84,14 @@ fn score_like_example(
         .iter()
         .filter_map(|(field, weight)| {
             let field_slots: Vec<&ExampleSlot> = slots.iter().filter(|slot| slot.belongs_to_field(field)).collect();
+            // A component that the user named and the example lacks is reported; one of all is no surprise.
             if field_slots.is_empty() && !like.on.is_empty() {
                 ask.add_query_note(format!("token:{} has no value of {field}", token.id));
             }
             (!field_slots.is_empty()).then_some((field_slots, *weight))
         })
         .collect();
+    // Weights are shares of those that the example has, so that the best score is 1.
     let total: f64 = counted.iter().map(|(_, weight)| weight).sum();
     for (slots, weight) in counted {
         let each = weight / total / slots.len() as f64;
@@ -140,6 +143,7 @@ fn example_slots(ask: &QueryContext<'_>, token: &TokenRow) -> QueryResult<Vec<Ex
     let mut slots = Vec::new();
     search_answers::coded_of_token(ask.connection, token.id, |row| {
         let reading = search_terms::reading_from_state(row.state, row.value);
+        // Two tokens are not alike because neither has a value.
         let (ComponentReading::Value(value), Some(component)) = (reading, row.component) else {
             return;
         };

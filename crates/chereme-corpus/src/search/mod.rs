@@ -159,15 +159,18 @@ impl Corpus {
         for _ in 0..MAX_SEARCH_ATTEMPTS {
             let (connection, index) = self.store.searchable_connection()?;
             let reading = rows::begin_reading(connection)?;
+            // Another program wrote between the refresh of the index and the begin of this reading.
             if !index.is_current(connection)? {
                 continue;
             }
+            // A damaged index can make its library panic; it is built again instead.
             let answer = catch_index_panic(|| {
                 Ok(with_index(connection, index, &hear, |question| {
                     question.opinions.set(parsed.asks_for_opinions());
                     ask(question, &parsed)
                 }))
             });
+            // The rebuild writes, which an open reading of the same connection would forbid.
             drop(reading);
             let answer = match answer {
                 Err(CorpusError::Index(_)) | Ok(Err(QueryFailure::Other(CorpusError::Index(_)))) if !mended => {

@@ -41,6 +41,7 @@ impl Corpus {
                     Some((id, _)) => rows::update_saved_search(connection, id, &search)?,
                     None => rows::insert_saved_search(connection, &search)?,
                 }
+                // The search is written already, so that a circle through itself is found.
                 parse_query_with_saved(connection, &format!("@{}", search.name))?;
                 names.push(search.name);
             }
@@ -83,6 +84,7 @@ impl Corpus {
                 let error = CorpusError::from_wrong_message(text).with_error_place(new.name);
                 return Err(error.with_advice("give it another name"));
             }
+            // A name that differs in case alone is still found by the searches that use it.
             if fold_text(&new.name) != fold_text(&old.name) {
                 check_unused(connection, &old)?;
             }
@@ -137,6 +139,7 @@ struct SearchesInUse {
 pub(crate) fn parse_query_with_saved(connection: &Connection, query: &str) -> CorpusResult<TokenQuery> {
     let mut used = SearchesInUse::default();
     let parsed = parsed_inside(connection, query, &mut used)?;
+    // Written out, searches may be nested more deeply than a query may be, which only its text shows.
     if used.count > 0 {
         let text = parsed.to_string();
         TokenQuery::parse_query(&text).map_err(|error| wrong_query_error(&text, &error))?;
@@ -187,6 +190,7 @@ fn expanded(connection: &Connection, search: KeptSearch, used: &mut SearchesInUs
 fn check_unused(connection: &Connection, search: &KeptSearch) -> CorpusResult<()> {
     let folded_name = fold_text(&search.name);
     for other in list_saved_searches(connection)? {
+        // A query that is only `@` and a name with blanks is no query for the parser.
         let mut uses = other
             .query
             .trim()
@@ -217,6 +221,7 @@ fn require_search_name(name: &str) -> CorpusResult<String> {
             CorpusError::from_wrong_message("a saved search needs a name of one line").with_advice("give it a name"),
         );
     }
+    // People write the name as they use it.
     Ok(name.strip_prefix('@').unwrap_or(name).to_owned())
 }
 
@@ -263,6 +268,7 @@ pub fn kept_like<'a>(name: &str, searches: &'a [KeptSearch]) -> Option<&'a KeptS
         return searches.iter().find(|search| search.name == near);
     }
     let length = wanted.chars().count();
+    // One letter is near to every short name.
     if length < 2 {
         return None;
     }

@@ -56,6 +56,7 @@ pub(super) fn plan_attribute_test(
         AttributeTest::Value(comparison) => comparison,
     };
     let unset = |value: &QueryValue| value.wanted == WantedValue::Missing(MissingReason::Unset);
+    // A token without a row of the attribute is unset, too.
     let token_plan = match comparison.values.iter().any(unset) {
         true => QueryPlan::disjoin_plans(vec![tokens(passing), tokens(having.clone()).negate_plan()]),
         false => tokens(passing),
@@ -115,6 +116,7 @@ fn is_attribute_match(row: &AttributeRow, value: &QueryValue, operator: Comparis
             TextGlob::from_exact_pattern(pattern).matches_whole_text(row.text.trim())
         }
         WantedValue::Named(pattern) => {
+            // `7` and `7.0` are one number, whatever the text in the table.
             let wanted = pattern.as_literal().and_then(parse_plain_number);
             let equal = wanted.zip(row.number).is_some_and(|(one, other)| one == other);
             equal

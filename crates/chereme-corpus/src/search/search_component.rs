@@ -45,6 +45,7 @@ impl ComponentTest {
         for value in own_values.filter(|value| !matches!(value.wanted, WantedValue::Steps(_))) {
             meant_parts.extend(parts_meant(ask, field, value, &readings, &all)?);
         }
+        // `!=` turns the answer round as a whole, so that its values are looked up as those of `=`.
         let accepted = |part: &Option<String>| {
             let values = comparison.values.iter().map(|value| {
                 let operator = match comparison.operator {
@@ -76,6 +77,7 @@ impl ComponentTest {
     fn accepts_by(&self, accepted: &[AcceptedValues], reading: &ComponentReading, folded: &str) -> bool {
         self.comparison.comparison_accepts_reading(reading, |text, wanted| {
             let values = self.comparison.values.iter().zip(accepted);
+            // The comparison passes its own values on, so that the address tells which one is asked.
             let mut asked = values.filter(|(value, _)| std::ptr::eq(&raw const value.wanted, wanted));
             asked.any(|(_, accepted)| accepted.accepts_stored_value(text, folded))
         })
@@ -129,6 +131,7 @@ impl ComponentTest {
             let Some(values) = readings.parts.get(part) else {
                 continue;
             };
+            // Named values are looked up one by one, which is far quicker than a test of each stored value.
             match self.listed_passing_values(accepted) {
                 Some(listed) => {
                     let listed_readings = listed.filter_map(|text| values.get(text));
@@ -151,6 +154,7 @@ impl ComponentTest {
         {
             return Ok(passing_plan);
         }
+        // A token without any reading of these parts is unset without having a term that says so.
         let own_parts = self.parts.iter();
         let coded_values = own_parts.filter_map(|(part, _)| readings.parts.get(part));
         let coded = coded_values.flat_map(|values| values.values().flatten());
@@ -203,6 +207,7 @@ fn all_parts(
     } else {
         format!("its parts are: {}", names.join(", "))
     };
+    // The place is that of the part alone, which ends the name of the field.
     Err(QueryError {
         at: subject_at.end.saturating_sub(part.chars().count())..subject_at.end,
         message: format!("{component} has no part {part:?}"),
@@ -245,6 +250,7 @@ fn parts_meant<'a>(
                 .get(*part)
                 .is_some_and(|values| has_value(values, &accepted))
     };
+    // The component as a whole is first in order; if it knows the value, its parts are not meant.
     let known_parts: Vec<&Option<String>> = match all.first() {
         Some(whole @ None) if knows(&whole) => vec![whole],
         _ => all.iter().filter(knows).collect(),
@@ -314,6 +320,7 @@ fn check_feature(
         return Ok(());
     }
     let feature_range = feature.at.char_range();
+    // The place holds the minus before a feature that is not wanted.
     let minus = usize::from(feature_range.len() > feature.name.chars().count());
     let known_features: Vec<&str> = features.iter().copied().collect();
     Err(QueryError {

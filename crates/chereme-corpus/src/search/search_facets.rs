@@ -59,6 +59,7 @@ fn row_facet(
     ask.go_on()?;
     let rows = ask.now.open_row_column(field)?;
     let mut all: Vec<i64> = found.iter().filter_map(|doc| rows.document_number(*doc)).collect();
+    // Sorting numbers and counting runs of them is quicker than a map with millions of entries.
     all.sort_unstable();
     let mut counts: Vec<(usize, i64)> = all
         .chunk_by(|a, b| a == b)
@@ -66,6 +67,7 @@ fn row_facet(
         .collect();
     let all = counts.len();
     let least = all.min(most);
+    // Names are read for the most frequent rows only, as each costs a query.
     if least > 0 && counts.len() > least {
         counts.select_nth_unstable_by(least - 1, |a, b| b.0.cmp(&a.0));
         // Values with equal counts are chosen by name, so all of them are kept here.
@@ -109,6 +111,7 @@ fn count_forms_of_hands(
     for field in facets.keys() {
         forms.entry(without_hand(field)).or_default().push(field.clone());
     }
+    // A hand in one form only is counted by the index already.
     for fields in forms.into_values().filter(|fields| fields.len() > 1) {
         let values: BTreeSet<String> = fields
             .iter()
@@ -133,6 +136,7 @@ fn count_forms_of_hands(
 
 /// Returns a field in the spelling of the index, without its hand.
 fn without_hand(field: &str) -> String {
+    // The parser knows no field of both hands, which is a form of facets alone.
     let bare = field.strip_prefix("both.").unwrap_or(field);
     match bare.parse::<ComponentField>() {
         Ok(parsed) => ComponentField { hand: None, ..parsed }.to_string(),

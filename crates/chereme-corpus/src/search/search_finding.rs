@@ -97,6 +97,7 @@ impl QueryFinding {
     /// in the query itself, but in a saved search.
     #[must_use]
     pub fn replace_query_condition(&self, query: &str, name: &str) -> Option<String> {
+        // Places count letters, not bytes.
         let letters: Vec<char> = query.chars().collect();
         let (start, end) = self.at;
         let part = |range: std::ops::Range<usize>| -> Option<String> { Some(letters.get(range)?.iter().collect()) };
@@ -120,6 +121,7 @@ impl QueryFinding {
         } else {
             format!("{before}{}{after}", quote_finding_name(name))
         };
+        // A replacement that cannot be read would lead the user into an error.
         TokenQuery::parse_query(&changed).is_ok().then_some(changed)
     }
 

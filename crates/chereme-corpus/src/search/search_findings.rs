@@ -95,6 +95,7 @@ fn of_value<'k>(
         return Ok(vec![why]);
     }
     let listed = |texts: BTreeSet<String>| texts.into_iter().collect();
+    // With a pattern the user expects several values, so that narrower ones are no surprise.
     if literal.is_none() {
         meant.append(&mut narrower);
         return Ok(vec![FindingKind::Matched { values: listed(meant) }]);
@@ -204,6 +205,7 @@ pub(crate) fn similar_names(text: &str, names: &[String]) -> Vec<String> {
     let words_of = |name: &str| {
         let folded = fold_text(name);
         let mut words = folded.split(|c: char| !c.is_alphanumeric());
+        // Short texts are contained in almost every name, so that they must begin it or be a word of it.
         let letters = wanted.chars().count();
         words.any(|word| word == wanted)
             || letters > 1 && folded.starts_with(&wanted)

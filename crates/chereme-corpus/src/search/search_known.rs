@@ -62,6 +62,7 @@ impl QueryMemory {
 
     /// Returns the inventories of the corpus.
     pub(crate) fn cached_vocabulary(&mut self, connection: &Connection) -> CorpusResult<Arc<QueryVocabulary>> {
+        // Inventories are no part of the index, whose state does not show when they change.
         let versions = search_answers::database_versions(connection)?;
         if let Some((known, vocabulary)) = &self.vocabulary
             && *known == versions
@@ -95,6 +96,7 @@ impl QueryMemory {
             let Some(parsed) = search_terms::parse_reading_term(&term) else {
                 continue;
             };
+            // The text of a missing value begins with a control letter, so that no value folds to it.
             let text = match &parsed.reading {
                 ComponentReading::Value(value) => fold_text(value),
                 other => search_terms::reading_term_text(other).to_owned(),
@@ -102,6 +104,7 @@ impl QueryMemory {
             let values = readings.parts.entry(parsed.part.map(str::to_owned)).or_default();
             let alike = values.entry(text).or_default();
             let (hand, phase) = (parsed.hand, parsed.phase.to_owned());
+            // Values that fold alike share an entry, and each spelling keeps its own reading.
             match alike.iter_mut().find(|known| known.reading == parsed.reading) {
                 Some(known) => known.terms.push((hand, phase, term)),
                 None => alike.push(KnownReading {
@@ -144,6 +147,7 @@ pub(crate) fn terms_matching_glob(
     field: IndexTextField,
     glob: &TextGlob,
 ) -> CorpusResult<Vec<String>> {
+    // A pattern without wildcards is a term itself; whether it exists shows when it is looked up.
     if let Some(text) = glob.literal_text() {
         return Ok(vec![text.to_owned()]);
     }

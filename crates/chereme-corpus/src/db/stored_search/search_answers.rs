@@ -135,6 +135,7 @@ fn each_coded(
 
 /// Calls `take` with the values of a token that count, in the order in which they were written.
 pub(crate) fn coded_of_token(connection: &Connection, token: i64, take: impl FnMut(CodedRow<'_>)) -> CorpusResult<()> {
+    // The order of writing is kept, since the values of a token by phase follow each other in it.
     let sql = format!(
         "SELECT NULL, NULL, hand, component, feature, phase, position, state, value
          FROM token_value WHERE token_id = ?1 AND NOT ({IS_OPINION_SQL}) ORDER BY id"
@@ -187,6 +188,7 @@ pub(crate) fn opinion_of_annotation(
              FROM annotation a JOIN tier t ON t.id = a.tier_id WHERE a.id = ?1",
         )?
         .query_row([annotation], |row| {
+            // A proposal has no annotator whose word could stand against others'.
             let is_proposal = row.get_ref(0)?.as_str() == Ok(DETECTOR_NAME);
             Ok(TokenOpinion {
                 standing: match is_proposal {
@@ -285,6 +287,7 @@ pub(crate) fn coded_in_recording(
     asked: RecordingReadings<'_>,
     take: impl FnMut(CodedRow<'_>),
 ) -> CorpusResult<()> {
+    // A value that is an opinion has its text on the annotation alone, from which it is read then.
     let sql = if asked.phases {
         "SELECT coalesce(a.start_us, t.start_us), coalesce(a.end_us, t.end_us), v.hand, v.component,
              v.feature, v.phase, v.position, iif(v.state = 'unset' AND a.id IS NOT NULL, a.state, v.state),
@@ -352,6 +355,7 @@ pub(crate) fn on_tier(connection: &Connection, tier: i64, take: impl FnMut(Coded
 
 /// Returns the translations and remarks for a token: those of its sign, and the annotations that overlap it.
 pub(crate) fn texts_of_token(connection: &Connection, token: i64) -> CorpusResult<(Vec<String>, Vec<String>)> {
+    // Annotations have no link to tokens of another tier; sharing time with them is what counts.
     let of_sign = "SELECT 'translation', x.text FROM token t
             JOIN sign_text x ON x.sign_id = t.sign_id WHERE t.id = ?1
         UNION ALL SELECT 'comment', s.notes FROM token t

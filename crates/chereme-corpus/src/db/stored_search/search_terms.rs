@@ -73,6 +73,7 @@ pub(crate) fn opinion_component(component: &str) -> String {
 
 /// Returns the term of a reading.
 pub(crate) fn reading_term(component: &str, hand: char, phase: &str, part: Option<&str>, value: &str) -> String {
+    // A separator in the name of a part would shift the pieces behind it.
     let part = part.unwrap_or_default().replace('|', "/");
     format!("{component}|{hand}{phase}|{part}|{value}")
 }
@@ -121,6 +122,7 @@ pub(crate) struct ParsedReadingTerm<'a> {
 
 /// Parses the term of a reading.
 pub(crate) fn parse_reading_term(term: &str) -> Option<ParsedReadingTerm<'_>> {
+    // The value comes last and may hold the separator itself, so that only three are split off.
     let mut pieces = term.splitn(4, '|').skip(1);
     let (place, part, value) = (pieces.next()?, pieces.next()?, pieces.next()?);
     let hand = place.chars().next()?;
