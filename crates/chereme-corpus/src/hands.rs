@@ -101,6 +101,7 @@ impl Corpus {
         let take = usable_take(connection, &self.hands, recording)?;
         let all = track.frames_in(stretch.span);
         let usable = take.usable_frames_within(all.clone());
+        // The exact span is kept, which the edges of frames would round.
         if usable == all {
             return Ok(stretch.span);
         }
@@ -118,6 +119,7 @@ impl Corpus {
         let all = track.frames_in(stretch.span);
         let take = usable_take(connection, &self.hands, &stretch.recording)?;
         let usable = take.usable_frames_within(all.clone());
+        // A token or a part was chosen by somebody, and its rests belong to it.
         if stretch.token.is_some() || all != (0..track.motion_frame_count()) {
             return Ok(usable);
         }
@@ -162,6 +164,7 @@ pub(crate) fn find_resting_hands(
     resting.retain(|&side| anatomy.has_fingers(side));
     let groups = [ChannelGroup::RightHand, ChannelGroup::LeftHand];
     let mut start = 0;
+    // Most takes move their fingers soon, so that few blocks are read.
     while start < track.motion_frame_count() && !resting.is_empty() {
         let end = (start + BLOCK_FRAMES).min(track.motion_frame_count());
         let clip = track.read_motion_clip(connection, start..end, &groups)?;
@@ -177,6 +180,7 @@ fn rests_in_clip(clip: &Clip, anatomy: &BodyAnatomy, side: BodySide) -> bool {
     anatomy.finger_joints(side).into_iter().all(|joint| {
         let rest = clip.clip_skeleton().joint_at(joint).rest;
         let turned = clip.joint_channel(joint).rotations.iter();
+        // A quaternion and its negative are one rotation.
         turned.clone().all(|turn| turn.dot(rest).abs() > AT_REST)
     })
 }
@@ -221,6 +225,7 @@ pub(crate) fn load_hand_corrections(
             break;
         }
         let track = MotionTrack::open_motion_track(connection, other.id)?;
+        // A signer may be captured with several skeletons; only equal bones give comparable angles.
         if differs && !equal(&bones, kept.track_hand_bones(connection, &track)?) {
             continue;
         }
@@ -254,6 +259,7 @@ impl HandCorrectionCache {
         let track = MotionTrack::open_motion_track(connection, row.id)?;
         let mut take = UsableTake {
             frames: 0..track.motion_frame_count(),
+            // A single frame is a pose, in which nothing can turn.
             bends: row.origin == RecordOrigin::Made || track.motion_frame_count() < 2,
         };
         if row.origin != RecordOrigin::Made {
@@ -290,6 +296,7 @@ fn measure_hand_bones(
     track: &MotionTrack,
     anatomy: &BodyAnatomy,
 ) -> CorpusResult<HandBoneLengths> {
+    // No frame is needed for the bones, only the skeleton in metres.
     let clip = track.read_motion_clip(connection, 0..0, &ChannelGroup::ALL_CHANNEL_GROUPS)?;
     let digits = anatomy.found_parts().filter_map(|(part, joint, _)| {
         let is_digit = matches!(part, BodyPart::Thumb(..) | BodyPart::Finger(..));
@@ -301,6 +308,7 @@ fn measure_hand_bones(
 /// Returns whether two bodies have the same fingers, each bone as long as the other's.
 fn equal(a: &HandBoneLengths, b: &HandBoneLengths) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= EQUAL_BONE_TOLERANCE_M.max(EQUAL_SHARE * a.max(*b));
+    // Two bodies without fingers tell nothing about each other's hands.
     !a.is_empty() && a.keys().eq(b.keys()) && a.values().zip(b.values()).all(near)
 }
 
@@ -319,6 +327,7 @@ fn observe_hand_ranges(
     let parts = sound.len().div_ceil(BLOCK_FRAMES).min(BLOCKS_PER_TAKE);
     for part in 0..parts {
         let room = sound.len().saturating_sub(BLOCK_FRAMES);
+        // The last part ends with the take; a single part begins with it.
         let start = sound.start + room * part / (parts - 1).max(1);
         let frames = start..(start + BLOCK_FRAMES).min(sound.end);
         let groups = [ChannelGroup::RightHand, ChannelGroup::LeftHand];

@@ -162,6 +162,7 @@ impl<'a> CorpusSources<'a> {
     /// Returns the error for a name that belongs to something else than a recipe wants; `None` if nothing has it.
     fn other_kind(&self, address: &str, wanted: &'static str) -> Option<SourceError> {
         let text = |name: &RowName| match name {
+            // A name of digits alone would be read as a number.
             RowName::Text(text) if text.parse::<i64>().is_err() => text.clone(),
             RowName::Text(text) => format!("{text:?}"),
             RowName::Number(number) => number.to_string(),
@@ -190,6 +191,7 @@ impl<'a> CorpusSources<'a> {
             address: address.into(),
             kind,
             wanted,
+            // Only the movement of a signer or a recording can give a body.
             right: Some(named.into()).filter(|_| wanted == WANTED_BODY && kind != "a sign"),
         })
     }
@@ -259,6 +261,8 @@ fn stretch_movement_material(
 ) -> CorpusResult<MovementMaterial> {
     let frames = track.frames_in(stretch.span);
     let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+    // Whatever the movement depends on is in its hash, and nothing else, so that equal movement has an equal
+    // one.
     let name = format!(
         "{} {:?} {:?}",
         stored_motion::content_hash(connection, track.row.id)?,
@@ -361,6 +365,7 @@ impl RecipeSources for CorpusSources<'_> {
                 Some(signer) => row.signer_id == Some(signer),
                 None => row.origin != RecordOrigin::Made,
             });
+            // Captured bodies are those of people; those of other programs come next.
             let rank = |origin: RecordOrigin| {
                 [RecordOrigin::Captured, RecordOrigin::Generated, RecordOrigin::Made]
                     .iter()
@@ -446,6 +451,7 @@ impl RecipeSources for CorpusSources<'_> {
         query: &str,
         signer: Option<&str>,
     ) -> std::result::Result<Vec<TokenExample>, SourceError> {
+        // Without a known signer, `same` means any signer, and not nobody.
         let same = signer.unwrap_or("signer:*");
         let query = query.replace("signer=same", same);
         let fault = |error: &CorpusError| SourceError::Query {

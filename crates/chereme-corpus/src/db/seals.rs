@@ -94,6 +94,7 @@ impl SealChanges {
             self.toggle_seal_sum(OPERATION_TABLE_NAME, bucket, sum);
         }
         for ((table, bucket), change) in self.0 {
+            // Exclusive or takes out what it put in, so that the old images vanish and the new ones remain.
             let before = stored_seal(connection, table, bucket)?;
             store_seal(connection, table, bucket, before ^ change)?;
         }
@@ -144,6 +145,7 @@ fn first_broken(
         let broken = broken_seal_of_bucket(table, row.get(0)?);
         let sums = row_sums(connection, table, &broken.rows)?;
         let seal = stored_seal(connection, table, row.get(0)?)?;
+        // A bucket without rows has no seal, which counts as 0.
         if sums.into_values().next().unwrap_or_default() != seal {
             return Ok(Some(broken));
         }
@@ -206,6 +208,7 @@ fn row_sums(connection: &Connection, table: &str, rows: &RangeInclusive<i64>) ->
         return Ok(sums);
     }
     let columns = load_table_columns(connection, table)?;
+    // A table without numbers is read as a whole; the condition only uses up both parameters.
     let wanted = match columns.first() {
         Some(key) if key.name == "id" => "r.id BETWEEN ?1 AND ?2",
         _ => "?1 <= ?2",
@@ -230,6 +233,7 @@ pub(super) fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> 
 }
 
 pub(super) fn store_seal(connection: &Connection, table: &str, bucket: i64, seal: u64) -> CorpusResult<()> {
+    // No rows give the sum 0, and an empty bucket keeps no row of its own.
     let sql = if seal == 0 {
         "DELETE FROM row_seal WHERE tbl = ?1 AND bucket = ?2 AND ?3 = 0"
     } else {

@@ -140,6 +140,7 @@ pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &
         let id = insert_sign(connection, lexicon, gloss)?;
         return Ok(EnteredSign { id, is_new: true });
     };
+    // A token without a recording, or without a linked one, belongs to a lexicon if that is the only one.
     let is_linked = "coalesce((SELECT r.lexicon_id FROM recording r WHERE r.id = t.recording_id),
         (SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon)) IS ?2";
     let others: bool = connection
@@ -147,6 +148,7 @@ pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &
             "SELECT EXISTS (SELECT 1 FROM token t WHERE t.sign_id = ?1 AND NOT ({is_linked}))"
         ))?
         .query_row([loose, lexicon], |row| row.get(0))?;
+    // The sign keeps its number and its uid if all of its tokens go with it.
     if !others {
         connection
             .prepare_cached("UPDATE sign SET lexicon_id = ?2 WHERE id = ?1")?
@@ -162,6 +164,7 @@ pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &
             "UPDATE token AS t SET sign_id = ?3 WHERE t.sign_id = ?1 AND {is_linked}"
         ))?
         .execute([loose, lexicon, id])?;
+    // The citation form may have been among the tokens that moved.
     if moved > 0 {
         super::stored_delete::cite_another(connection, loose)?;
         super::stored_delete::cite_another(connection, id)?;
@@ -356,6 +359,7 @@ pub(crate) fn delete_token(connection: &Connection, id: i64) -> CorpusResult<()>
 
 /// Deletes a sign that has no token and no translation any more, and returns whether it did.
 pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> CorpusResult<bool> {
+    // Remarks are work of a person, and keep a sign that nothing else needs.
     let deleted = connection
         .prepare_cached(
             "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
@@ -368,6 +372,7 @@ pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> CorpusRes
 
 /// Sets the values of a token; leaves unchanged rows untouched.
 pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValueRow]) -> CorpusResult<()> {
+    // Writing equal rows again would fill the history, and give them new numbers.
     if load_values_and_opinions(connection, token)? == rows {
         return Ok(());
     }
@@ -583,6 +588,7 @@ pub(crate) struct HoldingRow {
 /// Returns the tokens of recordings that have a value of a component, captured ones first. Generated tokens are left
 /// out: they show nothing beyond their sources, and would be compared with themselves.
 pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &str) -> CorpusResult<Vec<HoldingRow>> {
+    // Tokens of people come first, and 200 are more than a recipe ever tries.
     let mut statement = connection.prepare_cached(
         "SELECT t.id, v.hand, coalesce(g.handedness = 'left', 0),
                 max(a.start_us, t.start_us), min(a.end_us, t.end_us)
@@ -602,6 +608,7 @@ pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &s
                 token: row.get(0)?,
                 hand: word_or_null(row, 1)?,
                 left_handed: row.get(2)?,
+                // An annotation may only touch its token, and has no time in common with it.
                 span_us: start.zip(end).filter(|(start, end)| start < end),
             })
         })?
@@ -633,6 +640,7 @@ pub(crate) fn lexicon_entries(connection: &Connection) -> CorpusResult<Vec<Token
 /// Returns one citation form of each sign. A sign that has one in a lexicon and one with movement is represented by the
 /// one that is coded for more components, else by the one with movement.
 pub(crate) fn load_citation_tokens(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
+    // A form that is coded more fully stands for its sign; of equal ones the one that can be seen moving.
     let mut statement = connection.prepare_cached(&format!(
         "{SELECT_TOKEN_SQL} WHERE t.citation = 1 AND t.id =
                 (SELECT c.id FROM token c WHERE c.sign_id = t.sign_id AND c.citation = 1

@@ -16,6 +16,7 @@ use crate::error::{CorpusError, CorpusResult};
 /// whole without it, and broken with it. `unchanging` is the URI of the file without its log.
 pub(super) fn set_aside(path: &Path, unchanging: &str) -> CorpusResult<()> {
     let log = companion_path(path, "-wal");
+    // The log of a killed program is the file's own if the file is whole with it, whatever the times say.
     if !came_later(path, &log) || is_whole(path.as_os_str()) || !is_whole(unchanging) {
         return Ok(());
     }
@@ -45,6 +46,8 @@ fn came_later(path: &Path, log: &Path) -> bool {
 #[cfg(unix)]
 fn file_placed_time(file: &Metadata) -> SystemTime {
     use std::os::unix::fs::MetadataExt as _;
+    // The time of change, unlike that of modification, also moves when a file is copied or renamed into
+    // place.
     let nanos = u32::try_from(file.ctime_nsec()).unwrap_or_default();
     let changed = Duration::new(file.ctime().max(0).cast_unsigned(), nanos);
     SystemTime::UNIX_EPOCH + changed
@@ -60,6 +63,7 @@ fn file_placed_time(file: &Metadata) -> SystemTime {
 fn is_whole(name: impl AsRef<Path>) -> bool {
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
     let answer = Connection::open_with_flags(name, flags).and_then(|reader| {
+        // Closing would otherwise write the log into the file that is being tested.
         reader.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)?;
         reader.query_row("PRAGMA quick_check(1)", [], |row| row.get::<_, String>(0))
     });

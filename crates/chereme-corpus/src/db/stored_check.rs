@@ -56,6 +56,7 @@ fn add_broken_rows(connection: &Connection, table: &str, broken: &mut Vec<Broken
         .prepare("SELECT sql FROM main.sqlite_schema WHERE type = 'table' AND name = ?1")?
         .query_row([table], |row| row.get(0))
         .optional()?;
+    // Rows without a number cannot be named one by one.
     let has_rowid = made.as_ref().is_some_and(|sql| !sql.contains("WITHOUT ROWID"));
     let Some((_, rules)) = made.as_ref().and_then(|sql| sql.split_once('(')) else {
         return Ok(());
@@ -94,6 +95,7 @@ fn try_rows(connection: &Connection, table: &str, broken: &mut Vec<BrokenRow>) -
             }
             Err(error) => return Err(error.into()),
         }
+        // An earlier row must not count against the uniqueness of a later one.
         clear.execute([])?;
     }
     Ok(())
@@ -152,6 +154,7 @@ pub(crate) fn count_recorded_changes(connection: &Connection) -> CorpusResult<i6
 pub(crate) fn run_and_roll_back<T>(connection: &Connection, work: impl FnOnce() -> CorpusResult<T>) -> CorpusResult<T> {
     connection.execute_batch("SAVEPOINT tried")?;
     let done = work();
+    // A savepoint works inside a transaction that is already open, and its end leaves that open.
     connection.execute_batch("ROLLBACK TO tried; RELEASE tried")?;
     done
 }

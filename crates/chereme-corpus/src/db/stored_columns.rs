@@ -67,6 +67,7 @@ pub(crate) fn read_role_columns(row: &Row<'_>, column: usize) -> rusqlite::Resul
     let (kind, component, feature) = (text(column)?, text(column + 1)?, text(column + 2)?);
     let kind = kind.unwrap_or_default();
     let role = TierRole::of_parts(kind, component, feature);
+    // An unknown word is read as a free tier, which a damaged file must not turn into.
     if role.role_kind_name() != kind {
         let reason = format!("{kind:?} is no role of a tier").into();
         return Err(rusqlite::Error::FromSqlConversionFailure(column, Type::Text, reason));

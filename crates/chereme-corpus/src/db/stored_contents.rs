@@ -23,6 +23,7 @@ pub(crate) fn is_read_only(connection: &Connection) -> CorpusResult<bool> {
 
 /// Returns all recordings in the order in which they were stored.
 pub(crate) fn load_recording_glances(connection: &Connection) -> CorpusResult<Vec<RecordingGlance>> {
+    // The body is the track of that name, otherwise the oldest skeleton.
     let mut statement = connection.prepare_cached(
         "SELECT r.id, r.name, r.signer_id, g.name, r.origin, r.duration_us, r.licence, r.notes,
                 coalesce(k.frames, 0), k.rate_frames, k.rate_seconds, coalesce(k.offset_us, 0),
@@ -184,6 +185,7 @@ pub(crate) fn load_annotations_around(
              AND (start_us < ?2 OR (start_us = ?2 AND id < ?3))
          ORDER BY start_us DESC, id DESC LIMIT ?4",
     )?;
+    // The nearest ones were read first, and are wanted in the order of time.
     around.before.reverse();
     around.after = read(
         "SELECT value FROM annotation WHERE tier_id = ?1 AND state = 'value'

@@ -49,6 +49,7 @@ pub(crate) fn delete_recording(connection: &Connection, recording: i64) -> Corpu
     const RECORDING_TOKENS_SQL: &str = "(SELECT id FROM token WHERE recording_id = ?1)";
     const RECORDING_TIERS_SQL: &str = "(SELECT id FROM tier WHERE recording_id = ?1)";
     const RECORDING_RECIPES_SQL: &str = "(SELECT id FROM recipe WHERE recording_id = ?1)";
+    // They are noted before their tracks go, which alone name them.
     let skeletons: Vec<i64> = connection
         .prepare_cached(
             "SELECT DISTINCT skeleton_id FROM track

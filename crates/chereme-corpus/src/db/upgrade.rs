@@ -51,6 +51,7 @@ pub(super) fn read_old_summaries(connection: &Connection) -> CorpusResult<()> {
 /// tables belong to none. The recordings of a file with one table are linked to it.
 pub(super) fn give_signs_lexicons(connection: &Connection) -> CorpusResult<()> {
     let mut tables_of_signs: BTreeMap<i64, BTreeSet<String>> = BTreeMap::new();
+    // An older file names the table in each token alone; cells of a row show that it came from one.
     let sql = "SELECT DISTINCT sign_id, coalesce(source ->> '$.path', source ->> '$.file') AS place FROM token
          WHERE origin = 'lexicon' AND source ->> '$.cells' IS NOT NULL AND place IS NOT NULL";
     let mut statement = connection.prepare(sql)?;
@@ -93,9 +94,11 @@ const MISSING_JSON: [&str; 6] = ["roles", "channel_groups", "layout", "source", 
 /// Rewrites the rules of columns that may be empty: for SQLite before 3.45 `json_valid` of nothing is false, so that its
 /// `integrity_check` would find each such row broken.
 pub(super) fn rewrite_json_rules(connection: &Connection) -> CorpusResult<()> {
+    // The defensive mode of this connection forbids writing to the schema, also to the program itself.
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, false)?;
     connection.pragma_update(None, "writable_schema", true)?;
     let rewritten = MISSING_JSON.iter().try_for_each(|column| {
+        // The text of the rule must be the one in the schema steps, letter by letter.
         let rule = format!("TEXT CHECK (json_valid({column}))");
         let other = format!("TEXT CHECK ({column} IS NULL OR json_valid({column}))");
         let sql = "UPDATE sqlite_schema SET sql = replace(sql, ?1, ?2) WHERE type = 'table'";
@@ -112,6 +115,7 @@ pub(super) const PHASED_SINCE: i32 = 12;
 /// Gives values without a phase in rows of imported tables the phase that imports give them since
 /// [`PHASED_SINCE`], also in the history.
 pub(super) fn begin_before_final(connection: &Connection) -> CorpusResult<()> {
+    // A value of one step without a phase begins a change whose end the table states.
     let sql = "SELECT own.id, own.token_id FROM token_value own JOIN token ON token.id = own.token_id
          WHERE own.phase IS NULL AND own.annotation_id IS NULL AND token.origin = 'lexicon'
              AND instr(token.source, '\"cells\":')
@@ -128,6 +132,7 @@ pub(super) fn begin_before_final(connection: &Connection) -> CorpusResult<()> {
     for id in begun.keys() {
         connection.execute("UPDATE token_value SET phase = 'initial' WHERE id = ?1", [id])?;
     }
+    // Numbers of rows are used again after a deletion, so that the token must agree, too.
     let begin = |image: &mut Value| {
         let number = |name: &str| image[name].as_i64().unwrap_or_default();
         let is_begun = begun.get(&number("id")) == Some(&number("token_id"));
@@ -138,6 +143,7 @@ pub(super) fn begin_before_final(connection: &Connection) -> CorpusResult<()> {
     for (operation, part) in stored_history::list_changeset_parts(connection)? {
         let text = stored_history::read_part(connection, operation, part)?;
         let lines = text.lines().map(|line| {
+            // Parsing is slow; a look at the text leaves out almost every line of a long history.
             let phaseless = line.starts_with("[\"token_value\"") && line.contains("\"phase\":null");
             match phaseless.then(|| ChangesetLine::parse_changeset_line(line)).flatten() {
                 Some(mut change) => {
@@ -163,6 +169,7 @@ fn curves_become_tracks(connection: &Connection) -> CorpusResult<()> {
     let parts = stored_history::list_changeset_parts(connection)?;
     let mut largest = LargestTrackIds::of_rows(connection)?;
     let mut any = largest.curves > 0;
+    // Deleted rows keep their numbers in the history, and an undo brings them back under these.
     for (operation, part) in &parts {
         for line in stored_history::read_part(connection, *operation, *part)?.lines() {
             any |= line.starts_with("[\"curve");
@@ -317,6 +324,7 @@ impl CurveIdOffsets {
     fn track_image(&self, skeleton: &Value) -> Value {
         let number = |name: &str| skeleton[name].as_i64().unwrap_or_default();
         let uid = skeleton["uid"].as_str().unwrap_or_default();
+        // Frames times microseconds may exceed 64 bits; twice the rate rounds to the nearest.
         let duration = number("frames") as i128 * 1_000_000 * i128::from(number("rate_seconds"));
         let rate = i128::from(number("rate_frames").max(1));
         let duration = (duration * 2 + rate).div_euclid(rate * 2);
@@ -365,8 +373,11 @@ impl CurveIdOffsets {
                     lines.push('\n');
                 }
                 Some(change) => {
+                    // Position 0 is the first curve of a track, which stands for the new track itself.
                     let first = change.latest_row_value()["position"] == json!(0);
                     let skeleton = change.latest_row_value()["track_id"].as_i64().unwrap_or_default();
+                    // The history names curves alone, so that their track needs a change of its own before
+                    // theirs.
                     if let Some((row, refs)) = known.get(&skeleton).filter(|_| first) {
                         lines.push_str(&self.track_change(&change, row, refs).write_changeset_line());
                         added += 1;
@@ -430,6 +441,7 @@ impl CurveIdOffsets {
 
 /// Returns the uid of the curve track for that of the skeleton track, in hexadecimal.
 fn curves_uid(skeleton: &str) -> String {
+    // The uid follows from the skeleton's, so that copies of a corpus upgrade to equal rows.
     let digest = Sha256::digest(format!("{NONMANUALS_TRACK_NAME} {skeleton}").as_bytes());
     to_hex_text(&digest[..16]).to_uppercase()
 }
@@ -461,6 +473,7 @@ pub(super) fn set_proposals_apart(connection: &Connection) -> CorpusResult<()> {
         }
     };
     for (operation, part) in stored_history::list_changeset_parts(connection)? {
+        // An undo would otherwise bring a proposal back as a value that counts.
         let text = stored_history::read_part(connection, operation, part)?;
         let lines = text.lines().map(|line| {
             let of_values = line.starts_with("[\"token_value\"");

@@ -72,6 +72,7 @@ pub(super) fn write_token_csv(
     let mut signs: BTreeSet<i64> = BTreeSet::new();
     let mut notated = false;
     let mut named: Vec<String> = Vec::new();
+    // A first pass finds the columns that any token needs, since the titles come before all rows.
     for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
         for values in signs::values_of(connection, ids)?.values() {
             columns.extend(token_cells_by_column(values, &mut unclear).into_keys());
@@ -110,6 +111,7 @@ pub(super) fn write_token_csv(
     let sign_titles = titles.chain(translations).chain(notation);
     let titles = sign_titles.chain(columns.iter().map(token_column_title));
     let titles: Vec<String> = titles.collect();
+    // An attribute of the same title as a column could not be told from it when the table is read back.
     named.retain(|name| !titles.contains(name));
     let titles = titles.into_iter().chain(named.iter().cloned());
     table.write_record(titles)?;
@@ -168,6 +170,7 @@ pub(super) fn write_annotation_csv(
     table.write_record(titles)?;
     let symbolic = tier.stereotype.is_some_and(|stereotype| !stereotype.is_alignable());
     for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
+        // A symbolic annotation has no time of its own that a table could change.
         let time = |micros| {
             if symbolic {
                 String::new()
@@ -206,6 +209,7 @@ impl<'o> CsvTableWriter<'o> {
             };
             written.map_err(csv_write_error)?;
         }
+        // An empty record ends the line that the fields were written to.
         self.writer.write_record(None::<&[u8]>).map_err(csv_write_error)
     }
 
@@ -313,6 +317,7 @@ fn token_cells_by_column(values: &[TokenValueRow], unclear: &mut usize) -> BTree
         let mixed = phases.len() > 1 && phases.contains_key(&None);
         let change = field.0 == "configuration" && field.1.as_deref() == Some("change");
         if mixed || change {
+            // One cell with `>` would lose which of these values has a phase.
             for (phase, texts) in phases {
                 let (component, feature, hand, _) = field.clone();
                 cells.insert((component, feature, hand, phase), texts.join(" + "));

@@ -216,6 +216,7 @@ impl EnrichedFolder<'_> {
         let path = self.prepare_folder_file(&format!("recordings/{name}.bvh"))?;
         let fault = |error| CorpusError::from_file_failure(&path, error);
         let mut out = BufWriter::new(File::create(&path).map_err(fault)?);
+        // A whole recording is written, for which the span does not count.
         let span = Default::default();
         let stretch = RecordingStretch {
             recording: recording.clone(),
@@ -246,6 +247,7 @@ impl EnrichedFolder<'_> {
     ) -> CorpusResult<()> {
         let body = stored_recordings::body_track(connection, recording.id)?.is_some();
         for row in stored_tracks::load_track_rows(connection, recording.id)? {
+            // These curves are written beside the movement, frame by frame.
             let beside_body = body && row.name == NONMANUALS_TRACK_NAME;
             if !matches!(row.kind, TrackKind::Markers | TrackKind::Curves) || beside_body {
                 continue;
@@ -304,6 +306,7 @@ impl EnrichedFolder<'_> {
     }
 
     fn checksums(&mut self) -> CorpusResult<()> {
+        // The same corpus gives the same list, whatever the order of writing.
         self.files.sort();
         let mut lines = String::new();
         for file in &self.files {
@@ -341,6 +344,7 @@ pub(super) fn file_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let plain = if plain.is_empty() { "unnamed".to_owned() } else { plain };
     let mut free = plain.clone();
     let mut count = 1;
+    // Some systems take names for equal that differ in case alone.
     while !taken.insert(free.to_lowercase()) {
         count += 1;
         free = format!("{plain} ({count})");

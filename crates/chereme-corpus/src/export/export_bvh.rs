@@ -47,6 +47,7 @@ pub(crate) fn write_bvh_stretch(
     let motion = (time.is_some() || !frames.is_empty()).then_some((time.as_ref(), frames.len() as u64));
     let fault = |error: BvhWriteError| CorpusError::from_wrong_message(format!("the BVH cannot be written: {error}"));
     let mut writer = BvhWriter::new(out, &track.hierarchy, motion).map_err(fault)?;
+    // Blocks are stored whole, so that the first one may begin before the stretch.
     let mut first = frames.start - frames.start % BLOCK_FRAMES;
     while first < frames.end {
         let block_frames = first.max(frames.start)..(first + BLOCK_FRAMES).min(frames.end);
@@ -82,6 +83,7 @@ fn write_converted(
     out: &mut dyn Write,
 ) -> CorpusResult<usize> {
     let clip = track.raw_clip(connection, frames)?;
+    // A joint that moves needs channels for its place, which the rest of a skeleton does not have.
     let hierarchy = bvh_convert::widen_hierarchy(
         &bvh_convert::hierarchy_from_skeleton(clip.clip_skeleton(), DEFAULT_BVH_DECIMALS),
         &clip,
@@ -127,5 +129,6 @@ fn read_bvh_columns(
             Ok(())
         },
     )?;
+    // The map is ordered by column, so that groups fall back into the order of the file.
     Ok(all.into_values().collect())
 }

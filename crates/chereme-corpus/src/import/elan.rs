@@ -82,6 +82,7 @@ pub(super) fn fill_external_vocabularies(
         let Some(place) = vocabulary.external.as_deref() else {
             continue;
         };
+        // The file refers to it by a URL or by a path of any system, which the folder here need not match.
         let name = place.rsplit(['/', '\\']).next().unwrap_or(place);
         let mut earlier_files = job.places.files_of_same_name(name);
         let Some(row) = earlier_files.find(|row| row.kind == "ecv" && row.name == name) else {
@@ -160,6 +161,7 @@ pub(super) fn import_template(
             .with_advice(ErrorRemedy::command_remedy(
                 "name the recording: import CORPUS FILE --into RECORDING",
             ));
+        // A template in a folder of others may be meant for none of them; one that is named is meant.
         return match job.named && taken.is_empty() {
             true => Err(none),
             false => Ok(FileReport::skipped_file_report(job.path, &none)),

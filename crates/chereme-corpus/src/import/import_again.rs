@@ -71,6 +71,7 @@ pub(super) fn update_recording_description(
             ErrorRemedy::command_remedy("name the signer, too, with --signer"),
         ));
     }
+    // Only notes tell of changes; warnings say that nothing was done.
     let changed = report.findings[finding_count..]
         .iter()
         .any(|finding| finding.severity == "note");
@@ -146,6 +147,7 @@ pub(super) fn own_track(
             skeleton_tracks.push(MotionTrack::of_row(job.connection, row.id)?);
         }
     }
+    // A track from a BVH file has its columns, and can only be read again from such a file.
     skeleton_tracks.retain(|candidate| candidate.is_of_bvh() == is_bvh);
     if skeleton_tracks.len() == 1
         && let Some(track) = skeleton_tracks.pop()
@@ -176,6 +178,7 @@ pub(super) fn groups_json(groups: &BTreeMap<ChannelGroup, Vec<usize>>) -> String
 /// unless that is the reader's `guess`.
 pub(super) fn options_again(options: &ImportOptions, was: &MotionTrack, guess: SpaceConvention) -> ImportOptions {
     let before = was.convention;
+    // A value that equals the guess was itself a guess, and is guessed anew with the other options.
     let unit = (before.metres_per_unit != guess.metres_per_unit).then_some(before.metres_per_unit);
     ImportOptions {
         metres_per_unit: options.metres_per_unit.or(unit),
@@ -201,6 +204,7 @@ pub(super) fn apply_skeleton_reading(
     stored_recordings::update_reading(job.connection, row)?;
     job.counts.count_changed_rows("tracks", 1);
     report.status = FileStatus::Updated;
+    // The report of an unchanged file says that nothing was done.
     report.findings.clear();
     let mut note = |text: String| report.findings.push(ReportFinding::finding_note(text));
     note("it was imported before: its movement was read again, as the options say".to_owned());
@@ -253,6 +257,7 @@ fn replace_markers(
     for track in stored_tracks::load_track_rows(job.connection, row.recording_id)? {
         if track.kind == TrackKind::Markers {
             let channels = stored_tracks::load_channel_rows(job.connection, track.id)?;
+            // Nothing links the points to their skeleton but the names that they have in common.
             if channels.iter().map(|channel| &channel.name).eq(before) {
                 old = Some(track);
             }

@@ -60,6 +60,7 @@ pub(super) fn import_bvh(job: &mut ImportJob<'_>, progress: &mut ProgressReceive
     let understanding = understand(job.options, &hierarchy, &block, rate, &mut report)?;
     let declared = reader.bvh_motion_header().declared_frames;
     let plausible = declared.filter(|frames| *frames <= MOST_DECLARED);
+    // A header may state fewer or more frames than the file holds; the rows are counted in the end.
     let frame_count = plausible.and_then(|frames| usize::try_from(frames).ok());
     let length = frame_count.map(|frames| rate.frame_start_instant(frames).instant_micros());
     let recording = insert_recording(job, length, &mut report)?;
@@ -87,6 +88,7 @@ pub(super) fn import_bvh(job: &mut ImportJob<'_>, progress: &mut ProgressReceive
         }
     }
     let summary = reader.finish_bvh_reading();
+    // Bones are placed by all frames, so that the skeleton is stored again once the last one is read.
     place_joints(job, track, &bones, &mut hierarchy, &mut report)?;
     finish_movement_track(job, recording, track, summary.frames, rate)?;
     if let Some(clock) = job.options.clock {
@@ -312,6 +314,7 @@ fn understand(
     report
         .findings
         .extend(bvh_unread::unusual_stature_finding(&guess, options));
+    // An unknown unit has a warning of its own, and says all that there is to doubt.
     let doubted = guess.axes_confidence < SURE_GUESS_CONFIDENCE && guess.unit_name != "unknown";
     if let Some(reason) = guess.reasons.last().filter(|_| doubted && options.axes.is_none()) {
         report.findings.push(ReportFinding::finding_warning(
@@ -330,6 +333,7 @@ fn understand(
         groups: movement::channel_groups(skeleton, &anatomy),
         anatomy,
         first: MotionBlock {
+            // The block is overwritten by the following frames, and the first one is still needed.
             columns: block.columns.clone(),
             ..*block
         },
@@ -493,6 +497,7 @@ fn without_movement(
     let connection = job.connection;
     let is_bare = |id: i64| -> CorpusResult<bool> {
         let tracks = stored_tracks::load_track_rows(connection, id)?;
+        // A film beside annotations is no capture, and can belong to the same take.
         Ok(tracks.iter().all(|track| track.kind == TrackKind::Media))
     };
     let fits = |id: i64| -> CorpusResult<bool> {

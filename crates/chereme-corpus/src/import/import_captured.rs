@@ -50,6 +50,7 @@ pub(super) fn import_curves(job: &mut ImportJob<'_>, progress: &mut ProgressRece
 pub(super) fn import_table(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
     let head = read_file_head(job.path)?;
     let curves = curves::CurveFile::detect_curve_file(&head);
+    // A plain table of numbers may be points or curves; the titles of a face system are not ambiguous.
     let is_face = curves.is_some_and(|form| form != curves::CurveFile::Plain);
     let points = table_of_points(job.path)?.filter(|_| !is_face);
     match points {
@@ -122,6 +123,7 @@ pub(super) const ANNOTATION_TABLE_KIND: &str = "annotation table";
 /// Reads the tiers of a table of annotations; refuses those of an annotation file beside it, which says more.
 fn import_tiers(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
     job.kind = ANNOTATION_TABLE_KIND;
+    // Exports keep the name of their document, with its ending before their own.
     for ending in [".eaf", ".elan"] {
         if let Some(stem) = job.stem.strip_suffix(ending) {
             job.stem = stem.to_owned();
@@ -212,6 +214,7 @@ fn import_scene(
     let anatomy = anatomy_of_skeleton(job.options, &skeleton)?;
     let convention = determine_scene_convention(job.options, &scene, &anatomy, &mut report);
     describe_scene_reading(&scene, convention, &anatomy, &mut report);
+    // A single frame is a model in a pose, whose joints are no markers of a capture.
     let moves = scene.clip.clip_frame_count() > 1;
     let rate = scene.clip.clip_frame_rate();
     let mut markers = import_tracks::SkeletonMarkers::markers_of_anatomy(&skeleton, &anatomy);
@@ -299,6 +302,7 @@ fn read_again(
         ..ImportOptions::default()
     };
     let guess = determine_scene_convention(&earlier, scene, &anatomy_of_skeleton(&earlier, skeleton)?, &mut fresh);
+    // Only the guess of the first reading is wanted; its doubts were reported then.
     fresh.findings.clear();
     let options = import_again::options_again(job.options, was, guess);
     let anatomy = anatomy_of_skeleton(&options, skeleton)?;
@@ -353,6 +357,7 @@ fn determine_scene_convention(
             .up_direction()
             == axes.up_direction()
     };
+    // Somebody may lie down, hang or bend over: only a body that does so throughout, with its legs, is wrong.
     let is_righted = is_sure
         && axes.up_direction() != stated.axes.up_direction()
         && stays()
@@ -414,6 +419,7 @@ const REFERENCE_STATURE_M: f64 = 1.6;
 /// Returns the power of ten that makes a body of this stature in metres a person; 1 if it may be one.
 fn scale_of_body(stature: f64) -> f64 {
     let decades = (REFERENCE_STATURE_M / stature).log10();
+    // A body of no size, or of more than a million times a person's, is no mistake of a unit.
     if decades.is_finite() && decades.abs() <= 6.0 {
         10_f64.powi(decades.round() as i32)
     } else {
@@ -468,6 +474,7 @@ fn set_convention(document: &mut CapturedTracks, options: &ImportOptions, takes_
         let MarkerSpace::World(stated) = *markers.marker_space() else {
             continue;
         };
+        // Points estimated from film have no unit or axes that a person could know better.
         if markers.marker_capture() == CaptureMethod::Estimated && !takes_all {
             continue;
         }

@@ -25,6 +25,7 @@ fn span_within_day(row: &TrackRow) -> Option<Range<i64>> {
 
 /// Returns the overlap of two spans as a share of the shorter one; one of them may cross midnight.
 fn shared_span_part(a: &Range<i64>, b: &Range<i64>) -> f64 {
+    // A track of unknown length has none, and must not divide by zero.
     let least = (a.end - a.start).min(b.end - b.start).max(1) as f64;
     let common = [-DAY_US, 0, DAY_US].map(|day| {
         let start = a.start.max(b.start.saturating_add(day));
@@ -82,6 +83,7 @@ pub(super) fn find_take_by_timecode(
             .any(|(own, theirs)| has_true_start(own) || has_true_start(theirs));
         let is_near = in_folder.contains(&id);
         let is_of_kind = job.places.has_file_of_kind(id, job.kind);
+        // Who joins by timecode asks for it; otherwise every sign of one take must agree.
         if joining == FileJoining::Timecode || (is_true && is_near && !is_of_kind && !job.has_own_annotations) {
             fitting.push(id);
         } else if (is_likely || (is_near && !is_of_kind)) && !job.has_own_annotations {
@@ -124,6 +126,7 @@ pub(super) fn align_tracks_by_clock(
             continue;
         };
         let mut apart = own.start.saturating_sub(zero);
+        // A take over midnight begins on one day and has its other tracks on the next.
         if apart.abs() > DAY_US / 2 {
             apart -= apart.signum() * DAY_US;
         }

@@ -47,11 +47,13 @@ pub(super) fn merge_row_columns(table: &str, base: &RowImage, mine: &RowImage, t
         if !is_own && are_values_alike(&stated(&new), &stated(&own)) {
             continue;
         }
+        // Only the source of the same value changed here: the other side's value brings its own source.
         if is_own || are_values_alike(&stated(&own), &stated(&old)) {
             for (column, value) in group.iter().zip(new) {
                 taken.insert((*column).to_owned(), value);
             }
         } else if group == ["duration_us"] {
+            // A recording lasts as long as the longer of what either side put into it.
             let most = own[0].as_i64().max(new[0].as_i64());
             taken.insert("duration_us".to_owned(), Value::from(most));
         } else if !are_values_alike(&stated(&new), &stated(&old))
@@ -105,6 +107,7 @@ pub(super) fn is_backwards(mine: &RowImage, taken: &RowImage) -> bool {
             .is_some_and(|(start, end)| start < end)
     };
     let ends = number("start_us").zip(number("end_us"));
+    // An annotation that is backwards here already is not made so by the merge.
     spans(mine) && ends.is_some_and(|(start, end)| start >= end)
 }
 

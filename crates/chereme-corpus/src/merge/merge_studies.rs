@@ -29,6 +29,7 @@ impl MergeWork<'_> {
             plan: text("plan"),
             plan_sha256: text("plan_sha256"),
         };
+        // An earlier participant, or an earlier merge, may have brought that plan here.
         if let Some(known) = stored_studies::with_plan(self.connection, &study.plan_sha256)? {
             return Ok(known);
         }

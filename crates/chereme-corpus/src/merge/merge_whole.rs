@@ -18,6 +18,7 @@ impl MergeWork<'_> {
             return Ok(contested);
         }
         let mut above = RowsAbove::new();
+        // Tokens follow from annotations, and their changes are changes of these.
         for (key, before) in self.mine.touched.iter().filter(|(key, _)| key.0 != "token") {
             let Some(row) = self.mine.find_row_image(&key.0, &key.1)? else {
                 continue;
@@ -50,6 +51,7 @@ impl MergeWork<'_> {
     /// their parts there.
     pub(super) fn bring_back(&mut self) -> CorpusResult<()> {
         let mut above = RowsAbove::new();
+        // It is taken so that the test can read it while this side is changed.
         let touched = std::mem::take(&mut self.theirs.touched);
         let mut missing_keys = BTreeSet::new();
         let is_missing = |key: &TableRowKey| -> CorpusResult<bool> {
@@ -66,6 +68,7 @@ impl MergeWork<'_> {
             let bases: Vec<RowImage> = before.clone().into_iter().collect();
             if is_changed(key, &bases, &row)
                 && let Some(root) = top(&self.theirs, key, &mut above, &is_missing)?
+                // A row without parts that one side removed is an ordinary conflict.
                 && (root != *key || self.has_parts(&root)?)
             {
                 missing_keys.insert(root);
@@ -94,6 +97,7 @@ impl MergeWork<'_> {
             }
         }
         self.theirs.touched = touched;
+        // Without a state before, the rows count as new on the other side, and are added like others.
         for key in &back {
             self.theirs.touched.insert(key.clone(), None);
         }
@@ -149,6 +153,7 @@ fn top(
         for owner in db::image_owner_keys(&key.0, &row) {
             let top_key = top(side, &owner, above, holds)?;
             let place = |key: &TableRowKey| MERGED_TABLE_ORDER.iter().position(|table| *table == key.0);
+            // Of several owners the one in the earliest table is the highest.
             let is_higher = match (&top_key, &best) {
                 (Some(found), Some(best)) => best == key || place(found) < place(best),
                 (found, None) => found.is_some(),

@@ -250,6 +250,7 @@ impl MergeWork<'_> {
         for key in &contested {
             self.store_row_disagreement(key, None)?;
         }
+        // Rows that refer to others go before these.
         for table in MERGED_TABLE_ORDER.iter().rev() {
             let of_table = removed.iter().filter(|key| key.0 == *table);
             let mut waiting: Vec<TableRowKey> = of_table.cloned().collect();
@@ -261,6 +262,7 @@ impl MergeWork<'_> {
                         later.push(key);
                     }
                 }
+                // A round that removes nothing shows that something here still needs the rest.
                 if later.is_empty() || later.len() == before {
                     for key in later {
                         self.store_row_disagreement(&key, None)?;
@@ -359,6 +361,7 @@ impl MergeWork<'_> {
                 continue;
             };
             let mut id = self.mine.find_row_id(other, &uid)?;
+            // Tokens of annotations are derived on each side, and have other uids there.
             if id.is_none() && other == "token" {
                 id = self.corresponding_token_row(&uid)?;
             }
@@ -436,6 +439,7 @@ impl MergeWork<'_> {
             }
         }
         if table == "annotation" {
+            // Both sides made the same annotation, for example by the same import.
             if let Some(twin) = merge_rows::find_twin_annotation(self.connection, &local)? {
                 return self.mine.remember_row_uid(table, uid, Some(twin));
             }
@@ -494,6 +498,7 @@ impl MergeWork<'_> {
             id: old,
         };
         let connection = self.connection;
+        // The blocks of one capture are equal on both sides, and one copy of them suffices.
         if table == "track" && db::has_blocks(self.connection, id)? {
             return Ok(());
         }
@@ -511,12 +516,14 @@ impl MergeWork<'_> {
         let Some(id) = self.mine.find_row_id(table, uid)? else {
             return Ok(());
         };
+        // Two rows that were created separately have no common state: every column counts as changed.
         let nothing = [RowImage::new()];
         let bases = if bases.is_empty() { &nothing[..] } else { bases };
         let mut merges = bases
             .iter()
             .map(|base| merge_rows::merge_row_columns(table, base, mine, theirs));
         let first = merges.next().unwrap_or_default();
+        // The state that explains the changes without a disagreement is the truly common one.
         let (taken, disagree) = match merges.next() {
             Some(second) if first.1 && !second.1 => second,
             _ => first,
@@ -525,6 +532,7 @@ impl MergeWork<'_> {
         let Some(local) = self.resolve_row_image(table, &taken)? else {
             return self.store_row_conflict(key, Some(mine), Some(theirs), None);
         };
+        // Translations are parts of a sign, and those of both sides are kept.
         if table == "sign" {
             self.copy_row_parts(table, uid, id)?;
         }
@@ -570,6 +578,7 @@ impl MergeWork<'_> {
         }
         let mut same = mine.clone();
         let [_, name] = names;
+        // With the other side's name in place, what still differs is a disagreement of its own.
         same.insert("participant".to_owned(), Value::from(name));
         bases
             .iter()
@@ -581,6 +590,7 @@ impl MergeWork<'_> {
         let number = |column: &str| row.get(column).and_then(Value::as_i64).unwrap_or_default();
         let (tier, start, end) = (number("tier_id"), number("start_us"), number("end_us"));
         let symbolic = stored_tiers::load_tier_row(self.connection, tier)?.stereotype;
+        // Symbolic annotations have no times of their own, and share those of the ones above.
         if symbolic.is_some_and(|stereotype| !stereotype.is_alignable()) {
             return Ok(None);
         }
@@ -591,6 +601,7 @@ impl MergeWork<'_> {
             }
             let uid = db::uid_of(self.connection, "annotation", near.id)?.unwrap_or_default();
             let key = ("annotation".to_owned(), uid);
+            // Annotations that both sides had, or that came from there, fit each other on the other side.
             if !self.came.contains_key(&key.1) && self.mine.touched.contains_key(&key) {
                 return Ok(Some(near.id));
             }
@@ -630,6 +641,7 @@ impl MergeWork<'_> {
         if let Some(local) = self.resolve_row_image(table, &mine)? {
             self.mark_touched_recordings(table, &local, id)?;
         }
+        // Its derived tokens go with their annotations first, so that nothing refers to it.
         if table == "recording" {
             self.recordings.insert(id);
             self.rederive_touched_tokens()?;

@@ -33,6 +33,7 @@ impl MergeWork<'_> {
                 };
                 let mut settled = false;
                 for violation in open_violations {
+                    // A rule that is broken on the other side already is not broken by the merge.
                     if !their_broken.contains(&violation_key(self.connection, &violation)?) {
                         settled |= self.settle_violation(&violation, &mut followed)?;
                     }
@@ -124,6 +125,7 @@ impl MergeWork<'_> {
             None => None,
         };
         let theirs = self.theirs.find_row_image(&key.0, &key.1)?;
+        // The change was counted when it was made, and is undone now.
         let count = match mine {
             Some(_) => &mut self.report.changed,
             None => &mut self.report.added,
@@ -190,6 +192,7 @@ fn recording_violations(connection: &Connection, recording: i64) -> CorpusResult
 
 /// Returns the kind of a violation, and the uids of its annotations.
 fn violation_key(connection: &Connection, violation: &TierViolation) -> CorpusResult<(String, Vec<String>)> {
+    // The first word of a violation's debug form is its variant.
     let text = format!("{violation:?}");
     let kind = text.split([' ', '{', '(']).next().unwrap_or_default();
     let mut uids = Vec::new();

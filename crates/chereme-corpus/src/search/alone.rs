@@ -66,6 +66,7 @@ fn report_empty_leaves(ask: &QueryContext<'_>, term: &QueryExpression) -> QueryR
                 );
                 dead && start >= term_range.start && end <= term_range.end
             });
+            // Counting below may add findings of its own, which this borrow would forbid.
             drop(findings);
             if !is_reported && count_term_tokens(ask, term)? == 0 {
                 let (why, names) = match term {

@@ -142,6 +142,7 @@ pub(crate) fn order_document_page(
     }
     let end = range.end.min(keyed.len());
     let start = range.start.min(end);
+    // A page of few tokens needs no sort of all of them: those before its end are found first.
     if end > 0 && end < keyed.len() {
         keyed.select_nth_unstable(end - 1);
     }
@@ -166,6 +167,7 @@ impl DocumentRanks {
         }
         let mut ranks = vec![0; found.len()];
         for places in texts {
+            // A document in none of the places ranks after all others.
             let farthest = places.len() as u64;
             let mut own = vec![farthest; found.len()];
             for (place, plan) in (0..).zip(places) {
@@ -173,6 +175,7 @@ impl DocumentRanks {
                     continue;
                 };
                 let matching = search_plan::evaluate_query_plan(ask, plan, Some(found))?;
+                // Both lists are in order of documents, so that one pass compares them.
                 let mut here = matching.iter().peekable();
                 for (doc, rank) in found.iter().zip(&mut own) {
                     if here.next_if_eq(&doc).is_some() {
@@ -188,8 +191,10 @@ impl DocumentRanks {
                 let example = ids
                     .document_number(*doc)
                     .is_some_and(|id| scores.examples.contains(&id));
+                // Similarities become whole numbers, whose equal values stay equal despite rounding.
                 let distance = ((1.0 - scores.document_similarity(*doc)) * 1e9).round() as u64;
                 let first = if example { 0 } else { distance + 1 };
+                // The similarity is in the upper bits and decides before the place of a text in the lower 16.
                 *rank = *rank.min(&mut 0xFFFF) + (first << 16);
             }
         }

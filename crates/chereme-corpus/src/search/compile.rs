@@ -252,6 +252,7 @@ fn plan_property(
         return Ok(any_plan);
     }
     let names = |value: &QueryValue| matches!(value.wanted, WantedValue::Named(_));
+    // A named value is unlike only what has a value: tokens without one have no other signer.
     if comparison.values.iter().any(names) {
         Ok(QueryPlan::conjoin_plans(vec![
             plan_has_property(ask, property)?,
@@ -374,6 +375,7 @@ fn plan_named_property(
         WholeTokenProperty::Recording => (RowField::Recording, "recording", NamedRowKind::Recording),
         _ => (RowField::Sign, "sign", NamedRowKind::Sign),
     };
+    // A number may be that of a row, or a name of digits, as recordings often have.
     if wish.literal
         && let Ok(number) = wish.text.parse::<i64>()
         && search_answers::find_row_name(ask.connection, rows, number)?.is_some()
@@ -383,6 +385,7 @@ fn plan_named_property(
     let names = search_answers::list_row_names(ask.connection, rows)?;
     let matching_names = names.iter().filter(|(_, name)| wish.is_requested_name(name));
     let mut ids: Vec<i64> = matching_names.map(|(id, _)| *id).collect();
+    // A gloss of several lexicons is told apart as `NGT/BOOK`; a gloss may hold a slash itself.
     if ids.is_empty() && property == WholeTokenProperty::Sign {
         let entries = search_answers::list_row_names(ask.connection, NamedRowKind::LexiconEntry)?;
         let matching_entries = entries.iter().filter(|(_, name)| wish.is_requested_name(name));
@@ -407,8 +410,10 @@ fn plan_marked_property(
         .iter()
         .filter(|term| wish.is_requested_name(&name(term)))
         .collect();
+    // A fixed value that no token has, such as an origin, is right and finds nothing.
     if matching_terms.is_empty() && wish.literal && property.fixed_values().is_none() {
         let mut known_terms: BTreeSet<String> = terms.iter().map(name).collect();
+        // An inventory exists before a token uses it.
         if property == WholeTokenProperty::Inventory {
             known_terms.extend(ask.vocabulary.inventory_ids().map(str::to_owned));
         }

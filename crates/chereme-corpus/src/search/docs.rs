@@ -50,6 +50,7 @@ pub(crate) fn unite_documents(mut a: DocumentList, b: DocumentList) -> DocumentL
 
 /// Returns the number of documents at the start of `docs` before `doc`; it is usually small.
 fn leap(docs: &[IndexDocument], doc: IndexDocument) -> usize {
+    // Steps double until one goes too far, which is quick both for a near and for a far document.
     let mut reach = 1;
     while reach < docs.len() && docs[reach] < doc {
         reach *= 2;

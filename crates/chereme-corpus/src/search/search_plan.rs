@@ -59,6 +59,7 @@ impl QueryPlan {
             }
         }
         if !wanted.is_empty() || !unwanted.is_empty() || rest.is_empty() {
+            // One request for all conditions lets the index intersect them by itself.
             let probe = match (wanted.len(), unwanted.is_empty()) {
                 (1, true) => wanted.remove(0),
                 _ => IndexProbe::And(wanted, unwanted),
@@ -139,6 +140,7 @@ pub(crate) fn evaluate_query_plan(
         QueryPlan::Without(probe) => Ok(inside(ask.run_index_probe(&probe.clone().invert_probe())?)),
         QueryPlan::And(plans) => {
             let mut order: Vec<&QueryPlan> = plans.iter().collect();
+            // Cheap conditions go first and leave few tokens to those that read rows.
             order.sort_by_key(|plan| effort(plan));
             let mut left: Option<DocumentList> = None;
             for plan in order {

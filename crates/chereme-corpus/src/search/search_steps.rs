@@ -48,10 +48,13 @@ pub(crate) fn plan_value_steps(
         let mut places: Vec<u32> = all.filter_map(|(_, phase, _)| step_phase_place(phase)).collect();
         places.sort_unstable();
         places.dedup();
+        // Place 0 is the initial value, which only the first step may take.
         places.retain(|place| *place > 0);
+        // Plans multiply with each further value between the first and the last.
         if steps.len() > 3 && places.len() > MOST_PLACES {
             return Err(refused("this component changes too often for so many values").into());
         }
+        // Successive values are those of one hand; the other hand's must not fill a step.
         for hand in hands_of(field.hand) {
             let terms = tests
                 .iter()

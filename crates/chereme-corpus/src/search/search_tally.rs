@@ -106,6 +106,7 @@ impl TallySubject {
 }
 
 fn parse_tally_subject(name: &str) -> CorpusResult<TallySubject> {
+    // The query language decides what a field is called, so that the field is read as part of a query.
     let asked = format!("{}=*", name.trim());
     let query = TokenQuery::parse_query(&asked).map_err(|error| {
         // A time compares with times only, and has no values to count.
@@ -227,6 +228,7 @@ fn group_documents_by_value(
     let mut all: DocumentList = groups.iter().flat_map(|(_, docs)| docs).copied().collect();
     all.sort_unstable();
     all.dedup();
+    // A token may be coded as unset or not be coded at all, which a table does not tell apart.
     unset.extend(docs::subtract_documents(found, &all));
     unset.sort_unstable();
     unset.dedup();

@@ -52,6 +52,7 @@ impl TextGlob {
         let mut word: Option<Vec<String>> = None;
         for (number, segment) in pattern.pattern_segments().iter().enumerate() {
             if number > 0 {
+                // An empty segment before or after a wildcard keeps its place, as in `*BO` and `BO*`.
                 word.get_or_insert_with(|| vec![String::new()]).push(String::new());
             }
             for c in fold_text(segment).chars() {
@@ -111,12 +112,14 @@ impl TextGlob {
         let Some(mut rest) = text.strip_prefix(first.as_str()) else {
             return false;
         };
+        // The earliest place leaves the most text to the pieces behind it, so that no other need be tried.
         for segment in middle {
             match rest.find(segment.as_str()) {
                 Some(found) => rest = &rest[found + segment.len()..],
                 None => return false,
             }
         }
+        // The last piece must lie behind all others, which have taken their text away already.
         rest.ends_with(last.as_str())
     }
 
@@ -127,6 +130,7 @@ impl TextGlob {
 
     /// Returns the pattern as a regular expression over one word.
     pub(crate) fn glob_regex(&self) -> String {
+        // Words are folded letters and digits, none of which has a meaning in an expression.
         self.segments.join(".*")
     }
 }

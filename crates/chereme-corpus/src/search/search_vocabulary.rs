@@ -84,6 +84,7 @@ impl AcceptedValues {
     fn add_aliases(&mut self, value: &InventoryValue, folded: &[String], asked: Option<&str>) {
         let aliases: BTreeSet<String> = value.aliases.iter().map(|text| fold_text(text)).collect();
         let Some(asked) = asked else { return };
+        // Asked for by an alias, the value's own name is what surprises.
         let by_alias = aliases.contains(asked);
         let others = folded.iter().filter(|alias| by_alias || aliases.contains(*alias));
         self.aliases.extend(others.filter(|alias| *alias != asked).cloned());
@@ -179,6 +180,7 @@ impl QueryVocabulary {
             WantedValue::Named(pattern) if exactly => {
                 let glob = TextGlob::from_exact_pattern(pattern);
                 let literal = glob.literal_text().is_some();
+                // A table may use the alias of a value as a name of its own, which then means only itself.
                 let in_use = glob.literal_text().is_some_and(|text| {
                     let same_text = stored.and_then(|stored| stored.get(&fold_text(text)));
                     let mut alike = same_text.into_iter().flatten();
@@ -330,6 +332,7 @@ impl QueryVocabulary {
                 }
             }
             let is = |value: &InventoryValue| meant.contains(&(number, value.id.as_str()));
+            // The chain begins with the place itself, which is no place below.
             let under = |place: &InventoryValue| order.inventory.broader_value_chain(&place.id).skip(1).any(is);
             for table in known_inventories.iter().filter(|candidate| !ordered(candidate)) {
                 for (_, folded) in table.values_with_spellings() {

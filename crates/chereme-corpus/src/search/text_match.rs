@@ -107,6 +107,7 @@ fn glosses_like(ask: &QueryContext<'_>, pattern: &TextPattern) -> QueryResult<Ve
         Some(expression) => expression.expression_source().to_owned(),
         None => pattern.pattern_segments().concat(),
     };
+    // Letters of expressions and wildcards would keep every gloss from being near.
     let text: String = pattern_text.chars().filter(|c| !"^$.*\\".contains(*c)).collect();
     let signs = ask.known_signs()?;
     let glosses = signs.rows.iter().map(|(_, gloss, _)| gloss.clone());
@@ -176,6 +177,7 @@ fn narrowed(
     field: IndexTextField,
     comparison: &ValueComparison,
 ) -> QueryResult<Option<IndexProbe>> {
+    // Whatever words a text lacks, it may still be another text: nothing narrows the search.
     if comparison.operator == ComparisonOperator::IsNot {
         return Ok(None);
     }
@@ -318,6 +320,7 @@ fn plan_fuzzy_text(test: &QueryTest, field: TextField, text: &str, slips: u8) ->
         places[0] = Some(near(IndexTextField::Gloss, &folded));
     }
     for (place, field) in fields_of(field) {
+        // Each word may be elsewhere in the text, as slips may also exchange words.
         let all = words.iter().map(|word| near(field, word)).collect();
         places[place] = (!words.is_empty()).then(|| QueryPlan::conjoin_plans(all));
     }

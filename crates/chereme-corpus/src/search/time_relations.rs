@@ -85,6 +85,7 @@ impl NeighbourRelation {
     ) -> QueryResult<DocumentList> {
         let times = DocumentTimes::open_document_times(ask.now)?;
         let ids = ask.now.open_row_column(RowField::Token)?;
+        // Annotations are read once for each recording, not once for each token.
         let mut by_recording: BTreeMap<i64, Vec<RelationCandidate>> = BTreeMap::new();
         let mut passing = DocumentList::new();
         for doc in candidates {
@@ -159,6 +160,8 @@ impl NeighbourRelation {
                 if recordings.contains(&recording) {
                     marks.entry(recording).or_default().push(RelatedSpan {
                         span: span_from_micros(start, end),
+                        // A token is no neighbour of itself, unless the relation is to a stretch of its
+                        // curve.
                         token: ids.document_number(doc).filter(|_| !self.itself),
                         passes: true,
                     });
@@ -242,6 +245,7 @@ fn check_tier(ask: &QueryContext<'_>, name: &TextPattern, test: &QueryTest) -> Q
 fn texts_beside(ask: &QueryContext<'_>, test: &QueryTest, field: TextField) -> QueryResult<Vec<RelatedAnnotationTest>> {
     let mut other = Vec::new();
     if matches!(field, TextField::Any | TextField::Gloss) {
+        // Words in any text are sought on tiers of each kind; here the gloss takes its share.
         let mut field_test = test.clone();
         match &mut field_test.what {
             TestSubject::Whole(field, _) | TestSubject::Words(field, _) | TestSubject::Fuzzy { field, .. } => {
@@ -337,6 +341,7 @@ impl RelatedSpans {
         };
         let reach = match relation {
             TimeRelation::Before | TimeRelation::After | TimeRelation::NotInside | TimeRelation::NotOverlaps => {
+                // Such neighbours may lie anywhere in the recording.
                 return self.marks.iter().any(holds);
             }
             TimeRelation::Around(reach) | TimeRelation::OfBegin(reach) | TimeRelation::OfEnd(reach) => reach.max(0),
@@ -348,6 +353,7 @@ impl RelatedSpans {
         );
         let until = self.marks.partition_point(|mark| mark.span.span_start_instant() <= to);
         let earlier_marks = self.marks[..until].iter().zip(&self.latest).rev();
+        // Before the first place where no earlier annotation reaches the span, none can touch it.
         let mut near = earlier_marks.take_while(|(_, latest)| **latest >= from);
         near.any(|(mark, _)| holds(mark))
     }

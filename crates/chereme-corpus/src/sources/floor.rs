@@ -23,6 +23,7 @@ pub(super) fn hanging_height(body: &MovementMaterial) -> Option<f64> {
 /// Returns the height of the lowest point of the feet in the first frame.
 fn lowest_foot_height(body: &MovementMaterial) -> Option<f64> {
     let feet = BodySide::BOTH_SIDES.map(|side| body.anatomy.part_joint(BodyPart::Foot(side)));
+    // With one foot only, a leg that is raised would count as the height of the body.
     if body.clip.clip_frame_count() == 0 || feet.contains(&None) {
         return None;
     }
@@ -30,6 +31,7 @@ fn lowest_foot_height(body: &MovementMaterial) -> Option<f64> {
     let model = body.clip.model_pose(0);
     let toes = BodySide::BOTH_SIDES.map(|side| body.anatomy.part_joint(BodyPart::Toes(side)));
     let joints = feet.into_iter().chain(toes).flatten();
+    // The tips of toes reach lower than their joints when somebody stands on them.
     let heights = joints.flat_map(|joint| {
         let tip_offset = body.anatomy.joint_tip(skeleton, joint);
         let tip = tip_offset.map(|tip| model.joint_point_to_model(joint, tip).y);
@@ -51,6 +53,7 @@ pub(crate) fn ground_body(mut body: MovementMaterial) -> CorpusResult<MovementMa
             continue;
         }
         let translations = channel.translations.take();
+        // A root without places of its own stands at its offset throughout.
         let mut places = translations.unwrap_or_else(|| vec![joint.offset; frames]);
         for place in &mut places {
             place.y -= height;
@@ -59,6 +62,7 @@ pub(crate) fn ground_body(mut body: MovementMaterial) -> CorpusResult<MovementMa
     }
     let clip = Clip::new(skeleton, body.clip.clip_frame_rate(), channels);
     body.clip = clip.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+    // Moved movement is another material, and needs another hash.
     let name = format!("{} on the floor", body.hash);
     body.hash = stored_motion::to_hex_text(&Sha256::digest(name.as_bytes()));
     Ok(body)

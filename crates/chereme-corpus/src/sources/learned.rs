@@ -122,6 +122,7 @@ fn speed_of_reach(stroke: &CapturedStretch<'_>, anatomy: &BodyAnatomy, side: Bod
 /// Returns the recordings and first frames of the pieces to read.
 fn learning_pieces(connection: &Connection) -> CorpusResult<Vec<(i64, usize)>> {
     let all = stored_recordings::load_recording_rows(connection)?;
+    // The best kind of recordings that the corpus has decides alone: worse ones would blur what it shows.
     for (origin, signing) in [
         (RecordOrigin::Captured, true),
         (RecordOrigin::Captured, false),
@@ -170,10 +171,12 @@ pub(super) fn spelling_times(connection: &Connection, inventories: &[StoredInven
     for (n, two) in spans.windows(2).enumerate() {
         let [a, b] = two else { continue };
         let gap = b.start_us - a.end_us;
+        // A repeated value is one handshape in two annotations, and no change.
         if a.tier_id != b.tier_id || a.value == b.value || !(0..=MAX_HANDSHAPE_GAP_US).contains(&gap) {
             continue;
         }
         let letters = [a, b].map(|span| is_letter(&span.value));
+        // The second of one pair is the first of the next, and its hold counts once.
         if counted != Some(n) {
             holds.add_transition_time(a.end_us - a.start_us, letters[0]);
         }
@@ -209,6 +212,7 @@ impl TransitionTimes {
         let mut times = [self.letters, self.all].into_iter().find(enough)?;
         times.sort_unstable();
         let (count, middle) = (times.len(), times.len() / 2);
+        // The two middle times are one and the same if their number is odd.
         let sum = times[middle] + times[(count - 1) / 2];
         Some(MedianTime {
             seconds: sum as f64 * 0.5e-6,

@@ -102,6 +102,7 @@ pub(crate) fn measured_cue_phases(connection: &Connection) -> CorpusResult<Optio
             match (sounds.len(), shape) {
                 (2.., _) => {
                     let consonant = (sounds[1].start_us - key.start_us) as f64 / 1e6;
+                    // A phone of no length must not divide by zero.
                     phase_samples[0].push(phase / consonant.max(1e-3));
                 }
                 (_, VOWEL_ONLY_HANDSHAPE) => phase_samples[1].push(phase),

@@ -33,6 +33,7 @@ impl CorpusSources<'_> {
             let read = notation::read_notation(Path::new(name));
             return read.map(|(signs, _)| signs).map_err(|e| unreadable(&e));
         }
+        // A separator means several signs, and HamNoSys has none.
         if !name.contains(SIGN_NAME_SEPARATOR) {
             if let Ok(read) = hamnosys::parse_hamnosys(name) {
                 return Ok(vec![NotatedSign {
@@ -41,6 +42,7 @@ impl CorpusSources<'_> {
                     ..NotatedSign::default()
                 }]);
             }
+            // A sign of this name exists, so that the missing thing is its notation.
             if self.has_notated_name(name) {
                 let address = name.to_owned();
                 return Err(SourceError::NoNotation { address });

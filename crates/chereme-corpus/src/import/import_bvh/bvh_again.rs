@@ -26,6 +26,7 @@ pub(super) fn read_movement_again(
         ..
     } = open_bvh_file(job)?;
     let first = first_frame(&hierarchy, &block, rate, None)?;
+    // The guess is repeated as it was made then, so that what the user stated can be told from it.
     let roles = was.manual_joint_roles().unwrap_or_default();
     let anatomy = BodyAnatomy::with_roles(first.clip_skeleton(), &roles)
         .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
@@ -44,9 +45,11 @@ pub(super) fn read_movement_again(
         ..was.row.clone()
     };
     let regrouped = row.channel_groups != was.row.channel_groups;
+    // Blocks hold the joints of a group together, so that other groups need other blocks.
     if regrouped {
         stored_motion::remove_blocks(job.connection, row.id)?;
     }
+    // The order of the root's columns is known only after all frames were read.
     if regrouped || job.options.mend_root {
         let groups = understanding.column_groups(&hierarchy);
         while more {

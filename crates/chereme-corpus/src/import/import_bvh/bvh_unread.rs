@@ -17,6 +17,7 @@ pub(super) fn unread_hand_findings(anatomy: &BodyAnatomy) -> Vec<ReportFinding> 
         let arm = [BodyPart::UpperArm(side), BodyPart::Forearm(side), BodyPart::Hand(side)];
         let lacks = |part: &&BodyPart| anatomy.part_joint(**part).is_none();
         let missing: Vec<String> = arm.iter().filter(lacks).map(BodyPart::to_string).collect();
+        // A skeleton without any arm on that side lacks nothing that could be read.
         if missing.is_empty() || missing.len() == arm.len() {
             return None;
         }
@@ -42,6 +43,7 @@ pub(super) fn unread_digit_findings(anatomy: &BodyAnatomy) -> Vec<ReportFinding>
         let (found, missing): (Vec<_>, Vec<_>) = thumb
             .chain(fingers)
             .partition(|(_, part)| anatomy.part_joint(*part).is_some());
+        // Hands without any digit, or with all of them, leave nothing to guess.
         if found.is_empty() || missing.is_empty() {
             return None;
         }

@@ -60,6 +60,7 @@ pub(in crate::import) fn report_odd_frames(
         ));
     }
     let distinct = lapses.moving.saturating_sub(lapses.repeated);
+    // A few repeated frames are moments of rest in the data; many show a lower rate of the capture.
     if lapses.repeated as f64 > MIN_REPEATED_FRAME_SHARE * lapses.moving as f64 && distinct > 1 {
         let rate = stored.rate.per_second() * distinct as f64 / lapses.moving as f64;
         report.findings.push(ReportFinding::finding_note(format!(
@@ -81,6 +82,7 @@ fn find_recording_lapses(
     let mut lapses = ClipLapses::default();
     for core in sound.clone().step_by(part) {
         let core = core..(core + part).min(sound.end);
+        // Frames on both sides show whether a movement at the border of a part goes on.
         let read = core.start.saturating_sub(beside).max(sound.start)..(core.end + beside).min(sound.end);
         let clip = stored.read_motion_clip(job.connection, read.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
         let clip_lapses = ClipLapses::find_clip_lapses(&clip, anatomy);

@@ -10,14 +10,17 @@ pub(super) fn root_scale(first: &Clip, anatomy: &BodyAnatomy, up: DVec3) -> Opti
     let [Some(right), Some(left)] = feet else {
         return None;
     };
+    // The middle of both feet tolerates a step or a bend of the body.
     let leg = rest.model_joint_position(0).distance(
         rest.model_joint_position(right)
             .midpoint(rest.model_joint_position(left)),
     );
+    // A root that never moves, or a file without frames, shows no height.
     first.joint_channel(0).translations.as_ref()?;
     first.clip_frame_count().checked_sub(1)?;
     let height = first.joint_translation(0, 0).dot(up).abs();
     let ratio = leg / height;
+    // Only ratios between millimetres, centimetres and metres are mistakes of a unit.
     [0.001, 0.01, 100.0, 1000.0]
         .into_iter()
         .find(|step| (step / 2.0..step * 2.0).contains(&ratio))

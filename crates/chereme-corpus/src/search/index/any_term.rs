@@ -63,6 +63,7 @@ impl Weight for AnyTerm {
                 Ok(Box::new(ConstScorer::new(docs, boost)))
             }
             several => {
+                // A union of many postings is slow; bits of all documents are filled one list after another.
                 let mut bits = BitSet::with_max_value(reader.max_doc());
                 for term in several {
                     let option = IndexRecordOption::Basic;

@@ -55,6 +55,7 @@ impl MemoryFolder {
                 .iter()
                 .filter_map(|path| files.data.get(path).map(|bytes| (name(path), bytes.clone())))
                 .collect(),
+            // A file that was deleted and written again is saved by the other list.
             deleted: deleted
                 .iter()
                 .filter(|path| !files.data.contains_key(*path))
@@ -64,6 +65,7 @@ impl MemoryFolder {
     }
 
     fn read_memory_files(&self) -> RwLockReadGuard<'_, MemoryFiles> {
+        // The files are whole even if a thread panicked while it held the lock.
         self.0.read().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 

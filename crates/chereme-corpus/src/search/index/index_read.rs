@@ -118,6 +118,7 @@ impl IndexFields {
             queries.collect()
         };
         let mut clauses = all(wanted, Occur::Must);
+        // The engine finds nothing by a query that only excludes.
         if clauses.is_empty() {
             clauses.push((Occur::Must, Box::new(AllQuery)));
         }
@@ -159,6 +160,7 @@ impl DocumentIndex for IndexReading<'_> {
         let mut matching_terms = BTreeSet::new();
         for segment in self.searcher.segment_readers() {
             let index = segment.inverted_index(self.fields.text_index_field(field))?;
+            // Terms are sorted, so that those with the prefix follow each other.
             let stream_result = index.terms().range().ge(prefix.as_bytes()).into_stream();
             let mut stream = stream_result.map_err(TantivyError::from)?;
             while stream.advance() {
@@ -227,6 +229,7 @@ impl IndexReading<'_> {
             return Ok(labels.clone());
         }
         let labels = Arc::new(read_labels(segment)?);
+        // Segments vanish when they are merged, and their labels with them.
         let live: BTreeSet<SegmentId> = self
             .searcher
             .segment_readers()
@@ -267,6 +270,7 @@ fn read_labels(segment: &SegmentReader) -> CorpusResult<SegmentLabels> {
 }
 
 fn count_ordinals(column: &StrColumn, docs: &[IndexDocument], labels: &SegmentLabels) -> Vec<(usize, usize)> {
+    // A table of all values costs more than sorting the few values of few documents.
     if docs.len() < MIN_TABLE_COUNT_DOCUMENTS {
         let mut all: Vec<u64> = docs.iter().flat_map(|doc| column.term_ords(doc.number)).collect();
         all.sort_unstable();
@@ -327,6 +331,7 @@ impl Collector for AllDocumentsCollector {
     fn merge_fruits(&self, fruits: Vec<DocumentList>) -> tantivy::Result<DocumentList> {
         let mut fruits = fruits.into_iter();
         let first = fruits.next().unwrap_or_default();
+        // Segments come in order, so that their documents stay sorted when they are joined.
         Ok(fruits.fold(first, |mut all, docs| {
             all.extend(docs);
             all

@@ -170,6 +170,7 @@ impl DerivedData for SearchIndex {
     fn refresh_derived_data(&mut self, connection: &Connection) -> CorpusResult<()> {
         let state = SearchIndexState::read_index_state(connection)?;
         if !is_index_state_current(&state) {
+            // A corpus without changes has no index yet, which is no fault that anybody should hear of.
             return self.mend_search_index(connection, state.content != 0);
         }
         if !self.is_open_at(state.indexed) {
@@ -186,6 +187,7 @@ impl DerivedData for SearchIndex {
     fn follow_operation(&mut self, connection: &Connection, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         let touched = rows::list_touched_tokens(connection)?;
         let state = SearchIndexState::read_index_state(connection)?;
+        // The changes of this operation are counted already, and the index may lack no others.
         let before: i64 = state.content - rows::count_token_touches(connection)?;
         if state.content == state.indexed {
             return Ok(());
@@ -249,6 +251,7 @@ impl OpenIndex {
             return Self::create_empty_index();
         }
         let index = Index::open(folder.clone())?;
+        // Files and rows are written together; a difference shows that something else wrote one of them.
         if index.load_metas()?.payload != Some(payload(indexed)) {
             let message = "its files are of another state than the rows";
             return Err(TantivyError::SystemError(message.to_owned()).into());
@@ -275,7 +278,9 @@ impl OpenIndex {
     }
 
     fn writer(&self, memory: usize) -> CorpusResult<IndexWriter> {
+        // One thread gives segments in the order of tokens, and equal files for equal rows.
         let writer = self.index.writer_with_num_threads(1, memory)?;
+        // Merges in the background would outlive the transaction that must hold their files.
         writer.set_merge_policy(Box::new(NoMergePolicy));
         Ok(writer)
     }
@@ -288,6 +293,7 @@ impl OpenIndex {
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<()> {
         let mut writer = self.writer(INDEX_WRITER_MEMORY_BYTES)?;
+        // A document cannot be changed: it is deleted, and added anew unless its token is gone.
         for &token in touched {
             writer.delete_term(Term::from_field_u64(self.fields.id, token as u64));
         }
@@ -299,6 +305,7 @@ impl OpenIndex {
         })?;
         commit(&mut writer, content)?;
         self.merge_small_segments(&mut writer)?;
+        // Files of merged segments would otherwise be saved into the corpus.
         writer.garbage_collect_files().wait()?;
         writer.wait_merging_threads()?;
         self.reader.reload()?;
@@ -319,6 +326,7 @@ impl OpenIndex {
             Ok(())
         })?;
         commit(&mut writer, content)?;
+        // One segment is read fastest, and a whole index is written rarely.
         let all = self.index.searchable_segment_ids()?;
         if all.len() > 1 {
             writer.merge(&all).wait()?;
@@ -385,6 +393,7 @@ impl OpenIndex {
                 document.add_text(fields.reading, term);
             }
             let facet = reading.facet.as_deref();
+            // Several readings may be printed alike, and a token counts once for each value.
             facets.extend(facet.filter(|facet| !facets.contains(facet)));
         }
         for facet in facets {

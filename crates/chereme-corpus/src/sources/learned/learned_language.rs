@@ -67,6 +67,7 @@ impl MovementSamples {
         let lexicon = stored_spans::lexicon_movements(connection, MOST_SPANS)?;
         let mut movements = on_tiers(&spans, inventories);
         movements.extend(in_lexicon(&lexicon));
+        // Movements of a recording follow each other, so that its track and body are read once.
         movements.sort_by_key(|movement| {
             (
                 movement.recording,
@@ -102,6 +103,7 @@ impl MovementSamples {
             return Ok(());
         };
         let kind = match movement.kind.as_str() {
+            // A hold needs no movement to be measured: its annotation is its duration.
             "hold" | "held" => {
                 let name = if movement.kind == "held" {
                     "time.end"
@@ -143,6 +145,7 @@ impl MovementSamples {
             .map(|measures| measures.arm)
             .filter(|arm| *arm > 0.0);
         if let (Some(found), Some(arm)) = (measurement, arm)
+            // A whole sign with several strokes does not show which of them the entry means.
             && (!movement.sign || found.strokes == 1)
         {
             self.add_measured_movement(body, movement, &found, arm);
@@ -164,6 +167,7 @@ impl MovementSamples {
         };
         let time = match movement.kind.as_str() {
             "straight" => {
+                // Lengths are shares of the arm, so that bodies of different sizes can be compared.
                 self.add_sample_value(sized(MOVEMENT_SIZE_NAMES[0]), body, found.length / arm);
                 "time.straight"
             }
@@ -183,6 +187,8 @@ impl MovementSamples {
             }
             "preparation" => {
                 let usual = BodyLanguage::default_body_language();
+                // What the path and the turn take by the usual numbers is taken away; the rest is the
+                // constant part.
                 let path_time = usual.time_transition_arm * found.length / arm;
                 let turn = usual.time_turn * found.turn / std::f64::consts::FRAC_PI_2;
                 let rest = (found.seconds - path_time - turn).max(LEAST_TRANSITION);
@@ -197,6 +203,7 @@ impl MovementSamples {
     }
 
     fn add_sample_value(&mut self, name: &'static str, body: &MeasuredBody, value: f64) {
+        // A number that no body language may have comes from a wrong annotation.
         let check_result = BodyLanguage::default_body_language().with_measured([(name, value)]);
         if check_result.is_ok() {
             let of = (body.signer.clone(), value);
@@ -273,6 +280,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Meas
     let id = |span: &MovementSpan| -> String {
         let span_inventory = inventories.iter().find(|stored| Some(stored.id) == span.inventory_id);
         let own_value = span_inventory.and_then(|stored| stored.inventory.find_inventory_value(span.value.trim()));
+        // A tier without an inventory may still use the usual names.
         let any = || {
             let same = inventories.iter().filter(|stored| {
                 stored.inventory.component == SignComponent::Movement && stored.inventory.feature == span.feature
@@ -308,6 +316,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Meas
                     && other.hand == span.hand
                     && other.feature.as_deref() == Some(feature)
             });
+            // An annotation that shares most of the movement's time describes it.
             let half = (span.end_us - span.start_us) / 2;
             near.find(|other| other.end_us.min(span.end_us) - other.start_us.max(span.start_us) > half)
                 .map(&id)
@@ -342,6 +351,7 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
             .all(|entry| entry.iter().filter(|row| row.feature.is_none()).count() == 1);
         let (kinds, sizes) = (values_of(None), values_of(Some("size")));
         let once = values_of(Some("repetition")).iter().all(|value| *value == "once");
+        // Round and repeated movements have no single stroke whose length could be measured.
         if let ([kind @ ("straight" | "arc")], [] | [_], true, true) = (kinds.as_slice(), sizes.as_slice(), alone, once)
         {
             movements.push(MeasuredMovement {
