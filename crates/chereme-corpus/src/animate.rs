@@ -65,6 +65,7 @@ impl Corpus {
             done.explanation += &format!("\nwarning: {finding}");
         }
         let texts = findings.iter().map(ToString::to_string);
+        // Findings about the notation come first, as they explain what the movement lacks.
         done.report.warnings.splice(0..0, texts);
         done.findings = findings;
         Ok(done)
@@ -164,6 +165,7 @@ fn notation_leaf(notation: &[&str], staging: &NotationStaging<'_>) -> CorpusResu
         None => {
             let (mut names, mut findings) = (Vec::new(), Vec::new());
             for name in notation {
+                // A single text was tried already, and a file is read as one.
                 let text = (notation.len() > 1 && !Path::new(name).is_file())
                     .then(|| plain_text(name))
                     .transpose()?;
@@ -196,6 +198,7 @@ fn understood_notation(text: &str) -> CorpusResult<(String, Vec<NotationFinding>
     let Some(error) = whole else {
         return Ok((text.to_owned(), findings));
     };
+    // The understood part is written anew, since the text as it stands cannot be read by the recipe either.
     let printed_text = hamnosys::print_hamnosys(&unspelled(&read.sign)?).text;
     if printed_text.is_empty() || hamnosys::parse_hamnosys(&printed_text).is_err() {
         return Err(CorpusError::from_wrong_message(error.to_string())
@@ -215,6 +218,7 @@ fn understood_notation(text: &str) -> CorpusResult<(String, Vec<NotationFinding>
 
 /// Returns a sign without its original spelling and odd symbols.
 fn unspelled(sign: &HamnosysSign) -> CorpusResult<HamnosysSign> {
+    // Fields that are only spelling are not serialised, so that a copy through JSON loses them.
     let tree = serde_json::to_value(sign).and_then(serde_json::from_value);
     tree.map_err(|error| CorpusError::from_wrong_message(format!("the notation cannot be copied: {error}")))
 }
@@ -225,6 +229,7 @@ fn odd_in_file(name: &str) -> CorpusResult<Vec<NotationFinding>> {
     let path = Path::new(name);
     if !path.is_file() {
         let ending = path.extension().and_then(|suffix| suffix.to_str());
+        // A gloss may have a point in it; a name with an ending of notation files is a mistyped path.
         if name.contains(char::is_whitespace) || !ending.is_some_and(|suffix| NOTATION_FILE_ENDINGS.contains(&suffix)) {
             return Ok(Vec::new());
         }
@@ -252,6 +257,7 @@ fn plain_text(notation: &str) -> CorpusResult<Option<String>> {
         let (mut signs, _) = notation::read_notation(path)?;
         let sign_texts: Vec<_> = signs.iter().filter_map(|sign| sign.text.as_deref()).collect();
         let joined_text = sign_texts.join(" ");
+        // HamNoSys that was broken into lines reads as several signs, and as one if the lines are joined.
         if signs.len() > 1 && hamnosys::parse_hamnosys(&joined_text).is_ok() {
             return Ok(Some(joined_text));
         }
@@ -259,6 +265,7 @@ fn plain_text(notation: &str) -> CorpusResult<Option<String>> {
         return Ok(one.and_then(|sign| sign.text));
     }
     let plain = hamnosys::in_plain_symbols(notation);
+    // The HamNoSys font has its symbols in the private use area of Unicode.
     let symbols = plain.chars().any(|c| ('\u{e000}'..='\u{f8ff}').contains(&c));
     let words: Vec<&str> = plain
         .split(|c: char| c.is_whitespace() || c == ',')

@@ -56,6 +56,7 @@ pub(crate) fn encode_any(frames: usize, columns: &[FrameNumberColumn]) -> Vec<u8
         ColumnNumbers::Decimals(decimals) if column.column_gaps().is_empty() => Some(decimals),
         _ => None,
     });
+    // Blocks of text files keep the bytes that earlier versions gave them, and so their names.
     if let Some(decimals) = plain.collect::<Option<Vec<&DecimalColumn>>>() {
         return encode_decimal_columns(frames, &decimals);
     }
@@ -118,6 +119,7 @@ fn put_decimals(bytes: &mut Vec<u8>, column: &DecimalColumn) {
 
 fn put_doubles(bytes: &mut Vec<u8>, values: &[f64]) {
     let short: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+    // Bits are compared, as -0 equals 0 and no number equals itself.
     let same = |(long, short): (&f64, &f32)| f64::from(*short).to_bits() == long.to_bits();
     if values.iter().zip(&short).all(same) {
         bytes.push(form::SHORT_DOUBLES);
@@ -151,6 +153,7 @@ plain!(i64, i32, f32, f64);
 
 fn put_code<T: PlainNumber>(bytes: &mut Vec<u8>, values: &[T]) {
     let first = values.first().copied().unwrap_or_default().to_plain_bytes();
+    // A joint that never turns is common, and one number stands for its column.
     let (coding, code) = if values.iter().all(|value| value.to_plain_bytes() == first) {
         (CONSTANT_COLUMN_CODE, first)
     } else {
@@ -202,6 +205,7 @@ fn read_all_columns<T>(
     count: usize,
     column: impl Fn(&mut &[u8]) -> Result<T, String>,
 ) -> Result<Vec<T>, String> {
+    // A damaged count must not reserve more memory than the block has bytes.
     let mut columns = Vec::with_capacity(count.min(rest.len()));
     for _ in 0..count {
         columns.push(column(&mut rest)?);
@@ -236,6 +240,7 @@ fn take_column(rest: &mut &[u8], frames: usize) -> Result<FrameNumberColumn, Str
     let mut runs: Vec<Range<u32>> = Vec::new();
     for _ in 0..take_u32(rest)? {
         let run = u32::from_le_bytes(take_byte_array(rest)?)..u32::from_le_bytes(take_byte_array(rest)?);
+        // Runs that touch would be one run, so that each column has one form only.
         if run.is_empty() || runs.last().is_some_and(|last| run.start <= last.end) {
             return Err("its gaps are out of order".into());
         }
@@ -243,6 +248,7 @@ fn take_column(rest: &mut &[u8], frames: usize) -> Result<FrameNumberColumn, Str
     }
     let gaps = ColumnGaps::from_gap_runs(runs);
     let column = FrameNumberColumn::new(numbers, gaps.clone()).map_err(|error| error.to_string())?;
+    // A number that is not finite becomes a gap when the column is built.
     if *column.column_gaps() != gaps {
         return Err("a number is not finite".into());
     }

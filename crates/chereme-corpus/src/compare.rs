@@ -142,10 +142,12 @@ pub fn merge_files(base: Option<(&str, &[u8])>, mine: (&str, &[u8]), theirs: (&s
 
 fn write_eaf(mine: &[u8], whole: &AnnotationTranscript) -> CorpusResult<Vec<u8>> {
     let fault = |error: eaf::EafError| CorpusError::from_wrong_message(error.to_string());
+    // A change in place keeps everything in the file that is not about annotations, byte by byte.
     if let Some(bytes) = patch_eaf(mine, whole).map_err(fault)? {
         return Ok(bytes);
     }
     let decoded = eaf::decode_eaf(mine).map_err(fault)?;
+    // A file that cannot be changed in place gives its header and constraints to a new one.
     let (template, _) = eaf_raw::read_eaf_document(decoded.text.as_bytes()).map_err(fault)?;
     let mut bytes = Vec::new();
     eaf_raw::write_eaf_document(&eaf_document_from_transcript(whole, &template), &mut bytes)
@@ -159,6 +161,7 @@ const TABLE_HEAD: usize = 1 << 14;
 /// Reads a document. Its contents determine its format; the ending of its name does if they do not.
 fn read_compared_document(name: &str, bytes: &[u8]) -> CorpusResult<(AnnotationTranscript, AnnotationFileFormat)> {
     let head = &bytes[..bytes.len().min(4096)];
+    // Files in UTF-16 have a zero in each of these letters.
     let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();
     let says = |word: &[u8]| plain.windows(word.len()).any(|window| window == word);
     let fault = |error: String| CorpusError::from_wrong_message(error).with_error_place(name);
@@ -167,6 +170,7 @@ fn read_compared_document(name: &str, bytes: &[u8]) -> CorpusResult<(AnnotationT
         return Ok((it, AnnotationFileFormat::TextGrid));
     }
     let table = &bytes[..bytes.len().min(TABLE_HEAD)];
+    // Text in an XML document may look like a table, so that its mark is looked for first.
     if !says(b"<?xml") && !says(b"<ANNOTATION_DOCUMENT") && annotations::is_export(table) {
         let (it, _) = annotations::read_elan_table(bytes).map_err(|error| fault(error.to_string()))?;
         return Ok((it, AnnotationFileFormat::Other));

@@ -53,6 +53,7 @@ impl Corpus {
             .map(|frame| frame + read.start)
             .filter(|frame| wanted.contains(frame))
             .collect();
+        // Both wrists may be slowest in the same frame.
         slow.sort_unstable();
         slow.dedup();
         let inside = wanted.start - read.start..wanted.end - read.start;

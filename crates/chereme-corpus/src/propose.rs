@@ -126,6 +126,7 @@ pub fn accepting_tier<'a>(
     };
     all.filter(|tier| {
         let alike = (&tier.role, side(tier.hand)) == (&proposals.role, side(proposals.hand));
+        // Annotations of symbolic tiers have no times, which a proposal has.
         let timed = tier.stereotype.is_none_or(|stereotype| stereotype.is_alignable());
         let same_person =
             tier.participant.is_none() || proposals.participant.is_none() || tier.participant == proposals.participant;
@@ -206,6 +207,8 @@ impl Corpus {
             facets: false,
             ..SearchOptions::default()
         };
+        // A bare word is both an address and a query; without an operator the failure as an address says
+        // more.
         let is_query = text.contains(['=', '~', '<', '>']);
         if let (Some(error), false) = (unaddressed, is_query) {
             return Err(error);
@@ -285,6 +288,7 @@ impl Corpus {
                     }
                 }
                 Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
+                // One token that cannot be read must not stop the proposals for all others.
                 Ok(None) | Err(_) => report.unread += 1,
             }
         }
@@ -313,6 +317,7 @@ impl Corpus {
         report.annotations = changes.len() as u64;
         for change in &changes {
             if let AnnotationAction::Add { confidence, .. } = &change.action {
+                // A confidence of 1 belongs to the highest tenth.
                 let tenth = confidence.map(|sure| format!("{:.1}", (sure * 10.0).floor().min(9.0) / 10.0));
                 *report
                     .by_confidence
@@ -356,6 +361,7 @@ impl Corpus {
         };
         let query = format!("not {}=*", component.component_name());
         let answer = self.search_until(&query, &options, progress)?;
+        // A rejected or disputed proposal would only come back.
         let opinions = signs::tokens_with_opinion(self.store.read_connection(), component.component_name())?;
         let is_in = |hit: &SearchHit| match scope {
             _ if opinions.contains(&hit.token) => false,
@@ -456,8 +462,10 @@ impl Corpus {
         let mut read = Vec::new();
         for (subject, mut values) in subjects {
             values.sort_by_key(|(order, _)| *order);
+            // Phases of one value are one annotation.
             values.dedup_by(|a, b| a.1 == b.1);
             let count = values.len() as i64;
+            // Notation orders the values of a sign without times, so that its length is shared evenly.
             let part_time = |part: i64| start + (end - start) * part / count;
             for (nth, (_, value)) in (0..).zip(values) {
                 let (start, end) = (part_time(nth), part_time(nth + 1));
@@ -527,6 +535,7 @@ impl Corpus {
         for id in proposals.drain(..) {
             let row = stored_tiers::load_annotation_row(connection, id)?;
             let tier = stored_tiers::load_tier_row(connection, row.tier_id)?;
+            // A tier that is created for them has room for all.
             let Some(to) = self.find_accepting_tier(&tier)? else {
                 room.push(id);
                 continue;
@@ -542,6 +551,7 @@ impl Corpus {
                 .iter()
                 .all(|(start, end)| *end <= row.start_us || *start >= row.end_us)
             {
+                // Accepted proposals take up room themselves.
                 times.push((row.start_us, row.end_us));
                 room.push(id);
             }
@@ -588,6 +598,7 @@ impl Corpus {
             let known_tier = self.find_accepting_tier(&tier)?;
             let to = match &known_tier {
                 Some(known) => known.name.clone(),
+                // The name belongs to a tier of another subject or annotator.
                 None if all.iter().any(|row| row.name == name) => format!("{name} (accepted)"),
                 None => name.to_owned(),
             };
@@ -715,11 +726,13 @@ fn proposal_confidence(
     };
     let sure = |reading: &TranscribedFeature| {
         let (first, second) = (reading.value.residual, reading.runner_up.as_ref()?.residual);
+        // Two residuals of 0 divide zero by zero; the second is never better than the first.
         let share = second / (first + second);
         share.is_finite().then_some(share.clamp(0.5, 1.0))
     };
     let within = |reading: &&TranscribedFeature| !timed || (reading.at_us >= start && reading.at_us < end);
     let of_kind = features.iter().filter(|reading| kinds.contains(&reading.feature));
+    // A value is as sure as the least sure of the features that it is made of.
     let least = of_kind.filter(within).filter_map(sure).reduce(f64::min);
     least.map(|value| (value * 1000.0).round() / 1000.0)
 }

@@ -198,6 +198,7 @@ impl Corpus {
             return Ok(None);
         };
         let connection = self.store.read_connection();
+        // Consent is judged from stored rows, so that the sign has to be one for a moment.
         run_and_roll_back(connection, || {
             let (recording, ..) = store_generated_sign(connection, &written, &resolved, &made, recipe)?;
             let gate = OutputGate::open_output_gate(connection, audience)?;
@@ -209,6 +210,7 @@ impl Corpus {
     pub(crate) fn recipe_sources(&mut self, recipe: &str) -> CorpusResult<BTreeSet<i64>> {
         let mut sources = BTreeSet::new();
         if let Ok((resolved, ..)) = self.evaluate_recipe_text(recipe) {
+            // Tokens that give a posture or a place count too, though nothing of their movement is used.
             let given = resolved.resolved_inputs().0.values();
             let given = given.flat_map(RecipeInput::input_giver_addresses);
             for address in moving_inputs(&resolved)
@@ -335,6 +337,7 @@ fn store_generated_sign(
     store_movement(connection, recording, resolved, made)?;
     let inventories = inventories::load_all_inventories(connection)?;
     store_tiers(connection, recording, made, gloss, &inventories)?;
+    // The token follows from the gloss, so that it comes after the tiers and before the phases of its keys.
     tokens::update_recording_tokens(connection, recording, None, &inventories)?;
     sources_cue_phases::store_cue_phases(connection, recording)?;
     store_recipe(connection, recording, recipe, resolved, made)?;
@@ -393,7 +396,9 @@ fn store_movement(
             SpaceConvention::MODEL_CONVENTION,
         ),
     };
+    // The movement goes back into the unit and axes of its source, whose skeleton it shares then.
     let clip = convention.clip_back(&made.clip);
+    // A recipe may move joints that the source keeps in place, which need channels of their own.
     let hierarchy = bvh_convert::widen_hierarchy(&hierarchy, &clip);
     let fault = |error: bvh_convert::BackError| CorpusError::from_wrong_message(error.to_string());
     let columns = bvh_convert::columns_from_clip(&clip, &hierarchy, GENERATED_DECIMALS).map_err(fault)?;
@@ -402,6 +407,7 @@ fn store_movement(
         .iter()
         .map(|(group, joints)| (group.channel_group_name(), joints))
         .collect();
+    // Parts were found on the source; names alone might find others on this hierarchy.
     let roles: BTreeMap<String, String> = made
         .anatomy
         .found_parts()
@@ -501,12 +507,14 @@ fn store_notes(
                 (stored_tiers::insert_tier(connection, &tier)?, Vec::new())
             }
         };
+        // Annotations of people on such a tier stay, and generated ones make way for them.
         let taken = |start: i64, end: i64| {
             said.iter()
                 .any(|annotation| annotation.start_us < end && annotation.end_us > start)
         };
         let mut free_from = full_span.span_start_instant();
         for note in notes {
+            // Annotations of one tier may not overlap, and notes of successive pieces may.
             let (start, end) = (
                 note.span.span_start_instant().max(free_from),
                 note.span.span_end_instant().min(full_span.span_end_instant()),
@@ -572,6 +580,7 @@ fn note_tier(
 ) -> TierRow {
     let mut tier = new_tier(recording, name, position);
     let NoteSubject::Component(component, feature) = &note.about else {
+        // Keys of cued speech are the glosses from which its tokens follow.
         let is_key = note.about == NoteSubject::Cue(CueTier::Keys);
         tier.role = match is_key {
             true => TierRole::Gloss,
@@ -590,6 +599,7 @@ fn note_tier(
     };
     let hand = note.hand.filter(|_| manual);
     tier.hand = hand.map(|side| AnnotatedHands::One(side.into()));
+    // A value that is unknown or does not apply belongs to no inventory.
     tier.inventory_id = inventories
         .iter()
         .find(|stored| is_value && Some(stored.inventory.id.as_str()) == builtin)

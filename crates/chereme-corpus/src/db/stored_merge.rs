@@ -48,6 +48,7 @@ pub(crate) fn find_common_operation(mine: &Connection, other: &Connection) -> Co
         Ok(rows.collect::<rusqlite::Result<_>>()?)
     };
     let (a, b) = (read(mine)?, read(other)?);
+    // Histories are equal from their beginning up to the moment at which one file was copied.
     let shared = a.iter().zip(&b).take_while(|(x, y)| x.1 == y.1).last();
     if let Some((x, y)) = shared {
         return Ok(Some((x.0, y.0)));
@@ -70,6 +71,7 @@ pub(crate) fn merged_before(connection: &Connection, after: i64, other: &Connect
             .prepare_cached(sql)?
             .query_row(params![&key[MERGED_OPERATION_PREFIX.len()..], after], |row| row.get(0))
             .optional()?;
+        // `None` is less than any number.
         newest = newest.max(merged_operation);
     }
     Ok(newest)
@@ -122,6 +124,7 @@ impl<'c> MergeSide<'c> {
                         let gone_uid = before.is_some().then(|| uid.clone());
                         gone.entry((change.table.clone(), id)).or_insert(gone_uid);
                     }
+                    // Only the state before the first change counts; later ones happened within this side.
                     first.entry((change.table, uid)).or_insert(before);
                 }
                 Ok(())
@@ -207,6 +210,7 @@ impl<'c> MergeSide<'c> {
 
     /// Associates a uid with a row from now on; nothing means that the row was removed.
     pub(crate) fn remember_row_uid(&self, table: &str, uid: &str, id: Option<i64>) -> CorpusResult<()> {
+        // The table is read into memory first, or the new entry would stand for the whole of it.
         self.find_row_id(table, uid)?;
         if let Some(all) = self.ids.borrow_mut().get_mut(table) {
             match id {
@@ -239,6 +243,7 @@ impl<'c> MergeSide<'c> {
 
     /// Replaces row numbers by uids; `gone` holds the uids of row numbers that stood for other rows earlier.
     fn by_uid(&self, table: &str, mut image: RowImage, gone: &EarlierRowUids) -> CorpusResult<RowImage> {
+        // Row numbers differ between copies of a corpus.
         image.remove("id");
         for (column, value) in &mut image {
             let Some(other) = refers_to(table, column) else {
@@ -272,6 +277,7 @@ pub(crate) fn uid_of(connection: &Connection, table: &str, id: i64) -> CorpusRes
 /// Inserts a row whose references are row numbers, and returns its number.
 pub(crate) fn insert_row_image(connection: &Connection, table: &str, image: &RowImage) -> CorpusResult<i64> {
     let all = load_table_columns(connection, table)?;
+    // A new row gets a number of its own, which the other corpus does not know.
     let image_columns: Vec<_> = all
         .iter()
         .filter(|column| image.contains_key(&column.name) && column.name != "id")
@@ -334,6 +340,7 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
     };
     let conditions: Vec<String> = keys
         .iter()
+        // `IS` also compares missing values, as of a sign without a lexicon.
         .map(|key| format!("{key} IS json_extract(?1, '$.{key}')"))
         .collect();
     let sql = format!("SELECT id FROM main.{table} WHERE {}", conditions.join(" AND "));
@@ -427,6 +434,7 @@ fn copy_rows(original: StoredRowPlace<'_>, copy: StoredRowPlace<'_>, part: &str,
         [new],
         |row| row.get(0),
     )?;
+    // Parts without uids cannot be matched one by one, so that those of this side stay as they are.
     if row_count > 0 {
         return Ok(());
     }
@@ -471,6 +479,7 @@ pub(crate) fn token_of(connection: &Connection, annotation: i64) -> CorpusResult
 
 /// Returns the entries of the corpus's own notes whose keys begin with `prefix`, by key.
 pub(crate) fn list_corpus_notes(connection: &Connection, prefix: &str) -> CorpusResult<Vec<(String, String)>> {
+    // A prefix of letters such as `_` would be a wildcard of LIKE.
     let sql = "SELECT key, value FROM meta WHERE substr(key, 1, length(?1)) = ?1 ORDER BY key";
     let mut statement = connection.prepare_cached(sql)?;
     let rows = statement.query_map([prefix], |row| Ok((row.get(0)?, row.get(1)?)))?;
@@ -483,6 +492,7 @@ pub(crate) fn set_note(connection: &Connection, key: &str, value: &str) -> Corpu
         .prepare_cached("SELECT value FROM meta WHERE key = ?1")?
         .query_row([key], |row| row.get(0))
         .optional()?;
+    // An update that changes nothing would still be recorded as a change.
     let sql = match stored_value {
         Some(known) if known == value => return Ok(()),
         Some(_) => "UPDATE meta SET value = ?2 WHERE key = ?1",

@@ -47,6 +47,7 @@ pub(crate) fn remove_blocks(connection: &Connection, track: i64) -> CorpusResult
 
 /// Stores the bytes of a block unless they are stored already, and returns its name.
 fn insert_bytes(connection: &Connection, data: &[u8]) -> CorpusResult<Vec<u8>> {
+    // Blocks are named by their content, so that equal movement is stored once.
     let hash = Sha256::digest(data).to_vec();
     connection
         .prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
@@ -62,6 +63,7 @@ pub(crate) fn visit_track_blocks(
     frames: &Range<usize>,
     mut take: impl FnMut(BlockRow) -> CorpusResult<()>,
 ) -> CorpusResult<()> {
+    // The block that holds the first frame begins before it: the last one that does not begin after it.
     let mut statement = connection.prepare_cached(
         "SELECT t.first_frame, t.frames, t.hash, b.data
          FROM track_block t JOIN block b ON b.hash = t.hash
@@ -126,6 +128,7 @@ fn digest_nonmanuals(connection: &Connection, track: i64, digest: &mut Sha256) -
 fn digest_track(connection: &Connection, curves: i64, digest: &mut Sha256) -> CorpusResult<()> {
     for channel in stored_tracks::load_channel_rows(connection, curves)? {
         digest.update(channel.name.as_bytes());
+        // A zero ends each name, so that two names cannot run into one.
         digest.update([0]);
     }
     let sql = "SELECT hash FROM track_block WHERE track_id = ?1 ORDER BY channel_group, first_frame";

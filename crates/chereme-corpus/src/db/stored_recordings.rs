@@ -351,6 +351,7 @@ fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
 pub(crate) fn lexicon_files(connection: &Connection) -> CorpusResult<Vec<SourceFileRow>> {
     let mut rows = source_files_where(connection, "data IS NOT NULL AND kind = ?1", "lexicon")?;
     let place = |row: &SourceFileRow| row.path.clone().unwrap_or_else(|| row.name.clone());
+    // Rows come oldest first, so that the newest of each place is the one that remains in the map.
     let newest: BTreeMap<String, i64> = rows.iter().map(|row| (place(row), row.id)).collect();
     rows.retain(|row| newest.get(&place(row)) == Some(&row.id));
     Ok(rows)
@@ -386,6 +387,7 @@ pub(crate) fn source_bytes(connection: &Connection, id: i64) -> CorpusResult<Opt
     let Some(data) = data else { return Ok(None) };
     let fault = |reason: String| damaged_row_error(format!("the stored file {name:?}"), reason);
     let mut bytes = Vec::new();
+    // A few damaged bytes could decompress into more than any memory holds.
     let read =
         zstd::Decoder::new(data.as_slice()).and_then(|reader| reader.take(LARGEST_SOURCE).read_to_end(&mut bytes));
     read.map_err(|error| fault(error.to_string()))?;

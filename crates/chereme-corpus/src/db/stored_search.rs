@@ -22,6 +22,7 @@ pub(crate) fn list_touched_tokens(connection: &Connection) -> CorpusResult<Vec<i
 
 /// Returns the number of row changes of the running operation that the schema's counter has counted.
 pub(crate) fn count_token_touches(connection: &Connection) -> CorpusResult<i64> {
+    // These are the changes that the triggers of the schema count, which a change of either must keep equal.
     let count = connection
         .prepare_cached(
             "SELECT count(*) FROM temp.change
@@ -76,6 +77,7 @@ pub(crate) fn begin_reading(connection: &Connection) -> CorpusResult<Transaction
 
 /// Returns the names of the index's files.
 pub(crate) fn file_names(connection: &Connection) -> CorpusResult<Vec<String>> {
+    // Performances of faces lie beside the index's files, and are no part of it.
     let mut statement = connection.prepare_cached("SELECT path FROM search_file WHERE path NOT LIKE 'faces/%'")?;
     let names = statement
         .query_map([], |row| row.get(0))?

@@ -91,6 +91,7 @@ fn store_again(
         ));
     }
     store_notes(connection, target.id, made, &inventories)?;
+    // A tier whose generated annotations did not come back holds nothing any more.
     for tier in cleared.tiers {
         remove_bare(connection, target.id, tier)?;
     }
@@ -149,12 +150,15 @@ fn clear_tiers(connection: &Connection, target: &RecordingRow, end: i64) -> Corp
     let mut cleared = ClearedAnnotations::default();
     for tier in stored_tiers::load_tier_rows(connection, target.id)? {
         for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
+            // The gloss names the sign and stays; all else that was generated follows the new movement.
             let came = row.origin == AnnotationOrigin::Made && tier.role != TierRole::Gloss;
+            // An annotation that people wrote others below stays as their parent.
             if came && stored_tiers::load_child_annotations(connection, row.id)?.is_empty() {
                 remove_cleared_annotation(connection, &row)?;
                 cleared.tiers.insert(tier.id);
                 continue;
             }
+            // A generated gloss spans the whole sign, and is as long as the new one.
             let is_full_length = row.origin == AnnotationOrigin::Made && row.end_us == target.duration_us;
             if !is_full_length && row.end_us > end {
                 cleared.shortened += 1;

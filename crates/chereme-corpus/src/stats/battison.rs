@@ -138,6 +138,7 @@ impl HandFieldRoles {
     pub(super) fn type_of(&self, row: &SignForm) -> Option<SignType> {
         let value = &row.cells[self.sign_type?];
         let is_slip = self.slips.contains(value);
+        // A slip counts as a value of its own, so that its type would be reported twice.
         sign_type(value).filter(|_| !is_slip)
     }
 }
@@ -179,6 +180,7 @@ fn hand_condition(rows: &[&SignForm], [strong, weak]: [usize; 2], of: SignType, 
     let is_unmarked = |row: &&SignForm| unmarked.contains(&row.cells[weak]);
     let is_same = |row: &&SignForm| row.cells[strong] == row.cells[weak];
     let (same, different): (Vec<&SignForm>, Vec<&SignForm>) = given.iter().partition(|row| is_same(row));
+    // Symmetry demands equal handshapes; dominance also allows a weak hand with an unmarked one.
     let keeps = |row: &&SignForm| of == SignType::Asymmetrical && is_unmarked(row);
     let exception_rows = different.iter().filter(|row| !keeps(row));
     let exceptions: Vec<TwoHands> = exception_rows

@@ -165,6 +165,7 @@ fn cross_table_cells(both: &SignForms, rows: &[FieldValue], columns: &[FieldValu
     }
     let n = both.rows.len() as f64;
     let cell = |((row, column), count): ((usize, usize), usize)| CrossCell {
+        // The product of both shares, as if the fields had nothing to do with each other.
         expected: rows[row].count as f64 * columns[column].count as f64 / n,
         row: rows[row].value.clone(),
         column: columns[column].value.clone(),

@@ -216,9 +216,11 @@ impl Corpus {
             .cloned()
             .collect();
         let mut wanted = named_fields(&options.fields);
+        // A title of a column alone shows that the columns of the table are meant, not the fields of queries.
         if wanted.is_empty() && !named.is_empty() {
             wanted = self.columns_with(&named)?.unwrap_or_default();
         }
+        // Fields behind this number are only associated, and make no form.
         let set = wanted.len();
         if set > 0 {
             // The fields of an association need not be among those that make a form.
@@ -228,7 +230,9 @@ impl Corpus {
             wanted.extend(more);
         }
         let mut forms = self.load_sign_forms(&wanted, tokens.as_deref(), &options.scope, progress)?;
+        // Shuffles with one seed give one result only if the entries are always in one order.
         forms.rows.sort();
+        // Without named fields, all that were loaded make a form.
         let set = if set == 0 { forms.fields.len() } else { set };
         compute_form_statistics(&forms, set, options, progress)
     }
@@ -302,6 +306,7 @@ fn compute_form_statistics(
         false => None,
     };
     let is_overview = of.is_none() && between.is_none() && battison.is_none();
+    // Oddities of fields that nobody asked about would hide those that matter here.
     let shown: Vec<usize> = match is_overview || battison.is_some() {
         true => (0..set).collect(),
         false => (options.of.iter())

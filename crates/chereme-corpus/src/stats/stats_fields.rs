@@ -93,6 +93,7 @@ pub(super) fn count_field_values(forms: &SignForms, field: usize) -> Vec<(&str, 
     }
     counts.remove("");
     let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
+    // The sort is stable, so that equal counts stay in the order of their values.
     counts.sort_by_key(|(_, count)| Reverse(*count));
     counts
 }
@@ -174,6 +175,7 @@ pub(super) fn in_depth(
     let reason = contrast_result.as_ref().err().copied().map(why_forms);
     let text = |number: u32| compared.texts[number as usize].to_owned();
     let contrast = |pair: chereme_analysis::statistics::ValueContrast| {
+        // Numbers follow the order of entries, and texts give one order in every lexicon.
         let mut sides = pair.values.map(text);
         sides.sort();
         let [a, b] = sides;

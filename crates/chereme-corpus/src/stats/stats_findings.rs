@@ -73,6 +73,7 @@ pub(super) fn field_slips(forms: &SignForms, at: usize) -> Vec<ValueSlip<'_>> {
     let mut slip_list = Vec::new();
     for (value, count) in count_field_values(forms, at) {
         let (spelling, uses) = *common.entry(fold_text(value)).or_insert((value, count));
+        // The common spelling itself has a ratio of 1, and is never its own slip.
         if uses >= SLIP_FREQUENCY_RATIO * count {
             slip_list.push(ValueSlip {
                 value,

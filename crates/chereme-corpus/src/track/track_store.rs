@@ -98,6 +98,7 @@ fn markers_track(
     new: &NewTrack,
     markers: &MarkerTrack,
 ) -> CorpusResult<i64> {
+    // Points on a picture are in pixels, which have no unit of length and no axes.
     let (convention, frame): (Option<SpaceConvention>, Option<PointPictureSize>) = match markers.marker_space() {
         MarkerSpace::World(convention) => (Some(*convention), None),
         MarkerSpace::Image(frame) | MarkerSpace::Depth(frame) => (None, Some(*frame)),
@@ -187,6 +188,7 @@ impl ChannelGroupNamer {
             part => format!("{kind} {part}"),
         };
         let count = self.0.entry(name.clone()).or_default();
+        // The first group has no number, so that small files have groups called as their parts.
         let number = *count / MAX_GROUP_CHANNELS;
         *count += 1;
         match number {
@@ -243,6 +245,7 @@ fn store_track_numbers(
         rows.push(channel);
     }
     stored_tracks::insert_channels(connection, track, &rows)?;
+    // Even times follow from the rate, and need no column.
     if let FrameTimes::Listed(listed) = times {
         groups.insert(TIME_GROUP_NAME.to_owned(), vec![listed.listed_seconds()]);
     }
@@ -284,11 +287,13 @@ fn skeleton_track(
     if clip.clip_frame_count() == 0 {
         return Err(no_frames(name));
     }
+    // Parts of the body are found in metres and model space, whatever the file's unit and axes.
     let shown = convention.file_clip_to_model(&clip.slice_clip_frames(0..1));
     let given_roles = roles.clone().unwrap_or_default();
     let anatomy = BodyAnatomy::with_roles(shown.clip_skeleton(), &given_roles)
         .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     let groups = movement::channel_groups(shown.clip_skeleton(), &anatomy);
+    // The stored skeleton keeps the unit and axes of the file, like its movement.
     let document = skeleton_document_text(clip.clip_skeleton())?;
     let hash = to_hex_text(&Sha256::digest(document.as_bytes()));
     let joints = clip.clip_skeleton().len();
@@ -342,6 +347,7 @@ pub(crate) fn skeleton_blocks(
 
 /// Returns the document of a skeleton: like that of a BVH file without channels, plus the rest rotations.
 fn skeleton_document_text(skeleton: &chereme_motion::Skeleton) -> CorpusResult<String> {
+    // The shortest decimal that gives the same float again is exact.
     let exact = |value: f64| {
         value
             .to_string()
@@ -349,6 +355,7 @@ fn skeleton_document_text(skeleton: &chereme_motion::Skeleton) -> CorpusResult<S
             .unwrap_or(FileNumber::ZERO_NUMBER)
     };
     let place = |at: chereme_motion::glam::DVec3| at.to_array().map(exact);
+    // The decimals do not count, since every offset is replaced by the exact one below.
     let mut hierarchy = bvh_convert::hierarchy_from_skeleton(skeleton, 0);
     for (raw, joint) in hierarchy.joints.iter_mut().zip(skeleton.skeleton_joints()) {
         raw.name.clone_from(&joint.name);
@@ -358,6 +365,7 @@ fn skeleton_document_text(skeleton: &chereme_motion::Skeleton) -> CorpusResult<S
     }
     let fault = |error: serde_json::Error| CorpusError::from_wrong_message(error.to_string());
     let mut document = serde_json::to_value(&hierarchy).map_err(fault)?;
+    // BVH has no rest rotations, so that they are added beside its fields.
     let joints = document["joints"].as_array_mut().into_iter().flatten();
     for (raw, joint) in joints.zip(skeleton.skeleton_joints()) {
         raw["rest"] = json!(joint.rest.to_array());

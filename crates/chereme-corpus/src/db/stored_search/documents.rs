@@ -63,6 +63,7 @@ pub(crate) fn visit_token_documents(
             }
         }
         None => {
+            // Tokens and values come in the same order from two statements, and are read side by side.
             let mut statement = connection.prepare(&format!("{SELECT_DOCUMENT_TOKENS_SQL} ORDER BY t.id"))?;
             let mut value_statement =
                 connection.prepare(&format!("{SELECT_DOCUMENT_VALUES_SQL} ORDER BY token_id, id"))?;
@@ -258,6 +259,7 @@ impl<'c> TokenDocumentReader<'c> {
             .map(|id| self.shared_recording_context(id))
             .transpose()?;
         let surroundings = around.as_ref();
+        // In a recording of several people, the tier's participant signs, and not the recording's signer.
         let left_handed = match token.participant {
             Some((_, left_handed)) => left_handed,
             None => surroundings.is_some_and(|around| around.left_handed),
@@ -318,11 +320,13 @@ impl<'c> TokenDocumentReader<'c> {
                 .marks
                 .push(self.shared_mark_term(TokenProperty::Inventory, &name));
         }
+        // What is annotated of the token as a whole outweighs the hands of its coded values.
         if let Some(hand) = token.hand {
             coded = TokenHandRoles::default();
             coded.add_tier_hands(Some(hand), left_handed);
         }
         let names = coded.hand_role_names(left_handed);
+        // The last name is the one by part in signing.
         document.hand = names.last().copied();
         for name in names {
             document.marks.push(self.shared_mark_term(TokenProperty::Hand, name));
@@ -469,8 +473,10 @@ impl<'c> TokenDocumentReader<'c> {
         let (hand, component, part, phase) = (text(1)?, text(2)?, text(3)?, text(4)?);
         let position: i64 = row.get(5)?;
         let (state, value) = (text(6)?, text(7)?);
+        // One buffer serves all keys, as a key is built for each of millions of values.
         self.key.clear();
         for piece in [hand, component, part, phase, state, value] {
+            // Control letters keep a missing piece apart from an empty one, and pieces from each other.
             self.key.push_str(piece.unwrap_or("\u{2}"));
             self.key.push('\u{1}');
         }
