@@ -77,6 +77,7 @@ pub(super) fn import_as(
     let maps = job.options.mapping.mapping_entry_names().next().is_some();
     let here = job.places.find_file_at(&job.place, job.kind).cloned();
     let takes = job.options.own_edits == OwnEdits::Theirs;
+    // The rest is only skipped if no option could change what the same bytes become.
     if let Some(here) = here.filter(|row| row.hash == job.hash && !maps && !takes)
         && let Some(report) = eaf_target::report_unchanged_target(job, &here)?
     {
@@ -111,6 +112,7 @@ pub(super) fn import_as(
     };
     let there = standing_tiers(job, recording, &transcript, base.as_ref(), &renames, &mut report)?;
     if let Some(base) = target.base.as_ref().filter(|_| same && !takes) {
+        // Of the same file, only the mapping can bring something new.
         if remap_tier_roles(job, &there, &transcript, &guesses, &mut report)? == 0 {
             let mut same = FileReport::unchanged_file_report(job.path, target.earlier_path_elsewhere(job));
             same.recording = report.recording;
@@ -125,11 +127,13 @@ pub(super) fn import_as(
                 base.path.as_ref().unwrap_or(&base.name)
             )),
         );
+        // The roles decide which annotations are glosses, so the tokens depend on the mapping.
         tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
         return Ok(report);
     }
     warn_of_length(job, recording, &transcript, &mut report)?;
     let counted = job.counts.total_row_changes();
+    // The report counts only tokens that this file adds to those that were there.
     let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     if there.is_empty() {
         let tiers = write_tiers(job, recording, &there, &transcript, &guesses, &mut report)?;
@@ -142,6 +146,7 @@ pub(super) fn import_as(
             guesses: &guesses,
         };
         update_from_transcript(job, recording, there, &edited, &mut report, progress)?;
+        // A refused file leaves neither a length nor tokens behind.
         if report.status == FileStatus::Refused {
             return Ok(report);
         }
@@ -154,6 +159,8 @@ pub(super) fn import_as(
         report.findings.extend(unlinked);
     }
     job.count_created_rows("tokens", derived.saturating_sub(before));
+    // Taking the same file again may restore removed annotations, which is a change although the bytes are
+    // the same.
     if same && job.counts.total_row_changes() == counted {
         let mut unchanged = FileReport::unchanged_file_report(job.path, target.earlier_path_elsewhere(job));
         unchanged.recording = report.recording;
@@ -207,12 +214,15 @@ fn update_from_transcript(
     let own_edits = job.options.own_edits;
     let merge = own_edits == OwnEdits::Merge;
     let before = settle::RecordingBeforeUpdate::read_before_update(job.connection, recording)?;
+    // They lie outside of the database, so the savepoint does not restore them.
     let (counts, inventories) = (job.counts.clone(), job.inventories.clone());
     // A token refers to its annotation until tokens are derived again.
     edits::defer_references(job.connection)?;
+    // Which edits would be lost is known only after the update, which must then be taken back.
     job.connection.execute_batch("SAVEPOINT edits")?;
     let mut notes = renames::write_tier_renames(job.connection, renames, &mut there)?;
     let tier_rows = write_tiers(job, recording, &there, transcript, guesses, report)?;
+    // Without a merge the file decides, so its parents hold whatever the earlier version says.
     renames::write_parents(
         job.connection,
         transcript,
@@ -234,6 +244,7 @@ fn update_from_transcript(
     report.status = FileStatus::Updated;
     let lost_edits = updated.edits.iter().filter(|edit| edit.outcome == EditOutcome::Lost);
     let lost: Vec<String> = lost_edits.map(ToString::to_string).collect();
+    // With either of these options the user has decided about lost edits before.
     if lost.is_empty() || matches!(own_edits, OwnEdits::Theirs | OwnEdits::Merge) {
         job.connection.execute_batch("RELEASE edits")?;
         let ours = updated.written.clone();
@@ -253,6 +264,7 @@ fn update_from_transcript(
         updated.report_update_changes(&sides, report);
         return before.check_broken_tier_rules(job.connection, &ours, merge);
     }
+    // Rolling back alone would leave the savepoint open.
     job.connection.execute_batch("ROLLBACK TO edits; RELEASE edits")?;
     (job.counts, job.inventories) = (counts, inventories);
     let many = match lost.len() {
@@ -281,6 +293,7 @@ fn update_from_transcript(
         ));
         update::pass_first_lines(&lost, &mut |line| lines.push(ReportFinding::finding_note(line)));
     }
+    // The reason of the refusal matters more than the oddities that were found before it.
     report.findings.splice(0..0, lines);
     Ok(())
 }
@@ -295,6 +308,7 @@ fn guess_tier_roles(
     let property = transcript.properties.iter().find(|(key, _)| key == TIER_ROLES_PROPERTY);
     let file_mapping = property.map(|(_, text)| TierMapping::from_json(&format!("{{\"tiers\": {text}}}")));
     let mapping = match file_mapping {
+        // The caller knows better than the file, whose statement fills in only what the caller leaves out.
         Some(Ok(own)) => job.options.mapping.completed_by(&own),
         Some(Err(error)) => {
             report.findings.push(ReportFinding::finding_warning(
@@ -313,6 +327,7 @@ fn guess_tier_roles(
     let mut guesses = roles::guess_tiers(transcript, &mapping);
     for guess in guesses.iter_mut().filter(|guess| guess.role.is_none()) {
         let named_roles = stored_tiers::roles_named(job.connection, &guess.tier)?;
+        // Tiers of one name with different roles say nothing about another tier of that name.
         let [one] = named_roles.as_slice() else {
             continue;
         };
@@ -338,6 +353,7 @@ fn warn_of_length(
     let spans = transcript.tiers.iter().flat_map(|tier| &tier.annotations);
     let last_end = spans.map(|annotation| annotation.span.span_end_instant()).max();
     let end = last_end.unwrap_or(RecordingInstant::RECORDING_START);
+    // A small overhang is usual, since annotators often mark beyond the last frame.
     if end.instant_micros() > row.duration_us.saturating_add(MAX_OVERHANG_US) {
         let length = RecordingInstant::from_micros(row.duration_us);
         report.findings.push(ReportFinding::finding_warning(
@@ -374,6 +390,7 @@ fn find_or_add_recording(
     {
         Some(name) => {
             let stated_hand = options.handedness.clone().or_else(|| property(HANDEDNESS_PROPERTY));
+            // A file of another program may have any text in this property.
             let hand = stated_hand.filter(|hand| ["right", "left"].contains(&hand.as_str()));
             let new = stored_recordings::find_signer(job.connection, &name)?.is_none();
             job.count_created_rows("signers", usize::from(new));
@@ -383,9 +400,11 @@ fn find_or_add_recording(
         }
         None => None,
     };
+    // An origin that is not understood counts as not stated, so that the annotations are still imported.
     let file_origin = property(ORIGIN_PROPERTY).and_then(|origin| RecordOrigin::parse_recording_origin(&origin).ok());
     let origin = options.origin.or(file_origin);
     let licence = options.licence.clone().or_else(|| property(LICENCE_PROPERTY));
+    // What the caller states counts more than what was found beside the file.
     let paired = match &options.into {
         Some(into) => {
             let id = crate::address::find_recording_by_name(job.connection, into)?.id;
@@ -428,6 +447,7 @@ fn store_transcript_media(
     let there = stored_recordings::media_tracks(job.connection, recording)?;
     for (place, media) in transcript.media.iter().enumerate() {
         let name = format!("media {}", place + 1);
+        // An earlier version of the file has stored its media under the same names.
         if there.iter().any(|track| track.name == name) {
             continue;
         }
@@ -436,9 +456,13 @@ fn store_transcript_media(
         let film = there
             .iter()
             .find(|track| track.name.starts_with("film ") && is_same_film(track, &crate::media::file_name(url)));
+        // The time origin is the place in the film where the annotations begin, so the film starts that much
+        // earlier.
         let mut offset = -media.time_origin.unwrap_or_default().saturating_mul(1000);
         if let Some(film) = film {
+            // It would otherwise stand twice in the recording, under both names.
             stored_recordings::remove_media_track(job.connection, film.id)?;
+            // A file that states no origin must not undo an offset that was set for the film.
             if media.time_origin.is_none() {
                 offset = film.offset_us;
             }
@@ -474,6 +498,7 @@ fn transcript_participants(transcript: &AnnotationTranscript) -> BTreeSet<&str> 
 /// Adds the participants as signers if a file has several; a single participant is the recording's signer.
 fn know_participants(job: &mut ImportJob<'_>, transcript: &AnnotationTranscript) -> CorpusResult<()> {
     let all = transcript_participants(transcript);
+    // The only participant is already the signer of the recording.
     if all.len() < 2 {
         return Ok(());
     }
@@ -514,6 +539,7 @@ fn standing_tiers(
         }
     }
     let double = transcript.tiers.iter().find(|tier| there.contains_key(&tier.name));
+    // A file without any tier name of the recording only adds tiers to it.
     match double {
         None => Ok(BTreeMap::new()),
         Some(_) if update::is_edited(job, transcript, &there)? => Ok(there),
@@ -548,6 +574,7 @@ fn write_tiers(
         let mut row = TierRow {
             recording_id: recording,
             name: tier.name.clone(),
+            // The new tiers follow those that stand there, in the order of the file.
             position: (first + place) as i64,
             parent_id: tier.parent.map(|parent| rows[parent]),
             stereotype: tier.stereotype,
@@ -570,6 +597,7 @@ fn write_tiers(
 fn transcript_tiers_parents_first(transcript: &AnnotationTranscript) -> Vec<usize> {
     let depth = |place: usize| {
         std::iter::successors(Some(place), |&at| transcript.tiers[at].parent)
+            // A file whose tiers are each other's parents must not let this run on for ever.
             .take(transcript.tiers.len() + 1)
             .count()
     };
@@ -589,6 +617,8 @@ fn write_annotations(
     let mut count = 0;
     for tier in transcript_tiers_parents_first(transcript) {
         for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
+            // The progress also answers whether the user stopped the import, so it is asked within long
+            // tiers.
             if count % 256 == 255 {
                 job.report_progress(progress)?;
             }
@@ -610,6 +640,7 @@ fn write_annotations(
 fn with_coded_state(mut row: AnnotationRow, guess: &TierGuess) -> AnnotationRow {
     let coded = guess.role.as_ref().is_some_and(TierRole::is_coded);
     let state = ValueState::of_file_text(&row.value);
+    // In a free text the same words may be meant literally.
     if coded && matches!(state, ValueState::NotApplicable | ValueState::Unclear) {
         row.state = state;
         row.value.clear();
@@ -626,6 +657,7 @@ fn plain_state(text: &str) -> ValueState {
 }
 
 fn annotation_row(annotation: &TranscriptAnnotation, tier_id: i64, parent_id: Option<i64>) -> AnnotationRow {
+    // Most annotations have nothing of this, and their rows then need no document.
     let source = (annotation.entry.is_some()
         || annotation.language.is_some()
         || annotation.external_ref.is_some()
@@ -651,6 +683,7 @@ fn annotation_row(annotation: &TranscriptAnnotation, tier_id: i64, parent_id: Op
         origin: AnnotationOrigin::File,
         confidence: None,
         external_id: Some(annotation.id.clone()),
+        // The times of the file are kept, since sharing them out in microseconds may round differently.
         file_start_ms: annotation.millis.map(|[start, _]| start),
         file_end_ms: annotation.millis.map(|[_, end]| end),
         source,

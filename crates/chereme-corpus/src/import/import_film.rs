@@ -45,6 +45,7 @@ pub(super) fn hash(path: &Path) -> CorpusResult<String> {
 /// Links a film to its recording: the recording of the files beside it, one whose annotation file names it, one of the
 /// same name without a film, or a new one.
 pub(super) fn import_film(job: &mut ImportJob<'_>, _progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
+    // With a named recording, the film is linked even if another recording has it.
     if job.options.into.is_none() {
         let here = job.places.find_file_at(&job.place, FILM_KIND);
         if here.is_some_and(|row| row.hash == job.hash) {
@@ -55,6 +56,7 @@ pub(super) fn import_film(job: &mut ImportJob<'_>, _progress: &mut ProgressRecei
         let moved = job
             .places
             .files_with_hash(&job.hash)
+            // If the film still lies at its old place, this is a copy and no moved film.
             .find(|row| row.kind == FILM_KIND && row.path.as_ref().is_some_and(gone) && job.places.is_earlier(row));
         if let Some((id, path)) = moved.and_then(|row| Some((row.recording_id?, row.path.clone()))) {
             job.keep_source_file(Some(id), None)?;
@@ -75,6 +77,7 @@ pub(super) fn import_film(job: &mut ImportJob<'_>, _progress: &mut ProgressRecei
         .find(|film| film.is_film() && is_same_film(film, &job.file_name));
     let mut offset = job.options.offset_us;
     let track = if let Some(own) = known_track {
+        // The annotations state where the film begins, which counts more than the option for all files.
         offset = own.offset_us;
         let note = format!("it is the film that the recording {name:?} names");
         report.findings.push(ReportFinding::finding_note(note));
@@ -96,9 +99,11 @@ pub(super) fn import_film(job: &mut ImportJob<'_>, _progress: &mut ProgressRecei
         job.count_created_rows("tracks", 1);
         stored_recordings::insert_media_track(job.connection, &row)?
     };
+    // A length of zero means that it is unknown, so a known one is not overwritten.
     if length > 0 {
         stored_tracks::set_duration(job.connection, track, length)?;
     }
+    // The film may begin after the recording, and then also ends later.
     stored_recordings::lengthen_recording(job.connection, id, length.saturating_add(offset))?;
     report.recording = Some(name);
     job.keep_source_file(Some(id), None)?;
@@ -112,6 +117,7 @@ fn film_length_micros(path: &Path, report: &mut FileReport) -> CorpusResult<i64>
         Ok((container, findings)) => {
             let coding = container.coding_name().to_owned();
             report.findings.extend(findings.into_iter().map(ReportFinding::from));
+            // The built-in decoder plays only H.264.
             if !matches!(container.coding.as_str(), "avc1" | "avc3") {
                 report.findings.push(ReportFinding::finding_warning(
                     format!(
@@ -122,6 +128,7 @@ fn film_length_micros(path: &Path, report: &mut FileReport) -> CorpusResult<i64>
             }
             Ok(container.ticks_to_micros(container.film_length_ticks()))
         }
+        // A damaged MP4 would otherwise be passed to ffmpeg, and its error would hide the cause.
         Err(mp4::Mp4Error::NoMp4) if !is_mp4(path) => match FilmFile::open_film(path) {
             Ok(film) => Ok(film.film_times().film_end()),
             Err(error) => {
@@ -130,6 +137,7 @@ fn film_length_micros(path: &Path, report: &mut FileReport) -> CorpusResult<i64>
                     remedy,
                     ..ReportFinding::finding_warning(error.to_string(), "")
                 });
+                // A film that cannot be measured is linked all the same, and its length stays unknown.
                 Ok(0)
             }
         },
@@ -160,6 +168,7 @@ fn find_film_recording(job: &mut ImportJob<'_>, report: &mut FileReport) -> Corp
         for row in stored_recordings::load_recording_rows(job.connection)? {
             match named_film_place(job, row.id)? {
                 Some(NamedFilmPlace::Here) => {
+                    // A path that leads to this very file outweighs films of the same name that are missing.
                     naming_ids = vec![row.id];
                     break;
                 }

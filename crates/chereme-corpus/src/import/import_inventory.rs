@@ -25,6 +25,7 @@ pub(super) fn import_inventory(
         )
     };
     let text = std::str::from_utf8(&bytes).map_err(|_| wrong("the file is not UTF-8".into()))?;
+    // JSON is also a form of lexicons, so what is no inventory may still hold signs.
     let all = match ComponentInventory::all_from_json(text) {
         Ok(all) => all,
         Err(error) => {
@@ -34,10 +35,12 @@ pub(super) fn import_inventory(
                 return super::lexicon::import_lexicon(job, progress);
             }
             let wrong = match signs {
+                // A wrong line of JSON Lines is reported as such, not as a faulty inventory.
                 Err(lines @ TableError::JsonLines { .. }) => CorpusError::from_wrong_message(lines.to_string())
                     .with_advice("write an object with a gloss on each line, or one array of such objects"),
                 _ => wrong(error.to_string()),
             };
+            // Folders often hold JSON of other programs, which is no fault unless the user named the file.
             return if !job.named && is_other(text) {
                 let other = CorpusError::from_wrong_message("it holds no inventory and no signs")
                     .with_advice(wrong.error_remedy().unwrap_or_default());
@@ -52,6 +55,7 @@ pub(super) fn import_inventory(
         let mut stored = job.inventories.iter().map(|stored| &stored.inventory);
         stored.find(|candidate| candidate.id == inventory.id).cloned()
     };
+    // Storing joins them with the new values, so the old ones are read before.
     let earlier: Vec<Option<ComponentInventory>> = all.iter().map(before).collect();
     let new = earlier.iter().filter(|inventory| inventory.is_none()).count();
     for inventory in &all {
@@ -78,6 +82,7 @@ pub(super) fn import_inventory(
 fn holds_signs(job: &ImportJob<'_>, text: &str) -> std::result::Result<bool, TableError> {
     let notated = |text: &String| hns::holds_some(text.as_bytes());
     let (bytes, mapping) = (text.as_bytes(), &job.options.mapping);
+    // Some editors put a byte order mark before the first bracket.
     let plain = text.trim_start_matches('\u{feff}').trim_start();
     let read = match plain.starts_with(['{', '[']) {
         true => lexicon::read_json(bytes, mapping)?,

@@ -130,6 +130,7 @@ impl ImportJob<'_> {
     pub(super) fn is_other_signer(&self, recording: i64) -> CorpusResult<bool> {
         let theirs = stored_recordings::load_recording_row(self.connection, recording)?.signer;
         let both = self.options.signer.as_ref().zip(theirs.as_ref());
+        // A signer that is unknown on either side contradicts nothing.
         Ok(both.is_some_and(|(own, theirs)| own != theirs))
     }
 
@@ -142,12 +143,14 @@ impl ImportJob<'_> {
     ) -> CorpusResult<Option<i64>> {
         let mut likely = Vec::with_capacity(candidates.len());
         for candidate in candidates {
+            // Takes of the same name by other signers are what separate folders are usually for.
             if !self.is_other_signer(candidate.id)? {
                 likely.push(*candidate);
             }
         }
         let nearest = match likely.as_slice() {
             [one] => Some(*one),
+            // The candidates are sorted by nearness, so only the second one can be as near as the first.
             [first, second, ..] if first.shared_folders > second.shared_folders => Some(*first),
             _ => None,
         };
@@ -156,6 +159,7 @@ impl ImportJob<'_> {
                 self.note_file_join(nearest.id, JoinReason::NameElsewhere);
                 Ok(Some(nearest.id))
             }
+            // The caller wants no joins by name, so a question about them would only disturb.
             (FileJoining::None, _) => Ok(None),
             _ => {
                 let ids: Vec<i64> = likely.iter().map(|candidate| candidate.id).collect();
@@ -227,6 +231,7 @@ impl ImportJob<'_> {
                 self.places.find_file_at(&place, FILM_KIND)?.recording_id
             })
             .collect();
+        // The path and the relative path usually lead to the same film.
         recording_ids.dedup();
         match recording_ids.as_slice() {
             [one] => Some(*one),

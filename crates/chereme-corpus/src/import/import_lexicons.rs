@@ -57,6 +57,7 @@ impl LexiconCells {
         else {
             return Ok(cells);
         };
+        // An empty table says nothing about the lexicon of its signs.
         cells.covers_all_rows = !table.entries.is_empty();
         for row in &table.entries {
             let name = row.cells[column].trim();
@@ -138,6 +139,7 @@ fn make_lexicon(job: &mut ImportJob<'_>, name: &str) -> CorpusResult<LexiconRow>
 /// Returns a finding about a recording whose glosses are looked up in no lexicon although the corpus has several.
 pub(super) fn unlinked_glosses_finding(job: &ImportJob<'_>, recording: i64) -> CorpusResult<Option<ReportFinding>> {
     let rows = lexicons::load_lexicon_rows(job.connection)?;
+    // With a single lexicon, all glosses belong to it without a link.
     if rows.len() < 2 || lexicons::lexicon_of_recording(job.connection, recording)?.is_some() {
         return Ok(None);
     }

@@ -117,6 +117,7 @@ fn load_earlier_tokens(job: &ImportJob<'_>, report: &mut FileReport) -> CorpusRe
     let mut files = BTreeSet::new();
     let mut elsewhere = None;
     for row in job.places.files_of_same_name(&job.file_name) {
+        // The list also has files that differ in the ending or in case, which hold other signs.
         if row.name != job.file_name || row.kind != job.kind {
             continue;
         }
@@ -149,6 +150,7 @@ struct EarlierSignTokens {
 impl EarlierSignTokens {
     fn new(file: Option<i64>, rows: Vec<NotationRow>) -> Self {
         let mut tokens: BTreeMap<String, Vec<i64>> = BTreeMap::new();
+        // The tokens are taken from the end, so that the first sign of a gloss gets the first token.
         for row in rows.into_iter().rev() {
             tokens.entry(row.gloss).or_default().push(row.token_id);
         }
@@ -200,6 +202,7 @@ fn import_sign(
     report: &mut FileReport,
 ) -> CorpusResult<()> {
     let gloss = match sign.gloss.as_str() {
+        // Several signs of one file would otherwise all get the same name.
         "" if place.several => format!("{}-{line}", job.stem),
         "" => job.stem.clone(),
         gloss => gloss.to_owned(),
@@ -216,6 +219,7 @@ fn import_sign(
         None => insert_token(job, place.lexicon, &gloss, row)?,
     };
     let mut mapped = words.map_notated_sign(sign);
+    // Only lines can hold text that is no HamNoSys, since SiGML names its symbols by tags.
     let text = sign.text.as_deref().filter(|_| place.form == NotationFormat::Lines);
     if let Some(finding) = text.and_then(|text| uncoded_text_finding(&gloss, line, text)) {
         report.findings.push(finding);
@@ -257,6 +261,7 @@ fn enter_earlier_token(job: &ImportJob<'_>, lexicon: Option<i64>, token: i64) ->
     let former_sign = row.sign_id;
     let row = TokenRow {
         sign_id: sign.id,
+        // The citation form of a sign that has one already stays as it is.
         citation: !signs::has_citation(job.connection, sign.id)?,
         ..row
     };

@@ -41,6 +41,7 @@ impl LexiconNotationText<'_> {
         for found in &read.findings {
             let (gloss, number) = (self.gloss, found.symbol_number());
             let message = format!("{gloss}, symbol {number}: {}", found.message);
+            // Only a dropped symbol changes the sign, so the rest deserves no warning.
             let finding = if found.dropped {
                 ImportFinding::new_warning_finding(self.line, message)
             } else {
@@ -58,6 +59,7 @@ impl LexiconNotationText<'_> {
         let mut values = signs::load_values_and_opinions(job.connection, self.token)?;
         let coded_parts: Vec<_> = values.iter().map(|row| (row.component, row.feature.clone())).collect();
         let new = words.mapped_value_rows(&mapped).into_iter();
+        // A coding in the table was made by a person, and counts more than one derived from notation.
         values.extend(new.filter(|row| !coded_parts.contains(&(row.component, row.feature.clone()))));
         signs::set_values(job.connection, self.token, &values)?;
         let is_new = notations::find_token_notation(job.connection, self.token)?.is_none();

@@ -25,6 +25,7 @@ pub(super) fn point_file_series(path: &Path) -> Option<(PathBuf, String)> {
 fn list_point_frame_files(folder: &Path, prefix: &str) -> CorpusResult<Vec<(u64, PathBuf)>> {
     let fault = |error| CorpusError::from_file_failure(folder, error);
     let mut frame_paths = Vec::new();
+    // A path without a folder has an empty parent, which cannot be listed.
     let folder = if folder.as_os_str().is_empty() {
         Path::new(".")
     } else {
@@ -44,6 +45,7 @@ fn list_point_frame_files(folder: &Path, prefix: &str) -> CorpusResult<Vec<(u64,
             )));
         }
     }
+    // The system lists a folder in any order.
     frame_paths.sort();
     Ok(frame_paths)
 }
@@ -62,6 +64,7 @@ pub(super) fn import_point_files(
     let files = match point_file_series(job.path) {
         Some((folder, prefix)) => {
             let files = list_point_frame_files(&folder, &prefix)?;
+            // All frames together count as one file, so it gets a name and a place of its own.
             job.file_name = format!("{prefix}.json");
             job.place = match job.place.rsplit_once('/') {
                 Some((folder, _)) => format!("{folder}/{prefix}.json"),
@@ -83,6 +86,7 @@ pub(super) fn import_point_files(
         let mut digest = Sha256::new();
         for (done, (number, path)) in (0..).zip(&files) {
             let bytes = import_whole::read_whole_file(path)?;
+            // The file of one film is only known as unchanged if no frame of it changed.
             digest.update(&bytes);
             let with_place = |error| wrong(error).with_error_place(path.display().to_string());
             reader

@@ -24,6 +24,7 @@ pub(super) fn store_imported_tracks(
     new: Vec<NewTrack>,
     report: &mut FileReport,
 ) -> CorpusResult<i64> {
+    // A named recording counts more than files that lie beside this one.
     let same_take = job.find_sibling_recording().filter(|_| job.options.into.is_none());
     let given = job.options.clock.map(RecordingInstant::instant_micros);
     let day = |track: &NewTrack| {
@@ -41,6 +42,7 @@ pub(super) fn store_imported_tracks(
     let recording = match joined {
         Some((recording, reason)) => {
             job.note_file_join(recording, reason);
+            // This join rests on the weakest evidence, so the user is told how to undo it.
             if reason == JoinReason::OnlyInFolder {
                 report_folder(job, recording, report)?;
             }
@@ -58,6 +60,7 @@ pub(super) fn store_imported_tracks(
     let mut ids = Vec::with_capacity(new.len());
     for mut track in new {
         track.offset_us = track.offset_us.saturating_add(job.options.offset_us);
+        // A timecode in the file is exact, while the option is one time for all files.
         track.clock_us = track.clock_us.or(given);
         ids.push(track_store::store_new_track(job.connection, recording, &track)?);
     }
@@ -101,6 +104,7 @@ fn describe_joined_recording(job: &mut ImportJob<'_>, recording: i64, report: &m
                     "if the file is of another person: `chereme undo`, and another name for the file",
                 ),
             ));
+            // The recording keeps its signer, since its other files are of that person.
             None
         }
         (Some(name), None) => {
@@ -148,6 +152,7 @@ fn folder_take(job: &ImportJob<'_>, new: &[NewTrack]) -> CorpusResult<Option<i64
     let longest = new.iter().map(|track| length_us(&track.track)).max();
     let new_length = longest.unwrap_or_default();
     let theirs = stored_recordings::load_recording_row(job.connection, recording)?.duration_us;
+    // A file of quite another length hardly shows the same take.
     Ok(Some(recording).filter(|_| are_take_lengths(new_length, theirs)))
 }
 
@@ -210,6 +215,7 @@ pub(super) fn store_leaf_markers(
         ));
         return Ok(None);
     }
+    // A long take is read in parts, so that it never lies in memory whole.
     for start in (0..frames).step_by(8 * BLOCK_FRAMES) {
         let part = start..(start + 8 * BLOCK_FRAMES).min(frames);
         companion.push_clip_frames(&stored.raw_clip(job.connection, part)?);

@@ -158,6 +158,7 @@ pub(super) fn unread_format_error(path: &Path) -> CorpusError {
 /// Returns whether the first bytes of a file contain a text, in UTF-8 or UTF-16.
 pub(super) fn begins_with_text(path: &Path, text: &str) -> bool {
     let head = import_captured::read_file_head(path).unwrap_or_default();
+    // In UTF-16, each letter of ASCII comes with a zero byte, without which the text can be compared.
     let plain: Vec<u8> = head.into_iter().filter(|byte| *byte != 0).collect();
     plain.windows(text.len()).any(|part| part == text.as_bytes())
 }

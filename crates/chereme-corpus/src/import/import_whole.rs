@@ -50,6 +50,7 @@ pub fn read_stream(stream: impl Read, path: &Path) -> CorpusResult<Vec<u8>> {
 fn read_stream_within(largest: u64, stream: impl Read, path: &Path) -> CorpusResult<Vec<u8>> {
     let mut bytes = Vec::new();
     stream
+        // One byte more than allowed shows that the stream goes on.
         .take(largest + 1)
         .read_to_end(&mut bytes)
         .map_err(|error| CorpusError::from_file_failure(path, error))?;

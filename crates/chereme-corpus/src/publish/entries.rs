@@ -106,6 +106,7 @@ pub(super) fn collect_dictionary_entries(
                 continue;
             }
         };
+        // Signers are numbered in the order of their signs, so that no name of theirs is published.
         let person_id = token
             .recording_id
             .and_then(|recording| permissions.recording_person_key(recording));
@@ -120,6 +121,7 @@ pub(super) fn collect_dictionary_entries(
                 EntryMovement::Public
             }
             Some(Err(reason)) => {
+                // A sign whose movement is private can still be shown with its words and values.
                 entries.still.push((gloss.clone(), reason));
                 match token.recording_id {
                     Some(_) => EntryMovement::Withheld,
@@ -175,6 +177,7 @@ fn tokens_by_sign_name(
     let tokens = match query {
         Some(query) => {
             let all = SearchOptions {
+                // A dictionary has all signs that the query finds, not only the first page of them.
                 limit: None,
                 facets: false,
                 ..SearchOptions::default()
@@ -202,6 +205,7 @@ fn tokens_by_sign_name(
     }
     let mut by_name = BTreeMap::new();
     for (gloss, signs) in by_gloss {
+        // A lexicon's name behind each gloss would only disturb where the gloss is clear without it.
         let has_namesakes = signs.len() > 1;
         for (sign, tokens) in signs {
             let lexicon = match has_namesakes {
@@ -229,6 +233,7 @@ fn choose_shown_token(
     mut tokens: Vec<TokenRow>,
     permissions: &PublishPermissions,
 ) -> CorpusResult<std::result::Result<ChosenToken, WithheldReason>> {
+    // The id comes last so that the same corpus always gives the same choice.
     tokens.sort_by_key(|token| (!token.citation, token.recording_id.is_none(), token.id));
     let mut best: Option<ChosenToken> = None;
     let mut reason = None;
@@ -240,6 +245,7 @@ fn choose_shown_token(
         let terms = match recording_terms {
             Ok(terms) => terms,
             Err(why) => {
+                // The first reason is that of the preferred token, which is the one to be mended.
                 reason.get_or_insert(why);
                 continue;
             }
@@ -253,6 +259,7 @@ fn choose_shown_token(
         if matches!(movement, Some(Ok(_))) {
             return Ok(Ok((token, terms, movement)));
         }
+        // A later token may still move, so the search goes on.
         best.get_or_insert((token, terms, movement));
     }
     if let (Some((_, _, movement @ None)), Some(reason)) = (&mut best, reason) {
@@ -268,9 +275,11 @@ fn entry_values(connection: &Connection, token: &TokenRow, lexicon_tokens: &[i64
     let mut sources = Vec::new();
     for id in [token.id].into_iter().chain(lexicon_tokens.iter().copied()) {
         let is_implied = notations::find_token_notation(connection, id)?.is_some()
+            // A generated movement was made from values, so its own values are no observation.
             || id == token.id && token.origin == RecordOrigin::Generated;
         sources.push((is_implied, id));
     }
+    // The sort is stable, so the shown token stays before those of the lexicon.
     sources.sort_by_key(|(is_implied, _)| *is_implied);
     let mut values: Vec<TokenValueRow> = Vec::new();
     for (_, id) in sources {
@@ -305,6 +314,7 @@ fn add_pairs(entries: &mut [DictionaryEntry]) -> bool {
         .collect();
     for pair in &found.list {
         let ends = [&pair.a, &pair.b].map(|gloss| places.get(gloss.as_str()).copied());
+        // A pair counts for both of its signs.
         if let [Some(a), Some(b)] = ends {
             for (one, other) in [(a, b), (b, a)] {
                 let entry_pairs = &mut entries[one].pairs;

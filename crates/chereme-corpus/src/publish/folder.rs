@@ -40,6 +40,7 @@ impl PublicationFolder {
     /// # Errors
     /// Fails if `to` has no name, is a file, or cannot be written beside.
     pub(super) fn begin_publication(to: &Path) -> CorpusResult<Self> {
+        // A folder without a name is refused by the name that the user gave, before links are followed.
         hidden_sibling_path(to, "part")?;
         // A link to a folder stays: the folder that it leads to is replaced.
         let to = &fs::canonicalize(to).unwrap_or_else(|_| to.to_owned());
@@ -52,6 +53,7 @@ impl PublicationFolder {
         if to.exists() && !to.is_dir() {
             return Err(fault(ErrorKind::NotADirectory.into()));
         }
+        // A publication that was stopped may have left half of its files.
         for left in [&part, &old] {
             if left.exists() {
                 fs::remove_dir_all(left).map_err(|error| CorpusError::from_file_failure(left, error))?;
@@ -99,6 +101,7 @@ impl PublicationFolder {
     /// stay.
     pub(super) fn finish_publication(mut self) -> CorpusResult<(usize, u64)> {
         let listed_names = self.written.keys().map(String::as_str).chain([PUBLISHED_FILE_LIST]);
+        // The list names itself, so that the next publication replaces it as well.
         let names: BTreeSet<&str> = listed_names.collect();
         let list: String = names.iter().map(|name| format!("{name}\n")).collect();
         self.write_published_file(PUBLISHED_FILE_LIST, list.as_bytes())?;
@@ -108,6 +111,7 @@ impl PublicationFolder {
             self.done = true;
             return Ok((self.written.len(), self.bytes));
         }
+        // Files of the user must not vanish with the old pages.
         let others = self.unpublished_files()?;
         let mut moved: Vec<&String> = Vec::new();
         let result = others.iter().try_for_each(|name| {
@@ -121,10 +125,12 @@ impl PublicationFolder {
         });
         let result = result.and_then(|()| fs::rename(&self.to, &self.old)).and_then(|()| {
             fs::rename(&self.part, &self.to).inspect_err(|_| {
+                // The old pages are better than none, and the error of the exchange is the one to report.
                 drop(fs::rename(&self.old, &self.to));
             })
         });
         if let Err(error) = result {
+            // The user's files go back to where they were before the exchange failed.
             for name in moved {
                 drop(fs::rename(self.part.join(name), self.to.join(name)));
             }
@@ -161,6 +167,7 @@ impl PublicationFolder {
     ) -> CorpusResult<()> {
         let folder = self.to.join(prefix);
         let fault = |error| CorpusError::from_file_failure(&folder, error);
+        // Each level of folders is a call of this function, and takes room on the stack.
         if depth > MAX_PUBLISHED_FOLDER_DEPTH {
             let text = "folders lie too deep inside each other";
             return Err(CorpusError::from_wrong_message(text).with_error_place(folder.display().to_string()));
@@ -212,6 +219,7 @@ fn first_from<'n>(mut names: impl Iterator<Item = &'n String>, start: &str) -> b
 
 impl Drop for PublicationFolder {
     fn drop(&mut self) {
+        // An unfinished publication leaves nothing behind.
         if !self.done {
             drop(fs::remove_dir_all(&self.part));
         }
@@ -221,6 +229,7 @@ impl Drop for PublicationFolder {
 /// Reports whether a name leads to a file inside its folder.
 fn is_path_inside(name: &str) -> bool {
     let mut parts = Path::new(name).components();
+    // The list may have been edited, and must not lead to files outside of the folder.
     !name.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
@@ -233,6 +242,7 @@ fn hidden_sibling_path(to: &Path, ending: &str) -> CorpusResult<PathBuf> {
     };
     let mut hidden = OsString::from(".");
     hidden.push(name);
+    // Beside its place, the folder lies on the same disk and can be renamed at once.
     hidden.push(format!(".chereme-{ending}"));
     Ok(to.with_file_name(hidden))
 }

@@ -161,6 +161,7 @@ impl Corpus {
         options: &PublishOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<PublishedDictionary> {
+        // Links could hide that both are the same place.
         let [own, there] = [self.corpus_file_path(), to].map(fs::canonicalize);
         if own
             .ok()
@@ -171,6 +172,7 @@ impl Corpus {
                 .with_error_place(to.display().to_string())
                 .with_advice("name a folder that holds only what everybody may see"));
         }
+        // Damaged rows, which may have lost what restricts them, must not reach the public.
         seals::verify_material(self.store.read_connection())?;
         let given_terms = options.terms.as_deref().map(str::trim);
         let terms = given_terms.filter(|text| !text.is_empty());

@@ -49,6 +49,7 @@ fn read_stored_transcript(
     file: &SourceFileRow,
 ) -> CorpusResult<Option<AnnotationTranscript>> {
     let bytes = stored_recordings::source_bytes(job.connection, file.id)?;
+    // A version that cannot be read any more is as good as a missing one.
     Ok(bytes.and_then(|bytes| Some(read(&bytes).ok()?.0)))
 }
 
@@ -57,6 +58,7 @@ pub(super) fn report_unchanged_target(job: &ImportJob<'_>, here: &SourceFileRow)
     let Some(id) = here.recording_id else {
         return Ok(None);
     };
+    // The file may have been moved to another take in the meantime, which only a full import settles.
     if job.places.recording_beside_file(&job.place) != Some(id) {
         return Ok(None);
     }
@@ -86,6 +88,7 @@ pub(super) fn find_import_target(
         let Some(base) = find_earlier_eaf(job, id)? else {
             continue;
         };
+        // A file of the same name elsewhere is often of another signer, so the name alone does not suffice.
         if is_version(job, read, &base, transcript, report)? {
             job.note_file_join(id, JoinReason::FileVersion);
             return Ok(EafImportTarget {
@@ -94,10 +97,12 @@ pub(super) fn find_import_target(
             });
         }
     }
+    // The caller names the recording, so nothing is guessed from films and names.
     if job.options.into.is_some() {
         return Ok(EafImportTarget::default());
     }
     let filmed = job.recording_of_named_film(transcript);
+    // A recording that has annotations of its own would get those of another file on top.
     if let Some(id) = filmed.filter(|id| !job.places.has_file_of_kind(*id, job.kind))
         && !job.is_other_signer(id)?
     {
@@ -120,6 +125,7 @@ pub(super) fn find_import_target(
         }
     }
     if !likely.is_empty() {
+        // Even a fitting recording is only joined if the caller allows names as evidence.
         let recording = job.join_by_name_elsewhere(&likely, report)?;
         return Ok(EafImportTarget { recording, base: None });
     }
@@ -146,6 +152,7 @@ fn fits_in_recording(job: &ImportJob<'_>, recording: i64, transcript: &Annotatio
     let ends = tracks
         .iter()
         .filter_map(|track| track.duration_us?.checked_add(track.offset_us));
+    // A recording without tracks sets no bounds to annotations.
     let Some(end) = ends.max() else {
         return Ok(true);
     };
@@ -155,6 +162,7 @@ fn fits_in_recording(job: &ImportJob<'_>, recording: i64, transcript: &Annotatio
 /// Returns the newest annotation file of a recording: the one at this path, otherwise one of this name.
 fn find_earlier_eaf(job: &ImportJob<'_>, recording: i64) -> CorpusResult<Option<SourceFileRow>> {
     let files = stored_recordings::source_files(job.connection, recording)?;
+    // The newest version is the one that the corpus was last brought in line with.
     let all = || files.iter().rev().filter(|row| row.kind == job.kind);
     let here = all().find(|row| row.path.as_deref() == Some(&job.place));
     let name = job.file_name.to_lowercase();
@@ -171,9 +179,11 @@ fn is_version(
     transcript: &AnnotationTranscript,
     report: &mut FileReport,
 ) -> CorpusResult<bool> {
+    // Without a path nothing tells the two files apart, so the name has to do.
     let Some(path) = &base.path else {
         return Ok(true);
     };
+    // Two files of one import lie side by side, so neither is a version of the other.
     if !job.places.is_earlier(base) {
         return Ok(false);
     }
@@ -184,7 +194,9 @@ fn is_version(
         return Ok(false);
     };
     let (same, all) = update::count_same_annotations(&before, transcript);
+    // Ids of annotations recur in all files, so a few equal ones may be chance.
     let alike = same > 0 && 2 * same >= all;
+    // An option about edits only makes sense for a file that was imported before.
     if alike || job.options.own_edits != OwnEdits::Ask {
         report.findings.push(ReportFinding::finding_note(format!(
             "it is taken for a new version of {path}: {same} of {all} annotations are the same"

@@ -28,6 +28,7 @@ pub(in crate::import) fn tier_inventory(
         .annotations
         .iter()
         .map(|annotation| annotation.value.trim())
+        // Markers for missing values are no values that an inventory must have.
         .filter(|value| ValueState::of_file_text(value) == ValueState::Value)
         .collect();
     let fits = |stored: &&StoredInventory| {
@@ -49,6 +50,7 @@ pub(in crate::import) fn tier_inventory(
         .iter()
         .filter(builtin)
         .find(|candidate| fits(candidate) && listed(candidate));
+    // An empty tier without a vocabulary would fit any inventory.
     if let Some(known) = known_inventory.filter(|_| vocabulary.is_some() || !used.is_empty()) {
         return Ok(Some(known.id));
     }
@@ -67,6 +69,7 @@ pub(in crate::import) fn tier_inventory(
             let inventory = inventories::join_stored_inventory(before, inventory);
             let id = inventories::store_inventory(job.connection, &inventory)?;
             job.count_created_rows("inventories", usize::from(new));
+            // The next tiers of the file may use the same vocabulary.
             job.inventories = inventories::load_all_inventories(job.connection)?.into();
             Ok(Some(id))
         }
@@ -98,6 +101,7 @@ fn of_vocabulary(
         let Some(id) = entry.values.first().map(|value| value.value.trim().to_owned()) else {
             continue;
         };
+        // A text that means two values could not be told apart in annotations.
         if id.is_empty() || seen.contains(&fold_text(&id)) || !ids.insert(id.clone()) {
             dropped.push(id);
             continue;
@@ -106,6 +110,7 @@ fn of_vocabulary(
         for value in &entry.values {
             let text = value.value.trim();
             let is_id = fold_text(text) == fold_text(&id);
+            // A name that is the id of another value would make that value ambiguous.
             if !text.is_empty()
                 && !value.language.is_empty()
                 && (is_id || (!folded.contains(&fold_text(text)) && seen.insert(fold_text(text))))

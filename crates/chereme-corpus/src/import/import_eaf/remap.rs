@@ -22,6 +22,7 @@ pub(super) fn remap_tier_roles(
     let mut changed = 0;
     for (tier, guess) in transcript.tiers.iter().zip(guesses) {
         let named = job.options.mapping.tier_mapping_entry(&tier.name).is_some();
+        // Only what the mapping states may replace roles that the user may have set since.
         let Some(old) = there.get(&tier.name).filter(|_| named) else {
             continue;
         };
@@ -34,6 +35,7 @@ pub(super) fn remap_tier_roles(
             continue;
         }
         stored_tiers::update_tier(job.connection, &row)?;
+        // Whether a text marks a missing value depends on the role of its tier.
         recode(job, &row, guess)?;
         report.findings.push(ReportFinding::finding_note(format!(
             "tier {:?}: {} (before: {})",

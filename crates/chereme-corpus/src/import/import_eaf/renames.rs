@@ -46,6 +46,7 @@ pub(super) fn write_tier_renames(
 ) -> CorpusResult<Vec<String>> {
     let mut notes = Vec::new();
     for TierRename { from, to } in renames {
+        // A tier that was renamed in the corpus as well keeps the user's name.
         let Some(row) = there.get_mut(to).filter(|row| row.name == *from) else {
             continue;
         };

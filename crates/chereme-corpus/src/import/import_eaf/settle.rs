@@ -73,6 +73,7 @@ impl RecordingBeforeUpdate {
                         continue;
                     }
                     [row.start_us, row.end_us] = placed;
+                    // The times of the file no longer apply to a moved annotation.
                     (row.file_start_ms, row.file_end_ms) = (None, None);
                     stored_tiers::update_annotation(connection, &row)?;
                     times.insert(row.id, placed);
@@ -93,7 +94,9 @@ impl RecordingBeforeUpdate {
         merge: bool,
     ) -> CorpusResult<()> {
         let all_violations = list_tier_violations(connection, self.recording)?.into_iter();
+        // After a merge, faults may arise where both sides meet, even in annotations of the file.
         let mut new_violations = all_violations.filter(|violation| merge || !is_of_file(violation, written));
+        // Rules that were broken before are no reason to refuse the file.
         let Some(rule) = new_violations.find(|violation| !self.broken.contains(&violation.to_string())) else {
             return Ok(());
         };
@@ -156,14 +159,18 @@ fn place_in_moved_parent(
 ) -> [i64; 2] {
     let by = new[0].saturating_sub(old[0]);
     if by == new[1].saturating_sub(old[1]) {
+        // The parent only moved, so everything below it moves by the same time.
         return [start.saturating_add(by), end.saturating_add(by)];
     }
     if stereotype == Some(TierStereotype::IncludedIn) {
         let inside = [start.max(new[0]), end.min(new[1])];
+        // An annotation that lies wholly outside is left for the check of the rules to report.
         return if inside[0] < inside[1] { inside } else { [start, end] };
     }
+    // The product of two times in microseconds may exceed 64 bits.
     let length = |span: [i64; 2]| i128::from(span[1]) - i128::from(span[0]);
     let scaled = |at: i64| {
+        // A parent without length would otherwise divide by zero.
         let part = (i128::from(at) - i128::from(old[0])) * length(new) / length(old).max(1);
         let new_time = i128::from(new[0]) + part;
         i64::try_from(new_time).unwrap_or(i64::MAX)

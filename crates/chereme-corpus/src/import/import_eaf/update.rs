@@ -74,6 +74,7 @@ pub(super) fn is_edited(
             let id = row.external_id.as_deref();
             id.is_some_and(|id| ids.contains(id))
         };
+        // An emptied tier has no ids left that could contradict the file.
         if rows.is_empty() || rows.iter().any(is_known) {
             return Ok(true);
         }
@@ -116,7 +117,9 @@ pub(super) fn find_renamed_tiers(
         let Some((at, most)) = counts.enumerate().max_by_key(|(_, count)| *count) else {
             break;
         };
+        // Fewer shared ids do not show that it is the same tier.
         if most > 0 && 2 * most >= ids.len() {
+            // No other tier of the file can be the same tier of the corpus.
             let (name, _) = free.remove(at);
             renames.push((tier.name.clone(), name.clone()));
         }
@@ -132,6 +135,7 @@ pub(super) fn count_same_annotations(a: &AnnotationTranscript, b: &AnnotationTra
         base.parts
     };
     let mut a = a.clone();
+    // The annotations of a tier that was only renamed are still the same.
     for (from, to) in renamed_tiers(&a, b) {
         for tier in a.tiers.iter_mut().filter(|tier| tier.name == from) {
             tier.name.clone_from(&to);
@@ -175,6 +179,7 @@ pub(super) fn update_annotations(
             work.note_row_id(&row);
         }
     }
+    // The row of a parent must be known before the annotations below it are written.
     let order = transcript_tiers_parents_first(sides.transcript);
     for &tier in &order {
         job.report_progress(progress)?;
@@ -246,6 +251,7 @@ impl ComparedParts {
 
     /// Reports whether `theirs` would overwrite a change from `base` to `mine`.
     fn is_lost(mine: &Self, base: Option<&Self>, theirs: &Self) -> bool {
+        // Without the earlier version, any difference may be an edit of the user.
         let Some(base) = base else {
             return mine != theirs;
         };
@@ -309,6 +315,7 @@ impl AnnotationUpdate<'_> {
     fn note_row_id(&mut self, row: &AnnotationRow) {
         let name = row.external_id.clone();
         self.names
+            // An annotation that was made here has no id in files, and must still differ from all others.
             .insert(row.id, name.unwrap_or_else(|| format!("#{}", row.id)));
     }
 
@@ -341,6 +348,7 @@ impl AnnotationUpdate<'_> {
         });
         let edited_rows: Vec<(i64, [i64; 2])> = old
             .iter()
+            // The times on symbolic tiers follow from the parent, so they never take room from others.
             .filter(|row| sides.merge && !symbolic && self.is_own(&it.name, row))
             .map(|row| (row.id, row_times_millis(row)))
             .collect();
@@ -360,11 +368,14 @@ impl AnnotationUpdate<'_> {
             let theirs = ComparedParts::in_file(sides.transcript, annotation);
             let row = match old.take_matching_row(annotation, &new) {
                 Some(before) => {
+                    // Annotations below it are compared by the id of their parent, which is now the one in
+                    // the file.
                     self.names.insert(before.id, annotation.id.clone());
                     let free = !meets_own(before.id, theirs.time);
                     Some(self.update_existing_annotation(job, tier, before, new, &theirs, free)?)
                 }
                 None => {
+                    // In a merge the parent may have been left out, and nothing can hang below it then.
                     let orphan = annotation.parent.is_some() && parent.is_none();
                     let free = !orphan && !meets_own(0, theirs.time);
                     self.add_file_annotation(job, &it.name, new, &theirs, free)?
@@ -387,6 +398,8 @@ impl AnnotationUpdate<'_> {
             .collect();
         for row in old.rows.into_values() {
             let meets = |span: &[i64; 2]| row.start_us < span[1] && span[0] < row.end_us;
+            // What was made here and overlaps nothing of the file stays, since the file cannot have removed
+            // it.
             if row.external_id.is_some() || spans.iter().any(meets) {
                 self.left.push((it.name.clone(), row));
             } else {
@@ -411,6 +424,7 @@ impl AnnotationUpdate<'_> {
             if before.as_ref() == Some(theirs) {
                 return Ok(None);
             }
+            // Both sides changed it: it was removed here and edited in the file.
             if before.is_some() || !free {
                 self.record_own_edit(tier, None, Some(theirs), EditOutcome::Conflict);
                 self.done.conflicts.push((None, Some(new)));
@@ -439,6 +453,7 @@ impl AnnotationUpdate<'_> {
         let named = before.external_id.is_some();
         if mine == *theirs {
             self.done.changes.unchanged += 1;
+            // The next version of the file can then be matched by this id.
             if !named {
                 let row = AnnotationRow {
                     external_id: new.external_id,
@@ -457,6 +472,7 @@ impl AnnotationUpdate<'_> {
             let time = merge_three_ways(base.map(|parts| &parts.time), &mine.time, &theirs.time);
             let value = merge_three_ways(base.map(|parts| &parts.value), &mine.value, &theirs.value);
             let above = merge_three_ways(base.map(|parts| &parts.above), &mine.above, &theirs.above);
+            // A time that stays as it is cannot newly overlap an edit.
             let room = free || *time.0 == mine.time;
             if time.1 || value.1 || above.1 || !room {
                 self.record_own_edit(tier, Some(&mine), Some(theirs), EditOutcome::Conflict);
@@ -498,6 +514,7 @@ impl AnnotationUpdate<'_> {
         let moved = time && mine.time != theirs.time;
         let renamed = value && mine.value != theirs.value;
         let elsewhere = above && before.parent_id != new.parent_id;
+        // The state and the source belong to the value, so they are taken together with it.
         let mut row = if renamed { new.clone() } else { before.clone() };
         row.id = before.id;
         row.external_id.clone_from(&new.external_id);
@@ -509,6 +526,7 @@ impl AnnotationUpdate<'_> {
         if row != *before {
             stored_tiers::update_annotation(job.connection, &row)?;
         }
+        // A new id or position alone is no change that the user would recognise.
         if !(moved || renamed || elsewhere) {
             self.done.changes.unchanged += 1;
             return Ok(());
@@ -531,9 +549,11 @@ impl AnnotationUpdate<'_> {
         let mine = ComparedParts::in_corpus(row, &self.names);
         let is_edited = match &before {
             Some(before) => mine != *before,
+            // Without an earlier state of it, only what came from a file counts as unedited.
             None => row.external_id.is_none() || row.origin != AnnotationOrigin::File,
         };
         let below = stored_tiers::load_child_annotations(job.connection, row.id)?;
+        // Annotations of the user may hang below it, and would go with it.
         if self.sides.merge && (is_edited || !below.is_empty()) {
             if is_edited && before.is_some() {
                 self.record_own_edit(tier, Some(&mine), None, EditOutcome::Conflict);
