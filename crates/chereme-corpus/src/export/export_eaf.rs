@@ -48,6 +48,7 @@ pub(super) fn write_recording_eaf(
     let transcript = build_eaf_transcript(connection, recording, &documents)?;
     let fault = |error| CorpusError::from_wrong_message(format!("the file cannot be written: {error}"));
     if let Some((_, bytes)) = files.first()
+        // Only the file itself shows what this program does not understand, so it is patched where possible.
         && let Ok(Some(patched)) = patch_eaf(bytes, &transcript)
     {
         return out.write_all(&patched).map_err(fault);
@@ -207,6 +208,7 @@ fn add_recording_properties(
         .iter()
         .filter_map(|tier| tier.participant.as_deref())
         .collect();
+    // An import takes the only participant for the signer, so it need not be stated again.
     let guessed = participants.len() == 1 && participants.contains(recording.signer.as_deref().unwrap_or_default());
     let signer = match recording.signer_id {
         Some(id) => stored_recordings::find_signer_row(connection, id)?,
@@ -218,6 +220,7 @@ fn add_recording_properties(
         let known_property = transcript.properties.iter().position(|(name, _)| name == key);
         match (known_property, value) {
             (Some(at), Some(value)) => transcript.properties[at].1 = value,
+            // A property of the file that no longer holds must not come back with the next import.
             (Some(at), None) => {
                 transcript.properties.remove(at);
             }
@@ -260,6 +263,7 @@ fn roles_of_tiers(
         .iter()
         .zip(guesses)
     {
+        // Only what an import would guess wrongly is stated, so that files of others stay as they are.
         if guess.role.unwrap_or_default() != row.role || guess.hand != row.hand {
             roles.insert(row.name.clone(), Value::from(row.tier_topic().to_string()));
         }
@@ -290,6 +294,7 @@ impl EafTierWriter<'_> {
             .iter()
             .flatten()
             .any(|row| row.origin != AnnotationOrigin::File);
+        // An unchanged file keeps its date, so that it stays the same byte for byte.
         if changed || self.transcript.date.is_empty() {
             self.transcript.date = stored_list::last_change(self.connection)?.unwrap_or_default();
         }
@@ -300,6 +305,7 @@ impl EafTierWriter<'_> {
             tier.vocabulary = self.complete_tier_vocabulary(row, annotations);
             self.transcript.tiers.push(tier);
         }
+        // An annotation refers to the place of its parent, which must be known by then.
         for place in tier_indices_parents_first(&rows, &index_by_id) {
             for (index, row) in annotations[place].iter().enumerate() {
                 self.places.insert(row.id, AnnotationAddress { tier: place, index });
@@ -317,6 +323,7 @@ impl EafTierWriter<'_> {
         let id = match (&named, &tier.source) {
             (Some(named), _) if self.find_vocabulary(named).is_some() => named.clone(),
             (Some(named), None) => named.clone(),
+            // The tier came from a file without this vocabulary, and gets none that it did not have.
             (_, Some(_)) => return named,
             (None, None) => {
                 let stored = self
@@ -332,6 +339,7 @@ impl EafTierWriter<'_> {
             }
         };
         let vocabulary = self.find_vocabulary(&id)?;
+        // The values of an external vocabulary lie in another file, which is not ours to change.
         if vocabulary.external.is_none() {
             add_missing_vocabulary_values(vocabulary, annotations);
         }
@@ -410,6 +418,7 @@ fn order_as_in_file(rows: Vec<AnnotationRow>) -> Vec<AnnotationRow> {
     let mut by_row = rows.clone();
     by_row.sort_by_key(|row| row.id);
     let of_file = by_row.iter().filter(|row| row.external_id.is_some());
+    // A file that is not sorted by time would otherwise differ in every line.
     if of_file.is_sorted_by_key(time) { rows } else { by_row }
 }
 
@@ -460,6 +469,7 @@ fn of_inventory(stored: &StoredInventory) -> ControlledVocabulary {
             values: vec![VocabularyEntryValue {
                 language: String::new(),
                 value: value.id.clone(),
+                // A description that repeats the value says nothing.
                 description: (name != value.id).then(|| name.to_owned()),
             }],
             external_ref: None,
@@ -477,9 +487,11 @@ fn of_inventory(stored: &StoredInventory) -> ControlledVocabulary {
 /// Adds values that people have entered since the import to a vocabulary.
 fn add_missing_vocabulary_values(vocabulary: &mut ControlledVocabulary, annotations: &[AnnotationRow]) {
     let entry_language = vocabulary.entries.iter().flat_map(|entry| &entry.values).next();
+    // A new value without the language of the others would not be shown beside them.
     let language = entry_language.map(|value| value.language.clone()).unwrap_or_default();
     for row in annotations
         .iter()
+        // What the file itself has outside of its vocabulary was meant so by its authors.
         .filter(|row| row.origin != AnnotationOrigin::File && row.state == ValueState::Value)
     {
         let mut all = vocabulary.entries.iter().flat_map(|entry| &entry.values);
@@ -523,12 +535,14 @@ impl AnnotationIdPool {
             .unwrap_or(0);
         Self {
             taken: BTreeSet::new(),
+            // The id of a removed annotation is not given to another one.
             last: last.max(used),
         }
     }
 
     fn take_annotation_id(&mut self, row: &AnnotationRow) -> String {
         match &row.external_id {
+            // Tiers from several files may bring the same id twice.
             Some(id) if self.taken.insert(id.clone()) => id.clone(),
             _ => {
                 self.last += 1;

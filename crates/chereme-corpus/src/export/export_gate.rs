@@ -47,6 +47,7 @@ impl ExportGate {
         // What cannot be found is refused by the format.
         let recordings = recordings_shown_by(connection, what).unwrap_or_default();
         let notes = match what {
+            // No list of recordings stands for all of them.
             ExportWhat::All => gate.for_me_sentence(None),
             _ => gate.for_me_sentence(Some(&recordings)),
         };
@@ -90,6 +91,7 @@ impl ExportGate {
         named: bool,
     ) -> Option<WithheldOutput> {
         let mut kinds = format.shown_kinds().to_vec();
+        // A table names what is signed, which is annotation even where only movement is shown.
         if named && !kinds.contains(&ConsentKind::Annotation) {
             kinds.push(ConsentKind::Annotation);
         }
@@ -107,6 +109,7 @@ impl ExportGate {
             what: what.clone(),
             withheld: Vec::new(),
         };
+        // Those who keep the corpus see everything, and an inventory shows nobody.
         if self.audience == OutputAudience::Me || matches!(what, ExportWhat::Inventory(_)) {
             return Ok(passed);
         }
@@ -143,6 +146,7 @@ impl ExportGate {
                     }
                 }
                 passed.withheld = withheld.into_iter().collect();
+                // An empty file would look as if there were nothing to export.
                 if tokens.is_empty() && !passed.withheld.is_empty() {
                     return Err(nothing_passes_error(&passed.withheld, self.audience));
                 }
@@ -163,6 +167,7 @@ impl ExportGate {
                 None => addresses.push(CorpusAddress::Recording(RowName::Number(row.id))),
             }
         }
+        // Without this, the caller would get an empty file instead of the reason.
         if addresses.is_empty() && !withheld.is_empty() {
             return Err(nothing_passes_error(&withheld, self.audience));
         }
@@ -206,6 +211,7 @@ fn recordings_shown_by(connection: &Connection, what: &ExportWhat) -> CorpusResu
         ExportWhat::Address(_) | ExportWhat::Tokens(_) => {
             let tokens = selected_export_tokens(connection, what)?;
             let mut all = BTreeSet::new();
+            // A query takes only so many parameters.
             for ids in tokens.chunks(signs::MAX_ROWS_PER_QUERY) {
                 let rows = signs::load_token_rows(connection, ids)?;
                 all.extend(rows.values().filter_map(|token| token.recording_id));

@@ -35,6 +35,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     let source = LexiconFileSource::find_lexicon_source(job);
     let earlier_report = job.report_unchanged_file();
     if let Some(report) = &earlier_report
+        // A mapping or a lexicon may give the same bytes another meaning.
         && job.options.mapping.mapping_entry_names().next().is_none()
         && job.options.lexicon.is_none()
     {
@@ -47,6 +48,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     let is_taken_over = source.is_of_other_lexicon(job)?;
     let mut mapping = job.options.mapping.clone();
     let before = match source.newest {
+        // A mapping that was given once holds for new versions of the file, too, until another is given.
         Some(id) if !mapped => stored_recordings::source_mapping(job.connection, id)?,
         _ => None,
     };
@@ -56,6 +58,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         mapping = before;
     }
     let (table, findings) = match read {
+        // A folder may hold tables of other kinds, which are no reason to complain.
         Err(error @ TableError::Missing { .. }) if !job.named => {
             return Ok(FileReport::skipped_file_report(job.path, &lexicon_table_error(&error)));
         }
@@ -84,11 +87,13 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     report.understood.columns = Some(table.columns.clone());
     let inventories = store_inventories(job, &table, &mut report)?;
     let file = match source.same_bytes {
+        // The bytes are stored already, so the row of the file stays and only its meaning changes.
         Some(id) if remapped => id,
         _ => job.keep_source_file(None, Some(&bytes))?,
     };
     stored_recordings::set_source_mapping(job.connection, file, &stated)?;
     let by_row = LexiconCells::read_lexicon_cells(job, &table)?;
+    // A table that names the lexicon in each row needs none for itself.
     let lexicon = match by_row.covers_all_rows {
         true => None,
         false => lexicon_of_table(job, source.newest)?,
@@ -156,6 +161,7 @@ impl LexiconFileSource {
     fn find_lexicon_source(job: &ImportJob<'_>) -> Self {
         let same_file = || job.places.files_with_hash(&job.hash).filter(|row| row.kind == job.kind);
         let here = |row: &&SourceFileRow| row.path.as_deref() == Some(&job.place);
+        // A copy at this path counts more than one that was moved from elsewhere.
         let same = same_file().find(here).or_else(|| same_file().next());
         let earlier_place = same.and_then(|row| row.path.as_ref());
         let place = earlier_place.unwrap_or(&job.place).clone();
@@ -335,11 +341,13 @@ impl EarlierEntries {
         }
         for token in signs::lexicon_entries(job.connection)? {
             let text = token.source.as_deref().unwrap_or_default();
+            // An entry that was not made from a table has no row to compare with.
             let Ok(mut origin) = serde_json::from_str::<Value>(text) else {
                 continue;
             };
             let same = match origin["path"].as_str() {
                 Some(path) => path == source.place,
+                // Entries of older corpora know only the name of their file.
                 None => origin["file"].as_str() == Some(&job.file_name),
             };
             // A sign from a SiGML file has no cells: it is an entry of its own.
@@ -363,6 +371,7 @@ impl EarlierEntries {
         for (column, cell) in table.columns.iter().zip(&row.cells) {
             let entries = self.0.get_mut(&*compose_accents(cell.trim()));
             let is_row = |entry: &EarlierEntry| {
+                // The stored cells lack the gloss, so the column that is missing in them was the gloss then.
                 !entry.cells.contains_key(&column.title) && row_has_cells(table, row, &entry.cells)
             };
             if let Some(entries) = entries
@@ -409,6 +418,7 @@ fn store_inventories(
         let same = |inventory: &ComponentInventory| {
             (inventory.component, &inventory.feature) == (used.component, &used.feature)
         };
+        // An inventory that fits serves many tables, so that their values can be compared.
         let complete = job.inventories.iter().find(|stored| {
             let values = used.values.keys().map(String::as_str);
             same(&stored.inventory) && stored.inventory.keeps_apart(values)
@@ -507,6 +517,7 @@ fn import_entry(
         Some(token) => {
             let row = TokenRow {
                 sign_id: sign.id,
+                // An entry that comes to another sign must not displace the citation form there.
                 citation: match token.sign_id == sign.id {
                     true => token.citation,
                     false => !sign.has_citation,
@@ -520,6 +531,7 @@ fn import_entry(
             }
             is_moved = row.sign_id != token.sign_id;
             if is_moved {
+                // Whether the former sign is empty is known only after the last row.
                 let left = signs.left.entry(token.sign_id).or_default();
                 left.extend(entry.cells.iter().map(|cell| cell.trim().to_owned()));
             }
@@ -539,6 +551,7 @@ fn import_entry(
         }
     };
     let lexicon_title = signs.by_row.title.as_deref();
+        // The lexicon is stored as such, and would only repeat itself among the attributes.
     let mut attributes: Vec<AttributeRow> = (entry.attributes.iter())
         .filter(|(name, _)| Some(name.as_str()) != lexicon_title)
         .map(|(name, text)| AttributeRow {
@@ -565,6 +578,7 @@ fn import_entry(
     if is_moved || is_known && !signs::load_token_values(connection, token)?.starts_with(&values) {
         job.counts.count_changed_rows("tokens", 1);
     }
+    // The table is the source of these values, so it replaces them all.
     signs::set_values(connection, token, &values)?;
     Ok(token)
 }

@@ -330,6 +330,7 @@ fn write_choices(
                 if let (Some(angles), Some(name)) = (drawn, &value.picture) {
                     it["pic"] = json!(name);
                     let file = format!("hands/{name}.png");
+                    // Values of two inventories may have the same id, and then share a picture.
                     if !folder.has_published_file(&file) {
                         folder.write_published_file(
                             &file,
@@ -364,10 +365,12 @@ fn write_choices(
 /// Returns a sign as the first page reads it.
 fn index_sign_json(entry: &DictionaryEntry, chosen: &[ComponentFacet<'_>; 3], at: usize, moves: bool) -> Value {
     let mut it = json!({ "g": entry.gloss });
+    // The page assumes that both are the same, which keeps the list small.
     if entry.name != entry.gloss {
         it["d"] = json!(entry.name);
     }
     let texts = std::iter::once(&entry.gloss).chain(entry.texts.iter().map(|(_, text)| text));
+    // The script then need not fold every word of the dictionary at each visit.
     let folded: Vec<String> = texts.map(|text| fold_text(text)).collect();
     it["f"] = json!(folded.join("\n"));
     if !entry.texts.is_empty() {
@@ -432,6 +435,7 @@ fn left_out(found: &DictionaryEntries) -> Vec<LeftOutSigns> {
 
 /// Returns the error for a dictionary without signs.
 fn empty_dictionary_error(left_out: &[LeftOutSigns]) -> CorpusError {
+    // Mending the most frequent reason brings most signs back.
     match left_out.iter().max_by_key(|omission| omission.signs) {
         Some(most) => {
             let all: usize = left_out.iter().map(|omission| omission.signs).sum();

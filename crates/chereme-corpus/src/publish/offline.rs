@@ -33,6 +33,7 @@ pub(super) fn write_offline_files(folder: &mut PublicationFolder, title: &str) -
         folder.write_published_file(&format!("icons/{size}.png"), &png(&icon(size)?)?)?;
     }
     folder.write_published_file("manifest.webmanifest", manifest(title).as_bytes())?;
+    // The version is the hash of the list, so these files cannot be in it.
     let list = offline_file_list(folder.published_files());
     let version = short_hash(list.as_bytes());
     folder.write_published_file("offline.txt", list.as_bytes())?;

@@ -61,6 +61,7 @@ fn is_kind(row: &TokenValueRow) -> bool {
 /// Finds a value in the inventories of the corpus.
 pub(super) fn find_known_value<'i>(inventories: &'i [StoredInventory], row: &TokenValueRow) -> KnownInventoryValue<'i> {
     let id = row.value.as_deref()?;
+    // The inventory that the value was coded with knows best what its id means.
     let named = inventories.iter().find(|stored| Some(stored.id) == row.inventory_id);
     let fitting = inventories
         .iter()
@@ -84,6 +85,7 @@ pub(super) fn component_facet<'i>(
             let values = &inventory.values;
             Some((which, values.iter().position(|candidate| candidate.id == value.id)?))
         });
+        // Values that no inventory knows come after all others.
         let (which, at) = value_place.unwrap_or((usize::MAX, 0));
         (which, at, id.to_owned())
     };
@@ -105,6 +107,7 @@ pub(super) fn component_facet<'i>(
             let known_value = find_known_value(inventories, row);
             value_by_place.insert(place(known_value, id), known_value);
             if let Some((inventory, value)) = known_value {
+                // A wider value can be chosen although no sign is coded with it.
                 for wider in inventory.broader_value_chain(&value.id).skip(1) {
                     let wider = Some((inventory, wider));
                     value_by_place.insert(place(wider, wider.map_or("", |pair| &pair.1.id)), wider);
@@ -128,6 +131,7 @@ pub(super) fn component_facet<'i>(
     let of = entries.iter().map(|entry| {
         let mut all: Vec<usize> = places_of(entry).iter().filter_map(index).collect();
         all.sort_unstable();
+        // Both hands may have the same value.
         all.dedup();
         all
     });
@@ -240,6 +244,7 @@ pub(super) fn draw_place_panels(facet: &ComponentFacet<'_>) -> CorpusResult<(Vec
                 .camera_projection(size[0], size[1])
                 .project_point(scene.landmark_position(landmark)?);
             let shares = [seen.x / size[0] as f32, seen.y / size[1] as f32];
+            // A mark at the very edge of the picture would be cut off.
             let inside = shares.iter().all(|share| (0.02..0.98).contains(share));
             let name = panel_name(panel);
             if inside && !drawn.iter().any(|drawn_panel| drawn_panel.name == name) {
@@ -251,6 +256,7 @@ pub(super) fn draw_place_panels(facet: &ComponentFacet<'_>) -> CorpusResult<(Vec
         });
         spots.push(spot);
     }
+    // The order must not depend on which sign comes first.
     drawn.sort_by_key(|drawn_panel| drawn_panel.name);
     Ok((drawn, spots))
 }

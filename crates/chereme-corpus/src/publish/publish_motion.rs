@@ -24,6 +24,7 @@ const SURFACE_POINT_SCALE: f32 = 10_000.0;
 
 /// Returns the clip in the frames that the page gets, at most sixty a second and 3,600 in all, and whether it is cut.
 pub(super) fn limit_published_frames(clip: &Clip) -> CorpusResult<(Clip, bool)> {
+    // Rates such as 60.02 count as sixty, since resampling would only blur them.
     let fast = clip.clip_frame_rate().per_second() > f64::from(MAX_PUBLISHED_FPS) + 0.5;
     let rate =
         FrameRate::new(MAX_PUBLISHED_FPS, 1).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
@@ -59,6 +60,7 @@ pub(super) fn body_surface_json(body: &PortableBody) -> Value {
     }
     let mut before = 0;
     for corner in body.triangles.iter().flatten() {
+        // Neighbouring corners have similar numbers, so their differences take fewer bytes.
         push_coded_number(&mut bytes, i64::from(*corner) - before);
         before = i64::from(*corner);
     }

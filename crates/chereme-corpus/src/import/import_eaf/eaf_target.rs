@@ -183,7 +183,7 @@ fn is_version(
     let Some(path) = &base.path else {
         return Ok(true);
     };
-    // Two files of one import lie side by side, so neither is a version of the other.
+    // Two files of one import are both current, so neither is a version of the other.
     if !job.places.is_earlier(base) {
         return Ok(false);
     }
