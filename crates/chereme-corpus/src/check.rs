@@ -166,6 +166,7 @@ impl Corpus {
                 }
                 Ok(((), OperationEffect::Mend {}))
             })?;
+            // Changes only continue a seal, so one that was broken from outside would stay broken.
             self.store.seal_again(["token", "token_value"])?;
             report
                 .mended
@@ -173,6 +174,7 @@ impl Corpus {
         }
         self.store.rebuild_search_index(progress)?;
         report.mended.push("the search index was built again".to_owned());
+        // What was mended is no longer a fault of the corpus.
         report.faults.retain(|fault| !["tokens", "index"].contains(&fault.kind));
         Ok(())
     }
@@ -208,6 +210,7 @@ impl CheckRun<'_, '_> {
         let Err(error) = looked else { return Ok(()) };
         let is_of_file = error
             .database_failure_cause()
+            // A file that cannot be read at all makes every further part fail in the same way.
             .is_some_and(|cause| cause != DatabaseFailureCause::Damaged);
         if is_of_file || matches!(error, crate::CorpusError::Stopped) {
             return Err(error);
@@ -224,6 +227,7 @@ impl CheckRun<'_, '_> {
     fn count_checked_object(&mut self, what: &'static str) -> CorpusResult<()> {
         let count = self.report.checked.entry(what).or_default();
         *count += 1;
+        // Reporting each of many quick steps would take longer than the steps.
         let quick = matches!(what, "blocks" | "notations" | "skeletons");
         if !quick || count.is_multiple_of(64) {
             let (task, done) = (what, *count);
@@ -242,6 +246,7 @@ impl CheckRun<'_, '_> {
         let broken = rows::broken_rows(connection, &lines)?;
         for line in lines {
             let table = rows::table_of(&line);
+            // These rows are reported below with their rule, which says more than the line.
             if !broken.iter().any(|row| Some(row.table.as_str()) == table) {
                 self.report_check_fault("database", "the file", line, RESTORE_BACKUP_ADVICE);
             }
@@ -264,6 +269,7 @@ impl CheckRun<'_, '_> {
         let connection = store.read_connection();
         let state = SearchIndexState::read_index_state(connection)?;
         let damaged = index_rows::damaged_files(connection)?;
+        // A corpus that was never indexed has no index that could be wrong.
         if state.content != state.indexed && state.format != 0 {
             self.report_check_fault(
                 "index",
@@ -284,6 +290,7 @@ impl CheckRun<'_, '_> {
     }
 
     fn index(&mut self, connection: &Connection, index: &SearchIndex) -> CorpusResult<()> {
+        // An index with faults was not loaded, and its faults were reported before.
         if !index.is_current(connection)? {
             return Ok(());
         }
@@ -391,6 +398,7 @@ impl CheckRun<'_, '_> {
 
     /// Decodes every block of a track and looks for missing frames.
     fn check_track_blocks(&mut self, connection: &Connection, row: &TrackRow) -> CorpusResult<()> {
+        // Other tracks are small enough to be read whole.
         if row.kind != TrackKind::Skeleton {
             return track::track_read::read_stored_track(connection, row, None).map(|_| ());
         }
@@ -464,6 +472,7 @@ impl CheckRun<'_, '_> {
                 if let TierViolation::Overlap { tier, .. } = violation {
                     let count = overlaps.entry(tier).or_default();
                     *count += 1;
+                    // A tier of two signers may have thousands of overlaps, which would bury everything else.
                     if *count > SHOWN_OVERLAPS {
                         continue;
                     }
@@ -484,12 +493,14 @@ impl CheckRun<'_, '_> {
 
     /// Derives the tokens of each recording on trial; each recording is read in one state.
     fn check_derived_tokens(&mut self, connection: &Connection) -> CorpusResult<()> {
+        // Inventories that cannot be read were reported before, and do not stop the check.
         let inventories = inventories::load_all_inventories(connection).unwrap_or_default();
         for recording in stored_recordings::load_recording_rows(connection)? {
             let place = format!("recording {:?}", recording.name);
             let derived = rows::run_and_roll_back(connection, || {
                 let before = rows::count_recorded_changes(connection)?;
                 tokens::derive_with_progress(connection, recording.id, None, &inventories, self.progress)?;
+                // A derivation that changes nothing leaves no change in the history.
                 Ok(rows::count_recorded_changes(connection)? - before)
             });
             match derived {

@@ -130,6 +130,7 @@ impl PersonConsent {
     fn to_consent_json(&self) -> Option<String> {
         // Words and texts only.
         let json = serde_json::to_string(self).unwrap_or_default();
+        // A consent that says nothing is the same as none, and is stored as such.
         (*self != Self::default()).then_some(json)
     }
 }
@@ -202,6 +203,7 @@ impl Corpus {
     /// # Errors
     /// Fails if a signer or recording does not exist, an address names something else, or a text is too long.
     pub fn change_consent(&mut self, of: &[CorpusAddress], change: &ConsentChange) -> CorpusResult<Vec<ConsentRow>> {
+        // Both texts are checked before anything is written, so a fault changes nothing.
         for text in [&change.day, &change.form].into_iter().flatten().flatten() {
             if text.len() > MAX_CONSENT_FORM_BYTES {
                 return Err(CorpusError::from_wrong_message(format!(
@@ -290,6 +292,7 @@ fn change_one(connection: &Connection, address: &CorpusAddress, change: &Consent
         it.form.clone_from(form);
     }
     let new = it.to_consent_json();
+    // A change without effect must not become an entry of the history.
     if new != old {
         match of {
             "signer" => consents::set_of_signer(connection, id, new.as_deref())?,
@@ -320,6 +323,7 @@ fn state_terms(connection: &Connection, of: &str, id: i64, licence: &str) -> Cor
         if row.origin == RecordOrigin::Made && of == "signer" {
             continue;
         }
+        // Terms that somebody stated are never replaced in passing.
         if row.licence.as_deref().is_none_or(|text| text.trim().is_empty()) {
             row.licence = Some(licence.to_owned());
             edits::update_recording(connection, &row)?;

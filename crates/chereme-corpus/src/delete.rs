@@ -107,17 +107,20 @@ impl Corpus {
             let plan = DeletionPlan::plan_deletion(connection, what, options.dependents)?;
             let mut done = match plan.is_refused(options.dependents) {
                 true => plan.foreseen(connection)?,
+                // Only carrying it out shows which signs lose their last token.
                 false => run_and_roll_back(connection, || plan.carry_out_deletion(connection, progress))?,
             };
             done.dry_run = true;
             return Ok(done);
         }
         self.store.operation_with_progress(progress, |connection, progress| {
+            // Rows are deleted one after the other, so references break for a while.
             edits::defer_references(connection)?;
             let plan = DeletionPlan::plan_deletion(connection, what, options.dependents)?;
             if plan.is_refused(options.dependents) {
                 return Err(plan.refusal(connection)?);
             }
+            // Afterwards the names are gone.
             let names = plan.deleted_object_names(connection)?;
             let done = plan.carry_out_deletion(connection, progress)?;
             Ok((done, OperationEffect::Delete { names }))
@@ -160,6 +163,7 @@ impl DeletionPlan {
                 other => return Err(not_here(other)),
             }
         }
+        // All recordings must be known before tokens are sorted, as they may go anyway.
         for sign in plan.signs.clone() {
             plan.tokens_of(connection, sign)?;
         }
@@ -174,6 +178,7 @@ impl DeletionPlan {
                 self.entries.push(token.id);
                 continue;
             };
+            // These tokens go with their recording.
             if self.recordings.contains(&recording) {
                 continue;
             }
@@ -208,10 +213,12 @@ impl DeletionPlan {
                 break;
             }
             for (recording, name) in std::mem::take(&mut users) {
+                // What is deleted anyway depends on nothing.
                 if self.recordings.contains(&recording) {
                     continue;
                 }
                 self.made.insert(recording, name);
+                // Only what is deleted itself takes away the source of others.
                 if dependents == DependentsPolicy::Delete {
                     self.recordings.insert(recording);
                     next.push(recording);
@@ -219,6 +226,7 @@ impl DeletionPlan {
             }
         }
         let gone = &self.recordings;
+        // More recordings may have been added since the tokens were sorted.
         self.annotated
             .retain(|token| token.recording_id.is_none_or(|recording| !gone.contains(&recording)));
         Ok(())
@@ -306,6 +314,7 @@ impl DeletionPlan {
         connection: &Connection,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<DeletionReport> {
+        // Counts and names can be read only as long as the rows are there.
         let mut done = self.foreseen(connection)?;
         let mut affected: BTreeMap<i64, String> = BTreeMap::new();
         for (count, recording) in self.recordings.iter().enumerate() {
@@ -325,12 +334,15 @@ impl DeletionPlan {
             signs::delete_token(connection, *entry)?;
         }
         for sign in &self.signs {
+            // A sign that was named goes in any case, even with translations and remarks.
             affected.remove(sign);
             rows::delete_sign(connection, *sign)?;
         }
         for (sign, gloss) in affected {
+            // The citation form may have been in a deleted recording.
             rows::cite_another(connection, sign)?;
             signs::delete_empty_sign(connection, sign)?;
+            // A sign with a translation or a remark stays although it has no token.
             if sign_there(connection, sign).is_err() {
                 done.signs.push(gloss);
             }
@@ -348,6 +360,7 @@ impl DeletionPlan {
             while let Some(parent) = above.filter(|parent| !annotation_ids.contains(parent)) {
                 above = stored_tiers::load_annotation_row(connection, parent)?.parent_id;
             }
+            // An annotation below another one is removed together with it.
             if above.is_none() {
                 roots.push(*id);
             }

@@ -135,6 +135,7 @@ fn token_hamnosys_text(connection: &Connection, token: i64) -> CorpusResult<Opti
         Some(text) => text,
         None => notation.document.hamnosys_text().text,
     };
+    // A notation without an equivalent in HamNoSys gives an empty text.
     Ok(Some(text).filter(|text| !text.is_empty()))
 }
 
@@ -215,6 +216,7 @@ impl Corpus {
         let measures = signer_recordings
             .iter()
             .filter_map(|row| MotionTrack::open_motion_track(&reading, row.id).ok())
+            // Opening a track takes time, and a signer may have many recordings.
             .take(5)
             .find_map(|track| track.track_anatomy(&reading).ok()?.anatomy_measures());
         Ok(SignerDetails {

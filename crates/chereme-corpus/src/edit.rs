@@ -67,6 +67,7 @@ impl Corpus {
             if let Some(name) = &change.name {
                 row.name = require_trimmed_name(name, "recording")?;
                 let other = stored_recordings::recording_named(connection, &row.name)?;
+                // Keeping its own name is no conflict.
                 if other.is_some_and(|other| other.id != row.id) {
                     return Err(taken("recording", &row.name));
                 }
@@ -83,9 +84,11 @@ impl Corpus {
             row.origin = change.origin.unwrap_or(row.origin);
             apply_optional_change(&mut row.licence, change.licence.as_ref());
             apply_optional_change(&mut row.notes, change.notes.as_ref());
+            // An unchanged row must not become an entry of the history.
             if row != old {
                 edits::update_recording(connection, &row)?;
             }
+            // The hands of tokens depend on the dominant hand of the signer.
             if row.signer_id != old.signer_id {
                 derive_edited_recordings(connection, &[row.id])?;
             }
@@ -119,6 +122,7 @@ impl Corpus {
                 edits::update_signer(connection, &row)?;
             }
             if row.name != old.name {
+                // Tiers name their participant by text, and would lose the signer.
                 edits::rename_participant(connection, &old.name, &row.name)?;
             }
             if row.handedness != old.handedness {
@@ -158,6 +162,7 @@ impl Corpus {
                 Some(gloss) => require_trimmed_name(gloss, "sign")?,
                 None => old.clone(),
             };
+            // Signs of different lexicons may share a gloss.
             if signs::find_sign(connection, lexicons::lexicon_of_sign(connection, id)?, &gloss)?
                 .is_some_and(|other| other != id)
             {
@@ -214,6 +219,7 @@ fn derive_edited_recordings(connection: &Connection, recordings: &[i64]) -> Corp
 pub(crate) fn sign_there(connection: &Connection, id: i64) -> CorpusResult<i64> {
     match edits::sign_gloss_and_notes(connection, id) {
         Ok(_) => Ok(id),
+        // Any other failure says nothing about whether the sign exists.
         Err(CorpusError::Database(rusqlite::Error::QueryReturnedNoRows)) => {
             Err(CorpusError::from_wrong_message(format!("there is no sign:{id}"))
                 .with_error_place(format!("sign:{id}"))

@@ -191,6 +191,7 @@ impl CorpusError {
 
     /// Returns the error of work on a file: one that the file may not be written names it.
     pub(crate) fn of_file(self, path: &Path) -> Self {
+        // SQLite does not say which file it may not write.
         match self.database_failure_cause() {
             Some(DatabaseFailureCause::ReadOnly) => {
                 Self::from_file_failure(path, std::io::ErrorKind::PermissionDenied.into())

@@ -9,6 +9,7 @@ thread_local! {
 
 /// Returns the result of work in code of other people; `None` if it panics.
 pub(crate) fn catch_panic<T>(work: impl FnOnce() -> T) -> Option<T> {
+    // The work may call foreign code again, whose end must not end this call.
     let before = IS_FOREIGN.replace(true);
     let done = catch_unwind(AssertUnwindSafe(work));
     IS_FOREIGN.set(before);

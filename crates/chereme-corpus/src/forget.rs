@@ -72,6 +72,7 @@ impl Corpus {
             .map(|recording| recording.id)
             .collect();
         let names = recording_names(connection, &recordings)?;
+        // Everything is checked before anything is written, since this cannot be undone.
         refuse_what_is_needed(connection, &row.name, &recordings)?;
         self.refuse_studies_of(&recordings)?;
         let older_files = stored_erase::older_versions(self.corpus_file_path());
@@ -86,8 +87,10 @@ impl Corpus {
         if dry_run {
             return Ok(forgotten);
         }
+        // What was removed can no longer be listed afterwards.
         let traces = ErasedTraces::collect_traces(self.store.read_connection(), row.id, &recordings)?;
         self.store.erase_signer(row.id, &recordings, progress)?;
+        // If erasing fails, the older versions are still needed.
         for path in &forgotten.older_files {
             fs::remove_file(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
         }
@@ -123,6 +126,7 @@ impl Corpus {
                 };
                 if !shown.is_disjoint(recordings) {
                     names.push(study.clone());
+                    // One clip is enough to name the study.
                     break;
                 }
             }
@@ -152,6 +156,7 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
     let mut with_others = BTreeSet::new();
     for (recording, participant) in consents::list_tier_participants(connection)? {
         let is_signer = fold_text(&participant) == fold_text(signer.trim());
+        // Either the person appears in a recording of others, or others appear in theirs.
         if is_signer != recordings.contains(&recording) {
             with_others.insert(recording);
         }

@@ -230,6 +230,7 @@ impl Corpus {
 /// Returns an imported table, with the meanings of columns that the user gave it; nothing if it cannot be read.
 fn table_of(connection: &Connection, file: &SourceFileRow) -> CorpusResult<Option<SignLexicon>> {
     let bytes = stored_recordings::source_bytes(connection, file.id)?;
+    // Without the mapping of the import, the columns could mean something else than they did then.
     let mapping = stored_recordings::source_mapping(connection, file.id)?.unwrap_or_default();
     let read = |bytes: Vec<u8>| lexicon::read_lexicon(&bytes, &mapping).ok();
     Ok(bytes.and_then(read).map(|(table, _)| table))
@@ -322,6 +323,7 @@ fn of_tables(
     among: Option<&[TokenRow]>,
     scope: &LexiconScope,
 ) -> CorpusResult<Option<SignForms>> {
+    // Without fields, codings are meant, which do not need a table.
     if fields.is_empty() {
         return Ok(None);
     }
@@ -341,6 +343,7 @@ fn of_tables(
         let mut lacks = fields.iter().zip(&places).filter(|(_, at)| at.is_none());
         if let Some((first, _)) = lacks.next() {
             let count = lacks.count();
+            // The table that lacks the fewest fields is most likely the one that was meant.
             if lacking.is_none_or(|(least, _)| count < least) {
                 lacking = Some((count, first));
             }
@@ -355,8 +358,10 @@ fn of_tables(
                 _ => None,
             },
         });
+        // All tables have these columns, so the meaning in the first one holds.
         columns.get_or_insert_with(|| named.collect());
         let place = file.path.as_ref().unwrap_or(&file.name);
+        // A table whose signs were all deleted adds no rows.
         let Some(entries) = tables.get(place) else {
             continue;
         };
@@ -380,6 +385,7 @@ fn of_tables(
         let rows = rows.into_iter().map(|(_, form)| form).collect();
         return Ok(Some(SignForms { fields, rows, source }));
     }
+    // A field of queries can be answered from codings, a title only from a table.
     let title = |field: &&String| field.parse::<ComponentField>().is_err();
     match fields.iter().find(title) {
         None => Ok(None),
@@ -449,6 +455,7 @@ fn of_codings(
             })?;
         }
         let coding = corpus.coding_of(&token)?;
+        // A sign without any coding has no form to compare.
         if !coding.is_empty() {
             codings.push((token.gloss, coding));
             coded_tokens.push(token.id);
@@ -462,6 +469,7 @@ fn of_codings(
                 return Err(CorpusError::from_wrong_message(error.to_string()).with_error_place(field));
             }
         };
+        // A field that nobody coded would make all signs equal.
         if coded.contains(&written) {
             return Ok(written);
         }

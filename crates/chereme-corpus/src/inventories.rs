@@ -51,6 +51,7 @@ pub(crate) fn store_inventory(connection: &Connection, inventory: &ComponentInve
     let place = || format!("inventory {:?}", inventory.id);
     let mut document: Value =
         serde_json::from_str(&inventory.to_json()).map_err(|error| damaged_row_error(place(), error.to_string()))?;
+    // Values have rows of their own, so that adding one does not write them all again.
     let values = document.as_object_mut().and_then(|map| map.remove("values"));
     let row = rows::InventoryRow {
         id: 0,
@@ -94,6 +95,7 @@ pub(crate) fn join_stored_inventory(
         let apart = value_by_text
             .get(&fold_text(value.id.trim()))
             .is_some_and(|other| fold_text(other.trim()) == fold_text(value.id.trim()));
+        // Otherwise one text would mean two values.
         if all.iter().any(spelt) || !(apart || free(&value.id)) {
             continue;
         }

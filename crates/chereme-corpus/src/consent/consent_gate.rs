@@ -122,7 +122,9 @@ impl PublishPermissions {
             let all = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
             match input {
                 Some(input) => drop(all.as_mut().map(|set| set.insert(input))),
+                // A lexicon entry has no movement of a person.
                 None if token => {}
+                // A source that was deleted may have belonged to anybody.
                 None => *all = None,
             }
         }
@@ -152,9 +154,11 @@ impl PublishPermissions {
             for name in named.get(&row.id).into_iter().flatten() {
                 match by_name.get(&fold_text(name)) {
                     Some(same) => people.extend(same.iter().copied().map(Some)),
+                    // Somebody without a row as signer has agreed to nothing.
                     None => people.push(None),
                 }
             }
+            // A captured recording shows somebody even if nobody is named.
             let shows = row.origin == RecordOrigin::Captured || !people.is_empty();
             if shows {
                 permissions.personal.insert(row.id);
@@ -190,6 +194,7 @@ impl PublishPermissions {
             let is_captured =
                 |id: &&i64| (self.recordings.get(*id)).is_some_and(|row| row.origin == RecordOrigin::Captured);
             let captured: Vec<i64> = group.iter().filter(is_captured).copied().collect();
+            // Annotation is no part of the movement, so equal movement says nothing about it.
             for kind in [ConsentKind::Movement, ConsentKind::Derived] {
                 let all: Vec<StatedAudience> = captured.iter().map(|id| self.stated_audience(*id, kind)).collect();
                 let least = all.iter().filter_map(|stated| stated.least).min();
@@ -197,6 +202,7 @@ impl PublishPermissions {
                 for id in &group {
                     if let Some(stated) = self.stated.get_mut(id) {
                         let stated = &mut stated[kind as usize];
+                        // Copies show the same person, so the narrowest statement holds for all of them.
                         stated.least = stated.least.into_iter().chain(least).min();
                         stated.is_doubted |= is_doubted;
                     }
@@ -211,6 +217,7 @@ impl PublishPermissions {
         let generated: Vec<i64> = self.inputs.keys().copied().collect();
         for recording in generated {
             let mut sources = self.source_recordings(recording);
+            // Comparing movement is slow, and needless where both kinds are stated alike.
             sources.retain(|source| {
                 self.stated_audience(*source, ConsentKind::Movement)
                     != self.stated_audience(*source, ConsentKind::Derived)
@@ -226,6 +233,7 @@ impl PublishPermissions {
         let (mut sources, mut waiting) = (BTreeSet::new(), vec![recording]);
         while let Some(next) = waiting.pop() {
             for &input in self.inputs.get(&next).into_iter().flatten().flatten() {
+                // Recipes may share a source, which is then followed only once.
                 if sources.insert(input) {
                     waiting.push(input);
                 }
@@ -283,9 +291,11 @@ impl PublishPermissions {
             };
             let licence = stated_licence(row);
             let from_others = inputs.is_some_and(|list| !list.is_empty());
+            // What the recording itself states holds even where its sources allow more.
             if (self.stated_audience(contributor, kind).own).is_some_and(|own| own < self.audience) {
                 return Err(withheld(WithheldReason::NotPublic));
             }
+            // What is made from others shows a sign that was derived, and not what was recorded.
             let kind = if from_others { ConsentKind::Derived } else { kind };
             self.may_be_seen(contributor, kind).map_err(withheld)?;
             match licence {
@@ -299,6 +309,7 @@ impl PublishPermissions {
                 }
                 None => return Err(withheld(WithheldReason::NoTerms)),
             }
+            // The recording itself may be passed on unchanged, so its own terms do not forbid that.
             if contributor != recording && licence.is_some_and(forbids_derivatives) {
                 return Err(withheld(WithheldReason::NoDerivatives));
             }
@@ -314,6 +325,7 @@ impl PublishPermissions {
                     [(input, ConsentKind::Derived)]
                         .into_iter()
                         .chain(shown)
+                        // Recipes of recipes could otherwise lead in circles.
                         .filter(|next| seen.insert(*next)),
                 );
             }
@@ -325,6 +337,7 @@ impl PublishPermissions {
     fn may_be_seen(&self, recording: i64, kind: ConsentKind) -> std::result::Result<(), WithheldReason> {
         let stated = self.stated_audience(recording, kind);
         match stated.least {
+            // A refusal is stronger than a missing statement, and is named first.
             Some(least) if least < self.audience => Err(WithheldReason::NotPublic),
             _ if stated.is_incomplete => Err(WithheldReason::ConsentUnknown),
             _ if stated.is_doubted => Err(WithheldReason::Undecided),
@@ -344,6 +357,7 @@ impl PublishPermissions {
             let is_unknown = matches!(from_others, Some(None));
             let from_others = from_others.is_some_and(|inputs| inputs.as_ref().is_none_or(|list| !list.is_empty()));
             let licence = self.recordings.get(&contributor).and_then(stated_licence);
+            // A recording made from others needs no terms of its own, since it has theirs.
             is_stated &= !is_unknown && (licence.is_some() || from_others);
             licences.extend(licence);
             let is_source = contributor != recording;
@@ -361,6 +375,7 @@ impl PublishPermissions {
                 widest = widest.min(least.unwrap_or(ConsentAudience::Public));
             }
             if is_source && licence.is_some_and(forbids_derivatives) {
+                // A changed copy of what may not be changed must not be passed on at all.
                 widest = ConsentAudience::Nobody;
             }
         }
@@ -414,6 +429,7 @@ pub(super) fn state_audience(
     let each = people
         .iter()
         .map(|person| person.and_then(|consent| consent.audience_of_kind(kind)));
+    // The recording's own statement covers those who stated nothing themselves.
     let is_incomplete = shows && own.is_none() && (people.is_empty() || each.clone().any(|one| one.is_none()));
     StatedAudience {
         least: each.flatten().chain(own).min(),
@@ -433,11 +449,13 @@ fn doubts(connection: &Connection) -> CorpusResult<BTreeSet<(&'static str, i64, 
         let other = PersonConsent::parse_consent_json(other_text, dispute.table).unwrap_or_default();
         for kind in ConsentKind::ALL_CONSENT_KINDS {
             let is_whole = match dispute.table {
+                // The other copy deleted the row, perhaps because it should not be shown at all.
                 _ if dispute.theirs.is_empty() => true,
                 "signer" => false,
                 "tier" => differs("participant"),
                 _ => ["signer_id", "origin", "licence"].into_iter().any(differs),
             };
+            // Whatever falls short of public is a doubt, since the audience is not known here.
             let less = differs("consent") && other.audience_of_kind(kind) != Some(ConsentAudience::Public);
             match dispute.table {
                 "signer" if is_whole || less => drop(doubts.insert(("signer", dispute.id, kind))),
@@ -455,6 +473,7 @@ fn doubts(connection: &Connection) -> CorpusResult<BTreeSet<(&'static str, i64, 
 /// Reports whether terms of use forbid that something is made from it, as the ND licences of Creative Commons do.
 pub(super) fn forbids_derivatives(licence: &str) -> bool {
     let licence = licence.to_lowercase();
+    // The letters also occur within words, so they count only as a word of their own.
     let words = licence.split(|letter: char| !letter.is_alphanumeric());
     let nd = words.clone().any(|word| word == "nd");
     nd || licence.contains("noderiv") || licence.contains("no deriv")

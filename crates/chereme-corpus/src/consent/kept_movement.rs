@@ -75,16 +75,19 @@ fn load_body_movement(connection: &Connection, recording: i64) -> CorpusResult<O
 /// the way somebody stands may be others: the movement, by which people are recognised, is the same.
 fn is_movement_kept(generated: &BodyMovement, source: &BodyMovement) -> bool {
     let name_of = |body: &BodyMovement, joint: usize| body.clip.clip_skeleton().joint_at(joint).name.clone();
+    // The skeletons may order their joints differently, so these are found by name.
     let source_joints: BTreeMap<String, usize> =
         (source.arm_joints.iter().map(|&joint| (name_of(source, joint), joint))).collect();
     let own_joints = generated.arm_joints.iter();
     let joints: Vec<[usize; 2]> = own_joints
         .filter_map(|&joint| Some([joint, *source_joints.get(&name_of(generated, joint))?]))
         .collect();
+    // Few common joints could be alike by chance.
     if joints.is_empty() || joints.len() * 2 < generated.arm_joints.len() {
         return false;
     }
     let (own, other) = (&generated.clip, &source.clip);
+    // A quaternion and its negative are the same rotation.
     let cosine = |one: DQuat, two: DQuat| one.dot(two).abs();
     let is_same_frame = |frame: usize, of_source: usize| {
         joints.iter().all(|&[own_joint, other_joint]| {
@@ -99,16 +102,19 @@ fn is_movement_kept(generated: &BodyMovement, source: &BodyMovement) -> bool {
         })
     };
     let enough = (KEPT_MOVEMENT_SECONDS / own.clip_frame_rate().frame_time()).ceil() as usize;
+    // A clip that is shorter than the span counts as kept if all of it is.
     let enough = enough.min(own.clip_frame_count()).min(other.clip_frame_count()).max(2);
     // How many frames up to one of the source follow each other in both.
     let mut runs = vec![0; other.clip_frame_count() + 1];
     for frame in 0..own.clip_frame_count() {
+        // Going backwards, the runs of the former frame are still there to be continued.
         for of_source in (0..other.clip_frame_count()).rev() {
             let run = match is_same_frame(frame, of_source) {
                 true => runs[of_source] + 1,
                 false => 0,
             };
             runs[of_source + 1] = run;
+            // At rest, the arms of all people are alike.
             if run >= enough && moves_between(of_source + 1 - enough, of_source) {
                 return true;
             }

@@ -86,7 +86,9 @@ pub(crate) struct OutputGate {
 impl OutputGate {
     /// Opens the gate for an audience.
     pub(crate) fn open_output_gate(connection: &Connection, audience: OutputAudience) -> CorpusResult<Self> {
+        // For those who keep the corpus, the gate only tells what others may not see.
         let consent_audience = audience.consent_audience().unwrap_or(ConsentAudience::Public);
+        // Exports may lack terms, and say so; only a publication needs them.
         let terms = Some(TERMS_NOT_STATED);
         Ok(Self {
             audience,
@@ -139,6 +141,7 @@ impl OutputGate {
             .unwrap_or(&everything)
             .iter()
             .filter_map(|recording| self.not_agreed(*recording, &kinds))
+            // Missing terms are no refusal of a person.
             .filter(|withheld| withheld.why != WithheldReason::NoTerms)
             .map(|withheld| withheld.who)
             .collect();

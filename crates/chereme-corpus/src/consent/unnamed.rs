@@ -33,10 +33,12 @@ pub(super) fn complete_unnamed_inputs(
         let made_inputs = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
         match giver {
             Some(giver) => drop(made_inputs.as_mut().map(|givers| givers.insert(giver))),
+            // A giver that is gone may have been anybody.
             None => *made_inputs = None,
         }
     }
     let unnamed = consents::without_body(connection)?;
+    // Reading all skeletons is slow, and only needed for recipes of earlier versions.
     if unnamed.is_empty() {
         return Ok(());
     }
@@ -55,6 +57,7 @@ pub(super) fn complete_unnamed_inputs(
             .filter(|(_, body)| is_same(body, &moving))
             .map(|(recording, _)| *recording)
             .collect();
+        // The program's own body belongs to nobody, so it adds no source.
         if of.is_empty() && !is_same(&own_skeleton, &moving) {
             inputs.insert(made, None);
         } else if let Some(known) = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new())) {
@@ -80,6 +83,7 @@ fn is_same(one: &Skeleton, other: &Skeleton) -> bool {
     let joints = one.skeleton_joints().iter().zip(other.skeleton_joints());
     one.len() == other.len()
         && joints
+            // The offset of the root is its place in the room, and no bone.
             .skip(1)
             .all(|(a, b)| a.parent == b.parent && (a.offset - b.offset).length() < SAME_BONE_TOLERANCE_M)
 }

@@ -53,6 +53,7 @@ impl ErasedTraces {
         traces.add_traces("SELECT name FROM signer WHERE id = ?1", signer, connection)?;
         traces.add_traces("SELECT uid FROM signer WHERE id = ?1", signer, connection)?;
         for recording in recordings {
+            // A name alone may be common, so identities and hashes are searched for as well.
             for sql in [
                 "SELECT name FROM recording WHERE id = ?1 UNION SELECT notes FROM recording WHERE id = ?1",
                 "SELECT uid FROM recording WHERE id = ?1",
@@ -80,6 +81,7 @@ impl ErasedTraces {
             match row.get_ref(0)? {
                 ValueRef::Text(text) => {
                     let text = String::from_utf8_lossy(text).trim().to_owned();
+                    // A shorter text cannot be found by its first bytes, and occurs everywhere by chance.
                     if text.len() >= TRACE_HEAD_BYTES {
                         self.texts.insert(text);
                     }
@@ -103,6 +105,7 @@ impl ErasedTraces {
                 ValueRef::Text(text) => {
                     for trace in texts.traces_in(text) {
                         let text = String::from_utf8_lossy(trace).into_owned();
+                        // One table is enough to show the user where the text is still said.
                         said.entry(text).or_insert_with(|| table.clone());
                     }
                 }
@@ -115,15 +118,18 @@ impl ErasedTraces {
         }
         let long_texts = self.texts.iter().filter(|text| text.len() >= LEAST_TRACE_BYTES);
         let searched_bytes = long_texts
+            // What other rows say lies in the bytes rightfully.
             .filter(|text| !said.contains_key(*text))
             .map(String::as_bytes)
             .chain(all_bytes.filter(|bytes| !known_bytes.contains(*bytes)));
         let finder = TraceFinder::from_traces(searched_bytes);
         let mut left = BTreeSet::new();
+        // What was written last may still lie in the log beside the file.
         for file in [path.to_owned(), companion_path(path, "-wal")] {
             finder.search_file(&file, &mut left)?;
         }
         let left = left.iter().map(|trace| match std::str::from_utf8(trace) {
+            // A hash is no text, and is shown by its digits.
             Ok(text) => text.to_owned(),
             Err(_) => to_hex_text(trace),
         });
@@ -164,6 +170,7 @@ impl<'a> TraceFinder<'a> {
         let mut present = BTreeSet::new();
         for start in 0..bytes.len().saturating_sub(TRACE_HEAD_BYTES - 1) {
             let rest = &bytes[start..];
+            // This test of two bytes rules out nearly all places at little cost.
             if self.heads[usize::from(rest[0]) << 8 | usize::from(rest[1])]
                 && let Some(traces) = rest.first_chunk().and_then(|head| self.by_head.get(head))
             {
@@ -208,6 +215,7 @@ pub(crate) fn older_versions(path: &Path) -> Vec<PathBuf> {
     {
         let (other, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
         let marks = [format!("{stem}.version-"), format!("{stem}.rescued")];
+        // Files of others beside the corpus may begin alike.
         let is_copy = other.extension() == Some(extension) && marks.iter().any(|mark| name.starts_with(mark));
         if is_copy || name == format!("{main}-wal.stale") {
             all.push(other);
@@ -229,10 +237,14 @@ impl<D: DerivedData> CorpusStore<D> {
         // Erasing is no operation, so that nothing of it may stay in the notes for one.
         self.connection
             .execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
+        // The notes are deleted even if erasing failed, so the error is passed on only here.
         erased?;
+        // The old index still holds texts of the person.
         self.index = D::default();
         self.rebuild_search_index(progress)?;
+        // A statement that is still prepared would keep the file from being written again.
         self.connection.flush_prepared_statement_cache();
+        // Deleted rows otherwise stay readable in free pages of the file.
         self.connection.execute_batch("VACUUM")?;
         let is_busy: bool = self
             .connection
@@ -251,7 +263,9 @@ impl<D: DerivedData> CorpusStore<D> {
         let transaction = self
             .connection
             .transaction_with_behavior(TransactionBehavior::Immediate)?;
+        // Rows that refer to each other are removed one table after the other.
         transaction.execute_batch("PRAGMA defer_foreign_keys = ON")?;
+        // The two versions of an undecided row may say something about the person.
         transaction.execute_batch("DELETE FROM meta WHERE key LIKE 'conflict:%'")?;
         let omitted = OmittedRows {
             recordings,

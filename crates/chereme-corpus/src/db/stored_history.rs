@@ -110,6 +110,7 @@ pub(super) fn finish_operation(
         let table = text(0)?.unwrap_or_default();
         let images = [text(2)?, text(3)?];
         for image in images.into_iter().flatten() {
+            // The old image leaves the seal in the same way as the new one enters it.
             seals.turn_row(table, image);
         }
         let [before, after] = images.map(|image| image.unwrap_or("null"));
@@ -118,6 +119,7 @@ pub(super) fn finish_operation(
         lines.extend_from_slice(line.as_bytes());
         changes += 1;
         report_change_progress(progress, "history", changes)?;
+        // An import may change millions of rows, which must not lie in memory at once.
         if lines.len() >= PART_BYTES {
             seals.turn_part(
                 operation,
@@ -135,6 +137,7 @@ pub(super) fn finish_operation(
             &store_changeset_part(connection, operation, part, &lines)?,
         );
     }
+    // An operation without effect would be a step of undo that does nothing.
     if changes == 0 {
         connection.execute("DELETE FROM operation WHERE id = ?1", [operation])?;
     } else {
@@ -193,6 +196,7 @@ pub(super) fn redo_undone_operation(
         CorpusError::from_wrong_message("there is nothing to redo")
             .with_advice("only what was undone last, with no other work since, can be done again")
     })?;
+    // The same operation may have been undone several times, and the last undo is the one to invert.
     let undone_by = connection.query_row(
         "SELECT max(id) FROM operation WHERE kind = 'undo' AND target = ?1",
         [target],
@@ -219,6 +223,7 @@ fn load_undo_and_redo_stacks(connection: &Connection) -> CorpusResult<(Vec<i64>,
             }
             _ => {
                 done.push(row.get(0)?);
+                // New work may rest on the present rows, so what was undone before cannot return.
                 undone.clear();
             }
         }
@@ -240,7 +245,9 @@ fn apply_inverse_changeset(
         [target],
         |row| Ok((row.get::<_, String>(0)?, read_effect(row, 0)?)),
     )?;
+    // A damaged changeset would write wrong rows into the corpus.
     seals::verify_changeset(connection, source)?;
+    // Rows return in reverse order, so one may come before the row that it refers to.
     connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
     let parts: i64 = connection.query_row(
         "SELECT count(*) FROM changeset WHERE operation_id = ?1",
@@ -253,6 +260,7 @@ fn apply_inverse_changeset(
         statements.insert(table, InverseStatements::inverse_for_table(connection, table)?);
     }
     let mut done = 0;
+    // Changes of one row build on each other, so the last one is taken back first.
     for part in (0..parts).rev() {
         let part_text = read_part(connection, source, part)?;
         let lines: Vec<&str> = part_text.lines().collect();
@@ -311,6 +319,7 @@ pub(super) fn read_part(connection: &Connection, operation: i64, part: i64) -> C
         .ok_or_else(|| damaged_row_error(place(), "it is missing"))?;
     let mut lines = Vec::new();
     let reader = zstd::Decoder::new(data.as_slice()).map_err(|e| damaged_row_error(place(), e.to_string()))?;
+    // A damaged part could otherwise unpack to any size.
     std::io::Read::read_to_end(&mut std::io::Read::take(reader, 64 * PART_BYTES as u64), &mut lines)
         .map_err(|error| damaged_row_error(place(), error.to_string()))?;
     String::from_utf8(lines).map_err(|_| damaged_row_error(place(), "it is no text"))
@@ -393,6 +402,7 @@ struct InverseStatements {
 impl InverseStatements {
     fn inverse_for_table(connection: &Connection, table: &str) -> CorpusResult<Self> {
         let columns = load_table_columns(connection, table)?;
+        // The first column of every tracked table is its key.
         let key = columns[0].name.clone();
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let values: Vec<String> = columns.iter().map(column_from_image_sql).collect();
@@ -440,6 +450,7 @@ fn invert_change(
     match kind.as_str() {
         "i" => {
             let after_text = after.to_string();
+            // A row that something else changed since must not be deleted with that change.
             expect_row(connection, &table, inverse, &after, &after_text)?;
             connection.prepare_cached(&inverse.delete)?.execute([after_text])?;
         }
@@ -486,6 +497,7 @@ fn expect_row(
     if same {
         return Ok(());
     }
+    // The user knows rows by their names, and not by their numbers.
     let named = ["name", "gloss", "value", "key", "text"]
         .into_iter()
         .find_map(|column| want.get(column)?.as_str().filter(|text| !text.is_empty()));
@@ -516,6 +528,7 @@ pub(crate) fn operations_since(connection: &Connection, operation: i64) -> Corpu
     let mut statement = connection.prepare_cached("SELECT id, changes FROM operation WHERE id >= ?1 ORDER BY id")?;
     let row_iterator = statement.query_map([operation], |row| Ok((row.get(0)?, row.get(1)?)))?;
     let mut rows = row_iterator.collect::<rusqlite::Result<Vec<(i64, i64)>>>()?;
+    // A caller that knows an operation of another history must read everything again.
     if rows.first().is_none_or(|(id, _)| *id != operation) {
         return Ok(None);
     }
@@ -548,6 +561,7 @@ pub(crate) fn load_newest_operations(connection: &Connection, limit: usize) -> C
                 summary: row.get(6)?,
                 effect: read_effect(row, 5)?,
                 changes: row.get(8)?,
+                // A redone operation stands out of order, where the binary search may miss it.
                 stands: kind != OperationKind::Do || done.binary_search(&id).is_ok() || done.contains(&id),
             })
         })?
@@ -588,6 +602,7 @@ pub(super) fn check_changesets(
                 Err(error) => faults.push(error.to_string()),
             }
         }
+        // A part that was cut off or lost shows only in the number of its lines.
         if fault_count != changes {
             faults.push(format!("operation {id} holds {fault_count} of its {changes} changes"));
         }

@@ -124,6 +124,7 @@ pub(crate) fn content_sizes_bytes(connection: &Connection) -> CorpusResult<BTree
     ] {
         bytes.insert(what, query_row_count(connection, sql)?);
     }
+    // The lengths leave out the pages and indices around the contents, which are the rest.
     let rest = total.saturating_sub(bytes.values().sum());
     bytes.insert("rest", rest);
     Ok(bytes)

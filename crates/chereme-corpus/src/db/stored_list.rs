@@ -426,6 +426,7 @@ pub(crate) fn query_list_rows(
 ) -> CorpusResult<(u64, Vec<Map<String, Value>>)> {
     add_functions(connection)?;
     let mut values: Vec<Box<dyn ToSql>> = Vec::new();
+    // A list without conditions then needs no clause of its own.
     let mut tests = vec!["TRUE".to_owned()];
     for (column, test) in &wanted.tests {
         tests.push(test_sql(&table.columns[*column], test, &mut values));
@@ -442,10 +443,12 @@ pub(crate) fn query_list_rows(
     let sql = format!(
         "SELECT {} FROM {from} WHERE {tests} ORDER BY {}{} LIMIT {} OFFSET {}",
         columns.join(", "),
+        // The default order follows, so that rows with equal values always come in the same order.
         sort.unwrap_or_default(),
         table.order,
         wanted
             .limit
+            // SQLite takes a negative limit for none.
             .map_or(-1, |limit| i64::try_from(limit).unwrap_or(i64::MAX)),
         i64::try_from(wanted.offset).unwrap_or(i64::MAX),
     );
@@ -470,6 +473,7 @@ fn test_sql(column: &ListColumn, test: &ColumnCondition, values: &mut Vec<Box<dy
     };
     match test {
         ColumnCondition::Like(pattern) => {
+            // The LIKE of SQLite knows neither accents nor case beyond ASCII.
             format!("chereme_fits(?{}, {column})", put(Box::new(pattern.clone())))
         }
         ColumnCondition::Between(least, most) => {
@@ -478,6 +482,7 @@ fn test_sql(column: &ListColumn, test: &ColumnCondition, values: &mut Vec<Box<dy
         }
         ColumnCondition::Is(wanted) => format!("({column}) = ?{}", put(Box::new(*wanted))),
         ColumnCondition::Row(wanted) => format!("{row} = ?{}", put(Box::new(*wanted))),
+        // An empty text counts as missing, too.
         ColumnCondition::Nothing => format!("coalesce({column}, '') = ''"),
     }
 }
@@ -487,6 +492,7 @@ fn sort_sql(column: &ListColumn, down: bool) -> String {
     let sql = column.filter_expression();
     match column.holds {
         ListColumnContent::Text | ListColumnContent::Json(_) => {
+            // Equal folded texts are told apart by the texts themselves, for a stable order.
             format!("chereme_folded({sql}) {direction} NULLS LAST, {sql} {direction}, ")
         }
         _ => format!("{sql} {direction} NULLS LAST, "),
@@ -498,6 +504,7 @@ fn list_cell_value(value: ValueRef<'_>, holds: ListColumnContent) -> Value {
         (ValueRef::Integer(number), ListColumnContent::Flag) => Value::from(number != 0),
         (ValueRef::Integer(number), _) => Value::from(number),
         (ValueRef::Real(number), _) => Value::from(number),
+        // A damaged cell must not keep the whole list from being shown.
         (ValueRef::Text(text), ListColumnContent::Json(_)) => serde_json::from_slice(text).unwrap_or(Value::Null),
         (ValueRef::Text(text), _) => Value::from(String::from_utf8_lossy(text)),
         _ => Value::Null,
@@ -507,6 +514,7 @@ fn list_cell_value(value: ValueRef<'_>, holds: ListColumnContent) -> Value {
 fn add_functions(connection: &Connection) -> CorpusResult<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC | FunctionFlags::SQLITE_DIRECTONLY;
     connection.create_scalar_function("chereme_fits", 2, flags, |context| {
+        // The pattern is the same for all rows, so it is parsed once per statement.
         let pattern = context.get_or_create_aux(0, |text| text.as_str().map(TextPattern::from_glob))?;
         Ok(match context.get_raw(1) {
             ValueRef::Text(text) => pattern.matches_text(&String::from_utf8_lossy(text)),

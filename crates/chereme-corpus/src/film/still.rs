@@ -26,9 +26,11 @@ impl Corpus {
         let media_places = self.recording_media(recording)?.into_iter();
         let films = media_places.filter(|place| place.is_there && place.track.is_film());
         let stills = films.filter_map(|place| {
+            // A film that cannot be opened here may be followed by one that can.
             let mut film = FilmFile::open_film(&place.path?).ok()?;
             let times = film.film_times().clone();
             let film_time = at.instant_micros() - place.track.offset_us;
+            // A moment before or after the film shows its first or last picture.
             let frame = times.displayed_frame_at(film_time.clamp(0, (times.film_end() - 1).max(0)))?;
             let begins = times.sync_before(frame);
             let frame = if frame - begins > MAX_STILL_DECODED_FRAMES {

@@ -109,6 +109,7 @@ impl Corpus {
         if done.is_err() {
             // Whatever cannot be removed does no harm: the page is written last.
             made.iter().for_each(|film| drop(fs::remove_file(film)));
+            // A folder that was there before belongs to the user.
             if new {
                 drop(fs::remove_dir(&media));
                 drop(fs::remove_dir(to));
@@ -120,6 +121,7 @@ impl Corpus {
     /// Fails if a clip of a plan shows somebody who did not agree that the audience sees it. A plan without one of its
     /// clips would be another plan, so that nothing is left out.
     fn refuse_withheld_clips(&mut self, plan: &StudyPlan, audience: OutputAudience) -> CorpusResult<()> {
+        // Several trials may show the same clip.
         let clips: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.clip.as_str()).collect();
         let gate = OutputGate::open_output_gate(self.store.read_connection(), audience)?;
         let mut errors = Vec::new();
@@ -148,6 +150,7 @@ impl Corpus {
         let plan = &study.plan;
         let media = page.with_file_name(QUESTIONNAIRE_MEDIA_FOLDER);
         let mut reach: Option<SigningReach> = None;
+        // All films share one framing, so the reach of all clips is needed before the first is drawn.
         self.study_clips(plan, progress, |_, it| {
             let clip_reach = SigningReach::reach_from_clip(&it.clip, &it.anatomy);
             reach = match (reach, clip_reach) {
@@ -161,6 +164,7 @@ impl Corpus {
         let clips: BTreeSet<&str> = plan.trials.iter().map(|trial| trial.clip.as_str()).collect();
         let total = clips.len() as u64;
         let mut drawn = 0;
+        // The second pass reports films drawn instead of clips read.
         let mut unheard = crate::progress::ignore_progress_step;
         let quiet = &mut ProgressReceiver::new(&mut unheard);
         self.study_clips(plan, quiet, |trials, it| {
@@ -184,8 +188,10 @@ impl Corpus {
             };
             let film = encode_study_film(animation, options.rate.clamp(1, 120), &mut hear)?;
             drawn += 1;
+            // The name tells nothing about the condition, and equal films become one file.
             let name = format!("{}.mp4", &to_hex_text(&Sha256::digest(&film))[..16]);
             let path = media.join(&name);
+            // A film of an earlier build must not be removed if this build fails.
             if !path.exists() {
                 made.push(path.clone());
             }
@@ -197,6 +203,7 @@ impl Corpus {
         })?;
         let rows = study_order::trial_order_rows(plan);
         let text = html(study, &films, &rows);
+        // The page comes last, so that it never names a film that is missing.
         bytes += write_atomically(page, options.force, |out| write_page_bytes(out, text.as_bytes(), page))?;
         let names: BTreeSet<&String> = films.values().collect();
         if options.force {
@@ -337,6 +344,7 @@ fn html(study: &StudyWithAnswers, films: &BTreeMap<usize, String>, rows: &[Vec<s
     // Within a script element only `<` could end it.
     let data = page_data.to_string().replace('<', "\\u003c");
     let script = format!("{QUESTIONNAIRE_TEXTS}\n{QUESTIONNAIRE_SCRIPT}");
+    // The policy of the page allows this one script only.
     let hash = encode_base64(&Sha256::digest(&script));
     let plain_title = text_in(&plan.title, "en").unwrap_or(&plan.name);
     let title = plain_title.replace('&', "&amp;").replace('<', "&lt;");

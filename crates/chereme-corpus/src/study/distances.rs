@@ -57,6 +57,7 @@ impl Corpus {
                     trials.any(|trial| trial.item == item && (!same_part || trial.part == part))
                 })
             };
+            // A part may lack the condition, while another part has the same item in it.
             holds(true).or_else(|| holds(false)).map(|entry| &entry.1)
         };
         let trials = plan.trials.clone();

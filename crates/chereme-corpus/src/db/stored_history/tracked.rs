@@ -127,6 +127,7 @@ pub(in crate::db) fn create_change_triggers(connection: &Connection) -> CorpusRe
                 "u" => (image("OLD"), image("NEW")),
                 _ => (image("OLD"), "NULL".to_owned()),
             };
+            // A deleted row has only its former references.
             let row = if kind == "d" { "OLD" } else { "NEW" };
             let reference_columns: Vec<String> = references
                 .iter()
@@ -241,6 +242,7 @@ pub(crate) fn are_image_values_equal(a: &Value, b: &Value) -> bool {
         return true;
     }
     match (a.as_f64(), b.as_f64()) {
+        // Whole numbers are exact in JSON, so only fractions may differ.
         (Some(x), Some(y)) if a.is_f64() || b.is_f64() => {
             (x - y).abs() <= MAX_RELATIVE_NUMBER_ERROR * x.abs().max(y.abs())
         }
