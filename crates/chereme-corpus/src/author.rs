@@ -8,6 +8,7 @@ const AUTHOR_ENVIRONMENT_VARIABLES: [&str; 4] = ["CHEREME_AUTHOR", "USER", "USER
 pub fn determine_author(given: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> String {
     let environment_name = || {
         let mut names = AUTHOR_ENVIRONMENT_VARIABLES.iter().filter_map(|name| variable(name));
+        // A variable may be set to nothing.
         names.find(|name| !name.trim().is_empty())
     };
     given

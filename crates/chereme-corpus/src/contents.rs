@@ -108,6 +108,7 @@ impl Corpus {
     /// # Errors
     /// Fails if the database fails or holds invalid rows.
     pub fn load_corpus_overview(&self, operations: usize) -> CorpusResult<CorpusOverview> {
+        // All parts must show the same moment, also while another program writes.
         let reading = begin_reading(self.store.read_connection())?;
         let inventories = inventory_rows(&reading, None)?;
         Ok(CorpusOverview {
@@ -132,6 +133,7 @@ impl Corpus {
     /// # Errors
     /// Fails if there is no such recording, or the database fails.
     pub fn load_recording_contents(&self, recording: i64) -> CorpusResult<RecordingContents> {
+        // Another program may write between the queries, which must still fit together.
         let reading = begin_reading(self.store.read_connection())?;
         let tiers = stored_tiers::load_tier_rows(&reading, recording)?
             .into_iter()

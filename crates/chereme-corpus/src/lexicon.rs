@@ -125,8 +125,10 @@ impl Corpus {
                     total,
                     unit: ProgressUnit::Items,
                 })?;
+                // A recording that is linked already keeps its tokens.
                 if lexicons::link_recording(connection, *id, lexicon.as_ref().map(|row| row.id))? {
                     let inventories = inventories::load_of(connection, *id)?;
+                    // The glosses may now be those of other signs.
                     tokens::derive_with_progress(connection, *id, None, &inventories, progress)?;
                     names.push(stored_recordings::load_recording_row(connection, *id)?.name);
                 }
@@ -182,6 +184,7 @@ pub(crate) fn require_lexicon(connection: &Connection, name: &str) -> CorpusResu
 /// Fails if nothing is left, or if it has the stroke that parts lexicon and sign in an address.
 pub(crate) fn check_lexicon_name(name: &str) -> CorpusResult<String> {
     let name = name.trim();
+    // The stroke parts lexicon and sign in an address.
     if name.is_empty() || name.contains('/') {
         return Err(
             CorpusError::from_wrong_message(format!("{name:?} cannot be the name of a lexicon"))
@@ -228,6 +231,7 @@ pub(crate) fn keep_scope_rows<T>(
         rows.retain(|row| of_signs.get(&sign_of(row)) == Some(&lexicon));
         return Ok(rows);
     }
+    // Without several lexicons the signs cannot be mixed, which spares reading them all.
     if lexicons.len() < 2 {
         return Ok(rows);
     }

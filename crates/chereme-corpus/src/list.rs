@@ -129,6 +129,7 @@ impl ListKind {
         let is_singular = self.singular() == name;
         let index = columns
             .iter()
+            // Users name the column by the kind of row, as queries do.
             .position(|column| column.name == name || (is_singular && matches!(column.name, "name" | "gloss" | "key")));
         index.ok_or_else(|| {
             let names = columns.iter().map(|column| column.name);
@@ -222,6 +223,7 @@ impl Corpus {
             wanted.sort = Some((kind.find_list_column(name)?, filter.descending));
         }
         let (total, mut listed) = rows::query_list_rows(connection, kind.list_kind_table(), &wanted)?;
+        // These columns are not in the rows themselves, so they are filled in for the listed rows alone.
         if matches!(kind, ListKind::Tokens | ListKind::Signs) {
             add_notations(connection, &mut listed)?;
         }
@@ -251,6 +253,7 @@ impl Corpus {
                 None => ColumnCondition::Like(pattern.to_owned()),
             }),
             ListColumnContent::Json(_) | ListColumnContent::Notation(_) => {
+                // The cell is shown as a list, and a pattern is meant for one of its parts.
                 Ok(ColumnCondition::Like(format!("*{pattern}*")))
             }
             ListColumnContent::Number => {
@@ -282,6 +285,7 @@ impl Corpus {
             Ok(CorpusAddress::Signer(name)) if of("signer") => {
                 Some(address::find_signer_by_name(connection, &name)?.id)
             }
+            // A column of parents holds tiers, too.
             Ok(CorpusAddress::Tier(tier)) if of("tier") || column == "parent" => {
                 Some(stored_tiers::load_tier_row(connection, tier)?.id)
             }
@@ -295,6 +299,7 @@ impl Corpus {
 }
 
 fn parse_between_condition(pattern: &str) -> Option<ColumnCondition> {
+    // No number lies between bounds that are no numbers.
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| !number.is_nan());
     let (low, high) = (f64::MIN, f64::MAX);
     if let Some((least, most)) = pattern.split_once("..") {
@@ -307,6 +312,7 @@ fn parse_between_condition(pattern: &str) -> Option<ColumnCondition> {
     } else if let Some(text) = pattern.strip_prefix("<=") {
         (low, number(text)?)
     } else if let Some(text) = pattern.strip_prefix('>') {
+        // The bounds are inclusive, so the least number above stands for an open bound.
         (number(text)?.next_up(), high)
     } else if let Some(text) = pattern.strip_prefix('<') {
         (low, number(text)?.next_down())
@@ -333,6 +339,7 @@ fn token_values_by_field(values: &[TokenValueRow]) -> Value {
         let value = Value::from(value_text.unwrap_or_default());
         match map.get_mut(&field.join(".")) {
             Some(Value::Array(several)) => several.push(value),
+            // A field gets a list only when it has a second value, so that one value stays plain.
             Some(one) => *one = Value::Array(vec![one.take(), value]),
             None => {
                 map.insert(field.join("."), value);
@@ -365,6 +372,7 @@ pub fn cell_text(value: &Value) -> String {
         Value::String(text) => text.clone(),
         Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
         Value::Array(all) => all.iter().map(cell_text).collect::<Vec<_>>().join(", "),
+        // An object with these keys is a notation, which is shown by the names of its symbols.
         Value::Object(map) if map.contains_key("system") && map.contains_key("document") => {
             let text = map.get("text").and_then(Value::as_str);
             let names = text.and_then(|text| to_names(text).ok());
@@ -374,6 +382,7 @@ pub fn cell_text(value: &Value) -> String {
             }
         }
         Value::Object(map) => match (map.get("language"), map.get("text")) {
+            // An object of just these two is a translation.
             (Some(Value::String(language)), Some(Value::String(text))) if map.len() == 2 => {
                 if language.is_empty() {
                     text.clone()
@@ -393,6 +402,7 @@ pub fn cell_text(value: &Value) -> String {
 pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Value)>) -> String {
     let mut cells: Vec<(String, BTreeMap<_, String>)> = Vec::new();
     for (name, value) in fields {
+        // Values of successive phases belong to one field.
         let (field, phase) = match name.parse::<ComponentField>() {
             Ok(field @ ComponentField { phase: Some(_), .. }) => {
                 let plain_field = ComponentField {

@@ -158,6 +158,7 @@ struct OperationRows {
 impl OperationRows {
     fn take_row_change(&mut self, change: RowChange) {
         *self.counts.entry(change.table.clone()).or_default() += 1;
+        // Derived rows are counted, but mean nothing to the user.
         let Some(table) = LOGGED_TABLE_NOUNS.iter().position(|known| known.0 == change.table) else {
             return;
         };
@@ -168,6 +169,7 @@ impl OperationRows {
         };
         let key = (table, image.get("id").and_then(Value::as_i64).unwrap_or(-1));
         match self.images.get_mut(&key) {
+            // Several changes of a row count as one, from its first state to its last.
             Some((_, after)) => *after = change.after,
             None => {
                 self.order.push(key);
@@ -180,6 +182,7 @@ impl OperationRows {
     fn changed_known_rows(&self) -> impl Iterator<Item = (usize, &Value, &Value)> {
         self.order.iter().filter_map(|key| {
             let (before, after) = self.images.get(key)?;
+            // A row that ended as it began was not changed.
             (before != after).then_some((key.0, before, after))
         })
     }
@@ -189,6 +192,7 @@ impl OperationRows {
         let table_index = LOGGED_TABLE_NOUNS.iter().position(|known| known.0 == table);
         let row_image = table_index.and_then(|known| {
             let (before, after) = self.images.get(&(known, id))?;
+            // A removed row has only its former name.
             let image = if after.is_null() { before } else { after };
             Some(image.get(LOGGED_TABLE_NOUNS[known].2)?.as_str()?.to_owned())
         });
@@ -230,6 +234,7 @@ fn describe_changed_row(
     let number = |column: &str| image.get(column).and_then(Value::as_i64);
     let text = |column: &str| image.get(column).and_then(Value::as_str).unwrap_or_default();
     let name = match text(naming) {
+        // An annotation without a value is named by its state.
         "" => text("state").to_owned(),
         name => name.to_owned(),
     };
@@ -255,6 +260,7 @@ fn describe_changed_row(
     };
     let mut fields = Vec::new();
     let both = [after, before].into_iter().filter_map(Value::as_object);
+    // A removed row has columns only before, and an added one only after.
     let row_columns: Vec<&String> = both.take(1).flat_map(serde_json::Map::keys).collect();
     let columns = match row_columns.is_empty() {
         true => before.as_object().into_iter().flat_map(serde_json::Map::keys).collect(),
@@ -269,6 +275,7 @@ fn describe_changed_row(
         let mut field = column.clone();
         if let Some(other) = stored_history::refers_to(name_of_table, column) {
             for side in [&mut from, &mut to] {
+                // The name says more to the user than the number of the row.
                 if let Some(name) = named(other, side.as_i64())? {
                     *side = Value::from(name);
                 }
@@ -311,6 +318,7 @@ pub fn change_sentence(change: &ChangedRow, language: InterfaceLanguage) -> Stri
         described_value(&both, language)
     };
     let joined_fields = fields.reduce(joined);
+    // If only columns without interest differ, the row got another place.
     let fields = joined_fields.map_or_else(|| json!({ "does": "row-order" }), Value::from);
     let does = match change.kind {
         ChangeKind::Added => "row-added",

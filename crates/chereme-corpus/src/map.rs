@@ -97,6 +97,7 @@ impl Corpus {
         for token in tokens {
             let coding = self.coding_of(&token)?;
             let features = coding_features(&coding, &components, &inventories, &mut numbers);
+            // A sign that is coded for none of them has no place on the map.
             if !features.is_empty() {
                 things.push(features);
                 placed.push(token);
@@ -123,6 +124,7 @@ impl Corpus {
                 unit,
             })
         };
+        // The search for neighbours is the first half of the work, and the layout the second.
         let near_signs = find_feature_neighbours(&things, MAP_NEIGHBOUR_COUNT, |done| report(done as u64).is_ok());
         let near = near_signs.ok_or(CorpusError::Stopped)?;
         let half = placed.len() as f32;
@@ -188,6 +190,7 @@ impl SignMap {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {full_side} {full_side}\" font-family=\"sans-serif\" font-size=\"11\">\n\
              <rect width=\"100%\" height=\"100%\" fill=\"#fbfbfd\"/>\n"
         );
+        // Glosses that overlap could not be read, so only the first one at a place is written.
         let mut taken: BTreeSet<(i32, i32)> = BTreeSet::new();
         for point in &self.signs {
             let [x, y] = [point.x, point.y].map(|coordinate| margin + side * coordinate);
@@ -250,6 +253,7 @@ fn coding_features(
                 let feature = field.feature.as_ref().map(ToString::to_string);
                 stored.inventory.component == field.component && stored.inventory.feature == feature
             };
+            // A value that occurs twice says no more than once.
             for value in single_values(values).collect::<BTreeSet<_>>() {
                 add_feature_weight(&mut weights, format!("{name}={value}"), CODING_FEATURE_WEIGHTS.0);
                 let known_value = inventories
@@ -259,6 +263,7 @@ fn coding_features(
                 let Some((inventory, value)) = known_value else {
                     continue;
                 };
+                // A value with many features must not weigh more than one with few.
                 let share = CODING_FEATURE_WEIGHTS.1 / (value.features.len().max(1) as f32).sqrt();
                 for feature in &value.features {
                     add_feature_weight(&mut weights, format!("{name}:{feature}"), share);
@@ -268,6 +273,7 @@ fn coding_features(
                 }
             }
         }
+        // Components with many values would otherwise outweigh the others.
         let length = weights.values().map(|weight| weight * weight).sum::<f32>().sqrt();
         for (name, weight) in weights {
             let next = numbers.len() as u32;
@@ -280,6 +286,7 @@ fn coding_features(
 
 fn add_feature_weight(own: &mut BTreeMap<String, f32>, name: String, weight: f32) {
     let strongest = own.entry(name).or_default();
+    // A wider value of two values counts once, by its strongest weight.
     *strongest = strongest.max(weight);
 }
 

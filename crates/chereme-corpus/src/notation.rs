@@ -78,6 +78,7 @@ pub(crate) fn find_named_notations(connection: &Connection, name: &str) -> Corpu
         return Ok(vec![find_address_notation(connection, &name.parse()?)?]);
     }
     let (sign, others): (Vec<_>, Vec<_>) = (all.into_iter()).partition(|found| found.document.gloss == name);
+    // A file that holds a sign of its own name means that one.
     Ok(if sign.is_empty() { others } else { sign })
 }
 
@@ -94,6 +95,7 @@ pub(crate) fn find_address_notation(connection: &Connection, address: &CorpusAdd
         Some(sign) => signs::tokens_of_sign(connection, sign)?,
         None => vec![address::find_addressed_token(connection, address)?],
     };
+    // The citation form comes first among the tokens.
     for token in &tokens {
         if let Some(found) = notation_of_token(connection, token.id)? {
             return Ok(found);
@@ -140,6 +142,7 @@ pub(crate) fn of_recipes(connection: &Connection, tokens: &[i64]) -> CorpusResul
                     let answer = &inputs["inputs"][format!("/{system}/of")]["notation"];
                     Vec::<NotatedSign>::deserialize(answer).unwrap_or_default()
                 });
+                // A sequence of signs is no notation of one token.
                 let Some([document]) = of.as_deref() else {
                     continue;
                 };
@@ -246,6 +249,7 @@ pub(crate) fn read_signs(bytes: &[u8], form: NotationFormat) -> CorpusResult<(No
 /// Fails if the file cannot be read, or holds no notation.
 pub fn read_notation(path: &Path) -> CorpusResult<(Vec<NotatedSign>, Vec<ImportFinding>)> {
     let size = fs::metadata(path).map_err(|error| CorpusError::from_file_failure(path, error))?;
+    // The whole file is read at once.
     if size.len() > MAX_NOTATION_FILE_BYTES {
         return Err(CorpusError::from_wrong_message("it is too long for signs in a row")
             .with_error_place(path.display().to_string())

@@ -7,6 +7,7 @@ use crate::map::escape_markup;
 pub(crate) fn fill_page_parts(page: &str, parts: &[(&str, &str)]) -> String {
     let mut text = String::new();
     for (at, piece) in page.split("@@").enumerate() {
+        // Every second piece stands between two marks, and only that can be a name.
         let part = parts.iter().find(|(name, _)| at % 2 == 1 && *name == piece);
         text.push_str(part.map_or(piece, |(_, part)| part));
     }
@@ -29,6 +30,7 @@ pub(crate) fn encode_base64(bytes: &[u8]) -> String {
         }
         for at in 0..4 {
             let letter = BASE64_LETTERS[(bits >> (18 - 6 * at) & 63) as usize];
+            // Missing bytes are written as signs of equality, so that the length is divisible by four.
             text.push(if at <= three.len() { char::from(letter) } else { '=' });
         }
     }

@@ -116,6 +116,7 @@ impl Corpus {
 pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Option<MinimalPairs> {
     let field_names: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
     let fields = field_names.into_iter().cloned().collect();
+    // Signs without a coding would all be equal.
     let coded_signs = codings.iter().filter(|(_, it)| !it.is_empty());
     let coded: Vec<(String, BTreeMap<String, String>)> = coded_signs.cloned().collect();
     // The only failure is that there are too many.
@@ -127,6 +128,7 @@ fn find_minimal_pairs(mut table: SignForms, empty: EmptyCellTreatment) -> Corpus
     if empty == EmptyCellTreatment::Unknown {
         table.rows.retain(SignForm::is_complete);
     }
+    // Sorted rows give every pair in the same order.
     table.rows.sort();
     let (cells, _) = number_form_cells(&table.rows);
     let forms = group_equal_rows(&cells, None);
@@ -138,6 +140,7 @@ fn find_minimal_pairs(mut table: SignForms, empty: EmptyCellTreatment) -> Corpus
         let before = found_pairs.len();
         for group in group_equal_rows(&cells, Some(field)).values() {
             for (at, one) in group.iter().enumerate() {
+                // Each pair is met once.
                 for other in &group[at + 1..] {
                     let (a, b) = (cells[*one][field], cells[*other][field]);
                     if a == b {
@@ -147,6 +150,8 @@ fn find_minimal_pairs(mut table: SignForms, empty: EmptyCellTreatment) -> Corpus
                     certain += usize::from(a != 0 && b != 0);
                     found_pairs.push((*one, *other, field));
                 }
+                // The limit is tested while pairs are found, since their number can grow with the square of
+                // the signs.
                 if found_pairs.len() > MAX_LISTED_PAIRS {
                     let text = format!("there are more than {MAX_LISTED_PAIRS} pairs");
                     return Err(CorpusError::from_wrong_message(text).with_advice("compare more fields"));

@@ -22,6 +22,7 @@ pub fn paths_like(typed: &str) -> Vec<String> {
     };
     let wanted = start.to_lowercase();
     let (mut folders, mut files) = (Vec::new(), Vec::new());
+    // Completion must answer at once, also in a folder with very many files.
     for entry in entries.take(MAX_FOLDER_ENTRIES).flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let hidden = name.starts_with('.') && !start.starts_with('.');
@@ -51,6 +52,7 @@ fn is_companion(path: &Path) -> bool {
     let of = ["-shm", "-wal", "-journal"]
         .into_iter()
         .find_map(|ending| name.strip_suffix(ending));
+    // The ending alone may belong to a file of the user.
     of.is_some_and(|name| path.with_file_name(name).is_file())
 }
 

@@ -22,6 +22,7 @@ impl AnnotationChangeRun<'_> {
         span: TimeSpan,
     ) -> CorpusResult<bool> {
         let mode = self.options.mode;
+        // In normal mode nothing else moves, and annotations that lie end to end have no room between them.
         if mode == NeighbourMode::Normal
             || !matches!(TierTiming::timing_of_tier(tier), TierTiming::Root | TierTiming::Inside)
         {
@@ -30,6 +31,7 @@ impl AnnotationChangeRun<'_> {
         let limits = self.sibling_time_limits(tier, row.parent_id)?;
         let wanted = annotation_item(row.id, span);
         let by = (wanted.start - row.start_us, wanted.end - row.end_us);
+        // The rules for neighbours know only a move of the whole and of either end.
         let steps = match by {
             (start, end) if start == end => vec![(DragGrip::Whole, start)],
             (0, end) => vec![(DragGrip::End, end)],
@@ -39,12 +41,14 @@ impl AnnotationChangeRun<'_> {
             (start, end) => vec![(DragGrip::Start, start), (DragGrip::End, end)],
         };
         for (grip, by) in steps {
+            // The first step may have moved neighbours, so they are read again.
             let items = self.sibling_annotations(tier, row.parent_id)?;
             let chosen = BTreeSet::from([row.id]);
             let changed = tier_spans::drag_spans(&items, &chosen, grip, by, mode, limits);
             self.respan_annotations(tier, &tier_spans::order_span_changes(&items, &changed))?;
         }
         let now = rows::load_annotation_row(self.connection, row.id)?;
+        // The neighbours may have stopped the annotation before its goal.
         if span_of(&now) == span {
             return Ok(true);
         }
@@ -101,6 +105,7 @@ impl AnnotationChangeRun<'_> {
         let all = rows::load_tier_annotation_rows(self.connection, tier.id)?;
         let sibling_rows = all
             .iter()
+            // Below a parent, only its own children can be in the way.
             .filter(|row| tier.parent_id.is_none() || row.parent_id == parent);
         Ok(sibling_rows.map(|row| annotation_item(row.id, span_of(row))).collect())
     }
@@ -116,6 +121,7 @@ impl AnnotationChangeRun<'_> {
             });
         }
         let scope = self.scope_of(tier.id)?;
+        // A recording without movement grows with its annotations.
         let to = if scope.has_scope_movement() {
             scope.recording.duration_us
         } else {

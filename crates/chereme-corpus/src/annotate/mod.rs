@@ -253,6 +253,7 @@ fn carry_out_changes(
     work.faults = faults;
     for (done, change) in changes.iter().enumerate() {
         work.run_annotation_change(change)?;
+        // A single change is over before a report could be seen.
         if changes.len() > 1 && done % 64 == 0 {
             progress.report_step(ProgressStep {
                 task: "annotating",
@@ -298,6 +299,7 @@ struct AnnotationChangeRun<'a> {
 
 impl<'a> AnnotationChangeRun<'a> {
     fn new(connection: &'a Connection, options: &'a AnnotateOptions) -> CorpusResult<Self> {
+        // Tokens refer to annotations that changes may remove before they are derived again.
         edits::defer_references(connection)?;
         Ok(Self {
             connection,
@@ -315,6 +317,7 @@ impl<'a> AnnotationChangeRun<'a> {
         let done = self.act_on_change(change);
         let annotation = match done {
             Ok(annotation) => Some(annotation),
+            // Further faults may exist in later changes, which the user wants to know at once.
             Err(fault @ (CorpusError::Wrong { .. } | CorpusError::Follows(_))) => {
                 self.faults.push(match &change.place {
                     Some(place) => fault.with_error_place(place),
@@ -326,6 +329,8 @@ impl<'a> AnnotationChangeRun<'a> {
         };
         self.report.annotations.extend(annotation);
         if let Some(label) = &change.label {
+            // A failed change leaves its label without an annotation, so that later changes can say why they
+            // fail.
             self.labels.insert(label.clone(), annotation);
         }
         Ok(())
@@ -338,6 +343,7 @@ impl<'a> AnnotationChangeRun<'a> {
     ) -> CorpusResult<AnnotateReport> {
         let failed = self.labels.values().any(Option::is_none);
         self.faults
+            // Failures that only follow from another one would distract from it.
             .retain(|fault| !(failed && matches!(fault, CorpusError::Follows(_))));
         match self.faults.len() {
             0 => {}
@@ -351,6 +357,7 @@ impl<'a> AnnotationChangeRun<'a> {
             scope.close_annotation_scope(self.connection)?;
             if let Some(touched) = scope.touched {
                 let recording = scope.recording.id;
+                // Only tokens near the changes can differ.
                 tokens::derive_with_progress(self.connection, recording, Some(touched), &scope.inventories, progress)?;
                 self.report.recordings.push(scope.recording.name.clone());
             }
@@ -498,6 +505,7 @@ impl<'a> AnnotationChangeRun<'a> {
             let start = start.unwrap_or_else(|| still(row.start_us));
             let end = end.unwrap_or_else(|| still(row.end_us));
             let span = self.span_from_moments(row.tier_id, start, end)?;
+            // Setting the same times must not move the neighbours.
             if span != span_of(row) {
                 if !self.moved_with_others(row, &tier, span)? {
                     self.carry_out_edit(row.tier_id, &AskedTierChange::Move { annotation, span }, None)?;
@@ -622,6 +630,7 @@ fn is_symbolic(tier: &TierRow) -> bool {
 /// Returns the reading of `text` on a tier with that inventory, as the inventory's own id if it has one.
 fn read_tier_value(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> CorpusResult<ComponentReading> {
     let coded = inventory.is_some() || tier.role.is_coded();
+    // In free text these words may be meant literally.
     if !coded || text.trim().is_empty() {
         return Ok(ComponentReading::from(text));
     }
@@ -632,6 +641,7 @@ fn read_tier_value(tier: &TierRow, inventory: Option<&StoredInventory>, text: &s
     }
     let lower = text.to_lowercase();
     let word = match tier.role {
+        // Glosses are written in capitals, so only the small letters of these words are special.
         TierRole::Gloss => text,
         _ => &lower,
     };

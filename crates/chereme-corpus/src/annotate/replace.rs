@@ -43,6 +43,7 @@ impl ValueSearch {
             || ErrorRemedy::command_remedy("write a regular expression such as ^BO.*; a text is found without --regex");
         Regex::new(text).map(Self::Pattern).map_err(|error| {
             let error_text = error.to_string();
+            // The expression itself and a mark below the fault come first, and would fill the message.
             let why = error_text.lines().last().unwrap_or_default().trim();
             let why = why.trim_start_matches("error: ");
             CorpusError::from_wrong_message(format!("{text:?} is no regular expression: {why}"))
@@ -81,6 +82,7 @@ impl ValueSearch {
                 Ok(group) => group < pattern.captures_len(),
                 Err(_) => pattern.capture_names().flatten().any(|other| other == name),
             };
+            // An unknown group would silently become an empty text.
             if !is_known {
                 return Err(CorpusError::from_wrong_message(format!(
                     "the new text names the group {name:?}, which the expression does not have"
@@ -98,6 +100,7 @@ impl ValueSearch {
     /// Returns `value` with all matches replaced.
     fn replaced(&self, value: &str, with: &str) -> String {
         match self {
+            // An empty text would match between all letters.
             Self::Text(text) if text.is_empty() => value.to_owned(),
             Self::Text(text) => value.replace(text.as_str(), with),
             Self::Whole(text) if value == text => with.to_owned(),
@@ -165,6 +168,7 @@ impl Corpus {
         for (recording, tier) in tiers_within(self.store.read_connection(), within)? {
             for row in rows::load_tier_annotation_rows(self.store.read_connection(), tier.id)? {
                 let to = find.replaced(&row.value, &with);
+                // Reasons for missing values are no texts to be replaced.
                 if row.state == ValueState::Value && to != row.value {
                     values.push(ReplacedValue {
                         annotation: row.id,
@@ -207,6 +211,7 @@ impl Corpus {
         let ids: Vec<i64> = chosen.iter().map(|(_, tier)| tier.id).collect();
         let mut changes = Vec::new();
         for (recording, tier) in &chosen {
+            // Annotations below others move with them, and must not move twice.
             let goes_along = tier.parent_id.is_some_and(|above| ids.contains(&above));
             if goes_along || (within.tiers.is_empty() && tier.parent_id.is_some()) {
                 continue;
@@ -217,6 +222,7 @@ impl Corpus {
                 .collect();
             let new: Vec<SpanItem> = old.iter().map(|item| shift_item_by(*item, by_us)).collect();
             check_shift_range(connection, recording, tier, &new, by_us)?;
+            // Each annotation moves into room that the one before it has left.
             for item in tier_spans::order_span_changes(&old, &new) {
                 changes.push(shifted_times_change(recording, tier, item));
             }
@@ -315,6 +321,7 @@ fn check_shift_range(
     let first = new.iter().map(|item| item.start).min().unwrap_or(0);
     let last = new.iter().map(|item| item.end).max().unwrap_or(0);
     let moves = stored_recordings::body_track(connection, recording.id)?.is_some();
+    // Without movement, the recording can become longer.
     let over = if moves { last - recording.duration_us } else { 0 };
     let most = match (first < 0, over > 0) {
         (true, _) => by - first,
@@ -350,6 +357,7 @@ fn tiers_within(connection: &Connection, within: &TierSelection) -> CorpusResult
             }
         }
     }
+    // A name that fits no tier is probably misspelt.
     if let Some((text, _)) = within.tiers.iter().zip(used).find(|(_, used)| !used) {
         return Err(match &within.recording {
             // Lists the existing tiers.

@@ -83,6 +83,7 @@ pub fn remove_annotation_changes(contents: &RecordingContents, annotations: &BTr
 
 fn goes_with_another(contents: &RecordingContents, tier: &TierContents, at: usize, gone: &BTreeSet<i64>) -> bool {
     let mut above = tier.annotations.parents.get(at).copied().flatten();
+    // Damaged rows may be each other's parents, so the way up is limited.
     for _ in 0..contents.tiers.len() {
         let Some(id) = above else { return false };
         if gone.contains(&id) {
@@ -151,6 +152,7 @@ pub fn merge_annotation_changes(
     let mut changes = Vec::new();
     for at in first + 1..=last {
         let other = typed_annotation_value(columns, at);
+        // An empty annotation adds nothing to the merged value.
         if value.is_empty() {
             value = other;
         } else if !closed && !other.is_empty() && other != value {
@@ -193,6 +195,7 @@ pub fn missing_below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64
         }));
     }
     let (mut adds, mut seen, mut at) = (Vec::new(), BTreeSet::new(), 0);
+    // New annotations get their own children, so the list grows while it is read.
     while let Some((above, span, id)) = open.get(at).copied() {
         at += 1;
         if id.is_some_and(|id| !seen.insert(id)) {

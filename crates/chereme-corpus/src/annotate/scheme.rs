@@ -86,8 +86,10 @@ fn add_planned_tiers(
 ) -> CorpusResult<Vec<TierRow>> {
     let mut added = Vec::new();
     let before = rows::load_tier_rows(connection, recording.id)?;
+    // Copied tiers come after those that are there.
     let free = before.iter().map(|row| row.position + 1).max().unwrap_or(0);
     for (tier, like) in wanted {
+        // A tier that was just added may be the parent of the next one.
         let there = rows::load_tier_rows(connection, recording.id)?;
         if there.iter().any(|row| row.name == tier.name) {
             continue;
@@ -121,6 +123,7 @@ fn add_planned_tiers(
 fn plan_default_tiers(connection: &Connection, recording: &RecordingRow) -> CorpusResult<Vec<PlannedTier>> {
     let participant = recording_signer_name(connection, recording)?;
     let there = rows::load_tier_rows(connection, recording.id)?;
+    // Components belong below the glosses that are there, whatever their tier is called.
     let gloss_row = there.into_iter().find(TierRow::holds_glosses);
     let gloss = gloss_row.map_or_else(|| "Gloss".to_owned(), |row| row.name);
     let make = |name: String, role, hand, parent: Option<TierStereotype>| {
@@ -214,11 +217,13 @@ fn plan_tiers_like(
         recording_signer_name(connection, recording)?,
     );
     let roots = tiers.iter().filter(|row| row.parent_id.is_none());
+    // A tier can be added only after its parent.
     let parents_first = roots.flat_map(|row| tier_with_descendants(&tiers, row));
     let wanted = parents_first.map(|row| {
         let above = tiers.iter().find(|candidate| Some(candidate.id) == row.parent_id);
         let tier = NewTier {
             parent: above.map(|parent| parent.name.clone()).zip(row.stereotype),
+            // The signer of the other recording is replaced by that of this one.
             participant: if row.participant == from {
                 to.clone()
             } else {

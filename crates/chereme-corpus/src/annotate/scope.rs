@@ -100,6 +100,7 @@ impl AnnotationScope {
             (TableMoment::Time(instant), true) => {
                 let clock = self.clock.as_ref().ok_or_else(|| needs("to snap to"))?;
                 let frame = clock.rate.nearest_frame_at(instant.shifted_instant(-clock.offset));
+                // The end of the last frame is a time that annotations may have.
                 Ok(clock.movement_frame_start(frame.min(clock.frames)))
             }
             (TableMoment::Frame(frame), _) => {
@@ -131,6 +132,7 @@ impl AnnotationScope {
             ))
             .with_advice("times are counted from the start of the recording"));
         }
+        // Such a time is most likely a number in another unit.
         if self.clock.is_none() && end.instant_micros() > MAX_ANNOTATION_END_US.max(length.instant_micros()) {
             return Err(CorpusError::from_wrong_message(format!(
                 "{end} is later than the recording {name:?} can be long, and it has no movement to say how long it is"
@@ -179,6 +181,7 @@ impl AnnotationScope {
         }
         let mut open: Vec<i64> = rows
             .values()
+            // Without tiers below there are no children to look for, which spares a query for each row.
             .filter(|row| row.tier_id == tier && self.has_tiers_below(tier))
             .map(|row| row.id)
             .collect();

@@ -60,6 +60,7 @@ impl RecordingFrameTimes {
     /// Returns the start of the frame nearest to a time.
     #[must_use]
     pub fn nearest_frame_start(&self, micros: i64) -> i64 {
+        // There is no frame before the first one.
         let local_micros = (micros - self.offset).max(0);
         let frame = self.rate.nearest_frame_at(RecordingInstant::from_micros(local_micros));
         self.rate.frame_start_instant(frame).instant_micros() + self.offset
@@ -125,6 +126,7 @@ impl SnapGuides<'_> {
             let columns = &tier.annotations;
             let near = |all: &[i64]| {
                 let after = all.partition_point(|at| *at < micros);
+                // The nearest ones may be those that are dragged, which do not count.
                 let around = after.saturating_sub(2)..(after + 2).min(all.len());
                 around
                     .filter(|at| !self.except.contains(&columns.ids[*at]))

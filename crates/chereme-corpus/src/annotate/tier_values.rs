@@ -58,6 +58,7 @@ pub fn collect_tier_values(tier: &TierContents, inventory: Option<&StoredInvento
         all.push(TierValue {
             value: value.id.clone(),
             name: value.names.get(language).filter(|name| **name != value.id).cloned(),
+            // What is left over are values in use that the inventory does not have.
             used: used.remove(value.id.as_str()).unwrap_or_default(),
             known: names.chain([&value.id]).map(|name| fold_text(name)).collect(),
         });
@@ -68,6 +69,7 @@ pub fn collect_tier_values(tier: &TierContents, inventory: Option<&StoredInvento
         used,
         known: vec![fold_text(value)],
     }));
+    // The sort is stable, so equally frequent values keep the order of the inventory.
     all.sort_by_key(|choice| std::cmp::Reverse(choice.used));
     let coded = inventory.is_some() || tier.row.role.is_coded();
     all.extend(SPECIAL_TIER_VALUES.iter().filter(|_| coded).map(|value| {
@@ -93,6 +95,7 @@ impl TierValues {
     pub fn matching_value_indices(&self, text: &str) -> Vec<usize> {
         let wanted = fold_text(text.trim());
         let rank = |choice: &TierValue| {
+            // Case tells some values apart, so the text as typed goes before the folded one.
             let exact = choice.value == text.trim();
             let ranks = choice.known.iter().filter_map(|known| {
                 if exact || *known == wanted {

@@ -126,6 +126,7 @@ impl DictionaryBodies {
         anatomy: &BodyAnatomy,
     ) -> CorpusResult<Option<usize>> {
         let skeleton: &Skeleton = clip.clip_skeleton();
+        // Signers often share one skeleton over many signs, so each body is written once.
         if let Some(at) = self.written.iter().position(|body| body.skeleton == *skeleton) {
             return Ok(Some(at));
         }

@@ -2,6 +2,7 @@
 
 /// Appends a number: seven bits a byte, the lowest first, the sign in the lowest bit.
 pub(super) fn push_coded_number(out: &mut Vec<u8>, number: i64) {
+    // Small negative numbers then take as few bytes as small positive ones.
     let mut rest = ((number << 1) ^ (number >> 63)) as u64;
     while rest >= 0x80 {
         out.push(rest as u8 | 0x80);
@@ -22,6 +23,7 @@ pub(super) fn push_row(out: &mut Vec<u8>, row: &[i64]) {
     let once = row_differences(row);
     let twice = row_differences(&once);
     let cost = |row: &[i64]| row.iter().map(|value| value.unsigned_abs()).sum::<u64>();
+    // Smooth movement has small second differences, noisy movement small first ones.
     let (order, row) = match cost(&twice[1..]) < cost(&once[1..]) {
         true => (2, twice),
         false => (1, once),

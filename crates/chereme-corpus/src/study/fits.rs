@@ -35,6 +35,7 @@ pub(super) fn refuse_participant(
             "import them with the version of Chereme that built the questionnaire",
         ));
     }
+    // Answers to another plan may name the same trials and mean other films.
     if person.plan_sha256 != sha256 {
         let message = format!(
             "the answers of {:?} belong to another plan than that of the study {:?}",
@@ -57,6 +58,7 @@ pub(super) fn refuse_participant(
         let message = format!("the participant has more than {MOST_ANSWERS} answers");
         return Some((message, "import the files that the questionnaire saves"));
     }
+    // Without this consent the answers must not even lie in the corpus.
     if person.consent.get("analysis") == Some(&false) {
         let message = format!("{:?} did not agree that the answers are analysed", person.code);
         return Some((message, "delete the file"));
@@ -193,6 +195,7 @@ fn fit_answer_to_plan(plan: &StudyPlan, answer: &mut StudyAnswer) -> std::result
             if answer.choice.is_some() {
                 return Err(format!("{name:?} is a scale, which has no options"));
             }
+            // Tables of other programs do not state the scale.
             answer.scale = Some(ends);
             answer.right = None;
         }
@@ -220,6 +223,7 @@ fn fit_answer_to_plan(plan: &StudyPlan, answer: &mut StudyAnswer) -> std::result
 /// Returns whether a text can be the code of a participant.
 fn is_code(text: &str) -> bool {
     let plain = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
+    // Codes appear in tables and messages, where other letters could do harm.
     text.starts_with(char::is_alphanumeric) && text.chars().count() <= LONGEST_CODE && text.chars().all(plain)
 }
 
@@ -234,6 +238,7 @@ pub(super) fn normalize_day(text: &str) -> String {
 /// Returns the beginning of a text of a file, for a message.
 pub(super) fn shorten_message_text(text: &str) -> String {
     const MAX_QUOTED_TEXT_CHARS: usize = 40;
+    // The text is cut between letters, since a byte may lie within one.
     match text.char_indices().nth(MAX_QUOTED_TEXT_CHARS) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),

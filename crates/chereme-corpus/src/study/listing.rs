@@ -165,6 +165,7 @@ fn list_study_answers(study: &StudyWithAnswers) -> AnswerList {
     };
     for person in &study.participants {
         let drawn_order = orders.get(person.seed as usize % orders.len().max(1));
+        // A seed that does not fit the answers says nothing about their order.
         let order = drawn_order.filter(|candidate| is_order_of(plan, candidate, person));
         let mut rows: Vec<AnswerListRow> = person
             .answers
@@ -242,6 +243,7 @@ fn missing_in(plan: &StudyPlan, order: &[ShownTrial], person: &StudyParticipant)
     let mut rows = Vec::new();
     for (n, shown) in (1..).zip(order) {
         let trial = &plan.trials[shown.trial];
+        // Whoever answered a later trial has seen this one.
         let state = match person.finished || n <= last {
             true => AnswerState::Skipped,
             false => AnswerState::NotReached,

@@ -125,10 +125,13 @@ impl Corpus {
     /// Fails with all faults of the plan; if a clip cannot be found or made; if somebody has answered the study.
     pub fn plan_study(&mut self, plan: &StudyPlan, progress: &mut ProgressReceiver<'_>) -> CorpusResult<PlannedStudy> {
         study_check::check_study_plan(plan)?;
+        // Numbers must come back from the stored JSON exactly, so that the hash stays the same.
         let plan = &plan.clone().with_short_numbers();
+        // A plan whose clips cannot be made is refused now, and not when the questionnaire is built.
         self.study_clips(plan, progress, |_, _| Ok(()))?;
         let replaced = self.store.run_store_operation(|connection| {
             let replaced = match stored::load_stored_study(connection, &plan.name)? {
+                // Answers are only valid for the plan that people saw.
                 Some(old) if db::participant_count(connection, old.id)? > 0 => {
                     let error = CorpusError::from_wrong_message(format!(
                         "people have answered the study {:?}, so that its plan cannot change",
@@ -228,6 +231,7 @@ impl Corpus {
         let mut clips: Vec<(&str, Vec<usize>)> = Vec::new();
         let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         for (at, trial) in plan.trials.iter().enumerate() {
+            // A clip that several trials show is made only once.
             let place = *places.entry(&trial.clip).or_insert(clips.len());
             if place == clips.len() {
                 clips.push((&trial.clip, Vec::new()));
@@ -254,6 +258,7 @@ impl Corpus {
                     if let Some(remedy) = remedy {
                         place_error = place_error.with_advice(remedy);
                     }
+                    // All faults are reported at once, so that the user need not find them one by one.
                     errors.push(place_error);
                 }
             }

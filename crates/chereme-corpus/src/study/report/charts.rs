@@ -51,6 +51,7 @@ impl ChartShade {
     /// Returns the colour at a share of the path through some shades.
     fn colour_at_share(shades: &[[f64; 3]], share: f64) -> Self {
         let shade_position = share.clamp(0.0, 1.0) * (shades.len() - 1) as f64;
+        // The last shade has no next one to be mixed with.
         let low = (shade_position.floor() as usize).min(shades.len() - 2);
         let mix = |n: usize| {
             let [from, to] = [shades[low][n], shades[low + 1][n]];
@@ -58,6 +59,7 @@ impl ChartShade {
         };
         let rgb = [mix(0), mix(1), mix(2)];
         let linear = rgb.map(|channel| {
+            // Contrast is defined for linear light, and not for the stored values.
             let it = channel / 255.0;
             if it <= 0.03928 {
                 it / 12.92
@@ -111,6 +113,7 @@ impl SvgChart {
         let _ = write!(
             self.body,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{h:.1}\" {style}/>",
+            // Rounding may make a width slightly negative, which SVG does not allow.
             w.max(0.0)
         );
     }
@@ -145,6 +148,7 @@ impl SvgChart {
 fn label_margin<'a>(labels: impl Iterator<Item = &'a str>) -> f64 {
     let width = |label: &str| -> f64 {
         let letters = shorten_chart_label(label);
+        // The font is not known here, so the width of letters is estimated.
         letters.chars().map(|c| if c.is_uppercase() { 9.8 } else { 7.6 }).sum()
     };
     (labels.map(width).fold(0.0, f64::max) + 18.0).clamp(70.0, 330.0)
@@ -193,6 +197,7 @@ pub(super) fn diverging_bar_chart(bars: &[BarRow<'_>], legend: &[String], langua
     let right = 70.0;
     let share = |counts: &[usize], at: usize| {
         let all: usize = counts.iter().sum();
+        // A bar without answers has no shares.
         counts[at] as f64 / (all.max(1)) as f64
     };
     // The middle answer of an odd scale counts half on each side.
@@ -204,6 +209,7 @@ pub(super) fn diverging_bar_chart(bars: &[BarRow<'_>], legend: &[String], langua
             lower_share
         }
     };
+    // Without answers on one side, the axis would stand at the very edge.
     let lows = bars.iter().map(|bar| below(bar.counts)).fold(0.1, f64::max);
     let highs = bars.iter().map(|bar| 1.0 - below(bar.counts)).fold(0.1, f64::max);
     let unit = (CHART_WIDTH_PX - left - right) / (lows + highs);
@@ -228,6 +234,7 @@ pub(super) fn diverging_bar_chart(bars: &[BarRow<'_>], legend: &[String], langua
             let (fill, letters) = colour(at);
             svg.rect([x, y], [width, 28.0], &format!("fill=\"{fill}\" class=\"edge\""));
             let words = format_report_number(100.0 * share(bar.counts, at), 0, language);
+            // A number that does not fit would overlap the next part.
             if width > 9.0 + words.len() as f64 * 8.0 {
                 let class = if letters == "#fff" {
                     "small mid light"
@@ -267,6 +274,7 @@ pub(super) fn box_plot_chart(rows: &[BoxRow<'_>], scale: [i64; 2], language: Int
     let place = |value: f64| left + 16.0 + (value - low) * unit;
     const BOX_ROW_HEIGHT_PX: f64 = 64.0;
     let bottom = 6.0 + rows.len() as f64 * BOX_ROW_HEIGHT_PX;
+    // A scale with very many points would only be a grey area.
     for point in (scale[0]..=scale[1]).take(100) {
         let x = place(point as f64);
         svg.add_svg_line([x, 2.0], [x, bottom], "grid");
@@ -284,6 +292,7 @@ pub(super) fn box_plot_chart(rows: &[BoxRow<'_>], scale: [i64; 2], language: Int
         for end in [description.whisker_low, description.whisker_high] {
             svg.add_svg_line([place(end), y + 6.0], [place(end), y + 20.0], "stroke");
         }
+        // A box without spread would be invisible.
         let width = (place(description.q3) - place(description.q1)).max(3.0);
         svg.rect([place(description.q1), y], [width, 26.0], "class=\"box\"");
         svg.add_svg_line(
@@ -297,6 +306,7 @@ pub(super) fn box_plot_chart(rows: &[BoxRow<'_>], scale: [i64; 2], language: Int
             "mean",
         );
         let mut outside = description.outliers.clone();
+        // Equal values would be drawn on top of each other.
         outside.dedup();
         for value in outside {
             svg.add_svg_dot([place(value), y + 13.0], 3.5, "ring");
@@ -310,6 +320,7 @@ pub(super) fn box_plot_chart(rows: &[BoxRow<'_>], scale: [i64; 2], language: Int
 /// Draws a dot for each value; near values stand in columns of five, side by side around their place.
 fn swarm(svg: &mut SvgChart, values: &[f64], top: f64, place: &dyn Fn(f64) -> f64) {
     const SWARM_DOT_STEP_PX: f64 = 5.4;
+    // Dots that are nearer than this would cover each other.
     let near = |a: &f64, b: &f64| place(*b) - place(*a) < 2.0;
     for group in values.chunk_by(near) {
         let columns = group.len().div_ceil(5);
@@ -394,6 +405,7 @@ pub(super) fn confusion_table_chart(table: &ConfusionTable, language: InterfaceL
             let x = left + column as f64 * cell;
             let style = format!("fill=\"{fill}\" class=\"edge\"");
             svg.rect([x, y], [cell, 28.0], &style);
+            // Empty cells stay empty, so that the others stand out.
             if *count > 0 {
                 let class = if letters == "#fff" {
                     "small mid light"
@@ -430,6 +442,7 @@ pub(super) fn effect_interval_chart(
         let ends = ends.map_or(0.0, |interval| interval.low.abs().max(interval.high.abs()));
         most.max(delta.abs()).max(ends)
     });
+    // No effect of this kind is greater than 1.
     let reach = (reach * 1.1).min(1.0);
     let middle = left + (CHART_WIDTH_PX - left - right) / 2.0;
     let unit = (CHART_WIDTH_PX - left - right) / 2.0 / reach;
@@ -488,6 +501,7 @@ pub(super) fn correlation_chart(points: &[MeasurePoint], names: [&str; 2], langu
     let range = |of: fn(&MeasurePoint) -> f64| {
         let values = points.iter().map(of);
         let (low, high) = values.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+        // Equal values would give a range without extent.
         let room = ((high - low) * 0.06).max(1e-6 * high.abs().max(1.0));
         [low - room, high + room]
     };

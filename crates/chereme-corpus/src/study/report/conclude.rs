@@ -49,6 +49,7 @@ fn of_difference(compared: &GroupComparison, alpha: f64) -> HypothesisConclusion
     };
     match p {
         Ok(p) if p < alpha => conclusion_from_verdict(HypothesisVerdict::Supported, VerdictReason::Significant),
+        // A test without significance says nothing yet, so the intervals decide.
         Ok(_) if results(compared).all(|result| result == Ok(EquivalenceConclusion::Equivalent)) => {
             conclusion_from_verdict(HypothesisVerdict::NotSupported, VerdictReason::WithinBounds)
         }
@@ -69,6 +70,7 @@ fn of_sameness(compared: &GroupComparison) -> HypothesisConclusion {
             VerdictReason::NoTest(UndefinedStatistic::TooFew),
         );
     }
+    // One relevant difference is enough to refute sameness.
     if results(compared).any(|result| result == Ok(EquivalenceConclusion::Relevant)) {
         return conclusion_from_verdict(HypothesisVerdict::NotSupported, VerdictReason::BeyondBounds);
     }
