@@ -83,6 +83,7 @@ impl FromStr for CorpusAddress {
             let bare = unquoted(rest);
             if bare.is_empty() {
                 Err(wrong(format!("{text:?} names nothing after the colon")))
+            // A number in quotes is a name that consists of digits.
             } else if bare == rest
                 && let Ok(number) = rest.parse()
             {
@@ -102,6 +103,7 @@ impl FromStr for CorpusAddress {
             "token" => Ok(Self::Token(number()?)),
             "tier" => Ok(Self::Tier(number()?)),
             "annotation" => Ok(Self::Annotation(number()?)),
+            // A gloss may contain a colon, so an unknown kind is part of it.
             _ => match unquoted(text) {
                 "" => Err(wrong("an empty text names nothing".to_owned())),
                 gloss => Ok(Self::Gloss(gloss.to_owned())),
@@ -164,6 +166,7 @@ pub(crate) fn find_addressed_token(connection: &Connection, address: &CorpusAddr
 /// `NGT/BOOK` is the sign of that lexicon, unless a gloss is written so. A gloss that several lexicons have is an error
 /// with the candidates.
 pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> CorpusResult<i64> {
+    // A gloss may itself contain a stroke, so the whole text comes first.
     if let Some(id) = find_only_sign(connection, gloss)? {
         return Ok(id);
     }
@@ -179,6 +182,7 @@ pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> Corpus
         [one] => Ok(find_only_sign(connection, one)?.unwrap_or_default()),
         [] => {
             let near = nearest_candidate(gloss, glosses.iter().map(String::as_str));
+            // Who names a recording here most likely forgot the kind of address.
             if let Some(row) = stored_recordings::recording_named(connection, gloss)? {
                 let address = CorpusAddress::Recording(RowName::Text(row.name));
                 return Err(CorpusError::from_wrong_message(format!("no sign is called {gloss:?}"))
@@ -240,6 +244,7 @@ fn missing_sign_error(gloss: &str, near: Option<&str>) -> CorpusError {
 fn citation(connection: &Connection, sign: i64, address: &CorpusAddress) -> CorpusResult<TokenRow> {
     let tokens = signs::tokens_of_sign(connection, sign)?;
     let cited: Vec<&TokenRow> = tokens.iter().filter(|token| token.citation).collect();
+    // Of several citation forms, the one with movement can do everything that the other can.
     let moving: Vec<&TokenRow> = cited
         .iter()
         .copied()

@@ -129,6 +129,7 @@ const MOST_FILE_BYTES: u64 = 1 << 28;
 pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> CorpusResult<CueKeys> {
     let (read, name, mut findings) = read_aligned_utterance(path, tier, options)?;
     let mut keys = CueKeys::from_read_utterance(&read);
+    // What is odd in the file comes before what is odd in its phones.
     findings.append(&mut keys.findings);
     keys.findings = findings;
     if keys.keys.is_empty() && keys.findings.is_empty() {
@@ -332,6 +333,7 @@ fn read_aligned_utterance(
             .with_error_place(path.display().to_string())
             .with_advice("give a TextGrid or an EAF file with a tier of phones")
     };
+    // A byte order mark may stand before the first bracket.
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
     let is_eaf = text.trim_ascii_start().starts_with(b"<");
     let (transcript, odd) = if is_eaf {
@@ -345,6 +347,7 @@ fn read_aligned_utterance(
         span: Some(one.span),
     });
     let mut phones: Vec<SpokenPhone> = labels.collect();
+    // Annotations in a file need not be sorted by time.
     phones.sort_by_key(|phone| phone.span.map(|span| span.span_start_instant()));
     let cue_code = cue::find_cue_code(&options.code)
         .ok_or_else(|| utterance_read_error(UtteranceError::NoCode(options.code.clone())))?;
@@ -369,6 +372,7 @@ pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[SpokenPhone]) -> PhoneA
     };
     let rated = PhoneAlphabet::ALL_ALPHABETS
         .iter()
+        // Of equal ones the last is taken, so the order is turned for the first alphabet to win.
         .rev()
         .max_by_key(|alphabet| knows(alphabet));
     rated.copied().unwrap_or_default()
@@ -378,6 +382,7 @@ pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[SpokenPhone]) -> PhoneA
 pub(crate) fn is_phone_tier(name: &str) -> bool {
     let folded = chereme_sign::text::fold_text(name);
     let plain: String = folded.chars().filter(|c| c.is_alphanumeric()).collect();
+    // Many words end in these letters, so only the whole name counts.
     let fits = |known: &&str| plain == **known || plain.ends_with(*known) && *known != "mau";
     PHONE_TIERS.iter().any(fits)
 }
@@ -424,6 +429,7 @@ pub(crate) fn with_gaps(phones: Vec<SpokenPhone>) -> Vec<SpokenPhone> {
                 )),
             });
         }
+        // Phones may overlap, and the pause begins after the last one that ends.
         last_end = last_end.max(span.span_end_instant());
         spaced.push(phone);
     }

@@ -101,6 +101,7 @@ impl MediaTrackRow {
     #[must_use]
     pub fn is_film(&self) -> bool {
         let stated_type = self.media_type.as_deref().filter(|text| text.contains('/'));
+        // A stated type without a stroke is no media type, so the name decides.
         let kind = stated_type.or_else(|| media_type(&self.url));
         kind.is_some_and(|kind| kind.starts_with("video"))
     }
@@ -156,11 +157,14 @@ fn files_near(folder: &Path) -> Vec<PathBuf> {
         for folder in folders {
             let dir_entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
             let mut entries: Vec<PathBuf> = dir_entries
+                // A corpus may lie in a home folder with very many files, which must not be searched whole.
                 .take(MOST_ENTRIES - seen)
                 .map(|entry| entry.path())
                 .collect();
+            // The system lists files in any order, and the same file should be found each time.
             entries.sort();
             seen += entries.len();
+            // Nearer files come first, so that a copy deep in the folders does not win.
             let (inner, outer): (Vec<PathBuf>, Vec<PathBuf>) = entries.into_iter().partition(|path| path.is_dir());
             deeper.extend(inner);
             files.extend(outer);
@@ -215,6 +219,7 @@ fn decode_url_path(text: &str) -> String {
         let value = hex
             .and_then(|digits| std::str::from_utf8(digits).ok())
             .and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        // A percent sign that begins no escape is part of the name.
         out.push(value.unwrap_or(*byte));
         index += if value.is_some() { 3 } else { 1 };
     }

@@ -99,6 +99,7 @@ impl Corpus {
         let lexicon = of_signs.get(&token.sign_id);
         for other in signs::load_citation_tokens(connection)? {
             let is_elsewhere = |other_lexicon| lexicon.is_some_and(|lexicon| lexicon != other_lexicon);
+            // A sign is no partner of itself.
             if other.sign_id == token.sign_id || !across && of_signs.get(&other.sign_id).is_some_and(is_elsewhere) {
                 continue;
             }
@@ -112,6 +113,7 @@ impl Corpus {
             }
             let field = different[0].clone();
             let (from, to) = (token_coding[&field].clone(), theirs[&field].clone());
+            // A value that a partner has is in use with the rest of this coding.
             used.entry(field.clone()).or_default().insert(to.clone());
             let one_sided = token_coding.len() + theirs.len() - 2 * (equal + 1);
             let list = match one_sided {
@@ -162,6 +164,7 @@ impl Corpus {
     fn token_handedness(&self, token: &TokenRow) -> CorpusResult<SignerHandedness> {
         let connection = self.store.read_connection();
         let Some(recording) = token.recording_id else {
+            // Lexicons code the dominant hand as the right one.
             return Ok(SignerHandedness::Right);
         };
         let signer_id = stored_recordings::load_recording_row(connection, recording)?.signer_id;
@@ -232,6 +235,7 @@ fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness) -> Tok
         let Some(value) = row.value.as_deref().filter(|_| row.state == ValueState::Value) else {
             continue;
         };
+        // Face and phases of movement do not make minimal pairs of hands.
         if row.component == SignComponent::NonManual || row.feature.as_deref() == Some("phase") {
             continue;
         }
@@ -264,6 +268,7 @@ fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness) -> Tok
         }
     }
     let written = |(field, mut phases): (String, BTreeMap<Option<SignPhase>, Vec<&str>>)| {
+        // The order of simultaneous values means nothing, so equal sets must be written alike.
         phases.values_mut().for_each(|texts| texts.sort_unstable());
         // A value of the whole sign may stand beside successive ones.
         let unphased = phases.remove(&None).map(|texts| texts.join(" + "));
@@ -298,7 +303,9 @@ fn compare_codings(a: &TokenCoding, b: &TokenCoding) -> (usize, Vec<String>) {
 
 /// Returns a recipe that changes one field of a token with movement.
 fn field_change_recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
+    // Without movement there is nothing that a recipe could change.
     token.recording_id?;
+    // A recipe sets one value, and not a sequence.
     if single_values(to).ne([to]) {
         return None;
     }

@@ -53,6 +53,7 @@ impl Corpus {
             }
             stored_merge::set_note(connection, PREFERRED_ANNOTATOR_NOTE, name)?;
             let inventories = inventories::load_all_inventories(connection)?;
+            // The preferred annotator decides which readings count in every recording.
             for recording in stored_recordings::load_recording_rows(connection)? {
                 update_recording_tokens(connection, recording.id, None, &inventories)?;
             }
@@ -98,6 +99,7 @@ pub(crate) fn derive_with_progress(
         }
         None => signs::tokens_of_recording(connection, recording.id)?,
     };
+    // Tokens that remain keep their rows, to which other rows refer.
     let mut standing: BTreeMap<i64, TokenRow> = tokens
         .into_iter()
         .filter_map(|token| Some((token.annotation_id?, token)))
@@ -110,6 +112,7 @@ pub(crate) fn derive_with_progress(
         let token = write_token(connection, &recording, lexicon, gloss, old)?;
         signs::set_values(connection, token, &by_time.gloss_token_values(gloss))?;
     }
+    // Their annotations are gone, or no longer filled.
     for token in standing.into_values() {
         signs::delete_token(connection, token.id)?;
         signs::delete_empty_sign(connection, token.sign_id)?;
@@ -153,6 +156,7 @@ fn write_token(
             if old != token {
                 signs::update_token(connection, &token)?;
             }
+            // The former sign may have lost its last token.
             if old.sign_id != sign_id {
                 signs::delete_empty_sign(connection, old.sign_id)?;
             }
@@ -223,6 +227,7 @@ impl AnnotationsByTime {
             preferred: preferred_annotator(connection)?,
         };
         if let Some(window) = window {
+            // A component near the change may belong to a gloss that only it reaches.
             let mut within = window;
             for tier in of_components() {
                 for row in tier_annotations_within(connection, tier, Some(window))? {
@@ -240,6 +245,7 @@ impl AnnotationsByTime {
         else {
             return Ok(by_time);
         };
+        // Components compete for glosses, so glosses beside the window take part in the assignment.
         let mut context = reach;
         for tier in of_components() {
             let inventory = inventories.iter().find(|stored| Some(stored.id) == tier.inventory_id);
@@ -276,10 +282,12 @@ impl AnnotationsByTime {
             }
             missing => missing,
         };
+        // An annotation without a value says nothing about a sign.
         if reading == ComponentReading::Unset {
             return;
         }
         let hands: Vec<Option<HandRef>> = match tier.hand {
+            // An annotation of both hands codes each of them.
             Some(AnnotatedHands::Both) => vec![Some(HandRef::Right), Some(HandRef::Left)],
             hand => vec![hand.and_then(AnnotatedHands::single_hand)],
         };
@@ -292,6 +300,7 @@ impl AnnotationsByTime {
             };
             self.components.push(CodedAnnotation {
                 span: ComponentSpan {
+                    // A tier of another participant follows that person's dominant hand.
                     field: resolve_field_hands(field, self.handedness_of(tier.participant.as_deref())),
                     span: annotation_row_span(row),
                     reading: reading.clone(),
@@ -348,6 +357,7 @@ impl AnnotationsByTime {
                     continue;
                 }
                 let own_span = coded.span.span;
+                // A gloss that begins earlier than this must have ended before the component.
                 let from = own_span.span_start_instant().shifted_instant(-longest);
                 let first = spans.partition_point(|span| span.span_start_instant() < from);
                 let last = spans.partition_point(|span| span.span_start_instant() < own_span.span_end_instant());
@@ -467,6 +477,7 @@ fn are_spans_touching(a: TimeSpan, b: TimeSpan) -> bool {
 /// Returns simultaneous values separated by `+`, or successive ones by `>`, with an empty part for each phase without a
 /// value.
 pub(crate) fn join_phase_values(phases: &BTreeMap<Option<SignPhase>, Vec<&str>>) -> String {
+    // A value of the whole sign needs no phases.
     if let Some(texts) = phases.get(&None) {
         return texts.join(" + ");
     }

@@ -84,6 +84,7 @@ pub(super) fn write_export_folder(
             std::io::ErrorKind::AlreadyExists.into(),
         ));
     }
+    // A folder that was there before belongs to the user, also if the export fails.
     let is_new = !to.exists();
     fs::create_dir_all(to).map_err(|error| CorpusError::from_file_failure(to, error))?;
     let ending = format!(".{extension}");
@@ -112,6 +113,7 @@ fn fill_export_folder(
     let mut first_lack = None;
     for (done, part) in parts.iter().enumerate() {
         let mut notes = Vec::new();
+        // A part that is left out must not take a name from another one.
         let mut taken_names = taken.clone();
         let name = file_name(&part.name, &mut taken_names);
         let path = to.join(format!("{name}.{extension}"));
@@ -123,11 +125,13 @@ fn fill_export_folder(
                 taken = taken_names;
                 written.push(file);
                 for note in notes {
+                    // The same note holds for many files, and is given once.
                     if !report.notes.contains(&note) {
                         report.notes.push(note);
                     }
                 }
             }
+            // One recording without content must not stop the export of all others.
             Err(error) if error.is_lack() => {
                 report.left_out.push(LeftOutExport {
                     name: part.name.clone(),
@@ -156,6 +160,7 @@ fn fill_export_folder(
         let note = "annotations_to_markers.py turns the annotations into markers of Blender's timeline";
         report.notes.insert(0, note.to_owned());
     }
+    // Files get their names only when all are complete, so that a failure leaves none.
     for file in written {
         report.files.push(file.name_exported_file()?);
     }
@@ -203,6 +208,7 @@ fn all_lack(first: CorpusError, count: usize, extension: &str) -> CorpusError {
 /// Returns the error of a recording or token, with its name.
 fn of_part(name: &str, error: CorpusError) -> CorpusError {
     match error {
+        // A message that names the thing already needs no second name.
         CorpusError::Wrong { ref message, .. } if !message.contains(name) => {
             let named = CorpusError::from_wrong_message(format!("the file of {name:?} cannot be written: {message}"))
                 .with_error_place(name);
@@ -323,6 +329,7 @@ fn list_folder_parts(
             }
         }
     }
+    // Several tokens may stand for the same recording.
     let mut seen = BTreeSet::new();
     all.retain(|part| match &part.content {
         FolderPartContent::What(ExportWhat::Address(address)) => seen.insert(address.to_string()),
@@ -380,6 +387,7 @@ fn languages(connection: &Connection, part: FolderPart) -> CorpusResult<Vec<Fold
         return Ok(vec![part]);
     };
     let groups = export_subtitles::subtitle_tier_groups(connection, id)?;
+    // A single group needs no language in its name.
     if groups.len() < 2 {
         return Ok(vec![part]);
     }

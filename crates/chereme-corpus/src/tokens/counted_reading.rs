@@ -62,6 +62,7 @@ impl<'a> AnnotatedGloss<'a> {
         let mut fields: BTreeMap<FieldKey<'a>, BTreeMap<i64, Vec<&CodedAnnotation>>> = BTreeMap::new();
         for &coded in &self.coded {
             let field = &coded.span.field;
+            // The hand of a gloss says nothing about the face.
             let hand = field.hand.or(self.hand.filter(|_| field.component.is_manual()));
             let key = (field.component, field.feature.as_deref(), hand);
             fields
@@ -82,6 +83,7 @@ impl<'a> AnnotatedGloss<'a> {
                 .filter(|reading| annotator.is_some() && reading.annotator == annotator);
             own.next()
         };
+        // An adjudication was made to settle what the annotators dispute.
         let chosen = by(Some(ADJUDICATION_ANNOTATOR)).or_else(|| by(self.preferred));
         let standing = match chosen {
             Some(chosen) => std::slice::from_ref(chosen),
@@ -98,6 +100,7 @@ impl<'a> AnnotatedGloss<'a> {
         let same_phases = |other: &Vec<PhasedReading<'_>>| {
             other.len() == first.len() && other.iter().zip(first).all(|(one, two)| one.0 == two.0)
         };
+        // Readings with other phases cannot be compared phase by phase.
         let alike = others.iter().all(same_phases);
         let (mut counting, mut disputed) = (Vec::new(), Vec::new());
         for (place, (field, source)) in first.iter().enumerate() {

@@ -122,6 +122,7 @@ fn signal(connection: &Connection, row: &TrackRow, wanted: &[String]) -> CorpusR
             .iter()
             .filter_map(|path| Some(path[frame]?.distance(path[frame - 1]?) / (to - from)))
             .collect();
+        // Frames at the same time have no speed.
         if !speeds.is_empty() && to > from {
             let speed = speeds.iter().sum::<f64>() / speeds.len() as f64;
             points.push(((from + to) / 2.0 + row.offset_us as f64 / 1e6, speed));
@@ -167,6 +168,7 @@ fn of_skeleton(track: &SkeletonTrack, wanted: &[String]) -> CorpusResult<(Channe
     let joints = clip.clip_skeleton().skeleton_joints().iter();
     let names: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
     let roles = track.roles.clone().unwrap_or_default();
+    // Without known wrists all joints are compared, so an unclear anatomy is no error.
     let anatomy = chereme_motion::BodyAnatomy::with_roles(clip.clip_skeleton(), &roles).ok();
     let wrists = anatomy.map(|anatomy| {
         let sides = BodySide::BOTH_SIDES.iter();
@@ -211,6 +213,7 @@ fn of_markers(markers: &MarkerTrack, wanted: &[String]) -> CorpusResult<(Channel
 
 /// Returns whether a point is a wrist by its name: `LWRA`, `TakeoMonday:RWRB`, `RIGHT_WRIST`, `R.Wrist`.
 fn is_wrist(name: &str) -> bool {
+    // Programs put the name of the person before a colon.
     let name = name.rsplit(':').next().unwrap_or(name).to_ascii_uppercase();
     let plug_in = ["LWRA", "LWRB", "RWRA", "RWRB", "LWRI", "RWRI"];
     name.contains("WRIST") || plug_in.contains(&name.as_str())

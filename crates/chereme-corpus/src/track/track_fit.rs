@@ -123,6 +123,7 @@ impl Corpus {
         })?;
         let mut report = marker_fit_report(&markers.name, options.subject, &fitted);
         let present_track = stored_recordings::body_track(connection, row.id)?;
+        // The fit can be stored all the same, but under another name, and signs are not read from it.
         if present_track.is_some_and(|known| known.name == BODY_TRACK_NAME) {
             report.findings.push(
                 "the recording has a body already, from which signs are read; import the file again as a recording of \

@@ -166,6 +166,7 @@ fn frame_count(row: &TrackRow) -> usize {
 fn read_track_numbers(connection: &Connection, row: &TrackRow, span: Option<TimeSpan>) -> CorpusResult<TrackNumbers> {
     let all = read_track_times(connection, row)?;
     let frames = match span {
+        // The times of frames are counted from the start of the track, and not from that of the recording.
         Some(span) => all.frames_in(span.shifted_span(-row.offset_us), frame_count(row)),
         None => 0..frame_count(row),
     };
@@ -177,6 +178,7 @@ fn read_track_numbers(connection: &Connection, row: &TrackRow, span: Option<Time
         _ => all,
     };
     let rows = stored_tracks::load_channel_rows(connection, row.id)?;
+    // The channels of a group lie beside each other in its blocks.
     let mut widths: BTreeMap<&str, usize> = BTreeMap::new();
     for channel in &rows {
         *widths.entry(&channel.group).or_default() += channel.columns;
@@ -209,11 +211,13 @@ fn read_channel_group(
     let mut next = frames.start;
     stored_motion::visit_track_blocks(connection, row.id, name, frames, |block| {
         let fault = |reason: String| damaged_row_error(format!("block {}", to_hex_text(&block.hash)), reason);
+        // A damaged number would otherwise ask for any amount of memory.
         if block.frames > BLOCK_FRAMES {
             return Err(fault("it is too long".into()));
         }
         let decoded = codec::decode_block_columns(&block.data, block.frames, width).map_err(fault)?;
         let end = frames.end.min(block.first_frame.saturating_add(block.frames));
+        // A gap between blocks would shift all later frames.
         if block.first_frame > next || end < next {
             return Err(damaged_row_error(
                 track_place_text(row),
@@ -242,6 +246,7 @@ fn read_channel_group(
             format!("frame {next} of {name:?} is missing"),
         ));
     }
+    // No block means no frames, but each channel still has its columns.
     if columns.is_empty() {
         columns = vec![FrameNumberColumn::from_double_floats(Vec::new()); width];
     }

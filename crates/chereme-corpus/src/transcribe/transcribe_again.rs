@@ -66,6 +66,7 @@ impl ResynthesisProof<'_, '_> {
         let (most, synthesises) = (at_once * threads, &synthesises);
         let mut all = vec![None; signs.len()];
         for (signs, clips) in signs.chunks(most).zip(all.chunks_mut(most)) {
+            // A chunk is short enough that stopping takes effect soon.
             if !self.goes_on(signs.len()) {
                 break;
             }
@@ -119,6 +120,7 @@ impl ResynthesisBody {
         stretch: &RecordingStretch,
     ) -> CorpusResult<Option<Self>> {
         let recipe_row = recipes::find_recording_recipe(connection, stretch.recording.id)?;
+        // Another version of the engine would perform the same notation differently.
         let made = recipe_row.filter(|row| row.engine == engine_version());
         let made = made.and_then(|row| serde_json::from_str::<GeneratedDocument>(&row.document).ok());
         let Some((language, body)) = made.as_ref().and_then(GeneratedDocument::notation_inputs) else {
@@ -140,6 +142,7 @@ impl ResynthesisBody {
                 false => ground_body(stage)?,
             }
         };
+        // A body that changed since cannot show what was performed on the old one.
         if stage.hash != body.hash {
             return Ok(None);
         }
@@ -179,6 +182,7 @@ struct GeneratedDocument {
 impl GeneratedDocument {
     /// Returns the body language and the body of movement that was generated from notation alone.
     fn notation_inputs(&self) -> Option<(BodyLanguage, &MaterialInput)> {
+        // Any further step may have changed what the notation says.
         let (RecipeNode::Hamnosys(_) | RecipeNode::Sigml(_)) = self.recipe.recipe_root() else {
             return None;
         };
@@ -217,6 +221,7 @@ pub(super) fn generated_sign_frames(
     sign_annotations.retain(|annotation| {
         annotation.origin == AnnotationOrigin::Made && annotation.start_us >= from && annotation.end_us <= to
     });
+    // Several signs in the stretch have no common beginning and end.
     let [sign] = sign_annotations.as_slice() else {
         return Ok(None);
     };

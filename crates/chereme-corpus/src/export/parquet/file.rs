@@ -103,6 +103,7 @@ impl<'o> ParquetFileWriter<'o> {
             writer.close().map_err(parquet_write_error)?;
         }
         group.close().map_err(parquet_write_error)?;
+        // A file of many groups would otherwise lie in memory whole.
         self.drain()
     }
 
@@ -167,6 +168,7 @@ fn parquet_writer_properties(table: &ParquetTable, about: &str) -> CorpusResult<
         .set_compression(Compression::ZSTD(level));
     for column in table {
         let path = ColumnPath::from(column.name.as_str());
+        // Numbers of movement hardly repeat, so a dictionary would only cost room.
         if matches!(column.cells, ParquetCells::Float(_)) {
             builder = builder
                 .set_column_dictionary_enabled(path.clone(), false)

@@ -74,6 +74,7 @@ pub(super) fn write_token_parquet(
 ) -> CorpusResult<()> {
     let mut text = Vec::new();
     let form = csv::TableForm::new(b',');
+    // Both formats then have the same columns and cells.
     csv::write_token_csv(connection, tokens, form, &mut text, notes, progress)?;
     let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
     let mut reader = ::csv::Reader::from_reader(text.as_slice());
@@ -117,6 +118,7 @@ fn numeric(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeSet<Str
         for row in rows.into_values().flatten() {
             // A number that Rust would read differently stays text.
             let plain = row.number.is_some() && row.text.trim().parse::<f64>().ok() == row.number;
+            // Empty cells do not keep a column from being one of numbers.
             *all.entry(row.name).or_insert(true) &= plain || row.text.is_empty();
         }
     }
@@ -143,6 +145,7 @@ fn plain_column_title(title: &str, taken: &mut BTreeSet<String>) -> String {
     };
     let mut unique_name = name.to_owned();
     let mut number = 2;
+    // Two titles may become equal when their signs are replaced.
     while !taken.insert(unique_name.clone()) {
         unique_name = format!("{name}_{number}");
         number += 1;
@@ -365,6 +368,7 @@ fn write_movement_groups(
     let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
     let joints = track.hierarchy.joints.len().max(1);
+    // Skeletons with many joints get fewer frames in a group, so that groups stay alike in size.
     let at_once = (MAX_GROUP_ROWS / joints).max(1);
     let recording = ByteArray::from(stretch.recording.name.as_str());
     let token = stretch.token.as_ref().map(|token_row| token_row.id);
