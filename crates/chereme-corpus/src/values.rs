@@ -62,6 +62,7 @@ impl Corpus {
             };
             let mut changed_inventory = stored.inventory;
             changed_inventory.values.push(value);
+            // Two values that share a spelling could not be told apart in annotations.
             changed_inventory.check_inventory().map_err(|error| {
                 CorpusError::from_wrong_message(error.to_string())
                     .with_advice("give the value spellings that no other one has")
@@ -88,6 +89,7 @@ impl Corpus {
             }
             let mut annotations = 0;
             for text in rows::list_inventory_tier_values(connection, stored.id)? {
+                // Annotations may have the value in any of its spellings.
                 let matched_value = stored.inventory.find_inventory_value(text.trim());
                 if matched_value.is_some_and(|value| value.id == gone.id) {
                     annotations += rows::replace_inventory_tier_value(connection, stored.id, &text, &left)?;
@@ -119,6 +121,7 @@ fn merge_inventory_value(inventory: &ComponentInventory, gone: &InventoryValue, 
     for value in &mut merged_inventory.values {
         if value.broader.as_deref() == Some(&gone.id) {
             value.broader = match value.id == left {
+                // A value cannot lie below itself, so it takes the place of the one that goes.
                 true => gone.broader.clone().filter(|broader| broader != left),
                 false => Some(left.to_owned()),
             };
@@ -147,6 +150,7 @@ pub(crate) fn find_stored_inventory(connection: &Connection, name: &str) -> Corp
         };
         let mut matching = all.iter().enumerate().filter(|(_, it)| is(it));
         let (at, _) = matching.next()?;
+        // A name that two inventories have says nothing about which one is meant.
         matching.next().is_none().then_some(at)
     };
     let inventory_index = keyed.or_else(called);

@@ -92,6 +92,7 @@ fn compared_with_english(code: &str, files: &LanguageFiles) -> LanguageCoverage 
     for (id, phrase) in &written {
         let fault = match english.get(id) {
             None => format!("{id} is no phrase of the program"),
+            // A phrase that lacks a variable part would hide something from the reader.
             Some(same) if phrase.can_stand_for(id, same) => continue,
             Some(same) => format!("the variable parts of {id} are not those of: {}", same.text),
         };
@@ -119,6 +120,7 @@ fn read_word_folder(folder: &Path) -> CorpusResult<Vec<WordFile>> {
     let listed = |folder: &Path| -> CorpusResult<Vec<_>> {
         let read_entries = fs::read_dir(folder).and_then(Iterator::collect::<std::io::Result<Vec<_>>>);
         let mut entries = read_entries.map_err(|error| CorpusError::from_file_failure(folder, error))?;
+        // The system lists files in any order, and reports should not change with it.
         entries.sort_by_key(fs::DirEntry::file_name);
         Ok(entries)
     };
@@ -133,6 +135,7 @@ fn read_word_folder(folder: &Path) -> CorpusResult<Vec<WordFile>> {
                 continue;
             }
             let fault = |error| CorpusError::from_file_failure(&path, error);
+            // Such a file holds something else than words, and would only fill the memory.
             if fs::metadata(&path).map_err(fault)?.len() > LARGEST_WORD_FILE {
                 return Err(fault(std::io::ErrorKind::FileTooLarge.into()));
             }

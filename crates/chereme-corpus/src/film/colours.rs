@@ -100,6 +100,7 @@ impl PicturePlanes {
         let spans = |count: usize, of: usize| -> Vec<(usize, usize)> {
             let edge = |at: usize| at * of / count;
             (0..count)
+                // Each range has at least one pixel, so that no mean is taken of nothing.
                 .map(|at| (edge(at), edge(at + 1).max(edge(at) + 1)))
                 .collect()
         };
@@ -121,6 +122,7 @@ impl PicturePlanes {
                 }
                 let count = ((xs.1 - xs.0) * (ys.1 - ys.0)) as u32;
                 let chroma_index = (ys.0 + ys.1) / 4 * chroma + (xs.0 + xs.1) / 4;
+                // At an odd edge, the last square of four reaches beyond the picture.
                 let near = chroma_index.min(self.u.len().saturating_sub(1));
                 let bright = ((sum + count / 2) / count) as i32;
                 let (u, v) = (i32::from(self.u[near]), i32::from(self.v[near]));

@@ -48,6 +48,7 @@ impl H264Film {
         let sequences = configuration.sets.iter();
         if let Some(set) = sequences.clone().find(|set| mp4_h264::is_sequence(set)) {
             let sequence = mp4_h264::read_sequence_parameters(set).map_err(|error| error.to_string())?;
+            // The decoder knows no profile above High, which this number stands for.
             if sequence.profile > 100 {
                 return Err("H.264 of a profile with more than 8 bits, or 4:2:2".to_owned());
             }
@@ -86,6 +87,7 @@ impl H264Film {
     /// Decodes the picture at a decoding position; `fresh` means that decoding begins there.
     fn decode_one_picture(&mut self, at: usize, fresh: bool) -> std::result::Result<Option<PicturePlanes>, String> {
         let frame = self.container.frames[at];
+        // A damaged index may state any size.
         if frame.size > MAX_CODED_PICTURE_BYTES {
             return Err(format!("a coded picture of {} bytes", frame.size));
         }
@@ -98,6 +100,7 @@ impl H264Film {
             return Err("the file is cut short".to_owned());
         }
         self.stream.clear();
+        // Where decoding can begin, the decoder needs the parameter sets before the picture.
         let sets = fresh || frame.sync;
         mp4_h264::annex_b(&self.configuration, &self.coded, sets, &mut self.stream)
             .map_err(|error| error.to_string())?;
@@ -138,6 +141,7 @@ impl FrameDecoder for H264Film {
         let target = self.order[frame];
         let begin = self.container.sync_before(target);
         let shown = |at: usize| self.container.frames[at].shown;
+        // A picture before the floor needs others that were skipped, so decoding begins earlier for it.
         let is_above_floor = shown(target) >= self.floor;
         let on = self
             .next
@@ -174,6 +178,7 @@ impl FrameDecoder for H264Film {
                     return Err(broken("it is not whole"));
                 }
                 Ok(None) => {}
+                // Nothing depends on this picture, and it is not the one that is wanted.
                 Err(_) if picture_index != target && self.is_spare() => {}
                 Err(reason) => {
                     // The following pictures depend on it until decoding can begin again.

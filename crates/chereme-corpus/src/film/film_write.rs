@@ -66,6 +66,7 @@ pub(crate) fn write_film(
         film.add_coded_picture(&coded.map_err(|error| film_coding_error(&error))?);
     }
     film.add_coded_picture(&coder.try_flush().map_err(|error| film_coding_error(&error))?);
+    // A missing picture would shift all later ones in time.
     if film.muxed_picture_count() != total {
         let coded = film.muxed_picture_count();
         return Err(CorpusError::from_wrong_message(format!(
@@ -86,6 +87,7 @@ fn coder([width, height]: [usize; 2], rate: u32) -> CorpusResult<Encoder> {
     let squares = (width.div_ceil(16) * height.div_ceil(16)) as u64;
     let level = H264_LEVELS
         .iter()
+        // Players refuse films that go beyond the level that they state.
         .find(|(_, picture, second)| squares <= *picture && squares * u64::from(rate) <= *second);
     let (level, ..) = level.ok_or_else(|| {
         CorpusError::from_wrong_message(format!(

@@ -68,6 +68,7 @@ pub(super) fn open_ffmpeg_film(
             .collect(),
         running: None,
     };
+    // Only a decoded picture shows that the film can be played at all.
     helper.decode_film_frames(0, &|| false, &mut |_, _| {})?;
     let [shown_width, shown_height] = turn.rotated_picture_size(size);
     let facts = FilmFacts {
@@ -115,6 +116,7 @@ fn list_film_frames(path: &Path) -> std::result::Result<([usize; 2], FilmTimes),
             Some((shown, lasts))
         })
         .collect();
+    // The list is in the order of decoding, while frames are counted as they are shown.
     rows.sort_unstable();
     let Some((last, lasts)) = rows.last().copied() else {
         return Err("it has no frames".to_owned());
@@ -146,6 +148,7 @@ struct RunningFfmpeg {
 
 impl Drop for RunningFfmpeg {
     fn drop(&mut self) {
+        // The process would otherwise wait for ever for somebody to read its pictures.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -158,6 +161,7 @@ impl FfmpegFilm {
     fn begin_ffmpeg_at(&mut self, frame: usize) -> CorpusResult<()> {
         self.running = None;
         let mut command = quiet_ffmpeg_command();
+        // The rotation is applied here, as for the other decoder.
         command.arg("-noautorotate");
         if frame > 0 {
             // Seeks half a frame earlier, so that rounding does not skip the frame.
@@ -189,6 +193,7 @@ impl FrameDecoder for FfmpegFilm {
         keep: &mut dyn FnMut(usize, PicturePlanes),
     ) -> CorpusResult<()> {
         let next = self.running.as_ref().map(|running| running.next);
+        // Decoding a few frames more is faster than starting the program again.
         if !next.is_some_and(|next| (next..next + MAX_DROPPED_FRAMES).contains(&frame)) {
             self.begin_ffmpeg_at(frame)?;
         }

@@ -21,6 +21,7 @@ pub fn noun_form_for_count(count: u64, noun: &str, language: InterfaceLanguage) 
     let id = format!("noun-{}", noun.replace(' ', "-"));
     let counted_sentence = filled_sentence(&id, language, &|_| count.to_string());
     counted_sentence.unwrap_or_else(|| match noun.strip_suffix("ies") {
+        // Nouns that no file of words has still follow the rules of English.
         _ if count != 1 => noun.to_owned(),
         Some(stem) => format!("{stem}y"),
         None => noun.strip_suffix('s').unwrap_or(noun).to_owned(),

@@ -263,6 +263,7 @@ impl OperationEffect {
 
     /// Returns the name and the English summary of the operation, and the JSON that is stored beside them.
     pub(crate) fn stored_texts(&self) -> (String, String, Option<String>) {
+        // Without an understood effect, the texts are kept as they were stored.
         if let Self::SummaryOnly { name, summary } = self {
             return (name.clone(), summary.clone(), None);
         }

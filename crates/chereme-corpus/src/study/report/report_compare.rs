@@ -93,6 +93,7 @@ pub(super) fn compare_all_hypotheses(
     people: &[&StudyParticipant],
     resampling: &ResamplingSettings,
 ) -> Vec<GroupComparison> {
+    // A plan with hypotheses is tested for these alone, so that chance finds are not reported.
     if !plan.hypotheses.is_empty() {
         let stated = plan.hypotheses.iter().filter_map(|hypothesis| {
             let question = plan.find_plan_question(&hypothesis.question)?;
@@ -138,6 +139,7 @@ pub(super) fn compare_all_hypotheses(
         }
         for measure in measures {
             let measure_report = with_measure(plan, question, measure, people, resampling);
+            // With fewer points, a correlation is high by chance.
             if measure_report.points.len() >= MIN_CORRELATION_TRIALS {
                 compared.push(GroupComparison {
                     measure: Some(measure_report),
@@ -258,9 +260,11 @@ fn compare_answer_groups(
 ) -> GroupComparison {
     let mut places = Vec::new();
     for i in 0..groups.len() {
+        // A trend is about neighbours, and further pairs would only weaken the corrected tests.
         let last = if trend { (i + 2).min(groups.len()) } else { groups.len() };
         places.extend((i + 1..last).map(|j| [i, j]));
     }
+    // Resampling very many pairs would take longer than anybody waits for a report.
     let resampled = places.len() <= MAX_RESAMPLED_PAIRS;
     let mut pairs: Vec<GroupPairComparison> = places
         .into_iter()
@@ -301,6 +305,7 @@ fn overall(groups: &[GroupAnswers]) -> OverallTests {
     let means: Vec<Vec<Option<f64>>> = groups.iter().map(GroupAnswers::participant_means).collect();
     let people = means.first().map_or(0, Vec::len);
     let row = |person: usize| means.iter().map(|group| group[person]).collect();
+    // The test compares each person with themselves, so people who lack a group are left out.
     let rows: Vec<Vec<f64>> = (0..people).filter_map(row).collect();
     OverallTests {
         pooled: pooled.into(),
@@ -406,6 +411,7 @@ fn people_test(
         return Ok(of_mann_whitney(rank_test.n, rank_test.u, rank_test.method, rank_test.p));
     }
     let n = [both.len(); 2];
+    // McNemar's test knows one answer of each person to each group only.
     let single = groups
         .iter()
         .all(|answered| answered.by_person.iter().all(|own| own.len() < 2));
@@ -440,6 +446,7 @@ fn resample_cliff_delta(
 ) -> Result<ParticipantResamples, UndefinedStatistic> {
     let mut values = groups.map(GroupAnswers::pooled_answers).concat();
     values.sort_by(f64::total_cmp);
+    // Answers have few different values, so counts of these are much faster than pairs of answers.
     values.dedup();
     let histogram = |own: &Vec<f64>| {
         let mut counts = vec![0.0; values.len()];
@@ -490,6 +497,7 @@ fn resampled_interval_ends(
         Ok(ResampledInterval { kind, level, low, high })
     };
     match of(ResampleIntervalRule::Bca) {
+        // Without spread the correction is undefined, while the plain interval still is a point.
         Err(UndefinedStatistic::NoSpread) => of(ResampleIntervalRule::Percentile),
         found => found,
     }
@@ -507,6 +515,7 @@ fn test_group_sameness(
     let result = conclude_equivalence([ends.low, ends.high], settings.bound)?;
     if result == EquivalenceConclusion::Equivalent {
         let people = i32::try_from(resamples.jackknife.len()).unwrap_or(i32::MAX);
+        // So few people could all agree by chance.
         if 0.5_f64.powi(people) > settings.alpha {
             return Err(UndefinedStatistic::TooFew);
         }
@@ -571,6 +580,7 @@ fn correlation_interval(
 ) -> Result<ResampledInterval, UndefinedStatistic> {
     let people = answers.first().map_or(0, |answered| answered.by_person.len());
     let sums = people.saturating_mul(answers.len()).saturating_mul(settings.times);
+    // A study of many people and trials would otherwise block the program for minutes.
     if sums > MOST_SUMS {
         return Err(UndefinedStatistic::TooMany);
     }
@@ -585,6 +595,7 @@ fn correlation_interval(
             let (sum, n) = drawn.iter().fold((0.0, 0.0), |(sum, n), one| {
                 (sum + by_person[*one].0, n + by_person[*one].1)
             });
+            // A trial that none of the drawn people answered has no mean.
             if n > 0.0 {
                 own.push(*value);
                 means.push(sum / n);

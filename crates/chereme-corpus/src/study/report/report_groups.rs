@@ -133,6 +133,7 @@ fn collect_trial_group(
                     counts[at] += 1;
                     answers += 1;
                 }
+                // An answer without a place on the scale or among the options is one of not knowing.
                 _ => cannot_say += 1,
             }
             person_values.extend(answer_as_number(plan, question, answer));
@@ -250,6 +251,7 @@ fn part_model_report(
         return None;
     }
     let fit = |with_items: bool| {
+        // The first item is the reference, and gets no column of its own.
         let items = if with_items { &items[1..] } else { &[] };
         let (mut answers, mut rows) = (Vec::new(), Vec::new());
         for answer in people.iter().flat_map(|one| main_answers(one, &question.name)) {
@@ -269,6 +271,7 @@ fn part_model_report(
     };
     let mut with_items = items.len() > 1;
     let mut fitted = fit(with_items);
+    // If each item has one condition, the two cannot be separated, and conditions matter more.
     if with_items && fitted == Err(UndefinedStatistic::Dependent) {
         with_items = false;
         fitted = fit(false);
