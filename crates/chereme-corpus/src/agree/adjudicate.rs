@@ -146,6 +146,7 @@ impl Corpus {
             let recording = RowName::Number(pair.recording.id);
             let mut tier = NewTier::new(recording.clone(), into, pair.a.role.clone());
             tier.hand = pair.a.hand;
+            // An inventory that lacks a value of either annotator would refuse the annotation.
             tier.values = TierValueSource::Free;
             let stored = inventories
                 .iter()
@@ -223,12 +224,14 @@ fn clip_second_annotation(
     tolerance: i64,
 ) -> (i64, i64) {
     let (mut start, mut end) = (row.start_us, row.end_us);
+    // Annotations that end before this one begins cannot reach into it.
     let from = first.partition_point(|other| other.end_us <= row.start_us);
     for (at, other) in first.iter().enumerate().skip(from) {
         if other.start_us >= row.end_us {
             break;
         }
         let shared = other.end_us.min(row.end_us) - other.start_us.max(row.start_us);
+        // A larger overlap is a disagreement itself, and must stay visible.
         if Some(at) == counterpart || shared > tolerance {
             continue;
         }

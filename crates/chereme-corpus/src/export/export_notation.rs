@@ -67,6 +67,7 @@ fn load_notated_tokens(
     let mut signs = Vec::new();
     for (part, ids) in tokens.chunks(MAX_ROWS_PER_QUERY).enumerate() {
         let mut notations = notation::of_recipes(connection, ids)?;
+        // The notation of the token itself counts before the one that it was generated from.
         notations.extend(notation::of_tokens(connection, ids)?);
         signs.extend(ids.iter().filter_map(|id| Some(notations.remove(id)?.document)));
         progress.report_step(ProgressStep {

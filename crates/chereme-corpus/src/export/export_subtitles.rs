@@ -117,6 +117,7 @@ pub(super) fn write_recording_subtitles(
     let is_chosen = |tier: &TranscriptTier| rows.iter().any(|row| row.name == tier.name);
     let tiers = transcript.tiers.into_iter().filter(is_chosen);
     let shown = AnnotationTranscript {
+        // The parents may not be among the chosen tiers, and subtitles do not need them.
         tiers: tiers.map(|tier| TranscriptTier { parent: None, ..tier }).collect(),
         ..AnnotationTranscript::default()
     };

@@ -87,6 +87,7 @@ pub(super) fn write_vrma_stretch(
 ) -> CorpusResult<()> {
     let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
+    // An animation without frames is no valid file.
     if frames.is_empty() {
         let name = &stretch.recording.name;
         return Err(
@@ -102,6 +103,7 @@ pub(super) fn write_vrma_stretch(
     let mut face = AvatarFace::avatar_face_from_faces(&chereme_compose::faces_from_curves(&curves));
     let has = |face: &AvatarFace, name: &str| face.expressions.iter().any(|expression| expression.name == name);
     for curve in curves {
+        // The presets already hold what some curves show, and a name may stand only once.
         if !has(&face, &curve.name) {
             face.expressions.push(ExpressionTrack {
                 name: curve.name,
@@ -170,7 +172,9 @@ pub(super) fn write_marker_file(
     let row = first_track_of_kind(connection, stretch, TrackKind::Markers, notes)?;
     let span = stretch.token.as_ref().map(|_| stretch.span);
     let markers = track::track_read::read_track_markers(connection, &row, span)?;
+    // These formats cannot begin before the first frame of their clock.
     let offset = RecordingInstant::from_micros(row.offset_us.max(0));
+    // A C3D file has one rate for all frames, while TRC has a time for each.
     let is_even = markers.marker_times().even_times_rate().is_some() || form == MarkerFileFormat::Trc;
     let has_form = is_even && matches!(markers.marker_space(), MarkerSpace::World(_));
     let fault = |error: String| {

@@ -177,6 +177,7 @@ impl Corpus {
                 report = several::write_export_folder(&reading, what, kind, to, options, &gate, progress)?;
             }
             (None, ExportWhat::All) => {
+                // A copy of everything is a rescue as well, so damage is noted and does not stop it.
                 report.notes = damaged_rows(connection)?;
                 let folder = enriched::write_enriched_folder(connection, to, &gate, options.with_history, progress)?;
                 let files = folder.files;
@@ -194,6 +195,7 @@ impl Corpus {
                 let by_name = SingleFileFormat::from_export_extension(extension)
                     .map(|format| format.select_format_variant(&inner));
                 let format = match form {
+                    // A name that contradicts the format would mislead whoever opens the file later.
                     Some((format, named)) if by_name.is_some_and(|named_format| named_format != format) => {
                         return Err(CorpusError::from_wrong_message(format!(
                             "the name ends in .{extension}, and the format is {named}"
@@ -382,6 +384,7 @@ fn write_file(
     gate: &ExportGate,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
+    // Damaged rows must not go out unnoticed into files of others.
     verify(connection, what, format)?;
     match (format, what) {
         (SingleFileFormat::Json, ExportWhat::Inventory(name)) => {
@@ -416,6 +419,7 @@ fn write_file(
             let stretch = selected_export_stretch(connection, what)?;
             let moves = stored_recordings::body_track(connection, stretch.recording.id)?.is_some();
             let shows = moves && curves::has_some(connection, &stretch)?;
+            // Without a face of the body, the table holds a track of curves as it was imported.
             if !shows {
                 return foreign::write_number_table(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
             }
@@ -562,6 +566,7 @@ fn selected_export_tokens(connection: &Connection, what: &ExportWhat) -> CorpusR
             let mut all = Vec::new();
             for address in addresses {
                 for id in self::selected_export_tokens(connection, &ExportWhat::Address(address.clone()))? {
+                    // Addresses may name the same token twice.
                     if !all.contains(&id) {
                         all.push(id);
                     }
@@ -639,6 +644,7 @@ impl UnnamedExportFile {
         force: bool,
         write: &mut dyn FnMut(&mut dyn Write) -> CorpusResult<()>,
     ) -> CorpusResult<Self> {
+        // A folder is never replaced by a file, not even by force.
         if to.is_dir() || (to.exists() && !force) {
             return Err(CorpusError::from_file_failure(to, io::ErrorKind::AlreadyExists.into()));
         }
@@ -668,6 +674,7 @@ impl UnnamedExportFile {
         };
         write(&mut out)?;
         let file = out.out.into_inner().map_err(|error| fault(error.into_error()))?;
+        // The file gets its name only when its content is safe on the disk.
         file.sync_all().map_err(fault)?;
         self.file.bytes = out.bytes;
         self.file.sha256 = to_hex_text(&out.digest.finalize());

@@ -297,6 +297,7 @@ impl Corpus {
             }
         };
         match self.store.operation_with_progress(progress, run) {
+            // A dry run ends as if it was stopped, so that everything is rolled back.
             Err(CorpusError::Stopped) if options.dry_run && report.complete => {}
             other => other?,
         }
@@ -408,6 +409,7 @@ impl ImportRun<'_> {
                 unit: ProgressUnit::Items,
             })?;
             before[reader] += 1;
+            // A refused file must leave nothing behind, while the others stay.
             connection.execute_batch("SAVEPOINT file")?;
             let place_count = self.places.len();
             let counts = RowChangeCounts {
@@ -417,6 +419,7 @@ impl ImportRun<'_> {
             };
             let file = match self.import_single_file(path, reader, *named, counts, progress) {
                 Ok((mut file, counts)) if file.status != FileStatus::Refused => {
+                    // Many takes of one body would otherwise hold the same names again and again.
                     self.earlier.share_equal_parts(&mut file.understood);
                     connection.execute_batch("RELEASE file")?;
                     let RowChangeCounts {
@@ -439,6 +442,7 @@ impl ImportRun<'_> {
             report.files.push(file);
         }
         if let Some(path) = &self.options.standard_input {
+            // The path of the temporary file would mean nothing to the user.
             let stands = legible_path_text(path);
             let shown = report.files.iter_mut().filter(|file| file.path == stands);
             shown.for_each(|file| "-".clone_into(&mut file.path));
@@ -469,6 +473,7 @@ impl ImportRun<'_> {
             stem: text(path.file_stem()),
             file_name: text(path.file_name()),
             place: match self.options.standard_input.as_deref() == Some(path) {
+                // A temporary file lies elsewhere each time, and would never be known again.
                 true => format!("-/{}", text(path.file_name())),
                 false => relative_file_path(&absolute(path), self.base),
             },
@@ -476,6 +481,7 @@ impl ImportRun<'_> {
             hash: match FILE_READERS[reader].kind {
                 import_film::FILM_KIND => import_film::hash(path)?,
                 _ => {
+                    // A file that is too large is refused before it is read for its hash.
                     if !FILE_READERS[reader].is_streamed() {
                         import_whole::check_whole_file(path)?;
                     }
@@ -494,6 +500,7 @@ impl ImportRun<'_> {
             has_own_annotations: self.annotated.contains(&path.with_extension("")),
             joined: None,
         };
+        // A file that the user names may belong to any take, not only to that of its folder.
         if !named && self.one_take.contains(path) {
             job.folder_take = job.places.movement_beside(&job.place);
         }
@@ -504,6 +511,7 @@ impl ImportRun<'_> {
         if done.status == FileStatus::Imported {
             job.report_equal_bytes(&mut done)?;
         }
+        // A file that was refused or is unchanged joined nothing now.
         if matches!(done.status, FileStatus::Imported | FileStatus::Updated) {
             done.joined = job.joined.take();
         }
@@ -545,6 +553,7 @@ fn absolute(path: &Path) -> PathBuf {
 fn relative_file_path(path: &Path, folder: &Path) -> String {
     let (own, base): (Vec<_>, Vec<_>) = (path.components().collect(), folder.components().collect());
     let shared = own.iter().zip(&base).take_while(|(a, b)| a == b).count();
+    // Without a common root the path is that of another drive, which no step upwards reaches.
     let up = if shared == 0 { 0 } else { base.len() - shared };
     let names = own[shared..].iter().map(legible_path_text);
     let parts: Vec<_> = std::iter::repeat_n("..".into(), up).chain(names).collect();
@@ -577,6 +586,7 @@ fn hash_file(path: &Path, progress: &mut ProgressReceiver<'_>) -> CorpusResult<S
         }
         digest.update(&buffer[..read]);
         done += read as u64;
+        // Smaller files are hashed before a report could be seen.
         if total > 64 << 20 {
             let task = "checking";
             let unit = crate::progress::ProgressUnit::Bytes;
@@ -600,6 +610,7 @@ fn gather_import_candidates(paths: &[PathBuf]) -> Vec<ImportCandidate> {
             Err(error) => files.push(ImportCandidate::broken_candidate(path, error)),
         }
     }
+    // Of a file that is named and lies in a folder, too, the named one comes first and stays.
     files.sort_by(|a, b| (&a.path, b.named).cmp(&(&b.path, a.named)));
     files.dedup_by(|a, b| a.path == b.path);
     // If a film has a file for each frame, the first file stands for all.
@@ -657,6 +668,7 @@ fn walk_import_folder(folder: &Path, depth: usize, files: &mut Vec<ImportCandida
             .file_name()
             .is_some_and(|name| name.to_string_lossy().starts_with('.'));
         if path.is_dir() {
+            // A link may lead back to a folder above, and the walk would not end.
             if !hidden && !path.is_symlink() {
                 walk_import_folder(&path, depth + 1, files);
             }

@@ -124,6 +124,7 @@ fn share_equal_part<T: PartialEq>(earlier: &mut Vec<SharedPart<T>>, own: Option<
     let Some(own) = own else { return };
     match earlier.iter().find(|shared| **shared == *own) {
         Some(same) => *own = same.clone(),
+        // Each new part is compared with all that are held, so their number is limited.
         None if earlier.len() < MAX_COMPARED_PARTS => earlier.push(own.clone()),
         None => {}
     }
