@@ -72,6 +72,7 @@ impl CanonicalHead {
     pub(super) fn front_depth_at(&self, x: f32, y: f32) -> f32 {
         let table_position = |v: f32| {
             ((v / FRONT_TABLE_REACH + 1.0) * 0.5 * (FRONT_TABLE_STEPS - 1) as f32)
+                // Just below the last cell's end, so that its right neighbour exists for the interpolation.
                 .clamp(0.0, FRONT_TABLE_STEPS as f32 - 1.001)
         };
         let (u, v) = (table_position(x), table_position(y));
@@ -118,6 +119,7 @@ impl CanonicalHead {
         for side in 0..2 {
             for ring in 0..4 {
                 for k in 0..EYE_LOOP_VERTICES {
+                    // The loops come first: later vertices keep a distance of their own from all before this count.
                     let [x, y] = eye_loop_vertex(side, ring, k);
                     places.push((Vec3::new(x, y, self.front_depth_at(x, y)), FacePart::Eye(side, ring, k)));
                 }
@@ -135,12 +137,14 @@ impl CanonicalHead {
         for k in 0..32 {
             let (row, column) = (k / 4, k % 4);
             let y = 0.0 - row as f32 * 0.029;
+            // The nose gets wider downwards, so its columns fan out from bridge to wings.
             let wide = 0.020 + 0.050 * smooth_step(row as f32 / 6.0);
             let x = (column as f32 / 1.5 - 1.0) * wide;
             places.push((Vec3::new(x, y, self.front_depth_at(x, y)), FacePart::Skin));
         }
         let fine = 0.115;
         let grid = |spacing: f32| {
+            // A row of equilateral triangles is 0.866 (half the root of three) of the spacing high.
             let rows = (PI / (spacing * 0.866)) as i32 + 1;
             let columns = (PI / spacing) as i32 + 1;
             (-rows..=rows).flat_map(move |row| {
@@ -150,6 +154,7 @@ impl CanonicalHead {
                 })
             })
         };
+        // The face needs small triangles for expressions; beyond it, over the skull, coarser ones do.
         for (spacing, from, to) in [(fine, 0.0, 1.15), (0.19, 1.15, 2.62)] {
             for at in grid(spacing) {
                 let angle = at.length();
@@ -159,6 +164,7 @@ impl CanonicalHead {
                 let surface_place = surface_point_towards(field, direction_from_flat(at));
                 let flat_place = flatten_head_place(surface_place);
                 let near = places.iter().enumerate().any(|(index, (other, _))| {
+                    // Loops are dense themselves, so skin may come closer to them than to other skin.
                     let limit = if index < loops { 0.55 * fine } else { 0.62 * spacing };
                     flatten_head_place(*other).distance(flat_place) < f64::from(limit)
                 });
@@ -168,9 +174,11 @@ impl CanonicalHead {
                 }
             }
         }
+        // The net is flat only if the back of the head is open: this rim is closed to a pole afterwards.
         let rim = places.len();
         for k in 0..16 {
             let angle = TAU * k as f32 / 16.0;
+            // 2.80 radians lie short of straight backwards (pi), where all directions of the flat map meet.
             let rim_point = Vec2::new(angle.cos(), angle.sin()) * 2.80;
             places.push((
                 surface_point_towards(field, direction_from_flat(rim_point)),
@@ -201,6 +209,7 @@ impl CanonicalHead {
             .iter()
             .map(|knot| match knot.place {
                 FacePart::Mouth(ring, k) => {
+                    // At rest the lips are closed; they were open only while the net was triangulated.
                     let [x, y] = lip_loop_vertex(ring, k, 0.0);
                     Vec3::new(x, y, self.front_depth_at(x, y))
                 }
@@ -224,6 +233,7 @@ impl CanonicalHead {
         let bowl: Vec<u32> = (0..MOUTH_LOOP_VERTICES)
             .map(|k| {
                 let knot_place = self.knots[mouth as usize + k].at;
+                // A bowl behind the lips hides the inside of the head when the mouth opens.
                 self.add_head_vertex(knot_place - Vec3::Z * 0.07, FacePart::Bowl(k))
             })
             .collect();
@@ -248,6 +258,7 @@ impl CanonicalHead {
                 self.triangles.push([edge + k, pole, edge + next]);
             }
         }
+        // The bowl and the sockets are added in no fixed direction of turn, so the whole net is oriented once.
         orient_net_outwards(&mut self.triangles, &self.knots);
     }
 
@@ -270,10 +281,12 @@ impl CanonicalHead {
         for knot in &mut self.knots {
             let normal = super::solids::field_slope(field, knot.at, 0.006);
             let mut dark = 0.0;
+            // Skin closer than a probe is long takes light away, near skin most.
             for step in 1..=5 {
                 let far = step as f32 * 0.03;
                 dark += (far - field(knot.at + normal * far)).max(0.0) / 0.03 * 0.5f32.powi(step);
             }
+            // A hollow gets at most a fifth darker, so that the face stays readable.
             knot.open = (1.0 - 0.26 * dark).clamp(0.80, 1.0);
         }
     }
@@ -301,6 +314,7 @@ fn orient_net_outwards(triangles: &mut [[u32; 3]], knots: &[HeadVertex]) {
                     continue;
                 }
                 let t = triangles[other];
+                // Two triangles that agree run along their common edge in opposite directions.
                 let same = (0..3).any(|k| (t[k], t[(k + 1) % 3]) == (a, b));
                 if same {
                     triangles[other].swap(1, 2);
@@ -315,6 +329,7 @@ fn orient_net_outwards(triangles: &mut [[u32; 3]], knots: &[HeadVertex]) {
         .iter()
         .map(|t| corner(t[0]).dot(corner(t[1]).cross(corner(t[2]))))
         .sum();
+    // The first triangle's direction was arbitrary: a negative volume says that the net is inside out.
     if volume < 0.0 {
         for triangle in triangles {
             triangle.swap(1, 2);
@@ -326,6 +341,7 @@ fn orient_net_outwards(triangles: &mut [[u32; 3]], knots: &[HeadVertex]) {
 /// straight ahead.
 fn flatten_head_place(at: Vec3) -> DVec2 {
     let outward = (at - HEAD_MIDDLE).as_dvec3().normalize();
+    // Rounding may push the cosine beyond one, where the arc cosine is not a number.
     let angle = outward.z.clamp(-1.0, 1.0).acos();
     DVec2::new(outward.x, outward.y).normalize_or_zero() * angle
 }
@@ -348,14 +364,17 @@ fn surface_point_at_height(field: &dyn Fn(Vec3) -> f32, towards: Vec3, y: f32) -
 }
 
 fn from_front(field: &dyn Fn(Vec3) -> f32, x: f32, y: f32) -> f32 {
+    // In front of the nose tip, so that the march meets the surface from outside.
     let mut z = 0.62;
     for _ in 0..60 {
         let away = field(Vec3::new(x, y, z));
         if away < 0.0008 || z < -0.5 {
             break;
         }
+        // Smooth unions distort distances, so that a step is shorter than the distance found.
         z -= (away * 0.8).max(0.001);
     }
+    // Beside the head the ray meets nothing; its depth stays at that of the sides.
     z.max(-0.2)
 }
 
@@ -370,12 +389,14 @@ fn is_in_loop(places: &[(Vec3, FacePart)], at: DVec2, place: Vec3) -> bool {
         let mut inside = false;
         for k in 0..corners.len() {
             let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+            // An even-odd test: from inside, a ray crosses the outline an odd number of times.
             if (a.y > at.y) != (b.y > at.y) && at.x < (b.x - a.x) * (at.y - a.y) / (b.y - a.y) + a.x {
                 inside = !inside;
             }
         }
         inside
     };
+    // Behind the head the flat map runs wide and says nothing about openings.
     place.z > 0.0
         && (within(&|part| matches!(part, FacePart::Mouth(3, _)))
             || within(&|part| matches!(part, FacePart::Eye(0, 3, _)))
@@ -392,6 +413,7 @@ fn is_opening(places: [FacePart; 3]) -> bool {
 fn lip_loop_vertex(ring: usize, k: usize, apart: f32) -> [f32; 2] {
     let (sine, cosine) = (TAU * k as f32 / MOUTH_LOOP_VERTICES as f32).sin_cos();
     let far = sine.abs();
+    // The upper lip is thinner in its middle: Cupid's bow.
     let bow = 1.0 - 0.28 * (-(cosine / 0.16).powi(2)).exp();
     let (thick, gap) = if sine >= 0.0 {
         (0.034 * far.powf(0.8) * bow, 0.032 * apart)
@@ -399,6 +421,7 @@ fn lip_loop_vertex(ring: usize, k: usize, apart: f32) -> [f32; 2] {
         (0.042 * far.powf(0.9), 0.029 * apart)
     };
     let [inner, wide] = [[0.0, 0.97], [0.5, 0.985], [1.0, 1.0], [1.0, 1.22]][ring];
+    // The outermost loop lies in the skin around the lips, which it lets move with them.
     let skin = if ring == 3 { 0.032 } else { 0.0 };
     let y = sine.signum() * (thick * inner + gap * far.powf(0.75) + skin * far) + 0.004 * cosine.abs().powf(2.2);
     [0.110 * wide * cosine, LIP_LINE_HEIGHT + y]
@@ -417,6 +440,7 @@ pub(super) fn eye_loop_vertex(side: usize, ring: usize, k: usize) -> [f32; 2] {
     };
     let x = -0.072 * (PI * t).cos();
     let (wide, more) = [(1.0, 0.0), (1.06, 0.0075), (1.18, 0.022), (1.42, 0.042)][ring];
+    // The outer loops bulge over the middle of the eye and meet its corners.
     let round = (1.0 - (x / 0.072).powi(2)).max(0.0).sqrt();
     let y = height + more * round * if upper { 1.0 } else { -0.75 };
     let sign = if side == 0 { -1.0 } else { 1.0 };
@@ -437,6 +461,7 @@ fn hairline(around: f32) -> f32 {
         [180.0, -0.26],
     ];
     let around = (around / TAU).fract() * 360.0;
+    // Both halves of the head have the same hairline.
     let angle = if around > 180.0 { 360.0 - around } else { around };
     let piece = HAIRLINE_POINTS.windows(2).find(|pair| angle <= pair[1][0]);
     piece.map_or(-0.26, |pair| {
@@ -517,6 +542,7 @@ fn head_distance(solids: &HeadSolids, point: Vec3) -> f32 {
     };
     let mut all = solids.grown.iter().fold(f32::INFINITY, add);
     for socket in &solids.sockets {
+        // A smooth difference: the socket is cut out of what the other solids make.
         all = -join_solid_distances(-all, socket.distance_to_solid(point), 0.06);
     }
     solids.nose.iter().fold(all, add)

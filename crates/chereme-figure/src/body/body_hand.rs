@@ -38,7 +38,9 @@ impl HandAxes {
         let back = posed_joint_rotation(rest, joint).inverse();
         let along = anatomy.hand_direction(side, rest)?.as_vec3();
         let raw_palm = anatomy.palm_normal(side, rest).map(|palm| palm.as_vec3());
+        // Without fingers no joint shows the palm, so the thumb's usual direction stands in for it.
         let palm = raw_palm.unwrap_or_else(|| neutral.cross(along) * -side.side_sign() as f32);
+        // Only the part across the hand counts: the three axes have to be orthogonal.
         let palm = palm - along * along.dot(palm);
         Some(Self {
             along: back * along,
@@ -49,6 +51,7 @@ impl HandAxes {
 
 /// Returns the axes of a hand as columns: towards the thumb, along it, out of the palm.
 pub(super) fn hand_axes_frame(side: BodySide, along: Vec3, palm: Vec3) -> Mat3 {
+    // The axes of a left hand form a left-handed system, hence the sign.
     let thumb = along.cross(palm) * -side.side_sign() as f32;
     Mat3::from_cols(thumb, along, palm)
 }
@@ -115,6 +118,7 @@ impl HandFit<'_> {
         let skeleton = self.skeleton;
         let mut local = skeleton.rest_pose();
         let angles = CanonicalHand::built_hand_angles();
+        // Fingers bind in the spread posture of the canonical hand, since at rest they may touch or be curled.
         self.anatomy.set_hand_angles(skeleton, self.side, &angles, &mut local);
         let bind = ModelPose::from_local_pose(skeleton, &local);
         let Some(wrist) = self.anatomy.part_joint(BodyPart::Hand(self.side)) else {
@@ -146,10 +150,12 @@ impl HandFit<'_> {
                     }
                 };
                 let part_place = match follower {
+                    // Cuff, arches and the wrist's half joint have the shape of the palm.
                     CUFF_FOLLOWER => part(PALM_BONE),
                     f if PALM_ARCH_BONES.contains(&f) => part(PALM_BONE),
                     f if f == FIRST_HALF_JOINT + PALM_BONE => part(PALM_BONE),
                     f if f >= FIRST_HALF_JOINT => {
+                        // A half joint takes the mean of where its two bones would put the vertex.
                         (part(f - FIRST_HALF_JOINT) + part(bone_before(f - FIRST_HALF_JOINT))) * 0.5
                     }
                     f => part(f),
@@ -168,6 +174,7 @@ impl HandFit<'_> {
             });
         }
         debug_assert!(size > 0.0);
+        // The canonical hand is a right one: mirroring turns its triangles inside out.
         let flip = self.side == BodySide::Left;
         mesh.triangles.extend(glove.triangles.iter().map(|t| {
             let [a, b, c] = t.map(|i| i + base);
@@ -193,6 +200,7 @@ impl HandFit<'_> {
             .anatomy
             .anatomy_measures()
             .map_or(CANONICAL_HAND_LENGTH_MM / 1000.0, |measures| measures.hand as f32);
+        // A hand of no length or of any unit still gives a finite, positive size.
         let size = (measured * 1000.0 / CANONICAL_HAND_LENGTH_MM).clamp(1e-6, 1e6) / 1000.0;
         let made = |at: Vec3| at - glove.bones[PALM_BONE].from;
         let knuckles: Vec<(Vec3, Vec3)> = HandFinger::ALL_FINGERS
@@ -206,6 +214,7 @@ impl HandFit<'_> {
         let ratio = |from: f32, to: f32| {
             let ratio = to / from;
             if ratio.is_finite() {
+                // Odd skeletons place knuckles anywhere: the palm follows them only within a human range.
                 ratio.clamp(size * 0.6, size * 1.6)
             } else {
                 size
@@ -220,9 +229,11 @@ impl HandFit<'_> {
             )
         };
         let wide = match (knuckles.first(), knuckles.last()) {
+            // One knuckle says nothing about the breadth of the palm.
             (Some(a), Some(b)) if knuckles.len() > 1 => ratio(a.0.x - b.0.x, a.1.x - b.1.x),
             _ => long,
         };
+        // The skeleton says nothing about thickness, which follows length and breadth as a mean.
         let thick = (long * wide).sqrt().clamp(size * 0.8, size * 1.3);
         let palm = FittedHandBone {
             joint: Some(wrist),
@@ -264,12 +275,14 @@ impl HandFit<'_> {
                     (None, None) => None,
                 };
                 let end = bone_end.filter(|end| {
+                    // Ends outside this range are no bone's length and would draw out a spike.
                     let share = end.distance(from) / (length * thick);
                     share.is_finite() && (0.45..1.8).contains(&share)
                 });
                 let towards = own * (glove.bones[PALM_BONE].axes.transpose() * made.axes.y_axis);
                 let (along, long) = match (end, part_joint) {
                     (Some(end), _) => ((end - from).normalize_or(towards), end.distance(from) / length),
+                    // An end site that points aside says nothing: the last bone goes on straight.
                     (None, Some(joint)) if at > 0 && odd_tip(joint) => (bones[parent].axes.y_axis, thick),
                     (None, Some(_)) => (towards, thick),
                     (None, None) => {
@@ -280,6 +293,7 @@ impl HandFit<'_> {
                 };
                 let raw_pad = own * (glove.bones[PALM_BONE].axes.transpose() * made.axes.z_axis);
                 let pad = (raw_pad - along * along.dot(raw_pad)).normalize_or(own.z_axis);
+                // The first axis points to the thumb's side on both hands.
                 let aside = along.cross(pad) * if self.side == BodySide::Left { -1.0 } else { 1.0 };
                 bones[index] = FittedHandBone {
                     joint: part_joint,
@@ -307,8 +321,10 @@ impl HandFit<'_> {
             at: binding.bind_place(posed_joint_position(bind, joint)),
         };
         let mut all: Vec<SkinFollower> = Vec::with_capacity(HAND_FOLLOWER_COUNT);
+        // Index 0 is the palm, which is the whole hand's follower.
         all.push(SkinFollower::Same(self.hand));
         for (index, fitted) in bones.iter().enumerate().skip(1) {
+            // A bone that the skeleton lacks moves with the one before it.
             all.push(fitted.joint.map_or(SkinFollower::Same(first + bone_before(index)), of));
         }
         for (index, fitted) in bones.iter().enumerate() {
@@ -319,6 +335,7 @@ impl HandFit<'_> {
                     child: self.hand,
                     at: self.seat.wrist,
                     along: self.seat.axes.y_axis,
+                    // A wrist swells less than a knuckle when it bends.
                     swell: 0.10,
                 }
             } else if fitted.joint.is_some() {
@@ -327,6 +344,7 @@ impl HandFit<'_> {
                     child: first + index,
                     at: bone_place,
                     along: turn * fitted.axes.y_axis,
+                    // The thumb's base moves inside its ball, where a swelling would show as a lump.
                     swell: if glove.bones[index].from == glove.bones[digit_bone_index(0, 0)].from {
                         0.0
                     } else {
@@ -341,6 +359,7 @@ impl HandFit<'_> {
         for finger in [HandFinger::Ring, HandFinger::Little] {
             let inner = self.anatomy.part_joint(BodyPart::Finger(self.side, finger, 0));
             let wrist = self.anatomy.part_joint(BodyPart::Hand(self.side));
+            // A joint of the palm counts only if it hangs on the wrist itself.
             let inner = inner.filter(|&joint| self.skeleton.joint_parent(joint) == wrist);
             all.push(inner.map_or(SkinFollower::Same(self.hand), of));
         }
@@ -388,11 +407,13 @@ impl PalmWarp {
 
     fn warp_palm_place(&self, at: Vec3) -> Vec3 {
         let plain = self.palm.from + self.palm.axes * (self.from * at * self.palm.scale);
+        // The wrist, at the origin, counts as a place without pull and stays.
         let mut sum = 1.0 / (at.length_squared() + 60.0);
         let mut pull = Vec3::ZERO;
         for (from, by) in &self.pulls {
             let weight = 1.0 / (at.distance_squared(*from) + 60.0);
             pull += *by * weight;
+            // The 60 square millimetres keep the weight finite at the knuckle itself.
             sum += weight;
         }
         plain + pull / sum
@@ -402,5 +423,6 @@ impl PalmWarp {
 fn hand_vertex_colour(skin: &super::glove::HandVertex, colours: HandColours) -> RgbColour {
     let mixed = colours.back.mix_colour(colours.palm, skin.palmar);
     let shaded = mixed.scale_colour(skin.open);
+    // A nail lets a little of the skin's colour shine through.
     shaded.mix_colour(colours.nail, skin.nail * 0.85)
 }

@@ -38,6 +38,7 @@ const EYEBALL_RING_DEGREES: [f32; 11] = [7.0, 15.0, 16.5, 25.0, 32.0, 34.5, 50.0
 /// Adds an eyeball with pupil and iris in the direction of gaze, and a glint unless the lid is more than half closed.
 fn add_eyeball(mesh: &mut TriangleMesh, features: &FaceFeatures, sign: f32, side: usize, palette: &FigurePalette) {
     let [left, up] = features.gaze;
+    // Eyes turn further to the sides than up or down.
     let turn = Quat::from_rotation_y(left * 26f32.to_radians()) * Quat::from_rotation_x(-up * 22f32.to_radians());
     let grid = RingGrid::new(20, EYEBALL_RING_DEGREES.len());
     let centre = LEFT_EYEBALL.0 * Vec3::new(sign, 1.0, 1.0);
@@ -66,8 +67,10 @@ fn add_eyeball(mesh: &mut TriangleMesh, features: &FaceFeatures, sign: f32, side
         }
     }
     add(Vec3::NEG_Z, palette.eyes);
+    // The grid begins with its hind pole and here with the front one, which turns triangles inside out.
     let flipped = grid.grid_triangles(base).into_iter().map(|[a, b, c]| [a, c, b]);
     mesh.triangles.extend(flipped);
+    // Kept with no size, so that every expression has the same vertices.
     let open = if features.lids[side] > 0.5 { 0.0 } else { 1.0 };
     let glint = centre + (turn * Vec3::new(0.20, 0.22, 0.955)).normalize() * LEFT_EYEBALL.1;
     let small = ellipsoid_mesh(
@@ -103,6 +106,7 @@ fn brow(
         } else {
             brow * (0.036 + 0.012 * (1.0 - t))
         };
+        // A frown draws the inner end of a brow most.
         let drawn = features.frown * (1.0 - t).powf(1.3);
         let brow_place = [sign * (x - 0.022 * drawn), arch + lift - 0.026 * drawn];
         let thick = 0.0115 * (0.30 + 0.95 * (PI * (0.06 + 0.88 * t)).sin()) * (1.0 - 0.30 * t);
@@ -110,6 +114,7 @@ fn brow(
     };
     let mut push = |[x, y]: [f32; 2], out: f32| {
         let skin = Vec3::new(x, y, canon.front_depth_at(x, y));
+        // The brow stays on raised skin, but does not sink into a hollow.
         let z = skin.z + features.feature_displacement(skin).z.max(0.0) + out;
         mesh.vertices.push(MeshVertex {
             position: Vec3::new(x, y, z),
@@ -142,6 +147,7 @@ fn brow(
     ring.extend((0..BROW_SEGMENTS).rev().map(|k| vertex_index(2, k)));
     ring.push(vertex_index(1, 0));
     let ([x, y], _) = station(BROW_SEGMENTS / 2);
+    // A point inside the head closes the ridge, so that it has no open edge from any side.
     push([x, y], -0.03);
     let behind = mesh.vertices.len() as u32 - 1;
     for (k, &a) in ring.iter().enumerate() {
@@ -224,10 +230,12 @@ fn teeth(mesh: &mut TriangleMesh, features: &FaceFeatures, palette: &FigurePalet
     let half = features.mouth_half_width() * 0.86;
     for lower in [false, true] {
         let shown = if lower {
+            // Lower teeth show only in bared teeth and hide again in a wide open mouth.
             (features.teeth - 0.05).max(0.0) * if open > 0.09 { 0.0 } else { 1.0 }
         } else {
             features.teeth.max(if open > 0.03 { 0.42 } else { 0.0 })
         };
+        // The two rows together never take up more than the gap.
         let full_height = (0.012 + 0.030 * shown).min(open * if lower { 0.40 } else { 0.62 });
         let tall = if shown > 0.0 && open > 0.004 { full_height } else { 0.0 };
         let base = mesh.vertices.len();
@@ -240,7 +248,9 @@ fn teeth(mesh: &mut TriangleMesh, features: &FaceFeatures, palette: &FigurePalet
             for k in 0..TEETH_SEGMENTS {
                 let u = k as f32 / (TEETH_SEGMENTS - 1) as f32 * 2.0 - 1.0;
                 let bend = (1.0 - u * u).max(0.0);
+                // A tenth of the way into the gum hides the upper edge of the row.
                 let y = root + if lower { 1.0 } else { -1.0 } * (tall * edge * bend.sqrt().max(0.3) - 0.010);
+                // Every second tooth is slightly darker, which separates them at small sizes.
                 let gap = if k % 2 == 0 { 1.0 } else { 0.97 };
                 mesh.vertices.push(MeshVertex {
                     position: Vec3::new(u * half, y, 0.262 + 0.045 * bend + features.lip_protrusion() * 0.5),
@@ -273,6 +283,7 @@ fn teeth(mesh: &mut TriangleMesh, features: &FaceFeatures, palette: &FigurePalet
             behind,
             vertex_index(0, TEETH_SEGMENTS - 1),
         ]);
+        // The lower row is built as the upper one mirrored, so its triangles turn.
         append_side_triangles(mesh, base, triangles, lower);
     }
 }
@@ -286,6 +297,7 @@ fn tongue(mesh: &mut TriangleMesh, features: &FaceFeatures, palette: &FigurePale
     let out = features.tongue;
     let base = mesh.vertices.len();
     let colour = palette.tongue;
+    // A tongue that is out keeps its width even if the lips almost close on it.
     let width = (features.mouth_half_width() * 0.52).min(0.062) * inside.max(if out > 0.0 { 1.0 } else { 0.0 });
     // Rings from the root in the mouth to the tip, which hangs over the lower lip.
     let rings: [f32; 6] = [0.0, 0.25, 0.5, 0.72, 0.90, 0.985];
@@ -311,6 +323,7 @@ fn tongue(mesh: &mut TriangleMesh, features: &FaceFeatures, palette: &FigurePale
     };
     mesh.vertices.push(vertex(middle(0.0) - Vec3::Z * 0.01, colour));
     for s in rings {
+        // Not to zero at the tip, where the rings would fall into one point.
         let round = (1.0 - s.powi(4)).max(0.02).sqrt();
         for k in 0..TONGUE_RIM_POINTS {
             let (sine, cosine) = (TAU * k as f32 / TONGUE_RIM_POINTS as f32).sin_cos();
@@ -374,6 +387,7 @@ fn curtain(mesh: &mut TriangleMesh, palette: &FigurePalette) {
     ];
     let row = |y: f32, wide: f32, mesh: &mut TriangleMesh| {
         for k in 0..CURTAIN_RIM_POINTS {
+            // Leaves the face free: hair goes round from 62 degrees on one side to 298.
             let angle = (62.0 + 236.0 * k as f32 / (CURTAIN_RIM_POINTS - 1) as f32).to_radians();
             let ring_place = Vec3::new(angle.sin() * wide, y, -0.055 + angle.cos() * (wide + 0.075));
             let strand = 1.0 + 0.05 * (k as f32 * 2.3).sin();
@@ -388,6 +402,7 @@ fn curtain(mesh: &mut TriangleMesh, palette: &FigurePalette) {
     for [y, wide, _] in rows {
         row(y, wide, mesh);
     }
+    // The inside follows in the opposite order, so that outside and inside form one closed profile.
     for [y, wide, _] in rows.iter().rev() {
         row(*y, wide - 0.045, mesh);
     }

@@ -40,6 +40,7 @@ const MOUTH_HALF_WIDTH: f32 = 0.110;
 impl FaceFeatures {
     pub(super) fn from_face_values(face: &FacePosture) -> Self {
         let number = |number: f64| {
+            // A face from a file may hold anything: what is not a number is taken as neutral.
             if number.is_finite() {
                 number.clamp(-1.0, 1.0) as f32
             } else {
@@ -75,6 +76,7 @@ impl FaceFeatures {
     /// Returns the opening of the mouth above and below the line between the lips.
     pub(super) fn mouth_gap(&self) -> [f32; 2] {
         let shut = 1.0 - self.pressed;
+        // A tongue or teeth that show need open lips, whatever the face says of them.
         let tongue = if self.tongue > 0.0 { 0.35 } else { 0.0 };
         let parted = self.parted.max(self.teeth * 0.35).max(tongue);
         [
@@ -104,6 +106,7 @@ impl FaceFeatures {
         let front = smooth_step((at.z + 0.06) / 0.26);
         let much = low * front;
         Vec3::new(
+            // The jaw turns about its joint, so that the chin moves back while it goes down.
             0.055 * self.aside,
             -CHIN_DROP_DISTANCE * self.jaw,
             -0.16 * CHIN_DROP_DISTANCE * self.jaw,
@@ -137,6 +140,7 @@ impl FaceFeatures {
         let corner = 0.10 + self.corners[usize::from(cosine > 0.0)];
         let lift = 0.042 * corner.clamp(-1.0, 1.1) * cosine.abs().powf(2.2)
             - 0.035 * self.jaw * (1.0 - self.pressed) * cosine.abs().powi(3);
+        // The lower lip goes aside with the jaw, the upper one only by a third.
         let aside = 0.055 * self.aside * (0.35 + 0.65 * smooth_step(-sine));
         let nose = if upper { 0.010 * self.nose.max(0.0) } else { 0.0 };
         Vec3::new(
@@ -167,6 +171,7 @@ impl FaceFeatures {
                 places[index] = drawn(own, still, knot.at);
                 if ring == 2 {
                     let home = Vec3::new(still.x, still.y, knot.at.z);
+                    // The jaw moves the skin of its own accord: only what the lips add to it is passed on.
                     let moved = places[index] - home - Vec3::Z * still.z;
                     rim.push((home, moved - self.jaw_displacement(home)));
                 }
@@ -176,6 +181,7 @@ impl FaceFeatures {
             let knot_place = knot.at;
             match knot.place {
                 FacePart::Skin | FacePart::Mouth(..) => {
+                    // The three inner loops were placed above; the fourth is skin around the mouth.
                     if !matches!(knot.place, FacePart::Mouth(0..=2, _)) {
                         places[index] = knot_place
                             + self.jaw_displacement(knot_place)
@@ -204,6 +210,7 @@ impl FaceFeatures {
 
     /// Returns the displacement of the skin by brows, cheeks and nose.
     pub(super) fn feature_displacement(&self, at: Vec3) -> Vec3 {
+        // No feature of the face reaches behind the middle of the head.
         if at.z < 0.0 {
             return Vec3::ZERO;
         }
@@ -215,6 +222,7 @@ impl FaceFeatures {
         for side in 0..2 {
             let sign = if side == 0 { -1.0 } else { 1.0 };
             let brow = self.brows[side];
+            // A brow rises further than it falls: the eye is in the way below.
             let lift = if brow > 0.0 { 0.055 * brow } else { 0.034 * brow };
             for [x, y] in [[0.048, 0.105], [0.135, 0.130], [0.223, 0.095]] {
                 by.y += lift * 0.62 * near(sign * x, y, 0.060);
@@ -223,6 +231,7 @@ impl FaceFeatures {
             let inner = near(sign * 0.05, 0.10, 0.05);
             by += Vec3::new(-0.020 * sign, -0.016, 0.012) * self.frown * inner;
             let wing = near(sign * 0.050, -0.165, 0.035);
+            // The number of the nose is signed: wrinkled above zero, nostrils widened below.
             let (wrinkled, widened) = (self.nose.max(0.0), (-self.nose).max(0.0));
             by += Vec3::new(0.012 * sign, 0.036, 0.0) * wrinkled * wing;
             by += Vec3::new(0.036 * sign, 0.007, 0.004) * widened * wing;
@@ -233,6 +242,7 @@ impl FaceFeatures {
             by += Vec3::new(0.006 * sign, 0.020, 0.050) * corner.max(0.0) * apple;
             let cheek = self.cheeks[side];
             let puff = near(sign * 0.190, -0.250, 0.095);
+            // A cheek puffs out further than it is sucked in.
             let much = if cheek > 0.0 { [0.050, 0.076] } else { [0.040, 0.060] };
             by += Vec3::new(much[0] * sign, 0.0, much[1]) * cheek * puff;
         }
@@ -255,18 +265,21 @@ impl FaceFeatures {
             2.0 - k as f32 / half
         };
         let to = if upper {
+            // The lids meet where the lower one has risen by 0.42 of its height.
             let closed = -0.58 * height(t);
             let lid = if shut > 0.0 {
                 edge + (closed - edge) * shut
             } else {
                 edge * (1.0 - 0.42 * shut)
             };
+            // The upper lid follows the gaze up and down, less as it closes.
             lid + look * (1.0 - shut.max(0.0)) * (edge / 0.046).clamp(0.0, 1.0)
         } else if shut > 0.0 {
             edge * (1.0 - 0.42 * shut)
         } else {
             edge * (1.0 - 0.25 * shut)
         };
+        // The edge takes the whole movement, and each loop further out a smaller share.
         let follow = [1.0, 0.94, 0.42, 0.12][ring];
         let y = y + (to - edge) * follow;
         let (dx, reach) = (
@@ -274,6 +287,7 @@ impl FaceFeatures {
             LEFT_EYEBALL.1 * (1.10 + 0.03 * ring as f32),
         );
         let over = reach * reach - (0.86 * dx).powi(2) - y * y;
+        // Lids lie on the eyeball, so that their depth is that of a sphere a little larger.
         let ball = LEFT_EYEBALL.0.z + over.max(0.0).sqrt();
         let z = match ring {
             0 => ball,
@@ -296,6 +310,7 @@ fn lip_pull_displacement(rim: &[(Vec3, Vec3)], at: Vec3) -> Vec3 {
         sum += weight;
         by += moved * weight;
     }
+    // Beyond 0.3 head heights, here squared, the lips pull nothing.
     if nearest > 0.09 {
         return Vec3::ZERO;
     }

@@ -123,6 +123,7 @@ fn thumb_axes() -> [[Vec3; 2]; 3] {
         * Quat::from_axis_angle(Vec3::Y, -opposition);
     let across = |angle: f32| Quat::from_axis_angle(Vec3::NEG_Z, -angle);
     let turns = [turn, turn * across(middle), turn * across(middle + end)];
+    // The thumb's pad faces across the palm, while a finger's faces out of it.
     turns.map(|turn| [turn * Vec3::Y, turn * Vec3::NEG_X])
 }
 
@@ -200,6 +201,7 @@ impl HandMaker {
             palm = join_solid_distances(palm, blended_solid_distance(solids, *width, point), *width);
         }
         let palm = join_solid_distances(palm, self.digit_distance(0, point), 5.0);
+        // Fingers never blend with each other: neighbours that touch would grow together.
         (1..5).fold(palm, |all, digit| {
             all.min(join_solid_distances(palm, self.digit_distance(digit, point), 3.5))
         })
@@ -207,6 +209,7 @@ impl HandMaker {
 
     /// Returns the distance of a point from a somewhat swollen palm without a thumb.
     fn bare_palm_distance(&self, point: Vec3) -> f32 {
+        // The last two groups are the ball of the thumb and its web, which have vertices of their own.
         let palm = self.palm[..4].iter().fold(f32::INFINITY, |palm, (solids, width)| {
             join_solid_distances(palm, blended_solid_distance(solids, *width, point), *width)
         });
@@ -249,6 +252,7 @@ impl HandMaker {
         self.relax_palm_vertices(pins);
         self.assign_skin_weights();
         self.colour_glove_skin();
+        // The order of rings does not say which way triangles face; the sign of the volume does.
         if self.hand_volume() < 0.0 {
             for triangle in &mut self.triangles {
                 triangle.swap(1, 2);
@@ -271,6 +275,7 @@ impl HandMaker {
             let [side, along, pad] = [first.axes.x_axis, first.axes.y_axis, first.axes.z_axis];
             // The side axis follows the palm's order: positive x is towards the thumb.
             let side = if side.x < 0.0 { -side } else { side };
+            // The little finger is shorter, so its crease on the palm lies nearer the knuckle.
             let front = if finger == 3 { 16.0 } else { 20.0 };
             let mut ring = vec![usize::MAX; 12];
             for (k, slot) in ring.iter_mut().enumerate() {
@@ -294,6 +299,7 @@ impl HandMaker {
                     }
                     _ => length * 0.48,
                 };
+                // The little finger has no neighbour beyond it and therefore no web there.
                 let web = (5..=7).contains(&k) && finger < 3;
                 let place = if web {
                     let other = self.bones[digit_bone_index(finger + 2, 0)];
@@ -301,6 +307,7 @@ impl HandMaker {
                     let middle = (first.from.lerp(first.to, share) + other.from.lerp(other.to, share)) * 0.5;
                     middle + Vec3::Z * [4.0, 0.5, -4.5][k - 5]
                 } else {
+                    // 0.47 is the cosine of 62 degrees: the outer ones end 0.62 radii aside.
                     let wide = if matches!(k, 2..=4 | 8..=10) { 0.62 / 0.47 } else { 1.0 };
                     first.from + along * reach + (side * (cosine * wide) + pad * sine) * radius
                 };
@@ -333,6 +340,7 @@ impl HandMaker {
             last.extend(&base[8..=10]);
         }
         last.push(bases[0][11]);
+        // Fronts and backs of the four base rings, without the middles of the webs between fingers.
         debug_assert_eq!(last.len(), 36);
         const PALM_RING_SHARES: [f32; 9] = [-0.30, -0.12, 0.04, 0.20, 0.36, 0.52, 0.67, 0.81, 0.92];
         let mut rings: Vec<Vec<usize>> = Vec::new();
@@ -345,10 +353,12 @@ impl HandMaker {
                     1..=17 => 1.0,
                     _ => -1.0,
                 };
+                // Not to zero at the sides: a flat edge would fold there.
                 let round = (1.0 - across * across).max(0.06).sqrt();
                 let carpus = Vec3::new(across * 25.0, 3.0, front * 17.0 * round);
                 let thick = Vec3::new(end.x, end.y, front * 13.0 * round + 1.0);
                 let mixed_place = carpus.lerp(thick, share);
+                // Negative shares lie behind the wrist, on the cuff over the forearm.
                 let ring_place = if share < 0.0 {
                     Vec3::new(carpus.x, 3.0 + share * 92.0, carpus.z * 0.9)
                 } else {
@@ -397,6 +407,7 @@ impl HandMaker {
         let radii = DIGIT_RADII_MM[digit];
         let lengths = bones.map(|bone| bone.from.distance(bone.to));
         let (b, c, tip) = (radii[2] * 0.85, radii[4] * 0.85, radii[6]);
+        // The last bone ends within the round tip, whose ball reaches further by its radius.
         let end = lengths[2] - 0.62 * tip;
         let mut stops: Vec<(usize, f32)> = if digit == 0 {
             vec![(0, lengths[0] * 0.72)]
@@ -421,6 +432,7 @@ impl HandMaker {
         let mut start = None;
         for (place, at) in stops {
             let current_bone = bones[place];
+            // A stop at zero is a joint: its ring lies in the plane that halves the bend.
             let joint = at == 0.0;
             let along = if joint {
                 (current_bone.axes.y_axis + bones[place - 1].axes.y_axis).normalize()
@@ -444,6 +456,7 @@ impl HandMaker {
                         // The round tip: rays from the middle of its ball.
                         let ball = current_bone.from + current_bone.axes.y_axis * end;
                         let lean = ((at - end) / tip).asin();
+                        // Leans from the ring's plane to the bone's direction, as latitudes of the ball do.
                         let out = towards * lean.cos() + current_bone.axes.y_axis * lean.sin();
                         cast_skin_ray(&field, ball, out, 0.5)
                     } else {
@@ -491,6 +504,7 @@ impl HandMaker {
     /// Returns the shift and the direction in which twelve points are nearest to the vertices of a ring.
     fn best_ring_shift(&self, ring: &[usize], points: &[Vec3]) -> (usize, bool) {
         let centre = |all: &mut dyn Iterator<Item = Vec3>| all.sum::<Vec3>() / 12.0;
+        // Compares shapes about their centres, since ring and points are at different places along the digit.
         let from = centre(&mut ring.iter().map(|&i| self.skins[i].place));
         let to = centre(&mut points.iter().copied());
         let mut best = (f32::INFINITY, (0, false));
@@ -526,10 +540,12 @@ impl HandMaker {
     fn relax_palm_vertices(&mut self, fingers: usize) {
         let neighbours = self.hand_vertex_neighbours();
         let mut loose = self.loose.clone();
+        // Vertices of the fingers are fixed: only those added before them may slide.
         loose.retain(|&index| index < fingers && !neighbours[index].is_empty());
         // The first rings of the thumb's metacarpal lie on the palm too.
         let thumb = self.skins.iter().position(|skin| skin.digit == Some(0));
         if let Some(first) = thumb {
+            // Three rings of twelve: two of the ball of the thumb and the first of the digit.
             loose.extend(first..first + 36);
         }
         for _ in 0..36 {
@@ -537,6 +553,7 @@ impl HandMaker {
                 .iter()
                 .map(|&index| {
                     let around = &neighbours[index];
+                    // Half a step to the neighbours' mean, back onto the skin: the palm does not shrink.
                     let mean = around.iter().map(|&n| self.skins[n].place).sum::<Vec3>() / around.len() as f32;
                     let to = self.skins[index].place.lerp(mean, 0.5);
                     on_skin(&|p| self.whole_hand_distance(p), to, 0.5)
@@ -563,7 +580,9 @@ fn digit_solids(bones: &[CanonicalHandBone; HAND_BONE_COUNT], digit: usize) -> V
         let [a, m, b] = [radii[2 * place], radii[2 * place + 1], radii[2 * place + 2]];
         let length = current_bone.from.distance(current_bone.to);
         let last = place == 2;
+        // The last bone stops short of the fingertip by a share of its radius, so that the round end fits.
         let end = if last { 1.0 - 0.62 * b / length } else { 1.0 };
+        // Bends the rod slightly to the palm's side: the pad of the finger.
         let meet = current_bone.from.lerp(current_bone.to, 0.52) + current_bone.axes.z_axis * 0.6;
         let rod = |from: Vec3, to: Vec3, radii| BodySolid::Rod {
             ends: [from, to],
@@ -608,6 +627,7 @@ fn palm_solids(bones: &[CanonicalHandBone; HAND_BONE_COUNT]) -> Vec<(Vec<BodySol
         .map(|x| {
             flat(
                 BodySolid::new_rod_solid([x, -34.0, 0.0], [x, 5.0, 0.0], [17.0, 16.0]),
+                // The wrist is wide and flat, hence the strongest flattening.
                 1.32,
             )
         })
