@@ -167,6 +167,7 @@ impl SignerAxes {
     /// Returns the direction that the signer faces in the file.
     #[must_use]
     pub fn forward_direction(self) -> AxisDirection {
+        // Left × up is forward in a right-handed space: X × Y = Z.
         AxisDirection::nearest_axis_direction(self.left.axis_direction_vector().cross(self.up.axis_direction_vector()))
     }
 
@@ -178,6 +179,7 @@ impl SignerAxes {
             self.up.axis_direction_vector(),
             self.forward_direction().axis_direction_vector(),
         );
+        // The columns lead from model space to the file, so the transpose is the way back.
         DQuat::from_mat3(&DMat3::from_cols(left, up, forward).transpose()).normalize()
     }
 }
@@ -248,10 +250,12 @@ impl SpaceConvention {
                 name: joint.name.clone(),
                 parent: joint.parent,
                 offset: turn * (joint.offset * scale),
+                // The rest rotation changes axes on both sides: its own space turns with its parent's.
                 rest: (turn * joint.rest * turn.inverse()).normalize(),
                 tip: joint.tip.map(|tip| turn * (tip * scale)),
             })
             .collect();
+        // No joint is added or reordered, which is all that could make a skeleton invalid.
         Skeleton::new(joints).expect("turning and scaling keeps a skeleton one")
     }
 

@@ -99,6 +99,7 @@ pub(crate) fn channel_frame_count<'a>(
 ) -> Result<usize, TrackError> {
     let (_, first) = channels.next().ok_or(TrackError::Empty)?;
     let frames = first.len();
+    // Every column is held against the first: there is no other statement of the frame count.
     if let Some((name, odd)) = channels.find(|(_, column)| column.len() != frames) {
         return Err(TrackError::Length {
             name: name.to_owned(),
@@ -107,6 +108,7 @@ pub(crate) fn channel_frame_count<'a>(
         });
     }
     match times.timed_frame_count() {
+        // Even times are valid for any number of frames.
         Some(times) if times != frames => Err(TrackError::Times { times, frames }),
         _ => Ok(frames),
     }
@@ -115,6 +117,7 @@ pub(crate) fn channel_frame_count<'a>(
 /// Checks that every channel has a name, and that names are unique.
 pub(crate) fn check_names<'a>(names: impl Iterator<Item = (&'a str, &'a str)>) -> Result<(), TrackError> {
     let mut seen = BTreeSet::new();
+    // Names need to be unique only within a group, such as one hand of several.
     for (at, (group, name)) in names.enumerate() {
         if name.is_empty() {
             return Err(TrackError::Nameless(at));
@@ -167,6 +170,7 @@ impl CurveTrack {
     pub fn find_curve(&self, name: &str) -> Option<&ScalarCurve> {
         let exact = self.curves.iter().find(|curve| curve.name == name);
         let mut alike = self.curves.iter().filter(|curve| curve.name.eq_ignore_ascii_case(name));
+        // A second name that matches makes the choice a guess, so there is none.
         exact.or_else(|| alike.next().filter(|_| alike.next().is_none()))
     }
 
@@ -190,9 +194,11 @@ impl CurveTrack {
             self.times.frame_time_instant(second).instant_seconds(),
         );
         let raw_share = ((instant.instant_seconds() - a) / (b - a)).clamp(0.0, 1.0);
+        // At the last frame both ends are one frame, and the share is 0/0.
         let share = if raw_share.is_nan() { 0.0 } else { raw_share };
         let blend = |curve: &ScalarCurve| {
             let from = curve.values.column_value_at(first)?;
+            // Exactly at a frame, a gap in the next one does not matter.
             if share == 0.0 {
                 return Some(from);
             }

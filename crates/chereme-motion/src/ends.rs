@@ -68,6 +68,7 @@ impl OddFrames {
     pub fn remaining_frames(all: usize, odd: &[Self]) -> Range<usize> {
         let mut remaining = 0..all;
         for Self { frames, .. } in odd {
+            // Ranges come from both ends only, so a start that is not at the front belongs to the end.
             if frames.start <= remaining.start {
                 remaining.start = remaining.start.max(frames.end);
             } else {
@@ -125,6 +126,7 @@ impl ClipEnds {
             anatomy,
             first: 0,
         };
+        // The order matters: each step narrows the sound frames in which the next one searches.
         let mut ends = Self::between_jumps(&looks.body_path(), &looks);
         ends.trim_odd_start(&looks);
         ends.tail(&looks);
@@ -153,8 +155,10 @@ impl ClipEnds {
             examine(&mut ends, &looks);
             Ok(ends)
         };
+        // The first part is only for the bind pose; the piece that remains decides which frames are read next.
         let ends = look(0..part.min(path.len()), None, |_, _| {})?;
         let Range { start, end } = ends.sound;
+        // Where the piece begins is known only now, so the start is read a second time.
         let ends = look(start..(start + part).min(end), Some(ends), Self::trim_odd_start)?;
         let Range { start, end } = ends.sound;
         let mut ends = look(end.saturating_sub(part).max(start)..end, Some(ends), Self::tail)?;
@@ -174,6 +178,7 @@ impl ClipEnds {
             sound: 0..path.len(),
             odd: Vec::new(),
         };
+        // So few frames have no ends that could be told from the movement.
         if path.len() < 4 {
             return ends;
         }
@@ -189,6 +194,7 @@ impl ClipEnds {
             return ends;
         };
         if let Some(before) = nth.checked_sub(1) {
+            // Frames in the rest pose before a jump are a bind pose, which says more than the jump does.
             let bound = looks.count_bind_frames(0..start);
             ends.leave_out(0..start, jumps[before].what_after(bound));
         }
@@ -218,22 +224,27 @@ impl ClipEnds {
         };
         let first = self.sound.start;
         let bound = first + looks.count_bind_frames(self.sound.clone());
+        // The last jump of the window counts: all frames before it belong to the calibration.
         let jump = looks.jumps(first..first + window).pop();
         if let Some(jump) = jump {
             self.leave_out(first..jump.steps.end, jump.what_after(bound));
+        // Without a jump of the body, a short bind pose still shows by the hand that leaps out of it.
         } else if bound > first && bound - first <= window && looks.unbinds(bound) {
             self.leave_out(first..bound, FrameOddity::Bind);
         }
         let seen = looks.available_frame_range(&self.sound);
         let tee_frames = seen.clone().take_while(|&frame| looks.body_snapshot_at(frame).tee);
         let tee = tee_frames.count();
+        // A T-pose through half of the clip is its content, not its calibration.
         if tee > 0 && tee < self.sound.len() / 2 {
             self.leave_out(seen.start..seen.start + tee, FrameOddity::Tee);
         }
         let seen = looks.available_frame_range(&self.sound);
         let start = seen.start;
+        // What follows a removed frame at jump speed is still the way out of it.
         let snap_frames = (start..seen.end - 1).take_while(|&frame| looks.is_snap(frame));
         let snap = start + snap_frames.take(window).count();
+        // Fast steps alone are no fault: they extend an odd range that was already found.
         if let Some(before) = self.odd.iter_mut().find(|odd| odd.frames.end == start) {
             before.frames.end = snap;
             self.sound.start = snap;
@@ -246,7 +257,9 @@ impl ClipEnds {
             return;
         };
         let last = self.sound.end;
+        // A window of steps has one frame more than steps, hence the one less.
         let first = (last - 1).saturating_sub(window).max(self.sound.start);
+        // The first jump of the window counts: all frames after it belong to the calibration.
         if let Some(FrameJump { steps, what }) = looks.jumps(first..last - 1).into_iter().next() {
             self.leave_out(steps.start + 1..last, what);
         }
@@ -286,6 +299,7 @@ pub fn activity_frames(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Range<usize
     let poses: Vec<BodySnapshot> = (0..clip.clip_frame_count())
         .map(|frame| looks.body_snapshot_at(frame))
         .collect();
+    // Speed is measured over a tenth of a second, so that noise of single frames does not count.
     let step = ((clip.clip_frame_rate().per_second() * 0.05).round() as usize).max(1);
     let speed = |side: usize, frame: usize| {
         let near = frame.saturating_sub(step).max(ends.sound.start)..(frame + step + 1).min(ends.sound.end);
@@ -295,12 +309,14 @@ pub fn activity_frames(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Range<usize
     };
     let idle = |frame: usize| {
         (0..2).all(|side| match poses[frame].low[side] {
+            // An arm that the skeleton lacks is at rest.
             None => true,
             Some(low) => {
                 low > WRIST_REST_LIMITS.0 && speed(side, frame).is_none_or(|speed| speed < WRIST_REST_LIMITS.1)
             }
         })
     };
+    // Without an arm nothing tells rest from movement.
     if poses.iter().all(|look| look.low.iter().all(Option::is_none)) {
         return None;
     }
@@ -310,7 +326,9 @@ pub fn activity_frames(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Range<usize
             .any(|odd| range(odd) && matches!(odd.what, FrameOddity::Tee | FrameOddity::Bind))
     };
     let (mut start, mut end) = (ends.sound.start, ends.sound.end);
+    // The rest is searched in the nearer half only, or it could be that of the other end.
     let half = start + ends.sound.len() / 2;
+    // After a T-pose the arms come down first, which is not part of the sign.
     if tee(&|odd| odd.frames.end <= ends.sound.start)
         && let Some(rest) = (start..half).find(|&frame| idle(frame))
     {
@@ -334,8 +352,10 @@ pub fn activity_frames(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Range<usize
                 after.map_or(last, |rest| rest - 1),
             )
         }
+        // Hands that never come up may sign low: the range stays as it is.
         _ => (first, last),
     };
+    // Shorter waits are holds, which belong to the sign.
     let wait = (clip.clip_frame_rate().per_second() * HAND_WAIT_LIMITS.2).ceil() as usize;
     let before = count_waiting_frames(&poses, first..last + 1);
     let first = if before >= wait { first + before } else { first };
@@ -362,6 +382,7 @@ fn count_waiting_frames(poses: &[BodySnapshot], mut frames: impl Iterator<Item =
         match frames.next() {
             Some(frame) if stays(frame) => count += 1,
             Some(_) => return count,
+            // Everything is waiting: then nothing is a rest between movements.
             None => return 0,
         }
     }
@@ -388,6 +409,7 @@ impl BodySnapshot {
             return false;
         };
         let mut wrists = self.wrists.iter().flatten();
+        // Wrists are relative to the hips only if there are hips; without them their height says nothing.
         wrists.any(|wrist| wrist.y > MIN_SIGNING_HEIGHT_SHARE * size.trunk)
     }
 }
@@ -423,6 +445,7 @@ impl TakeSnapshots<'_> {
         let hips = anatomy
             .part_joint(BodyPart::Hips)
             .map(|hips| model.model_joint_position(hips));
+        // Hips first: the trunk's origin moves with the shoulders, and signers shrug.
         let body = hips
             .or(trunk.map(|trunk| trunk.origin))
             .unwrap_or_else(|| model.model_joint_position(0));
@@ -433,6 +456,7 @@ impl TakeSnapshots<'_> {
             let [shoulder, elbow, wrist] =
                 [arm.upper, arm.forearm, arm.hand].map(|joint| model.model_joint_position(joint));
             let length = shoulder.distance(elbow) + elbow.distance(wrist);
+            // Arms without a length, as in some props, would divide by zero.
             (length > 1e-6).then(|| (shoulder - wrist).dot(up) / length)
         });
         BodySnapshot {
@@ -455,6 +479,7 @@ impl TakeSnapshots<'_> {
             let [shoulder, elbow, wrist] =
                 [arm.upper, arm.forearm, arm.hand].map(|joint| model.model_joint_position(joint));
             let length = shoulder.distance(elbow) + elbow.distance(wrist);
+            // Both have to hold: an arm straight forward reaches far too, and a bent one may point aside.
             let reach = wrist - shoulder;
             reach.length() > T_POSE_LIMITS.0 * length
                 && reach.normalize_or_zero().dot(trunk.left * side.side_sign()) > T_POSE_LIMITS.1
@@ -463,6 +488,7 @@ impl TakeSnapshots<'_> {
 
     /// Returns the distance of the body, the turn of the trunk and the greater distance of the wrists between two frames.
     fn snapshot_distances(a: &BodySnapshot, b: &BodySnapshot) -> [f64; 3] {
+        // A skeleton without a trunk cannot turn.
         let turn = a.left.zip(b.left).map_or(0.0, |(a, b)| a.angle_between(b));
         let leap = (0..2)
             .filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)))
@@ -496,16 +522,20 @@ impl TakeSnapshots<'_> {
         let is_fast = |step: &[f64; 3]| step.iter().any(|speed| *speed > JUMP_SPEED_SHARE);
         let (mut jumps, mut n) = (Vec::new(), 0);
         while n < speeds.len() {
+            // Steps next to each other are one jump, which programs spread over several frames.
             let run = n..n + speeds[n..].iter().take_while(|step| is_fast(step)).count();
             n = run.end + 1;
             let mut far = [0.0_f64; 3];
+            // The greatest distance within the run, since a jump may overshoot and come back a little.
             for look in &looks[run.start..=run.end] {
                 let moved = Self::snapshot_distances(&looks[run.start], look);
                 far = std::array::from_fn(|kind| far[kind].max(moved[kind]));
             }
             let jumps_by = |kind: &usize| {
+                // A long way needs one step of impossible speed; otherwise it is a fast movement.
                 far[*kind] > MIN_JUMPS_BY_KIND[*kind].0 && speeds[run.clone()].iter().any(|step| step[*kind] > 1.0)
             };
+            // Body, turn and leap in this order: a jump of the body explains the others.
             let Some(kind) = (0..3).find(jumps_by) else {
                 continue;
             };
@@ -531,6 +561,7 @@ impl TakeSnapshots<'_> {
     /// few.
     fn end_window_frames(&self, sound: &Range<usize>) -> Option<usize> {
         let frames = (END_WINDOW_SECONDS * self.clip.clip_frame_rate().per_second()).round() as usize;
+        // A quarter at most, so that both ends together leave the middle of a short clip alone.
         let few = self.available_frame_range(sound).len() / 4;
         (few > 0).then(|| few.min(frames).max(1))
     }
@@ -539,6 +570,7 @@ impl TakeSnapshots<'_> {
     fn count_bind_frames(&self, frames: Range<usize>) -> usize {
         let skeleton = self.clip.clip_skeleton();
         let at_rest = |frame: &usize| {
+            // The root is left out, since it places the body and is set even in a bind pose.
             (1..skeleton.len()).all(|joint| {
                 let turned = self.clip.joint_channel(joint).rotations[*frame - self.first];
                 turned.angle_between(skeleton.joint_at(joint).rest) < REST_POSE_TOLERANCE_RADIANS
@@ -565,10 +597,12 @@ fn body_jumps(path: &[DVec3], rate: f64) -> Vec<FrameJump> {
         let run = n..n + fast_frames.count();
         n = run.end + 1;
         let far = path[run.start].distance(path[run.end]);
+        // Slow drifts may be far and single fast steps short; a jump is both far and fast.
         if far <= MIN_BODY_JUMP.0 || !run.clone().any(|n| speed(n) > MIN_BODY_JUMP.1) {
             continue;
         }
         let mut later = run.end + 1..(run.end + 1 + longest).min(path.len());
+        // A body that comes back at once was lost for a moment and belongs to the lapses.
         match later.find(|&at| path[at].distance(path[run.start]) < BODY_ABSENCE_LIMITS.1 * far) {
             Some(back) => n = back,
             None => jumps.push(FrameJump {

@@ -49,16 +49,20 @@ impl RotationOrder {
     #[must_use]
     pub fn nearest_euler_angles(self, q: DQuat, near: [f64; 3]) -> [f64; 3] {
         let [i, j, k] = self.0.map(SpaceAxis::index);
+        // An order against the cycle X, Y, Z flips the sign of the sine terms.
         let odd = (i + 1) % 3 != j;
         let sign = if odd { -1.0 } else { 1.0 };
         let m = DMat3::from_quat(q.normalize());
         let matrix_entry = |row: usize, col: usize| m.col(col)[row];
+        // Rounding may push the sine beyond one.
         let sine = (sign * matrix_entry(i, k)).clamp(-1.0, 1.0);
+        // At gimbal lock first and third angle turn about one axis, and only their sum is defined.
         if sine.abs() > 1.0 - 1e-12 {
             return self.locked(&m, sine, near);
         }
         let first = (-sign * matrix_entry(j, k)).atan2(matrix_entry(k, k));
         let third = (-sign * matrix_entry(i, j)).atan2(matrix_entry(i, i));
+        // The second triple gives the same rotation with the middle joint turned over.
         let direct = [first, sine.asin(), third];
         let other = [first + PI, PI - direct[1], third + PI];
         let (direct, other) = (unwrap_euler_angles(direct, near), unwrap_euler_angles(other, near));
@@ -72,6 +76,7 @@ impl RotationOrder {
     fn locked(self, m: &DMat3, sine: f64, near: [f64; 3]) -> [f64; 3] {
         let [a, b, c] = self.0;
         let middle = sine.signum() * PI / 2.0;
+        // Takes the first two rotations off; what is left turns about the third axis alone.
         let rest = b.axis_rotation(middle).inverse() * a.axis_rotation(near[0]).inverse();
         let left = (rest * DQuat::from_mat3(m)).normalize();
         let third = 2.0 * left.to_array()[c.index()].atan2(left.w);

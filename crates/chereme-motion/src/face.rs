@@ -98,6 +98,7 @@ impl FacePosture {
     /// Returns the least value that the number at this position can have: -1 if it has an opposite, else 0.
     #[must_use]
     pub fn least_face_number(position: usize) -> f64 {
+        // Squeeze, jaw, parting, press, pucker, teeth and tongue have no opposite movement.
         const UNOPPOSED_FACE_NUMBERS: [usize; 7] = [2, 8, 10, 14, 15, 16, 17];
         if UNOPPOSED_FACE_NUMBERS.contains(&position) {
             0.0
@@ -127,6 +128,7 @@ impl FacePosture {
         Self {
             brows: swap(self.brows),
             lids: swap(self.lids),
+            // A look to the left is a look to the right in the mirror; up stays up.
             gaze: [-self.gaze[0], self.gaze[1]],
             aside: -self.aside,
             corners: swap(self.corners),

@@ -44,6 +44,7 @@ impl InterpolationKind {
             Self::Slerp => w,
             Self::Cosine => (1.0 - (std::f64::consts::PI * w).cos()) / 2.0,
             Self::Sigmoid => {
+                // As printed the sigmoid misses both ends by 0.0067, so it is stretched to reach them.
                 let printed = |w: f64| 1.0 / (1.0 + (-10.0 * (w - 0.5)).exp());
                 let (low, high) = (printed(0.0), printed(1.0));
                 (printed(w) - low) / (high - low)
@@ -62,6 +63,7 @@ impl InterpolationKind {
             Self::Slerp => a.slerp(b, w.clamp(0.0, 1.0)),
             _ => {
                 let share = self.interpolation_share(w);
+                // Both signs are the same rotation: the one on the near side gives the shorter path.
                 let near = if a.dot(b) < 0.0 { -b } else { b };
                 (a * (1.0 - share) + near * share).normalize()
             }

@@ -65,6 +65,7 @@ impl fmt::Display for MotionLapse {
             _ => write!(f, "frames {start} to {}: ", end - 1)?,
         }
         let [stands, jumps, returns] = match limb {
+            // The English verb follows the number of the limb: fingers stand, an arm stands.
             LapseLimb::Fingers(_) => ["stand", "jump", "return"],
             _ => ["stands", "jumps", "returns"],
         };
@@ -141,6 +142,7 @@ impl ClipLapses {
             bends: has_bending_joints(clip, anatomy),
             ..Self::default()
         };
+        // One frame has no steps to measure.
         if clip.clip_frame_count() < 2 {
             lapses.moving = clip.clip_frame_count();
             return lapses;
@@ -157,6 +159,7 @@ impl ClipLapses {
         }
         for path in &paths {
             for lapse in path.limb_path_lapses(clip.clip_frame_rate().per_second()) {
+                // A lapse of the body covers those of its limbs; the body comes first in the list.
                 let is_known = lapses.found.iter().any(|known: &MotionLapse| {
                     known.limb == LapseLimb::Body && has_common_frame(&known.frames, &lapse.frames)
                 });
@@ -167,6 +170,7 @@ impl ClipLapses {
         }
         lapses.found.sort_by_key(|lapse| lapse.frames.start);
         if let Some(body) = paths.iter().find(|path| path.limb == LapseLimb::Body) {
+            // Short runs come from a conversion of the frame rate, long ones from a take that stands still.
             let long = |run: &Range<usize>| run.len() > MAX_CONVERSION_RUN_FRAMES;
             let (long, short): (Vec<_>, Vec<_>) = true_frame_runs(&body.same).partition(long);
             lapses.repeated = short.iter().map(ExactSizeIterator::len).sum();
@@ -187,6 +191,7 @@ pub fn has_bending_joints(clip: &Clip, anatomy: &BodyAnatomy) -> bool {
         return true;
     }
     let skeleton = clip.clip_skeleton();
+    // The joints above the hips carry the whole body and turn even if a figure is stiff.
     let hips = anatomy.part_joint(BodyPart::Hips).unwrap_or(0);
     let carriers: Vec<usize> = skeleton.joint_ancestors(hips).collect();
     let is_own = |joint: &usize| !carriers.contains(joint) && !anatomy.marker_joints().contains(joint);
@@ -228,6 +233,7 @@ impl LimbPath {
         let skeleton = clip.clip_skeleton();
         let (joints, base, measured) = match limb {
             LapseLimb::Body => {
+                // Three points show any movement of the trunk.
                 let parts = [
                     BodyPart::Hips,
                     BodyPart::UpperArm(BodySide::Right),
@@ -245,6 +251,7 @@ impl LimbPath {
             }
             LapseLimb::Fingers(side) => {
                 let joints = anatomy.possible_fingers(side);
+                // Fingertips move farthest, so only the last joint of each finger is measured.
                 let is_last = |joint: &usize| !joints.iter().any(|&other| skeleton.joint_parent(other) == Some(*joint));
                 let measured: Vec<_> = joints
                     .iter()
@@ -268,6 +275,7 @@ impl LimbPath {
 
     fn push_limb_frame(&mut self, clip: &Clip, anatomy: &BodyAnatomy, model: &ModelPose, frame: usize) {
         let skeleton = clip.clip_skeleton();
+        // Relative to its base a limb stands still even if the body walks.
         let (origin, turned) = match self.base {
             Some(base) => (
                 model.model_joint_position(base),
@@ -276,6 +284,7 @@ impl LimbPath {
             None => (DVec3::ZERO, DQuat::IDENTITY),
         };
         for &(joint, is_tip) in &self.measured {
+            // Without a known tip the joint's own place is measured.
             let tip = anatomy.digit_end(skeleton, joint).filter(|_| is_tip);
             let joint_place = model.joint_point_to_model(joint, tip.unwrap_or_default());
             self.places.push(turned * (joint_place - origin));
@@ -283,15 +292,18 @@ impl LimbPath {
         let turns = |joint: usize| &clip.joint_channel(joint).rotations;
         let is_same = frame > 0
             && self.joints.iter().all(|&joint| {
+                // Exact equality: lost frames are copies to the bit, and held hands tremble.
                 turns(joint)[frame] == turns(joint)[frame - 1]
                     && clip.joint_translation(joint, frame) == clip.joint_translation(joint, frame - 1)
             });
         let is_rest = if is_same {
+            // An unchanged frame needs no second comparison with the rest pose.
             self.rest[frame - 1]
         } else {
             // The root turns in the world.
             let inner_joints = self.joints.iter().filter(|&&joint| joint > 0);
             let near = |turn: DQuat, rest: DQuat| turn.angle_between(rest) < LAPSE_REST_TOLERANCE_RADIANS;
+            // Programs write lost rotations as zeros or as the rest pose.
             inner_joints
                 .clone()
                 .all(|&joint| near(turns(joint)[frame], DQuat::IDENTITY))
@@ -315,13 +327,16 @@ impl LimbPath {
     /// out of them do not count, nor do frames that stand still.
     fn usual_step_length(&self, frames: &Range<usize>, rate: f64) -> f64 {
         let near = (LAPSE_JUMP_LIMITS.1 * rate).ceil() as usize;
+        // The steps into and out of the frames are the jumps in question and are left out.
         let before = frames.start.saturating_sub(near + 1)..frames.start.saturating_sub(1);
         let after = frames.end..(frames.end + near).min(self.same.len() - 1);
+        // Frames that stand still have steps of zero and would lower the usual length.
         let step_frames = before.chain(after).filter(|&frame| !self.same[frame + 1]);
         let mut steps: Vec<f64> = step_frames
             .map(|frame| self.limb_frame_distance(frame, frame + 1))
             .collect();
         steps.sort_by(f64::total_cmp);
+        // Four of five steps are no longer than this one.
         let quantile_index = (0.8 * steps.len() as f64) as usize;
         steps.get(quantile_index).copied().unwrap_or(0.0)
     }
@@ -334,12 +349,14 @@ impl LimbPath {
             limb: self.limb,
             what,
         };
+        // A limb at rest in the whole clip was never captured, which is no lapse.
         for run in true_frame_runs(&self.rest).filter(|run| run.len() < all) {
             let usual = LAPSE_JUMP_LIMITS.0 * self.usual_step_length(&run, rate);
             let inner = [
                 (run.start > 0).then(|| self.limb_frame_distance(run.start - 1, run.start)),
                 (run.end < all).then(|| self.limb_frame_distance(run.end - 1, run.end)),
             ];
+            // Both ends have to jump: a movement may begin or end at rest of its own accord.
             let jumps = inner.iter().flatten();
             if jumps
                 .clone()
@@ -353,17 +370,20 @@ impl LimbPath {
             let far = self.limb_frame_distance(run.end - 1, run.end);
             if far > self.limb.least_rest_jump()
                 && far > LAPSE_JUMP_LIMITS.0 * self.usual_step_length(&run, rate)
+                // A limb at rest stands still as well: it is reported once, by its better reason.
                 && !found_lapses.iter().any(|known| has_common_frame(&known.frames, &run))
             {
                 found_lapses.push(lapse(run, LostMovement::Still(far)));
             }
         }
         let (least, speed) = self.limb.impossible_jump_limits();
+        // At low frame rates even one frame is longer than the limit.
         let longest = ((LIMB_ABSENCE_LIMITS.0 * rate).ceil() as usize).max(1);
         let mut frame = 1;
         while frame < all {
             let far = self.limb_frame_distance(frame - 1, frame);
             if far > least && far * rate > speed {
+                // A limb that returns to where it was had not moved; one that stays away has.
                 let back = (frame + 1..(frame + longest + 1).min(all))
                     .find(|&back| self.limb_frame_distance(frame - 1, back) < LIMB_ABSENCE_LIMITS.1 * far);
                 if let Some(back) = back.filter(|&back| {

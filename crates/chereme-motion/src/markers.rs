@@ -58,8 +58,11 @@ impl MarkerSpace {
             Self::Image(frame) => (frame, 0.0),
             Self::Depth(frame) => (frame, at.z),
         };
+        // The whole picture is two metres high, whatever its pixels; a height of zero divides nothing.
         let scale = 2.0 / frame.height.max(f64::MIN_POSITIVE);
+        // Pixels count downwards and model space upwards; the middle of the picture is at x = 0.
         let from_centre = DVec2::new(at.x - frame.width / 2.0, frame.height - at.y) * scale;
+        // Depths grow away from the camera, while model space grows towards the viewer.
         DVec3::new(from_centre.x, from_centre.y, -depth * scale)
     }
 
@@ -148,6 +151,7 @@ impl MotionMarker {
     pub fn marker_position(&self, frame: usize) -> Option<DVec3> {
         let mut marker_place = DVec3::ZERO;
         for (axis, column) in self.place.iter().enumerate().take(3) {
+            // A gap in one coordinate makes the whole place unknown.
             marker_place[axis] = column.column_value_at(frame)?;
         }
         Some(marker_place)
@@ -185,6 +189,7 @@ impl MarkerTrack {
             });
         }
         let channels = points.iter().flat_map(|point| {
+            // The quality column has to be as long as the coordinates too.
             let columns = point.place.iter().chain(&point.quality);
             columns.map(|column| (point.name.as_str(), column))
         });

@@ -43,6 +43,7 @@ impl RecordingInstant {
     /// Returns the milliseconds from the start, halves rounded up.
     #[must_use]
     pub const fn instant_millis(self) -> i64 {
+        // Half a millisecond is added so that a floor becomes a rounding, also below zero.
         self.0.saturating_add(500).div_euclid(1000)
     }
 
@@ -274,6 +275,7 @@ impl FrameRate {
         if !(1e-6..=86_400.0).contains(&seconds) {
             return Err(RateError::FrameTime(seconds));
         }
+        // The last written decimal, or two millionths where more decimals are written than are true.
         let step = 10f64.powi(-(decimals.min(15) as i32)).max(seconds * 2e-6);
         let nearest_whole = (1.0 / seconds).round();
         let whole_rate =
@@ -282,12 +284,14 @@ impl FrameRate {
             .into_iter()
             .chain(COMMON_RATES)
             .map(|(f, s)| ((f64::from(s) / f64::from(f) - seconds).abs(), f, s))
+            // Half a percent at most: a rate of few decimals must not become the next one.
             .filter(|(error, f, s)| *error <= step && *error < 0.005 * f64::from(*s) / f64::from(*f))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, frames, per)) = nearest {
             return Self::new(frames, per);
         }
         let micros = (seconds * 1e6).round();
+        // Frame times of over an hour and eleven minutes do not fit a u32 of microseconds.
         if micros <= f64::from(u32::MAX) {
             Self::new(1_000_000, micros as u32)
         } else {
@@ -323,6 +327,7 @@ impl FrameRate {
     /// microsecond; it saturates.
     #[must_use]
     pub fn frame_start_instant(self, frame: usize) -> RecordingInstant {
+        // 128 bits, since frame times the denominator times a million exceeds 64 bits.
         let numerator = frame as i128 * i128::from(self.seconds) * MICROS_PER_SECOND;
         let micros = div_round(numerator, i128::from(self.frames));
         RecordingInstant(i64::try_from(micros).unwrap_or(i64::MAX))
@@ -355,6 +360,7 @@ impl FrameRate {
     }
 
     fn first_from(self, instant: RecordingInstant) -> usize {
+        // The nearest frame may start just before the instant; then the next one is the first from it.
         let near = self.nearest_frame_at(instant);
         if self.frame_start_instant(near) < instant {
             near.saturating_add(1)
@@ -375,6 +381,7 @@ impl fmt::Display for FrameRate {
 }
 
 fn div_round(numerator: i128, denominator: i128) -> i128 {
+    // Doubles both, so that half a denominator is added without a fraction.
     (numerator * 2 + denominator).div_euclid(denominator * 2)
 }
 

@@ -81,6 +81,7 @@ impl ListedTimes {
         let times: Vec<f64> = self.0.column_values().flatten().collect();
         let (first, last) = (*times.first()?, *times.last()?);
         let step = (last - first) / (times.len() - 1).max(1) as f64;
+        // The mean step is taken as a frame time written with six decimals.
         let rate = FrameRate::from_frame_time(step, 6).ok()?;
         let near = |(frame, time): (usize, &f64)| (time - first - frame as f64 * rate.frame_time()).abs() <= tolerance;
         (times.len() > 1 && times.iter().enumerate().all(near)).then_some(rate)
@@ -164,6 +165,7 @@ impl FrameTimes {
         if let Self::Even(rate) = self {
             return rate.frame_start_instant(1).instant_micros();
         }
+        // The median is not misled by pauses, which a mean is.
         let mut steps: Vec<i64> = (1..frames.min(self.timed_frame_count().unwrap_or(frames)))
             .map(|frame| {
                 self.frame_time_instant(frame).instant_micros() - self.frame_time_instant(frame - 1).instant_micros()
@@ -178,6 +180,7 @@ impl FrameTimes {
     /// are longer.
     #[must_use]
     pub fn longest_step(&self, frames: usize) -> i64 {
+        // Slow tracks have long steps that are no gaps.
         LEAST_GAP.max(self.usual_step(frames).saturating_mul(GAP_STEPS))
     }
 
@@ -203,6 +206,7 @@ impl FrameTimes {
                 range.start.min(frames)..range.end.min(frames)
             }
             Self::Listed(_) => {
+                // A frame exactly at the start is in the half-open span, hence the microsecond less.
                 let before = |at: RecordingInstant| self.first_after(at.shifted_instant(-1), frames);
                 before(span.span_start_instant())..before(span.span_end_instant())
             }

@@ -50,6 +50,7 @@ impl WristAngles {
         };
         let [less, more] = limits.turn;
         let turn = match (-less..=more).contains(&self.turn) {
+            // A turn has two ends at which the same palm is reached; the caller knows which one is meant.
             true => self.turn,
             false if high => more,
             false => -less,
@@ -101,6 +102,7 @@ impl WristAngles {
 /// with the `t` that puts it on the ellipse, found by Newton's method from below (Eberly, *Distance from a
 /// point to an ellipse*).
 fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
+    // An end of zero would divide by zero below.
     let [a, b] = ends.map(|end| end.max(1e-6));
     let [x, y] = point;
     // For larger `t` the sum is convex and falling, and it is at least 1 here.
@@ -114,6 +116,7 @@ fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
         t += over / (2.0 * (u * u / (t + a * a) + v * v / (t + b * b)));
     }
     let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
+    // What the iteration leaves outside the ellipse is scaled onto it.
     let size = (u * u + v * v).sqrt().max(1.0);
     [a * u / size, b * v / size]
 }

@@ -119,7 +119,7 @@ impl CanonicalHead {
         for side in 0..2 {
             for ring in 0..4 {
                 for k in 0..EYE_LOOP_VERTICES {
-                    // The loops come first: later vertices keep a distance of their own from all before this count.
+                    // The loops come first: skin keeps another distance from them than from skin.
                     let [x, y] = eye_loop_vertex(side, ring, k);
                     places.push((Vec3::new(x, y, self.front_depth_at(x, y)), FacePart::Eye(side, ring, k)));
                 }

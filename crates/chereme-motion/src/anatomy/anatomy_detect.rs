@@ -59,6 +59,7 @@ impl<'a> PartFinder<'a> {
         let assigned: Vec<usize> = assignments.values().copied().flatten().collect();
         let mut markers = anatomy_markers::find_marker_joints(skeleton, &names, &labels);
         markers.retain(|joint| !assigned.contains(joint));
+        // What the user assigned and what is a marker is no longer named by its label.
         for joint in assigned.into_iter().chain(markers.iter().copied()) {
             labels[joint] = None;
         }
@@ -81,6 +82,7 @@ impl<'a> PartFinder<'a> {
     fn inherit_sides(&mut self) {
         let count = self.labels.len();
         let mut near: Vec<Option<BodySide>> = vec![None; count];
+        // From the leaves up, every joint learns a side stated below it; then downwards from above.
         for joint in (0..count).rev() {
             let own_side = self.labels[joint].and_then(|label| label.side);
             near[joint] = own_side.or(near[joint]);
@@ -96,6 +98,7 @@ impl<'a> PartFinder<'a> {
             if let Some(label) = &mut self.labels[joint]
                 && label.word.is_sided_word()
             {
+                // The side of the joints above is surer than that of those below.
                 label.side = near[joint].or(below[joint]);
             }
         }
@@ -130,8 +133,10 @@ impl<'a> PartFinder<'a> {
         let Some(all) = all.into_iter().find(|all| !all.is_empty()) else {
             return;
         };
+        // Parents stand first in a skeleton, so that the first joint is the upper one.
         let first = all[0];
         let rivals = all[1..].iter().copied();
+        // A joint below the first is its continuation, such as a second neck bone.
         let others: Vec<usize> = rivals.filter(|&j| !self.is_below(j, first)).collect();
         if !others.is_empty() && !self.assignments.contains_key(&part) {
             self.ambiguous.push(PartAmbiguity {
@@ -156,6 +161,7 @@ impl<'a> PartFinder<'a> {
     fn find_arm_joints(&mut self, side: BodySide) {
         let has = |word| !self.labelled_joints(Some(side), word).is_empty();
         let has_upper = has(JointWord::UpperArm);
+        // "Shoulder" is the collar bone where an upper arm has a name, and the upper arm elsewhere.
         let (clavicle, upper): (&[JointWord], &[JointWord]) = if has_upper {
             (&[JointWord::Clavicle, JointWord::Shoulder], &[JointWord::UpperArm])
         } else {
@@ -182,6 +188,7 @@ impl<'a> PartFinder<'a> {
         let has_thigh = has(JointWord::Thigh) || has(JointWord::SideHip);
         let (has_ankle, has_toes) = (has(JointWord::Ankle), has(JointWord::Toes));
         let thigh: &[JointWord] = if has_thigh {
+            // "Leg" is the shin beside a named thigh, and the thigh elsewhere.
             &[JointWord::Thigh, JointWord::SideHip]
         } else {
             &[JointWord::Leg]
@@ -195,6 +202,7 @@ impl<'a> PartFinder<'a> {
         self.assign_labelled_part(BodyPart::Foot(side), &[JointWord::Ankle, JointWord::Foot]);
         if has_toes {
             self.assign_labelled_part(BodyPart::Toes(side), &[JointWord::Toes]);
+        // With an ankle, "foot" is the ball of the foot.
         } else if has_ankle {
             self.assign_labelled_part(BodyPart::Toes(side), &[JointWord::Foot]);
         }
@@ -214,9 +222,11 @@ impl<'a> PartFinder<'a> {
         let Some(&(first, _)) = chain.first() else {
             return;
         };
+        // Two chains of one digit's name: only the one below the first joint is it.
         chain.retain(|&(joint, _)| self.is_below(joint, first));
         let joints: Vec<usize> = chain.iter().map(|&(joint, _)| joint).collect();
         let metacarpal = chain[0].1 == DigitSegment::Metacarpal
+            // Without a joint called proximal, lengths decide whether the first one is the metacarpal.
             || (!chain.iter().any(|(_, s)| *s == DigitSegment::Proximal) && self.starts_inside(digit, &joints));
         self.assign_digit(side, digit, &joints, metacarpal, PartEvidence::Name);
     }
@@ -231,6 +241,7 @@ impl<'a> PartFinder<'a> {
         metacarpal: bool,
         how: PartEvidence,
     ) {
+        // Fingers without a metacarpal begin with their second part, the base.
         let skip = u8::from(!metacarpal);
         let extra = digit == AnatomyDigit::Thumb && metacarpal && joints.len() > 3;
         let joints = &joints[usize::from(extra)..];
@@ -273,6 +284,7 @@ impl<'a> PartFinder<'a> {
         let neck = self
             .assigned_joint(BodyPart::Neck)
             .or_else(|| self.assigned_joint(BodyPart::Head));
+        // With one arm the neck shows where the chest is.
         let fork = match (arms.as_slice(), neck) {
             (&[a, b], _) | (&[a], Some(b)) => self.lowest_common_ancestor(a, b),
             (&[a], None) => self.skeleton.joint_parent(a),
@@ -282,6 +294,7 @@ impl<'a> PartFinder<'a> {
             |finder: &Self, joint: usize| finder.labels[joint].is_some_and(|label| label.word == JointWord::Spine);
         let hips = self.assigned_joint(BodyPart::Hips);
         let last_named = (0..self.labels.len()).rev().find(|&j| is_spine(self, j));
+        // A fork at the hips is a skeleton without a spine; its last named bone has to do.
         let Some(chest) = fork.filter(|&j| Some(j) != hips).or(last_named) else {
             return;
         };
@@ -294,6 +307,7 @@ impl<'a> PartFinder<'a> {
         };
         self.assign_part_joint(BodyPart::Chest, chest, how(self, chest));
         let path = self.skeleton.joint_ancestors(chest);
+        // The root is no spine, even if nothing is called hips.
         let above: Vec<usize> = path.take_while(|&j| Some(j) != hips && j != 0).collect();
         let named = above.iter().rev().find(|&&j| is_spine(self, j));
         if let Some(&spine) = named.or(above.last()) {
@@ -313,6 +327,7 @@ pub(super) fn mirror_map(anatomy: &BodyAnatomy, skeleton: &Skeleton) -> Vec<Opti
     let mut map: Vec<Option<usize>> = Vec::with_capacity(skeleton.len());
     let mut names: BTreeMap<&str, usize> = BTreeMap::new();
     for (index, joint) in skeleton.skeleton_joints().iter().enumerate() {
+        // Of two joints with one name the first counts.
         names.entry(&joint.name).or_insert(index);
     }
     let mut free: Vec<Vec<usize>> = vec![Vec::new(); skeleton.len()];
@@ -325,6 +340,7 @@ pub(super) fn mirror_map(anatomy: &BodyAnatomy, skeleton: &Skeleton) -> Vec<Opti
     }
     for joint in 0..skeleton.len() {
         let counterpart = match anatomy.part_of(joint) {
+            // Mirrored helpers are found by their rank below the same parents.
             Some(part) => anatomy.part_joint(part.mirrored_part()),
             None => {
                 let mirrored_name = other_side(&skeleton.joint_at(joint).name);
@@ -332,6 +348,7 @@ pub(super) fn mirror_map(anatomy: &BodyAnatomy, skeleton: &Skeleton) -> Vec<Opti
                 named.or_else(|| match skeleton.joint_parent(joint) {
                     Some(parent) => {
                         let (here, there) = (&free[parent], &free[map[parent]?]);
+                        // Different numbers of helpers on both sides cannot be paired.
                         (here.len() == there.len()).then(|| there[rank[joint]])
                     }
                     None => Some(joint),
@@ -363,6 +380,7 @@ fn other_side(name: &str) -> Option<String> {
         let edge = |c: Option<&char>| c.is_none_or(|c| !c.is_alphanumeric());
         let before = edge(n.checked_sub(1).and_then(|n| letters.get(n)));
         let after = letters.get(n + 1);
+        // A single letter is a side if it stands alone, or first before a capital: lArm, RHand.
         before && (edge(after) || (n == 0 && after.is_some_and(|c| c.is_uppercase())))
     };
     let letter_index = (0..letters.len()).find(|&n| "lrLR".contains(letters[n]) && alone(n))?;

@@ -93,6 +93,7 @@ impl BodyAnatomy {
     ) -> (SignerAxes, f64) {
         let still = trunk_axes(self, rest);
         let posed = first.and_then(|pose| trunk_axes(self, pose));
+        // Below this cosine, rest pose and first frame point different ways.
         let turned = |n: usize, least: f64| {
             let pair = still.zip(posed);
             pair.is_some_and(|(still, posed)| still[n].dot(posed[n]) < least)
@@ -115,6 +116,7 @@ impl BodyAnatomy {
         let [left, up, _] = chosen;
         let up_axis = AxisDirection::nearest_axis_direction(up);
         let mut off = left;
+        // The up axis is taken already: left is the strongest of the two others.
         off[up_axis.axis.index()] = 0.0;
         let Some(axes) = SignerAxes::new(up_axis, AxisDirection::nearest_axis_direction(off)) else {
             reasons.push("the trunk lies askew to all axes; Y up is assumed".to_owned());
@@ -128,6 +130,7 @@ impl BodyAnatomy {
         let mut sure = up
             .dot(axes.up_direction().axis_direction_vector())
             .min(left.dot(axes.left_direction().axis_direction_vector()));
+        // Toes that point back reveal a mirrored file, which nothing else does.
         if self.toes_point_back(first.unwrap_or(rest)) {
             sure *= 0.5;
             reasons.push(
@@ -149,6 +152,7 @@ impl BodyAnatomy {
             })
             .collect();
         let forward = trunk_axes(self, pose).map(|[_, _, forward]| forward);
+        // Both feet, since one may be turned far out.
         !feet.is_empty() && forward.is_some_and(|forward| feet.iter().all(|foot| foot.dot(forward) < -0.5))
     }
 }
@@ -166,6 +170,7 @@ fn guess_length_unit(
         ));
         return ("unknown", metres, 0.0);
     };
+    // The geometric mean: statures are compared by factors.
     let middle = (STATURE_RANGE_M.start * STATURE_RANGE_M.end).sqrt();
     let off = |metres: f64| (measures.stature * metres / middle).ln().abs();
     let unlikely = |(name, metres): (&str, f64)| {
@@ -178,6 +183,7 @@ fn guess_length_unit(
         .unwrap_or(FILE_LENGTH_UNITS[0]);
     let stature = measures.stature * metres;
     let half = (STATURE_RANGE_M.end / middle).ln();
+    // Beyond 1.7 times the range no unit makes the body a person.
     if off(metres) > half * 1.7 {
         let metres = ASSUMED_STATURE_M / measures.stature;
         reasons.push(format!(
@@ -191,6 +197,7 @@ fn guess_length_unit(
         "a body {:.2} units tall is {stature:.2} m in {name}",
         measures.stature
     ));
+    // Within the wider limits it may be a child or a figure: half sure.
     let sure = if STATURE_RANGE_M.contains(&stature) { 1.0 } else { 0.5 };
     if sure < 1.0 {
         reasons.push(format!("{UNUSUAL_UNIT_REASON}{stature:.2} m is unusual"));

@@ -53,6 +53,7 @@ const WIDE_SPREAD_RADIANS: f64 = 0.35;
 
 /// Returns the turn of a finger's metacarpal towards the palm, in radians.
 fn arch(place: usize, finger: &FingerAngles) -> f64 {
+    // From the relaxed hand up to a right angle; before that the palm stays flat.
     let bent = ((finger.flexion[0] - RELAXED_FLEXION_RADIANS) / (FRAC_PI_2 - RELAXED_FLEXION_RADIANS)).clamp(0.0, 1.0);
     let outwards = (-finger.spread / WIDE_SPREAD_RADIANS).clamp(0.0, 1.0);
     METACARPAL_ARCH_RADIANS[place] * bent * outwards
@@ -69,17 +70,21 @@ impl HandFrame {
         let bases = HandFinger::ALL_FINGERS.map(|finger| part_place(BodyPart::Finger(side, finger, 1)));
         let found_bases: Vec<DVec3> = bases.iter().copied().flatten().collect();
         let mean = found_bases.iter().sum::<DVec3>() / found_bases.len().max(1) as f64;
+        // The middle finger shows the hand's direction; without it, the mean of the others does.
         let along = bases[1].unwrap_or(mean).try_normalize()?;
+        // Some thumbs have only their metacarpal: its tip shows the side as well.
         let thumb = part_place(BodyPart::Thumb(side, 1)).or_else(|| {
             let joint = anatomy.part_joint(BodyPart::Thumb(side, 0))?;
             let (place, turned) = in_hand(skeleton, hand, joint);
             Some(place + turned * digit_tip(anatomy, skeleton, joint)?)
         });
+        // Across the knuckles if there are two; otherwise the thumb shows its side.
         let across = match (found_bases.first(), found_bases.last()) {
             (Some(&first), Some(&last)) if found_bases.len() > 1 => first - last,
             _ => thumb?,
         };
         let radial = across.reject_from_normalized(along).try_normalize()?;
+        // The sign makes the palm's normal point out of the palm on either hand.
         let mut palm = radial.cross(along) * -side.side_sign();
         if found_bases.len() > 1 && is_inside_out(anatomy, skeleton, side, [along, radial, palm]) {
             palm = -palm;
@@ -127,12 +132,14 @@ impl HandFrame {
             };
             let (start, turned) = in_hand(skeleton, hand, joint);
             let next = joints[place + 1..].iter().flatten().next();
+            // The last bone without an end goes on as the one before it.
             let bone = bone_end(anatomy, skeleton, hand, joint, next.copied())
                 .and_then(|end| (end - start).try_normalize())
                 .or(before.map(|(_, bone)| bone))
                 .unwrap_or(self.along);
             let bent = match before {
                 None => self.base_turn(bone, thumb),
+                // Outer joints bend from the bone before by the shortest way, which adds no twist.
                 Some((bent, _)) => bent * DQuat::from_rotation_arc(self.along, bent.inverse() * bone),
             };
             zeros[place] = Some(StraightJoint {
@@ -163,6 +170,7 @@ impl HandFrame {
     fn thumb_bend_across(&self, turn: DQuat) -> f64 {
         let bone = turn * self.along;
         let bend = bone.dot(self.along).clamp(-1.0, 1.0).acos();
+        // Across the palm is towards the palm and away from the thumb's side at once.
         let forward = bone.dot(self.palm) - bone.dot(self.radial);
         if forward < 0.0 { -bend } else { bend }
     }
@@ -250,12 +258,14 @@ impl BodyAnatomy {
                 Some(turn)
             })
         };
+        // Without the base joint, its angles are unknown and count as zero.
         let first = |order, turn: Option<DQuat>| turn.map_or([0.0; 3], |turn| frame.rotation_to_angles(order, turn));
         let [metacarpal, middle, end] = turns(&frame.thumb);
         let [radial, palmar, opposition] = first(RotationOrder::YXZ_ORDER, metacarpal);
         let thumb = ThumbAngles {
             radial,
             palmar,
+            // The sign of opposition is against the right-hand rule about the thumb's length.
             opposition: -opposition,
             flexion: [middle, end].map(|turn| turn.map_or(0.0, |turn| frame.thumb_bend_across(turn))),
         };
@@ -294,6 +304,7 @@ impl BodyAnatomy {
             let Some(joint) = *joint else { continue };
             let rest = skeleton.joint_at(joint).rest;
             let arch = arch(place, &angles.fingers[place]);
+            // Only a metacarpal directly below the hand turns in the hand's axes.
             pose.rotations[joint] = if arch > 0.0 && skeleton.joint_parent(joint) == Some(hand) {
                 let turn = frame.angles_to_rotation(RotationOrder::XYZ_ORDER, [arch, 0.0, 0.0]);
                 (turn * rest).normalize()
@@ -305,6 +316,7 @@ impl BodyAnatomy {
             let mut turned = DQuat::IDENTITY;
             for (zero, turn) in zeros.iter().zip(turns) {
                 let Some(zero) = zero else { continue };
+                // Turns add up along the digit even if the skeleton lacks a joint between.
                 turned *= turn;
                 let parent = skeleton.joint_parent(zero.joint).unwrap_or(hand);
                 let above = rotation_below_hand(skeleton, hand, parent, pose);
@@ -369,6 +381,7 @@ impl BodyAnatomy {
         let along = direction.try_normalize()?;
         let palm = palm.reject_from_normalized(along).try_normalize()?;
         let columns = |a: DVec3, p: DVec3| glam::DMat3::from_cols(a, p, a.cross(p));
+        // The transpose of an orthonormal frame is its inverse.
         let turn = columns(along, palm) * columns(frame.along, frame.palm).transpose();
         Some(DQuat::from_mat3(&turn).normalize())
     }

@@ -118,7 +118,9 @@ impl HeadFrame {
         if let [Some(right), Some(left)] = eyes {
             let middle = (model.model_joint_position(right) + model.model_joint_position(left)) / 2.0;
             let head_point = axes.inverse() * (back * (middle - model.model_joint_position(head)));
+            // Eyes lie at half the head's height, and 0.32 of it before the middle of the skull.
             let seat = DVec3::new(0.0, 0.5 * size, 0.32 * size);
+            // Eyes far from there are helpers at the root or far before the face.
             if head_point.distance(chin + seat) < 0.5 * size {
                 chin = DVec3::new(0.0, head_point.y - seat.y, head_point.z - seat.z);
             }
@@ -174,9 +176,11 @@ impl BodyAnatomy {
         let (side, name) = split_landmark_name(name);
         let name = name.as_str();
         if let Some(&(_, [x, y, z])) = HEAD_LANDMARKS.iter().find(|(known, _)| *known == name) {
+            // A place off the middle has no single position without a side.
             let x = if x == 0.0 { 0.0 } else { side?.side_sign() * x };
             return self.on_head(model, DVec3::new(x, y, z));
         }
+        // Names of the arm are tried first, since a side may also belong to a place of the trunk.
         if let Some(side) = side
             && let Some(at) = self.on_arm(skeleton, model, side, name)
         {
@@ -201,6 +205,7 @@ impl BodyAnatomy {
                     self.part_joint(BodyPart::Thigh(side?))?,
                     self.part_joint(BodyPart::Shin(side?))?,
                 );
+                // The front of the thigh lies 0.22 shoulder widths before the bone.
                 let middle = (model.model_joint_position(hip) + model.model_joint_position(knee)) / 2.0;
                 Some(middle + frame.forward * (0.22 * frame.scale))
             }
@@ -224,6 +229,7 @@ impl BodyAnatomy {
         if let Some(frame) = self.head {
             return Some(model.joint_point_to_model(head, frame.chin + frame.axes * scaled_place));
         }
+        // A head whose axes are unknown is taken to face as the trunk does.
         let body = self.body_frame(model)?;
         let chin = DVec3::new(0.0, measures.head_top - measures.head, 0.0);
         Some(model.model_joint_position(head) + body.direction_to_model(chin + scaled_place))
@@ -274,6 +280,7 @@ impl BodyAnatomy {
             .map_or(0.5 * length, |joint| model.model_joint_position(joint).distance(wrist));
         let middle = wrist + along * (0.55 * base);
         let palm = self.palm_normal(side, model);
+        // The thumb's side follows from palm and direction with the sign of the hand.
         let radial = palm.map(|palm| palm.cross(along) * side.side_sign());
         let out = match name {
             "palm" => palm.map_or(DVec3::ZERO, |palm| palm * (0.08 * length)),
@@ -300,6 +307,7 @@ impl BodyAnatomy {
         if let Some(tip) = super::tips::digit_tip(self, skeleton, last) {
             return Some(model.joint_point_to_model(last, tip));
         }
+        // Without a tip the last bone is assumed to be 0.8 of the one before it.
         let from = model.model_joint_position(skeleton.joint_parent(last)?);
         Some(model.model_joint_position(last) + (model.model_joint_position(last) - from) * 0.8)
     }
@@ -339,6 +347,7 @@ fn split_landmark_name(name: &str) -> (Option<BodySide>, String) {
             let word_side = BodySide::BOTH_SIDES
                 .into_iter()
                 .find(|side| side.body_side_name() == *word);
+            // The first word for a side counts, and all of them leave the name.
             side = side.or(word_side);
             word_side.is_none() && !word.is_empty()
         })

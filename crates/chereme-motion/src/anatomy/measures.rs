@@ -63,15 +63,18 @@ impl BodyMeasures {
             average_both_sides(|side| hand_length(anatomy, skeleton, side, sum.map(|all| HAND_STATURE_SHARE * all)));
         let rough = sum.or(hand.map(|l| l / HAND_STATURE_SHARE)).filter(|&h| h > 0.0)?;
         let head_top = head_top(anatomy, skeleton, rough);
+        // With legs and trunk the stature is measured; otherwise it is a multiple of the arm.
         let stature = match (leg, trunk_and_neck(anatomy, skeleton, model)) {
             (Some(leg), Some(middle)) => leg * (1.0 + ANKLE_STATURE_SHARE / LEG_STATURE_SHARE) + middle + head_top,
             _ => rough,
         };
+        // Up to this height the top fits a usual head; beyond it the head is larger in proportion.
         let head = if head_top <= 0.115 * stature {
             HEAD_STATURE_SHARE * stature
         } else {
             head_top * HEAD_STATURE_SHARE / 0.115
         };
+        // Hips at the shoulders, as in upper-body skeletons, show no trunk.
         let measured = trunk_length(anatomy, model).filter(|t| *t > 0.15 * stature);
         Some(Self {
             stature,
@@ -108,11 +111,13 @@ fn hand_length(anatomy: &BodyAnatomy, skeleton: &Skeleton, side: BodySide, usual
     let hand = anatomy.part_joint(BodyPart::Hand(side))?;
     let middle = [3, 2, 1].map(|n| anatomy.part_joint(BodyPart::Finger(side, HandFinger::Middle, n)));
     let Some(last) = middle.into_iter().flatten().next() else {
+        // Without arm or leg nothing says how long a hand should be, so that any tip is taken.
         let [least, most] = usual.map_or([0.0, f64::INFINITY], |size| HAND_TIP_SHARES.map(|share| share * size));
         let tip = skeleton.joint_at(hand).tip.map(DVec3::length);
         return tip.filter(|&length| length > least && length < most);
     };
     let digit_end = super::tips::digit_tip(anatomy, skeleton, last);
+    // 0.8 of the bone before is the usual end of a finger with its flesh.
     let tip = digit_end.map_or(0.8 * skeleton.joint_at(last).offset.length(), DVec3::length);
     let full_length = bone_chain_length(skeleton, last, hand) + tip;
     // A finger of impossible bones does not make a giant's hand.
@@ -135,6 +140,7 @@ fn head_top(anatomy: &BodyAnatomy, skeleton: &Skeleton, stature: f64) -> f64 {
     let ends = unknown.map(|&j| skeleton.joint_at(j).offset.length());
     let tip = skeleton.joint_at(head).tip.map(DVec3::length);
     let longest = ends.chain(tip).fold(0.0, f64::max);
+    // Outside this range the end is not the top of a head.
     if (0.08 * stature..0.25 * stature).contains(&longest) {
         longest
     } else {
@@ -149,6 +155,7 @@ fn trunk_and_neck(anatomy: &BodyAnatomy, skeleton: &Skeleton, model: &ModelPose)
         return None;
     }
     let distance = bone_chain_length(skeleton, head, hips);
+    // Only what lies below the hips along the trunk counts, and a fifth of it at most.
     let below = part_midpoint(anatomy, model, BodyPart::Thigh).map_or(0.0, |thighs| {
         let up = (model.model_joint_position(head) - model.model_joint_position(hips)).normalize_or_zero();
         (model.model_joint_position(hips) - thighs).dot(up)
@@ -255,6 +262,7 @@ pub(super) fn trunk_axes(anatomy: &BodyAnatomy, model: &ModelPose) -> Option<[DV
         .or_else(|| part_midpoint(anatomy, model, BodyPart::Thigh))
         .or_else(|| part_place(BodyPart::Spine))
         .or_else(|| part_place(BodyPart::Chest))?;
+    // Without hips the low point is already in the upper body, so the head shows up better.
     let high = part_midpoint(anatomy, model, BodyPart::UpperArm)
         .filter(|_| part_place(BodyPart::Hips).is_some())
         .or_else(|| part_place(BodyPart::Head))
@@ -264,13 +272,16 @@ pub(super) fn trunk_axes(anatomy: &BodyAnatomy, model: &ModelPose) -> Option<[DV
         let [right, left] = BodySide::BOTH_SIDES.map(|side| part_place(part(side)));
         let line = left? - right?;
         let left = line.reject_from_normalized(up);
+        // A line too close to the trunk's own direction does not show the left.
         (left.length() > 0.3 * line.length() && left.length() > 0.05 * high.distance(low)).then_some(left)
     };
     let shoulders = across(BodyPart::UpperArm);
     let collars = across(BodyPart::Clavicle)
+        // Collar bones that begin at one point have no direction.
         .filter(|collars| shoulders.is_none_or(|line| collars.length() > 0.1 * line.length()));
     let leftwards = collars.or(shoulders).or_else(|| across(BodyPart::Thigh))?;
     let left = leftwards.try_normalize()?;
+    // Left is kept exactly, since the shoulders show it better than the spine shows up.
     let up = up.reject_from_normalized(left).try_normalize()?;
     Some([left, up, left.cross(up)])
 }

@@ -68,6 +68,7 @@ impl HandRange {
     /// Adds one posture.
     pub fn add_hand_posture(&mut self, angles: &HandAngles) {
         for (counts, angle) in self.counts.iter_mut().zip(angles.to_array()) {
+            // Angles beyond the counted ones are in the last bin, and outliers anyway.
             let bin = (angle.to_degrees() - MIN_COUNTED_DEGREES).clamp(0.0, (DEGREE_BIN_COUNT - 1) as f64);
             counts[bin as usize] = counts[bin as usize].saturating_add(1);
         }
@@ -98,12 +99,15 @@ impl HandRange {
             return hand_correction;
         }
         for finger in 0..4 {
+            // Angle 6 is the index finger's first flexion: five of the thumb and one spread stand before it.
             let bends = [0, 1, 2].map(|joint| self.joint_bend_range(6 + 4 * finger + joint, joint));
             let share = |bend: &JointBendRange| bend.share;
+            // The finger as a whole is closed: then joints that bend less are measured short.
             let fist = bends.iter().map(share).sum::<f64>() / 3.0 >= NEAR_FIST_SHARE;
             for (joint, bend) in bends.into_iter().enumerate() {
                 let angle = 6 + 4 * finger + joint;
                 hand_correction.zero[angle] = bend.zero.to_radians();
+                // A joint that never moved may be stiff and is not stretched to a fist.
                 if fist && bend.is_whole && SHORT_FIST_SHARES.contains(&bend.share) {
                     hand_correction.gain[angle] = 1.0 / bend.share;
                 }
@@ -115,6 +119,7 @@ impl HandRange {
                 hand_correction.zero[angle] = (low - beside).to_radians();
             }
         }
+        // Angles 3 and 4 are the thumb's two flexions.
         for angle in [3, 4] {
             let (low, high) = self.angle_extremes(angle);
             if (SLIGHT_BEND_DEGREES..=MAX_LAX_DEGREES).contains(&low) && high - low > THUMB_MOVES {
@@ -128,9 +133,11 @@ impl HandRange {
     fn joint_bend_range(&self, angle: usize, joint: usize) -> JointBendRange {
         let (low, high) = self.angle_extremes(angle);
         let moves = high - low > MOVING_RANGE_DEGREES;
+        // Nobody bends so far back: the sensor's zero lies off by the excess.
         let zero = if low < BACKWARD_LIMIT_DEGREES[joint] {
             low - BACKWARD_LIMIT_DEGREES[joint]
         } else if (SLIGHT_BEND_DEGREES..=MAX_LAX_DEGREES).contains(&low)
+            // A joint with much range may be laxer when straight than one that hardly moves.
             || (moves && (SLIGHT_BEND_DEGREES..=LAX_MOVING).contains(&low))
         {
             low
@@ -162,6 +169,7 @@ fn cumulative_end_degree(counts: &[u32; DEGREE_BIN_COUNT], mut bins: impl Iterat
         passed += counts[bin];
         passed > most
     });
+    // The middle of the degree.
     bin.map_or(0.0, |bin| MIN_COUNTED_DEGREES + bin as f64 + 0.5)
 }
 

@@ -14,6 +14,7 @@ const STIFF_BEND_RADIANS: f64 = 0.6;
 /// Returns the end of a digit's last bone as its file has it, in the joint's space: the joint's tip, or its only child.
 fn written_end(anatomy: &BodyAnatomy, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
     let tip = skeleton.joint_at(joint).tip;
+    // A child with a part of its own is a joint of the digit, not its end.
     tip.or_else(|| match *skeleton.joint_children(joint) {
         [child] if anatomy.part_of(child).is_none() => Some(skeleton.joint_at(child).offset),
         _ => None,
@@ -36,6 +37,7 @@ fn usual_end(anatomy: &BodyAnatomy, skeleton: &Skeleton, joint: usize) -> Option
         lengths.reduce(f64::min)
     });
     let before = skeleton.joint_at(joint).offset.length();
+    // Whichever is longer, so that only truly impossible bones count as too long.
     Some((DIGIT_END_SHARES[0] * before).max(DIGIT_END_SHARES[1] * palm.unwrap_or_default()))
 }
 
@@ -66,10 +68,12 @@ pub(super) fn digit_tip(anatomy: &BodyAnatomy, skeleton: &Skeleton, joint: usize
 /// Returns the end of a digit's last bone in the direction of the digit.
 fn straight_end(anatomy: &BodyAnatomy, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
     let end_joint = skeleton.joint_at(joint);
+    // An end joint was placed by somebody; only tips are written along a wrong axis.
     let Some(tip) = end_joint.tip else {
         return written_end(anatomy, skeleton, joint);
     };
     let parent = skeleton.joint_parent(joint);
+    // Below the hand there is no bone of the digit to compare with.
     let above = parent.filter(|&above| anatomy.part_of(above).as_ref().is_some_and(is_digit));
     let Some(above) = above.map(|above| skeleton.joint_at(above)) else {
         return Some(tip);
@@ -79,6 +83,7 @@ fn straight_end(anatomy: &BodyAnatomy, skeleton: &Skeleton, joint: usize) -> Opt
         end_joint.offset,
         end_joint.rest * tip,
     ];
+    // A bone without length has no direction to compare.
     let [Some(first), Some(second), Some(last)] = bones.map(DVec3::try_normalize) else {
         return Some(tip);
     };
@@ -131,6 +136,7 @@ impl BodyAnatomy {
         if usual_end(self, skeleton, joint).is_some_and(|usual| end.length() > LONG_BONE_FACTOR * usual) {
             return Some(OddTip::Long);
         }
+        // A joint that ends the bone is trusted except for its length.
         if !skeleton.joint_children(joint).is_empty() {
             return None;
         }
@@ -148,6 +154,7 @@ impl BodyAnatomy {
     pub fn long_finger_bones(&self, skeleton: &Skeleton) -> Vec<(usize, f64)> {
         let length = |part| Some(skeleton.joint_at(self.part_joint(part)?).offset.length());
         let usual = |part: BodyPart| {
+            // The thumb has no finger beside it to compare with: only the other hand.
             let (other, mut alike) = match part {
                 BodyPart::Thumb(side, at @ 1..) => (BodyPart::Thumb(side.opposite_side(), at), Vec::new()),
                 BodyPart::Finger(side, finger, at @ 2..) => {

@@ -20,6 +20,7 @@ impl PartFinder<'_> {
                 .iter()
                 .all(|&side| finder.assigned_joint(part(side)).is_none())
         };
+        // Names beat shapes: limbs are searched only if not even one side has a name.
         if unnamed(self, BodyPart::UpperArm) && unnamed(self, BodyPart::Hand) {
             self.find_limb_chains();
         }
@@ -37,6 +38,7 @@ impl PartFinder<'_> {
         if let [Some(right), Some(left)] = thighs
             && let Some(hips) = self.lowest_common_ancestor(right, left)
         {
+            // A root is hips only if the thighs branch off there; on the floor it is not.
             let root = self.labels[hips].is_some_and(|label| label.word == JointWord::Root);
             let how = if root {
                 PartEvidence::Name
@@ -59,8 +61,10 @@ impl PartFinder<'_> {
             .filter_map(|part| self.assigned_joint(part))
             .collect();
         let children = self.skeleton.joint_children(chest).iter().copied();
+        // What carries an arm is no neck.
         let free = children.filter(|&child| !arms.iter().any(|&arm| self.is_below(arm, child)));
         let depths = depths(self.skeleton);
+        // The longest chain is that of the head; others are helpers.
         let Some(neck) = free.max_by_key(|&child| (depths[child], child)) else {
             return;
         };
@@ -72,6 +76,7 @@ impl PartFinder<'_> {
             [head] => self.assign_part_joint(BodyPart::Head, head, PartEvidence::Topology),
             [.., head] => {
                 self.assign_part_joint(BodyPart::Head, head, PartEvidence::Topology);
+                // A head that was found by its name may be the chain's first joint, which is no neck then.
                 if self.assigned_joint(BodyPart::Head) != Some(neck) {
                     self.assign_part_joint(BodyPart::Neck, neck, PartEvidence::Topology);
                 }
@@ -98,6 +103,7 @@ impl PartFinder<'_> {
             }
             [None, Some(middle), Some(_)] => {
                 let above = self.skeleton.joint_parent(middle);
+                // The root is never a limb's first joint.
                 if let Some(joint) = above.filter(|&joint| joint != 0 && self.is_free(joint)) {
                     self.assign_part_joint(first, joint, PartEvidence::Topology);
                 }
@@ -118,6 +124,7 @@ impl PartFinder<'_> {
         let rest = self.skeleton.rest_model_pose();
         let (legs, arms) = match *pairs.as_slice() {
             [legs, arms, ..] => (Some(legs), arms),
+            // Two arms and nothing else could be two legs as well.
             [arms] if self.skeleton.joint_children(arms.fork).len() > 2 => (None, arms),
             _ => return,
         };
@@ -133,8 +140,11 @@ impl PartFinder<'_> {
             }
         }
         let up = up.normalize_or(DVec3::Y);
+        // Toes point forward, but may also slope down.
         let facing = toes.reject_from_normalized(up);
+        // Toes of a hundredth of the body are rounding, not a direction.
         let sure = facing.length() > 0.01 * joint_place(arms.fork).distance(joint_place(0));
+        // Without toes the left is assumed at +X, and the result is marked as ambiguous below.
         let left = if sure { up.cross(facing) } else { DVec3::X };
         for (pair, is_arm) in [(Some(arms), true), (legs, false)] {
             let Some(pair) = pair else { continue };
@@ -142,6 +152,7 @@ impl PartFinder<'_> {
             let across = (joint_place(a) - joint_place(b)).dot(left);
             let [first, second] = pair.limbs.map(|limb| self.stated_side(limb));
             let stated = match (first, second) {
+                // Two limbs of one stated side contradict each other, and neither is believed.
                 (Some(first), Some(second)) if first != second => Some(first),
                 _ => None,
             };
@@ -180,6 +191,7 @@ impl PartFinder<'_> {
         let joints = single_child_chain(self.skeleton, first);
         let parts: &[BodyPart] = match (is_arm, joints.len()) {
             (true, 3) => &[BodyPart::UpperArm(side), BodyPart::Forearm(side), BodyPart::Hand(side)],
+            // Four joints or more start with a collar bone.
             (true, _) => &[
                 BodyPart::Clavicle(side),
                 BodyPart::UpperArm(side),
@@ -215,6 +227,7 @@ impl PartFinder<'_> {
             .map(|&child| single_child_chain(self.skeleton, child))
             .filter(|chain| chain.len() > 1)
             .collect();
+        // Fewer or more than five chains cannot be told apart by shape.
         if has_digits || chains.len() != 5 {
             return;
         }
@@ -223,6 +236,7 @@ impl PartFinder<'_> {
         let mean = chains.iter().map(|chain| direction(chain)).sum::<DVec3>();
         let farthest = chains.iter().map(|c| hand_place(c[1]).length()).fold(0.0, f64::max);
         let apart = |chain: &[usize]| {
+            // A thumb begins nearer to the wrist than fingers do.
             let near = 1.0 - hand_place(chain[1]).length() / farthest.max(f64::MIN_POSITIVE);
             1.0 - direction(chain).dot(mean.normalize_or_zero()) + near
         };
@@ -237,6 +251,7 @@ impl PartFinder<'_> {
             };
             (hand_place(start) - thumb).reject_from(along).length()
         };
+        // Fingers follow from the thumb outwards.
         chains[1..].sort_by(|a, b| across(a).total_cmp(&across(b)));
         for (digit, chain) in AnatomyDigit::ALL_ANATOMY_DIGITS.into_iter().zip(&chains) {
             let metacarpal = self.starts_inside(digit, chain);
@@ -264,14 +279,17 @@ fn find_limb_pairs(skeleton: &Skeleton) -> Vec<LimbPair> {
     let mut pairs: Vec<LimbPair> = Vec::new();
     let mut inside = vec![false; skeleton.len()];
     for fork in 0..skeleton.len() {
+        // What lies inside a limb is part of it: hands would be pairs of their own.
         inside[fork] |= skeleton.joint_parent(fork).is_some_and(|parent| inside[parent]);
         if inside[fork] {
             continue;
         }
         let mut waiting: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
+        // Two joints or fewer are helpers; limbs have three.
         for &b in skeleton.joint_children(fork).iter().filter(|&&child| depths[child] > 2) {
             let y = reach(b);
             match waiting.remove(&shapes[b]) {
+                // Left and right differ by a fifth at most, even in captured bodies.
                 Some((a, x)) if (x - y).abs() <= 0.2 * x.max(y) => {
                     inside[a] = true;
                     inside[b] = true;
@@ -287,6 +305,7 @@ fn find_limb_pairs(skeleton: &Skeleton) -> Vec<LimbPair> {
 /// Returns for each joint the number of joints on the longest path down, including itself.
 fn depths(skeleton: &Skeleton) -> Vec<usize> {
     let mut depths = vec![1; skeleton.len()];
+    // Children come after their parents, so that backwards every child is final first.
     for joint in (0..skeleton.len()).rev() {
         if let Some(parent) = skeleton.joint_parent(joint) {
             depths[parent] = depths[parent].max(depths[joint] + 1);
@@ -306,6 +325,7 @@ fn subtree_shapes(skeleton: &Skeleton) -> Vec<usize> {
             .map(|&child| shapes[child])
             .collect();
         below.sort_unstable();
+        // The children's shapes are sorted, so that their order does not make a difference.
         let next = shape_numbers.len();
         shapes[joint] = *shape_numbers.entry(below).or_insert(next);
     }
@@ -328,6 +348,7 @@ fn only_child(skeleton: &Skeleton, joint: usize) -> Option<usize> {
     if let [child] = *children {
         return Some(child);
     }
+    // Twist helpers are leaves on the bone: they do not end a chain.
     let mut inner = children
         .iter()
         .filter(|&&child| !skeleton.joint_children(child).is_empty());
@@ -339,6 +360,7 @@ fn only_child(skeleton: &Skeleton, joint: usize) -> Option<usize> {
     let on_bone = |leaf: usize| {
         let leaf_offset = skeleton.joint_at(leaf).offset;
         let along = leaf_offset.dot(bone.normalize_or_zero());
+        // A tolerance of a fiftieth of the bone, since helpers are rounded in files.
         let aside = (leaf_offset - bone.normalize_or_zero() * along).length();
         aside <= ON_BONE * length && (-ON_BONE..=1.0 + ON_BONE).contains(&(along / length))
     };

@@ -128,6 +128,7 @@ pub(super) fn split_worn_marker(name: &str) -> (&str, Option<MarkerAttachment>) 
         return (subject, Some(place));
     }
     let after_colon = name.len() - bare.len();
+    // A subject may have underscores itself, so every one is tried from the left.
     let attachment_match = bare.match_indices('_').find_map(|(at, _)| {
         let subject = &name[..after_colon + at];
         Some((subject, bare_attachment(&bare[at + 1..])?))
@@ -139,12 +140,15 @@ pub(super) fn split_worn_marker(name: &str) -> (&str, Option<MarkerAttachment>) 
 }
 
 fn bare_attachment(bare: &str) -> Option<MarkerAttachment> {
+    // Programs write R.Elbow, R_ELB and relb for the same marker.
     let plain: String = bare
         .chars()
         .filter(char::is_ascii_alphanumeric)
         .map(|letter| letter.to_ascii_uppercase())
         .collect();
+    // Middle labels first, since LBAK and RBAK begin with the letter of a side but lie on the back.
     if let Some((_, bone)) = MIDDLE_MARKER_BONES.iter().find(|(name, _)| *name == plain) {
+        // Middle bones have no side, so either will do.
         return Some(attach_to_bone(*bone, BodySide::Right));
     }
     let (side, rest) = match (plain.strip_prefix('L'), plain.strip_prefix('R')) {

@@ -25,10 +25,12 @@ pub(super) fn select_marker_person(markers: &MarkerTrack, subject: Option<&str>)
     let mut subject_labels: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     let all: Vec<(&str, &str, Option<MarkerAttachment>)> =
         markers.marker_points().iter().map(split_marker_subject).collect();
+    // Unknown labels do not tell people apart: any program's extra points have them.
     for (subject, label, _) in all.iter().filter(|entry| entry.2.is_some()) {
         subject_labels.entry(subject).or_default().insert(label);
     }
     let mut subjects: Vec<(&str, &BTreeSet<&str>)> = subject_labels.iter().map(|(name, it)| (*name, it)).collect();
+    // The subject with most labels is the person; others are held against it.
     subjects.sort_by_key(|(_, labels)| std::cmp::Reverse(labels.len()));
     let is_other: Box<dyn Fn(&str) -> bool> = match subject {
         Some(wanted) => {
@@ -67,12 +69,14 @@ fn find_other_subjects<'a>(subjects: &[(&'a str, &BTreeSet<&'a str>)]) -> Result
     let mut seen_labels: BTreeSet<&str> = BTreeSet::new();
     let mut others: Vec<(&str, usize)> = Vec::new();
     for (subject, labels) in subjects {
+        // Parts of one body have different labels, two people have the same ones.
         if seen_labels.is_disjoint(labels) {
             seen_labels.extend(labels.iter());
         } else {
             others.push((subject, labels.len()));
         }
     }
+    // A few doubles are ghosts of the solver; enough of them are a second body.
     if others.iter().any(|(_, count)| *count >= MIN_LABELLED_MARKERS) {
         let people = subjects.iter().filter(|(_, it)| it.len() >= MIN_LABELLED_MARKERS);
         let names = people.map(|(name, _)| shown_name(name));

@@ -41,6 +41,7 @@ impl<'s> FitSolver<'s> {
     pub(super) fn new(skeleton: &'s Skeleton, carriers: impl Iterator<Item = usize>) -> Self {
         let mut turned = vec![false; skeleton.len()];
         for carrier in carriers {
+            // A joint moves a marker as well if the marker hangs on one below it.
             for joint in skeleton.joint_ancestors(carrier) {
                 turned[joint] = true;
             }
@@ -75,6 +76,7 @@ impl<'s> FitSolver<'s> {
             let now = ModelPose::from_local_pose(self.skeleton, &moved);
             let new = self.fit_pose_cost(&moved, &now, targets);
             if new < cost {
+                // A cost of almost zero would turn rounding into gain.
                 let gain = (cost - new) / cost.max(1e-12);
                 (pose, model, cost) = (moved, now, new);
                 damping *= DAMPING_DECREASE_FACTOR;
@@ -98,6 +100,7 @@ impl<'s> FitSolver<'s> {
         let turned: f64 = self
             .joints
             .iter()
+            // The root has no rest: it may stand anywhere and face anywhere.
             .skip(1)
             .map(|&joint| self.off_rest(pose, joint).length_squared())
             .sum();
@@ -106,6 +109,7 @@ impl<'s> FitSolver<'s> {
 
     /// Returns the rotation of a joint from rest, as a rotation vector in its parent's space.
     fn off_rest(&self, pose: &LocalPose, joint: usize) -> DVec3 {
+        // Both signs are one rotation; the one with w above zero is the shorter turn.
         let raw_turn = pose.rotations[joint] * self.skeleton.joint_at(joint).rest.inverse();
         let turn = if raw_turn.w < 0.0 { -raw_turn } else { raw_turn };
         turn.to_scaled_axis()
@@ -130,11 +134,13 @@ impl<'s> FitSolver<'s> {
             columns.extend((0..3).map(|axis| (axis, DVec3::AXES[axis])));
             for &n in &self.above[target.joint] {
                 let arm = model_place - model.model_joint_position(self.joints[n]);
+                // A small turn about an axis moves a point by axis × arm: the Jacobian's column.
                 columns.extend((0..3).map(|axis| (3 + 3 * n + axis, DVec3::AXES[axis].cross(arm))));
             }
             for &(row, a) in &columns {
                 right[row] += a.dot(off);
                 for &(column, b) in &columns {
+                    // The matrix is symmetric, and only its lower half is read.
                     if column <= row {
                         matrix[row * size + column] += a.dot(b);
                     }
@@ -143,6 +149,7 @@ impl<'s> FitSolver<'s> {
         }
         for (n, &joint) in self.joints.iter().enumerate().skip(1) {
             let parent = self.skeleton.joint_parent(joint)?;
+            // The rest pull is given in the parent's space and solved for in model space.
             let back = model.model_joint_rotation(parent) * self.off_rest(pose, joint);
             for axis in 0..3 {
                 let row = 3 + 3 * n + axis;
@@ -151,6 +158,7 @@ impl<'s> FitSolver<'s> {
             }
         }
         for row in 0..size {
+            // Marquardt's scaling of the diagonal, and a constant for unknowns that no marker moves.
             matrix[row * size + row] *= 1.0 + damping;
             matrix[row * size + row] += 1e-9 + damping * 1e-4;
         }
@@ -162,11 +170,13 @@ impl<'s> FitSolver<'s> {
         let mut moved = pose.clone();
         moved.translations[0] += step[0];
         for (&joint, turn) in self.joints.iter().zip(&step[1..]) {
+            // Linearisation is good for small turns only; a wild step would land in another minimum.
             let turn = turn.clamp_length_max(MAX_STEP_RADIANS);
             let above = self
                 .skeleton
                 .joint_parent(joint)
                 .map_or(DQuat::IDENTITY, |parent| model.model_joint_rotation(parent));
+            // The step is in model space and local rotations are in the parent's, so it is conjugated.
             let local_turn = above.inverse() * DQuat::from_scaled_axis(turn) * above;
             moved.rotations[joint] = (local_turn * pose.rotations[joint]).normalize();
         }
@@ -183,6 +193,7 @@ fn solve_cholesky(matrix: &mut [f64], mut right: Vec<f64>, size: usize) -> Optio
                 sum -= matrix[row * size + k] * matrix[column * size + k];
             }
             if row == column {
+                // A pivot that is not positive means that more damping is needed or the data is broken.
                 if sum <= 0.0 || !sum.is_finite() {
                     return None;
                 }
@@ -192,6 +203,7 @@ fn solve_cholesky(matrix: &mut [f64], mut right: Vec<f64>, size: usize) -> Optio
             }
         }
     }
+    // Forwards through the lower triangle, then backwards through its transpose.
     for row in 0..size {
         let solved_sum: f64 = (0..row).map(|k| matrix[row * size + k] * right[k]).sum();
         right[row] = (right[row] - solved_sum) / matrix[row * size + row];

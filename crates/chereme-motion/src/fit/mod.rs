@@ -179,6 +179,7 @@ pub fn fit_skeleton(
         .map(|f| visible_marker_places(markers, f))
         .collect();
     let MarkerPerson { labels, others } = fit_people::select_marker_person(markers, subject)?;
+    // The stature below keeps the measured size; only the skeleton is held within limits.
     let measured = estimate_body_scale(&shown, &labels, skeleton, anatomy);
     let scale = measured.clamp(FIT_SCALE_LIMITS[0], FIT_SCALE_LIMITS[1]);
     let skeleton = scaled_skeleton(skeleton, scale)?;
@@ -194,6 +195,7 @@ pub fn fit_skeleton(
                 expected,
                 place: expected,
             }),
+            // With a subject given, markers of others are left out on purpose and are not called unused.
             None if subject.is_some() && others[marker] => {}
             None => unused.push(full_name(point)),
         }
@@ -210,10 +212,12 @@ pub fn fit_skeleton(
             .filter(|marker| shown[frame][marker.marker].is_some())
             .count()
     };
+    // Frames with few markers would calibrate the rest of the body to its rest pose.
     let full_frames: Vec<usize> = (0..shown.len()).filter(|&f| seen(f) >= FEWEST_SEEN).collect();
     if full_frames.is_empty() {
         return Err(FitError::Gaps(FEWEST_SEEN));
     }
+    // Which sides can be read is settled before calibration, which needs their turn in each round.
     let wrists =
         BodySide::BOTH_SIDES.map(|side| WristMarkers::find_wrist_markers(side, &used, &labels, &shown, &rest, anatomy));
     let unturned_sides = BodySide::BOTH_SIDES.into_iter().zip(&wrists);
@@ -258,6 +262,7 @@ fn calibrate(
     skeleton: &Skeleton,
 ) {
     let count = whole.len().min(FIT_SAMPLE_FRAMES);
+    // Spread evenly from the first full frame to the last, over postures as different as possible.
     let samples: Vec<usize> = (0..count)
         .map(|n| whole[n * (whole.len() - 1) / (count - 1).max(1)])
         .collect();
@@ -267,6 +272,7 @@ fn calibrate(
         for (pose, &frame) in poses.iter_mut().zip(&samples) {
             let targets = marker_targets(used, &shown[frame]);
             let (start, steps) = match pose.take().or_else(|| before.clone()) {
+                // Later rounds start from the round before, so that few steps are enough.
                 Some(pose) => (pose, if round == 0 { FIRST_STEPS } else { 4 * FIT_SOLVER_STEPS }),
                 None => (upright_rest_pose(&targets, skeleton), FIRST_STEPS),
             };
@@ -292,7 +298,9 @@ fn calibrate(
                 continue;
             }
             let median =
+                // The median in each axis: a marker that was swapped for a while does not move it.
                 DVec3::from_array([0, 1, 2].map(|axis| median_of_values(places.iter().map(|at| at[axis]).collect())));
+            // Beyond this distance the label is wrong rather than the body thick.
             it.place = it.expected + (median - it.expected).clamp_length_max(MAX_MARKER_DISTANCE_M);
         }
         for wrist in wrists {
@@ -321,12 +329,14 @@ fn all_frames(
     for frame in shown {
         let targets = marker_targets(used, frame);
         if targets.len() < FEWEST_SEEN {
+            // The posture before is held over a gap; a gap at the start shows the rest pose.
             let last_pose = moved.poses.last().cloned();
             moved.poses.push(last_pose.unwrap_or_else(|| skeleton.rest_pose()));
             moved.held += 1;
             continue;
         }
         let (start, steps) = match moved.poses.last().filter(|_| !first) {
+            // A held rest pose before the first markers is no good start for the solver.
             Some(before) => (before.clone(), FIT_SOLVER_STEPS),
             None => (upright_rest_pose(&targets, skeleton), FIRST_STEPS),
         };
@@ -359,6 +369,7 @@ fn upright_rest_pose(targets: &[MarkerTarget], skeleton: &Skeleton) -> LocalPose
     let from = rest_points.iter().sum::<DVec3>() / count;
     let to = targets.iter().map(|target| target.at).sum::<DVec3>() / count;
     let (mut sine, mut cosine) = (0.0, 0.0);
+    // The best turn about the vertical in closed form: the angle of summed cross and dot products.
     for (own, target) in rest_points.iter().zip(targets) {
         let (a, b) = (*own - from, target.at - to);
         cosine += a.x * b.x + a.z * b.z;
@@ -383,6 +394,7 @@ fn anchored(
         None => from,
         Some((part, share)) => {
             let end = match anatomy.part_joint(part) {
+                // A skeleton without the part's joint may still have its bone's end.
                 Some(end) => rest.model_joint_position(end),
                 None => rest.bone_tip_position(skeleton, joint)?,
             };
@@ -424,6 +436,7 @@ fn estimate_body_scale(
             (BodyPart::Shin(side), BodyPart::Foot(side)),
         ];
         for (from, to) in bones {
+            // Thighs are left out, since hip markers lie on the pelvis and not at its joints.
             let (Some(a), Some(b)) = (anatomy.part_joint(from), anatomy.part_joint(to)) else {
                 continue;
             };
@@ -440,6 +453,7 @@ fn estimate_body_scale(
     if ratios.is_empty() {
         return 1.0;
     }
+    // The median of the bones: one label on the wrong joint does not scale the body.
     median_of_values(ratios)
 }
 
@@ -457,6 +471,7 @@ fn infer_marker_rate(markers: &MarkerTrack) -> Result<FrameRate, RateError> {
         return Ok(*rate);
     }
     let seconds = markers.marker_track_span().span_seconds().max(1e-6);
+    // Thousandths of a frame a second keep broadcast rates apart.
     let per_second = (markers.marker_frame_count() as f64 / seconds * 1000.0).round();
     FrameRate::new(per_second.clamp(1.0, 4e9) as u32, 1000)
 }
@@ -464,6 +479,7 @@ fn infer_marker_rate(markers: &MarkerTrack) -> Result<FrameRate, RateError> {
 fn fitted_clip(skeleton: &Arc<Skeleton>, rate: FrameRate, poses: &[LocalPose]) -> Result<Clip, FitError> {
     let channels = (0..skeleton.len()).map(|joint| JointChannel {
         rotations: poses.iter().map(|pose| pose.rotations[joint]).collect(),
+        // Bones keep their length: only the root moves.
         translations: (joint == 0).then(|| poses.iter().map(|pose| pose.translations[0]).collect()),
     });
     Ok(Clip::new(skeleton.clone(), rate, channels.collect())?)
@@ -497,6 +513,7 @@ fn measure_fitted_markers(
             .filter(|distance| !distance.is_nan())
             .collect();
         off.sort_by(f64::total_cmp);
+        // An empty list of distances, for a marker that is never seen, gives no value.
         let most = off.get(off.len() * 19 / 20).or(off.last()).copied();
         FittedMarker {
             name: full_name(&markers.marker_points()[marker.marker]),

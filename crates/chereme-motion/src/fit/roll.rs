@@ -39,6 +39,7 @@ impl WristMarkers {
             })
         };
         let (thumb, little) = (find(1.0)?, find(-1.0)?);
+        // Two markers that are never seen together leave no line to read a turn from.
         let seen = |frame: &Vec<Option<DVec3>>, it: usize| frame[used[it].marker].is_some();
         if !shown.iter().any(|frame| seen(frame, thumb) && seen(frame, little)) {
             return None;
@@ -60,11 +61,13 @@ impl WristMarkers {
     pub(super) fn turn_forearm_markers(&self, used: &mut [UsedMarker]) {
         let line = used[self.thumb].place - used[self.little].place;
         let across = line.reject_from_normalized(self.along);
+        // A line almost along the forearm says nothing about its turn.
         if across.length() <= MIN_WRIST_ANGLE_SINE * line.length() {
             return;
         }
         let off = across.cross(self.thumbwards).dot(self.along);
         let turn = DQuat::from_axis_angle(self.along, off.atan2(across.dot(self.thumbwards)));
+        // All markers of the forearm turn together: the fit finds their places only up to this turn.
         for it in used.iter_mut().filter(|marker| marker.joint == self.joint) {
             it.place = turn * it.place;
         }
@@ -81,6 +84,7 @@ pub(super) fn marker_bone_shift(label: MarkerAttachment, rest: &ModelPose, anato
         shift += label.thumbwards * thumbwards(side, rest, anatomy)?;
     }
     if label.raised != 0.0 {
+        // Out of the back is against the palm's normal.
         shift -= label.raised * anatomy.palm_normal(side, rest)?;
     }
     Some(shift)
@@ -92,10 +96,12 @@ fn thumbwards(side: BodySide, rest: &ModelPose, anatomy: &BodyAnatomy) -> Option
     let finger_bases = HandFinger::ALL_FINGERS.map(|finger| part_place(BodyPart::Finger(side, finger, 1)));
     let mut bases = finger_bases.into_iter().flatten();
     let first = bases.next()?;
+    // A hand with one finger shows its thumb side by the thumb.
     let across = match bases.last() {
         Some(last) => first - last,
         None => part_place(BodyPart::Thumb(side, 1)).or(part_place(BodyPart::Thumb(side, 0)))? - first,
     };
     let along = (part_place(BodyPart::Hand(side))? - part_place(BodyPart::Forearm(side))?).try_normalize()?;
+    // The side may lean along the forearm, which is no turn about it.
     across.reject_from_normalized(along).try_normalize()
 }

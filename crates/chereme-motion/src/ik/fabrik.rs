@@ -57,6 +57,7 @@ pub fn solve_fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) ->
     };
     let lengths: Vec<f64> = points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
     let full_length: f64 = lengths.iter().sum();
+    // A bone without length has no direction to keep.
     if lengths
         .iter()
         .any(|&l| l <= 1e-9 * full_length || l < f64::MIN_POSITIVE)
@@ -65,9 +66,11 @@ pub fn solve_fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) ->
     }
     let mut points = points.to_vec();
     let mut passes = 0;
+    // Out of reach the passes would converge slowly to the straight chain, which is known at once.
     if root.distance(target) >= full_length {
         let direction = (target - root).normalize_or(DVec3::X);
         stretch_chain(&mut points, &lengths, direction);
+    // Inside of reach only: a straight chain would slide along its line and never bend.
     } else {
         unbend_line(&mut points, target, full_length, options.pole);
         while passes < options.passes && residual(&points, target) > options.tolerance {
@@ -98,6 +101,7 @@ fn stretch_chain(points: &mut [DVec3], lengths: &[f64], direction: DVec3) {
 /// Sets the first of `points` on `anchor`, and the others at their lengths in the direction of their old positions.
 fn pull<'a>(points: impl Iterator<Item = &'a mut DVec3>, lengths: impl Iterator<Item = &'a f64>, anchor: DVec3) {
     let mut before = anchor;
+    // The first point goes onto the anchor itself, at no distance.
     for (point, length) in points.zip(std::iter::once(&0.0).chain(lengths)) {
         *point = before + (*point - before).normalize_or(DVec3::X) * *length;
         before = *point;
@@ -111,6 +115,7 @@ fn unbend_line(points: &mut [DVec3], target: DVec3, whole: f64, pole: Option<DVe
         return;
     };
     let off = |point: &DVec3| (*point - root).reject_from_normalized(line).length();
+    // A point off the line by a millionth of the length is enough for the passes to bend the chain.
     if points.iter().chain([&target]).any(|point| off(point) > 1e-6 * whole) {
         return;
     }

@@ -111,6 +111,7 @@ pub fn reach_wrist(
         .map(|out| upper * out)
         .or_else(|| back_and_down(anatomy, skeleton, pose));
     let help = collar(skeleton, pose, &arm, source, target.position, options);
+    // The collar bone moves the whole arm before the arm itself is solved.
     let shift = help.map_or(DVec3::ZERO, |help| help.shoulder - shoulder);
     let start = source.map(|at| at + shift);
     let solved = solve_arm_chain(start, target.position, options, pole)?;
@@ -118,14 +119,17 @@ pub fn reach_wrist(
     let line = source_line(source);
     let towards = source_line([start[0], solved.middle, solved.end]);
     let line_turn = least_turn(line, towards);
+    // First with the whole arm, then the least turn onto the new bone: so the swivel stays.
     let turned = |from: DVec3, to: DVec3| least_turn((line_turn * from).normalize(), to.normalize()) * line_turn;
     let upper = turned(elbow - shoulder, solved.middle - start[0]) * upper;
     let straight = turned(wrist - elbow, solved.end - solved.middle) * forearm;
     let bone = (forearm.inverse() * (wrist - elbow)).normalize();
     let twist_was = rotation_twist(forearm.inverse() * hand, bone);
     let twist_now = rotation_twist(straight.inverse() * target.rotation, bone);
+    // The forearm takes the change of twist, so that the wrist is twisted as before.
     let forearm = straight * twist_now * twist_was.inverse();
 
+    // Parents first: each local rotation is computed from the joints above, which are final then.
     if let (Some(help), Some(clavicle)) = (help, arm.clavicle) {
         turn_joint_to(skeleton, pose, clavicle, help.rotation);
     }
@@ -194,17 +198,21 @@ fn collar(
     let share = options.clavicle.filter(|share| share.is_finite())?;
     let (root, turned) = joint_model_placement(skeleton, pose, arm.clavicle?);
     let length = shoulder.distance(elbow) + elbow.distance(wrist);
+    // A source that reaches further than the share is not pulled back.
     let enough = (share.max(0.0) * length).max(shoulder.distance(wrist));
     let (bone, to_target) = (shoulder - root, target - root);
     if shoulder.distance(target) <= enough || bone.length() <= 1e-9 * length {
         return None;
     }
+    // A target in line with the collar bone cannot be brought nearer by turning.
     let axis = bone.cross(to_target).try_normalize()?;
     let (b, w) = (bone.length(), to_target.length());
+    // Law of cosines: the angle at which shoulder and target are `enough` apart.
     let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
     let wanted = bone.angle_between(to_target) - cosine.clamp(-1.0, 1.0).acos();
     let limit = options.clavicle_limit.clamp(0.0, std::f64::consts::FRAC_PI_2);
     let angle = if limit > 0.0 {
+        // The hyperbolic tangent approaches the limit without a kink and never reaches it.
         limit * (wanted.max(0.0) / limit).tanh()
     } else {
         0.0

@@ -66,6 +66,7 @@ pub fn two_bone(source: [DVec3; 3], target: DVec3, options: &TwoBoneOptions) -> 
     }
     let (first, second) = (root.distance(middle), middle.distance(end));
     for (length, name) in [(first, "first bone"), (second, "second bone")] {
+        // A bone without length leaves the elbow without a circle to lie on.
         if length <= 1e-9 * (first + second) || length < f64::MIN_POSITIVE {
             return Err(IkError::ZeroBone(name));
         }
@@ -74,16 +75,20 @@ pub fn two_bone(source: [DVec3; 3], target: DVec3, options: &TwoBoneOptions) -> 
     let line = source_line(source);
     let wanted = root.distance(target);
     let reached = limit_reach_distance(wanted, root.distance(end), [first, second], options.soft);
+    // A target on the shoulder has no direction: the arm keeps that of the source.
     let towards = (target - root).try_normalize().unwrap_or(line);
+    // Target on the root: every direction is right, so the first bone points beside the line.
     let (along, beside) = if reached < 1e-12 * length {
         (0.0, first)
     } else {
         let raw_x = (first * first - second * second + reached * reached) / (2.0 * reached);
+        // Rounding at full extension may put the foot of the elbow beyond the first bone.
         let x = raw_x.clamp(-first, first);
         (x, (first * first - x * x).max(0.0).sqrt())
     };
     let bend_direction = swivel_direction(source, line, beside, options.pole);
     let out = least_turn(line, towards) * bend_direction;
+    // After the turn the bend may lean along the line a little, which would change the lengths.
     let out = out.reject_from_normalized(towards).normalize_or(out);
     Ok(TwoBone {
         middle: root + towards * along + out * beside,
@@ -115,6 +120,7 @@ pub(super) fn least_turn(from: DVec3, to: DVec3) -> DQuat {
 fn limit_reach_distance(wanted: f64, source: f64, [first, second]: [f64; 2], soft: f64) -> f64 {
     let length = first + second;
     let near = (first - second).abs();
+    // A source that is extended further than the soft range keeps its own extension.
     let from = (length * (1.0 - soft.clamp(0.0, 1.0))).max(source.min(length));
     let left = length - from;
     if wanted <= from {
@@ -122,6 +128,7 @@ fn limit_reach_distance(wanted: f64, source: f64, [first, second]: [f64; 2], sof
     } else if left <= 1e-12 * length {
         length
     } else {
+        // The exponential meets the identity with slope one and never passes the full length.
         length - left * (-(wanted - from) / left).exp()
     }
 }
@@ -132,13 +139,16 @@ fn swivel_direction(source: [DVec3; 3], line: DVec3, beside: f64, pole: Option<D
     let clear = CLEAR_SWIVEL_SHARE * (root.distance(middle) + middle.distance(end));
     let middle_offset = (middle - root).reject_from_normalized(line);
     let share = (middle_offset.length() / clear).clamp(0.0, 1.0);
+    // A smooth step, so that trust in the source's swivel sets in without a kink.
     let trust = share * share * (3.0 - 2.0 * share);
+    // The pole helps only an arm that bends more than its source did.
     let grown = ((beside - middle_offset.length()) / clear).clamp(0.0, 1.0);
     let raw_pole = pole.unwrap_or(DVec3::ZERO).normalize_or_zero();
     let pole = raw_pole.reject_from_normalized(line);
     let mixed = middle_offset + pole * (clear * (1.0 - trust) * grown);
     mixed
         .try_normalize()
+        // Source and pole may cancel each other; then the pole alone decides.
         .filter(|_| mixed.length() > 1e-9 * clear)
         .or(pole.try_normalize().filter(|_| pole.length() > 1e-9))
         .unwrap_or_else(|| line.any_orthonormal_vector())
