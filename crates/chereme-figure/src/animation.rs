@@ -136,12 +136,14 @@ impl<'a> ClipAnimation<'a> {
     /// [`FigureError`] if the clip is empty, no view is requested, pictures would be too large or too
     /// many, or the speed is not one of [`ANIMATION_SPEEDS`].
     pub fn new(clip: &'a Clip, anatomy: &'a BodyAnatomy, options: AnimationOptions) -> Result<Self, FigureError> {
+        // Computed even if a framing is given, since it refuses an empty clip.
         let clip_framing = ClipFraming::framing_from_clip(clip, anatomy).ok_or(FigureError::Empty)?;
         let framing = options.framing.unwrap_or(clip_framing);
         if options.views.is_empty() {
             return Err(FigureError::Nothing { what: "view" });
         }
         let room = options.height.saturating_sub(options.progress_bar_height());
+        // Very narrow and very wide columns would leave no room for the others.
         let width = |&view: &FigureView| (framing.framing_view_aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
         let columns: Vec<usize> = options.views.iter().map(width).collect();
         for &column in &columns {
@@ -154,6 +156,7 @@ impl<'a> ClipAnimation<'a> {
         let sound = clip
             .clip_frame_rate()
             .frame_range_span(ClipEnds::examine_clip_ends(clip, anatomy).sound);
+        // At half speed a picture shows half the time of the clip.
         let step = options.picture_seconds() * options.speed;
         let frames = ((sound.span_seconds() / step).ceil() as usize).max(1);
         if frames > MAX_FRAMES {
@@ -201,6 +204,7 @@ impl<'a> ClipAnimation<'a> {
         let instant = self.frame_clip_instant(frame);
         let local = self.clip.sample_pose(instant);
         let skeleton = self.clip.clip_skeleton();
+        // The posture's buffers are reused from picture to picture.
         match &mut self.pose {
             Some(pose) => pose.set_local_pose(skeleton, &local),
             none => *none = Some(ModelPose::from_local_pose(skeleton, &local)),
@@ -211,6 +215,7 @@ impl<'a> ClipAnimation<'a> {
             return image;
         };
         self.body.shape_body_mesh(pose, &mut self.mesh);
+        // Frames beyond the list of faces are at rest, as the mesh is already.
         if let Some(face) = FacePosture::face_at_moment(&self.options.faces, self.clip.clip_frame_rate(), instant) {
             self.body.apply_face_expression(pose, &face, &mut self.mesh);
         }
@@ -256,9 +261,11 @@ pub fn write_gif(
     let sampled = total.min(GIF_SAMPLED_PICTURES);
     let mut quantizer = ColourQuantizer::default();
     for i in 0..sampled {
+        // Pictures evenly from the first to the last, so that late colours are not missed.
         let picture = animation.draw_sequence_picture((total - 1) * i / (sampled - 1).max(1));
         quantizer.count_picture_colours(picture.image_pixels());
     }
+    // The last index is kept for pixels that do not change.
     quantizer.choose_palette_colours(usize::from(CLEAR_COLOUR_INDEX));
     let [width, height] = animation.picture_size().map(|side| side as u16);
     let delay = animation.centiseconds();
@@ -288,6 +295,7 @@ const CLEAR_COLOUR_INDEX: u8 = 255;
 /// Returns the smallest rectangle in which `next` differs from `shown`, with unchanged pixels left clear.
 fn changed_gif_frame(shown: &[u8], next: &[u8], width: usize) -> gif::Frame<'static> {
     let height = next.len() / width;
+    // The first picture has nothing before it.
     if shown.is_empty() {
         return gif::Frame {
             width: width as u16,
@@ -305,6 +313,7 @@ fn changed_gif_frame(shown: &[u8], next: &[u8], width: usize) -> gif::Frame<'sta
             high = [high[0].max(last + 1), y + 1];
         }
     }
+    // A GIF needs a picture even if nothing changed: one clear pixel.
     if high[0] == 0 {
         (low, high) = ([0, 0], [1, 1]);
     }

@@ -63,6 +63,7 @@ pub(crate) fn unpack_paint(paint: u32, part: usize) -> f32 {
 impl SampleBuffers {
     /// Clears everything to paper.
     pub(crate) fn clear_buffers(&mut self, size: [usize; 2], margin: usize) {
+        // Of equal size only the rows in use have to be cleared.
         if (self.size, self.margin) == (size, margin) {
             let rows = self.rows_of(&self.used[1]);
             self.paint[rows].fill(0);
@@ -79,6 +80,7 @@ impl SampleBuffers {
             }
             self.paint.clear();
             self.paint.resize(len, 0);
+            // Depths of another size cannot veil anything.
             self.solid_used = 0..0;
         }
         self.set_used([0..0, 0..0]);
@@ -107,6 +109,7 @@ impl SampleBuffers {
         let rows = self.rows_of(&self.used[1]);
         let (depth, paint) = (&mut self.depth[rows.clone()], &mut self.paint[rows.clone()]);
         for ((depth, paint), before) in depth.iter_mut().zip(paint).zip(&self.solid[rows]) {
+            // What is less than the distance before the surface counts as behind it.
             if *before < *depth + VEIL_DISTANCE_METRES {
                 *depth = PAPER_DEPTH;
                 *paint = 0;
@@ -117,6 +120,7 @@ impl SampleBuffers {
     /// Keeps the depths of this layer for the layers that it veils; the current depths are invalid until
     /// they are cleared.
     pub(crate) fn keep_layer_depths(&mut self) {
+        // Swapped instead of copied: the other buffer is cleared before it is used again.
         std::mem::swap(&mut self.solid, &mut self.depth);
         std::mem::swap(&mut self.solid_used, &mut self.depth_used);
     }

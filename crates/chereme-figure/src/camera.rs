@@ -44,6 +44,7 @@ impl FigureCamera {
     #[must_use]
     pub fn camera_projection(&self, width: usize, height: usize) -> CameraProjection {
         let sight = self.target - self.eye;
+        // An eye at its target looks away from the viewer.
         let forward = sight.normalize_or(Vec3::NEG_Z);
         let right = forward.cross(self.up).normalize_or(Vec3::X);
         let up = right.cross(forward);
@@ -64,6 +65,7 @@ impl CameraProjection {
         let [right, up, forward] = self.axes;
         let from_eye = point - self.eye;
         let depth = forward.dot(from_eye);
+        // Behind the eye the sign is wrong; callers test the depth.
         let scale = self.scale / depth;
         ProjectedPoint {
             x: self.centre[0] + right.dot(from_eye) * scale,

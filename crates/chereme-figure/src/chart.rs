@@ -64,6 +64,7 @@ pub fn alignment_picture(
     let mut chart = RasterImage::new(width, height, theme.theme_paper_colour());
     let inner = options.size as i64;
     let (left, top) = (CHART_MARGIN_PIXELS as i64, font::CELL_WIDTH_DOTS as i64);
+    // Both axes have one scale, so that an even alignment of equal clips is a true diagonal.
     let longest = lengths[0].max(lengths[1]).max(2) as i64 - 1;
     let extent = lengths.map(|length| (length as i64 - 1) * (inner - 1) / longest);
     let place = |a: i64, b: i64| {
@@ -80,6 +81,7 @@ pub fn alignment_picture(
     let colour = CHART_PATH_COLOURS[usize::from(theme == PaperTheme::Dark)];
     let points: Vec<[i64; 2]> = path.iter().map(|&(a, b)| place(a as i64, b as i64)).collect();
     for pair in points.windows(2) {
+        // The path is two pixels wide.
         for [dx, dy] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
             let moved = |at: [i64; 2]| [at[0] + dx, at[1] - dy];
             chart.draw_image_line(moved(pair[0]), moved(pair[1]), colour);

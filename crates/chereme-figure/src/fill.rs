@@ -59,12 +59,14 @@ impl BufferBand<'_> {
             return;
         }
         let area = doubled_signed_area(a.at, b.at, c.at);
+        // Seen from behind: closed surfaces hide these triangles anyway.
         if area >= 0 {
             return;
         }
         let range = |axis: usize, first: usize, count: usize| {
             let [a, b, c] = corners.map(|corner| corner.at[axis]);
             let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            // The first and the last sample whose middle lies within the corners' range.
             let from = (low + SUBPIXEL_UNIT / 2 - 1)
                 .div_euclid(SUBPIXEL_UNIT)
                 .max(first as i32);
@@ -77,6 +79,7 @@ impl BufferBand<'_> {
             return;
         }
         let place = [left, right, top, bottom];
+        // Small triangles are almost all of them, and 32 bits vectorise better.
         if width.max(height) < MAX_NARROW_SIZE {
             self.fill_narrow_triangle(corners, area as i32, place);
         } else {
@@ -106,6 +109,7 @@ impl BufferBand<'_> {
             EdgeLimit::new(-across_u - across_v),
         ];
         let share = 1.0 / area as f32;
+        // The third edge follows from the other two: the three values sum up to the area.
         let value_slope = |corner: &TriangleCorner| -> [f32; 4] {
             std::array::from_fn(|part| (corner.values[part] - c.values[part]) * share)
         };
@@ -128,6 +132,7 @@ impl BufferBand<'_> {
                 let depths = self.depth[row.clone()].iter_mut();
                 let mut k = 0.0;
                 for (depth, paint) in depths.zip(&mut self.paint[row]) {
+                    // The picture is drawn in any order of triangles; the nearest one wins.
                     let pixel_depth = first[0] + step[0] * k;
                     if pixel_depth < *depth {
                         *depth = pixel_depth;
@@ -160,6 +165,7 @@ impl BufferBand<'_> {
         let share = 1.0 / area as f32;
         let last = i64::from(right - left);
         for row in top..=bottom {
+            // Exact division in integers, since products of such sides exceed what a float holds.
             let (from, to) = inside_column_span(first, across, last);
             let start = (row as usize - self.first) * self.stride + self.margin + left as usize;
             for column in from..=to {
@@ -193,6 +199,7 @@ struct EdgeLimit {
 impl EdgeLimit {
     #[inline(always)]
     fn new(across: i32) -> Self {
+        // An edge along the row has no column where it begins.
         let inverse = if across == 0 { 0.0 } else { 1.0 / f64::from(across) };
         Self { across, inverse }
     }
@@ -222,6 +229,7 @@ fn inside_column_span(first: [i64; 3], across: [i64; 3], wide: i64) -> (i64, i64
             from = from.max((value + step - 1) / step);
         } else if step < 0 && value <= 0 {
             to = to.min(value / step);
+        // An edge along the row leaves all columns or none.
         } else if value > 0 {
             return (1, 0);
         }

@@ -205,6 +205,7 @@ pub(crate) fn fit_text_width(text: &str, dots: usize) -> String {
     }
     let cut = |count: usize| beginning(count) + "…";
     let (mut low, mut high) = (0, text.chars().take(most).count());
+    // Widths grow with the number of characters, so that halving finds the longest that fits.
     while low < high {
         let middle = (low + high).div_ceil(2);
         if text_width_dots(&cut(middle)) <= dots {
@@ -231,6 +232,7 @@ pub(crate) fn draw_text_dots(text: &str, mut dot: impl FnMut(usize, usize)) {
 fn glyph_cell(character: char) -> [u8; CELL_HEIGHT_DOTS] {
     if let Some(&(_, letter, accent)) = ACCENTED_LETTERS.iter().find(|entry| entry.0 == character) {
         let mut rows = glyph_cell(letter);
+        // Accents sit right on the letter: small letters begin two rows lower than capitals.
         let accent_top = match (accent, letter.is_uppercase()) {
             (CEDILLA_ACCENT, _) => CAPITAL_TOP_ROW + 7,
             (_, true) => CAPITAL_TOP_ROW - 3,
@@ -240,9 +242,11 @@ fn glyph_cell(character: char) -> [u8; CELL_HEIGHT_DOTS] {
         rows[accent_top + 1] |= accent[1];
         return rows;
     }
+    // These letters have their stems below the line.
     let down = usize::from("gpqyj".contains(character)) * 2;
     let mut rows = [0; CELL_HEIGHT_DOTS];
     rows[CAPITAL_TOP_ROW + down..CAPITAL_TOP_ROW + down + 7].copy_from_slice(&glyph(character));
+    // The dot of j stays where that of i is, though its stem is lower.
     if character == 'j' {
         rows[CAPITAL_TOP_ROW] = 0x02;
         rows[CAPITAL_TOP_ROW + 1..CAPITAL_TOP_ROW + 3].copy_from_slice(&[0x00, 0x06]);

@@ -186,6 +186,7 @@ impl<'a> HandArtist<'a> {
 
 /// Returns the camera of a view; the hand is at the origin, its palm towards +Z.
 fn hand_view_camera(view: HandView, side: BodySide, tight: bool) -> FigureCamera {
+    // With the palm towards +Z and fingers up, the thumb of a right hand is at +X.
     let thumb = -side.side_sign() as f32;
     let towards = match view {
         HandView::ThreeQuarter => Vec3::new(0.42 * thumb, 0.30, 1.0),
@@ -193,6 +194,7 @@ fn hand_view_camera(view: HandView, side: BodySide, tight: bool) -> FigureCamera
         HandView::Back => Vec3::NEG_Z,
         HandView::Thumb => Vec3::X * thumb,
     };
+    // A spread thumb makes the hand reach farther on its side.
     let target = Vec3::new(0.012 * thumb, 0.083, 0.0);
     FigureCamera {
         eye: target + towards.normalize() * 0.9,
@@ -237,6 +239,7 @@ impl HandFigure {
             joints.push(SkeletonJoint::new(format!("{name}{part}"), parent, offset));
             joints.len() - 1
         };
+        // The forearm stands before the wrist, so that detection finds an arm.
         let forearm = add("ForeArm", None, [0.0, -250.0, 0.0]);
         let wrist = add("Hand", Some(forearm), [0.0, 250.0, 0.0]);
         let mut last = add("HandThumb1", Some(wrist), [23.0, 22.0, 8.0]);

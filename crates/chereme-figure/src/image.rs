@@ -93,9 +93,11 @@ impl RasterImage {
 
     /// Draws a straight line between two pixels, both included.
     pub(crate) fn draw_image_line(&mut self, from: [i64; 2], to: [i64; 2], colour: RgbColour) {
+        // One pixel for each step of the longer side leaves no gap.
         let steps = (to[0] - from[0]).abs().max((to[1] - from[1]).abs()).max(1);
         for step in 0..=steps {
             let along = |axis: usize| {
+                // Doubled, so that half a pixel is added without a fraction.
                 let twice = 2 * (to[axis] - from[axis]) * step + steps;
                 from[axis] + twice.div_euclid(2 * steps)
             };
@@ -125,6 +127,7 @@ impl RasterImage {
             return self.set_image_pixel(x, y, colour);
         }
         let inside = (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
+        // Text may reach beyond the picture.
         if inside {
             let below = &mut self.pixels[y as usize * self.width + x as usize];
             for (below, over) in below.0.iter_mut().zip(colour.0) {

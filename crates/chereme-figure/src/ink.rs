@@ -78,6 +78,7 @@ pub(crate) fn ink_picture(
     let ink = InkSettings {
         outline: style.theme.outline_colour().0.map(f32::from),
         near: neighbour_sample_steps(half_line_width(samples, style), buffers.stride),
+        // Lines reach as far as half their width, shades farther.
         far: neighbour_sample_steps(reach_in_samples(samples, SHADE_REACH_PIXELS), buffers.stride),
         step: style.step,
         touch: TOUCH_STEP,
@@ -92,6 +93,7 @@ pub(crate) fn ink_picture(
     };
     let width = image.image_width();
     let (columns, rows) = (touched(0, width), touched(1, image.image_height()));
+    // Nothing was drawn: the background stays as it is.
     if columns.is_empty() || rows.is_empty() || buffers.used[1].is_empty() {
         return;
     }
@@ -112,6 +114,7 @@ pub(crate) fn ink_picture(
     let last = bands.pop();
     std::thread::scope(|scope| {
         for band in bands {
+            // The last band is drawn by this thread, which would only wait otherwise.
             scope.spawn(|| Arch::new().dispatch(band));
         }
         if let Some(band) = last {
@@ -137,6 +140,7 @@ impl NullaryFnOnce for InkingTask<'_> {
 
     #[inline(always)]
     fn call(self) {
+        // One and two samples are usual and get code without tests for marks.
         match (self.samples, self.buffers.marked) {
             (1, false) => self.ink_picture_rows::<1, false>(),
             (2, false) => self.ink_picture_rows::<2, false>(),
@@ -183,6 +187,7 @@ impl InkSettings {
                 paper &= self.is_paper(buffers, at + j * buffers.stride + nth * INK_LANE_SAMPLES);
             }
         }
+        // Most strips are paper and need no work.
         if paper {
             return;
         }
@@ -195,6 +200,7 @@ impl InkSettings {
         let mut sums = [[0.0f32; INK_LANE_SAMPLES]; 3];
         for j in 0..STRIP_PIXEL_SAMPLES {
             for nth in 0..STRIP_PIXEL_SAMPLES {
+                // Lanes hold samples, and several of them belong to one pixel.
                 let (first, each) = (
                     nth * (INK_LANE_SAMPLES / STRIP_PIXEL_SAMPLES),
                     INK_LANE_SAMPLES / STRIP_PIXEL_SAMPLES,
@@ -273,11 +279,13 @@ impl InkSettings {
             for k in 0..INK_LANE_SAMPLES {
                 let depth_gap = depth[k] - other[k];
                 let before = if depth_gap > 0.0 { depth_gap } else { 0.0 };
+                // A mark in front draws no line on what is behind it.
                 let before = if HAS_MARKED_SAMPLES && part[k] >= FIRST_MARK_PAINT {
                     0.0
                 } else {
                     before
                 };
+                // Parts are equal if their bits are, whatever their colours.
                 let same = (part[k] ^ paint[k]) & PAINT_PART_MASK == 0;
                 let (own, apart) = if same { (before, 0.0) } else { (0.0, before) };
                 within[k] = if own > within[k] { own } else { within[k] };
@@ -288,6 +296,7 @@ impl InkSettings {
         for step in self.far {
             let other = lane_values(&buffers.depth, at.wrapping_add_signed(step), &FAR_LANE_DEPTHS);
             for k in 0..INK_LANE_SAMPLES {
+                // A step below the first threshold throws no shade.
                 let depth_gap = (depth[k] - SHADE_STEPS[0]) - other[k];
                 let before = if depth_gap > 0.0 { depth_gap } else { 0.0 };
                 behind[k] += if before < SHADE_STEPS[1] {
@@ -306,6 +315,7 @@ impl InkSettings {
                 LINE_STRENGTHS[1]
             };
             let apart = if between[k] > self.touch { clear } else { 0.0 };
+            // The stronger of both lines, since they would be too dark together.
             line[k] = if ink_strength > apart { ink_strength } else { apart };
             light[k] = (1.0 - behind[k] * (SHADE_STRENGTH / 8.0 / SHADE_STEPS[1])) * (1.0 - line[k]);
         }
@@ -320,6 +330,7 @@ impl InkSettings {
                     inner
                 };
                 let outline = self.outline[part];
+                // Paper next to a surface is where the outline lies.
                 let paper = if between[k] > 0.0 { outline } else { below[part][k] };
                 inked[part][k] = if paint[k] == 0 { paper } else { marked };
             }
@@ -338,6 +349,7 @@ fn lane_values<'a, T>(all: &'a [T], at: usize, missing: &'a [T; INK_LANE_SAMPLES
 /// Returns the steps to the eight places `reach` samples away.
 fn neighbour_sample_steps(reach: usize, stride: usize) -> [isize; 8] {
     let (reach, stride) = (reach as isize, stride as isize);
+    // Three quarters stand for the diagonal's 0.71, rounded to whole samples.
     let slant = (reach * 3 + 2) / 4;
     [
         [reach, 0],

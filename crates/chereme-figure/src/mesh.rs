@@ -55,6 +55,7 @@ pub fn trail_mesh(points: &[Vec3], radius: f32, [from, to]: [RgbColour; 2], grou
     let grid = RingGrid::new(6, points.len());
     let last = points.len() - 1;
     let mut vertices = Vec::with_capacity(grid.len());
+    // Carried from ring to ring, so that the tube does not twist.
     let mut side = Vec3::X;
     let mut add = |position, normal, share: f32| {
         vertices.push(MeshVertex {
@@ -66,6 +67,7 @@ pub fn trail_mesh(points: &[Vec3], radius: f32, [from, to]: [RgbColour; 2], grou
     };
     add(points[0], Vec3::NEG_Z, 0.0);
     for (index, &point) in points.iter().enumerate() {
+        // The step across both neighbours is smoother than that to one of them.
         let step_vector = points[(index + 1).min(last)] - points[index.saturating_sub(1)];
         let along = step_vector.normalize_or(Vec3::Z);
         let fallback = along.any_orthonormal_vector();
@@ -153,12 +155,14 @@ pub(crate) fn smooth_vertex_normals(vertices: &mut [MeshVertex], triangles: &[[u
     for triangle in triangles {
         let [a, b, c] = triangle.map(|index| (index - base) as usize);
         let origin = vertices[a].position;
+        // The cross product is as long as twice the area, which weighs large triangles more.
         let normal = (vertices[b].position - origin).cross(vertices[c].position - origin);
         for index in [a, b, c] {
             vertices[index].normal += normal;
         }
     }
     for vertex in vertices.iter_mut() {
+        // A vertex of no triangle has no normal; any will do.
         vertex.normal = vertex.normal.normalize_or(Vec3::Y);
     }
 }

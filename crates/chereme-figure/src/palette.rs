@@ -154,6 +154,7 @@ impl FigurePalette {
         let tone = tone.clamp(1, 10);
         let skin = RgbColour::from_hex_colour(MONK_SKIN_TONES[tone - 1]);
         let light = RgbColour::from_hex_colour(0xFC_DE_C2);
+        // From the sixth tone on, clothes are light behind dark hands.
         let dark = tone > 5;
         let hand = HandColours {
             palm: skin.mix_colour(light, PALM_LIGHT_SHARES[tone - 1]),

@@ -51,6 +51,7 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
     pub fn cloud_from_markers(held: M, theme: PaperTheme) -> Option<Self> {
         let markers = held.borrow();
         let frames = markers.marker_frame_count();
+        // Every frame of a long recording would take long and show no other space.
         let step = frames.div_ceil(SAMPLED_CLOUD_FRAMES).max(1);
         let mut axes: [Vec<f32>; 3] = Default::default();
         for frame in (0..frames).step_by(step) {
@@ -64,6 +65,7 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
         }
         let mut ends = axes.map(|mut values| {
             values.sort_by(f32::total_cmp);
+            // A hundredth at either end is left out: a lost marker may be metres away.
             let out = (values.len() as f32 * OUTLIER_SHARE) as usize;
             let last = values.len().checked_sub(1 + out)?;
             Some((values[out], values[last]))
@@ -71,6 +73,7 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
         let mut end = |axis: usize| ends[axis].take();
         let (x, y, z) = (end(0)?, end(1)?, end(2)?);
         let (low, high) = (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1));
+        // Points in one place still have a space with a size.
         let height = (high - low).max_element().max(1e-3);
         let palette = FigurePalette::default();
         let points = markers.marker_points();
@@ -83,6 +86,7 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
             points
                 .iter()
                 .map(
+                    // Hundreds of points, as in a face, would cover each other at full size.
                     |point| match groups(&point.group) > MAX_FULL_SIZE_DOTS && !point.group.is_empty() {
                         true => SMALL_DOT * height,
                         false => DOT_RADIUS_SHARE * height,
@@ -115,6 +119,7 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
         let places: Vec<Option<Vec3>> = (0..points.len())
             .map(|point| cloud_point_position(markers, point, frame))
             .collect();
+        // Doubtful points fade into the paper instead of vanishing.
         let shade = |point: usize| {
             let quality = points[point].quality.as_ref();
             let unsure = markers.marker_quality() == Some(QualityMeaning::Confidence)
@@ -129,6 +134,7 @@ impl<M: Borrow<MarkerTrack>> PointCloud<M> {
         };
         for &[from, to] in markers.marker_limbs() {
             if let (Some(a), Some(b)) = (places[from], places[to]) {
+                // A limb is thinner than its smaller dot, which stays visible at its end.
                 let radius = self.radii[from].min(self.radii[to]) * 0.35;
                 mesh.append_mesh(&trail_mesh(&[a, b], radius, [shade(from), shade(to)], FIRST_FLAT_GROUP));
             }
@@ -206,6 +212,7 @@ fn cloud_point_colour(palette: &FigurePalette, theme: PaperTheme, group: &str, n
     let upper = group.to_ascii_uppercase();
     let hand = upper.contains("HAND");
     let is = |side: &str| hand && upper.contains(side);
+    // Labels have the subject before a colon: the side is named after it.
     let bare = name.rsplit(':').next().unwrap_or(name);
     if is("RIGHT") {
         palette.right.back.scale_colour(0.8)
@@ -235,6 +242,7 @@ fn add_octahedron_dot(mesh: &mut TriangleMesh, at: Vec3, radius: f32, colour: Rg
     for x in [0, 1] {
         for y in [2, 3] {
             for z in [4, 5] {
+                // Every second octant is mirrored, so its corners turn the other way.
                 let even = (x + y + z) % 2 == 0;
                 let corners = if even { [x, y, z] } else { [y, x, z] };
                 mesh.triangles.push(corners.map(|corner| base + corner));
@@ -290,6 +298,7 @@ pub fn points_sheet(
     }
     let mut raster = FigureRaster::default();
     for column in 0..count {
+        // The first and the last frame are always shown.
         let frame = last * column / (count - 1).max(1);
         let mesh = cloud.cloud_frame_mesh(frame);
         let x = CLOUD_PICTURE_GAP_PIXELS + column * (cell[0] + CLOUD_PICTURE_GAP_PIXELS);
@@ -301,6 +310,7 @@ pub fn points_sheet(
             }
             let camera = cloud.cloud_camera(view, cell[0] as f32 / cell[1] as f32);
             let mut picture = raster.draw_mesh_picture(&mesh, &camera, cell, style);
+            // One name for each row is enough.
             if column == 0 {
                 let chip = [
                     font::text_width_dots(view.figure_view_name()) as i64 + 8,

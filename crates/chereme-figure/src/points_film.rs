@@ -77,6 +77,7 @@ impl<'a> PointsAnimation<'a> {
         if !ANIMATION_SPEEDS.contains(&options.speed) {
             return Err(FigureError::Speed { speed: options.speed });
         }
+        // The track is played from time zero, even if its first frame comes later.
         let seconds = markers.marker_track_span().span_end_instant().instant_seconds();
         let frames = ((seconds / picture_step_seconds(&options)).ceil() as usize).max(1);
         if frames > MAX_FRAMES {
@@ -120,6 +121,7 @@ impl PictureSequence for PointsAnimation<'_> {
     fn draw_sequence_picture(&mut self, frame: usize) -> RasterImage {
         let film_instant = RecordingInstant::from_seconds(frame as f64 * picture_step_seconds(&self.options));
         let last = self.markers.marker_frame_count().saturating_sub(1);
+        // A track without frames at that time shows its last one.
         let marker_frame = self
             .markers
             .marker_times()
@@ -149,6 +151,7 @@ impl PictureSequence for PointsAnimation<'_> {
                 theme.theme_text_colour(),
             );
         }
+        // The bar is full at the last picture.
         let played = self.size[0] * (frame + 1) / self.frames;
         let bar = |width: usize| [width as i64, PROGRESS_BAR_HEIGHT_PIXELS as i64];
         image.fill_image_rectangle([0, room as i64], bar(self.size[0]), theme.rule_colour());

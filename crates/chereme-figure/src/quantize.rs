@@ -35,6 +35,7 @@ fn colour_cell(colour: RgbColour) -> usize {
 /// Returns the colour in the middle of a cell.
 fn cell_middle_colour(cell: usize) -> RgbColour {
     let part = |shift: u32| ((cell >> shift) & ((1 << BITS_PER_COLOUR_PART) - 1)) as u8;
+    // The high bits are repeated below, so that white stays white.
     RgbColour([part(2 * BITS_PER_COLOUR_PART), part(BITS_PER_COLOUR_PART), part(0)].map(|v| (v << 2) | (v >> 4)))
 }
 
@@ -57,10 +58,12 @@ impl ColourBox {
             }
         }
         let pixels: f64 = self.colours.iter().map(|entry| f64::from(entry.1)).sum();
+        // A power below one: large flat areas do not take all colours for themselves.
         (best.0, best.1 * pixels.powf(0.3))
     }
 
     fn cut_colour_box(mut self, axis: usize) -> [Self; 2] {
+        // The whole colour breaks ties, so that the order is the same everywhere.
         self.colours.sort_unstable_by_key(|entry| (entry.0.0[axis], entry.0));
         let total: u64 = self.colours.iter().map(|entry| u64::from(entry.1)).sum();
         let mut below = 0;
@@ -68,6 +71,7 @@ impl ColourBox {
             below += u64::from(entry.1);
             below * 2 >= total
         });
+        // Each half has at least one colour.
         let cut_index = (median_index.unwrap_or(0) + 1).clamp(1, self.colours.len() - 1);
         let upper = self.colours.split_off(cut_index);
         [self, Self { colours: upper }]
@@ -111,6 +115,7 @@ impl ColourQuantizer {
         let colours: Vec<(RgbColour, u32)> = met.map(|i| (self.mean_cell_colour(i), self.counts[i])).collect();
         let mut boxes = vec![ColourBox { colours }];
         while boxes.len() < most {
+            // A box of one colour cannot be cut.
             let cuttable = (0..boxes.len()).filter(|&i| boxes[i].colours.len() > 1);
             let Some((index, (axis, _))) = cuttable
                 .map(|i| (i, boxes[i].widest()))
@@ -122,7 +127,9 @@ impl ColourQuantizer {
             boxes.extend(halves);
         }
         self.palette = boxes.iter().map(ColourBox::mean_box_colour).collect();
+        // The order of boxes depends on cuts; sorted palettes make equal files.
         self.palette.sort_unstable();
+        // Indices of an earlier palette are no longer valid.
         self.nearest.fill(UNKNOWN_PALETTE_INDEX);
     }
 
@@ -135,6 +142,7 @@ impl ColourQuantizer {
     pub(crate) fn index(&mut self, colour: RgbColour) -> u8 {
         let cell = colour_cell(colour);
         if self.nearest[cell] == UNKNOWN_PALETTE_INDEX {
+            // A colour that was not sampled has no mean: the middle of its cell stands for it.
             let wanted = if self.counts[cell] > 0 {
                 self.mean_cell_colour(cell)
             } else {

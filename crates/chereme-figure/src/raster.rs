@@ -110,6 +110,7 @@ impl FigureRaster {
         let size = [image.image_width(), image.image_height()];
         self.buffers
             .clear_buffers(size.map(|side| side * samples), ink::paper_margin(samples));
+        // The buffers keep a margin of paper, so that lines need no test for the edge.
         self.project_mesh_vertices(layer.mesh, camera, style);
         self.fill_mesh_triangles(layer.mesh, style.threads);
         if layer.veiled {
@@ -124,6 +125,7 @@ impl FigureRaster {
     /// Fills all triangles; each thread fills the samples of its own rows.
     fn fill_mesh_triangles(&mut self, mesh: &TriangleMesh, threads: usize) {
         let corners = &self.corners;
+        // Bands share no rows, so that threads need no lock and their number changes no byte.
         let mut bands = self.buffers.split_buffer_bands(threads.max(1));
         let last = bands.pop();
         std::thread::scope(|scope| {
@@ -171,7 +173,9 @@ impl NullaryFnOnce for MeshProjectionTask<'_> {
         let (mut low, mut high) = ([i32::MAX; 2], [-1; 2]);
         let corners = self.vertices.iter().map(|vertex| {
             let place = self.projection.project_point(vertex.position);
+            // Coordinates beyond would saturate when they are snapped to integers.
             let inside = place.x.abs() < FAR_OUT && place.y.abs() < FAR_OUT;
+            // Marks such as grids and trails have their own colour whatever the light.
             let flat = vertex.group >= FIRST_FLAT_GROUP;
             let light = if flat {
                 1.0
@@ -179,6 +183,7 @@ impl NullaryFnOnce for MeshProjectionTask<'_> {
                 brightness(self.projection.to_picture_axes(vertex.normal), self.lights)
             };
             let [r, g, b] = vertex.colour.0.map(|part| stored_colour_byte(f32::from(part) * light));
+            // Snapped to sixteenths of a sample, so that edges are tested exactly in integers.
             let subpixels = [place.x, place.y].map(|v| (v * SUBPIXEL_STEPS + 0.5).floor() as i32);
             let seen = place.depth > self.near && inside;
             if seen {
@@ -207,11 +212,14 @@ impl NullaryFnOnce for MeshProjectionTask<'_> {
 /// eye).
 #[inline(always)]
 fn brightness(normal: Vec3, [key, fill]: [Vec3; 2]) -> f32 {
+    // The sky lights faces that look up a little more.
     let sky = 0.5 + 0.5 * normal.y;
     let around = LIGHT_SHARES[0] * (0.80 + 0.20 * sky);
     let lit = LIGHT_SHARES[1] * normal.dot(key).max(0.0) + LIGHT_SHARES[2] * normal.dot(fill).max(0.0);
     let edge = (1.0 - normal.z).max(0.0);
+    // The cube keeps the rim narrow.
     let rim = RIM_LIGHT_SHARE * edge * edge * edge * (0.3 + 0.7 * normal.y).max(0.0);
+    // A little beyond white, since shades take light away later.
     (around + lit + rim).min(1.14)
 }
 

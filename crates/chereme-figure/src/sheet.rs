@@ -112,6 +112,7 @@ pub fn contact_sheet(
         .views
         .iter()
         .map(|&view| framing.framing_view_aspect(view))
+        // The widest view decides, since all cells have one size.
         .fold(0.45, f32::max);
     let width = (options.cell_height as f32 * wide.min(1.6)) as usize;
     let cell = checked_view(width, options.cell_height)?;
@@ -224,6 +225,7 @@ pub fn thumbnail_with_face(
     };
     let mut image = draw(FigureView::Addressee, size);
     let side = (size[1].min(size[0]) as f32 * FACE_INSET_SHARE) as usize;
+    // Below eight pixels nothing of a face can be seen.
     if side >= 8 {
         let near = draw(FigureView::Face, [side - 1, side - 1]);
         let left = size[0] - side;
@@ -248,6 +250,7 @@ fn choose_sheet_frames(frames: &SheetFrames, clip: &Clip, anatomy: &BodyAnatomy)
             let sound = active_signing_frames(clip, anatomy);
             let (wanted, last) = ((*wanted).min(sound.len()), sound.len().saturating_sub(1));
             (0..wanted)
+                // Rounded to the nearest frame, where a plain division would round down.
                 .map(|i| (2 * last * i + (wanted - 1)) / (2 * (wanted - 1).max(1)))
                 .map(|frame| sound.start + frame)
                 .collect()

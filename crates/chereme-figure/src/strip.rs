@@ -41,6 +41,7 @@ impl<'a> AnimationStrip<'a> {
         }
         let tallest = cells.iter().map(|cell| cell.0.animation_size()[1]).max();
         let height = tallest.unwrap_or_default();
+        // Captions grow with the picture, so that they stay readable.
         let scale = (height / 200).clamp(1, 6);
         let has_captions = cells.iter().any(|cell| !cell.1.is_empty());
         let line = if has_captions {
@@ -78,6 +79,7 @@ impl PictureSequence for AnimationStrip<'_> {
         let top = self.size[1] - self.line;
         let mut x = 0;
         for (animation, captions) in &mut self.cells {
+            // A shorter animation holds its last picture.
             let frame = frame.min(animation.animation_frame_count() - 1);
             let width = animation.animation_size()[0];
             image.paste_image(&animation.draw_animation_frame(frame), [x, 0]);

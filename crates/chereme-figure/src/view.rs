@@ -118,6 +118,7 @@ impl ClipFraming {
         let poses = sample_clip_poses(clip, anatomy)?;
         let mut framing = Self::framing_from_signing(&poses, anatomy);
         if let (Some(hips), Some(_)) = (anatomy.part_joint(BodyPart::Hips), anatomy.part_joint(BodyPart::Head)) {
+            // Signing may stay high above the hips, where the picture still begins.
             let hips_height = |pose: &ModelPose| framing.relative_joint_position(pose, hips, anatomy).y;
             let hips = poses.iter().map(hips_height).fold(f32::INFINITY, f32::min);
             framing.low.y = framing.low.y.min(hips - framing.hand * 0.2);
@@ -128,6 +129,7 @@ impl ClipFraming {
     /// Returns the space that `poses` take together, at least one posture.
     #[must_use]
     pub fn framing_from_poses(poses: &[ModelPose], anatomy: &BodyAnatomy) -> Self {
+        // One mean direction for the clip, so that the camera does not sway with the body.
         let axes = mean_signer_axes(poses, anatomy);
         let turns = poses.iter().any(|pose| {
             let pose_axes = mean_signer_axes(std::slice::from_ref(pose), anatomy);
@@ -137,6 +139,7 @@ impl ClipFraming {
         let arms = BodySide::BOTH_SIDES.map(|side| anatomy.arm_chain(side));
         let has_arms = arms.iter().flatten().next().is_some();
         let arm = |side: usize| arms[side].map_or(0.0, |arm| arm_length(&poses[0], arm));
+        // 0.53 m is the arm of an adult, for which the margins below are given.
         let size = arm(0).max(arm(1)) / 0.53;
         let travel = find_travel(poses, anatomy);
         let travels = travel.is_some_and(|travel| travel.reach > MAX_TRAVEL_METRES);
@@ -152,6 +155,7 @@ impl ClipFraming {
                 bounds.include_bounds_point(joint_place - margin);
                 bounds.include_bounds_point(joint_place + margin);
             };
+            // Without arms nothing is known of the body: all joints count, without margins.
             if !has_arms {
                 (0..pose.model_joint_positions().len()).for_each(|joint| add(joint, Vec3::ZERO));
                 continue;
@@ -174,6 +178,7 @@ impl ClipFraming {
                 let fingers = anatomy.possible_fingers(side);
                 let tips = fingers.iter().copied();
                 tips.for_each(|joint| add(joint, Vec3::splat(0.035) * size));
+                // A hand without fingers has its length beyond the wrist.
                 if fingers.is_empty() {
                     add(arm.hand, Vec3::splat(0.16) * size);
                 }
@@ -185,6 +190,7 @@ impl ClipFraming {
         } else {
             ((high - low).length() * 0.03).max(0.02)
         };
+        // A clip of one point still has a space with a size.
         let least = Vec3::splat(least_extent.max(1e-3));
         Self {
             axes,
@@ -230,6 +236,7 @@ impl ClipFraming {
                 always.include_point_margin(joint_place(pose, arm.upper), Vec3::new(0.075, 0.32, 0.07) * size);
                 always.include_point_margin(joint_place(pose, arm.forearm), Vec3::new(0.07, 0.06, 0.07) * size);
                 let hand = joint_place(pose, arm.hand);
+                // Hands that hang at rest would make every picture as tall as the legs.
                 if hips.is_some_and(|hips| hand.y < hips + 0.1 * size) {
                     continue;
                 }
@@ -242,6 +249,7 @@ impl ClipFraming {
         let (Some((low, high)), hands) = (always.0, hands.0) else {
             return full_framing;
         };
+        // Hands that never come up leave head and shoulders alone.
         let (low, high) = hands.map_or((low, high), |bounds| (low.min(bounds.0), high.max(bounds.1)));
         Self {
             low,
@@ -262,6 +270,7 @@ impl ClipFraming {
         pose: &ModelPose,
         anatomy: &BodyAnatomy,
     ) -> FigureCamera {
+        // A hand without fingers has no palm to look at.
         let view = match view {
             FigureView::Palm(side) if palm_axes(pose, anatomy, side).is_none() => FigureView::Hand(side),
             view => view,
@@ -274,9 +283,11 @@ impl ClipFraming {
         if let FigureView::Hand(side) = view
             && let Some(target) = hand_middle(pose, anatomy, side)
         {
+            // A picture narrower than high needs more height for the same breadth.
             let half_height = self.hand * 0.66 / aspect.clamp(1e-3, 1.0);
             let camera = turned_framing.place_framing_camera(target, [towards, up], half_height);
             return FigureCamera {
+                // What stands before the hand, such as the other arm, is cut away by the near plane.
                 near: half_height * FRAMING_EYE_DISTANCE - self.hand * 1.2,
                 ..camera
             };
@@ -306,9 +317,12 @@ impl ClipFraming {
         let tall = half.dot(right.cross(towards).abs());
         let wide = half.dot(right.abs());
         let deep = half.dot(towards.abs());
+        // The nearer half of the space looks larger, by the depth over the eye's distance.
         let room = |half: f32| half * 1.02 + deep / FRAMING_EYE_DISTANCE * 0.5;
+        // The longer of both sides decides, each in its own direction.
         let half_height = room(tall.max(wide / aspect.max(1e-3)));
         let level = matches!(view, FigureView::Addressee | FigureView::Left | FigureView::Right);
+        // Room that is left over goes above the head instead of below the hips.
         let raised = if self.seated && level {
             Vec3::Y * (half_height - room(tall))
         } else {
@@ -371,6 +385,7 @@ pub fn stroke_frame(clip: &Clip, anatomy: &BodyAnatomy) -> usize {
     let active = active_signing_frames(clip, anatomy);
     let middle = (active.start + active.len() / 2).min(last);
     let mut up = sample_frames_evenly(active);
+    // Only frames with a hand up can be the stroke.
     up.retain(|&frame| has_hand_up(&clip.model_pose(frame), anatomy));
     up.get(up.len() / 2).copied().unwrap_or(middle)
 }
@@ -385,6 +400,7 @@ pub fn active_signing_frames(clip: &Clip, anatomy: &BodyAnatomy) -> Range<usize>
 fn sample_frames_evenly(frames: Range<usize>) -> Vec<usize> {
     let (last, count) = (frames.len().saturating_sub(1), frames.len().min(SAMPLED_CLIP_FRAMES));
     let spaced = (0..count).map(|i| frames.start + last * i / (count - 1).max(1));
+    // First and last frame are always among the samples.
     spaced.collect()
 }
 
@@ -410,6 +426,7 @@ fn based(carrier: Option<(usize, Vec3)>, travels: bool, pose: &ModelPose) -> Vec
     let joint_place = pose.model_joint_position(joint).as_vec3();
     match joint_place - middle {
         _ if travels => joint_place,
+        // A body far from its place in odd frames is followed there, so that it is not lost from view.
         off if off.length() > MAX_EXCLUDED_TRAVEL_METRES => off,
         _ => Vec3::ZERO,
     }
@@ -426,6 +443,7 @@ struct BodyTravel {
 
 fn find_travel(poses: &[ModelPose], anatomy: &BodyAnatomy) -> Option<BodyTravel> {
     let parts = [BodyPart::Hips, BodyPart::Spine, BodyPart::Chest];
+    // Hips first: the chest moves in signing itself.
     let joint = parts.iter().find_map(|&part| anatomy.part_joint(part))?;
     let mut bounds = FramingBounds::default();
     for pose in poses {
@@ -458,6 +476,7 @@ fn hand_middle(pose: &ModelPose, anatomy: &BodyAnatomy, side: BodySide) -> Optio
         .iter()
         .map(|&joint| pose.model_joint_position(joint).as_vec3())
         .sum();
+    // The middle lies nearer to the fingers, which say more than the wrist does.
     Some(wrist.lerp(sum / fingers.len() as f32, 0.85))
 }
 
@@ -466,6 +485,7 @@ fn palm_axes(pose: &ModelPose, anatomy: &BodyAnatomy, side: BodySide) -> Option<
     let palm = anatomy.palm_normal(side, pose)?.as_vec3();
     let along = anatomy.hand_direction(side, pose)?.as_vec3();
     let thumb = along.cross(palm) * -side.side_sign() as f32;
+    // Straight into the palm fingers hide their bends, so the eye is a little aside and above.
     let towards = (palm + thumb * 0.42 + along * 0.3).try_normalize()?;
     let up = (along - towards * along.dot(towards)).try_normalize()?;
     Some((towards, up))
@@ -486,6 +506,7 @@ fn head_clearance(anatomy: &BodyAnatomy, size: f32) -> Vec3 {
     let head_top = anatomy
         .anatomy_measures()
         .map_or(0.0, |measures| measures.head_top as f32);
+    // A head of odd measures does not make the picture higher than heads are.
     let top = head_top.clamp(0.19 * size, 0.36 * size) + 0.035 * size;
     Vec3::new(0.1 * size, top, 0.14 * size)
 }
@@ -505,6 +526,7 @@ fn mean_signer_axes(poses: &[ModelPose], anatomy: &BodyAnatomy) -> Mat3 {
             left += poses.iter().map(across).sum::<Vec3>() / poses.len() as f32;
         }
     }
+    // Leaning is part of signing: up stays that of the room.
     let flat = Vec3::new(left.x, 0.0, left.z).normalize_or(Vec3::X);
     Mat3::from_cols(flat, Vec3::Y, flat.cross(Vec3::Y))
 }

@@ -78,6 +78,7 @@ impl<'a> BodyBuilder<'a> {
     pub(super) fn finish_body(mut self) -> SignerBody {
         let start = self.out.mesh.vertices.len();
         let first = self.out.mesh.triangles.len();
+        // The skin comes last, so that its vertices are one range that postures rewrite.
         self.out.mesh.append_mesh(&self.surface);
         let skin = (!self.bound.is_empty()).then_some(BodySkin {
             rig: self.rig,
@@ -95,12 +96,14 @@ impl<'a> BodyBuilder<'a> {
         let mut mesh = std::mem::take(&mut body.template);
         body.pose_body_elements(self.rest, &mut mesh);
         body.template = mesh;
+        // The posture at rest is needed first: the shade is found by the places of vertices.
         body.contact = HandContactShade::from_hand_points(self.skeleton, self.anatomy, &body.template, self.size);
         body
     }
 
     /// Adds the whole signer.
     pub(super) fn add_whole_signer(&mut self) {
+        // One skin needs both arms; with one arm missing, plain forms stand for everything.
         let dressed = BodySide::BOTH_SIDES
             .iter()
             .all(|&side| self.anatomy.arm_chain(side).is_some());
@@ -126,6 +129,7 @@ impl<'a> BodyBuilder<'a> {
             wrist: Vec3::ZERO,
             axes: hand_seat(side),
         };
+        // With an arm the hand follows wrist and forearm; a wrist alone is handled below.
         if let Some(arm) = ArmRig::from_arm_joints(self.anatomy, side, self.rest, Vec3::ZERO) {
             let seat = HandSeat {
                 wrist: arm.places[2],
@@ -183,6 +187,7 @@ impl<'a> BodyBuilder<'a> {
     /// Adds trunk, arms and hands as one skin.
     fn dressed(&mut self) {
         let measures = self.anatomy.anatomy_measures();
+        // Without measures, the trunk and shoulders of an adult.
         let trunk = measures.map_or(0.5, |measures| measures.trunk as f32);
         let wide = measures.map_or(0.344, |measures| measures.shoulder_width as f32);
         let trunk_rig = TrunkRig::from_trunk_joints(self.skeleton, self.anatomy, self.rest, self.size, trunk);
@@ -211,6 +216,7 @@ impl<'a> BodyBuilder<'a> {
                     true => bones.iter().sum(),
                     false => apart,
                 };
+                // 0.160 is the half breadth of the canonical hips, 0.080 that of flesh beside a thigh.
                 (apart * 0.5 + 0.080 * self.size) / 0.160
             }
             _ => self.size,
@@ -234,6 +240,7 @@ impl<'a> BodyBuilder<'a> {
         }
         for side in BodySide::BOTH_SIDES {
             let side_index = usize::from(side == BodySide::Left);
+            // The last forearm follower has the whole turn of the hand, as the cuff has.
             let Some(arm) = &self.rig.arms[side_index] else {
                 continue;
             };
@@ -252,6 +259,7 @@ impl<'a> BodyBuilder<'a> {
         let rig = &mut self.rig;
         let upper = [0.0, 0.5, 1.0].map(|share| rig.add_follower(SkinFollower::Upper(side, share)));
         let fore = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|share| rig.add_follower(SkinFollower::Fore(side, share)));
+        // Three followers share the turn of an upper arm evenly, and four that of a forearm.
         let half = |parent, child, at, swell| SkinFollower::Half {
             parent,
             child,
@@ -262,6 +270,7 @@ impl<'a> BodyBuilder<'a> {
         ArmFollowers {
             upper,
             fore,
+            // The armpit does not swell: it would bulge into the trunk.
             armpit: rig.add_follower(half(chest, upper[0], places[0], 0.0)),
             elbow: rig.add_follower(half(upper[2], fore[0], places[1], 0.08)),
             hand: rig.add_follower(SkinFollower::Hand(side)),
@@ -270,6 +279,7 @@ impl<'a> BodyBuilder<'a> {
 
     /// Returns the follower of a thigh that moves the seat of the clothes; the pelvis if the skeleton has no thigh.
     fn thigh_follower(&mut self, thigh: Option<usize>, pelvis: usize) -> usize {
+        // A skeleton that does not stand at rest says nothing of where thighs are beside the pelvis.
         let standing = self.rig.trunk.as_ref().filter(|trunk| trunk.is_standing_at_rest());
         let (Some(joint), Some(trunk)) = (thigh, standing) else {
             return pelvis;
@@ -317,8 +327,10 @@ impl<'a> BodyBuilder<'a> {
             all.extend(neighbour_shares(&limb.upper, shares.upper_turn, shares.upper));
             all.extend(neighbour_shares(&limb.fore, shares.fore_turn, shares.fore));
             self.bound.push(BoundSkinVertex::new(cloth_place, &all));
+            // The colour changes from trunk to sleeve over the shoulder, 60 to 140 mm along the arm.
             let share = ((cloth.along - 60.0) / 80.0).clamp(0.0, 1.0);
             let colour = self.palette.torso.mix_colour(self.palette.sleeves, share);
+            // Hems show the inside of the cloth, which is darker.
             let light = if cloth.hem { 0.88 } else { cloth.open };
             self.surface.vertices.push(MeshVertex {
                 position: cloth_place,
@@ -340,6 +352,7 @@ impl<'a> BodyBuilder<'a> {
         let Some(joint) = self.joint_of_part(BodyPart::Head) else {
             return;
         };
+        // The dressed body has a neck of its own skin.
         if let Some(neck) = self.joint_of_part(BodyPart::Neck).filter(|_| !dressed) {
             let paint = ShapePaint::from_plain_colour(self.palette.face.scale_colour(0.9), group::HEAD_GROUP);
             self.add_limb_rod(neck, joint, [0.050, 0.047, 0.046], paint);
@@ -367,6 +380,7 @@ impl BodyBuilder<'_> {
         let axes = Mat3::from_cols_array_2d(&axes.map(|axis| axis.as_vec3().to_array()));
         let height = measures.head as f32;
         let top = self
+            // The landmark is used if a skeleton has one; it fits better than the height of the joint.
             .anatomy
             .landmark_place_position(self.skeleton, self.rest, "head-top");
         let up = axes.y_axis;
@@ -388,6 +402,7 @@ impl BodyBuilder<'_> {
         let standing = self.rig.trunk.as_ref().filter(|trunk| trunk.is_standing_at_rest());
         let head_place = match standing.map(|trunk| trunk.pose_trunk(self.rest).chest) {
             Some(chest) => chest.turn.inverse() * (posed_joint_position(self.rest, joint) - chest.to) + chest.from,
+            // A skeleton that does not stand at rest shows no place: the usual one of a head's middle.
             None => Vec3::Y * (0.117 * REFERENCE_STATURE_METRES * self.size) - turn.inverse() * head.centre,
         };
         (head_place, turn)
@@ -424,6 +439,7 @@ impl BodyBuilder<'_> {
         let mut add = |at: Vec3, share: f32| {
             self.bound
                 .push(BoundSkinVertex::new(at, &[(chest, 1.0 - share), (head, share)]));
+            // The neck is in the shade of the chin, more the higher it is.
             let shade = 0.97 - 0.20 * ((share - 0.35) / 0.5).clamp(0.0, 1.0);
             self.surface.vertices.push(MeshVertex {
                 position: at,
@@ -491,10 +507,13 @@ impl ClothesShape {
     /// Returns the position of a vertex of the clothes in bind space.
     fn place_cloth_vertex(&self, cloth: &ClothVertex, size: f32, places: [Vec3; 3]) -> Vec3 {
         let metre = 0.001;
+        // Below the waist breadths follow the hips, above it the shoulders.
         let low = ((-cloth.at.y - 120.0) / 300.0).clamp(0.0, 1.0);
         let raw_width = self.wide / (2.0 * SHOULDER_HALF_WIDTH_MM * metre);
+        // Shoulders of odd skeletons do not widen or narrow the chest beyond a human range.
         let wide = raw_width.clamp(size * 0.6, size * 1.5);
         let across = wide + (self.hips - wide) * low;
+        // Above the shoulders only the collar is left, which ends below the chin.
         let tall = if cloth.at.y < 0.0 {
             self.trunk / (TRUNK_LENGTH_MM * metre)
         } else {
@@ -517,6 +536,7 @@ impl ClothesShape {
         } else {
             lengths[0] + (s - UPPER_ARM_LENGTH_MM) / FOREARM_LENGTH_MM * lengths[1]
         };
+        // Around the arm the cloth keeps its thickness; only positions along it are stretched.
         let arm = places[0] + along * reach + (cloth.at - from - along * s) * size * metre;
         trunk.lerp(arm, cloth.arm)
     }
@@ -541,6 +561,7 @@ fn relative_body_size(anatomy: &BodyAnatomy) -> f32 {
         measures.stature as f32 / REFERENCE_STATURE_METRES,
     );
     match (arm > 1e-6, stature > 1e-6) {
+        // Long arms alone do not make a giant: stature counts half, kept near the arms.
         (true, true) => arm * 0.5 + stature.clamp(arm * 0.7, arm * 1.4) * 0.5,
         (true, false) => arm,
         (false, true) => stature,

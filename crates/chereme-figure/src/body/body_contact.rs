@@ -26,6 +26,7 @@ impl HandContactShade {
     /// Returns the points of the skeleton's hands, and the vertices of trunk, head and hair; `size` is that of the body
     /// relative to an adult's.
     pub(super) fn from_hand_points(skeleton: &Skeleton, anatomy: &BodyAnatomy, mesh: &TriangleMesh, size: f32) -> Self {
+        // Hands and arms give the shade and do not receive it.
         let shaded = |group: u8| [group::TORSO_GROUP, group::HEAD_GROUP, group::HAIR_GROUP].contains(&group);
         let all_vertices = (0..).zip(&mesh.vertices);
         let vertices = all_vertices.filter(|(_, vertex)| shaded(vertex.group));
@@ -42,6 +43,7 @@ impl HandContactShade {
     /// Shades the vertices of a mesh in a posture; otherwise their colours are those of `plain`.
     pub(super) fn shade_contact_vertices(&self, pose: &ModelPose, plain: &TriangleMesh, mesh: &mut TriangleMesh) {
         let places = || self.vertices.iter().map(|&index| index as usize);
+        // The shade of the posture before is taken off.
         for index in places() {
             mesh.vertices[index].colour = plain.vertices[index].colour;
         }
@@ -56,6 +58,7 @@ impl HandContactShade {
         let margin = Vec3::splat(self.reach * MAX_SHADE_REACH_FACTOR);
         let (low, high) = (low - margin, high + margin);
         let posed_points = self.points.iter().map(|point| point.point_position(pose));
+        // Points far from the body are left out, which spares most postures the inner loop.
         let points: Vec<Vec3> = posed_points
             .filter(|at| at.cmpge(low).all() && at.cmple(high).all())
             .collect();
@@ -68,6 +71,7 @@ impl HandContactShade {
             let mut nearest = most;
             for point in &points {
                 let away = *point - vertex.position;
+                // A point behind the skin is on the other side of the body.
                 if away.dot(vertex.normal) > 0.0 {
                     nearest = nearest.min(away.length_squared());
                 }

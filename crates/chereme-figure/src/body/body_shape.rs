@@ -76,8 +76,10 @@ impl BodyRod {
     fn pose_rod(&self, grid: &RingGrid, pose: &ModelPose, out: &mut [MeshVertex]) {
         let [from, to] = self.ends.map(|end| end.point_position(pose));
         let towards = posed_joint_rotation(pose, self.facing.0) * self.facing.1;
+        // A rod of no length points anywhere; it must only not be along its own facing.
         let z = (to - from).normalize_or(towards.any_orthonormal_vector());
         let aside = towards - z * z.dot(towards);
+        // A facing along the rod says nothing of its sides.
         let x = if aside.length() > 0.01 {
             aside.normalize()
         } else {
@@ -88,6 +90,7 @@ impl BodyRod {
         for sine in ROD_RING_LATITUDES {
             rings.push((from, self.radii[0], sine));
         }
+        // One ring in the middle, since the radius there is given of its own.
         rings.push((from.lerp(to, 0.5), self.radii[1], 0.0));
         for sine in ROD_RING_LATITUDES.iter().rev() {
             rings.push((to, self.radii[2], -sine));
@@ -155,11 +158,13 @@ impl BodyLoft {
             let after = middle(&spines[(index + 1).min(spines.len() - 1)]);
             let across = (spine[spine.len() - 1] - spine[0]).normalize_or(Vec3::X);
             let local = after - before;
+            // Rings with one middle have no direction between them: the whole spine's is used.
             let steps = local.length() > SAME_MIDDLE_METRES;
             let along = if steps { local } else { spine_line }.normalize_or(Vec3::Y);
             let facing = across.cross(along).normalize_or(Vec3::Z);
             let reach = |v: f32| along_spine(spine, across * section.beyond, v);
             for point in &grid.circle {
+                // The power makes an ellipse more like a rectangle.
                 let square = point.map(|v| v.signum() * v.abs().powf(self.roundness));
                 let thick = section.thickness[usize::from(square.x < 0.0)];
                 out[next].position = reach(square.y) + facing * (square.x * thick) + along * section.shift;
@@ -188,6 +193,7 @@ fn along_spine(spine: &[Vec3], beyond: Vec3, v: f32) -> Vec3 {
     let count = last + 2;
     let spine_position = (v + 1.0) * 0.5 * count as f32;
     let piece = (spine_position as usize).min(count - 1);
+    // Index 0 and the last are the ends beyond the spine.
     let point = |i: usize| match i {
         0 => first_end,
         i if i > last + 1 => last_end,
@@ -275,6 +281,7 @@ impl BodyAssembly {
     fn add_grid_shape(&mut self, shape: BodyShape, grid: RingGrid, paint: ShapePaint) {
         let start = self.mesh.vertices.len();
         for facing in grid.vertex_facings() {
+            // The colours change softly where front and back meet.
             let share = ((facing + 0.35) / 0.7).clamp(0.0, 1.0);
             self.mesh.vertices.push(MeshVertex {
                 position: Vec3::ZERO,

@@ -129,6 +129,7 @@ struct ClothesMaker {
 
 impl ClothesMaker {
     fn new() -> Self {
+        // Both sides are made from one list, so that the trunk is symmetric.
         let both = |solids: &[([f32; 3], [f32; 3], [f32; 2])], flat: f32| -> Vec<BodySolid> {
             let mirrored = |[x, y, z]: [f32; 3], sign: f32| [x * sign, y, z];
             let sides = [1.0, -1.0].into_iter();
@@ -210,6 +211,7 @@ impl ClothesMaker {
             all = join_solid_distances(all, blended_solid_distance(solids, *width, point), *width);
         }
         for arm in &self.arms {
+            // Arms join the trunk over 30 mm, which makes the armpit round.
             all = join_solid_distances(all, blended_solid_distance(arm, 4.0, point), 30.0);
         }
         all
@@ -243,11 +245,13 @@ impl ClothesMaker {
         for [y, wide, deep] in TRUNK_RING_MEASURES_MM {
             let ring: Vec<Vec3> = circle_steps(TRUNK_RING_COLUMNS)
                 .map(|[cosine, sine]| {
+                    // A power below one makes rings squarer, as a trunk is.
                     let square = |v: f32| v.signum() * v.abs().powf(0.88);
                     Vec3::new(square(cosine) * wide, y, square(sine) * deep)
                 })
                 .map(|at| {
                     let on = on_skin(&|p| self.clothes_distance(p), at, 1.0);
+                    // The lowest rings close the hem, beyond the implicit body.
                     if y < -560.0 { at } else { on }
                 })
                 .collect();
@@ -257,6 +261,7 @@ impl ClothesMaker {
             .map(|[cosine, sine]| {
                 let low = sine.max(0.0);
                 Vec3::new(
+                    // The collar is lower at the throat than at the nape.
                     cosine * COLLAR_MEASURES_MM[0],
                     88.0 - 30.0 * low - 4.0 * sine.min(0.0),
                     sine * COLLAR_MEASURES_MM[1] + COLLAR_BACK,
@@ -273,6 +278,7 @@ impl ClothesMaker {
                 .collect();
             rows.push(places.into_iter().map(|at| self.add_cloth_vertex(at)).collect());
         }
+        // The lowest two rings and the collar are fixed; those between may slide.
         let loose: Vec<usize> = rows[2..].iter().flatten().copied().collect();
         let rim: Vec<usize> = collar.iter().map(|&at| self.add_cloth_vertex(at)).collect();
         let lip: Vec<usize> = collar
@@ -292,11 +298,13 @@ impl ClothesMaker {
                 ))
             })
             .collect();
+        // Hems are darker and follow the neck fully.
         for &index in rim.iter().chain(&lip).chain(&inner) {
             self.cloths[index].hem = true;
         }
         rows.extend([rim, lip, inner]);
         let hole = |column: usize, row: usize| {
+            // Column 0 points to the left and half of the columns further to the right.
             let left = !(3..TRUNK_RING_COLUMNS - 3).contains(&column);
             let right = (TRUNK_RING_COLUMNS / 2 - 3..TRUNK_RING_COLUMNS / 2 + 3).contains(&column);
             HOLE_ROWS.contains(&row) && (left || right)
@@ -312,10 +320,12 @@ impl ClothesMaker {
         for side in BodySide::BOTH_SIDES {
             self.add_sleeve(side, &rows);
         }
+        // Weights depend on places, so that they come after the last movement.
         self.relax_clothes(&loose, first_arm);
         for index in 0..self.cloths.len() {
             self.weigh_cloth_vertex(index, index >= first_arm);
         }
+        // The order of rings does not tell which way triangles face.
         if self.clothes_volume() < 0.0 {
             for triangle in &mut self.triangles {
                 triangle.swap(1, 2);
@@ -340,6 +350,7 @@ impl ClothesMaker {
         };
         let columns: Vec<usize> = (0..7).map(|k| (middle + k - 3) % TRUNK_RING_COLUMNS).collect();
         let (low, high) = (HOLE_ROWS.start, HOLE_ROWS.end);
+        // The hole is walked once round: lower row, side, upper row back, other side.
         let mut hole: Vec<usize> = columns.iter().map(|&c| rows[low][c]).collect();
         hole.extend((low + 1..high).map(|row| rows[row][columns[6]]));
         hole.extend(columns.iter().rev().map(|&c| rows[high][c]));
@@ -354,9 +365,11 @@ impl ClothesMaker {
                 (shift + k) % count
             };
             let (sine, cosine) = (std::f32::consts::TAU * k as f32 / count as f32).sin_cos();
+            // The back of the sleeve stands out over the tip of the elbow.
             let elbow = (-((at - UPPER_ARM_LENGTH_MM) / 22.0).powi(2)).exp() * 7.0 * (-sine).max(0.0);
             from + along * at + up * (cosine * tall) + Vec3::Z * (sine * (wide + elbow))
         };
+        // The ring that is nearest to the hole, in either direction, meets it without a twist.
         let mut best = (f32::INFINITY, false, 0);
         for back in [false, true] {
             for shift in 0..count {
@@ -386,6 +399,7 @@ impl ClothesMaker {
             before = ring;
         }
         let [at, tall, wide] = ARM_RING_MEASURES_MM[ARM_RING_MEASURES_MM.len() - 1];
+        // A last ring within the sleeve hides its inside.
         let inside = [at - 14.0, tall * 0.8, wide * 0.8];
         let ring: Vec<usize> = (0..count)
             .map(|k| self.add_cloth_vertex(point(inside, k, back, shift)))
@@ -411,8 +425,10 @@ impl ClothesMaker {
     fn relax_clothes(&mut self, loose: &[usize], first_arm: usize) {
         let neighbours = self.cloth_neighbours();
         let mut loose = loose.to_vec();
+        // Twenty vertices for each ring and the inner one, and the pole.
         let of_arm = 20 * ARM_RING_MEASURES_MM.len() + 21;
         for side in 0..2 {
+            // The two rings next to the shoulder slide too, so that trunk and sleeve meet smoothly.
             loose.extend(first_arm + side * of_arm..first_arm + side * of_arm + 40);
         }
         loose.retain(|&index| !neighbours[index].is_empty());
@@ -437,6 +453,7 @@ impl ClothesMaker {
         let (from, along) = shoulder(cloth.side);
         let s = (cloth.at - from).dot(along);
         let off = (cloth.at - from - along * s).length();
+        // Trunk vertices far from the arm's axis do not move with it, however far out they are.
         let fade = 1.0 - smooth_step((off - 66.0) / 60.0);
         let t = ((s + 50.0) / 150.0).clamp(0.0, 1.0);
         let rising = if of_arm { 1.0 } else { fade };
@@ -445,6 +462,7 @@ impl ClothesMaker {
         let rest = 1.0 - arm - armpit;
         let near = 1.0 - smooth_step((cloth.at.distance(from) - 45.0) / 130.0);
         let up = smooth_step((cloth.at.y + 430.0) / 270.0);
+        // The trunk beside the arm has the measures of the shoulder, not of places further along.
         let s = if of_arm { s } else { s.min(60.0) };
         let e = ((s - UPPER_ARM_LENGTH_MM + 46.0) / 92.0).clamp(0.0, 1.0);
         let (elbow, fore) = (1.0 - (2.0 * e - 1.0).abs(), (2.0 * e - 1.0).max(0.0));
@@ -458,12 +476,14 @@ impl ClothesMaker {
         let hem = smooth_step((-cloth.at.y - 470.0) / 110.0) * 0.85;
         let left = smooth_step((cloth.at.x + 50.0) / 100.0);
         let neck = match cloth.hem {
+            // The collar moves with the neck as a whole; sleeve hems do not.
             true if !of_arm => 1.0,
             _ => smooth_step((cloth.at.y - 22.0) / 40.0),
         };
         let cloth = &mut self.cloths[index];
         cloth.along = if of_arm { s } else { s.min(60.0) };
         cloth.arm = smooth_step((s - 10.0) / 90.0) * rising;
+        // Beyond the shoulder no other part is near enough to take light away.
         cloth.open = if s > 150.0 {
             1.0
         } else {

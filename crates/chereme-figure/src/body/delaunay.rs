@@ -5,6 +5,7 @@ use glam::DVec2;
 /// Returns the triangles of the Delaunay net of `points`, anticlockwise.
 pub(super) fn delaunay_triangles(points: &[DVec2]) -> Vec<[usize; 3]> {
     let count = points.len();
+    // The outer triangle holds all points, which lie within about pi of the origin.
     let far = 100.0;
     let mut all = points.to_vec();
     all.extend([DVec2::new(-far, -far), DVec2::new(far, -far), DVec2::new(0.0, far)]);
@@ -17,6 +18,7 @@ pub(super) fn delaunay_triangles(points: &[DVec2]) -> Vec<[usize; 3]> {
             if hit {
                 for k in 0..3 {
                     let edge = [triangle[k], triangle[(k + 1) % 3]];
+                    // An edge of two removed triangles is inside the hole; its two directions cancel out.
                     match rim.iter().position(|rim_edge| *rim_edge == [edge[1], edge[0]]) {
                         Some(other) => {
                             rim.swap_remove(other);
@@ -29,6 +31,7 @@ pub(super) fn delaunay_triangles(points: &[DVec2]) -> Vec<[usize; 3]> {
         });
         triangles.extend(rim.into_iter().map(|[a, b]| [a, b, index]));
     }
+    // Triangles with a corner of the outer one are not part of the net.
     triangles.retain(|triangle| triangle.iter().all(|&index| index < count));
     triangles
 }
@@ -37,6 +40,7 @@ pub(super) fn delaunay_triangles(points: &[DVec2]) -> Vec<[usize; 3]> {
 fn is_within_circle([a, b, c]: [DVec2; 3], at: DVec2) -> bool {
     let [a, b, c] = [a - at, b - at, c - at];
     let lift = |v: DVec2| v.length_squared();
+    // Above rounding: of points on one circle none counts as inside.
     lift(a) * b.perp_dot(c) - lift(b) * a.perp_dot(c) + lift(c) * a.perp_dot(b) > 1e-14
 }
 

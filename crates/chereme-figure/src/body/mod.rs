@@ -69,6 +69,7 @@ impl BodySkin {
             }
             vertex.position = blended_place;
         }
+        // Normals are recomputed from the posed triangles: turned ones look inflated at bends.
         let base = self.vertices.start as u32;
         smooth_vertex_normals(out, &mesh.triangles[self.triangles.clone()], base);
     }
@@ -137,6 +138,7 @@ impl SignerBody {
     pub fn with_palette(skeleton: &Skeleton, anatomy: &BodyAnatomy, palette: &FigurePalette) -> Self {
         let rest = anatomy.bind_pose(skeleton);
         let mut builder = BodyBuilder::new(skeleton, anatomy, palette, &rest);
+        // One arm is enough for a signer; without any it is drawn bone by bone.
         if BodySide::BOTH_SIDES
             .iter()
             .any(|&side| anatomy.arm_chain(side).is_some())
@@ -191,6 +193,7 @@ impl SignerBody {
     /// # Panics
     /// If `mesh` is smaller than this body's or `pose` has fewer joints.
     pub fn shape_body_mesh(&self, pose: &ModelPose, mesh: &mut TriangleMesh) {
+        // A mesh of another body is replaced as a whole.
         if mesh.vertices.len() != self.template.vertices.len() {
             mesh.clone_from(&self.template);
         }

@@ -96,6 +96,7 @@ impl SignerBody {
     #[must_use]
     pub fn to_portable_body(&self, skeleton: &Skeleton) -> Option<PortableBody> {
         let skin = self.skin.as_ref()?;
+        // Without a trunk it is a lone hand, which has no body to export.
         skin.rig.trunk.as_ref()?;
         let mut out = PortableBody {
             vertices: Vec::new(),
@@ -114,9 +115,11 @@ impl SignerBody {
         self.skin_vertices(skin, &mut places, &mut out);
         for element in &self.elements {
             let Some((joint, points)) = element.rigid_points() else {
+                // Vertices of parts that are left out keep None, and their triangles are dropped.
                 continue;
             };
             let parent_follower = skin
+                // A rigid part rotates with the bone of its joint if that is exported.
                 .rig
                 .followers
                 .iter()
@@ -187,6 +190,7 @@ impl SignerBody {
         keyed
             .zip(&portable.sources)
             .map(|((parent, from, at), source)| {
+                // Points are moved without the stretch, which only thickens and is no position.
                 let motion = source_motion(source);
                 let to = moved_point(&motion, from);
                 let Some(parent) = parent.map(|parent_index| moved[parent_index]) else {
@@ -212,6 +216,7 @@ impl PortableBody {
         let rest = FollowerMotion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
         let mut motions = vec![rest; self.bones.len()];
         let mut given = keyed.iter();
+        // Keyed bones first, since the others depend on them.
         for (index, bone) in self.bones.iter().enumerate() {
             let PortableBone::Keyed { parent, from, at } = *bone else {
                 continue;
@@ -226,10 +231,12 @@ impl PortableBody {
                 None => FollowerMotion::new(own.turn, from, own.off),
             };
         }
+        // In order: a bone that is the same as another stands after it.
         for (index, bone) in self.bones.iter().enumerate() {
             motions[index] = match *bone {
                 PortableBone::Keyed { .. } => continue,
                 PortableBone::Same(other) => motions[other],
+                // Both ends rotate about one point, so that only the rotation lies between.
                 PortableBone::Between { ends, share } => {
                     let [a, b] = ends.map(|end| motions[end]);
                     FollowerMotion::new(a.turn.slerp(b.turn, share), a.from, a.to)
@@ -295,6 +302,7 @@ fn follower_to_bone(rig: &SkinRig, index: usize, skeleton: &Skeleton) -> Portabl
             arm(side, 2),
         ),
         SkinFollower::Joint { joint, at, .. } => {
+            // The nearest joint above that is a bone itself; joints of no bone are passed over.
             let above = skeleton.joint_ancestors(joint).skip(1).find_map(|above| {
                 find(&|follower| match follower {
                     SkinFollower::Joint { joint, .. } => *joint == above,
@@ -316,6 +324,7 @@ fn arm_share_bone(rig: &SkinRig, index: usize, side: usize, share: f32, fore: bo
             _ => false,
         })
     };
+    // A player interpolates the middle followers, which need no keys then.
     if share > 0.0
         && share < 1.0
         && let (Some(a), Some(b)) = (row(0.0), row(1.0))

@@ -51,17 +51,21 @@ impl BodySolid {
                 radii,
                 flat: (direction, factor),
             } => {
+                // Space is stretched along the direction, which makes the rod thinner there.
                 let stretched = |p: Vec3| p + direction * ((factor - 1.0) * p.dot(direction));
                 let [a, b] = ends.map(stretched);
                 let (from, bone) = (stretched(point) - a, b - a);
+                // A rod of no length is a ball.
                 let raw_share = from.dot(bone) / bone.length_squared().max(1e-9);
                 let share = raw_share.clamp(0.0, 1.0);
                 let radius = radii[0] + (radii[1] - radii[0]) * share;
+                // The stretch lengthens distances in between one and the factor times; the mean undoes it.
                 ((from - bone * share).length() - radius) / (1.0 + (factor - 1.0) / 2.0)
             }
             Self::Ball { centre, radii } => {
                 let from = point - centre;
                 let (near, steep) = ((from / radii).length(), (from / (radii * radii)).length().max(1e-9));
+                // The distance to first order: the value divided by its slope.
                 near * (near - 1.0) / steep
             }
         }
@@ -70,6 +74,7 @@ impl BodySolid {
 
 /// Returns the smaller of two distances, with a transition rounded over a width.
 pub(super) fn join_solid_distances(a: f32, b: f32, width: f32) -> f32 {
+    // The usual polynomial smooth minimum: nothing beyond the width, most where both are equal.
     let near = (width - (a - b).abs()).max(0.0) / width.max(1e-9);
     a.min(b) - near * near * width * 0.25
 }
@@ -82,6 +87,7 @@ pub(super) fn blended_solid_distance(solids: &[BodySolid], width: f32, point: Ve
 
 /// Returns the outward direction of a field at a point.
 pub(super) fn field_slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
+    // Four corners of a tetrahedron give the slope with four evaluations instead of six.
     let directions = [
         Vec3::new(1.0, -1.0, -1.0),
         Vec3::new(-1.0, -1.0, 1.0),
@@ -98,11 +104,13 @@ pub(super) fn field_slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -
 /// Returns the point of the skin near `point`.
 pub(super) fn on_skin(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
     let mut skin_point = point;
+    // Smooth joins distort distances, so that one step is not enough.
     for _ in 0..6 {
         let away = field(skin_point);
         if away.abs() < step * 0.05 {
             break;
         }
+        // A single step is limited, since far from the skin slopes lead anywhere.
         skin_point -= field_slope(field, skin_point, step) * away.clamp(-step * 30.0, step * 30.0);
     }
     skin_point
@@ -116,8 +124,10 @@ pub(super) fn cast_skin_ray(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Ve
         if away >= 0.0 {
             break;
         }
+        // Inside, distances are rather too long: a shorter step does not jump over the skin.
         far += (-away * 0.7).max(step * 0.2);
     }
+    // The march may have gone a little past the skin.
     find_surface_crossing(field, from, towards, (far - step * 2.0).max(0.0), far, 12)
 }
 

@@ -21,6 +21,7 @@ pub fn code_width(letter: char) -> usize {
 /// Calls `dot` with column and row of every dot of a character's frame.
 pub fn draw_code(letter: char, mut dot: impl FnMut(usize, usize)) {
     let columns = code_digits_per_row(letter);
+    // Two columns of frame and one of space stand around the digits, of four columns each.
     let (right, bottom) = (columns * 4 + 2, CODE_HEIGHT - 1);
     for x in 0..=right {
         dot(x, 0);

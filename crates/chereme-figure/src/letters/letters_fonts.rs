@@ -109,6 +109,7 @@ impl SystemFonts {
     #[must_use]
     pub fn find_letter_font(&self, letter: char) -> Option<Arc<FontFile>> {
         let mut known_fonts = self.lock_search_results();
+        // A character without a font is remembered too, so that it is not searched again.
         if let Some(found) = known_fonts.of.get(&letter) {
             let font_index = (*found)?;
             return known_fonts.loaded.get(font_index).map(|(_, font)| font.clone());
@@ -116,8 +117,10 @@ impl SystemFonts {
         let font_index = known_fonts
             .loaded
             .iter()
+            // A loaded font is preferred: texts look even, and fonts take memory.
             .position(|(_, font)| draws(&font.data, font.index, letter))
             .or_else(|| self.load_letter_font(&mut known_fonts, letter));
+        // All are forgotten at once; the loaded fonts stay.
         if known_fonts.of.len() >= MOST_KNOWN {
             known_fonts.of.clear();
         }
@@ -125,6 +128,7 @@ impl SystemFonts {
         match font_index {
             Some(at) => known_fonts.loaded.get(at).map(|(_, font)| font.clone()),
             None => {
+                // A list that nobody takes must not grow for ever.
                 if known_fonts.missing.len() < MOST_MISSING {
                     known_fonts.missing.insert(letter);
                 }
@@ -140,12 +144,14 @@ impl SystemFonts {
     }
 
     fn lock_search_results(&self) -> MutexGuard<'_, FontSearchResults> {
+        // A thread that panicked leaves the results whole, as each is written at once.
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn load_letter_font(&self, known: &mut FontSearchResults, letter: char) -> Option<usize> {
         for id in &self.order {
             let fits = |data: &[u8], index| {
+                // Fonts beyond the limit are passed over, and the character is drawn as a frame.
                 let room = MOST_KEPT.saturating_sub(known.kept).min(MOST_FILE);
                 (data.len() <= room && draws(data, index, letter)).then(|| (data.to_vec(), index))
             };
@@ -154,6 +160,7 @@ impl SystemFonts {
             };
             let first_family = self.faces.face(*id).and_then(|face| face.families.first());
             let family = first_family.map_or("font", |(name, _)| name);
+            // The number tells fonts of one family apart.
             let font_index = known.loaded.len();
             known.kept += data.len();
             let name = format!("{family} ({font_index})");
@@ -182,6 +189,7 @@ fn rank_font_face(face: &FaceInfo) -> FontFaceRank {
     let family_name = face.families.first().map_or("", |(name, _)| name);
     let name = family_name.to_lowercase();
     let has = |part: &str| u32::from(name.contains(part));
+    // A slanted font is worse than any weight, and an emoji font worse than both.
     let slanted = u32::from(face.style != Style::Normal) * 4000;
     let narrow = u32::from(face.stretch != Stretch::Normal) * 2000;
     let heavy = u32::from(face.weight.0.abs_diff(400));

@@ -38,6 +38,7 @@ pub fn visual_text_runs(line: &str) -> Vec<TextRun> {
         let from_right = false;
         return Vec::from_iter((!line.is_empty()).then_some(TextRun { range, from_right }));
     }
+    // One letter from the left is enough: a sentence keeps its direction around a foreign gloss.
     let latin = line.chars().any(|c| bidi_class(c) == BidiClass::L);
     let level = if latin { Level::ltr() } else { Level::rtl() };
     let info = ParagraphBidiInfo::new(line, Some(level));

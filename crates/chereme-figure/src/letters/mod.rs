@@ -106,6 +106,7 @@ fn lay_out_with_fonts(text: &str, fonts: &SystemFonts) -> LaidOutLine {
     let mut line = LaidOutLine::default();
     for run in visual_text_runs(text) {
         let mut parts = split_run_by_font(&text[run.range.clone()], fonts);
+        // Parts are in the order of reading, and the line is laid out from the left.
         if run.from_right {
             parts.reverse();
         }

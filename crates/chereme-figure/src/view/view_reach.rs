@@ -50,6 +50,7 @@ impl SigningReach {
 /// Returns the mean place of the hips along the axes of a framing; the middle of its space if the skeleton has none.
 fn mean_hip_position(framing: &ClipFraming, clip: &Clip, anatomy: &BodyAnatomy) -> Option<Vec3> {
     let Some(hips) = anatomy.part_joint(BodyPart::Hips) else {
+        // Without hips the middle of the space is the best anchor that is left.
         return Some((framing.low + framing.high) * 0.5);
     };
     let poses = sample_clip_poses(clip, anatomy)?;
