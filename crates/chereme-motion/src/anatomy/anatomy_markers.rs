@@ -38,16 +38,19 @@ pub(super) fn find_marker_joints(skeleton: &Skeleton, names: &[&str], labels: &[
         // The toes of a leg without known names are farther from the trunk.
         let near_joints = skeleton.joint_ancestors(joint).skip(1).take(2);
         let near = near_joints.filter(|ancestor| above.contains(ancestor)).count() > 0;
+        // A small skeleton may be a prop or a hand, whose leaves are its own parts.
         below.len() >= MIN_BODY_JOINTS && near && !above.contains(&joint) && !below.contains(&joint)
     };
     let carries = |joint: usize| {
         let label = labels[joint].map(|label| label.word);
+        // Markers hang on what carries the whole body; leaves elsewhere are ends of bones.
         label.is_none_or(|word| matches!(word, JointWord::Root | JointWord::Hips))
     };
     let named: Vec<usize> = (1..skeleton.len())
         .filter(|&joint| leaf(joint) && is_marker(names[joint]))
         .filter(|&joint| skeleton.joint_parent(joint).is_some_and(carries))
         .collect();
+    // A single leaf with such a name may be a joint; several are a set of markers.
     let several = named.len() >= MIN_RECOGNISED_MARKERS;
     (1..skeleton.len())
         .filter(|&joint| leaf(joint))
@@ -58,6 +61,7 @@ pub(super) fn find_marker_joints(skeleton: &Skeleton, names: &[&str], labels: &[
 /// Returns the joint that carries both arms, and the legs if there are any.
 fn find_arm_carrier(skeleton: &Skeleton, labels: &[Option<JointLabel>]) -> Option<usize> {
     let limb = |joint: &usize| {
+        // A leaf with the name of a limb may be a marker itself.
         let inner = !skeleton.joint_children(*joint).is_empty();
         inner
             && labels[*joint].is_some_and(|label| {
@@ -82,6 +86,7 @@ fn find_arm_carrier(skeleton: &Skeleton, labels: &[Option<JointLabel>]) -> Optio
             .iter()
             .any(|&joint| labels[joint].is_some_and(|label| label.side == Some(side)))
     };
+    // With one side only, the joint above it is just its shoulder.
     if !sides.into_iter().all(on) {
         return None;
     }
@@ -96,6 +101,7 @@ fn find_arm_carrier(skeleton: &Skeleton, labels: &[Option<JointLabel>]) -> Optio
 /// Returns whether a name is that of a marker, such as `LFHD`, `NS:C7` or `RMID6`; `R.Shoulder.1` is that of a joint.
 fn is_marker(name: &str) -> bool {
     let bare = anatomy_names::without_rig(name).trim();
+    // Labels of markers are in capitals, names of joints are not.
     if bare.is_empty() || bare.chars().any(|c| c.is_lowercase()) {
         return false;
     }
@@ -106,6 +112,7 @@ fn is_marker(name: &str) -> bool {
     let sided = plain.strip_prefix('L').or(plain.strip_prefix('R'));
     sided.is_some_and(|rest| {
         let label = rest.trim_end_matches(|c: char| c.is_ascii_digit());
+        // Up to two digits may follow: RMID6 is the sixth marker of a finger.
         SIDED_MARKER_LABELS.contains(&rest) || (SIDED_MARKER_LABELS.contains(&label) && rest.len() - label.len() < 3)
     })
 }

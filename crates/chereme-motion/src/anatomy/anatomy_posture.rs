@@ -25,6 +25,7 @@ impl BodyAnatomy {
         let mut pose = skeleton.rest_pose();
         let is_at_rest = self.is_measured_at_rest(skeleton);
         if !is_at_rest {
+            // Only rotations are taken: bone lengths and the root's place stay those of the file.
             pose.rotations = self.measured_pose.to_local(skeleton).rotations;
         }
         let mut stance = PostureBuilder {
@@ -51,6 +52,7 @@ impl BodyAnatomy {
             let side = BodySide::BOTH_SIDES
                 .into_iter()
                 .find(|&side| joint(BodyPart::Hand(side)) == Some(from));
+            // The palm is turned down after its bone is straight, since the turn is about the arm.
             if let Some(turn) = side.and_then(|side| self.palm_down(side, &stance.model)) {
                 stance.turn_posture_joint(from, turn);
             }
@@ -88,6 +90,7 @@ impl BodyAnatomy {
                 add(pair[0], pair[1], DVec3::Y);
             }
         }
+        // From the trunk outwards, since a turn carries everything below it.
         for side in [BodySide::Left, BodySide::Right] {
             let out = stretched_arm_direction(side);
             add(BodyPart::UpperArm(side), BodyPart::Forearm(side), out);
@@ -133,6 +136,7 @@ impl PostureBuilder<'_> {
     fn turn_posture_joint(&mut self, joint: usize, by: DQuat) {
         let parent = self.skeleton.joint_parent(joint);
         let above = parent.map_or(DQuat::IDENTITY, |above| self.model.model_joint_rotation(above));
+        // The turn is in model space and the local rotation in the parent's.
         let turned = above.inverse() * by * self.model.model_joint_rotation(joint);
         self.pose.rotations[joint] = turned.normalize();
         self.model.set_local_pose(self.skeleton, &self.pose);

@@ -84,6 +84,7 @@ pub enum RolesError {
 impl FromStr for AssignedJointRoles {
     type Err = RolesError;
     fn from_str(text: &str) -> Result<Self, RolesError> {
+        // Editors on Windows write a mark before the text.
         let text = text.trim_start_matches('\u{feff}');
         if text.trim_start().starts_with('{') {
             return Ok(serde_json::from_str(text)?);
@@ -134,6 +135,7 @@ impl AssignedJointRoles {
                 });
             };
             if let Some(first) = taken.insert(joint, part)
+                // Short spines have one joint for both.
                 && (first, part) != (BodyPart::Spine, BodyPart::Chest)
             {
                 return Err(RolesError::Shared {

@@ -41,6 +41,7 @@ impl ExactDecimal {
     /// Returns the correctly rounded `f64` of the decimal.
     #[must_use]
     pub fn to_f64(self) -> f64 {
+        // Up to 2⁵³ and 10²² both operands are exact, so that one division rounds correctly.
         let exact_in_f64 = self.mantissa.unsigned_abs() <= 1 << 53;
         match POW10_F64.get(usize::from(self.scale)) {
             Some(power) if exact_in_f64 => self.mantissa as f64 / power,
@@ -66,6 +67,7 @@ impl ExactDecimal {
     pub fn at_scale(self, scale: u8) -> Option<i64> {
         if scale >= self.scale {
             let factor = *POWERS_OF_TEN.get(usize::from(scale - self.scale))?;
+            // Digits lost would make another number of it.
             self.mantissa.checked_mul(factor).filter(|m| m.abs() < MANTISSA_LIMIT)
         } else {
             let divisor = *POWERS_OF_TEN.get(usize::from(self.scale - scale))?;
@@ -113,6 +115,7 @@ fn push_decimal(text: &mut Vec<u8>, ExactDecimal { mantissa, scale }: ExactDecim
 4041424344454647484950515253545556575859\
 6061626364656667686970717273747576777879\
 8081828384858687888990919293949596979899";
+    // Twenty digits hold any u64.
     let mut digits = [b'0'; 20];
     let mut start = digits.len();
     let mut rest = mantissa.unsigned_abs();
@@ -122,6 +125,7 @@ fn push_decimal(text: &mut Vec<u8>, ExactDecimal { mantissa, scale }: ExactDecim
         start -= 2;
         digits[start..start + 2].copy_from_slice(&DIGIT_PAIRS[pair..pair + 2]);
     }
+    // A zero leaves no digit here and is written below.
     if rest > 0 {
         start -= 1;
         digits[start] = b'0' + rest as u8;
@@ -131,6 +135,7 @@ fn push_decimal(text: &mut Vec<u8>, ExactDecimal { mantissa, scale }: ExactDecim
     }
     let (scale, count) = (usize::from(scale), digits.len() - start);
     if count > scale {
+        // A value below one has no digits before the point; files write a zero there.
         text.extend_from_slice(&digits[start..digits.len() - scale]);
     } else {
         text.push(b'0');
@@ -196,6 +201,7 @@ impl FileNumber {
         let trimmed = digits.trim_end_matches('0');
         let dropped = (digits.len() - trimmed.len()) as i64;
         let significant = trimmed.trim_start_matches('0').to_owned();
+        // Zero has no sign and no exponent, or -0 would differ from 0.
         if significant.is_empty() {
             return (false, significant, 0);
         }
@@ -285,6 +291,7 @@ fn parse_number(token: &[u8]) -> Result<FileNumber, NotANumber> {
         return Ok(FileNumber::Decimal(decimal));
     }
     let text = std::str::from_utf8(token).map_err(|_| NotANumber::Garbage)?;
+    // No f64 overflows below 10³⁰⁰, so that the slow parse is left to larger ones.
     let surely_finite = parts.exponent.saturating_add(parts.whole.len() as i64) <= 300;
     if surely_finite || text.parse().is_ok_and(f64::is_finite) {
         return Ok(FileNumber::Text(text.into()));
@@ -298,7 +305,9 @@ fn why_not(token: &[u8]) -> NotANumber {
         .or(token.strip_prefix(b"+"))
         .unwrap_or(token)
         .to_ascii_lowercase();
+    // Only a number with a comma instead of the point is told so; lists of numbers are not.
     let dotted: Vec<u8> = token.iter().map(|&b| if b == b',' { b'.' } else { b }).collect();
+    // Windows prints infinities and undefined numbers as 1.#INF and 1.#IND.
     let not_finite = [&b"nan"[..], b"inf", b"1.#", b"-1.#"]
         .iter()
         .any(|word| bare.starts_with(word));
@@ -354,11 +363,13 @@ impl<'a> NumberParts<'a> {
                 .filter(|&longer| longer < MANTISSA_LIMIT)?;
         }
         let mut scale = (self.fraction.len() as i64).saturating_sub(self.exponent);
+        // An exponent beyond the digits: 3e3 is 3000 without a fraction.
         if scale < 0 && mantissa != 0 {
             let factor = POWERS_OF_TEN.get(usize::try_from(-scale).ok()?)?;
             mantissa = mantissa.checked_mul(*factor).filter(|&m| m < MANTISSA_LIMIT)?;
         }
         if mantissa == 0 {
+            // Zero with a huge exponent is still zero, and its scale is only a way of writing it.
             scale = scale.clamp(0, 18);
         }
         let signed = if self.negative { -mantissa } else { mantissa };
