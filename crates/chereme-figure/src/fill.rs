@@ -229,8 +229,8 @@ fn inside_column_span(first: [i64; 3], across: [i64; 3], wide: i64) -> (i64, i64
             from = from.max((value + step - 1) / step);
         } else if step < 0 && value <= 0 {
             to = to.min(value / step);
-        // An edge along the row leaves all columns or none.
         } else if value > 0 {
+            // An edge along the row leaves all columns or none.
             return (1, 0);
         }
     }

@@ -228,8 +228,8 @@ impl ClipEnds {
         let jump = looks.jumps(first..first + window).pop();
         if let Some(jump) = jump {
             self.leave_out(first..jump.steps.end, jump.what_after(bound));
-        // Without a jump of the body, a short bind pose still shows by the hand that leaps out of it.
         } else if bound > first && bound - first <= window && looks.unbinds(bound) {
+            // Without a jump of the body, a short bind pose still shows by the hand that leaps out of it.
             self.leave_out(first..bound, FrameOddity::Bind);
         }
         let seen = looks.available_frame_range(&self.sound);

@@ -380,7 +380,6 @@ impl BodyBuilder<'_> {
         let axes = Mat3::from_cols_array_2d(&axes.map(|axis| axis.as_vec3().to_array()));
         let height = measures.head as f32;
         let top = self
-            // The landmark is used if a skeleton has one; it fits better than the height of the joint.
             .anatomy
             .landmark_place_position(self.skeleton, self.rest, "head-top");
         let up = axes.y_axis;

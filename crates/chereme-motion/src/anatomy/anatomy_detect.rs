@@ -202,8 +202,8 @@ impl<'a> PartFinder<'a> {
         self.assign_labelled_part(BodyPart::Foot(side), &[JointWord::Ankle, JointWord::Foot]);
         if has_toes {
             self.assign_labelled_part(BodyPart::Toes(side), &[JointWord::Toes]);
-        // With an ankle, "foot" is the ball of the foot.
         } else if has_ankle {
+            // With an ankle, "foot" is the ball of the foot.
             self.assign_labelled_part(BodyPart::Toes(side), &[JointWord::Foot]);
         }
     }

@@ -70,8 +70,8 @@ pub fn solve_fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) ->
     if root.distance(target) >= full_length {
         let direction = (target - root).normalize_or(DVec3::X);
         stretch_chain(&mut points, &lengths, direction);
-    // Inside of reach only: a straight chain would slide along its line and never bend.
     } else {
+        // Inside of reach only: a straight chain would slide along its line and never bend.
         unbend_line(&mut points, target, full_length, options.pole);
         while passes < options.passes && residual(&points, target) > options.tolerance {
             pull(points.iter_mut().rev(), lengths.iter().rev(), target);

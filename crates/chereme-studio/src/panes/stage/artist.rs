@@ -102,6 +102,7 @@ impl StageArtist {
             let mut hand = DrawingBuffers::default();
             while let Some(wish) = thread_shared.next() {
                 let drawn = hand.draw_stage_request(&wish);
+                // Only the newest picture is of use; one that nobody took is replaced.
                 *lock_shared_data(&thread_shared.drawn) = Some(drawn);
                 thread_shared.ready.notify_all();
                 wake();
@@ -121,6 +122,7 @@ impl StageArtist {
 
     /// Waits until the pictures of that request are ready, at most for `most`.
     pub(super) fn await_newest(&self, number: u64, most: Duration) {
+        // A later picture is as good as the awaited one.
         let waiting = |drawn: &mut Option<DrawnPictures>| drawn.as_ref().is_none_or(|picture| picture.number < number);
         let drawn = lock_shared_data(&self.shared.drawn);
         // Pictures that take longer are shown in a later frame.
@@ -135,6 +137,7 @@ impl StageArtist {
 
 impl Drop for StageArtist {
     fn drop(&mut self) {
+        // The thread may be waiting for a request, so it is woken to see the end.
         lock_shared_data(&self.shared.wish).over = true;
         self.shared.wished.notify_one();
         if let Some(thread) = self.thread.take() {
@@ -192,6 +195,7 @@ impl DrawingBuffers {
         let begun = Instant::now();
         self.meshes.resize_with(wish.figures.len(), Default::default);
         for (PosedFigure { body, pose, face }, (of, mesh)) in wish.figures.iter().zip(&mut self.meshes) {
+            // A body keeps its mesh from picture to picture; another body needs one of its own size.
             if of.as_ref().is_some_and(|of| Arc::ptr_eq(of, body)) {
                 body.shape_body_mesh(pose, mesh);
             } else {
@@ -216,6 +220,7 @@ impl DrawingBuffers {
         let meshes = &self.meshes;
         let large = wish.panes.iter().filter(|pane| !pane.fine).count();
         let style = FigureStyle {
+            // Large pictures are drawn at the same time and share the threads.
             threads: (wish.style.threads / large.max(1)).max(1),
             ..wish.style
         };
@@ -235,6 +240,7 @@ impl DrawingBuffers {
             of.filter(move |(_, pane)| pane.fine == fine).map(|entry| entry.0)
         };
         std::thread::scope(|scope| {
+            // The last large picture is drawn here, since this thread would only wait.
             let last = others.pop();
             let others: Vec<_> = others
                 .into_iter()
@@ -258,6 +264,7 @@ impl DrawingBuffers {
             }
         });
         let empty = |(image, pane): (Option<ColorImage>, &CameraPicture)| {
+            // A panicked thread leaves its picture grey instead of taking the window with it.
             image.unwrap_or_else(|| ColorImage::filled(pane.size, Color32::GRAY))
         };
         images.into_iter().zip(&wish.panes).map(empty).collect()
@@ -276,11 +283,13 @@ impl PictureCanvas {
             let figure = sheet.figure.and_then(|at| meshes.get(at));
             let mesh = match (figure, &sheet.marks) {
                 (Some((_, figure)), Some(marks)) => {
+                    // Marks of a figure are drawn with it, so that both hide each other.
                     self.joined.clone_from(figure);
                     self.joined.append_mesh(marks);
                     &self.joined
                 }
                 (Some((_, figure)), None) => figure,
+                // Only the lowest sheet can be kept: the picture below it is empty paper.
                 (None, Some(marks)) if image.is_none() => {
                     image = Some(self.on_ground(pane, marks, style));
                     continue;

@@ -13,6 +13,7 @@ pub(super) const NARROW_PICTURE_WIDTH_POINTS: f32 = 300.0;
 
 /// Shows whose original is visible, or how a piece without an original was generated.
 pub(super) fn show_original_signer(stage: &StagePane, ui: &Ui, seen: &PaneInput<'_>, part: &StagePart) {
+    // Beside the signer's own picture nothing needs a name.
     if part.who == StagePartContent::Signer {
         return;
     }
@@ -37,6 +38,7 @@ pub(super) fn show_original_signer(stage: &StagePane, ui: &Ui, seen: &PaneInput<
 }
 
 fn no_original(seen: &PaneInput<'_>, made_by: &str) -> String {
+    // Sources of pieces may be whole notations; the beginning is enough to tell them apart.
     let mut short: String = made_by.chars().take(36).collect();
     if short.len() < made_by.len() {
         short.push('…');

@@ -35,6 +35,7 @@ impl SightRay {
         let between = self.from - origin;
         let slant = axis.dot(self.along);
         let across = 1.0 - slant * slant;
+        // Parallel lines have no nearest points.
         (across > 1e-4).then(|| (axis.dot(between) - slant * self.along.dot(between)) / across)
     }
 
@@ -43,6 +44,7 @@ impl SightRay {
     pub(super) fn on_plane(&self, origin: DVec3, normal: DVec3) -> Option<DVec3> {
         let steep = normal.dot(self.along);
         let far = normal.dot(origin - self.from) / steep;
+        // Behind the eye the ray meets the plane only backwards.
         (steep.abs() > 1e-4 && far > 0.0).then(|| self.from + self.along * far)
     }
 }
@@ -59,12 +61,14 @@ pub(super) struct SignerDirections {
 impl SignerDirections {
     /// Returns the directions of a movement as placements use them: up is vertical, left and forward are horizontal.
     pub(super) fn directions_from_clip(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Self> {
+        // A sample shows the mean direction of a movement well enough.
         let step = clip.clip_frame_count().div_ceil(MAX_EXAMINED_FRAMES).max(1);
         let facing = (0..clip.clip_frame_count()).step_by(step).filter_map(|frame| {
             let body = anatomy.body_frame(&clip.model_pose(frame))?;
             Some(body.forward)
         });
         let facing: DVec3 = facing.sum();
+        // Placements are along the floor, so that leaning does not tilt their axes.
         let forward = DVec3::new(facing.x, 0.0, facing.z).normalize_or(DVec3::Z);
         Some(Self {
             axes: DMat3::from_cols(DVec3::Y.cross(forward), DVec3::Y, forward),
@@ -102,6 +106,7 @@ impl GizmoDragStart {
         let offset = match self.part {
             HandlePart::Axis(nth) => {
                 let axis = axes.col(nth);
+                // The press is seldom exactly on the axis: only the difference of both points counts.
                 let from = self.ray.along_axis(self.origin, axis)?;
                 let mut offset = [0.0; 3];
                 offset[nth] = ray.along_axis(self.origin, axis)? - from;
@@ -115,6 +120,7 @@ impl GizmoDragStart {
         };
         let mut value = self.value;
         for (nth, offset) in offset.into_iter().enumerate() {
+            // Other coordinates keep their digits; rounding them would move the hand a little.
             let moves = self.part == HandlePart::Middle || self.part == HandlePart::Axis(nth);
             if moves {
                 value[nth] = snap_gizmo_length(value[nth] + offset, step);
@@ -132,6 +138,7 @@ impl GizmoDragStart {
 /// Returns a length rounded to millimetres or to `step`, such that it is exact in centimetres.
 pub(super) fn snap_gizmo_length(metres: f64, step: Option<f64>) -> f64 {
     let step = step.unwrap_or(0.001);
+    // Whole millimetres first, so that the value in centimetres has one decimal.
     let mm = ((metres / step).round() * step * 1000.0).round();
     // Adding 0.0 turns -0.0 into 0.0.
     mm / 10.0 / 100.0 + 0.0
@@ -149,6 +156,7 @@ pub(super) fn step_gizmo_value(
     const AXIS_ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let fits = |order: &[usize; 3]| -> f32 {
         let [right, up, away] = order.map(|nth| seen[nth]);
+        // Each axis is used once: two steps along one axis would leave a direction out of reach.
         right.x.abs() + up.y.abs() + away.z.abs()
     };
     let best = AXIS_ORDERS
@@ -183,6 +191,7 @@ pub(super) fn lay_out_gizmo(projection: &CameraProjection, origin: DVec3, axes: 
     let projected = projection.project_point(origin.as_vec3());
     let ends = [0, 1, 2].map(|nth| {
         let direction: Vec3 = projection.to_picture_axes(axes.col(nth).as_vec3()) * GIZMO_AXIS_LENGTH_POINTS;
+        // An axis along the line of sight is a point in the picture and cannot be dragged.
         let length = direction.x.hypot(direction.y);
         (length >= MIN_GIZMO_AXIS_POINTS).then_some([projected.x + direction.x, projected.y - direction.y])
     });

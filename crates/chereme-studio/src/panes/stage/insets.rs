@@ -36,6 +36,7 @@ pub(super) fn show_stage_insets(
     insets: &[StageInset],
     before: usize,
 ) {
+    // The textures of the last layout do not fit the new close-ups yet.
     if stage.textures.len() != before + insets.len() {
         return;
     }
@@ -69,6 +70,7 @@ pub(super) fn show_stage_insets(
         });
         let clicked = response.clicked();
         response.on_hover_text(tip.unwrap_or_else(|| name.to_owned()));
+        // The face has one direction only, so that a click on it does nothing.
         if let Some(action) = action.filter(|_| clicked) {
             out.send_command(WindowCommand::Do(action));
         }
@@ -88,6 +90,7 @@ pub(super) fn show_inset_proposal(ui: &Ui, seen: &PaneInput<'_>, insets: &[Stage
     };
     let distance = inset.rect.width() + 6.0;
     let away = match proposal.side {
+        // The picture stands towards the middle, since close-ups lie in the corners.
         BodySide::Right => distance,
         BodySide::Left => -distance,
     };

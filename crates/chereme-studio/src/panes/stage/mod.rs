@@ -166,11 +166,14 @@ impl StagePane {
             (None, Some(it)) => Some((MovementIdentity(Arc::as_ptr(it) as usize), &it.clip, &it.anatomy)),
             (None, None) => None,
         };
+        // Addresses tell movements apart without comparing all their frames.
         if self.signer.as_ref().map(|signer| signer.0) != now.map(|entry| entry.0) {
             // While a hand is being placed, the camera does not move.
+            // A changed recipe replaces its own movement; anything else is a new subject.
             let newer = self.made && made.is_some();
             let steady = newer && seen.shown.handle.is_some();
             self.replaced = newer.then_some(time);
+            // While something plays the next picture comes anyway.
             self.at_once = newer && !seen.shown.on_stage().is_playing();
             self.made = made.is_some();
             self.signer = now.and_then(|(of, clip, anatomy)| {
@@ -219,6 +222,7 @@ impl StagePane {
         let kept = self.eyes.len().min(count);
         let mut eyes: Vec<StageEye> = self.eyes[..kept].to_vec();
         for view in usual {
+            // A view is shown once, as long as there are usual ones left.
             if eyes.len() < count && eyes.iter().all(|eye| eye.view != *view) {
                 eyes.push(StageEye::from_preset_view(*view));
             }
@@ -343,6 +347,7 @@ fn note_place(ui: &Ui, rect: Rect) {
 /// Returns the rectangle of the stage's pictures, if it is in sight.
 pub(crate) fn visible_stage_rect(ctx: &Context) -> Option<Rect> {
     let (frame, rect): (u64, Rect) = ctx.data(|data| data.get_temp(Id::unique(STAGE_PLACE_KEY)))?;
+    // The rectangle of the frame before counts too: other panes may be drawn earlier.
     (frame + 1 >= ctx.cumulative_frame_nr()).then_some(rect)
 }
 

@@ -53,6 +53,7 @@ impl OriginalMovements {
             OriginalSource::Stored(recording, _) => movement_jobs::originals_of(recording),
         });
         *self = Self {
+            // The request before is dropped with the old state: its answer would be of another movement.
             source,
             work: job.map(|job| out.request_work(job)),
             ..Self::default()
@@ -62,6 +63,7 @@ impl OriginalMovements {
 
     /// Handles the result of work; returns whether it was the requested originals.
     pub(super) fn receive_original_movements(&mut self, id: WorkId, ended: &WorkResult) -> bool {
+        // Answers to requests before a change of the stage are of no use.
         if self.work.take_if(|work| *work == id).is_none() {
             return false;
         }
@@ -113,6 +115,7 @@ fn nearest_made_part<'a>(parts: impl Iterator<Item = &'a MadePart>, at: Recordin
             part.span.span_start_instant().instant_micros(),
             part.span.span_end_instant().instant_micros(),
         );
+        // The end is excluded from a span, so that a moment there is one microsecond away.
         (start - at.instant_micros()).max(at.instant_micros() - end + 1).max(0)
     };
     parts
@@ -131,6 +134,7 @@ pub(super) fn original_moment_at(
     let inside = at
         .shifted_instant(-piece.span.span_start_instant().instant_micros())
         .max(RecordingInstant::RECORDING_START);
+    // Originals may be shorter than the piece made of them; their last posture stays.
     inside.min(moving.clip.clip_span().span_end_instant())
 }
 

@@ -43,11 +43,13 @@ pub(super) fn preview_stage_moment(
         return Some(rate.frame_start_instant(rate.nearest_frame_at(loop_time)));
     }
     let same = |stroke: &&PreviewStroke| stroke.recording == shown.recording && stroke.of == preview;
+    // The search is repeated only until all moments are loaded.
     if let Some(stroke) = known.as_ref().filter(same) {
         return stroke.at;
     }
     let (at, whole) = find_stroke_middle(seen, span)?;
     let frame_start = at.map(|at| rate.frame_start_instant(rate.nearest_frame_at(at)));
+    // A stroke found in half of the moments may still change.
     if whole {
         *known = Some(PreviewStroke {
             recording: shown.recording,

@@ -71,6 +71,7 @@ pub(super) fn show_stage_path(
     let Some(side) = side.or(sides.first()).copied() else {
         return;
     };
+    // A posture of the skeleton before has other joints.
     if made.clip.clip_frame_count() == 0 || pose.model_joint_positions().len() < made.clip.clip_skeleton().len() {
         return;
     }
@@ -93,6 +94,7 @@ pub(super) fn show_stage_path(
     };
     let painter = ui.painter().with_clip_rect(pane.rect);
     paint_stage_path(&painter, seen, &layout);
+    // While a new path is drawn, the old one must not be pulled.
     if drawing_card_id(ui.ctx()) == Some(course.card) {
         draw_new_path(ui, seen, out, &layout);
         return;
@@ -155,6 +157,7 @@ fn pull_point(
         response.request_focus();
     }
     let mut points = laid.points.clone();
+    // A path needs one point at least.
     if response.secondary_clicked() && points.len() > 1 {
         points.remove(point);
         return send_path_points(laid, &points, out);
@@ -194,6 +197,7 @@ fn pull_line(
     let line_points = laid.line.iter().enumerate();
     let near = line_points.map(|(nth, at)| (at.distance(pointer), nth));
     let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+    // A drag goes on even if the pointer leaves the line.
     if !dragged && nearest.is_none_or(|(far, _)| far > PATH_PULL_REACH_POINTS) {
         return;
     }
@@ -243,6 +247,7 @@ fn draw_new_path(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, lai
         line.clear();
     }
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged())
+        // Closer points add nothing to a line on the screen.
         && line.last().is_none_or(|last| last.distance(at) > 2.0)
     {
         line.push(at);

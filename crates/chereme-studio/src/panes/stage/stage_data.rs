@@ -59,11 +59,13 @@ impl StageEye {
     pub(crate) fn orbit_eye(&mut self, [right, down]: [f32; 2]) {
         const QUARTER_TURN_RADIANS: f32 = std::f32::consts::FRAC_PI_2;
         self.turn = (self.turn - right * 3.0).rem_euclid(4.0 * QUARTER_TURN_RADIANS);
+        // Short of straight up and down, where left and right would change places.
         self.lift = (self.lift + down * 3.0).clamp(-QUARTER_TURN_RADIANS * 0.98, QUARTER_TURN_RADIANS * 0.98);
     }
 
     /// Moves the picture after a drag, given in shares of its height.
     pub(crate) fn pan_eye(&mut self, [right, down]: [f32; 2]) {
+        // Magnified pictures move by the same share of what is visible.
         self.shift[0] -= right / self.zoom;
         self.shift[1] += down / self.zoom;
     }
@@ -78,6 +80,7 @@ impl StageEye {
     pub(crate) fn nearer_at(&mut self, factor: f32, [right, down]: [f32; 2]) {
         let before = self.zoom;
         self.magnify_eye(factor);
+        // The place under the pointer keeps its distance from the middle in points.
         let gone = 1.0 / before - 1.0 / self.zoom;
         self.shift[0] += right * gone;
         self.shift[1] -= down * gone;
@@ -88,12 +91,14 @@ impl StageEye {
         let sight = preset.eye - preset.target;
         let towards = sight.normalize_or(Vec3::Z);
         let side = preset.up.cross(towards).normalize_or(Vec3::X);
+        // Up of the preset need not be perpendicular to the line of sight.
         let up = towards.cross(side);
         let turned = Quat::from_axis_angle(up, self.turn) * Quat::from_axis_angle(side, -self.lift);
         let (side, up) = (turned * side, turned * up);
         let half_height = preset.half_height / self.zoom;
         let moved = (side * self.shift[0] + up * self.shift[1]) * 2.0 * preset.half_height;
         let target = preset.target + moved;
+        // A turned eye may stand behind what the preset leaves out.
         let near = if self.is_preset() { preset.near } else { 0.0 };
         FigureCamera {
             eye: target + turned * sight / self.zoom,
@@ -148,6 +153,7 @@ pub(crate) fn divide_stage_parts(whole: Rect, eyes: usize, compare: Option<Origi
         let mut part = |rect, who| parts.push(StagePart { rect, eye, who });
         match compare {
             Some(OriginalComparison::Beside) => {
+                // Two pictures of a standing signer fit beside each other in all but narrow parts.
                 let sides = halve_stage_rect(rect, rect.width() >= rect.height() * 0.8);
                 part(sides[0], StagePartContent::Original);
                 part(sides[1], StagePartContent::Signer);
@@ -241,6 +247,7 @@ pub(crate) fn place_part_insets(part: &StagePart, view: FigureView, wanted: Want
         });
     };
     if wanted.hands {
+        // From behind and from above, the right hand is on the right of the picture.
         let behind = matches!(view, FigureView::Signer | FigureView::Top);
         for hand in BodySide::BOTH_SIDES {
             let left = (hand == BodySide::Right) != behind;
@@ -277,6 +284,7 @@ pub(crate) struct StageLook {
 
 /// Returns the number of samples per side of a pixel: 1 if something moves and the picture is large, else 2.
 pub(crate) fn pixel_sample_count(moving: bool, size: [usize; 2]) -> usize {
+    // Below that size two samples are fast enough for every frame.
     if moving && size[0] * size[1] > 300_000 { 1 } else { 2 }
 }
 

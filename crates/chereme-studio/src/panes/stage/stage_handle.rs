@@ -94,6 +94,7 @@ pub(super) fn show_stage_handles(
     };
     let made = &showing.made;
     let of = MovementIdentity(std::sync::Arc::as_ptr(made) as usize);
+    // The directions of a movement are computed once, since they need many of its postures.
     if stage.holding.directions.as_ref().map(|entry| entry.0) != Some(of) {
         let directions = SignerDirections::directions_from_clip(&made.clip, &made.anatomy);
         stage.holding.directions = Some((of, directions));
@@ -118,6 +119,7 @@ pub(super) fn show_stage_handles(
             pane: pane.rect,
             projection,
             side,
+            // One of both hands has the axes: two crosses of arrows could not be told apart.
             whole: Some(side) == first,
             id: handle_widget_id(ui, pane, side),
         };
@@ -147,6 +149,7 @@ fn show_hand_handle(
     let wrist = pose.model_joint_position(wrist);
     let axes = held.directions.axes;
     let own_grab = holding.grab.as_ref().filter(|grab| grab.side == held.side);
+    // During a drag the handle follows the value at once, while the posture comes later.
     let handle_origin = own_grab.map_or(wrist, |grab| grab.begun.gizmo_handle_position(held.value, axes));
     let Some(laid) = gizmo::lay_out_gizmo(&held.projection, handle_origin, axes) else {
         return;
@@ -160,6 +163,7 @@ fn show_hand_handle(
     let id = held.id;
     let near = handle_grab_rect(held, &laid);
     let zone = ui.interact(near, id.with("near"), Sense::drag());
+    // Other buttons move the picture even on the handle, which would swallow them.
     if zone.dragged() && !zone.dragged_by(PointerButton::Primary) {
         holding.panned = zone.drag_delta();
     }
@@ -252,6 +256,7 @@ fn nearest_handle_part(held: &HandleInView<'_>, laid: &GizmoLayout, at: Pos2) ->
     let away = |[from, to]: [Pos2; 2]| {
         let along = to - from;
         let raw_share = (at - from).dot(along) / along.length_sq().max(1e-6);
+        // The inner half of an axis is the middle's, which would be hard to hit otherwise.
         let share = if from == to { 0.0 } else { raw_share.clamp(0.5, 1.0) };
         (from + along * share).distance(at)
     };
@@ -376,6 +381,7 @@ fn continue_handle_drag(
     let Some(grab) = &mut holding.grab else {
         return;
     };
+    // Several responses report one press: only that of the grabbed part counts.
     let is_own = grab.side == held.side && grab.begun.part == part && grab.card == held.handle.card;
     if !is_own {
         return;
@@ -388,12 +394,14 @@ fn continue_handle_drag(
         && let Some(place) = response.interact_pointer_pos()
     {
         let step = ui.input(|input| input.modifiers.command.then_some(HANDLE_KEY_STEP_METRES));
+        // A value that did not change needs no new movement.
         if let Some(value) = grab.begun.dragged_gizmo_value(ray(place), held.directions.axes, step)
             && value != held.value
         {
             send_handle_value(held, value, out);
         }
     }
+    // A press without a drag ends without an event of its own.
     if response.drag_stopped() || !ui.input(|input| input.pointer.any_down()) {
         if grab.was_playing {
             out.send_command(WindowCommand::Do(Action::Play));
@@ -427,6 +435,7 @@ fn handle_gizmo_keys(
     response: &Response,
 ) {
     if !response.has_focus() {
+        // What Escape restores is kept as long as the handle has the focus.
         if response.lost_focus() {
             holding.before = None;
         }
@@ -441,12 +450,14 @@ fn handle_gizmo_keys(
         };
         memory.set_focus_lock_filter(response.id, filter);
     });
+    // Keys during a drag would fight with the pointer.
     if holding.grab.is_some() {
         return;
     }
     let mut offset = [0.0; 3];
     let mut escape = false;
     ui.input_mut(|input| {
+        // Shift first: a key with Shift would be consumed by the plain one as well.
         for (shift, step) in [(Modifiers::SHIFT, FAR_STEP), (Modifiers::NONE, HANDLE_KEY_STEP_METRES)] {
             for (key, at, sign) in [
                 (Key::ArrowRight, 0, 1.0),
@@ -473,6 +484,7 @@ fn handle_gizmo_keys(
             out,
         );
     } else if escape {
+        // Escape first takes the change back, and only then leaves the handle.
         if holding.before.is_some() {
             restore_handle_goal(&mut holding.before, held, out);
         } else {

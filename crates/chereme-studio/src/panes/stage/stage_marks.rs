@@ -35,6 +35,7 @@ pub(super) fn placement_zones(overview: &CorpusOverview) -> Vec<PlacementZone> {
                 continue;
             };
             let (landmark, offset) = landmark.resolve_landmark(BodySide::Right);
+            // Inventories may share values; one zone for each is enough.
             if zones.iter().all(|zone| zone.id != value.id) {
                 let id = value.id.clone();
                 zones.push(PlacementZone {
@@ -71,6 +72,7 @@ pub(super) fn body_marks(
         return Vec::new();
     };
     let width = subject
+        // Without measures, the usual distance of an adult's shoulder joints.
         .anatomy
         .anatomy_measures()
         .map_or(0.35, |measures| measures.shoulder_width);
@@ -94,6 +96,7 @@ pub(super) fn body_marks(
     }
     for landmark in BodyAnatomy::landmark_names() {
         if let Some(at) = find(&landmark)
+            // Landmarks within a centimetre of a zone would only double its mark.
             && marks.iter().all(|mark| mark.at.distance(at) > 0.012)
         {
             marks.push(BodyMark {

@@ -40,6 +40,7 @@ impl RecordingPoints {
     /// changes.
     pub(super) fn request_recording_points(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
         let source = recording_point_tracks(seen);
+        // Theme and recording both change the clouds, so that everything is loaded anew.
         let changed = source != self.source || seen.dark != self.dark;
         if changed {
             *self = Self {
@@ -56,6 +57,7 @@ impl RecordingPoints {
             .player_playhead()
             .instant_micros()
             .div_euclid(POINT_PIECE_LENGTH_MICROS);
+        // The piece after the playhead, in the direction of play, is loaded ahead.
         let next = here + if player.playback_direction() < 0.0 { -1 } else { 1 };
         if self.asked.is_none() {
             let last = player
@@ -80,6 +82,7 @@ impl RecordingPoints {
         let Some((_, piece)) = self.asked.take_if(|(work, _)| *work == id) else {
             return false;
         };
+        // A failed piece is stored empty, or it would be asked for in every frame.
         let pieces: &[PointsPiece] = match ended {
             Ok(WorkOutcome::Points(found)) => found,
             _ => &[],
@@ -93,6 +96,7 @@ impl RecordingPoints {
         });
         self.pieces.insert(piece, clouds.collect());
         while self.pieces.len() > MAX_KEPT_POINT_PIECES {
+            // The piece farthest from the newest one is needed last.
             let far = self.pieces.keys().copied().max_by_key(|other| other.abs_diff(piece));
             self.pieces.remove(&far.unwrap_or(piece));
         }
@@ -117,6 +121,7 @@ impl RecordingPoints {
             .pieces
             .get(&at.instant_micros().div_euclid(POINT_PIECE_LENGTH_MICROS))?;
         let mut mesh = TriangleMesh::default();
+        // Points on a picture have no place in the room of the body.
         for it in clouds.iter().filter(|entry| !with_body || !entry.cloud.is_flat()) {
             if let Some(frame) = it.piece.piece_frame_at(at) {
                 mesh.append_mesh(&it.cloud.cloud_frame_mesh(frame));
@@ -132,6 +137,7 @@ impl RecordingPoints {
         let kept_camera = self
             .cameras
             .iter()
+            // Pieces differ in extent: the camera stays unless they differ by half.
             .find(|(of, camera)| *of == view && (camera.half_height / fitted_camera.half_height - 1.0).abs() < 0.5);
         if let Some((_, camera)) = kept_camera {
             return Some(*camera);

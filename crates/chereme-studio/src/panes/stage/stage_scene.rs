@@ -84,6 +84,7 @@ impl StageSubject {
         anatomy: &BodyAnatomy,
         steady: bool,
     ) -> Option<Self> {
+        // Only the joints decide about a body, so that recipes change it without a new one.
         let same = |subject: &Self| {
             subject.anatomy == *anatomy
                 && (Arc::ptr_eq(&subject.skeleton, clip.clip_skeleton()) || subject.skeleton == *clip.clip_skeleton())
@@ -108,6 +109,7 @@ impl StageSubject {
         let joint_position = |joint: usize| first.model_joint_position(joint).as_vec3();
         let feet = BodySide::BOTH_SIDES.map(|side| anatomy.part_joint(BodyPart::Foot(side)));
         let floor = feet.iter().flatten().next().map(|_| {
+            // A centimetre below the lowest joint, where soles are.
             let heights = (0..skeleton.len()).map(|joint| joint_position(joint).y);
             heights.fold(f32::INFINITY, f32::min) - 0.01
         });
@@ -177,6 +179,7 @@ impl StageSubject {
         let reach = ((reach * 1e6) as i64 / TRAIL_STEP).max(1);
         let now = at.instant_micros() / TRAIL_STEP;
         let last = end.instant_micros() / TRAIL_STEP;
+        // Points are cheap to compute again, and a long session must not collect them for ever.
         if self.points.len() > MAX_TRAIL_POINTS {
             self.points.clear();
         }
@@ -203,6 +206,7 @@ impl StageSubject {
                     points.filter_map(|(_, it)| it.get(next).copied()).collect()
                 };
                 let (mut past, mut future) = (path(now - reach..=now), path(now + 1..=now + reach));
+                // Both trails meet in the present posture, which lies between two steps.
                 past.extend(here.get(next));
                 future.splice(0..0, here.get(next).copied());
                 let radius = if index == 0 { 0.0045 } else { 0.0022 };
@@ -244,6 +248,7 @@ impl StageSubject {
                 PaperTheme::Dark => RgbColour::from_hex_colour(0x0C_0E_12),
             };
             if with_grid {
+                // The grid lies a little below the shadow, which it would cut otherwise.
                 let pen = PlaneLinePen::new([left, forward], under - up * 0.002, 0.004);
                 pen.add_plane_grid(&mut mesh, [-8..=8, -8..=8], 0.25, |index| {
                     let share = if index % 4 == 0 { 0.1 } else { 0.55 };
@@ -255,9 +260,12 @@ impl StageSubject {
         if !with_grid {
             return mesh;
         }
+        // Without a floor the grid goes below the body as well.
         let rows = if self.floor.is_some() { -4..=10 } else { -8..=8 };
         let (across, along, behind, rows) = match view {
+            // From above the floor's grid is enough.
             FigureView::Top => return mesh,
+            // The grid stands behind the body as seen from the side of the view.
             FigureView::Left => (forward, up, left * -0.6, rows),
             FigureView::Right => (forward, up, left * 0.6, rows),
             _ => (left, up, forward * -0.35, rows),
@@ -355,6 +363,7 @@ impl PlaneLinePen {
 fn quad(mesh: &mut TriangleMesh, corners: [Vec3; 4], colour: RgbColour) {
     let base = mesh.vertices.len() as u32;
     mesh.vertices.extend(corners.map(|at| coloured_vertex(at, colour)));
+    // Both sides, since the eye may be below the floor.
     for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]] {
         mesh.triangles.push([base + a, base + b, base + c]);
     }
