@@ -169,7 +169,6 @@ impl StagePane {
         // Addresses tell movements apart without comparing all their frames.
         if self.signer.as_ref().map(|signer| signer.0) != now.map(|entry| entry.0) {
             // While a hand is being placed, the camera does not move.
-            // A changed recipe replaces its own movement; anything else is a new subject.
             let newer = self.made && made.is_some();
             let steady = newer && seen.shown.handle.is_some();
             self.replaced = newer.then_some(time);

@@ -21,6 +21,7 @@ impl TimelineDrawing<'_, '_> {
         let painter = ui.painter_at(lane);
         let font = TextStyle::Body.resolve(ui.style());
         let mut all: Vec<(GhostAnnotation, bool)> = Vec::new();
+        // While a drag runs, its own annotations replace those that wait for the corpus.
         if sight.ghosts.is_empty() {
             all.extend(self.timeline.asked.ghosts.iter().map(|ghost| (*ghost, false)));
         }
@@ -96,6 +97,7 @@ impl TimelineDrawing<'_, '_> {
             .rows
             .iter()
             .find(|(at, _)| contents.tiers.get(*at).map(|tier| tier.row.id) == tier);
+        // A tier that is folded away has no row; the field is then at the lower edge.
         let y = row.map_or(Rangef::point(lane.bottom()), |(_, y)| *y);
         // A lane may be narrower than the box's least width.
         let raw_x = lane.left() + self.window.time_to_points(span.0 as f64);

@@ -43,6 +43,7 @@ pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mu
         ui.spacing_mut().item_spacing.x = TIMELINE_TOOL_GAP_POINTS;
         let tiers_title = tiers_title(scene);
         let spare = ui.available_width() - timeline_tools_width(ui, seen, &tiers_title);
+        // In a narrow window each group of switches is a menu.
         if spare >= 0.0 {
             for (action, text) in TIMELINE_MODE_ACTIONS {
                 show_tool_switch(ui, seen, action, text, out);

@@ -43,6 +43,7 @@ impl DraftFile {
     pub(crate) fn read_draft(&mut self) -> Option<AnnotationDraft> {
         let text = fs::read_to_string(self.file.as_ref()?).ok()?;
         let kept: DraftFileContent = serde_json::from_str(&text).ok()?;
+        // Two paths may have the same hash.
         if kept.corpus != self.corpus {
             return None;
         }
@@ -56,6 +57,7 @@ impl DraftFile {
         let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
             return Ok(());
         };
+        // Remembered even if writing fails: the window would try again in every frame.
         self.written.clone_from(&draft);
         match draft {
             Some(draft) => {

@@ -47,6 +47,7 @@ impl TimelineDrawing<'_, '_> {
             let pointer = &input.pointer;
             (pointer.latest_pos(), pointer.primary_down())
         });
+        // Escape ends the gesture, but the button is still down: nothing may begin until it is released.
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             if let TimelineGesture::Select { .. } = gesture {
                 self.out.send_command(WindowCommand::Span(None));
@@ -54,6 +55,7 @@ impl TimelineDrawing<'_, '_> {
             self.follow_with(self.timeline.mark);
             gesture = TimelineGesture::Off;
         }
+        // Without a pointer nothing is held, and the gesture ends.
         let Some(pointer) = pointer else {
             return GestureSight::default();
         };
@@ -87,6 +89,7 @@ impl TimelineDrawing<'_, '_> {
 
     /// Scrolls through time while the pointer is dragged past the edge.
     fn pan_at_edges(&mut self, ui: &Ui, lane: Rect, pointer: Pos2) {
+        // Signed: past the right edge forwards, past the left one backwards.
         let past = (pointer.x - lane.right()).max(0.0) - (lane.left() - pointer.x).max(0.0);
         if past != 0.0 && self.timeline.view.window.is_some() {
             let whole_span = self.seen.shown.player.whole;
@@ -112,6 +115,7 @@ impl TimelineDrawing<'_, '_> {
         let snaps = self.seen.settings.timeline.snaps;
         let reach = (TIME_SNAP_REACH_POINTS * self.window.scale) as i64;
         let minima = if snaps.minima {
+            // A little beyond the reach, so that minima at its edge are found too.
             self.timeline
                 .curves
                 .wrist_speed_minima(time - 4 * reach, time + 4 * reach)
@@ -133,6 +137,7 @@ impl TimelineDrawing<'_, '_> {
     /// Shows the moment of a dragged boundary on the stage, as in ELAN, unless something plays.
     fn follow_with(&mut self, at: i64) {
         let player = &self.seen.shown.player;
+        // While something plays the playhead is not dragged away from it.
         if !player.is_playing() && player.player_playhead().instant_micros() != at {
             self.out.send_seek(RecordingInstant::from_micros(at));
         }
@@ -147,6 +152,7 @@ impl TimelineDrawing<'_, '_> {
     }
 
     fn select_on(&mut self, contents: &RecordingContents, from: i64, time: i64) -> GestureSight {
+        // Both ends snap, so that a span from frame to frame is possible.
         let none = BTreeSet::new();
         let (from, _) = self.snap_dragged_time(contents, &none, from);
         let (to, caught) = self.snap_dragged_time(contents, &none, time);
@@ -191,6 +197,7 @@ impl TimelineDrawing<'_, '_> {
             caught: caught.map(|why| (to, why)),
             band: None,
         };
+        // Without room the annotation has no length, and the drop does nothing.
         (room.unwrap_or((from, from)), sight)
     }
 
@@ -207,6 +214,7 @@ impl TimelineDrawing<'_, '_> {
             let (at, why) = self.snap_dragged_time(contents, &it.except, edge + wanted);
             (at - edge, at, why)
         });
+        // A boundary that snaps comes first, by the kind of its target, then the nearest one.
         let best = settled.min_by_key(|(by, _, why)| (why.is_none(), *why, (by - wanted).abs()));
         let (by, at, why) = best.unwrap_or((wanted, time, None));
         let mode = self.seen.settings.timeline.mode;
@@ -215,6 +223,7 @@ impl TimelineDrawing<'_, '_> {
             .iter()
             .map(|held| held.drag_annotations(it.grip, by, mode))
             .collect();
+        // On another tier the modes do not apply: only the dragged annotations move.
         it.to = self.other_tier(contents, it, pointer);
         if let Some((to, _)) = it.to {
             let moved = |held: &DraggedAnnotations| -> Vec<SpanItem> {
@@ -254,6 +263,7 @@ impl TimelineDrawing<'_, '_> {
             (Some(own), DragGrip::End) => self.follow_with(own.end),
             _ => {}
         }
+        // The snapped time is shown only if the limits of the tier let the boundary get there.
         let there = dragged_ghost.is_some_and(|own| own.start == at || own.end == at);
         GestureSight {
             times: dragged_ghost.map(|own| (own.start, own.end)),
@@ -266,6 +276,7 @@ impl TimelineDrawing<'_, '_> {
 
     /// Returns the tier under the pointer, if whole annotations of one other tier are dragged.
     fn other_tier(&self, contents: &RecordingContents, it: &AnnotationDrag, pointer: Pos2) -> Option<(i64, bool)> {
+        // Annotations of several tiers cannot go to one, nor can an edge.
         if it.grip != DragGrip::Whole || it.held.iter().any(|held| held.tier != it.tier) {
             return None;
         }
@@ -293,6 +304,7 @@ impl TimelineDrawing<'_, '_> {
                 continue;
             };
             let columns = &tier.annotations;
+            // Starts and ends are in order, so that both sides are found by halving.
             let first = columns.ends.partition_point(|other_end| *other_end <= start);
             let last = columns
                 .starts
@@ -313,6 +325,7 @@ impl TimelineDrawing<'_, '_> {
             seen: self.seen,
         };
         match gesture {
+            // A click with Alt creates nothing.
             TimelineGesture::Create { tier, span, .. } if span.1 > span.0 => {
                 if let Some(tier) = scene.tier_of(tier) {
                     self.begin_value(tier, span);
@@ -358,6 +371,7 @@ impl TimelineDrawing<'_, '_> {
                     .map(|item| GhostAnnotation::ghost_from_item(held.tier, item)),
             );
         }
+        // A drag back to its beginning changes nothing.
         if asked.is_empty() {
             return;
         }

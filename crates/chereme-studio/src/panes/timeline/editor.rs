@@ -145,11 +145,13 @@ pub(super) fn show_value_field(
         timeline.entry.left = false;
         return;
     };
+    // Another recording was opened while the value was typed: what was typed is stored there.
     if editing.recording != scene.contents.recording.id {
         let text = editing.text.trim().to_owned();
         timeline_edit::store_typed_value(timeline, editing, &text, out);
         return;
     }
+    // A restored draft may belong to an annotation that changed meanwhile.
     if editing.again && !editing.begun {
         match find_place(editing, scene, out) {
             Some(found) => editing = found,
@@ -162,6 +164,7 @@ pub(super) fn show_value_field(
         return;
     };
     let choices = scene.scene_tier_values(tier);
+    // The keyboard left the field: what can be stored is stored, the rest waits in it.
     if std::mem::take(&mut timeline.entry.left) {
         if let Some(value) = choices.value_to_store(&editing.text, editing.marked) {
             return carry_out_field_key(timeline, editing, tier, FieldKey::Keep(value, false), out);
@@ -219,6 +222,7 @@ fn carry_out_field_key(
 fn next(editing: &ValueEditing, tier: &TierContents) -> Option<usize> {
     let columns = &tier.annotations;
     let next = match &editing.target {
+        // A new annotation is not in the columns yet, so that its place is found by its end.
         EditTarget::New { end, .. } => columns.starts.partition_point(|start| start < end),
         EditTarget::Of(all) => {
             let last = columns.ids.iter().rposition(|id| all.contains(id))?;
@@ -288,6 +292,7 @@ fn draw_value_field(
     if escape {
         return FieldKey::Drop;
     }
+    // Only after the first frame: the press that opened the field is still in the input.
     if enter || tab || opened && is_pressed_elsewhere(ui, shown.response.rect) {
         return match choices.value_to_store(&editing.text, editing.marked) {
             Some(value) => FieldKey::Keep(value, tab),
@@ -365,6 +370,7 @@ fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
     let width = size.x;
     let screen = ui.ctx().content_rect();
     let (under, over) = (screen.bottom() - below.bottom(), below.top() - screen.top());
+    // Above only if there is little room below and more of it above.
     let (corner, at, width) = if under < VALUE_FIELD_HEIGHT_POINTS && over > under {
         let corner = below.left_top() - vec2(0.0, 2.0);
         let reached = |rect: &Rect| rect.top() < corner.y && rect.bottom() > corner.y - size.y;
@@ -405,6 +411,7 @@ fn free_side_column(stage: Rect, screen: Rect, annotation: Rect) -> Option<Rect>
     let above = column_rect.with_max_y(annotation.top());
     let aside = annotation.x_range().intersection(column_rect.x_range()).span() <= 0.0;
     let fits = |rect: &Rect| rect.width() >= MIN_SIDE_COLUMN_POINTS.x && rect.height() >= MIN_SIDE_COLUMN_POINTS.y;
+    // If the annotation is not in the column, the column may reach down to the window's edge.
     let free = Some(above).filter(fits).or(aside.then_some(column_rect));
     free.filter(fits)
 }
@@ -414,6 +421,7 @@ fn free_side_column(stage: Rect, screen: Rect, annotation: Rect) -> Option<Rect>
 fn in_column(free: Rect, wanted: Vec2) -> (Area, Vec2) {
     let most = free.size() - vec2(SIDE_COLUMN_EDGE_POINTS, SIDE_COLUMN_EDGE_POINTS);
     let width = wanted.x.min(most.x);
+    // Pictures in a narrower column need more rows.
     let size = vec2(width, (wanted.y * wanted.x / width).min(most.y));
     let area = Area::new(Id::unique("timeline value").with("column"))
         .order(Order::Foreground)
@@ -428,6 +436,7 @@ fn in_column(free: Rect, wanted: Vec2) -> (Area, Vec2) {
 fn place_beside_stage(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
     /// The least useful width, in points.
     const MIN_WIDTH_BESIDE_POINTS: f32 = 260.0;
+    // The signer takes the middle half of the stage, less in a low or wide one.
     let half = (stage.width() * 0.5).min(stage.height() * 0.55).min(150.0);
     let (from, to) = (stage.center().x - half, stage.center().x + half);
     if left + width + SIDE_COLUMN_EDGE_POINTS <= from || left >= to {
@@ -441,6 +450,7 @@ fn place_beside_stage(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32,
         let width = width.min(before);
         (from - width - SIDE_COLUMN_EDGE_POINTS, width)
     };
+    // With room on both sides, the shorter way aside.
     match (before >= width, after >= width) {
         (true, true) if to - left < left + width - from => (to, width),
         (true, _) => before_it(),
@@ -485,6 +495,7 @@ fn text_field(ui: &mut Ui, editing: &mut ValueEditing, label: &str) -> Response 
     });
     if !std::mem::replace(&mut editing.begun, true) {
         let end = CCursor::new(editing.text.chars().count());
+        // Text that was in the field is selected, so that typing replaces it; restored text is not.
         let start = if editing.again { end } else { CCursor::new(0) };
         let range = CCursorRange::two(start, end);
         output.state.cursor.set_char_range(Some(range));
@@ -500,6 +511,7 @@ fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>, out: &mut Comman
         && let Some(columns) = scene.tier_of(tier).map(|tier| &tier.annotations)
     {
         let index = columns.starts.partition_point(|other_start| *other_start < start);
+        // The columns are in order, so that an annotation at this time can only be here.
         let there = index < columns.len() && (columns.starts[index], columns.ends[index]) == (start, end);
         if !there {
             return Some(editing);
@@ -517,6 +529,7 @@ fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>, out: &mut Comman
             .iter()
             .filter_map(|id| scene.seen.snapshot.find_open_annotation(*id));
         if let Some(it) = found_annotations.next() {
+            // What was stored as typed needs no field; several annotations may differ, so that theirs stays.
             let stored = requests::typed_annotation_value(&it.tier.annotations, it.at) == editing.text;
             return (!stored || all.len() > 1).then_some(editing);
         }

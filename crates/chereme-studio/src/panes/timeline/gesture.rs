@@ -76,6 +76,7 @@ pub(super) struct AnnotationDrag {
 
 /// Returns the part of an annotation, drawn from `left` to `right`, that is grabbed at `x`.
 pub(super) fn grip_at(left: f32, right: f32, x: f32) -> DragGrip {
+    // In a narrow annotation a quarter at each side, which leaves half of it to move it as a whole.
     let edge = ANNOTATION_EDGE_REACH_POINTS.min((right - left) / 4.0);
     if x < left + edge {
         DragGrip::Start
@@ -162,6 +163,7 @@ impl TimelineDrawing<'_, '_> {
     ) {
         let tier = &contents.tiers[at];
         let from = self.instant_at_x(origin.x - lane.left()).instant_micros();
+        // The playhead follows the drag; boundaries snap to where it was.
         self.timeline.mark = self.seen.shown.player.player_playhead().instant_micros();
         let hit = self.under(contents, at, lane, origin.x);
         let id = hit.map(|(found, _)| tier.annotations.ids[found]);
@@ -175,6 +177,7 @@ impl TimelineDrawing<'_, '_> {
             return;
         }
         let tier = tier.row.id;
+        // Everything but selecting changes the corpus.
         let changes = modifiers.alt || (hit.is_some() && is_chosen);
         if changes && self.seen.snapshot.is_read_only() {
             self.show_gesture_hint(crate::words::shell::READ_ONLY_WHY);
@@ -200,6 +203,7 @@ impl TimelineDrawing<'_, '_> {
     fn take_hold(&mut self, contents: &RecordingContents, at: usize, found: usize, id: i64, grip: DragGrip, from: i64) {
         let columns = &contents.tiers[at].annotations;
         let mut chosen = self.seen.shown.annotations.clone();
+        // An edge belongs to one annotation, so that the others are deselected.
         if !chosen.contains(&id) || grip != DragGrip::Whole {
             chosen = BTreeSet::from([id]);
             self.out.send_command(WindowCommand::Annotations(chosen.clone()));
@@ -209,6 +213,7 @@ impl TimelineDrawing<'_, '_> {
             seen: self.seen,
         };
         let held_annotations = scene.held_annotations(&chosen);
+        // Annotations in lists have no times of their own.
         if held_annotations.iter().all(|held| held.kind == TierTiming::Listed) {
             self.show_gesture_hint(words::NO_TIMES);
             self.timeline.gesture = Some(TimelineGesture::Off);
@@ -251,6 +256,7 @@ impl TimelineDrawing<'_, '_> {
                 self.out.send_command(WindowCommand::Annotations(all));
             }
             None if modifiers.shift => {
+                // Without a selection, Shift selects from the playhead on.
                 let from = self.seen.shown.player.player_playhead();
                 let span = self
                     .seen

@@ -22,6 +22,7 @@ pub(super) struct GoBox {
 /// Returns the time that a text describes, in microseconds: a time, `f512` for a frame as the stage counts frames, `+2`
 /// and `-0.5` relative to `now` in seconds, `50%` of the whole. Returns `None` for other text.
 fn parse_time_target(text: &str, now: i64, whole: TimeSpan, frames: Option<RecordingFrameTimes>) -> Option<i64> {
+    // Commas are decimal points in German and French.
     let text = text.trim().to_lowercase().replace(',', ".");
     let (from, end) = (
         whole.span_start_instant().instant_micros(),
@@ -49,10 +50,12 @@ fn parse_time_target(text: &str, now: i64, whole: TimeSpan, frames: Option<Recor
         (TableMoment::Time(by), Some(sign)) => now.checked_add(by.instant_micros().checked_mul(sign)?),
         (TableMoment::Frame(at), None) => {
             let frames = frames?;
+            // Frames are counted from 1 on the stage.
             let frame_index = usize::try_from(at.checked_sub(1)?).ok()?;
             Some(frames.rate.frame_start_instant(frame_index).instant_micros() + frames.offset)
         }
         (TableMoment::Frame(by), Some(sign)) => {
+            // A number of frames beyond this would overflow as microseconds.
             let by = i64::try_from(by).ok().filter(|count| *count < 1 << 40)?;
             Some(frames?.stepped_frame_start(now, by * sign))
         }

@@ -31,6 +31,7 @@ pub(super) struct WantedLanes {
 /// Returns the height of each open lane, and the greatest height of all together, in points. In a low pane, lanes
 /// become lower and finally scroll, so that tiers stay in sight.
 pub(super) fn lane_room_heights(wanted: WantedLanes, height: f32) -> (f32, f32) {
+    // With little height lanes get half of it, unless tiers would be left without rows.
     let most = (height - MIN_TIERS_HEIGHT_POINTS)
         .min(height * MAX_LANES_HEIGHT_SHARE)
         .max(FOLDED_LANE_HEIGHT_POINTS);
@@ -47,6 +48,7 @@ pub(super) fn lane_room_heights(wanted: WantedLanes, height: f32) -> (f32, f32) 
 fn round_up_scale(value: f32) -> f32 {
     let power = 10.0_f32.powf(value.max(1e-6).log10().floor());
     let steps = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
+    // A tolerance, so that 0.5 is not rounded up because of its last bit.
     let first_step = steps.into_iter().find(|step| step * power >= value * 0.999);
     first_step.unwrap_or(10.0) * power
 }
@@ -92,6 +94,7 @@ pub(super) fn smooth_frame_line(frames: &[(f32, f32)]) -> Vec<(f32, f32)> {
         let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
         let wide = x1 - x0;
         let count = (wide / MAX_LINE_STEP_POINTS).ceil().clamp(1.0, 200.0) as usize;
+        // The cubic Hermite polynomials; slopes are in units a point, hence the width.
         for step in 0..count {
             let t = step as f32 / count as f32;
             let (t2, t3) = (t * t, t * t * t);
@@ -117,17 +120,20 @@ fn frame_line_slopes(frames: &[(f32, f32)]) -> Vec<f32> {
     };
     let mut slopes = vec![*first];
     for pair in steep.windows(2) {
+        // At a peak or a valley the line is level, or it would overshoot.
         let turns = pair[0] * pair[1] <= 0.0;
         slopes.push(if turns { 0.0 } else { (pair[0] + pair[1]) / 2.0 });
     }
     slopes.push(*last);
     for (at, steep) in steep.iter().enumerate() {
+        // Between equal values the line stays level.
         if *steep == 0.0 {
             (slopes[at], slopes[at + 1]) = (0.0, 0.0);
             continue;
         }
         let (a, b) = (slopes[at] / steep, slopes[at + 1] / steep);
         let far = a.hypot(b);
+        // Within a circle of radius 3 the cubic is monotone (Fritsch and Carlson 1980).
         if far > 3.0 {
             slopes[at] = 3.0 / far * a * steep;
             slopes[at + 1] = 3.0 / far * b * steep;

@@ -37,6 +37,7 @@ impl TimelineDrawing<'_, '_> {
     pub(super) fn show_curve_lanes(&mut self, ui: &mut Ui, scene: &TimelineScene<'_>) {
         let seen = self.seen;
         let settings = &seen.settings.timeline;
+        // The minima are needed for snapping even if no lane shows them.
         if settings.lanes.is_empty() && !settings.snaps.minima {
             return;
         }
@@ -293,6 +294,7 @@ impl TimelineDrawing<'_, '_> {
             painter.hline(area.x_range(), y(0.0), rule);
         }
         let colours = lane_hand_colours(self.seen);
+        // The right hand last, so that it lies above the left one.
         for hand in (0..lane.lane_curve_count()).rev() {
             let colour = if lane.lane_curve_count() == 2 {
                 colours[hand]
@@ -343,6 +345,7 @@ impl TimelineDrawing<'_, '_> {
         for (value, text) in shown {
             let galley = painter.layout_no_wrap(text.clone(), font.clone(), ink);
             let size = galley.size();
+            // The mark stays within its lane, however near the value is to its edge.
             let lowest = (area.bottom() + 2.0 - size.y).max(area.top() - 2.0);
             let top = (y(*value) - size.y / 2.0).clamp(area.top() - 2.0, lowest);
             let text_position = pos2(area.right() - size.x - 4.0, top);
@@ -366,6 +369,7 @@ fn hill(runs: &[FrameRun], area: Rect, y: impl Fn(f32) -> f32, colour: Color32) 
     let mut mesh = Mesh::default();
     for run in runs {
         for pair in lane_shape::smooth_frame_line(run).windows(2) {
+            // Below zero and at rest nothing is drawn.
             if pair[0].1.max(pair[1].1) <= 0.0 {
                 continue;
             }
@@ -401,6 +405,7 @@ fn build_curve_mesh(columns: &[Option<(f32, f32)>], left: f32, y: impl Fn(f32) -
     let mut before: Option<(f32, f32)> = None;
     for (x, column) in columns.iter().enumerate() {
         if let Some((low, high)) = *column {
+            // Bars of neighbouring columns overlap, which makes a line without gaps.
             let (low, high) = match before {
                 Some(last) => (low.min(last.1), high.max(last.0)),
                 None => (low, high),

@@ -55,6 +55,7 @@ impl TimelineDrawing<'_, '_> {
             let under = under_index.map(|under| tier.annotations.ids[under]);
             self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
             match under {
+                // A menu on a selected annotation is for all selected ones.
                 Some(id) if self.seen.shown.annotations.contains(&id) => {}
                 Some(id) => self.out.send_command(WindowCommand::Annotations(BTreeSet::from([id]))),
                 None => {

@@ -185,6 +185,7 @@ impl TimelinePane {
         then: ChangeFollowUp,
         out: &mut CommandOutbox,
     ) -> ActionOutcome {
+        // The annotations are drawn at their future places until the snapshot shows them.
         self.asked.ghosts.extend_from_slice(&then.ghosts);
         let id = out.request_work(editing::annotate_corpus_job(changes));
         self.asked.pending.insert(id, then);
@@ -384,12 +385,14 @@ impl PaneInterface for TimelinePane {
                 self.asked.to_select = report.annotations.iter().copied().collect();
                 self.asked.to_edit = then.edit;
             }
+            // What was refused stays marked while proposals are accepted.
             Ok(_) if then.proposals.is_empty() => self.asked.refused.clear(),
             Ok(_) => {}
             Err(_) => {
                 self.asked.ghosts.clear();
                 self.asked.refused.extend(then.proposals);
                 if let Some(typed) = then.typed {
+                    // Refused text is offered again, so that nobody has to type it twice.
                     self.entry.reopen_refused_value(typed);
                 }
             }

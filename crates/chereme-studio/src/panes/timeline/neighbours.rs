@@ -73,6 +73,7 @@ fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool, out:
         _ => {
             let here = (columns.starts[at], columns.ends[at]);
             let span = if kind == TierTiming::Tiled {
+                // Half of the annotation, at a frame's start.
                 let middle = scene.step_by_frames((here.0 + here.1) / 2, 0);
                 let half = if after { (middle, here.1) } else { (here.0, middle) };
                 Some(half).filter(|half| half.0 < half.1 && *half != here)
@@ -99,6 +100,7 @@ fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool, out:
 fn free_span_beside(scene: &TimelineScene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, i64) {
     let columns = &tier.annotations;
     let mut limits = dragged::annotation_time_limits(scene.contents, scene.recording_frame_times().is_some());
+    // Annotations may stand beyond the recording's end; the gap ends at the recording or at them.
     if limits.to > scene.contents.recording.duration_us {
         limits.to = scene.contents.recording.duration_us.max(columns.ends[at]);
     }
@@ -169,6 +171,7 @@ fn merge_previous(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &
     let ids = &tier.annotations.ids;
     let mut both = chosen.clone();
     both.extend([ids[before], ids[at]]);
+    // Values of a closed list cannot be joined to a new text.
     let closed = scene.scene_tier_inventory(tier).is_some();
     let then = ChangeFollowUp {
         select: true,
@@ -200,6 +203,7 @@ fn stretch_to_neighbours(
         let kind = TierTiming::timing_of_tier(&tier.row);
         let columns = &tier.annotations;
         for at in dragged::chosen_annotation_indices(tier, &chosen) {
+            // The last annotation of a root tier has no neighbour, only the recording's end.
             let last = if grip == DragGrip::End { columns.len() - 1 } else { 0 };
             if !matches!(kind, TierTiming::Root | TierTiming::Inside) || (kind == TierTiming::Root && at == last) {
                 continue;

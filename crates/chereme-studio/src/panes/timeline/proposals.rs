@@ -86,6 +86,7 @@ fn accept_selected_proposals(
     let (selected, mut left): (Vec<_>, Vec<_>) = list_recording_proposals(scene.contents)
         .into_iter()
         .partition(|proposal| chosen.contains(&proposal.id));
+    // Proposals without room are left for the user to decide.
     let (accepted, stuck): (Vec<_>, Vec<_>) = selected.into_iter().partition(has_room);
     let refused = &timeline.asked.refused;
     let next = next(&left, current_proposal_place(scene), |proposal| {
@@ -108,6 +109,7 @@ fn accept_selected_proposals(
         return ActionOutcome::Yes;
     }
     left.extend(stuck);
+    // The next round is in order of time again.
     left.sort_by_key(|proposal| (proposal.start, proposal.tier, proposal.id));
     if !accepted.is_empty() {
         // Another Enter begins nothing at the same time.
@@ -134,6 +136,7 @@ fn full_tier<'a>(scene: &TimelineScene<'a>, proposal: &RecordingProposal) -> Opt
     let RecordingProposal { start, end, id, .. } = *proposal;
     let columns = &tier.annotations;
     let first = columns.ends.partition_point(|other_end| *other_end <= start);
+    // The first annotation that ends after the start is the only one that may be in the way, in order.
     let taken = columns.starts.get(first).is_some_and(|other_start| *other_start < end);
     let unfit = || tier_list::tier_misfit_reason(scene, tier, &[SpanItem { id, start, end }]).is_some();
     (taken || unfit()).then_some(tier)
@@ -218,6 +221,7 @@ fn next(
 ) -> Option<RecordingProposal> {
     let later = all.partition_point(|proposal| (proposal.start, proposal.tier, proposal.id) <= here);
     let round = || all[later..].iter().chain(&all[..later]).copied();
+    // Doubtful ones first: the others can be accepted at the end in one go.
     let doubtful = round().find(|proposal| proposal.doubtful && wanted(proposal));
     doubtful.or_else(|| round().find(wanted))
 }

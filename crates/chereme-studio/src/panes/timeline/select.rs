@@ -94,6 +94,7 @@ fn walk_tier_annotations(scene: &TimelineScene<'_>, out: &mut CommandOutbox, for
     let columns = &tier.annotations;
     let mut chosen = dragged::chosen_annotation_indices(tier, &scene.seen.shown.annotations);
     let selected = if forwards { chosen.last() } else { chosen.next() };
+    // The annotation at the playhead itself is the next one.
     let after = columns
         .starts
         .partition_point(|start| *start < scene.scene_playhead_micros());
@@ -108,6 +109,7 @@ fn walk_tier_annotations(scene: &TimelineScene<'_>, out: &mut CommandOutbox, for
         .shown
         .player
         .looping
+        // An empty tier wraps to an index beyond every one and is filtered out below.
         .then_some(if forwards { 0 } else { columns.len().wrapping_sub(1) });
     let inside = |at: &usize| *at < columns.len();
     let next_index = next.filter(inside).or(round.filter(inside));
@@ -136,6 +138,7 @@ fn also(scene: &TimelineScene<'_>, out: &mut CommandOutbox, forwards: bool) {
             out.send_command(WindowCommand::Annotations(all));
         }
         Some(_) => {}
+        // With nothing selected, extending begins with the next annotation.
         None if chosen.is_empty() => drop(walk_tier_annotations(scene, out, forwards)),
         None => {}
     }
@@ -176,6 +179,7 @@ fn climb(scene: &TimelineScene<'_>, out: &mut CommandOutbox, by: isize) {
     let from = selection.map_or(scene.scene_playhead_micros(), |annotation| {
         annotation.tier.annotations.starts[annotation.at]
     });
+    // Without a selection the playhead stands for a span of one microsecond.
     let to = selection.map_or(from + 1, |annotation| annotation.tier.annotations.ends[annotation.at]);
     let columns = &tier.annotations;
     let first = columns.ends.partition_point(|end| *end <= from);
@@ -213,6 +217,7 @@ fn select_to(scene: &TimelineScene<'_>, out: &mut CommandOutbox, starts: bool) {
 /// Returns the selection after the playhead moves to `to`. The end of the selection at the playhead moves along; if
 /// neither end is there, a new selection begins at the playhead.
 pub(super) fn extended_time_selection(old: Option<TimeSpan>, playhead: i64, to: i64) -> Option<TimeSpan> {
+    // The end that the playhead stands at moves, and the other one stays.
     let anchor = match old.map(|span| {
         (
             span.span_start_instant().instant_micros(),
@@ -228,6 +233,7 @@ pub(super) fn extended_time_selection(old: Option<TimeSpan>, playhead: i64, to: 
 
 fn extend_selection_to(scene: &TimelineScene<'_>, out: &mut CommandOutbox, to: i64) {
     let whole_span = scene.seen.shown.player.whole;
+    // The end of a recording is not an instant in it.
     let last =
         (whole_span.span_end_instant().instant_micros() - 1).max(whole_span.span_start_instant().instant_micros());
     let to = to.clamp(whole_span.span_start_instant().instant_micros(), last);

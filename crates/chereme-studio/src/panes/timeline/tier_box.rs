@@ -115,6 +115,7 @@ impl TierBox {
                 self.hand = self.hand.or(gloss.row.hand);
             }
         }
+        // A name that the user typed is not overwritten.
         if !self.name.trim().is_empty() && self.name != self.proposed {
             return;
         }
@@ -130,6 +131,7 @@ impl TierBox {
             None => role.to_owned(),
         };
         let taken = |name: &str| scene.contents.tiers.iter().any(|tier| tier.row.name == name);
+        // Tiers need different names; the first free number is taken.
         let free = (2..100).map(|n| format!("{name} {n}"));
         let mut all = std::iter::once(name.clone()).chain(free);
         self.proposed = all.find(|candidate| !taken(candidate)).unwrap_or(name.clone());
@@ -179,6 +181,7 @@ impl TierBox {
             name: (self.name != before.name).then(|| self.name.clone()),
             role: (self.role != before.role).then_some(role),
             hand: (self.hand != before.hand).then_some(self.hand),
+            // Values of another role are those of another inventory.
             values: (self.role != before.role).then(Default::default),
             parent: (self.parent != before.parent).then(|| self.parent.clone()),
             ..TierPropertyChange::default()
@@ -247,6 +250,7 @@ fn parents(contents: &RecordingContents, what: &TierBoxPurpose) -> Vec<String> {
         _ => None,
     };
     let is_below = |tier: &TierContents| {
+        // As many steps as there are tiers, since a broken file may have a ring of parents.
         let mut ancestor_id = Some(tier.row.id);
         for _ in 0..=contents.tiers.len() {
             if ancestor_id.is_none() || ancestor_id == changed_id {

@@ -163,6 +163,7 @@ pub(super) fn tier_misfit_reason(
     if holds_proposals(tier) {
         return Some(words::HOLDS_PROPOSALS);
     }
+    // Annotations in lists take any time of their parent.
     let listed = TierTiming::timing_of_tier(&tier.row) == TierTiming::Listed;
     let fits = |item: &SpanItem| {
         let room = dragged::room_for_annotation(scene.contents, tier, (item.start, item.end));

@@ -26,6 +26,7 @@ pub(crate) fn first_window(tiers: &[TierContents], whole: TimeSpan, at: f64, wid
     let points = f64::from(width.max(1.0));
     let scale = match usual {
         Some(usual) if usual / all.scale >= MIN_ANNOTATION_WIDTH_POINTS => return None,
+        // Not nearer than a few seconds, however short annotations are.
         Some(usual) => (usual.max(1000.0) / WIDE_ANNOTATION_POINTS).max(FEW_SECONDS / points),
         None if whole.span_micros() as f64 <= MINUTE_WINDOW_MICROS => return None,
         None => MINUTE_WINDOW_MICROS / points,
@@ -33,6 +34,7 @@ pub(crate) fn first_window(tiers: &[TierContents], whole: TimeSpan, at: f64, wid
     if scale >= all.scale {
         return None;
     }
+    // A tenth of the window lies before the time, so that what led to it is visible.
     let start = at - points * scale * 0.1;
     Some(TimeWindow { start, scale }.clamp_window_within(whole, width))
 }
@@ -68,12 +70,14 @@ pub(crate) fn ruler_ticks(window: &TimeWindow, width: f32) -> Vec<RulerTick> {
     let least = window.scale * 80.0;
     let fits = RULER_STEPS_MICROS.into_iter().find(|step| *step as f64 >= least);
     let step = fits.unwrap_or_else(|| {
+        // Beyond the table the steps are whole multiples of ten minutes.
         let hours = (least / 600e6).ceil().max(1.0);
         600_000_000 * hours as i64
     });
     let small = (step / 5).max(1);
     let first = (window.start / small as f64).ceil() as i64;
     let last = (window.points_to_micros(width) / small as f64).floor() as i64;
+    // A window that is absurdly long draws no more than this.
     (first..=last.min(first + 2000))
         .map(|at| {
             let micros = at * small;
@@ -122,6 +126,7 @@ pub(crate) struct AnnotationBar {
 pub(crate) fn join_annotation_bars(columns: &AnnotationColumns, from: i64, to: i64, narrow: i64) -> Vec<AnnotationBar> {
     let (starts, ends) = (&columns.starts, &columns.ends);
     let mut index = starts.partition_point(|start| *start < from);
+    // Annotations that begin before the window may reach into it.
     while index > 0 && ends[index - 1] > from {
         index -= 1;
     }
@@ -134,6 +139,7 @@ pub(crate) fn join_annotation_bars(columns: &AnnotationColumns, from: i64, to: i
         } else {
             let limit = start + narrow;
             let near = starts[index..last].partition_point(|start| *start < limit);
+            // A wide annotation among narrow ones is drawn on its own.
             let wide = (index + 1..index + near).find(|other| ends[*other] - starts[*other] >= narrow);
             wide.unwrap_or(index + near).max(index + 1)
         };
@@ -152,6 +158,7 @@ pub(crate) fn join_annotation_bars(columns: &AnnotationColumns, from: i64, to: i
 pub(crate) fn annotation_index_at(columns: &AnnotationColumns, micros: i64) -> Option<usize> {
     let after = columns.starts.partition_point(|start| *start <= micros);
     let index = after.checked_sub(1)?;
+    // An annotation of no length is found at its start.
     (columns.ends[index] > micros || columns.starts[index] == micros).then_some(index)
 }
 

@@ -239,6 +239,7 @@ fn begin_or_end(
     if holds_proposals(tier) {
         return ActionOutcome::Cannot(words::HOLDS_PROPOSALS);
     }
+    // The boundary is read at the key, not when the value is known.
     let here = scene.boundary_at_playhead();
     let Some(begun) = timeline.entry.begun.take() else {
         timeline.entry.begun = Some(BegunAnnotation {
@@ -249,6 +250,7 @@ fn begin_or_end(
         });
         return ActionOutcome::Yes;
     };
+    // Another digit during playback ends one annotation and begins the next at the same time.
     let next = value.filter(|value| *value != begun.value);
     if let Some(value) = next {
         timeline.entry.begun = Some(BegunAnnotation {
@@ -265,6 +267,7 @@ fn begin_or_end(
         Some((start, end)) => {
             let add = requests::add_annotation_change(begun.tier, start, end, &begun.value);
             let then = ChangeFollowUp {
+                // While it plays, the next annotation may begin before a value could be typed.
                 edit: begun.value.is_empty() && !scene.seen.shown.player.plays_on(),
                 ..ChangeFollowUp::follow_up_for_addition(begun.tier, start, end)
             };
@@ -291,6 +294,7 @@ fn by_digit(
         return ActionOutcome::Cannot(words::NO_DIGIT);
     };
     let shown = scene.seen.shown;
+    // During playback digits mark times; at rest they set values.
     if shown.player.plays_on() || timeline.entry.begun.is_some() {
         return begin_or_end(timeline, scene, Some(&value), out);
     }
@@ -341,6 +345,7 @@ fn split_selected_annotation(
     let inside = located.is_some_and(|place| {
         let span: TimeSpan = place.tier.annotations.annotation_span_at(place.at);
         span.has_instant(scene.seen.shown.player.player_playhead())
+            // At its very start there is nothing to split off.
             && span.span_start_instant().instant_micros() != scene.scene_playhead_micros()
     });
     if !inside {
@@ -378,6 +383,7 @@ fn nudge(
     out: &mut CommandOutbox,
 ) -> ActionOutcome {
     let all = scene.held_annotations(&scene.seen.shown.annotations);
+    // The first annotation decides the step, since frames need not be equally long in microseconds.
     let first = all.first().and_then(first_of);
     let Some(first) = first else {
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
@@ -431,6 +437,7 @@ fn move_dragged_annotations(
                 .map(|item| GhostAnnotation::ghost_from_item(held.tier, item)),
         );
     }
+    // Neighbours or limits let nothing move.
     if asked.is_empty() {
         return ActionOutcome::Cannot(words::BLOCKED);
     }
@@ -465,6 +472,7 @@ fn to_selection(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mu
     };
     let mode = scene.seen.settings.timeline.mode;
     let mut asked: Vec<AnnotationChange> = Vec::new();
+    // If it moves later, the end goes first, or the annotation would cross itself.
     let later = first_of(held).is_some_and(|item| end > item.end);
     let steps = if later {
         [DragGrip::End, DragGrip::Start]
@@ -480,6 +488,7 @@ fn to_selection(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mu
         };
         let changed = held.drag_annotations(grip, by, mode);
         asked.extend(requests::set_times_changes(&held.requested_drag_changes(&changed)));
+        // The second boundary starts from where the first one is now.
         for new in changed {
             if let Some(old) = held.items.iter_mut().find(|old| old.id == new.id) {
                 *old = new;

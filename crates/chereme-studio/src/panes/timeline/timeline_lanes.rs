@@ -61,6 +61,7 @@ impl CurveSeries {
         if from >= to {
             return None;
         }
+        // Long ranges are read from the summaries, whose ends may lie a few frames outside.
         if to - from < 4 * LANE_SUMMARY_FRAMES {
             return Some(min_max_values(&self.values[from..to]));
         }
@@ -114,6 +115,7 @@ impl MeasuredCurves {
                 ..Self::default()
             };
         }
+        // One measurement at a time, so that what becomes visible is measured next.
         let Some(source) = source.filter(|_| self.asked.is_none() && !self.failed) else {
             return;
         };
@@ -145,6 +147,7 @@ impl MeasuredCurves {
                 let minima = curves.minima.iter().map(|frame| time(*frame)).collect();
                 let mut measured = CurvePiece::new(&curves.kinematics, minima);
                 let stored = curves.stored.iter();
+                // Most faces use few of the stored curves; the rest would be empty lanes.
                 let some = stored.filter(|curve| curve.values.iter().any(|value| *value > NEGLIGIBLE_CURVE_VALUE));
                 measured.stored = some
                     .map(|curve| (curve.name.clone(), CurveSeries::new(curve.values.iter().copied())))
@@ -233,6 +236,7 @@ impl MeasuredCurves {
         if source.frames < 2 || !lane_shape::is_wide(window.time_to_points(time(1)) - window.time_to_points(time(0))) {
             return None;
         }
+        // One frame more on both sides, so that the line leaves the window.
         let first = source
             .movement_frame_at(window.points_to_micros(0.0) as i64)
             .saturating_sub(1);
@@ -247,6 +251,7 @@ impl MeasuredCurves {
                         run.push((window.time_to_points(time(frame)), *value));
                     }
                 }
+                // A gap in the measurement interrupts the line.
                 None => runs.push(FrameRun::new()),
             }
         }
@@ -279,6 +284,7 @@ impl MeasuredCurves {
                 .span_end_instant()
                 .instant_micros()
                 + source.offset;
+            // Outside the movement there is nothing to draw, not even its first or last value.
             if to < source.offset as f64 || from > end as f64 {
                 return None;
             }

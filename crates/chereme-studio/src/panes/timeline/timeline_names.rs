@@ -165,6 +165,7 @@ impl TimelineDrawing<'_, '_> {
         let mut siblings = rows.iter().filter(|(at, _)| all[*at].1 == parent);
         let next = siblings.clone().find(|(_, y)| pointer.y < y.center());
         let last = siblings.next_back().map(|(at, _)| all[*at].0);
+        // The lower end of the last sibling is that of its last descendant.
         let mut family = rows
             .iter()
             .filter(|(at, _)| last.is_some_and(|last| timeline_tiers::is_tier_within(&all, all[*at].0, last)));
@@ -173,6 +174,7 @@ impl TimelineDrawing<'_, '_> {
         let before = next.map(|(at, _)| all[*at].0);
         if released {
             self.timeline.tier_held = None;
+            // In front of itself is where it is already.
             let order = timeline_tiers::order_before_sibling(&all, id, before).filter(|_| before != Some(id));
             if let Some(order) = order {
                 let scene = TimelineScene {

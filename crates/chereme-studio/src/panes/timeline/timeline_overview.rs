@@ -56,8 +56,10 @@ fn annotation_density<'a>(tiers: impl Iterator<Item = &'a TierContents>, whole: 
     for tier in tiers {
         let columns = &tier.annotations;
         for (from, to) in columns.starts.iter().zip(&columns.ends) {
+            // An annotation at the very end belongs to the last column.
             let from = column(*from).min(width.saturating_sub(1));
             change[from] += 1;
+            // Every annotation takes one column at least, however short it is.
             change[column(*to).max(from + 1).min(width)] -= 1;
         }
     }
@@ -75,6 +77,7 @@ impl TimelineOverview {
         let open = scene.seen.snapshot.open.as_ref();
         let snapshot = open.map_or(0, |open| Arc::as_ptr(open) as usize);
         let tier = scene.edited_tier();
+        // The address tells snapshots apart without comparing them.
         let now = Some((snapshot, width, tier.map(|tier| tier.row.id)));
         if self.of == now {
             return;
@@ -129,6 +132,7 @@ impl TimelineDrawing<'_, '_> {
             x(self.window.points_to_micros(self.timeline.view.width)),
         );
         let (left, right) = (left.max(strip.left()), right.min(strip.right()));
+        // A box of a few points could not be grabbed.
         let more = ((MIN_OVERVIEW_BOX_POINTS - (right - left)) / 2.0).max(0.0);
         // A strip may be narrower than the box.
         let left = (left - more)
@@ -173,6 +177,7 @@ impl TimelineDrawing<'_, '_> {
             self.window.points_to_micros(self.timeline.view.width),
         );
         let near = |x: f32| {
+            // At most a quarter of the box, so that its middle can always be grabbed.
             let edge = OVERVIEW_EDGE_REACH_POINTS.min(bar.width() / 4.0);
             if (x - bar.left()).abs() <= edge {
                 Some(OverviewHold::Start(to))
@@ -218,6 +223,7 @@ impl TimelineDrawing<'_, '_> {
         let width = self.timeline.view.width;
         let (start, end) = match hold {
             OverviewHold::Whole(before) => (pointed_micros - before, pointed_micros - before + (to - from)),
+            // The box never turns over, nor gets shorter than ten milliseconds.
             OverviewHold::Start(end) => (pointed_micros.min(end - 1e4), end),
             OverviewHold::End(start) => (start, pointed_micros.max(start + 1e4)),
         };
@@ -239,6 +245,7 @@ impl TimelineDrawing<'_, '_> {
         let weak = ui.visuals().weak_text_color();
         let room = strip.height() - 6.0;
         for (x, share) in overview.all.iter().enumerate().filter(|entry| *entry.1 > 0.0) {
+            // A single annotation is visible beside a crowd.
             column(
                 x,
                 strip.bottom() - 4.0 - room * share.max(0.15),

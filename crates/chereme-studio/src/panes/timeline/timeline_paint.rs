@@ -43,8 +43,10 @@ pub(super) fn paint_time_ruler(
 /// Returns the rectangle of a bar in the row `row`.
 pub(super) fn bar_rect(row: Rect, window: &TimeWindow, bar: &AnnotationBar) -> Rect {
     let left = row.left() + window.time_to_points(bar.start as f64);
+    // An annotation of no length is a thin line.
     let right = (row.left() + window.time_to_points(bar.end as f64)).max(left + 1.5);
     let rect = Rect::from_x_y_ranges(left..=right, row.top() + 2.0..=row.bottom() - 2.0);
+    // Long annotations reach far beyond the window, which painting does not need.
     rect.intersect(row.expand2(vec2(8.0, 0.0)))
 }
 
