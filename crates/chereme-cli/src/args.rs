@@ -119,11 +119,13 @@ pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
         let named = words[word_index].to_str();
         command = named.and_then(|word| command.find_subcommand(word)).unwrap_or(command);
         let mut options = command.get_arguments().map(clap::Arg::get_long);
+        // `transcribe` and others have a `--language` of their own, for what they write.
         let is_own = command.get_name() != root_command.get_name() && options.any(|long| long == Some("language"));
         let joined = words[word_index]
             .to_str()
             .and_then(|word| word.strip_prefix("--language="));
         let taken = match (joined, words[word_index] == "--language") {
+            // An option of the command itself is left where it is.
             _ if is_own => None,
             (Some(value), _) => code(&value.into()).map(|code| (code, 1)),
             (None, true) => words.get(word_index + 1).and_then(code).map(|code| (code, 2)),
@@ -161,6 +163,7 @@ pub(crate) fn read_named_text(path: &PathBuf) -> Result<String> {
 
 /// Returns the error for a text file of the user whose content cannot be used.
 pub(crate) fn wrong_text(path: &Path, error: impl Display, remedy: &str) -> CorpusError {
+    // The place stands in the message as well as in its field for JSON.
     let place = path.display().to_string();
     CorpusError::from_wrong_message(format!("{place}: {error}"))
         .with_error_place(place)

@@ -34,6 +34,7 @@ fn missing_subcommands(words: &[OsString]) -> Vec<String> {
 
 fn main() -> ExitCode {
     let mut words: Vec<_> = std::env::args_os().collect();
+    // Needed before the arguments are parsed: errors of parsing are JSON too.
     let json = words.iter().any(|word| word == "--json");
     if let Some(folder) = std::env::var_os("CHEREME_WORDS").filter(|folder| !folder.is_empty())
         && let Err(error) = use_word_folder(folder.as_ref())
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         return CommandOutput::new(json, None, args::choose_language(None)).report_command_failure(&error.into());
     }
     let asked = args::take_language(&mut words);
+    // The help of clap has to be in the right language before it parses.
     let language = args::choose_language(asked.as_deref());
     let parsed = words::translate_command_help(CommandLine::command(), language)
         .try_get_matches_from(&words)
@@ -52,8 +54,10 @@ fn main() -> ExitCode {
         }
     };
     let mut output = CommandOutput::new(cli.json, cli.width, language);
+    // A panic that the library catches and reports must not print a trace first.
     chereme_corpus::hide_handled_panics();
     chereme_corpus::on_waiting(output::print_waiting_note);
+    // What is buffered is written even if the command's own code is a failure.
     let done = commands::run(&cli, &mut output).and_then(|code| output.finish_output().map(|()| code));
     match done {
         Ok(code) => code,

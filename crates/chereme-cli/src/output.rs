@@ -39,6 +39,7 @@ impl CommandOutput {
         };
         Self {
             json,
+            // A file or another program has no width, and neither has 0.
             width: width.or_else(terminal).filter(|width| *width > 0),
             language,
             document: None,
@@ -66,6 +67,7 @@ impl CommandOutput {
     /// Writes a line for people, in the language of the output if the table of messages has it.
     pub(crate) fn write_output_line(&mut self, text: impl AsRef<str>) -> Result<()> {
         let text = text.as_ref();
+        // Messages stand in the table without their indent.
         let words = text.trim_start();
         let indent = &text[..text.len() - words.len()];
         self.line_as_is(&format!("{indent}{}", self.translate_message(words)))
@@ -168,6 +170,7 @@ impl CommandOutput {
         let corpus_error = error.downcast_ref::<chereme_corpus::CorpusError>();
         let place = corpus_error.and_then(chereme_corpus::CorpusError::error_place);
         let remedy = corpus_error.and_then(chereme_corpus::CorpusError::error_remedy);
+        // The library's errors are whole sentences; others name their causes in a row.
         let message = corpus_error.map_or_else(|| format!("{error:#}"), ToString::to_string);
         let is_list = matches!(corpus_error, Some(chereme_corpus::CorpusError::Several { .. }));
         if self.json {
@@ -176,6 +179,7 @@ impl CommandOutput {
             }));
             let _ = self.finish_output();
         } else {
+            // What was written before the error comes out before it.
             let _ = self.text.flush();
             let spoken = |text: &str| self.translate_message(text);
             let label =
@@ -185,6 +189,7 @@ impl CommandOutput {
                 None => drawn_below(&message, &spoken),
             };
             write_to_stderr(&label(trouble_words::ERROR, shown_message));
+            // A place that the message names already is not repeated.
             if let Some(place) = place.filter(|place| !message.contains(place.as_str())) {
                 write_to_stderr(&label(trouble_words::WHERE, spoken(&place)));
             }
@@ -210,6 +215,7 @@ fn drawn_below(message: &str, spoken: &dyn Fn(&str) -> String) -> String {
 
 fn ignore_closed_pipe(done: io::Result<()>) -> Result<()> {
     match done {
+        // The reader has seen enough, as with `head`: that is no failure.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => std::process::exit(0),
         other => Ok(other?),
     }
@@ -229,6 +235,7 @@ pub(crate) fn report_usage_error(
 ) -> ExitCode {
     if json && error.use_stderr() {
         let text = error.to_string();
+        // Clap separates the error from its advice by an empty line.
         let (message, remedy) = text.split_once("\n\n").unwrap_or((&text, ""));
         let message = message.trim_start_matches("error: ").trim();
         let document = json!({ "error": { "message": message, "where": Value::Null, "remedy": remedy.trim() } });
@@ -236,6 +243,7 @@ pub(crate) fn report_usage_error(
     } else if language == InterfaceLanguage::French && error.use_stderr() {
         print_stderr_note(&words::french_usage_message(&error.render().to_string()));
     } else {
+        // A closed terminal is not an error.
         let _ = error.print();
     }
     if !json && error.kind() == clap::error::ErrorKind::UnknownArgument && !actions.is_empty() {
@@ -315,6 +323,7 @@ static ACTIVE_BAR_COUNT: AtomicUsize = AtomicUsize::new(0);
 
 /// Handles Ctrl-C: the first one asks long work to stop; a second one, or one without long work, ends the program.
 fn interrupted() {
+    // 130 is what shells expect of a program that Ctrl-C ended.
     if ACTIVE_BAR_COUNT.load(Ordering::Relaxed) == 0 || STOP_REQUESTED.swap(true, Ordering::Relaxed) {
         std::process::exit(130);
     }

@@ -40,6 +40,7 @@ pub(crate) struct StandInFile {
 /// Writes standard input to a temporary file `NAME.FORMAT`, for readers that need a file.
 pub(crate) fn stdin_stand_in(name: &str, format: &str) -> Result<StandInFile> {
     let stand = stdout_stand_in(name, format)?;
+    // Some readers choose by the name's ending and read from a file only.
     std::fs::write(&stand.path, read_stdin_bytes()?)
         .map_err(|error| CorpusError::from_file_failure(&stand.path, error))?;
     Ok(stand)
@@ -71,6 +72,7 @@ impl StdoutDocument {
     /// Returns the result of an attempt to write, or `dropped` if the reader has stopped.
     fn heard<T>(&mut self, attempt: io::Result<T>, dropped: T) -> io::Result<T> {
         match attempt {
+            // After the pipe broke, everything is taken and dropped, so that the command ends well.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
                 self.is_read = false;
                 Ok(dropped)

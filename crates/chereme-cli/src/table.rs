@@ -24,6 +24,7 @@ pub(crate) struct TerminalTable {
 pub(crate) fn escape_terminal_text(text: &str, lines: bool) -> Cow<'_, str> {
     let obeyed = |letter: char| match letter {
         '\n' | '\t' => !lines,
+        // These marks turn the order of letters around and could hide what a line says.
         '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
         _ => letter.is_control(),
     };
@@ -44,6 +45,7 @@ pub(crate) fn escape_terminal_text(text: &str, lines: bool) -> Cow<'_, str> {
 /// shortened, with an ellipsis, until the lines fit; if that is not enough, columns without any cell are left out, then
 /// the last ones.
 pub(crate) fn lay_out_table(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> TerminalTable {
+    // A cell with a line end would break its row.
     let on_a_line = |row: &Vec<String>| {
         row.iter()
             .map(|cell| escape_terminal_text(cell, false).into_owned())
@@ -59,9 +61,11 @@ pub(crate) fn lay_out_table(header: &[&str], rows: &[Vec<String>], width: Option
         loop {
             let shapes: Vec<&ColumnShape> = kept.iter().map(|at| &all[*at]).collect();
             widths = fit_column_widths(&shapes, width);
+            // Two columns at least, even if they are wider than the terminal.
             if total_table_width(&widths) <= width || kept.len() <= MIN_COLUMN_COUNT {
                 break;
             }
+            // The last empty column goes first, since nothing is lost with it.
             let empty = kept.iter().rposition(|at| all[*at].is_empty);
             kept.remove(empty.unwrap_or(kept.len() - 1));
         }
@@ -78,9 +82,11 @@ pub(crate) fn lay_out_table(header: &[&str], rows: &[Vec<String>], width: Option
             };
             text.push_str(&format!("{before}{cell}{after}{}", " ".repeat(COLUMN_GAP_BLANKS)));
         }
+        // Blanks at the end would wrap in a narrow terminal.
         text.trim_end().to_owned()
     };
     let head = line(&|column| header[column].to_owned());
+    // The rule of a very wide table would fill lines in a narrower window.
     let rule = "-".repeat(total_table_width(&widths).min(MAX_RULE_WIDTH.max(head.chars().count())));
     let mut lines = vec![head, rule];
     let cell = |row: &Vec<String>, column: usize| row.get(column).cloned().unwrap_or_default();
@@ -106,10 +112,12 @@ impl ColumnShape {
     fn measure_column_shape(title: &str, rows: &[Vec<String>], column: usize) -> Self {
         let cells = || rows.iter().filter_map(|row| row.get(column));
         let widest = cells().map(|cell| cell.chars().count()).max().unwrap_or(0);
+        // Empty cells do not make a column of numbers one of words.
         let number = |cell: &String| cell.is_empty() || cell.parse::<f64>().is_ok();
         let is_numeric = !rows.is_empty() && cells().all(number);
         Self {
             widest: widest.max(title.chars().count()),
+            // A shortened number would be another number.
             least: if is_numeric {
                 widest.max(MIN_COLUMN_WIDTH)
             } else {
@@ -134,12 +142,14 @@ fn fit_column_widths(columns: &[&ColumnShape], width: usize) -> Vec<usize> {
         let mut loose: Vec<usize> = (0..widths.len())
             .filter(|at| widths[*at] > columns[*at].least)
             .collect();
+        // The widest column is narrowed down to the next one, then both together.
         loose.sort_by_key(|at| std::cmp::Reverse(widths[*at]));
         let Some(widest) = loose.first().copied().filter(|_| over > 0) else {
             return widths;
         };
         let next = loose.get(1).map_or(0, |at| widths[*at]);
         let least = columns[widest].least;
+        // One letter at least, so that the loop ends.
         let step = (widths[widest] - next.max(least)).max(1).min(over);
         widths[widest] -= step;
     }

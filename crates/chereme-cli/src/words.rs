@@ -74,6 +74,7 @@ pub(crate) fn translate_command_help(command: Command, language: InterfaceLangua
 fn translated_command(command: Command, language: InterfaceLanguage) -> Command {
     let spoken = |text: &StyledStr| translate_help_text(text, language);
     let argument = |argument: Arg| {
+        // An absent text stays absent: clap shows nothing for it.
         let short = argument.get_help().map(spoken);
         let long = argument.get_long_help().map(spoken);
         let argument = short.into_iter().fold(argument, Arg::help);
@@ -97,6 +98,7 @@ fn with_french_frame(command: Command) -> Command {
         .help_template(HELP_TEMPLATE)
         .subcommand_help_heading("Commandes ")
         .subcommand_value_name("COMMANDE")
+        // Clap's own flags are English; French ones replace them below.
         .disable_help_flag(true)
         .disable_version_flag(true)
         .disable_help_subcommand(true)
@@ -137,6 +139,7 @@ fn argument(argument: Arg) -> Arg {
     let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
     let mut short = argument.get_help().map(ToString::to_string);
     let mut long = argument.get_long_help().map(ToString::to_string);
+    // Values with explanations need lines of their own, which only the long help has.
     if explained {
         let text = long.take().or_else(|| short.clone()).unwrap_or_default();
         long = Some(format!(
@@ -172,6 +175,7 @@ fn argument(argument: Arg) -> Arg {
     }
     let mut argument = argument.help_heading(heading);
     if argument.get_action().takes_values() {
+        // Clap would add its own English notes.
         argument = argument.hide_possible_values(true).hide_default_value(true);
     }
     if let Some(help) = short {
@@ -213,6 +217,7 @@ fn format_value_lines(values: &[(String, Option<String>)]) -> String {
 fn translate_help_text(text: &StyledStr, language: InterfaceLanguage) -> String {
     let text = text.to_string();
     let help = |english: &str| help_text(english, language);
+    // A whole text is found more often than its paragraphs.
     if let Some(known) = help(&text) {
         return known.to_owned();
     }
@@ -231,6 +236,7 @@ fn translate_help_text(text: &StyledStr, language: InterfaceLanguage) -> String 
 /// Returns the message of clap about wrong usage in French.
 pub(crate) fn french_usage_message(text: &str) -> String {
     let mut message = text.to_owned();
+    // Replacing phrases is enough here: clap offers no translation of its messages.
     for (english, french) in CLAP_PHRASES {
         message = message.replace(english, french);
     }
@@ -240,6 +246,7 @@ pub(crate) fn french_usage_message(text: &str) -> String {
 
 /// Puts the reason for which a value was refused, at the end of a line of clap, into French.
 fn with_reason(line: &str) -> String {
+    // The reason comes from this program and is in the table of messages.
     let translated = line.rsplit_once("': ").and_then(|(head, reason)| {
         let reason = localized_message(reason, InterfaceLanguage::French)?;
         Some(format!("{head}' : {reason}"))

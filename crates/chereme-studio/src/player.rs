@@ -63,6 +63,7 @@ impl Default for SteppingSettings {
 impl SteppingSettings {
     /// Returns the settings with every value clamped to its range.
     pub(crate) fn clamped_stepping_settings(self) -> Self {
+        // A settings file may hold anything, even what is not a number.
         let within = |value: f64, least: f64, most: f64| {
             if value.is_finite() {
                 value.clamp(least, most)
@@ -129,6 +130,7 @@ impl StagePlayer {
 
     /// Returns the preview, if nobody has moved the playhead since it was set.
     pub(crate) fn current_opening_preview(&self) -> Option<OpeningPreview> {
+        // While it plays, the stage shows what plays.
         self.preview.filter(|_| !self.is_playing())
     }
 
@@ -137,6 +139,7 @@ impl StagePlayer {
         if whole != self.whole {
             self.whole = whole;
             self.part = self.part.and_then(|part| part.span_intersection(whole));
+            // The playhead may stand beyond a span that became shorter.
             self.at = self.clamped(self.at);
         }
     }
@@ -173,7 +176,9 @@ impl StagePlayer {
             self.stop_playback();
             return;
         }
+        // Playing on ends a part: its end would stop the playback.
         (self.part, self.steps) = (None, None);
+        // At the end there is nothing left to play.
         if self.at >= self.last_playable_micros() {
             self.at = self.whole.span_start_instant().instant_micros() as f64;
         }
@@ -207,6 +212,7 @@ impl StagePlayer {
         self.play_part(TimeSpan::span_between(of.span_start_instant(), end));
         self.steps = Some(SteppingState {
             of,
+            // A step longer than the piece would leave gaps; of nothing it would never end.
             by: seconds_to_micros(how.step).min(piece).max(1),
             played: 0,
             rest: 0.0,
@@ -227,6 +233,7 @@ impl StagePlayer {
                 .shifted_instant(steps.by)
                 .min(steps.of.span_end_instant());
             let next = if part.span_end_instant() < steps.of.span_end_instant() {
+                // The last piece ends with the span and keeps its length, so that it overlaps more.
                 Some(TimeSpan::span_between(end.shifted_instant(-part.span_micros()), end))
             } else {
                 let start = steps.of.span_start_instant();
@@ -235,6 +242,7 @@ impl StagePlayer {
             };
             if next.is_none() {
                 self.stop_playback();
+                // The playhead stays within the recording, whose end is excluded.
                 self.at = self.clamped(part.span_end_instant().instant_micros() as f64);
                 return;
             }
@@ -255,6 +263,7 @@ impl StagePlayer {
     pub(crate) fn shuttle_playback(&mut self, sign: f64) {
         self.preview = None;
         (self.part, self.steps) = (None, None);
+        // A press in the other direction turns round at single speed.
         self.direction = if self.direction * sign > 0.0 {
             (self.direction * 2.0).clamp(-8.0, 8.0)
         } else {
@@ -265,6 +274,7 @@ impl StagePlayer {
     /// Changes to the next slower or faster of [`PLAYBACK_SPEEDS`].
     pub(crate) fn step_speed(&mut self, faster: bool) {
         let mut near = PLAYBACK_SPEEDS.iter().copied();
+        // Speeds are not exact in floating point after they were stored.
         let next = if faster {
             near.find(|speed| *speed > self.speed + 1e-9)
         } else {
@@ -286,6 +296,7 @@ impl StagePlayer {
         if !self.is_playing() || self.whole.is_empty() {
             return;
         }
+        // The pause runs on the clock, whatever the speed.
         if let Some(steps) = self.steps.as_mut().filter(|steps| steps.rest > 0.0) {
             steps.rest -= seconds;
             return;
@@ -308,8 +319,10 @@ impl StagePlayer {
             return self.next_piece();
         }
         if self.looping {
+            // What it ran over goes on from the other end, so that a loop keeps its rhythm.
             self.at = start + (self.at - start).rem_euclid((end - start).max(1.0));
         } else {
+            // Played out: the next press starts anew.
             self.at = self.clamped(if self.direction > 0.0 { end } else { start });
             self.stop_playback();
         }

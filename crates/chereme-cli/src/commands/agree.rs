@@ -110,6 +110,7 @@ impl AgreeArgs {
                     .into());
             }
         };
+        // No names ask for all measures in the library.
         let all = self.measures.iter().any(|name| name == "all");
         Ok(AgreeOptions {
             recording: self
@@ -147,6 +148,7 @@ pub(super) fn run(cli: &CommandLine, args: &AgreeArgs, output: &mut CommandOutpu
         Some(into) => Some(corpus.adjudicate_tiers(&options, into, &mut progress)?),
         None => None,
     };
+    // The bar is taken away before tables are printed over it.
     drop(bar);
     print_agreement(&agreement, args, output)?;
     let mut document = serde_json::to_value(&agreement)?;
@@ -208,6 +210,7 @@ fn print_agreement(found: &AnnotatorAgreement, args: &AgreeArgs, output: &mut Co
             &[&quartiles(onset), &quartiles(offset)],
         )?;
     }
+    // Too few units make misleading figures; JSON has them for those who know.
     if found.counts_only && found.baselines.is_empty() {
         output.write_output_line("too few units or values for figures; with --json they are computed all the same")?;
         return Ok(());
@@ -280,6 +283,7 @@ fn pair_agreement_row(it: &chereme_corpus::PairAgreement, output: &CommandOutput
     let figure = |name: &str| {
         let matching_measure = it.measures.iter().find(|(own, _)| *own == name);
         matching_measure
+            // A pair with few units has counts and no figures.
             .filter(|_| !it.counts.are_few())
             .map(|(_, figure)| format_figure_value(figure, output))
             .unwrap_or_default()

@@ -372,6 +372,7 @@ const MAX_JSON_IDS: usize = 100;
 
 fn print_annotate_report(mut report: AnnotateReport, all: bool, output: &mut CommandOutput) -> Result<()> {
     let total = report.annotations.len();
+    // Many ids would hide the sentence.
     let few = all || total <= MAX_PRINTED_IDS;
     let ids: Vec<String> = report
         .annotations
@@ -380,6 +381,7 @@ fn print_annotate_report(mut report: AnnotateReport, all: bool, output: &mut Com
         .map(|id| format!("annotation:{id}"))
         .collect();
     let summary = match report.added + report.changed + report.removed {
+        // A change that changes nothing is still an answer.
         0 => output.translate_message("nothing changed"),
         _ => annotation_sentence(&report.effect, output.output_language()),
     };
@@ -393,6 +395,7 @@ fn print_annotate_report(mut report: AnnotateReport, all: bool, output: &mut Com
         report.annotations.truncate(MAX_JSON_IDS);
     }
     let mut document = serde_json::to_value(report)?;
+    // The number of all ids is known even if the list is cut.
     document["annotations_total"] = total.into();
     output.set_json_document(document)
 }
@@ -471,6 +474,7 @@ fn shift_annotations(
     let AnnotateCommand::Shift { by, tiers, dry_run } = &args.action else {
         return Ok(());
     };
+    // A tier by its number belongs to one recording, which needs no name.
     let of_all = tiers.iter().all(|tier| !tier.starts_with("tier:"));
     if recording.is_none() && of_all {
         return Err(which_recording().into());

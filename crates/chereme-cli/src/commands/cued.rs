@@ -228,6 +228,7 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
                 "face_mm",
             ];
             output.write_titled_table(&titles, &rows)?;
+            // Findings are about the models, which are the same for all takes.
             if let Some(first) = done.first() {
                 for finding in &first.findings {
                     output.write_warning(finding)?;

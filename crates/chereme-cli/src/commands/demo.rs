@@ -60,6 +60,7 @@ pub(super) fn run(cli: &CommandLine, args: &DemoArgs, output: &mut CommandOutput
 
 /// Returns the folder for the results: the named one, which must be empty or missing, or a new one.
 fn choose_demo_folder(named: Option<&Path>) -> Result<PathBuf> {
+    // An empty folder may be one that the user just made.
     if let Some(named) = named {
         let taken = named.read_dir().is_ok_and(|mut entries| entries.next().is_some());
         if taken || named.is_file() {

@@ -197,6 +197,7 @@ pub(super) fn run(cli: &CommandLine, args: &ImportArgs, output: &mut CommandOutp
     options.standard_input = stands.first().map(|stand_in| stand_in.path.clone());
     let scratch = tempfile_for(args)?;
     let path = scratch.as_ref().map_or(&args.corpus, |scratch| &scratch.1);
+    // Whether the corpus is new decides what a failure leaves behind.
     let fresh = !path.exists();
     let mut corpus = if fresh {
         Corpus::create_corpus(path, &cli.history_author())?
@@ -206,7 +207,9 @@ pub(super) fn run(cli: &CommandLine, args: &ImportArgs, output: &mut CommandOutp
     let mut bar = CommandProgressBar::new();
     let report = corpus.import_paths(&files, &options, &mut ProgressReceiver::new(&mut bar));
     drop(bar);
+    // Everything was refused and nothing is in it.
     let empty = |report: &ImportReport| report.has_refusals() && report.created.values().all(|count| *count == 0);
+    // A corpus of a dry run lies in a temporary folder.
     if fresh && scratch.is_none() {
         if report.as_ref().map_or(true, empty) {
             // A failed import leaves no empty corpus behind.
@@ -233,6 +236,7 @@ fn list_import_files(args: &ImportArgs) -> Result<(Vec<PathBuf>, Vec<StandInFile
                 .with_error_place("-")
                 .with_advice("name it, as with --format eaf")
         })?;
+        // The name becomes a file's, so that it must not lead to another folder.
         if !format.chars().all(|c| c.is_alphanumeric() || c == '.') || args.name.contains(['/', '\\']) {
             return Err(CorpusError::from_wrong_message(format!(
                 "{format:?} is no extension of a file, or {:?} no name",
@@ -259,6 +263,7 @@ fn list_import_files(args: &ImportArgs) -> Result<(Vec<PathBuf>, Vec<StandInFile
 
 /// Returns a temporary corpus for a dry run, if the named one does not exist yet.
 fn tempfile_for(args: &ImportArgs) -> Result<Option<(tempfile::TempDir, PathBuf)>> {
+    // A dry run must not create the corpus that it was asked about.
     if !args.dry_run || args.corpus.exists() {
         return Ok(None);
     }
@@ -317,6 +322,7 @@ fn print_import_report(report: &ImportReport, output: &mut CommandOutput) -> Res
     let mut quiet = 0;
     for file in &report.files {
         let plain = |severity: &str| severity == "note";
+        // In long lists only what needs attention is shown.
         if many && file.findings.iter().all(|finding| plain(finding.severity)) {
             quiet += usize::from(matches!(file.status, FileStatus::Imported | FileStatus::Updated));
         } else {
@@ -337,6 +343,7 @@ fn print_import_report(report: &ImportReport, output: &mut CommandOutput) -> Res
         };
         let why = output.translate_message(&kind.why);
         output.filled_line("not read: {what} ({why})", &[&what, &why])?;
+        // Three names show what kind of files they are.
         for file in kind.files.iter().take(MAX_NAMED_UNREAD) {
             output.line_as_is(&format!("  {file}"))?;
         }
@@ -455,6 +462,7 @@ fn without_repetition(findings: &[ReportFinding]) -> (Vec<&ReportFinding>, usize
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut shown = Vec::new();
     for finding in findings {
+        // A finding without a remedy is always listed.
         let count = finding.remedy.as_ref().map_or(0, |remedy| {
             let count = counts.entry(remedy.remedy_text()).or_default();
             *count += 1;

@@ -102,6 +102,7 @@ pub(super) fn merge_corpora(cli: &CommandLine, args: &MergeArgs, output: &mut Co
 fn is_corpus(path: &Path) -> bool {
     let mut head = [0; 16];
     let read = std::fs::File::open(path).and_then(|mut file| std::io::Read::read_exact(&mut file, &mut head));
+    // The first bytes of every SQLite file.
     read.is_ok() && head.starts_with(b"SQLite format 3")
 }
 
@@ -185,6 +186,7 @@ fn list_merge_conflicts(conflicts: &[CorpusConflict], output: &mut CommandOutput
 
 /// Imports a changed annotation file, and keeps the edits of both sides.
 fn file_into_corpus(cli: &CommandLine, args: &MergeArgs, output: &mut CommandOutput) -> Result<()> {
+    // The export remembers its state in the corpus.
     if let Some(base) = &args.base {
         return Err(
             CorpusError::from_wrong_message("a corpus already has the state from which the file was exported")
@@ -291,6 +293,7 @@ pub(super) fn list_or_decide_conflicts(
         let numbers: Result<Vec<usize>, CorpusError> = args.numbers.iter().map(number).collect();
         numbers?
     };
+    // `all` of no open conflicts is done already.
     if conflict_numbers.is_empty() && !args.numbers.is_empty() {
         list_merge_conflicts(&[], output)?;
         return output.set_json_document(json!({ "total": 0, "rows": [] }));

@@ -359,6 +359,7 @@ fn in_depth(of: &FieldInDepth, limit: usize, output: &mut CommandOutput) -> Resu
     let rows: Vec<Vec<String>> = contrasts
         .map(|pair| {
             vec![
+                // An empty cell would look like a missing one.
                 cell(&pair.a),
                 cell(&pair.b),
                 pair.pairs.to_string(),
@@ -541,6 +542,7 @@ fn format_estimate_value(of: &StatsEstimate, digits: usize, output: &CommandOutp
 /// Returns half the width of an interval above the number; below it may be cut.
 fn format_half_interval(of: &StatsEstimate, digits: usize) -> String {
     let half = of.value.zip(of.interval);
+    // The upper half, since the lower one may be cut at zero.
     half.map(|(value, ends)| format!("{:.digits$}", ends.high - value))
         .unwrap_or_default()
 }

@@ -169,6 +169,7 @@ fn non_blank_text(text: &Option<String>) -> Option<String> {
 /// Returns the hand that a role or an option names; `None` if neither does.
 fn hand_of(topic: Option<&TierTopic>, word: Option<HandWord>) -> Result<Option<Option<AnnotatedHands>>> {
     let asked = word.map(HandWord::to_tier_hands);
+    // Both may name the hand if they name the same.
     match (topic.and_then(|topic| topic.hand), asked) {
         (Some(own), Some(asked)) if Some(own) != asked => {
             let other = asked.map_or("none", AnnotatedHands::annotated_hands_name);
@@ -242,6 +243,7 @@ pub(super) fn run(
             people,
         } => {
             let mut tier = NewTier::new(needed()?, name.clone(), role.role.clone());
+            // An empty option is the same as none for a new tier.
             tier.hand = hand_of(Some(role), *hand)?.flatten();
             tier.participant = non_blank_text(&people.participant);
             tier.annotator = non_blank_text(&people.annotator);
@@ -278,6 +280,7 @@ pub(super) fn run(
                 role: role.as_ref().map(|topic| topic.role.clone()),
                 hand: hand_of(role.as_ref(), *hand)?,
                 values: inventory.clone().map(TierValueSource::Inventory),
+                // An empty text is passed on here: it removes the old one.
                 participant: people.participant.clone().map(Some),
                 annotator: people.annotator.clone().map(Some),
                 language: people.language.clone().map(Some),

@@ -55,6 +55,7 @@ impl OpeningInProgress {
         let stopped = stop.clone();
         std::thread::spawn(move || {
             let mut hear = |step: ProgressStep<'_>| {
+                // An opening that nobody waits for any more goes on to its end.
                 let _ = sender.send(OpeningNews::Far(WorkProgress::progress_from_step(&step)));
                 wake();
                 if stopped.load(Ordering::Relaxed) {
@@ -129,6 +130,7 @@ impl CorpusOpening {
             _ => return (Vec::new(), None),
         };
         let path = self.opening_corpus_path();
+        // An absolute path still names the corpus if the working folder changes.
         let made = (!path.exists()).then(|| std::path::absolute(&path).unwrap_or(path));
         (look, made)
     }
@@ -140,6 +142,7 @@ impl CorpusOpening {
             Self::Files(files) => {
                 let parent_folder = files.first().and_then(|file| file.parent());
                 let folder = parent_folder.unwrap_or(Path::new(""));
+                // The corpus beside the folder has the folder's name.
                 folder.join(folder.file_name().unwrap_or_default())
             }
             Self::Open(path) | Self::New(path) | Self::Starter(path) => path.clone(),

@@ -90,6 +90,7 @@ impl CorpusDesk {
         for lane in WorkLane::ALL_WORK_LANES {
             let (give, orders) = channel();
             let (station, reader) = (station.clone(), reader.clone());
+            // Each lane has a thread and a connection of its own, so that no work waits for another lane's.
             threads.push(std::thread::spawn(move || {
                 station.work_on_orders(&orders, lane, &reader)
             }));
@@ -117,6 +118,7 @@ impl CorpusDesk {
         };
         let order = WorkOrder { id, job, stop };
         let lane = self.lanes.get(&about.lane);
+        // A lane whose thread ended takes no work; it has reported why.
         if lane.is_some_and(|lane| lane.send(order).is_ok()) {
             self.running.insert(id, running);
         }
@@ -169,9 +171,11 @@ impl CorpusDesk {
 impl Drop for CorpusDesk {
     fn drop(&mut self) {
         let stoppable = |running: &&RunningWork| running.about.may_stop;
+        // Edits are awaited, since the user takes them for stored; everything else is stopped.
         for running in self.running.values().filter(stoppable) {
             running.stop.store(true, Ordering::Relaxed);
         }
+        // Threads end when nothing can be sent to them any more.
         self.lanes.clear();
         self.reader = None;
         for thread in self.threads.drain(..) {
@@ -213,11 +217,13 @@ impl WorkStation {
             }
             let outcome = self.carry_out_order(&mut corpus, id, job, &stop);
             let ended = DeskNews::Ended(id, outcome, about);
+            // Only edits change the corpus: other results need no new snapshot.
             if !edits {
                 self.send_station_news(ended);
                 continue;
             }
             self.edits.fetch_add(1, Ordering::SeqCst);
+            // Without a reader nobody shows the result later, so it is passed on at once.
             if let Err(SendError(SnapshotRequest::After(ended))) = reader.send(SnapshotRequest::After(Box::new(ended)))
             {
                 self.send_station_news(*ended);
@@ -232,9 +238,11 @@ impl WorkStation {
         job: CorpusJob,
         stop: &AtomicBool,
     ) -> WorkResult {
+        // Work may have been stopped while it waited for its turn.
         if stop.load(Ordering::Relaxed) {
             return Err(CorpusError::Stopped);
         }
+        // An edit of a file that was moved away would be lost with it.
         if (job.about.lane == WorkLane::Edit || corpus.is_none()) && !self.place.is_same_file_present() {
             return Err(CorpusError::from_file_failure(
                 &self.path,
@@ -243,10 +251,12 @@ impl WorkStation {
         }
         let corpus = match corpus {
             Some(corpus) => corpus,
+            // The connection is opened by the first work of the lane and kept.
             None => corpus.insert(Corpus::open_corpus(&self.path, &self.author)?),
         };
         let mut last = std::time::Instant::now();
         let mut hear = |step: ProgressStep<'_>| {
+            // Twenty steps a second are enough to watch, and more would flood the window.
             if last.elapsed() > Duration::from_millis(50) {
                 last = std::time::Instant::now();
                 self.send_station_news(DeskNews::Far(id, WorkProgress::progress_from_step(&step)));
@@ -278,6 +288,7 @@ impl WorkStation {
             if std::mem::replace(&mut stood, stands) != stands {
                 self.send_station_news(DeskNews::Stands(stands));
             }
+            // Counted before the reading: an edit that begins meanwhile belongs to the next one.
             let begun = self.edits.load(Ordering::SeqCst);
             match reading.read_snapshot_again() {
                 Ok(true) => {
@@ -287,10 +298,12 @@ impl WorkStation {
                 Ok(false) => {}
                 Err(error) => self.send_station_news(DeskNews::Unread(error)),
             }
+            // Results come after the snapshot that shows them.
             ended.drain(..).for_each(|news| self.send_station_news(news));
             // Work that is running has not ended: count it again at the next reading.
             before = begun & !1;
             let mut next = wishes.recv_timeout(CHANGE_CHECK_INTERVAL);
+            // All requests that wait are taken at once, so that one reading serves them.
             while let Ok(wish) = next {
                 match wish {
                     SnapshotRequest::After(news) => ended.push(*news),
@@ -305,6 +318,7 @@ impl WorkStation {
                     std::sync::mpsc::TryRecvError::Disconnected => RecvTimeoutError::Disconnected,
                 });
             }
+            // The window has closed.
             if matches!(next, Err(RecvTimeoutError::Disconnected)) {
                 return;
             }
@@ -335,9 +349,11 @@ impl SnapshotReading {
         if self.seen == Some(now) {
             return Ok(false);
         }
+        // Another recording in the same corpus needs no new overview.
         if self.seen.is_none_or(|(generation, _)| generation != now.0) {
             self.snapshot.overview = Arc::new(self.corpus.load_corpus_overview(MAX_SHOWN_OPERATIONS)?);
         }
+        // A deleted recording may still be watched.
         let there = |id: &i64| {
             let recordings = &self.snapshot.overview.recordings;
             recordings.iter().any(|recording| recording.row.id == *id)

@@ -186,6 +186,7 @@ pub(crate) struct WorkProgress {
 
 impl WorkProgress {
     fn progress_from_step(step: &chereme_corpus::ProgressStep<'_>) -> Self {
+        // Bytes are counted in kibibytes, which keeps the numbers short.
         let scale = if step.unit == ProgressUnit::Bytes { 1024 } else { 1 };
         Self {
             task: step.task.to_owned(),

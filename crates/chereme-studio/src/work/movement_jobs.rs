@@ -54,7 +54,9 @@ pub(crate) fn load_points_job(recording: i64, span: TimeSpan) -> CorpusJob {
 pub(crate) fn load_stretch_job(recording: i64, span: TimeSpan, shown_part: fn(TimeSpan) -> TimeSpan) -> CorpusJob {
     CorpusJob::new(JobAbout::LITTLE_FIGURE_JOB_ABOUT, move |corpus, _| {
         let address = CorpusAddress::Recording(RowName::Number(recording));
+        // Calibration poses at the beginning would be all that a list shows.
         let span = shown_part(corpus.usable_part(&address, Some(span)).unwrap_or(span));
+        // A recording without movement may have a film.
         let moving = movement_in(corpus, recording, span).ok();
         match moving.filter(|moving| moving.clip.clip_frame_count() > 0) {
             Some(moving) => Ok(WorkOutcome::Stretch(Some(Arc::new(moving)))),
@@ -87,6 +89,7 @@ fn movement_in(corpus: &Corpus, recording: i64, span: TimeSpan) -> CorpusResult<
 fn load_originals(corpus: &Corpus, parts: Vec<MadePart>) -> WorkOutcome {
     let mut movements: BTreeMap<String, Option<Arc<DisplayedMovement>>> = BTreeMap::new();
     let loaded = parts.into_iter().map(|part| {
+        // Beyond the limit an original counts as missing.
         if !movements.contains_key(&part.from) && movements.len() < MAX_LOADED_ORIGINALS {
             let read_movement = part
                 .original_address()
