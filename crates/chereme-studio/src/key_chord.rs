@@ -82,6 +82,7 @@ impl KeyChord {
         if self.ctrl {
             return TEXT_EDITING_KEYS.contains(&self.key) && !self.alt;
         }
+        // Function keys and Alt type nothing in a field.
         !function && !self.alt
     }
 

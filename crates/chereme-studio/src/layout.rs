@@ -183,6 +183,7 @@ pub(crate) fn settle_pane_shares(tree: &mut Tree<PaneKind>) {
         };
         let mean = shares.iter().map(|pair| pair.1).sum::<f32>() / shares.len().max(1) as f32;
         let even = (mean - 1.0).abs() < 1e-3 && linear.children.iter().all(has_share);
+        // Nothing to settle, or nothing to divide by.
         if even || mean <= 0.0 {
             continue;
         }
@@ -216,6 +217,7 @@ fn tile_with_shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileI
 /// Returns the remembered layout if it contains every pane once, else the layout for the task `busy` and the window
 /// size.
 pub(crate) fn remembered_layout(tree: Option<&Tree<PaneKind>>, busy: BusyTask, small: bool) -> Tree<PaneKind> {
+    // A pane that was added in a later version is missing in older layouts.
     let is_complete = |tree: &&Tree<PaneKind>| {
         PaneKind::ALL_PANE_KINDS.iter().all(|kind| {
             let is = |tile: &&Tile<PaneKind>| matches!(tile, Tile::Pane(pane) if pane == kind);

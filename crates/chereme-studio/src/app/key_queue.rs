@@ -37,6 +37,7 @@ impl KeyQueue {
                     repeat: true,
                     ..
                 } if waiting => left_out = true,
+                // The text that a held key types is left out with it.
                 Event::Text(_) if was_left_out => {}
                 Event::Key { pressed: true, .. }
                 | Event::Text(_)
@@ -91,6 +92,7 @@ impl Studio {
     /// wait for its end.
     pub(crate) fn take_keys(&mut self, ctx: &Context) {
         ctx.input_mut(|input| self.waiting.collect_frame_keys(input));
+        // The field that lost the focus in the last frame is still there in this one.
         if std::mem::take(&mut self.waiting.rests) {
             ctx.request_repaint();
             return;
@@ -106,6 +108,7 @@ impl Studio {
                 ctx.request_repaint_after(Duration::from_millis(100));
                 break;
             }
+            // Actions and widgets take turns, so that each key meets the state before it.
             if next.is_some() && !passed.is_empty() || next.is_none() && acted {
                 ctx.request_repaint();
                 break;
@@ -132,6 +135,7 @@ impl Studio {
                 let text = self.waiting.take_shortcut();
                 self.clipboard.store_pasted_text(text);
             }
+            // A held key repeats only actions that bear it.
             if action.is_none_or(|(action, repeat)| !repeat || action.action_row().repeats) {
                 self.focus_timeline(next, place);
                 self.out.send_command(WindowCommand::Do(next));

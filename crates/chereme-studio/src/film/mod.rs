@@ -54,6 +54,7 @@ impl RecordingFilms {
                         && screen.track.url == track.url
                         && screen.track.imported == track.imported
                 };
+                // A film that moved on the clock keeps its open file.
                 match before.iter().position(is_same_film) {
                     Some(at) => before.swap_remove(at).with_moved_track(track),
                     None => FilmScreen::new(track.clone(), &self.corpus, ctx),
@@ -102,6 +103,7 @@ impl RecordingFilms {
     pub(crate) fn is_pane_seen(ctx: &Context) -> bool {
         let pass = ctx.cumulative_pass_nr();
         let last: Option<u64> = ctx.data(|data| data.get_temp(Id::unique(FILM_PANE_ID)));
+        // Its pane may be drawn after this one in a frame.
         last.is_some_and(|last| last + 1 >= pass)
     }
 }

@@ -165,6 +165,7 @@ impl PictureAlbum {
         }
         let picture = match film.screen_frame_picture(wish.frame, wish.within, stop) {
             Ok(picture) => picture,
+            // Not an error: another picture is wanted by now.
             Err(chereme_corpus::CorpusError::Stopped) => return Ok(None),
             Err(error) => return Err(error),
         };
@@ -188,6 +189,7 @@ fn project_film(shared: &ProjectorShared, mut film: FilmFile, wake: &dyn Fn()) {
     while let Some(wish) = shared.next() {
         let overtaken = || {
             let wished = lock_held_mutex(&shared.wish);
+            // A picture a little ahead is decoded on the way to it.
             let other = |next: &FilmRequest| !(wish.frame..wish.frame + NEAR_REQUEST_FRAMES).contains(&next.frame);
             wished.over || wished.next.as_ref().is_some_and(other)
         };
@@ -200,6 +202,7 @@ fn project_film(shared: &ProjectorShared, mut film: FilmFile, wake: &dyn Fn()) {
             wake();
         };
         let begin = times.sync_before(wish.frame);
+        // Decoding goes on from the last picture if no nearer start lies between.
         let is_ahead = (begin..=wish.frame).contains(&last);
         let from = if is_ahead { last } else { begin };
         if wish.frame - from > FAR_DECODE_FRAMES && album.find_kept_picture(wish).is_none() {
@@ -221,6 +224,7 @@ fn project_film(shared: &ProjectorShared, mut film: FilmFile, wake: &dyn Fn()) {
             }
         }
         if wish.playing {
+            // Ahead only as long as nobody waits.
             let busy = || lock_held_mutex(&shared.wish).next.is_some() || lock_held_mutex(&shared.wish).over;
             for frame in (wish.frame + 1..times.film_frame_count()).take(DECODED_AHEAD_PICTURES) {
                 let ahead = FilmRequest { frame, ..wish };

@@ -137,6 +137,7 @@ impl FilmScreen {
             return !matches!(self.news.known, FilmFileState::Coming);
         };
         let shot = self.news.shot.as_ref();
+        // A damaged frame is never shown, and waiting for it would never end.
         shot.is_some_and(|shot| shot.frame == wish.frame)
             || self.news.damaged.as_ref().is_some_and(|damage| damage.0 == wish.frame)
     }

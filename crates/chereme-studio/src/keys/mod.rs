@@ -57,6 +57,7 @@ impl ActionKeys {
                 .iter()
                 .filter(|action_row| action_row.id != id && action_row.context == row.context)
             {
+                // Keys that the user chose for another action as well stay with it.
                 if let Some(all) = bound.get_mut(&other.action)
                     && !rebound.contains_key(other.id)
                 {
@@ -101,6 +102,7 @@ impl ActionKeys {
 
     /// Returns the action of `chord` in the state `place`: an action of the pane takes precedence.
     pub(crate) fn action_of_chord(&self, chord: KeyChord, place: KeyContext) -> Option<Action> {
+        // Whatever is open or focused has its keys first.
         let taken = (place.typing && chord.is_for_text())
             || (place.menu && !chord.ctrl && !chord.alt)
             || (place.focused && chord.is_for_widgets())
@@ -160,6 +162,7 @@ impl KeyContext {
     /// a pane that shows them has the focus.
     fn may_act(self, chord: KeyChord, row: &ActionRow) -> bool {
         use PaneKind::{Film, Inspector, Stage, Timeline};
+        // Other keys are not typed by mistake, but edit only what is in sight.
         if !chord.is_for_coding() {
             let in_sight = [Timeline, Stage, Film, Inspector];
             return !row.edits || self.pane.is_some_and(|pane| in_sight.contains(&pane));

@@ -167,6 +167,7 @@ impl DrawingBoardState {
         let since = self.now.saturating_sub(UNREQUESTED_FIGURE_FRAMES);
         let mut next: Option<(f32, &PictureStripKey, &mut PictureStrip, Option<Arc<DrawableMovement>>)> = None;
         for (key, strip) in &mut self.strips {
+            // Figures that scrolled out of sight are not drawn on.
             let Some(share) = strip.drawn_share().filter(|_| strip.wanted >= since) else {
                 continue;
             };
@@ -177,24 +178,29 @@ impl DrawingBoardState {
                     Some(ready.clone())
                 }
                 (_, Some(MiniatureFilm::Loaded(movement))) => {
+                    // Postures first, since they decide how many pictures a strip has.
                     return Some(DrawingTask::Prepare(key.source.clone(), movement.clone()));
                 }
                 _ => continue,
             };
+            // The strip with the smallest share is next, so that all visible figures grow evenly.
             if next.as_ref().is_none_or(|(least, ..)| share < *least) {
                 next = Some((share, key, strip, ready));
             }
         }
         let (_, key, strip, ready) = next?;
         if strip.pictures.is_empty() {
+            // A hand alone is one posture and one picture.
             strip.lay_out_pictures(ready.as_ref().map_or(1, |ready| ready.poses.len()));
         }
         let index = *strip.order.get(strip.drawn)?;
+        // Counted already now: the next task must not be the same picture.
         strip.drawn += 1;
         Some(DrawingTask::Draw(key.clone(), index, ready))
     }
 
     fn take_in(&mut self, key: &PictureStripKey, index: usize, picture: ColorImage) {
+        // The strip may have been removed while its picture was drawn.
         if let Some(strip) = self.strips.get_mut(key)
             && let Some(slot) = strip.pictures.get_mut(index)
         {
@@ -275,6 +281,7 @@ impl MiniatureDrawer {
         }
         let body = Arc::new(SignerBody::new(skeleton, anatomy));
         if self.bodies.len() >= MAX_BODY_MESHES {
+            // The oldest body goes; movements that are drawn hold theirs.
             self.bodies.remove(0);
         }
         self.bodies.push((skeleton.clone(), anatomy.clone(), body.clone()));
@@ -314,6 +321,7 @@ impl MiniatureDrawer {
     ) -> RasterImage {
         let pose = &ready.poses[index];
         let (of, mesh) = &mut self.mesh;
+        // One mesh serves all figures of a body; another body needs one of its own size.
         if of.as_ref().is_none_or(|body| !Arc::ptr_eq(body, &ready.body)) {
             *mesh = ready.body.posed_mesh(pose);
             *of = Some(ready.body.clone());

@@ -27,6 +27,7 @@ pub(crate) fn loop_picture_count(seconds: f64) -> usize {
 
 /// Returns the moment in `span` that picture `index` of `count` shows: the middle of its part of the span.
 pub(crate) fn loop_picture_moment(span: TimeSpan, index: usize, count: usize) -> RecordingInstant {
+    // The middle of each picture's share of time, so that none stands at an end.
     let share = (index as f64 + 0.5) / count as f64;
     span.span_start_instant()
         .shifted_instant((span.span_micros() as f64 * share) as i64)
@@ -85,6 +86,7 @@ pub(crate) fn one_to_one(picture: [usize; 2], cell: [f32; 2]) -> Option<Rect> {
         if part > whole || whole < 1.0 {
             return None;
         }
+        // The cut begins at a whole pixel, or the picture would be blurred.
         let start = ((whole - part) * 0.5).floor();
         corners[0][axis] = start / whole;
         corners[1][axis] = (start + part) / whole;
@@ -108,10 +110,12 @@ pub(crate) fn keys_to_evict<K: Clone + Ord>(
     limit: usize,
 ) -> Vec<K> {
     let mut all: Vec<(u64, K, usize)> = kept.map(|(key, bytes, when)| (when, key, bytes)).collect();
+    // By the frame of the last request first, then by key, so that the order is certain.
     all.sort_unstable();
     let mut total: usize = all.iter().map(|(_, _, bytes)| bytes).sum();
     let mut leaving = Vec::new();
     for (when, key, bytes) in all {
+        // What is visible now stays even beyond the limit.
         if total <= limit || when >= now {
             break;
         }

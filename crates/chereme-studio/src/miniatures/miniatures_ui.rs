@@ -56,6 +56,7 @@ impl MiniatureFigures {
         if !ui.is_rect_visible(rect) {
             return;
         }
+        // A picture between pixels would be blurred.
         let rect = rect.round_to_pixels(ui.pixels_per_point());
         let key = picture_strip_key(
             ui,
@@ -141,6 +142,7 @@ impl MiniatureFigures {
             cache.swept = now;
             cache.textures.retain(|_, it| it.wanted + TEXTURE_SWEEP_FRAMES >= now);
             let WindowThreadState { made, textures, .. } = &mut *cache;
+            // A freed movement's address may become another's, so that its pictures go with it.
             made.retain(|source, _| state.films.contains_key(source));
             let there = |key: &PictureStripKey| {
                 !matches!(key.source, MiniatureSource::Made(_)) || made.contains_key(&key.source)
@@ -167,6 +169,7 @@ impl MiniatureFigures {
         let mut cache = self.own.borrow_mut();
         let film = match motion {
             MiniatureMotion::Made(_) => return,
+            // Requested later, if the figure is still visible then.
             MiniatureMotion::Span(..) if cache.asked.len() >= MAX_REQUESTED_MOVEMENTS => return,
             MiniatureMotion::Span(recording, span) => {
                 let job = movement_jobs::load_stretch_job(*recording, *span, miniatures_data::loop_shown_span);
@@ -199,6 +202,7 @@ impl MiniatureFigures {
         let (index, image, part) = match sight {
             CellSight::Picture(index, image) => {
                 let exact = miniatures_data::one_to_one(image.size, [pixels.x, pixels.y]);
+                // One picture pixel for each of the window's: smoothing would only blur.
                 if exact.is_some() {
                     options = TextureOptions::NEAREST;
                 }
@@ -259,6 +263,7 @@ fn strip_sight_at(state: &mut DrawingBoardState, key: &PictureStripKey, clock: O
     if count == 0 {
         return CellSight::Preparing;
     }
+    // A still figure shows the middle of its movement.
     let wanted = clock.map_or(count / 2, |clock| miniatures_data::index(clock, seconds, count));
     let there = |index: usize| strip.pictures[index].is_some();
     let index = miniatures_data::nearest_drawn_picture(there, wanted, count);

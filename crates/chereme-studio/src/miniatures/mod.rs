@@ -186,6 +186,7 @@ impl MiniatureFigures {
             };
             find(before) == find(now)
         };
+        // Each recording is judged once, however many spans of it are shown.
         let mut judged: BTreeMap<i64, bool> = BTreeMap::new();
         let mut stays = |source: &MiniatureSource| match source {
             MiniatureSource::Span(recording, ..) => *judged.entry(*recording).or_insert_with(|| kept(*recording)),

@@ -61,6 +61,7 @@ impl DisplayState {
     /// undo. If the selected time was exactly that of the selected annotations in `before`, it follows their times.
     pub(crate) fn update_selected_annotations(&mut self, before: Option<&CorpusSnapshot>, snapshot: &CorpusSnapshot) {
         let was = before.and_then(|earlier| annotations_hull(earlier, &self.annotations));
+        // Only a span that was the annotations' own follows them.
         if was.is_some() && was == self.span {
             self.span = annotations_hull(snapshot, &self.annotations).or(self.span);
         }

@@ -84,6 +84,7 @@ impl CorpusSnapshot {
     /// Returns the sign of a token, if the token is a citation form or in the open recording.
     pub(crate) fn known_token_sign(&self, id: i64) -> Option<TokenSign> {
         let signs = self.overview.signs.iter();
+        // Citation forms are known without opening their recording.
         if let Some(sign) = signs.into_iter().find(|sign| sign.citation == Some(id)) {
             return Some(TokenSign {
                 gloss: sign.gloss.clone(),

@@ -37,6 +37,7 @@ impl TravelCourse {
     /// Returns a dense sequence of positions along the path, in the same space as [`points`](Self::points).
     pub(crate) fn course_positions(&self, arm: f64) -> Vec<DVec3> {
         let points = self.course_points(arm);
+        // A path of straight legs is its own line; a curve needs points in between.
         if self.travel.through.is_empty() {
             std::iter::once(DVec3::ZERO).chain(points).collect()
         } else {
@@ -64,12 +65,14 @@ impl PlacementHandle {
             PlacementGoal::By(legs) => Some(sum(legs)),
             PlacementGoal::Near { by, .. } => Some(sum(by)),
             PlacementGoal::AtPoint(at) => Some(at.map(|length| length.length_in_metres(arm))),
+            // A named place has no number of its own: what it moved so far stands for it.
             PlacementGoal::At(_) | PlacementGoal::Best(_) => self.moved,
         }
     }
 
     /// Returns the goal with another value; a named place becomes an offset.
     pub(crate) fn goal_with_value(&self, value: [f64; 3]) -> PlacementGoal {
+        // What a person drags is no named place any more.
         match &self.to {
             PlacementGoal::By(_) | PlacementGoal::At(_) | PlacementGoal::Best(_) => {
                 PlacementGoal::By(offset_legs(value))

@@ -46,6 +46,7 @@ impl MovementReel {
                 recipe: glance.recipe.clone(),
             })
         });
+        // Another recipe or offset is another movement under the same id.
         if source != self.source {
             *self = Self {
                 source,
@@ -105,6 +106,7 @@ impl MovementReel {
             .frame_start_instant(frame / REEL_PIECE_FRAMES * REEL_PIECE_FRAMES)
             .instant_micros();
         let inside = at.instant_micros() - source.offset - start;
+        // A moment before the movement shows its first frame.
         Some((moving, RecordingInstant::from_micros(inside.max(0))))
     }
 
@@ -119,6 +121,7 @@ impl MovementReel {
         } else {
             Some(here + 1)
         };
+        // The piece at the playhead first, then the one that it moves to.
         let piece = [Some(here), next]
             .into_iter()
             .flatten()
@@ -135,6 +138,7 @@ impl MovementReel {
 
     /// Stores a loaded piece; if there are too many, removes those farthest from it.
     pub(crate) fn put_loaded_piece(&mut self, recording: i64, piece: usize, moving: Arc<DisplayedMovement>) {
+        // Another recording was opened while the piece was loaded.
         if self.source.as_ref().is_none_or(|source| source.recording != recording) {
             return;
         }
@@ -142,6 +146,7 @@ impl MovementReel {
         self.first.get_or_insert_with(|| moving.clone());
         self.pieces.insert(piece, moving);
         while self.pieces.len() > MAX_KEPT_PIECES {
+            // Farthest from the newest piece, which is where the playhead is.
             let far = self.pieces.keys().copied().max_by_key(|other| other.abs_diff(piece));
             self.pieces.remove(&far.unwrap_or(piece));
         }

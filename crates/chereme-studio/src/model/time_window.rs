@@ -28,6 +28,7 @@ impl TimeWindow {
     /// Returns the window that shows the time from `start` to `end` of a recording.
     pub(crate) fn window_of_range(start: f64, end: f64, whole: TimeSpan, width: f32) -> Self {
         let widest = Self::window_of_whole(whole, width).scale;
+        // Not nearer than a tenth of a millisecond a point, unless the whole is shorter.
         let scale = ((end - start) / f64::from(width.max(1.0))).clamp(100.0_f64.min(widest), widest);
         Self { start, scale }.clamp_window_within(whole, width)
     }
@@ -47,6 +48,7 @@ impl TimeWindow {
     pub(crate) fn zoomed_window(&self, factor: f64, around: f64, whole: TimeSpan, width: f32) -> Self {
         let widest = Self::window_of_whole(whole, width).scale;
         let scale = (self.scale * factor).clamp(100.0_f64.min(widest), widest);
+        // The time at the pointer keeps its place in the window.
         let start = around - (around - self.start) * scale / self.scale;
         Self { start, scale }.clamp_window_within(whole, width)
     }
@@ -63,6 +65,7 @@ impl TimeWindow {
         if (0.0..=width).contains(&x) {
             return *self;
         }
+        // A tenth of the page before the time keeps what led to it in sight.
         let start = micros - f64::from(width) * self.scale * 0.1;
         Self { start, ..*self }.clamp_window_within(whole, width)
     }

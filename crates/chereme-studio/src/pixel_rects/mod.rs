@@ -53,6 +53,7 @@ fn simplify_clipped_shapes(shapes: Vec<ClippedShape>, scale: f32) -> Vec<Clipped
         if clipped.transform_after_tessellation == Default::default() {
             sheet.add_clipped_shape(clipped.clip_rect, clipped.shape);
         } else {
+            // Transformed shapes do not lie along pixels.
             sheet.flush();
             sheet.done.push(clipped);
         }
@@ -141,6 +142,7 @@ impl RectangleSheet {
         let same = clip == self.clip && texture == self.texture;
         if !same || self.count + count > MAX_BATCH_TRIANGLES {
             self.flush();
+            // A clip that differs a little makes the renderer begin another batch.
             self.aside = same && !self.aside;
             (self.clip, self.texture, self.count) = (clip, texture, 0);
         }
@@ -172,9 +174,11 @@ impl RectangleSheet {
     fn add_straight_line(&mut self, clip: Rect, [from, to]: [Pos2; 2], stroke: Stroke) -> bool {
         let upright = from.x == to.x;
         let width = stroke.width * self.scale;
+        // A slanted line, a point, or one so thin that softness is all of it.
         if upright == (from.y == to.y) || width < 0.95 {
             return false;
         }
+        // Level lines are treated as upright ones with both axes exchanged.
         let turned = |at: Pos2| if upright { at } else { pos2(at.y, at.x) };
         let (from, to) = (turned(from), turned(to));
         let mut middle = from.x;
@@ -215,6 +219,7 @@ impl RectangleSheet {
                 StrokeKind::Middle => rect.expand(stroke.width / 2.0),
                 StrokeKind::Outside => rect.expand(stroke.width),
             };
+            // Both edges meet: nothing of the fill is left.
             if stroked_rect.size().min_elem() <= 2.0 * stroke.width + 0.5 * pixel {
                 (rect, fill, stroke) = (stroked_rect, stroke.color, Stroke::NONE);
             }
@@ -231,6 +236,7 @@ impl RectangleSheet {
             return self.add_straight_line(clip, ends, Stroke::new(width, fill));
         }
         let rounded = match shape.stroke_kind {
+            // An odd edge lies in the middle of pixels, an even one between them.
             StrokeKind::Middle if is_odd(stroke.width * self.scale) => rect.round_to_pixel_center(self.scale),
             _ => rect.round_to_pixels(self.scale),
         };
@@ -241,6 +247,7 @@ impl RectangleSheet {
         };
         let outer = rounded.expand(beyond) * self.scale;
         let pixel_rect = outer.round();
+        // An edge within a pixel keeps egui's softness.
         if (outer.min - pixel_rect.min).abs().max_elem() > 0.01 || !pixel_rect.is_positive() {
             return false;
         }

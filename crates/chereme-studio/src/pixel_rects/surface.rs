@@ -38,6 +38,7 @@ impl PixelSurface {
             for (left, right, colour) in runs.0 {
                 let same =
                     |piece: &(Rect, Color32)| piece.1 == colour && piece.0.x_range() == (left as f32..=right as f32);
+                // Equal runs are joined downwards, so that large surfaces are few rectangles.
                 let above = open.iter().position(same).map(|at| open.swap_remove(at).0);
                 let from = above.map_or(top as f32, |rect| rect.top());
                 let corners = [(left as f32, from), (right as f32, bottom as f32)];

@@ -67,6 +67,7 @@ impl QueryField {
         if here {
             typed = self.handle_query_keys(ui, &offers);
         }
+        // A kept query is called by its name, which is no query itself.
         let error = match search_suggest::kept_name(&self.text) {
             Some(_) => None,
             None => TokenQuery::parse_query(&self.text).err(),
@@ -130,6 +131,7 @@ impl QueryField {
         let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         let mut typed = QueryFieldOutcome::default();
         let Some(offers) = offers else {
+            // Without completions these keys belong to the field and the results.
             typed.entered = pressed(Key::Enter);
             typed.down = pressed(Key::ArrowDown);
             return typed;
