@@ -551,8 +551,8 @@ fn import_entry(
         }
     };
     let lexicon_title = signs.by_row.title.as_deref();
-        // The lexicon is stored as such, and would only repeat itself among the attributes.
     let mut attributes: Vec<AttributeRow> = (entry.attributes.iter())
+        // The lexicon is stored as such, and would only repeat itself among the attributes.
         .filter(|(name, _)| Some(name.as_str()) != lexicon_title)
         .map(|(name, text)| AttributeRow {
             name: name.clone(),
