@@ -196,6 +196,7 @@ impl CorpusAsker<'_> {
     ) -> Result<(), StepError> {
         if via.profile == Some(TransitionProfile::Learned) {
             let profile = self.sources.learned_profile()?.ok_or(StepError::NoProfile)?;
+            // A transition takes the learned courses alone; reaches serve gestures.
             let reaches = None;
             self.put_answer(slot, LearnedProfile { reaches, ..profile });
         }
@@ -307,6 +308,7 @@ impl<'a> NodeAnswers<'a> {
 fn held_hand_place(material: &MovementMaterial, sides: &[BodySide]) -> Option<String> {
     let dominant = material.handedness.signer_dominant_side();
     let annotated = material.held.iter().filter(|held| {
+        // Annotations without a hand belong to the dominant one.
         let of = sides.contains(&held.hand.unwrap_or(dominant));
         of && held.component == SignComponent::Placement && held.feature.is_none()
     });

@@ -56,6 +56,7 @@ pub(crate) struct WristReach {
 impl WristReach {
     /// Returns the worse of two results.
     pub(crate) fn worse_reach(self, other: Self) -> Self {
+        // A default has no arm yet, so that any measured result is worse.
         let worst = if self.arm == 0.0 || other.residual > self.residual {
             other
         } else {
@@ -187,6 +188,7 @@ impl<'a> ArmSource<'a> {
         let pole = match work.anatomy.elbow_direction(side) {
             Some(out) => ElbowPole::Arm(out),
             None => {
+                // Elbows bend backwards and down if nothing else says where.
                 ElbowPole::Model(SignerFrame::from_mean_posture(work).map_or(DVec3::NEG_Y, |f| -f.forward - DVec3::Y))
             }
         };
@@ -231,6 +233,7 @@ impl<'a> ArmSource<'a> {
     fn help(&self, frame: usize, target: DVec3) -> Option<CollarBoneHelp> {
         let [shoulder, elbow, wrist] = self.arm_points_at(frame);
         let length = full_arm_length([shoulder, elbow, wrist]);
+        // A source that stretches its arm farther than that needs no help to do so.
         let enough = (HELP_FROM * length).max(shoulder.distance(wrist));
         let missing = shoulder.distance(target) - enough;
         if missing <= 0.0 {
@@ -240,13 +243,16 @@ impl<'a> ArmSource<'a> {
         let root = self.columns.joint_positions(clavicle)[frame];
         let (bone, to_target) = (shoulder - root, target - root);
         let (b, w) = (bone.length(), to_target.length());
+        // A collar bone without length cannot move the shoulder.
         if b <= 1e-9 * length {
             return None;
         }
         let axis = bone.cross(to_target).try_normalize()?;
+        // The law of cosines: at this angle from the target the shoulder is `enough` away from it.
         let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
         let missing_angle = bone.angle_between(to_target) - cosine.clamp(-1.0, 1.0).acos();
         let wanted = missing_angle.clamp(0.0, missing / b);
+        // The hyperbolic tangent nears the limit smoothly, so that the help never stops with a jerk.
         let turn = DQuat::from_axis_angle(axis, HELP_MOST * (wanted / HELP_MOST).tanh());
         Some(CollarBoneHelp {
             rotation: turn * self.joint_rotation_at(clavicle, frame),
@@ -265,6 +271,7 @@ impl<'a> ArmSource<'a> {
         let far: Vec<f64> = (0..targets.len()).map(extension).collect();
         let near = far.iter().enumerate().map(|(frame, extension)| {
             let points = self.arm_points_at(frame);
+            // Mirrored, so that the near limit is 1 as well and one rule serves both.
             1.0 + folded_arm_length(points) / full_arm_length(points) - extension
         });
         let near: Vec<f64> = near.collect();
@@ -282,6 +289,7 @@ impl<'a> ArmSource<'a> {
         if distance >= edge {
             return target;
         }
+        // The exponential meets the unchanged distances at the edge, with the same slope.
         let kept = edge - soft + soft * ((distance - edge) / soft).exp();
         shoulder + to_target.normalize_or(shoulder_wrist_direction(points)) * kept
     }
@@ -304,6 +312,7 @@ impl<'a> ArmSource<'a> {
         let pole_across = pole.reject_from_normalized(old).try_normalize();
         let across = pole_across.unwrap_or_else(|| old.any_orthonormal_vector());
         let stands = elbow_bend_direction(was, across, 1.0);
+        // A frame that is already right keeps its posture, and its neighbours' angles follow it.
         if !moves {
             return Some(ArmStep {
                 moves,
@@ -332,7 +341,9 @@ impl<'a> ArmSource<'a> {
                 [start[0], points[1], points[2]]
             }
         };
+        // The natural bend counts only as far as the elbow stands out more than in the source.
         let grown = (off_line(is) - off_line(was)) / (STRAIGHT_ELBOW_SHARE * full_arm_length(was));
+        // A pole in model space is a guess, so that a straight source arm says little about the swivel.
         let pole_trust = match self.pole {
             ElbowPole::Arm(_) => 1.0,
             ElbowPole::Model(_) => smooth_share(off_line(was) / (STRAIGHT_ELBOW_SHARE * full_arm_length(was))),
@@ -358,9 +369,11 @@ impl<'a> ArmSource<'a> {
         let carry_turn = step.carry;
         let bones = |points: [DVec3; 3]| [points[1] - points[0], points[2] - points[1]];
         let ([first, second], [to, on]) = (bones(step.was), bones(step.is));
+        // `carry` brings the bone near its new direction with the swivel; the shortest turn does the rest.
         let turned = |from: DVec3, to: DVec3| least_turn((carry_turn * from).normalize(), to.normalize()) * carry_turn;
         let straight = (turned(second, on) * forearm).normalize();
         let bone = (forearm.inverse() * second).normalize();
+        // The forearm takes up any change of the hand's twist, so that the wrist keeps the source's.
         let (was, _) = twist_about(forearm.inverse() * held, bone);
         let (now, reliability) = twist_about(straight.inverse() * hand, bone);
         ArmJointTurns {
@@ -381,6 +394,7 @@ impl<'a> ArmSource<'a> {
         let mut set = |joint: usize, above: DQuat, now: DQuat| {
             work.channels[joint].rotations[frame] = (above.inverse() * now).normalize();
         };
+        // The columns hold the old rotation of the joint above; `carried` is what has changed there.
         let mut carried = DQuat::IDENTITY;
         if let (Some(help), Some(clavicle)) = (step.help, self.arm.clavicle) {
             set(clavicle, above(0), help.rotation);
@@ -427,13 +441,16 @@ fn softened(extensions: &[f64], frame_time: f64) -> Vec<f64> {
     let near = (FAST_EXIT_SECONDS / frame_time).round() as usize;
     for frame in 1..extensions.len() {
         let [before, now] = [extensions[frame - 1], extensions[frame]];
+        // Only a step near the limit or across it can snap the elbow.
         if before.max(now) < 1.0 - SOFT_REACH_SHARES.1 || before.min(now) > 1.0 + SOFT_REACH_SHARES.1 {
             continue;
         }
         let speed = (now - before).abs() / frame_time;
+        // The elbow's speed of `√(2/s)` times the wrist's, solved for `s`.
         let wanted = (2.0 * (speed / MAX_ELBOW_OPENING_SPEED).powi(2)).clamp(SOFT_REACH_SHARES.0, SOFT_REACH_SHARES.1);
         for at in frame.saturating_sub(near)..(frame + near).min(soft.len()) {
             let away = at.abs_diff(frame) as f64 / near.max(1) as f64;
+            // In full for the first half of the time, then smoothly down to the least.
             let share = smooth_share(2.0 - 2.0 * away);
             soft[at] = soft[at].max(SOFT_REACH_SHARES.0 + (wanted - SOFT_REACH_SHARES.0) * share);
         }
@@ -495,6 +512,7 @@ fn off_line(arm: [DVec3; 3]) -> f64 {
 /// or whose old direction is opposite to the new one.
 fn swivel_weight(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
     let folded = smooth_share(was[0].distance(was[2]) / (FOLDED_ARM_SHARE * full_arm_length(was)));
+    // In full up to 120 degrees between the two lines, nothing at 180.
     folded * smooth_share((1.0 + shoulder_wrist_direction(was).dot(shoulder_wrist_direction(is))) / 0.5)
 }
 
@@ -515,6 +533,7 @@ pub(crate) fn raise_arm(
 ) -> Option<WristReach> {
     let arm = work.anatomy.arm_chain(side)?;
     let columns = JointColumns::joint_columns_of(work, [arm.hand]);
+    // The line about which the elbow swings is known only with the wrist in its place.
     move_wrist(work, side, &columns, targets, Some(hands), ArmSolverMethod::Analytic)?;
     let columns = JointColumns::joint_columns_of(work, [arm.hand]);
     let [shoulders, elbows, wrists] = [arm.upper, arm.forearm, arm.hand].map(|j| columns.joint_positions(j));
@@ -525,6 +544,7 @@ pub(crate) fn raise_arm(
         };
         let now = (elbows[frame] - shoulders[frame]).reject_from_normalized(line);
         let then = wanted.reject_from_normalized(line);
+        // An elbow on the line, or a line that hangs itself, leaves no angle to correct.
         if now.length() < 1e-4 || then.length() < 1e-2 {
             continue;
         }
@@ -536,6 +556,7 @@ pub(crate) fn raise_arm(
         };
         work.channels[arm.upper].rotations[frame] = (above.inverse() * model).normalize();
     }
+    // The swing of the upper arm has taken the wrist along; a second pass brings it back.
     let columns = JointColumns::joint_columns_of(work, [arm.hand]);
     move_wrist(work, side, &columns, targets, Some(hands), ArmSolverMethod::Analytic)
 }

@@ -43,6 +43,7 @@ impl SignerFrame {
         for frame in sample_posture_frames(0..work.frames) {
             let mut pose = work.local_pose_at(frame);
             let model = ModelPose::from_local_pose(&work.skeleton, &pose);
+            // Raised arms pull the collar bones, which would turn the front of the trunk.
             still_collars(work, &mut pose);
             let still = ModelPose::from_local_pose(&work.skeleton, &pose);
             let bodies = [&model, &still].map(|model| work.anatomy.body_frame(model));
@@ -54,6 +55,7 @@ impl SignerFrame {
             }
         }
         if count == 0.0 {
+            // With one arm or one leg the shoulder stands for the middle, and the front is the model's.
             let upper = BodySide::BOTH_SIDES
                 .into_iter()
                 .find_map(|side| work.anatomy.arm_chain(side))?
@@ -61,6 +63,7 @@ impl SignerFrame {
             origin = mean_body_position(work, 0..work.frames, |model| Some(model.model_joint_position(upper)))?;
             (forward, shoulders, count) = (DVec3::Z, 0.7 * arm, 1.0);
         }
+        // The front of a leaning body is level too.
         let level = DVec3::new(forward.x, 0.0, forward.z).normalize_or(DVec3::Z);
         Some(Self {
             origin: origin / count,
@@ -139,12 +142,14 @@ impl SignerFrame {
         place: Option<&BodyRelativePlace>,
         hand: BodySide,
     ) -> Option<DVec3> {
+        // Pronouns are aimed at the chest, below the middle between the shoulders.
         let chest = self.origin - DVec3::Y * (0.35 * self.shoulders);
         Some(match spot {
             SigningSpot::Me => chest + self.forward * (0.3 * self.arm),
             SigningSpot::You => chest + self.forward * (0.85 * self.arm),
             SigningSpot::Towards(directions) => {
                 let direction = self.model_direction_of(mean_of_directions(directions)?);
+                // A direction beside or behind the signer is brought forward, where an arm can reach.
                 chest + (direction + self.forward * 0.5).normalize_or(direction) * (0.85 * self.arm)
             }
             SigningSpot::Point(at) => self.body_point_at(at),
@@ -243,6 +248,7 @@ fn sample_posture_frames(frames: std::ops::Range<usize>) -> impl Iterator<Item =
         if count == len {
             start + n
         } else {
+            // The middles of equal parts, which are the same from either end.
             start + (2 * n + 1) * len / (2 * count)
         }
     })

@@ -123,6 +123,7 @@ impl MovementContacts {
             Some((far(&frame), contact, frame))
         });
         let (_, contact, frame) = within.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        // In the order of the touching points, of which only these are searched.
         let points = [
             RecipeHandPoint::Palm,
             RecipeHandPoint::Thumb,
@@ -154,6 +155,7 @@ pub(crate) fn find_contacts(work: &WorkingClip) -> MovementContacts {
             near.extend(nearest_contact.filter(|found| found.distance < limit));
         }
     }
+    // At least one look, or every look would find a contact of its own.
     let pause = ((CONTACT_PAUSE_S / work.rate.frame_time()).round() as usize).max(look);
     let mut contacts = Vec::new();
     for (near, (side, other, _)) in near.iter().zip(CONTACT_PAIRS) {
@@ -241,9 +243,11 @@ impl<'a> FramePositions<'a> {
     fn find_nearest_touch(&self, side: BodySide, other: Option<BodySide>, reach: f64) -> Option<NearestTouch> {
         let palm = self.palm_position(side);
         let is_far = |to: Option<DVec3>, reach: f64| {
+            // A palm that is unknown excludes nothing.
             let far = palm.zip(to).map(|(palm, to)| palm.distance_squared(to));
             far.is_some_and(|far| far > reach * reach)
         };
+        // Fingertips are computed only if the palms are near enough.
         let hands = match other {
             Some(other) if is_far(self.palm_position(other), 2.0 * reach) => return None,
             Some(other) => self.hand_point_positions(other),
@@ -256,9 +260,11 @@ impl<'a> FramePositions<'a> {
         let mut points = None;
         let mut best: Option<(usize, usize, f64)> = None;
         for (place, &at) in places.iter().enumerate() {
+            // Points of the other hand have passed the test of the palms.
             let Some(to) = at.filter(|_| other.is_some() || !is_far(at, reach)) else {
                 continue;
             };
+            // Few frames have a place in reach, so that the hand's points wait until one is found.
             let points = points.get_or_insert_with(|| self.hand_point_positions(side));
             for (point, from) in points.iter().enumerate() {
                 let Some(square) = from.map(|from| from.distance_squared(to)) else {
@@ -295,6 +301,7 @@ impl ContactEffect {
     /// Returns the expected contact after the operator; `None` if the arm does something else.
     fn expected_contact(self, contact: &ContactSpan) -> Option<ContactSpan> {
         match (self, contact.other) {
+            // Contacts between hands are seen from the right one, so that a swap exchanges point and place.
             (Self::Swapped, Some(_)) => Some(ContactSpan {
                 point: contact.place,
                 place: contact.point,
@@ -318,6 +325,7 @@ impl ContactEffect {
             Self::Anytime => (0..frames).filter_map(offset_length).min_by(f64::total_cmp)?,
             _ => offset_length(contact.nearest)?,
         };
+        // The same contact may not slide either; another hand's can be compared by distance alone.
         let more = match self {
             Self::Same => contact.contact_displacement(tracks),
             _ => is - was,

@@ -35,6 +35,7 @@ impl RotatingDirection {
     /// Returns whether no direction rotates by more than `most` radians from one frame to the next while every free
     /// angle is zero.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
+        // The cosine falls only up to a half turn.
         let least = most.min(PI).cos();
         all.windows(2).all(|two| two[0].start.dot(two[1].start) >= least)
     }
@@ -44,6 +45,7 @@ impl RotatingDirection {
         let [before, now] = [0, 1].map(|n| two[n].direction_at_angle(angles[n]));
         let turn = before.angle_between(now);
         let sine = turn.sin();
+        // At a half turn the slopes are undefined.
         (turn > most && sine > 1e-9).then(|| {
             let slopes = [two[0].line.cross(before).dot(now), two[1].line.cross(now).dot(before)];
             (turn - most, slopes.map(|slope| -slope / sine))
@@ -62,6 +64,8 @@ impl FreelyTurnedRotation {
     /// Returns whether no rotation changes by more than `most` radians from one frame to the next while every free
     /// angle is zero.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
+        // The scalar product of two quaternions is the cosine of half the angle between them, but for its
+        // sign.
         let least = (most / 2.0).min(FRAC_PI_2).cos();
         all.windows(2).all(|two| two[0].start.dot(two[1].start).abs() >= least)
     }
@@ -74,6 +78,7 @@ impl FreelyTurnedRotation {
         let cosine = before.dot(now);
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         let turn = 2.0 * sine.atan2(cosine.abs());
+        // Equal rotations have no slopes to divide by.
         (turn > most && sine > 1e-9).then(|| {
             let slopes = [rotated(0, before).dot(now), rotated(1, now).dot(before)];
             (turn - most, slopes.map(|slope| -slope * cosine.signum() / sine))
@@ -96,6 +101,7 @@ pub(super) fn ease_free_angles(
         .iter()
         .map(|&fixed| if fixed { FREE_ANGLE_FIXED_WEIGHT } else { 1.0 })
         .collect();
+    // The square of a time in frames: an angle beside a jump decays over that time.
     let stiff = (ANGLE_JUMP_SECONDS / frame_time).powi(2);
     let pairs = |angles: &[f64]| -> Vec<[ExcessRotation; 2]> {
         (1..angles.len())
@@ -128,6 +134,7 @@ pub(super) fn ease_free_angles(
             }
         }
         let steps = equations.solved().into_iter();
+        // The slopes hold near the present angles only, so that steps are short.
         let tried_angles = angles
             .iter()
             .zip(steps)
@@ -180,6 +187,7 @@ impl TridiagonalEquations {
 
     fn solved(mut self) -> Vec<f64> {
         let len = self.right.len();
+        // Gauss elimination of three diagonals: downwards here, and back upwards below.
         for n in 1..len {
             let share = self.beside[n] / self.diagonal[n - 1];
             self.diagonal[n] -= share * self.beside[n];

@@ -37,6 +37,7 @@ impl TrustedAngles {
         };
         let mut values = self.values.clone();
         let mut left = doubted(&values, &self.own);
+        // Without a jump only angles of little trust have anything to correct.
         if left.is_empty() && self.trust.iter().all(|&trust| trust > 0.99) {
             return None;
         }
@@ -49,9 +50,11 @@ impl TrustedAngles {
                     .iter_mut()
                     .filter(|weight| **weight < SMOOTHING_FIXED_WEIGHT)
                 {
+                    // A doubted angle gives way to its neighbours.
                     *weight = weight.min(1e-3);
                 }
             }
+            // Always from the given values, so that a wider spread does not come on top of a narrow one.
             values = evened(&self.values, &weights, &self.own, stiff);
             left = doubted(&values, &self.own);
             if left.is_empty() {
@@ -67,7 +70,9 @@ impl TrustedAngles {
         let mut last = self.values.first().copied().unwrap_or_default();
         for ((value, trust), own) in self.values.iter_mut().zip(&self.trust).zip(&self.own) {
             last += own;
+            // Leaves the difference from the last reliable angle within half a turn.
             *value -= TAU * ((*value - last + PI) / TAU).floor();
+            // An angle of little trust may stand anywhere and must not lead its followers astray.
             if *trust > 0.3 {
                 last = *value;
             }
@@ -80,6 +85,7 @@ fn trust_weight(trust: f64) -> f64 {
         return SMOOTHING_FIXED_WEIGHT;
     }
     let trust = trust.max(0.0);
+    // A trace keeps the equations solvable without trust; full trust weighs 4,000.
     1e-4 + 4.0 * trust * trust / (1.001 - trust)
 }
 

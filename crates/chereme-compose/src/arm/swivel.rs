@@ -29,6 +29,7 @@ pub(super) fn swivel_arm_steps(steps: &mut [ArmStep], frame_time: f64) {
             step.carry = DQuat::from_axis_angle(shoulder_wrist_direction(step.is), change) * step.carry;
         }
     }
+    // Measured anew, because elbows ride on the changed swivels of their arms.
     let was = swivels(
         steps
             .iter()
@@ -39,6 +40,7 @@ pub(super) fn swivel_arm_steps(steps: &mut [ArmStep], frame_time: f64) {
             .iter()
             .map(|step| (shoulder_wrist_direction(step.is), step.carry * step.bends)),
     );
+    // An elbow that stands out farther than in the source may swing by a smaller angle only.
     let seen = |step: &ArmStep| (off_line(step.was) / off_line(step.is).max(1e-9)).min(1.0);
     let changes = calm_line_angles(steps, &was, is, seen, frame_time);
     for (n, step) in steps.iter_mut().enumerate().filter(|(_, step)| step.moves) {
@@ -47,6 +49,7 @@ pub(super) fn swivel_arm_steps(steps: &mut [ArmStep], frame_time: f64) {
         if let Some(changes) = &changes {
             out = DQuat::from_axis_angle(line, changes[n]) * out;
         }
+        // A part along the line would change the lengths of the bones.
         let out = out.reject_from_normalized(line).normalize_or(out);
         let along = (step.is[1] - step.is[0]).dot(line);
         step.is[1] = step.is[0] + line * along + out * off_line(step.is);
@@ -63,6 +66,7 @@ fn calm_line_angles(
     frame_time: f64,
 ) -> Option<Vec<f64>> {
     let trusted_turns = own_angle_changes(was).into_iter().enumerate().map(|(n, turn)| {
+        // A change is as reliable as the less reliable of its two frames.
         let trust = steps[n.saturating_sub(1)].trust.min(steps[n].trust);
         turn * trust.min(1.0) * seen(&steps[n])
     });
@@ -97,6 +101,7 @@ fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
 /// Applies the shortest rotation from one unit vector to another to `across`, a vector at a right angle to the first.
 fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
     let opposed = 1.0 + from.dot(to);
+    // Between opposite lines the formula would divide by zero, and any half turn is shortest.
     if opposed < 1e-9 {
         return least_turn(from, to) * across;
     }
@@ -117,6 +122,7 @@ fn own_angle_changes(angles: &[f64]) -> Vec<f64> {
 
 /// Returns the angle of a rotation.
 fn swivel_rotation_angle(q: DQuat) -> f64 {
+    // `q` and `-q` are one rotation; the absolute value takes the shorter way.
     2.0 * q.xyz().length().atan2(q.w.abs())
 }
 
@@ -133,6 +139,7 @@ fn stay(steps: &[ArmStep]) -> Vec<bool> {
 /// Rotates arms about their lines if an elbow would jump and can avoid it.
 pub(super) fn ease_elbow_jumps(source: &ArmSource, steps: &mut [ArmStep], frame_time: f64) {
     let trunk: Vec<DQuat> = source.trunks(steps.len());
+    // Seen from the trunk, so that a turn of the whole body is no jump.
     let arm_circles = steps.iter().zip(&trunk).map(|(step, trunk)| RotatingDirection {
         line: *trunk * shoulder_wrist_direction(step.is),
         start: *trunk * arm_bone_directions(step.is)[0],
@@ -166,6 +173,7 @@ pub(super) fn ease_elbow_jumps(source: &ArmSource, steps: &mut [ArmStep], frame_
 pub(super) fn twist_arm_bones(source: &ArmSource, steps: &[ArmStep], turns: &mut [ArmJointTurns], frame_time: f64) {
     let stay = stay(steps);
     let more = MAX_ARM_TURN_SPEED * frame_time;
+    // The forearm's twist is measured in the space of the upper arm, which must be final.
     twist_upper(source, steps, turns, &stay, frame_time);
     let seen = |turn: &ArmJointTurns| turn.old[0].inverse() * turn.old[1];
     let was: Vec<DQuat> = turns.iter().map(seen).collect();
@@ -204,6 +212,7 @@ fn twist_upper(source: &ArmSource, steps: &[ArmStep], turns: &mut [ArmJointTurns
     let turned: Vec<FreelyTurnedRotation> = turned_arms.collect();
     let circles = steps.iter().zip(turns.iter()).map(|(step, turn)| {
         let [upper, forearm] = arm_bone_directions(step.is).map(|bone| turn.upper.inverse() * bone);
+        // As the upper arm turns, the forearm seen from it turns the other way.
         RotatingDirection {
             line: -upper,
             start: forearm,

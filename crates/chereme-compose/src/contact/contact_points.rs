@@ -72,6 +72,7 @@ impl PointAnchors {
     /// trunk, the uppermost of these.
     pub(super) fn find_point_anchors(work: &WorkingClip) -> Self {
         let anatomy = &work.anatomy;
+        // A point at one place in a joint's space in two unlike postures never moves there.
         let twisted = [1.0, 2.0].map(|variant| twisted(work, variant));
         let anchor = |name: &str, joints: &[usize], loose: Option<usize>| {
             let landmark_point = |model: &ModelPose| anatomy.landmark_place_position(&work.skeleton, model, name);
@@ -102,6 +103,7 @@ impl PointAnchors {
         });
         let trunk = [BodyPart::Head, BodyPart::Chest, BodyPart::Spine, BodyPart::Hips];
         let joints: Vec<usize> = trunk.iter().filter_map(|&part| anatomy.part_joint(part)).collect();
+        // Places that no single joint carries, such as a shoulder, do not follow the head.
         let loose = trunk[1..].iter().find_map(|&part| anatomy.part_joint(part));
         Self {
             hands,
@@ -126,6 +128,7 @@ impl PointAnchors {
         let is_loose = |anchor: &PointAnchor| anchor.at.is_none();
         let mut all = self.hands.iter().flatten().chain(&self.body).flatten();
         if all.any(is_loose) {
+            // One sample beyond the end, so that every frame lies between two.
             for frame in (0..work.frames + step).step_by(step) {
                 let pose = work.local_pose_at(frame.min(work.frames - 1));
                 tracks
@@ -169,6 +172,7 @@ fn to_joint_space(model: &ModelPose, joint: usize, at: DVec3) -> DVec3 {
 fn twisted(work: &WorkingClip, variant: f64) -> ModelPose {
     let mut pose = work.local_pose_at(0);
     for (n, rotation) in pose.rotations.iter_mut().enumerate() {
+        // The sines of the joint's number give no two joints the same turn.
         let n = n as f64;
         let axis = DVec3::new((n * variant).sin(), (n + variant).cos(), 0.5);
         *rotation *= DQuat::from_axis_angle(axis.normalize(), 0.2 * (1.7 * n + variant).sin());
@@ -223,6 +227,7 @@ impl PointTracks<'_> {
             let mut known_palms = palms.iter().flatten().peekable();
             known_palms.peek().is_none() || known_palms.any(|palm| palm.distance_squared(joint_place) < within * within)
         };
+        // Neighbouring places share a joint, so that one test serves them.
         let mut last: Option<(usize, bool)> = None;
         std::array::from_fn(|place| {
             let joint = self.anchors.body[place]?.joint;
